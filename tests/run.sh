@@ -7,7 +7,8 @@
 #   bench    every benchmark, one at a time, and what of bench/ renews bench/results: the kernel, surrogates,
 #            sleep, late jams, threads, peers, blocks and the ladder
 #   update   rewrite what the golden cases expect; CASE='name*' limits it to some of them
-# One line a program, the output of those that failed, and at the end "N passed, N failed" alone.
+# One line a program, the output of those that failed, the ten that took longest, and at the end "N passed, N failed"
+# alone.  BUILD/durations.tsv has the seconds of all.
 # Status 0, or 1 when something failed.  A program that crashes, hangs (FLOE_TIMEOUT seconds, else 600; 3600 for
 # verify and bench) or prints no count has failed.  ONLY='unit/*' limits check and verify to some programs.
 set -u
@@ -116,7 +117,7 @@ programs() # KIND
 all_verify()
 {
     programs verify
-    add verify/verify_hard_told "FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
+    add verify/verify_hard_surrogate "FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
 }
 
 # The sanitizers' map of memory may collide with addresses drawn at random where the kernel draws from many.
@@ -194,8 +195,16 @@ while read -r k label; do
         tail -n 60 "$scratch/$k.out"
     fi
     printf '%-32s %d passed, %d failed%s\n' "$label" "$1" "$2" "$note"
+    printf '%s\t%s\n' "$seconds" "$label" >>"$scratch/durations"
 done <"$scratch/list"
 wait $crew
+# What makes a run long: all durations to BUILD/durations.tsv, the ten longest here.
+if [ -f "$scratch/durations" ]; then
+    sort -k1,1nr -k2 "$scratch/durations" >"$build/durations.tsv"
+    printf 'longest [s]:'
+    awk -F '\t' 'NR <= 10 && $1 > 1 { printf "%s %s %s", (NR > 1 ? "," : ""), $2, $1 }' "$build/durations.tsv"
+    printf '\n'
+fi
 [ "$what" = verify ] && cat "$scratch"/*.out | awk -f tests/hard.awk
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

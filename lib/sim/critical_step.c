@@ -95,11 +95,11 @@ static extremes extremes_of(const fl_world *w)
 /* Tangent stiffness of one contact point.  With exponent 3/2 it needs an overlap, that of an impact of the
  * heaviest body: (5 M v^2/4 k)^(2/5).  The speed v is the largest of bodies, current, waves and moving parts,
  * with that gained by gravity over a tenth of their size. */
-static double tangent_stiffness(const fl_world *w, int32_t i, int32_t j, double k, double exponent,
-                                extremes hit)
+static double tangent_stiffness(const fl_world *w, int32_t i, int32_t j, fl_pair_spring s, extremes hit)
 {
-    if (exponent == 1.0) return k;
-    if (exponent == 0.0) { /* a face; or the line of a segment at the largest overlap intended */
+    const double k = s.k;
+    if (s.exponent == 1.0) return k;
+    if (s.points == FL_POINTS_PATCH) { /* a face; or the line of a segment at the largest overlap intended */
         const double other = w->max_face_area[j], r = w->b.radius[i];
         if (w->max_face_area[i] > 0.0)
             return 2.0 * k * sqrt(other > 0.0 && other < w->max_face_area[i] ? other : w->max_face_area[i]);
@@ -177,10 +177,10 @@ static rolling_load rolling_load_of(const fl_world *w)
 /* omega^2 of body i by that resistance [1/s2]. */
 static double rolling_omega2(const fl_world *w, int32_t i, rolling_load load, extremes hit)
 {
-    double n;
     if (load.sphere < 0 || w->b.core[i].nv == 1) return 0.0;
-    const double k = fl_pair_stiffness(w, i, load.sphere, &n), R = w->b.radius[load.sphere];
-    return load.part * R * R * tangent_stiffness(w, load.sphere, i, k, n, hit) / w->b.I[i].x;
+    const double R = w->b.radius[load.sphere];
+    return load.part * R * R *
+           tangent_stiffness(w, load.sphere, i, fl_pair_stiffness(w, i, load.sphere), hit) / w->b.I[i].x;
 }
 
 /* Tangential over normal stiffness, and damping, of a contact.  Rolling resistance rotates a sphere as
@@ -225,10 +225,7 @@ typedef struct {
 
 static double stable_share_of(const fl_pair_law *law, double times)
 {
-    const int closed = law->kind == FL_LAW_PATCH || law->kind == FL_LAW_CORE;
-    if (times == 1.0) return law->stable_share;
-    if (closed) return fl_hunt_crossley_stable_share(law->impact_damping, times);
-    return fl_damping_stable_share(0.5 * (1.0 / law->stable_share - law->stable_share) * sqrt(times));
+    return fl_contact_law_scaled_share(law->law, law->impact_damping, law->stable_share, times);
 }
 
 /* Largest share of 2/omega for a trial with run.error, from the share that an impact leaves.  Above 0.12 of
@@ -247,8 +244,8 @@ static double trial_share(double left)
 static void lower_shares(const fl_world *w, damping_shares *r, const fl_pair_law *law, int late,
                          double across, double few, double many)
 {
-    const int closed = law->kind == FL_LAW_PATCH || law->kind == FL_LAW_CORE, spheres = many > FLOE_CONTACTS;
-    if (law->kind == FL_LAW_PATCH && !late) {
+    const int closed = law->law->damping == FL_DAMPING_IMPACT, spheres = many > FLOE_CONTACTS;
+    if (law->law->end_speed && !late) {
         const double impact = fl_damping_impact_share(law->impact_damping);
         r->one = fmin(r->one, impact);
         r->alone = fmin(r->alone, 0.8 * impact); /* S25 of verify_step */
@@ -281,8 +278,8 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
     for (int32_t i = 0; i < w->n; i++) {
         const int round = w->b.core[i].nv < 2;
         const double places = round ? 1.0 : FACES_PER_BODY, rotates = tangential_ratio_of(w, i, edges);
-        double n, k = fl_pair_stiffness(w, i, i, &n),
-                  stiffest = tangent_stiffness(w, i, i, k, n, hit); /* against a body like itself */
+        double stiffest =
+            tangent_stiffness(w, i, i, fl_pair_stiffness(w, i, i), hit); /* against a body like itself */
         const fl_pair_law *law = fl_pair_law_of(w, i, i);
         double times = tangential_factor(law, round, rotates);
         const double few = edges && round ? 2.0 : 1.0;
@@ -295,8 +292,7 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
                 stiffest = fmax(stiffest, stiffer * elastic_wall_stiffness(w, i));
                 continue;
             }
-            k = fl_pair_stiffness(w, i, j, &n);
-            const double slope = tangent_stiffness(w, i, j, k, n, hit);
+            const double slope = tangent_stiffness(w, i, j, fl_pair_stiffness(w, i, j), hit);
             stiffest = fmax(stiffest, stiffer * slope);
             if (w->moving.movers.n && w->moving.mover_of_piece[j - w->n] >= 0)
                 mover_slope = fmax(mover_slope, places * slope);
@@ -437,8 +433,8 @@ static double max_damping(const fl_world *w, int late)
     double D = 0.0;
     for (int32_t k = 0; k < w->materials * (w->materials + 2); k++) {
         const fl_pair_law *law = &w->law[k];
-        const int manual = law->kind == FL_LAW_MANUAL || law->kind == FL_LAW_MANUAL_SI;
-        D = fmax(D, manual ? 2.0 * law->zeta : all || law->kind == FL_LAW_CORE ? law->impact_damping : 0.0);
+        const double impact = all || !law->law->end_speed ? law->impact_damping : 0.0;
+        D = fmax(D, law->law->damping == FL_DAMPING_RATIO ? 2.0 * law->zeta : impact);
     }
     return D;
 }

@@ -7,6 +7,7 @@
 #include "sim/energy_ledger.h"
 #include "sim/moving_structure.h"
 #include "sphere/contact_list.h"
+#include "water/force_table.h"
 #include "world/access.h"
 
 /* A residual up to this share of the stored energy may be rounding: sums over thousands of floes and steps,
@@ -85,8 +86,8 @@ void fl_energy_update(fl_world *w)
 {
     const fl_bodies *b = &w->b;
     fl_ledger *g = &w->ledger;
-    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, hydro = 0.0, drag = 0.0, wind = 0.0,
-           constraint = 0.0, waves = 0.0;
+    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, constraint = 0.0,
+           water[FL_FORCE_LEDGERS] = {0.0};
     const fl_work ahead = fl_work_ahead(w);
     for (int32_t i = 0; i < w->n; i++) {
         const int present = !fl_body_absent(w, i);
@@ -98,14 +99,10 @@ void fl_energy_update(fl_world *w)
             const double k = fl_driven_floe_spring(w, i, &extension);
             elastic += 0.5 * k * extension * extension;
         }
-        if (b->added_mass) drag -= b->flow_work[i];
-        if (w->sea.n) {
-            if (w->sea.water && !w->sea.waves && present) hydro += fl_environment_energy(&w->sea, b, i);
-            drag += w->sea.drag_loss[i];
-            if (w->sea.wind_work) wind += w->sea.wind_work[i];
-            if (w->sea.waves) waves += w->sea.water_work[i];
-        }
+        if (w->sea.n) fl_environment_add_energy(&w->sea, b, i, present, water);
     }
+    const double hydro = water[FL_FORCE_HYDROSTATIC], drag = water[FL_FORCE_DRAG],
+                 wind = water[FL_FORCE_WIND], waves = water[FL_FORCE_WAVES];
     for (int32_t c = 0; c < w->n_touching; c++) {
         const fl_pair *p = w->pair[w->touching_pairs[c]].contact;
         elastic += p->energy;

@@ -19,6 +19,7 @@
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
 #include "water/added_mass.h"
+#include "water/force_table.h"
 #include "world/access.h"
 
 /* Smallest number of bodies per thread: with fewer the work of a thread is shorter than the wait for the
@@ -38,53 +39,6 @@ static int make_elastic_walls(fl_world *w, fl_err *err)
     w->elastic_walls.outer = fl_alloc(w->n, sizeof *w->elastic_walls.outer, err);
     w->elastic_walls.hull = fl_alloc(w->n, sizeof *w->elastic_walls.hull, err);
     return w->elastic_walls.outer && w->elastic_walls.hull ? 0 : -1;
-}
-
-static int make_waves(fl_world *w, fl_err *err)
-{
-    const fl_scene_water *s = &w->scene->water;
-    const double g = v3_norm(w->scene->run.gravity);
-    if (!s->head.present || s->wave == FL_WAVE_NONE) return 0;
-    if (s->wave == FL_WAVE_AIRY
-            ? fl_waves_airy(&w->sea.wave, s->height, s->period, s->direction, s->depth, g, err)
-            : fl_waves_jonswap(&w->sea.wave, s->height, s->period, s->gamma, s->components, (uint64_t)s->seed,
-                               s->direction, s->depth, g, err))
-        return -1;
-    w->sea.waves = 1;
-    return 0;
-}
-
-static int make_environment(fl_world *w, fl_err *err)
-{
-    const fl_scene *s = w->scene;
-    fl_environment *sea = &w->sea;
-    if (!s->water.head.present && !s->wind.head.present) return 0;
-    sea->water = s->water.head.present;
-    sea->sample_every = s->water.every;
-    sea->wind = s->wind.head.present;
-    sea->level = s->water.level;
-    sea->specific_weight = s->water.density * v3_norm(s->run.gravity);
-    sea->seawater = (fl_fluid){s->water.density, s->water.drag_force_coef, s->water.drag_moment_coef};
-    sea->air = (fl_fluid){s->wind.density, s->wind.drag_coef, 0.0};
-    sea->current =
-        (fl_current){.velocity = s->water.current,
-                     .kind = s->water.profile,
-                     .depth = s->water.profile_depth > 0.0 ? s->water.profile_depth : s->water.depth,
-                     .exponent = s->water.profile_exponent};
-    if (s->water.profile == FL_PROFILE_TABLE && fl_current_read(&sea->current, s->water.profile_file, err))
-        return -1;
-    sea->water_drag_law = s->water.drag;
-    sea->water_skin = s->water.skin_coef;
-    sea->water_form = s->water.form_coef;
-    sea->wind_drag_law = s->wind.drag;
-    sea->wind_form = s->wind.form_coef;
-    sea->wind_velocity = s->wind.velocity;
-    if (s->wind.beaufort >= 0.0) { /* Beaufort scale as in the manual */
-        const double U = 0.836 * s->wind.beaufort * sqrt(s->wind.beaufort), a = fl_radians(s->wind.direction);
-        sea->wind_velocity = v3(U * cos(a), U * sin(a), 0);
-    }
-    if (sea->water && v3_nonzero(s->water.added_mass) && fl_bodies_alloc_added_mass(&w->b, err)) return -1;
-    return make_waves(w, err) || fl_environment_alloc(sea, w->n, w->threads, err) ? -1 : 0;
 }
 
 /* --- walls and pieces -------------------------------------------------------------------------- */
@@ -370,7 +324,8 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         goto fail;
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
-        fl_contact_sums_make(w, err) || make_elastic_walls(w, err) || make_environment(w, err))
+        fl_contact_sums_make(w, err) || make_elastic_walls(w, err) ||
+        fl_environment_set_up(&w->sea, &w->b, w->scene, w->n, w->threads, err))
         goto fail;
     w->has_points = has_points(field) || has_points(feed);
     if (w->has_points && fl_structure_prepare_spheres(&w->structure, err)) goto fail;

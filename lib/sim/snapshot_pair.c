@@ -3,7 +3,7 @@
 #include <string.h>
 #include "base/array.h"
 #include "contact/bond_list.h"
-#include "contact/pair_force.h"
+#include "contact/pair_surrogate.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -98,7 +98,7 @@ static int is_possible(const fl_surrogate *s)
  * time. */
 static void exchange_surrogate(fl_state_io *t, const fl_pair *p, fl_surrogate *s)
 {
-    fl_state_io_int(t, 0, p->exponent == 0.0, &s->valid);
+    fl_state_io_int(t, 0, p->points == FL_POINTS_PATCH, &s->valid);
     if (!s->valid) return;
     fl_state_io_int(t, 0, 1, &s->used);
     for (int k = 0; k < 9; k++) fl_state_io_real(t, &s->M.m[k / 3][k % 3]);
@@ -192,7 +192,6 @@ void fl_snapshot_sphere_contact(fl_state_io *t, fl_world *w, int32_t c, int32_t 
     fl_sphere_contact r = {0};
     fl_rolling_spring roll = {.k = 0.0};
     int32_t i = 0, j = 0, touches = 0, image[3] = {0};
-    double n;
     if (t->f && c < 0) {
         const fl_wall_contact *const l = &s->wall[~c];
         i = l->i, j = l->j, touches = l->touches, r = l->contact;
@@ -223,6 +222,6 @@ void fl_snapshot_sphere_contact(fl_state_io *t, fl_world *w, int32_t c, int32_t 
         return;
     }
     last[0] = i, last[1] = j;
-    r.k = fl_pair_stiffness(w, i, j, &n);
+    r.k = fl_pair_stiffness(w, i, j).k;
     fl_contact_list_append(w, i, j, image, touches, &r, &roll, t->err);
 }

@@ -4,6 +4,7 @@
 #define FL_WORLD_PAIR_H
 #include <math.h>
 #include <stddef.h>
+#include "law/contact_law.h"
 #include "law/rolling.h"
 #include "law/tangent.h"
 #include "narrow/contact.h"
@@ -13,7 +14,7 @@
 
 /* The contact law of a pair of materials. */
 typedef struct {
-    int32_t kind;               /* enum fl_law */
+    const fl_contact_law *law;  /* row of the table of laws */
     double exponent;            /* n of contact points of polyhedra */
     double modulus;             /* E* [Pa] */
     double stiffness;           /* given by the scene [N/m^n]; 0: from the modulus */
@@ -50,9 +51,10 @@ typedef struct {
     fl_vec3 axis;               /* from j to i, axes of j: separates the cores, now or at an earlier time */
     double free_travel;         /* the two cannot touch while the sum of their odometers is below this [m] */
     double k;                   /* stiffness of one point [N/m^n]; of `patch`, c of W = c sqrt(U) [N/m2] */
-    double exponent;            /* n; 0 for `patch` */
+    double exponent;            /* n; 0 with FL_POINTS_PATCH */
     double mass;                /* reduced mass [kg] */
     double max_approach_speed;  /* largest of this contact so far [m/s] */
+    int32_t points;             /* enum fl_contact_points: what is evaluated */
     int32_t bond;               /* 1 + index of the bond that was here, 0: none; bond_list.h */
     double radius_factor;       /* multiplies both radii: 1, but less after a bond */
     const fl_pair_law *law;     /* borrowed */

@@ -2,12 +2,13 @@
 # floors.awk -- the rules of the house that can be read from the text of a file.  Files are named as arguments, paths
 # from the root of the tree.  Prints "file:line: complaint"; status 1 when there was one.
 BEGIN {
-    n = split("base geom shim mesh broad ice stat scene body narrow law patch water bond structure out world contact sphere sim", floor)
+    n = split("base geom shim mesh broad ice stat law scene body narrow patch water bond structure out world contact sphere sim", floor)
     for (k = 1; k <= n; k++) rank[floor[k]] = k
     # Spelt so that this file does not hold them.
     marks = "(^|[^A-Za-z_])(TO" "DO|FIX" "ME|XX" "X)([^A-Za-z_]|$)"
     paths = "/(ho" "me|wo" "rk|ro" "ot|Us" "ers)/"
     WIDTH = 110
+    FEW = 5 # letters of a function's name that is a single word
 }
 
 function complain(what)
@@ -21,6 +22,7 @@ FNR == 1 {
     file = part[parts]
     stem = file
     sub(/\.[^.]*$/, "", stem)
+    base = stem
     is_c = file ~ /\.(c|h|cpp)$/
     house = part[1]
     mine = house == "lib" ? part[2] : ""
@@ -80,6 +82,83 @@ is_c && /^[ \t]*#[ \t]*include[ \t]*"/ {
     } else if (steps != 1) {
         complain("\"" target "\": a program includes the library and its own folder")
     }
+    # A module is name.c with name.h: one idea, which uses others and is not used by them in turn.
+    if (house != "tests") {
+        other = steps == 2 ? "lib/" target : folder "/" target
+        sub(/\.[^.]*$/, "", other)
+        me = folder "/" base
+        if (other != me && !((me, other) in uses)) {
+            uses[me, other] = 1
+            module[me] = module[other] = 1
+        }
+    }
 }
 
-END { exit bad }
+# An exported type has one meaning in the whole tree.
+house == "lib" && file ~ /\.h$/ && /^} fl_[a-z0-9_]+;/ {
+    type = $2
+    sub(/;.*/, "", type)
+    if (type in owner) complain("the type " type " is " owner[type] "'s")
+    else owner[type] = FILENAME
+}
+
+# What a backtrace or a search finds has to say what it does.
+(house == "lib" || house == "tools") && file ~ /\.c$/ && mine != "geom" && /^[a-zA-Z].*[ *][a-z]+\([^)]/ && !/;$/ {
+    name = $0
+    sub(/\(.*/, "", name)
+    sub(/.*[ *]/, "", name)
+    if (length(name) < FEW && name != "main" && name != "run") complain("the function " name " has no name that tells what it does")
+}
+
+# Whether module k reaches itself by what it uses.
+function in_a_circle(k,    stack, n, seen, m, pair, part2)
+{
+    n = 1
+    stack[1] = k
+    while (n > 0) {
+        m = stack[n--]
+        for (pair in uses) {
+            split(pair, part2, SUBSEP)
+            if (part2[1] != m || !(part2[2] in module)) continue
+            if (part2[2] == k) return 1
+            if (part2[2] in seen) continue
+            seen[part2[2]] = 1
+            stack[++n] = part2[2]
+        }
+    }
+    return 0
+}
+
+# What uses nothing of what is left, or is used by nothing, is in no circle.
+function leave_out_ends(    pair, part2, gone, k, has, had)
+{
+    do {
+        split("", has)
+        split("", had)
+        for (pair in uses) {
+            split(pair, part2, SUBSEP)
+            if (!(part2[1] in module) || !(part2[2] in module)) {
+                delete uses[pair]
+                continue
+            }
+            has[part2[1]] = 1
+            had[part2[2]] = 1
+        }
+        gone = 0
+        for (k in module)
+            if (!(k in has) || !(k in had)) {
+                delete module[k]
+                gone++
+            }
+    } while (gone)
+}
+
+END {
+    leave_out_ends()
+    for (k in module)
+        if (in_a_circle(k)) {
+            print k ": it is in a circle of modules that include each other"
+            bad = 1
+        }
+    exit bad
+}

@@ -36,8 +36,29 @@ floors()
     xargs awk -f tests/lint/floors.awk <"$scratch/files"
 }
 
+# ARCHITECTURE.md names files that exist, and draws the floors that floors.awk holds.
+architecture()
+{
+    wrong=0
+    for f in $(grep -oE '[A-Za-z0-9_./-]+\.(c|h|cpp|awk|sh|txt|md)\b' ARCHITECTURE.md CONTRIBUTING.md tests/README.md -h | sort -u); do
+        case $f in
+        name.* | *NAME* | *MODULE*) continue ;; # to be filled in
+        */*) [ -e "$f" ] && continue ;;
+        *) [ -n "$(find . -path ./build -prune -o -name "$f" -print | head -n 1)" ] && continue ;;
+        esac
+        echo "ARCHITECTURE.md, CONTRIBUTING.md, tests/README.md: there is no $f"
+        wrong=1
+    done
+    drawn=$(sed -n 's/^    \(base geom .*\)$/\1/p' ARCHITECTURE.md)
+    held=$(sed -n 's/.*split("\(base geom [^"]*\)".*/\1/p' tests/lint/floors.awk)
+    [ "$drawn" = "$held" ] || { echo "ARCHITECTURE.md draws other floors than tests/lint/floors.awk holds"; wrong=1; }
+    return $wrong
+}
+
 floors
 verdict floors $?
+architecture
+verdict architecture $?
 if [ "${1-}" = floors ]; then
     echo "$passed passed, $failed failed"
     [ $failed -eq 0 ]

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <getopt.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
@@ -8,140 +8,43 @@
 #include "geom/facet.h"
 #include "options.h"
 
-static const char HELP[] =
+static const char USAGE[] =
     "usage: struct-import [options] [FILE ...]\n"
     "Turn meshes and ready-made solids into a structure file (g_struct) for dem-solve.\n"
     "FILE is STL, OBJ, OFF, PLY, VTK, g_struct, or a mesh of finite elements: Abaqus, ANSYS, Gmsh, Nastran,\n"
-    "told by its content; - or nothing is standard input.\n"
-    "\n"
-    "      --cylinder R,Z0,Z1[,X,Y]      an upright cylinder about X,Y (0,0) from Z0 to Z1 [m]\n"
-    "      --cone R0,Z0,R1,Z1[,X,Y]      an upright cone, cut where both radii are above 0 [m]\n"
-    "      --box X0,Y0,Z0,X1,Y1,Z1       a box of 12 triangles [m]\n"
-    "  -n, --name NAME         name of the part that comes next; at the end, of the last one\n"
-    "      --part PATTERN      take only the parts and sets that are like it, * and ? stand for bytes\n"
-    "      --rename OLD=NEW    call what is like the pattern OLD by the name NEW; equal names join\n"
-    "      --subdivide         quadratic faces become 4, 6 or 8 triangles instead of 1 or 2\n"
-    "  -f, --facets N          make cylinders and cones of triangles, N round the circle\n"
-    "  -u, --unit UNIT         length unit of the files: mm, cm, m, in or ft (m)\n"
-    "  -s, --scale S           multiply the coordinates of the files by S (1)\n"
-    "      --up AXIS           axis that points up in the files, y or z (z)\n"
-    "      --mirror AXIS       mirror the files in the plane across x, y or z\n"
-    "      --rotate AX,AY,AZ,DEG  turn the files about an axis through the origin\n"
-    "  -t, --translate X,Y,Z   then move what the files hold [m]\n"
-    "  -w, --weld TOL          merge vertices within TOL [m] (1e-6 of the part's diagonal)\n"
-    "      --fill-holes N      close holes of up to N edges (0)\n"
-    "      --fill SIZE         close holes whose box is up to SIZE [m] across (0)\n"
-    "      --repair            join bodies that cross, rebuild patches that cross themselves\n"
-    "      --simplify DISTANCE fewer triangles, within DISTANCE [m] both ways\n"
-    "      --remesh LENGTH[,D] triangles of sides of about LENGTH [m], within D (LENGTH / 10) both ways\n"
-    "      --raw               no mending: weld only\n"
-    "      --strict            status 1 when anything is left unmended\n"
-    "      --to FORMAT         g_struct, stl (ASCII), stl-binary, obj, off, ply or vtp (g_struct)\n"
-    "      --plot WHERE        draw three views, into FILE.png, FILE.svg or a folder (by gnuplot)\n"
-    "  -o, --output FILE       write there, - is standard output\n"
-    "  -z, --gzip              compress the output\n"
-    "  -j, --threads N         threads of the search for crossings; the result is the same for any number\n"
-    "  -q, --quiet             no table and no warnings on standard error\n"
-    "  -v, --verbose           more about what was mended\n"
-    "  -h, --help              this text\n"
-    "      --version           the version\n";
-
-enum {
-    CYLINDER = 256,
-    CONE,
-    BOX,
-    PART,
-    RENAME,
-    SUBDIVIDE,
-    UP,
-    FILL_HOLES,
-    RAW,
-    STRICT,
-    TO,
-    VERSION,
-    MIRROR,
-    PLOT,
-    FILL,
-    REPAIR,
-    SIMPLIFY,
-    REMESH,
-    ROTATE
-};
-
-static const struct option LONG[] = {{"cylinder", required_argument, NULL, CYLINDER},
-                                     {"cone", required_argument, NULL, CONE},
-                                     {"box", required_argument, NULL, BOX},
-                                     {"name", required_argument, NULL, 'n'},
-                                     {"part", required_argument, NULL, PART},
-                                     {"rename", required_argument, NULL, RENAME},
-                                     {"subdivide", no_argument, NULL, SUBDIVIDE},
-                                     {"facets", required_argument, NULL, 'f'},
-                                     {"unit", required_argument, NULL, 'u'},
-                                     {"scale", required_argument, NULL, 's'},
-                                     {"up", required_argument, NULL, UP},
-                                     {"mirror", required_argument, NULL, MIRROR},
-                                     {"rotate", required_argument, NULL, ROTATE},
-                                     {"translate", required_argument, NULL, 't'},
-                                     {"weld", required_argument, NULL, 'w'},
-                                     {"fill-holes", required_argument, NULL, FILL_HOLES},
-                                     {"fill", required_argument, NULL, FILL},
-                                     {"repair", no_argument, NULL, REPAIR},
-                                     {"simplify", required_argument, NULL, SIMPLIFY},
-                                     {"remesh", required_argument, NULL, REMESH},
-                                     {"raw", no_argument, NULL, RAW},
-                                     {"strict", no_argument, NULL, STRICT},
-                                     {"to", required_argument, NULL, TO},
-                                     {"plot", required_argument, NULL, PLOT},
-                                     {"output", required_argument, NULL, 'o'},
-                                     {"gzip", no_argument, NULL, 'z'},
-                                     {"threads", required_argument, NULL, 'j'},
-                                     {"quiet", no_argument, NULL, 'q'},
-                                     {"verbose", no_argument, NULL, 'v'},
-                                     {"help", no_argument, NULL, 'h'},
-                                     {"version", no_argument, NULL, VERSION},
-                                     {NULL, 0, NULL, 0}};
+    "recognised by content; - or nothing is standard input.\n"
+    "\n";
 
 static const struct unit {
     const char *name;
     double metres;
 } UNIT[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
 
-static const double FAR = 1e9; /* [m] no structure reaches farther; squares and cubes stay exact in range */
+static const double FAR = 1e9; /* [m] largest coordinate; its square and cube stay exact in range */
 
-/* least .. most numbers divided by commas.  Their count, or -1. */
+/* Parse least .. most numbers separated by commas.  Returns their count, or -1. */
 static int numbers(const char *option, const char *text, int least, int most, double *x, fl_err *err)
 {
-    char copy[400], odd[42] = "";
-    int n = 0;
-    if (strlen(text) >= sizeof copy) return fl_fail(err, FL_USAGE, "--%s is too long", option);
-    strcpy(copy, text);
-    for (char *p = copy, *end; p; p = end) {
-        end = strchr(p, ',');
-        if (end) *end++ = '\0';
-        if (n < most && (fl_number_f64(p, &x[n]) || !(fabs(x[n]) <= FAR)) && !odd[0])
-            snprintf(odd, sizeof odd, "%.40s", p[0] ? p : " ");
-        n++;
-    }
-    const int right = n == most || n == least;
-    if (right && !odd[0]) return n;
-    if (right && most > 1)
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", and \"%s\" is no number from %g to %g", option,
-                       text, odd, -FAR, FAR);
-    if (least == most && least == 1)
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number is expected", option, text);
-    if (least == most)
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d numbers with commas are expected", option, text,
-                       least);
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %d or %d numbers with commas are expected", option,
-                   text, least, most);
+    char expected[80];
+    int n;
+    if (most == 1) snprintf(expected, sizeof expected, "a number from %g to %g", -FAR, FAR);
+    else if (least == most)
+        snprintf(expected, sizeof expected, "%d numbers from %g to %g with commas", least, -FAR, FAR);
+    else
+        snprintf(expected, sizeof expected, "%d or %d numbers from %g to %g with commas", least, most, -FAR,
+                 FAR);
+    if (fl_option_numbers(option, text, ',', least, most, -FAR, FAR, expected, x, &n, err)) return -1;
+    if (n != least && n != most)
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", expected %s", option, text, expected);
+    return n;
 }
 
-/* The part that comes next gets the name that waits. */
-static int add_item(struct options *o, struct item it, const char **waiting, fl_err *err)
+/* Add an item; it gets the pending name. */
+static int add_item(struct options *o, struct item it, fl_err *err)
 {
     if (fl_grow(&o->item, &o->item_cap, (int64_t)o->items + 1, sizeof *o->item, err)) return -1;
-    it.name = *waiting;
-    *waiting = NULL;
+    it.name = o->next_name;
+    o->next_name = NULL;
     o->item[o->items++] = it;
     return 0;
 }
@@ -156,9 +59,8 @@ static int round_solid(const char *option, const char *text, struct item *it, fl
     const double *axis = n > least ? x + least : (const double[]){0.0, 0.0};
     const double r0 = x[0], z0 = x[1], r1 = cylinder ? x[0] : x[2], z1 = cylinder ? x[2] : x[3];
     if (r0 < 0.0 || r1 < 0.0 || !(r0 + r1 > 0.0))
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", radii >= 0 and not both 0 are expected", option,
-                       text);
-    if (!(z0 < z1)) return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", Z0 < Z1 is expected", option, text);
+        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", expected radii >= 0 and not both 0", option, text);
+    if (!(z0 < z1)) return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", expected Z0 < Z1", option, text);
     *it = (struct item){.kind = cylinder ? ITEM_CYLINDER : ITEM_CONE, .text = text};
     it->cone = (fl_cone){v3(axis[0], axis[1], z0), v3(axis[0], axis[1], z1), r0, r1};
     return 0;
@@ -170,42 +72,38 @@ static int box(const char *text, struct item *it, fl_err *err)
     if (numbers("box", text, 6, 6, x, err) < 0) return -1;
     *it = (struct item){.kind = ITEM_BOX, .text = text, .box = {v3(x[0], x[1], x[2]), v3(x[3], x[4], x[5])}};
     if (x[0] < x[3] && x[1] < x[4] && x[2] < x[5]) return 0;
-    return fl_fail(err, FL_USAGE, "--box is \"%.60s\", X0 < X1, Y0 < Y1 and Z0 < Z1 is expected", text);
+    return fl_fail(err, FL_USAGE, "--box is \"%.60s\", expected X0 < X1, Y0 < Y1 and Z0 < Z1", text);
 }
 
-static int unit(struct options *o, const char *text, fl_err *err)
+static int unit(void *options, const char *text, fl_err *err)
 {
+    struct options *const o = options;
     for (size_t k = 0; k < sizeof UNIT / sizeof UNIT[0]; k++)
         if (strcmp(text, UNIT[k].name) == 0) {
             o->unit = UNIT[k].name;
             o->map.s = UNIT[k].metres;
             return 0;
         }
-    return fl_fail(err, FL_USAGE, "--unit is \"%.60s\", one of mm cm m in ft is expected", text);
+    return fl_fail(err, FL_USAGE, "--unit is \"%.60s\", expected one of mm cm m in ft", text);
 }
 
-static int positive(const char *option, const char *text, double *x, fl_err *err)
+static int pattern(void *options, const char *text, fl_err *err)
 {
-    if (numbers(option, text, 1, 1, x, err) < 0) return -1;
-    return *x > 0.0 ? 0
-                    : fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a number above 0 is expected", option, text);
-}
-
-static int pattern(struct options *o, const char *text, fl_err *err)
-{
-    if (*text == '\0') return fl_fail(err, FL_USAGE, "--part is empty, a pattern is expected");
+    struct options *const o = options;
+    if (*text == '\0') return fl_fail(err, FL_USAGE, "--part is empty, expected a pattern");
     if (fl_grow(&o->part, &o->part_cap, (int64_t)o->parts + 1, sizeof *o->part, err)) return -1;
     o->part[o->parts++] = text;
     return 0;
 }
 
-/* OLD=NEW, divided at the last "=": names in decks hold any byte, new ones are the user's own. */
-static int rename_as(struct options *o, const char *text, fl_err *err)
+/* OLD=NEW, divided at the last "=": names in decks contain any character, new names are chosen by the user. */
+static int rename_as(void *options, const char *text, fl_err *err)
 {
+    struct options *const o = options;
     const char *mid = strrchr(text, '=');
     struct alias *a;
     if (!mid || mid == text || mid[1] == '\0')
-        return fl_fail(err, FL_USAGE, "--rename is \"%.60s\", OLD=NEW is expected", text);
+        return fl_fail(err, FL_USAGE, "--rename is \"%.60s\", expected OLD=NEW", text);
     if (fl_grow(&o->alias, &o->alias_cap, (int64_t)o->aliases + 1, sizeof *o->alias, err)) return -1;
     a = &o->alias[o->aliases];
     *a = (struct alias){.text = text, .name = mid + 1, .old = fl_alloc(mid - text + 1, 1, err)};
@@ -215,13 +113,14 @@ static int rename_as(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
-/* Kept as text too: the history says what was given. */
-static int rotate(struct options *o, const char *text, fl_err *err)
+/* The text is kept for the history. */
+static int rotate(void *options, const char *text, fl_err *err)
 {
+    struct options *const o = options;
     double x[4] = {0};
     if (numbers("rotate", text, 4, 4, x, err) < 0) return -1;
     if (!(v3_norm(v3(x[0], x[1], x[2])) > 0.0))
-        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", an axis of some length is expected", text);
+        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", expected an axis of non-zero length", text);
     if (o->turns == TURNS) return fl_fail(err, FL_USAGE, "--rotate is given more than %d times", TURNS);
     const fl_mat3 r = fl_affine_rotation(v3(x[0], x[1], x[2]), x[3]);
     o->rotate[o->turns++] = text;
@@ -229,7 +128,7 @@ static int rotate(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
-/* The axis is turned and mirrored before the turns of --rotate, whatever order they were given in. */
+/* --up and --mirror apply before the turns of --rotate, whatever the order of the options. */
 static void place_first(struct options *o)
 {
     static const fl_mat3 y_up = {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
@@ -240,115 +139,249 @@ static void place_first(struct options *o)
     o->map.q = fl_affine_matrix_product(&o->map.q, &first);
 }
 
-static int remesh(struct options *o, const char *text, fl_err *err)
+static int remesh(void *options, const char *text, fl_err *err)
 {
+    struct options *const o = options;
     double x[2] = {0};
     const int n = numbers("remesh", text, 1, 2, x, err);
     if (n < 0) return -1;
     o->remesh = x[0];
     o->remesh_within = n == 2 ? x[1] : x[0] / 10.0;
     if (o->remesh > 0.0 && o->remesh_within > 0.0) return 0;
-    return fl_fail(err, FL_USAGE, "--remesh is \"%.60s\", lengths above 0 are expected", text);
+    return fl_fail(err, FL_USAGE, "--remesh is \"%.60s\", expected lengths above 0", text);
 }
 
-static int format(struct options *o, const char *text, fl_err *err)
+/* --- one function for each option that has a form of its own ------------------------------------ */
+
+static int add_file(void *options, const char *text, fl_err *err)
 {
-    static const char *const name[FORMATS] = {"g_struct", "stl", "stl-binary", "obj", "off", "ply", "vtp"};
-    for (int k = 0; k < FORMATS; k++)
-        if (strcmp(text, name[k]) == 0) {
-            o->to = (enum format)k;
-            return 0;
-        }
-    return fl_fail(err, FL_USAGE,
-                   "--to is \"%.60s\", one of g_struct stl stl-binary obj off ply vtp is expected", text);
+    return add_item(options, (struct item){.kind = ITEM_FILE, .path = text}, err);
 }
 
-static int apply(struct options *o, int c, const char *arg, const char **waiting, fl_err *err)
+static int add_cylinder(void *options, const char *text, fl_err *err)
 {
     struct item it = {0};
-    double x[3] = {0};
-    switch (c) {
-    case 1: return add_item(o, (struct item){.kind = ITEM_FILE, .path = arg}, waiting, err);
-    case CYLINDER: return round_solid("cylinder", arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
-    case CONE: return round_solid("cone", arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
-    case BOX: return box(arg, &it, err) || add_item(o, it, waiting, err) ? -1 : 0;
-    case 'n':
-        if (*waiting)
-            return fl_fail(err, FL_USAGE,
-                           "--name %.60s is followed by --name %.60s, a part is expected between them",
-                           *waiting, arg);
-        if (*arg == '\0') return fl_fail(err, FL_USAGE, "--name is empty");
-        *waiting = arg;
-        return 0;
-    case PART: return pattern(o, arg, err);
-    case RENAME: return rename_as(o, arg, err);
-    case SUBDIVIDE: o->subdivide = 1; return 0;
-    case 'f': return fl_option_whole("facets", arg, 3, FL_FACET_CORNERS, &o->facets, err);
-    case 'u': return unit(o, arg, err);
-    case 's': return positive("scale", arg, &o->factor, err);
-    case UP:
-        o->y_up = strcmp(arg, "y") == 0;
-        if (o->y_up || strcmp(arg, "z") == 0) return 0;
-        return fl_fail(err, FL_USAGE, "--up is \"%.60s\", y or z is expected", arg);
-    case MIRROR:
-        if (strlen(arg) != 1 || !strchr("xyz", *arg))
-            return fl_fail(err, FL_USAGE, "--mirror is \"%.60s\", x, y or z is expected", arg);
-        o->mirror ^= 1 << (*arg - 'x');
-        return 0;
-    case ROTATE: return rotate(o, arg, err);
-    case 't':
-        if (numbers("translate", arg, 3, 3, x, err) < 0) return -1;
-        o->map.t = v3(x[0], x[1], x[2]);
-        return 0;
-    case 'w':
-        if (numbers("weld", arg, 1, 1, &o->weld, err) < 0) return -1;
-        return o->weld >= 0.0 ? 0
-                              : fl_fail(err, FL_USAGE, "--weld is \"%.60s\", a length >= 0 is expected", arg);
-    case FILL_HOLES: return fl_option_whole("fill-holes", arg, 0, 1000, &o->fill_holes, err);
-    case FILL: return positive("fill", arg, &o->fill, err);
-    case REPAIR: o->repair = 1; return 0;
-    case SIMPLIFY: return positive("simplify", arg, &o->simplify, err);
-    case REMESH: return remesh(o, arg, err);
-    case RAW: o->raw = 1; return 0;
-    case STRICT: o->strict = 1; return 0;
-    case TO: return format(o, arg, err);
-    case PLOT: o->plot = arg; return *arg ? 0 : fl_fail(err, FL_USAGE, "--plot is empty");
-    case 'o': o->out = arg; return 0;
-    case 'z': o->gzip = 1; return 0;
-    case 'j': return fl_option_whole("threads", arg, 1, 1024, &o->threads, err);
-    case 'q': o->quiet = 1; return 0;
-    case 'v': o->verbose = 1; return 0;
-    case 'h':
-        fputs(HELP, stdout);
-        o->ended = 1;
-        return 0;
-    case VERSION:
-        fl_tool_version("struct-import");
-        o->ended = 1;
-        return 0;
-    default: return fl_fail(err, FL_USAGE, "see struct-import --help");
-    }
+    return round_solid("cylinder", text, &it, err) || add_item(options, it, err) ? -1 : 0;
 }
 
-/* The last word on names and input, once everything was read. */
-static int finish(struct options *o, const char *waiting, fl_err *err)
+static int add_cone(void *options, const char *text, fl_err *err)
 {
+    struct item it = {0};
+    return round_solid("cone", text, &it, err) || add_item(options, it, err) ? -1 : 0;
+}
+
+static int add_box(void *options, const char *text, fl_err *err)
+{
+    struct item it = {0};
+    return box(text, &it, err) || add_item(options, it, err) ? -1 : 0;
+}
+
+static int set_name(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    if (o->next_name)
+        return fl_fail(err, FL_USAGE, "--name %.60s is followed by --name %.60s without a part between them",
+                       o->next_name, text);
+    if (*text == '\0') return fl_fail(err, FL_USAGE, "--name is empty");
+    o->next_name = text;
+    return 0;
+}
+
+static int set_up_axis(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    o->y_up = strcmp(text, "y") == 0;
+    if (o->y_up || strcmp(text, "z") == 0) return 0;
+    return fl_fail(err, FL_USAGE, "--up is \"%.60s\", expected y or z", text);
+}
+
+static int add_mirror(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    if (strlen(text) != 1 || !strchr("xyz", *text))
+        return fl_fail(err, FL_USAGE, "--mirror is \"%.60s\", expected x, y or z", text);
+    o->mirror ^= 1 << (*text - 'x');
+    return 0;
+}
+
+static int set_translation(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    double x[3] = {0};
+    if (numbers("translate", text, 3, 3, x, err) < 0) return -1;
+    o->map.t = v3(x[0], x[1], x[2]);
+    return 0;
+}
+
+static int set_plot(void *options, const char *text, fl_err *err)
+{
+    ((struct options *)options)->plot = text;
+    return *text ? 0 : fl_fail(err, FL_USAGE, "--plot is empty");
+}
+
+/* --- the table --------------------------------------------------------------------------------- */
+
+static const char *const FORMAT[] = {"g_struct", "stl", "stl-binary", "obj", "off", "ply", "vtp", NULL};
+
+#define AT(member) offsetof(struct options, member)
+#define LENGTH .lo = DBL_MIN, .hi = 1e9
+
+static const fl_option OPTION[] = {
+    {.word = "cylinder",
+     .argument = "R,Z0,Z1[,X,Y]",
+     .help = "an upright cylinder about X,Y (0,0) from Z0 to Z1 [m]",
+     .kind = FL_OPTION_CALL,
+     .call = add_cylinder},
+    {.word = "cone",
+     .argument = "R0,Z0,R1,Z1[,X,Y]",
+     .help = "an upright cone, cut where both radii are above 0 [m]",
+     .kind = FL_OPTION_CALL,
+     .call = add_cone},
+    {.word = "box",
+     .argument = "X0,Y0,Z0,X1,Y1,Z1",
+     .help = "a box of 12 triangles [m]",
+     .kind = FL_OPTION_CALL,
+     .call = add_box},
+    {.word = "name",
+     .letter = 'n',
+     .argument = "NAME",
+     .help = "name of the next part; at the end, of the last one",
+     .kind = FL_OPTION_CALL,
+     .call = set_name},
+    {.word = "part",
+     .argument = "PATTERN",
+     .help = "import only parts and sets that match; * and ? are wildcards",
+     .kind = FL_OPTION_CALL,
+     .call = pattern},
+    {.word = "rename",
+     .argument = "OLD=NEW",
+     .help = "rename parts that match the pattern OLD; equal names are joined",
+     .kind = FL_OPTION_CALL,
+     .call = rename_as},
+    {.word = "subdivide",
+     .help = "split quadratic faces into 4, 6 or 8 triangles instead of 1 or 2",
+     .at = AT(subdivide)},
+    {.word = "facets",
+     .letter = 'f',
+     .argument = "N",
+     .help = "replace cylinders and cones by triangles, N per circle",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(facets),
+     .lo = 3,
+     .hi = FL_FACET_CORNERS},
+    {.word = "unit",
+     .letter = 'u',
+     .argument = "UNIT",
+     .help = "length unit of the files: mm, cm, m, in or ft (m)",
+     .kind = FL_OPTION_CALL,
+     .call = unit},
+    {.word = "scale",
+     .letter = 's',
+     .argument = "S",
+     .help = "multiply the coordinates of the files by S (1)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(factor),
+     LENGTH,
+     .expected = "a number above 0"},
+    {.word = "up",
+     .argument = "AXIS",
+     .help = "axis that points up in the files, y or z (z)",
+     .kind = FL_OPTION_CALL,
+     .call = set_up_axis},
+    {.word = "mirror",
+     .argument = "AXIS",
+     .help = "mirror the files in the plane across x, y or z",
+     .kind = FL_OPTION_CALL,
+     .call = add_mirror},
+    {.word = "rotate",
+     .argument = "AX,AY,AZ,DEG",
+     .help = "turn the files about an axis through the origin",
+     .kind = FL_OPTION_CALL,
+     .call = rotate},
+    {.word = "translate",
+     .letter = 't',
+     .argument = "X,Y,Z",
+     .help = "then move the contents of the files [m]",
+     .kind = FL_OPTION_CALL,
+     .call = set_translation},
+    {.word = "weld",
+     .letter = 'w',
+     .argument = "TOL",
+     .help = "merge vertices within TOL [m] (1e-6 of the part's diagonal)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(weld),
+     .lo = 0.0,
+     .hi = 1e9,
+     .expected = "a length >= 0"},
+    {.word = "fill-holes",
+     .argument = "N",
+     .help = "close holes of up to N edges (0)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(fill_holes),
+     .lo = 0,
+     .hi = 1000},
+    {.word = "fill",
+     .argument = "SIZE",
+     .help = "close holes whose box is up to SIZE [m] across (0)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(fill),
+     LENGTH,
+     .expected = "a length above 0"},
+    {.word = "repair",
+     .help = "join bodies that cross, rebuild patches that cross themselves",
+     .at = AT(repair)},
+    {.word = "simplify",
+     .argument = "DISTANCE",
+     .help = "reduce triangles within DISTANCE [m] both ways",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(simplify),
+     LENGTH,
+     .expected = "a length above 0"},
+    {.word = "remesh",
+     .argument = "LENGTH[,D]",
+     .help = "edges of about LENGTH [m], within D (LENGTH / 10) both ways",
+     .kind = FL_OPTION_CALL,
+     .call = remesh},
+    {.word = "raw", .help = "no cleanup: weld only", .at = AT(raw)},
+    {.word = "strict", .help = "status 1 if a defect remains", .at = AT(strict)},
+    {.word = "to",
+     .argument = "FORMAT",
+     .help = "g_struct, stl (ASCII), stl-binary, obj, off, ply or vtp (g_struct)",
+     .kind = FL_OPTION_CHOICE,
+     .at = AT(to),
+     .choice = FORMAT},
+    {.word = "plot",
+     .argument = "WHERE",
+     .help = "draw three views, into FILE.png, FILE.svg or a folder (by gnuplot)",
+     .kind = FL_OPTION_CALL,
+     .call = set_plot},
+    FL_COMMON_OPTIONS(struct options, "write there, - is standard output", "compress the output",
+                      "threads of the search for crossings; does not affect the result",
+                      "no table and no warnings on standard error", "more details of the cleanup"),
+};
+
+static const fl_option_table TABLE = {"struct-import", USAGE, OPTION, add_file, 1};
+
+/* Checks between options, after all have been read. */
+static int finish(struct options *o, fl_err *err)
+{
+    const char *const pending = o->next_name;
     int32_t streams = 0;
     if (o->items == 0) {
-        if (add_item(o, (struct item){.kind = ITEM_FILE, .path = "-"}, &waiting, err)) return -1;
-    } else if (waiting) {
+        if (add_item(o, (struct item){.kind = ITEM_FILE, .path = "-"}, err)) return -1;
+    } else if (pending) {
         struct item *last = &o->item[o->items - 1];
         if (last->name)
-            return fl_fail(err, FL_USAGE, "--name %.60s stands behind a part that is called %.60s", waiting,
+            return fl_fail(err, FL_USAGE, "--name %.60s follows a part that is called %.60s", pending,
                            last->name);
-        last->name = waiting;
+        last->name = pending;
     }
     for (int32_t k = 0; k < o->items; k++)
         streams += o->item[k].kind == ITEM_FILE && !strcmp(o->item[k].path, "-");
     if (streams > 1) return fl_fail(err, FL_USAGE, "standard input is named %d times", streams);
-    if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes do not go together");
+    if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes exclude each other");
     if (o->raw && (o->fill > 0.0 || o->repair || o->simplify > 0.0 || o->remesh > 0.0))
-        return fl_fail(err, FL_USAGE, "--raw does not go together with what it leaves undone");
+        return fl_fail(err, FL_USAGE, "--raw excludes --fill, --repair, --simplify and --remesh");
     o->map.s *= o->factor;
     place_first(o);
     return 0;
@@ -356,19 +389,9 @@ static int finish(struct options *o, const char *waiting, fl_err *err)
 
 int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
-    const char *waiting = NULL; /* a name without a part yet */
-    int c;
     *o = (struct options){.out = "-", .map = fl_affine_identity(), .factor = 1.0, .weld = -1.0};
-    opterr = 0;
-    /* "-": files come in their order among the options, as if by an option of code 1 */
-    while (!o->ended && (c = getopt_long(argc, argv, "-:n:f:u:s:t:w:o:zj:qvh", LONG, NULL)) != -1) {
-        if (c == ':' || c == '?')
-            return fl_option_unknown("struct-import", LONG, c, optopt, argv[optind - 1], err);
-        if (apply(o, c, optarg, &waiting, err)) return -1;
-    }
-    for (; !o->ended && optind < argc; optind++) /* behind "--" */
-        if (apply(o, 1, argv[optind], &waiting, err)) return -1;
-    return o->ended ? 0 : finish(o, waiting, err);
+    if (fl_options_read(&TABLE, o, NULL, argc, argv, err)) return -1;
+    return o->ended ? 0 : finish(o, err);
 }
 
 void options_free(struct options *o)

@@ -1,61 +1,60 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "options.h"
 #include <getopt.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 #include "base/number_text.h"
 #include "base/option.h"
+#include "base/tool.h"
 #include "ice/pancakes.h"
-#include "options.h"
+#include "generator_table.h"
 
-static const char HELP[] =
+static const char HELP_FIELD[] =
     "usage: voronoi-ice [options]\n"
     "A field of ice floes of a given concentration, none of which overlaps another, to a g-polys file.\n"
-    "Lengths are in metres; what each number came to goes to standard error.\n"
+    "Lengths are in metres; the certificate goes to standard error.\n"
     "\n"
     "      --size AxB          sides of the field along x and y (50x50)\n"
     "      --origin X,Y        its corner of least x and y (such that the field is centred on 0,0)\n"
     "      --floes N           number of floes (200)\n"
-    "      --sizes LAW         uniform (as they come), equal, lognormal:CV or weibull:K of areas,\n"
+    "      --sizes LAW         uniform (Voronoi cells), equal, lognormal:CV or weibull:K of areas,\n"
     "                          power:EXP,DMIN,DMAX[,number|area,cumulative|density] of diameters, or a FILE\n"
     "                          of sizes or of polygons (uniform)\n"
-    "      --concentration C   part of the field that floes cover, between 0 and 1 (0.8)\n"
+    "      --concentration C   fraction of the field that floes cover, between 0 and 1 (0.8)\n"
     "      --thickness H       of the ice (0.5); uniform:A,B, lognormal:MEAN,CV or a file of thicknesses\n"
     "      --radius R          dilation radius, the roundness of edges, below H/2 (0.05)\n"
-    "      --seed N            another number, another field (1)\n"
+    "      --seed N            seed of the random numbers (1)\n"
     "      --smooth N          steps of Lloyd's smoothing; 0 leaves Poisson-Voronoi cells (2)\n"
     "      --material NAME     material of the floes (ice)\n"
-    "      --ice-density RHO   kg/m3, sets the draft together with (900)\n"
+    "      --ice-density RHO   kg/m3, sets the draft together with the next (900)\n"
     "      --water-density RHO kg/m3 (1025)\n"
     "      --velocity VX,VY    of all floes at the start, m/s (0,0)\n"
-    "      --keep-out SHAPE    take out floes that meet circle:X,Y,R or box:X0,Y0,X1,Y1; may be given 16 "
+    "      --keep-out SHAPE    remove floes that meet circle:X,Y,R or box:X0,Y0,X1,Y1; may be given 16 "
     "times\n"
     "                          or files as in g_struct(5): their waterline, with the margin, is cut out\n"
     "      --margin M          open water round the structures of --keep-out (0)\n"
     "      --outline SHAPE     of the field instead of a rectangle: disc:R, disc:R,X,Y or a file of corners\n"
     "      --lead X0,Y0,X1,Y1,WIDTH  a strip of open water; may be given 16 times\n"
     "      --grade DIR:C0,C1   concentration rising from C0 to C1 along DIR: x, y or degrees; or DIR:FILE\n"
-    "      --periodic x|y|xy   what leaves at one side comes in at the other: copies fit without a seam\n"
+    "      --periodic x|y|xy   periodic field: its copies fit side by side without a seam\n"
     "      --pancakes SIDES    floes round in plan, of that many sides\n"
-    "      --rubble            blocks that fill the field from bottom to top, C being their part of its "
-    "volume\n"
     "      --ridge X0,Y0,X1,Y1,HS,WS,HK,WK,WB  a ridge along that line, of blocks: height and width of its\n"
     "                          sail, depth and width of its keel and that at its bottom; up to 4 times\n"
     "      --block L           size of the blocks of ridges (the thickness)\n"
-    "      --porosity P        part of ridges that is no ice (0.3)\n"
-    "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n"
-    "      --lattice KIND      spheres in close packing in place of floes: hcp, hex or square\n"
+    "      --porosity P        fraction of ridges without ice (0.3)\n"
+    "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n";
+static const char HELP_OUTPUT[] =
     "      --layers N          layers of the lattice, or of rafted floes (1)\n"
     "      --diameter D        of the spheres of the lattice (0.25)\n"
-    "      --certificate FILE  what was asked and what was achieved as a table, - is standard output\n"
-    "      --id NAME           of the field, for its line of history; auto makes one of the bodies\n"
+    "      --certificate FILE  requested and achieved values as a table, - is standard output\n"
+    "      --id NAME           name of the field in its history line; auto computes it from the bodies\n"
     "      --plot DIR          pictures of the field and of its sizes, by gnuplot, into the folder\n"
     "      --format FORMAT     of the pictures, svg or png (svg)\n"
     "  -o, --output FILE       write there, - is standard output\n"
     "  -z, --gzip              compress the file\n"
     "  -j, --threads N         threads (one per processor)\n"
     "  -q, --quiet             no certificate\n"
-    "  -v, --verbose           say what is being done\n"
+    "  -v, --verbose           print the stages of the work\n"
     "  -h, --help              this text\n"
     "      --version           the version\n";
 
@@ -84,15 +83,14 @@ enum {
     GRADE,
     PERIODIC,
     PANCAKES,
-    RUBBLE,
     RIDGE,
     BLOCK,
     POROSITY,
     BONDED,
-    LATTICE,
     LAYERS,
     DIAMETER,
-    VERSION
+    VERSION,
+    GENERATOR /* + row of generator_table */
 };
 
 static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
@@ -115,12 +113,10 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"grade", required_argument, NULL, GRADE},
                                      {"periodic", required_argument, NULL, PERIODIC},
                                      {"pancakes", required_argument, NULL, PANCAKES},
-                                     {"rubble", no_argument, NULL, RUBBLE},
                                      {"ridge", required_argument, NULL, RIDGE},
                                      {"block", required_argument, NULL, BLOCK},
                                      {"porosity", required_argument, NULL, POROSITY},
                                      {"bonded", no_argument, NULL, BONDED},
-                                     {"lattice", required_argument, NULL, LATTICE},
                                      {"layers", required_argument, NULL, LAYERS},
                                      {"diameter", required_argument, NULL, DIAMETER},
                                      {"certificate", required_argument, NULL, CERTIFICATE},
@@ -136,15 +132,16 @@ static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
                                      {"version", no_argument, NULL, VERSION},
                                      {NULL, 0, NULL, 0}};
 
-/* The farthest a shape may lie, as FL_ICE_FIELD_MAX_COORD; the longest field, where an ulp is a tenth of a nanometre;
- * and the shortest length [m]. */
+/* Largest coordinate of a shape, as FL_ICE_FIELD_MAX_COORD; longest field, where an ulp is a tenth of a
+ * nanometre; shortest length [m]. */
 #define FAR 1e9
 #define LONGEST 1e6
 #define SHORTEST 1e-6
 
-/* Exactly n numbers behind `skip` characters, divided by `by`; wanted says how they should look. */
-static int numbers(const char *option, const char *text, int skip, char by, int n, double lo, double hi,
-                   double *x, const char *wanted, fl_err *err)
+/* Parse exactly n numbers after `skip` characters, separated by `by`; expected describes them for the
+ * message. */
+static int parse_numbers(const char *option, const char *text, int skip, char by, int n, double lo, double hi,
+                         double *x, const char *expected, fl_err *err)
 {
     char word[64];
     const char *p = text + skip;
@@ -159,25 +156,25 @@ static int numbers(const char *option, const char *text, int skip, char by, int 
     }
     return 0;
 bad:
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %s is expected", option, text, wanted);
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %s is expected", option, text, expected);
 }
 
-static int number(const char *option, const char *text, double lo, double hi, double *x, const char *wanted,
-                  fl_err *err)
+static int parse_number(const char *option, const char *text, double lo, double hi, double *x,
+                        const char *expected, fl_err *err)
 {
-    return numbers(option, text, 0, ',', 1, lo, hi, x, wanted, err);
+    return parse_numbers(option, text, 0, ',', 1, lo, hi, x, expected, err);
 }
 
-static int pair(const char *option, const char *text, char by, double lo, double hi, fl_vec2 *out,
-                const char *wanted, fl_err *err)
+static int parse_pair(const char *option, const char *text, char by, double lo, double hi, fl_vec2 *out,
+                      const char *expected, fl_err *err)
 {
     double x[2] = {0.0, 0.0};
-    if (numbers(option, text, 0, by, 2, lo, hi, x, wanted, err)) return -1;
+    if (parse_numbers(option, text, 0, by, 2, lo, hi, x, expected, err)) return -1;
     *out = (fl_vec2){x[0], x[1]};
     return 0;
 }
 
-static int sizes(struct options *o, const char *text, fl_err *err)
+static int parse_sizes(struct recipe *o, const char *text, fl_err *err)
 {
     o->sizes = NULL;
     o->sizes_file = 0;
@@ -191,8 +188,8 @@ static int sizes(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
-/* A name is one word of the file. */
-static int name(const char *option, const char *text, const char **out, fl_err *err)
+/* A name is one word of the file format. */
+static int parse_word(const char *option, const char *text, const char **out, fl_err *err)
 {
     if (text[0] == '\0' || strlen(text) > 200 || strpbrk(text, " \t\r\n\f\v"))
         return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", one word of up to 200 bytes is expected", option,
@@ -201,8 +198,8 @@ static int name(const char *option, const char *text, const char **out, fl_err *
     return 0;
 }
 
-/* A file that is named in the history must be one word of it. */
-static int file(const char *option, const char *text, const char **out, fl_err *err)
+/* The name of a file must be one word of the history line. */
+static int parse_file(const char *option, const char *text, const char **out, fl_err *err)
 {
     if (text[0] == '\0' || strlen(text) > 1000 || strpbrk(text, " \t\r\n\f\v"))
         return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", the name of a file without blanks is expected",
@@ -211,61 +208,55 @@ static int file(const char *option, const char *text, const char **out, fl_err *
     return 0;
 }
 
-int options_there(const char *option, const char *text, const char *wanted, fl_err *err)
+static int parse_keep_out(struct recipe *o, const char *text, fl_err *err)
 {
-    if (strcmp(text, "-") == 0 || access(text, F_OK) == 0) return 0;
-    return fl_fail(err, FL_INPUT, "--%s is \"%.60s\", %s or a file that is there is expected", option, text,
-                   wanted);
-}
-
-static int shape(struct options *o, const char *text, fl_err *err)
-{
-    static const char wanted[] = "circle:X,Y,R or box:X0,Y0,X1,Y1 in metres";
+    static const char expected[] = "circle:X,Y,R or box:X0,Y0,X1,Y1 in metres";
     const size_t word = strcspn(text, ":/");
     struct keep_out k = {0};
     double x[4] = {0};
-    if (text[word] != ':') { /* "a/b:c" is a file, and so can any be */
+    if (text[word] != ':') { /* "a/b:c" is a file */
         if (o->structures == KEEP_OUT_MAX)
             return fl_fail(err, FL_USAGE, "more than %d files to keep out", KEEP_OUT_MAX);
-        if (file("keep-out", text, &o->structure[o->structures], err)) return -1;
+        if (parse_file("keep-out", text, &o->structure[o->structures], err)) return -1;
         o->structures++;
         return 0;
     }
     if (o->keep_outs == KEEP_OUT_MAX)
         return fl_fail(err, FL_USAGE, "more than %d shapes to keep out", KEEP_OUT_MAX);
     if (strncmp(text, "circle:", 7) == 0) {
-        if (numbers("keep-out", text, 7, ',', 3, -FAR, FAR, x, wanted, err)) return -1;
+        if (parse_numbers("keep-out", text, 7, ',', 3, -FAR, FAR, x, expected, err)) return -1;
         k = (struct keep_out){.circle = 1, .lo = {x[0], x[1]}, .r = x[2]};
         if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", R above 0 is expected", text);
     } else if (strncmp(text, "box:", 4) == 0) {
-        if (numbers("keep-out", text, 4, ',', 4, -FAR, FAR, x, wanted, err)) return -1;
+        if (parse_numbers("keep-out", text, 4, ',', 4, -FAR, FAR, x, expected, err)) return -1;
         k = (struct keep_out){.lo = {x[0], x[1]}, .hi = {x[2], x[3]}};
         if (!(x[0] < x[2] && x[1] < x[3]))
             return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", X0 < X1 and Y0 < Y1 is expected", text);
     } else {
-        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", %s is expected", text, wanted);
+        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", %s is expected", text, expected);
     }
     o->keep_out[o->keep_outs++] = k;
     return 0;
 }
 
-static int the_outline(struct options *o, const char *text, fl_err *err)
+static int parse_outline(struct recipe *o, const char *text, fl_err *err)
 {
-    static const char wanted[] = "disc:R or disc:R,X,Y in metres, or the name of a file,";
+    static const char expected[] = "disc:R or disc:R,X,Y in metres, or the name of a file,";
     const int centred = strncmp(text, "disc:", 5) == 0 && !strchr(text, ',');
     o->outline = NULL;
     o->disc[0] = o->disc[1] = o->disc[2] = 0.0;
-    if (strncmp(text, "disc:", 5) != 0) return file("outline", text, &o->outline, err);
-    if (numbers("outline", text, 5, ',', centred ? 1 : 3, -LONGEST, LONGEST, o->disc, wanted, err)) return -1;
+    if (strncmp(text, "disc:", 5) != 0) return parse_file("outline", text, &o->outline, err);
+    if (parse_numbers("outline", text, 5, ',', centred ? 1 : 3, -LONGEST, LONGEST, o->disc, expected, err))
+        return -1;
     if (o->disc[0] >= SHORTEST) return 0;
     return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", R of %g at least is expected", text, SHORTEST);
 }
 
-static int lead(struct options *o, const char *text, fl_err *err)
+static int parse_lead(struct recipe *o, const char *text, fl_err *err)
 {
     double *x = o->lead[o->leads];
     if (o->leads == LEAD_MAX) return fl_fail(err, FL_USAGE, "--lead is given more than %d times", LEAD_MAX);
-    if (numbers("lead", text, 0, ',', 5, -FAR, FAR, x, "X0,Y0,X1,Y1,WIDTH in metres", err)) return -1;
+    if (parse_numbers("lead", text, 0, ',', 5, -FAR, FAR, x, "X0,Y0,X1,Y1,WIDTH in metres", err)) return -1;
     if (!(x[4] >= SHORTEST && fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST))
         return fl_fail(err, FL_USAGE, "--lead is \"%.60s\", a length and a width of %g at least are expected",
                        text, SHORTEST);
@@ -273,8 +264,8 @@ static int lead(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
-/* "80%", "8/10" and "0.8" are the same. */
-static int concentration(const char *option, const char *text, double *out, fl_err *err)
+/* "80%", "8/10" and "0.8" are equal. */
+static int parse_concentration(const char *option, const char *text, double *out, fl_err *err)
 {
     char word[64];
     const size_t len = strlen(text);
@@ -288,7 +279,7 @@ static int concentration(const char *option, const char *text, double *out, fl_e
             word[len - 3] = '\0';
             part = 10.0;
         }
-        /* the bounds themselves are no concentration of floes with water between them */
+        /* 0 and 1 are no concentrations of floes with water between them */
         if (fl_number_f64(word, out) == 0 && *out / part > 0.0 && *out / part < 1.0) {
             *out /= part;
             return 0;
@@ -300,7 +291,7 @@ static int concentration(const char *option, const char *text, double *out, fl_e
 }
 
 /* DIR:C0,C1 or DIR:FILE. */
-static int grade(struct options *o, const char *text, fl_err *err)
+static int parse_grade(struct recipe *o, const char *text, fl_err *err)
 {
     char word[64];
     const char *rest = strchr(text, ':'), *second;
@@ -315,12 +306,12 @@ static int grade(struct options *o, const char *text, fl_err *err)
     o->grade_file = NULL;
     rest++;
     second = strchr(rest, ',');
-    if (!second) return file("grade", rest, &o->grade_file, err);
+    if (!second) return parse_file("grade", rest, &o->grade_file, err);
     if ((size_t)(second - rest) >= sizeof word) goto bad;
     memcpy(word, rest, (size_t)(second - rest));
     word[second - rest] = '\0';
-    return concentration("grade", word, &o->grade[0], err) ||
-                   concentration("grade", second + 1, &o->grade[1], err)
+    return parse_concentration("grade", word, &o->grade[0], err) ||
+                   parse_concentration("grade", second + 1, &o->grade[1], err)
                ? -1
                : 0;
 bad:
@@ -328,7 +319,7 @@ bad:
                    "--grade is \"%.60s\", DIR:C0,C1 or DIR:FILE with DIR x, y or degrees is expected", text);
 }
 
-static int periodic(const char *text, int *out, fl_err *err)
+static int parse_periodic(const char *text, int *out, fl_err *err)
 {
     out[0] = strcmp(text, "x") == 0 || strcmp(text, "xy") == 0;
     out[1] = strcmp(text, "y") == 0 || strcmp(text, "xy") == 0;
@@ -336,13 +327,13 @@ static int periodic(const char *text, int *out, fl_err *err)
     return fl_fail(err, FL_USAGE, "--periodic is \"%.60s\", x, y or xy is expected", text);
 }
 
-static int ridge(struct options *o, const char *text, fl_err *err)
+static int parse_ridge(struct recipe *o, const char *text, fl_err *err)
 {
-    static const char wanted[] = "X0,Y0,X1,Y1,HS,WS,HK,WK,WB in metres";
+    static const char expected[] = "X0,Y0,X1,Y1,HS,WS,HK,WK,WB in metres";
     double *x = o->ridge[o->ridges];
     if (o->ridges == RIDGE_MAX)
         return fl_fail(err, FL_USAGE, "--ridge is given more than %d times", RIDGE_MAX);
-    if (numbers("ridge", text, 0, ',', 9, -LONGEST, LONGEST, x, wanted, err)) return -1;
+    if (parse_numbers("ridge", text, 0, ',', 9, -LONGEST, LONGEST, x, expected, err)) return -1;
     for (int k = 4; k < 8; k++)
         if (!(x[k] >= SHORTEST))
             return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", heights and widths above 0 are expected",
@@ -354,129 +345,128 @@ static int ridge(struct options *o, const char *text, fl_err *err)
     return 0;
 }
 
-static const char *const LATTICES[] = {"hcp", "hex", "square"};
+/* --- checks between options ----------------------------------------------------------------------------- */
 
-static int lattice(const char *text, int *out, fl_err *err)
-{
-    for (int k = 0; k < 3; k++)
-        if (strcmp(text, LATTICES[k]) == 0) {
-            *out = k;
-            return 0;
-        }
-    return fl_fail(err, FL_USAGE, "--lattice is \"%.60s\", hcp, hex or square is expected", text);
-}
+static int is_given(uint64_t given, int c) { return (int)(given >> (c - SIZE) & 1); }
 
-/* Options that say nothing where another one stands must not look as if they did. */
-static int useless(const struct options *o, const char *beside, int n, const int *without, fl_err *err)
+/* Reject the n options, which have no effect as `why` says. */
+static int reject_options(uint64_t given, const char *why, int n, const int *rejected, fl_err *err)
 {
     for (int k = 0; k < n; k++)
-        if (o->given >> (without[k] - SIZE) & 1)
+        if (is_given(given, rejected[k]))
             for (const struct option *l = LONG; l->name; l++)
-                if (l->val == without[k])
-                    return fl_fail(err, FL_USAGE, "--%s means nothing %s, it was not wanted", l->name,
-                                   beside);
+                if (l->val == rejected[k])
+                    return fl_fail(err, FL_USAGE, "--%s has no effect %s", l->name, why);
     return 0;
 }
 
-static int check_lattice(const struct options *o, fl_err *err)
+/* Select the generator that was given first in the table, and reject options that it does not read. */
+static int select_generator(struct recipe *o, uint64_t given, const struct option *all, fl_err *err)
 {
-    static const int without[] = {FLOES,    SIZES,    CONCENTRATION, THICKNESS, RADIUS, SEED,
-                                  SMOOTH,   KEEP_OUT, OUTLINE,       LEAD,      PLOT,   GRADE,
-                                  PERIODIC, PANCAKES, RUBBLE,        RIDGE};
-    static const int within[] = {DIAMETER};
-    if (o->lattice >= 0) return useless(o, "beside --lattice", 16, without, err);
-    return useless(o, "without --lattice", 1, within, err);
+    int row = 0;
+    while (row < generator_count - 1 && !is_given(given, GENERATOR + row)) row++;
+    o->generator = &generator_table[row];
+    for (const struct option *l = all; l->name; l++) {
+        if (l->val < SIZE || l->val == GENERATOR + row || !is_given(given, l->val)) continue;
+        if (generator_reads(o->generator, l->name)) continue;
+        if (o->generator->name)
+            return fl_fail(err, FL_USAGE, "--%s has no effect beside --%s", l->name, o->generator->name);
+        for (int k = 0; k < generator_count; k++)
+            if (generator_reads(&generator_table[k], l->name))
+                return fl_fail(err, FL_USAGE, "--%s has no effect without --%s", l->name,
+                               generator_table[k].name);
+    }
+    return 0;
 }
 
-static int check_water(const struct options *o, fl_err *err)
+static int check_water(const struct recipe *o, uint64_t given, fl_err *err)
 {
     static const int without[] = {SIZE, ORIGIN}, within[] = {MARGIN};
     if (o->outline || o->disc[0] > 0.0) {
-        if (useless(o, "beside --outline", 2, without, err)) return -1;
+        if (reject_options(given, "beside --outline", 2, without, err)) return -1;
         if (o->outline && strcmp(o->outline, "-") == 0)
             return fl_fail(err, FL_USAGE,
                            "--outline is \"-\", a file is expected: a pipe cannot be named again");
     }
-    return o->structures ? 0 : useless(o, "without the file of a structure", 1, within, err);
+    return o->structures ? 0 : reject_options(given, "without the file of a structure", 1, within, err);
 }
 
-static int check_graded(const struct options *o, fl_err *err)
+static int check_graded(const struct recipe *o, uint64_t given, fl_err *err)
 {
     static const int without[] = {CONCENTRATION, SIZES, BONDED}, none[] = {SIZES, BONDED, OUTLINE, LEAD};
     static const int round[] = {SIZES, BONDED, GRADE};
-    if (o->pancakes && useless(o, "beside --pancakes", 3, round, err)) return -1;
-    if (o->graded && useless(o, "beside --grade", 3, without, err)) return -1;
+    if (o->pancakes && reject_options(given, "beside --pancakes", 3, round, err)) return -1;
+    if (o->graded && reject_options(given, "beside --grade", 3, without, err)) return -1;
     if (!o->periodic[0] && !o->periodic[1]) return 0;
     if (o->structures)
         return fl_fail(err, FL_USAGE,
-                       "--keep-out of a file means nothing beside --periodic, a shape is expected");
-    return useless(o, "beside --periodic", 4, none, err);
+                       "--keep-out of a file has no effect beside --periodic, a shape is expected");
+    return reject_options(given, "beside --periodic", 4, none, err);
 }
 
-static int check_piles(const struct options *o, fl_err *err)
+static int check_ridges(const struct recipe *o, uint64_t given, fl_err *err)
 {
-    static const int without[] = {SIZES,  KEEP_OUT, OUTLINE,  LEAD,  GRADE,
-                                  BONDED, PLOT,     PERIODIC, RIDGE, PANCAKES};
-    static const int ridged[] = {SIZES, PERIODIC}, within[] = {BLOCK, POROSITY};
-    static const int rafted[] = {SIZES, BONDED, RIDGE, RUBBLE};
-    if (o->layers > 1 && o->lattice < 0) {
-        if (o->structures)
-            return fl_fail(err, FL_USAGE, "--keep-out of a file means nothing beside --layers");
-        if (useless(o, "beside --layers", 4, rafted, err)) return -1;
-    }
-    if (o->rubble && useless(o, "beside --rubble", 10, without, err)) return -1;
-    if (!o->ridges) return useless(o, "without --ridge", 2, within, err);
-    return useless(o, "beside --ridge", 2, ridged, err);
+    static const int with_ridge[] = {SIZES, PERIODIC}, without_ridge[] = {BLOCK, POROSITY};
+    if (!o->ridges) return reject_options(given, "without --ridge", 2, without_ridge, err);
+    return reject_options(given, "beside --ridge", 2, with_ridge, err);
 }
 
-static int check_bonded(const struct options *o, fl_err *err)
+/* Layers of floes; those of a lattice have no such limits. */
+static int check_layers(const struct recipe *o, uint64_t given, fl_err *err)
+{
+    static const int with_layers[] = {SIZES, BONDED, RIDGE};
+    if (o->layers == 1 || o->generator->name) return 0;
+    if (o->structures) return fl_fail(err, FL_USAGE, "--keep-out of a file has no effect beside --layers");
+    return reject_options(given, "beside --layers", 3, with_layers, err);
+}
+
+static int check_bonded(const struct recipe *o, uint64_t given, fl_err *err)
 {
     static const int without[] = {CONCENTRATION};
-    return o->bonded ? useless(o, "beside --bonded, which fills the field", 1, without, err) : 0;
+    return o->bonded ? reject_options(given, "beside --bonded, which fills the field", 1, without, err) : 0;
 }
 
-static int apply(struct options *o, int c, const char *arg, fl_err *err)
+static int apply_common(struct recipe *o, int c, const char *arg, fl_err *err)
 {
     switch (c) {
-    case SIZE: return pair("size", arg, 'x', SHORTEST, LONGEST, &o->size, "AxB in metres, as 50x50,", err);
+    case SIZE:
+        return parse_pair("size", arg, 'x', SHORTEST, LONGEST, &o->size, "AxB in metres, as 50x50,", err);
     case ORIGIN:
         o->has_origin = 1;
-        return pair("origin", arg, ',', -LONGEST, LONGEST, &o->origin, "X,Y in metres", err);
-    case FLOES: o->has_floes = 1; return fl_option_whole("floes", arg, 1, FLOES_MOST, &o->floes, err);
-    case SIZES: return sizes(o, arg, err);
+        return parse_pair("origin", arg, ',', -LONGEST, LONGEST, &o->origin, "X,Y in metres", err);
+    case FLOES: o->has_floes = 1; return fl_option_whole("floes", arg, 1, FLOES_MAX, &o->floes, err);
+    case SIZES: return parse_sizes(o, arg, err);
     case CONCENTRATION:
         o->has_concentration = 1;
-        return concentration("concentration", arg, &o->concentration, err);
-    case THICKNESS: return file("thickness", arg, &o->thickness_law, err);
-    case RADIUS: return number("radius", arg, 0.0, LONGEST, &o->radius, "a length not below 0", err);
+        return parse_concentration("concentration", arg, &o->concentration, err);
+    case THICKNESS: return parse_file("thickness", arg, &o->thickness_law, err);
+    case RADIUS: return parse_number("radius", arg, 0.0, LONGEST, &o->radius, "a length not below 0", err);
     case SEED:
         if (fl_number_u64(arg, &o->seed) == 0) return 0;
         return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", a whole number from 0 to 2^64 - 1 is expected",
                        arg);
     case SMOOTH: return fl_option_whole("smooth", arg, 0, 10000, &o->smooth, err);
-    case MATERIAL: return name("material", arg, &o->material, err);
-    case ICE_DENSITY: return number("ice-density", arg, 1.0, 1e5, &o->ice_density, "kg/m3", err);
-    case WATER_DENSITY: return number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
-    case VELOCITY: return pair("velocity", arg, ',', -1e3, 1e3, &o->velocity, "VX,VY in m/s", err);
-    case KEEP_OUT: return shape(o, arg, err);
-    case MARGIN: return number("margin", arg, 0.0, LONGEST, &o->margin, "a length not below 0", err);
-    case OUTLINE: return the_outline(o, arg, err);
-    case LEAD: return lead(o, arg, err);
-    case GRADE: return grade(o, arg, err);
-    case PERIODIC: return periodic(arg, o->periodic, err);
+    case MATERIAL: return parse_word("material", arg, &o->material, err);
+    case ICE_DENSITY: return parse_number("ice-density", arg, 1.0, 1e5, &o->ice_density, "kg/m3", err);
+    case WATER_DENSITY: return parse_number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
+    case VELOCITY: return parse_pair("velocity", arg, ',', -1e3, 1e3, &o->velocity, "VX,VY in m/s", err);
+    case KEEP_OUT: return parse_keep_out(o, arg, err);
+    case MARGIN: return parse_number("margin", arg, 0.0, LONGEST, &o->margin, "a length not below 0", err);
+    case OUTLINE: return parse_outline(o, arg, err);
+    case LEAD: return parse_lead(o, arg, err);
+    case GRADE: return parse_grade(o, arg, err);
+    case PERIODIC: return parse_periodic(arg, o->periodic, err);
     case PANCAKES:
         return fl_option_whole("pancakes", arg, FL_PANCAKES_MIN_SIDES, FL_PANCAKES_MAX_SIDES, &o->pancakes,
                                err);
-    case RUBBLE: o->rubble = 1; return 0;
-    case RIDGE: return ridge(o, arg, err);
-    case BLOCK: return number("block", arg, SHORTEST, LONGEST, &o->block, "a length", err);
-    case POROSITY: return concentration("porosity", arg, &o->porosity, err);
+    case RIDGE: return parse_ridge(o, arg, err);
+    case BLOCK: return parse_number("block", arg, SHORTEST, LONGEST, &o->block, "a length", err);
+    case POROSITY: return parse_concentration("porosity", arg, &o->porosity, err);
     case BONDED: o->bonded = 1; return 0;
-    case LATTICE: return lattice(arg, &o->lattice, err);
     case LAYERS: return fl_option_whole("layers", arg, 1, 1000, &o->layers, err);
-    case DIAMETER: return number("diameter", arg, SHORTEST, LONGEST, &o->diameter, "a length", err);
+    case DIAMETER: return parse_number("diameter", arg, SHORTEST, LONGEST, &o->diameter, "a length", err);
     case CERTIFICATE: o->certificate = arg; return 0;
-    case ID: return name("id", arg, &o->id, err);
+    case ID: return parse_word("id", arg, &o->id, err);
     case PLOT: o->plot = arg; return 0;
     case FORMAT:
         o->format = arg;
@@ -487,134 +477,93 @@ static int apply(struct options *o, int c, const char *arg, fl_err *err)
     case 'j': return fl_option_whole("threads", arg, 1, 1024, &o->threads, err);
     case 'q': o->quiet = 1; return 0;
     case 'v': o->verbose = 1; return 0;
-    case 'h':
-        fputs(HELP, stdout);
-        o->ended = 1;
-        return 0;
-    case VERSION:
-        fl_tool_version("voronoi-ice");
-        o->ended = 1;
-        return 0;
     default: return fl_fail(err, FL_USAGE, "see voronoi-ice --help");
     }
 }
 
-int options_parse(struct options *o, int argc, char **argv, fl_err *err)
+static void print_help(void)
 {
-    int c;
-    *o = (struct options){.out = "-",
-                          .format = "svg",
-                          .material = "ice",
-                          .size = {50.0, 50.0},
-                          .floes = 200,
-                          .smooth = 2,
-                          .concentration = 0.8,
-                          .porosity = 0.3,
-                          .thickness_law = "0.5",
-                          .radius = 0.05,
-                          .lattice = -1,
-                          .layers = 1,
-                          .diameter = 0.25,
-                          .ice_density = 900.0,
-                          .water_density = 1025.0,
-                          .seed = 1};
-    opterr = 0;
-    while (!o->ended && (c = getopt_long(argc, argv, ":o:zj:qvh", LONG, NULL)) != -1) {
-        if (c == ':' || c == '?')
-            return fl_option_unknown("voronoi-ice", LONG, c, optopt, argv[optind - 1], err);
-        if (c >= SIZE) o->given |= UINT64_C(1) << (c - SIZE);
-        if (apply(o, c, optarg, err)) return -1;
+    fputs(HELP_FIELD, stdout);
+    for (int k = 0; k < generator_count; k++) {
+        const struct generator *g = &generator_table[k];
+        char head[40];
+        if (!g->name) continue;
+        snprintf(head, sizeof head, "--%s%s%s", g->name, g->argument ? " " : "",
+                 g->argument ? g->argument : "");
+        printf("      %-19s %s\n", head, g->help);
     }
-    if (o->ended) return 0;
+    fputs(HELP_OUTPUT, stdout);
+}
+
+/* Options of getopt: the common ones, then one for each generator with a name. */
+enum { COMMON = sizeof LONG / sizeof LONG[0] - 1, GENERATORS_MAX = 64 - (GENERATOR - SIZE) };
+
+static void list_options(struct option all[COMMON + GENERATORS_MAX + 1])
+{
+    int n = COMMON;
+    memcpy(all, LONG, COMMON * sizeof *all);
+    for (int k = 0; k < generator_count && k < GENERATORS_MAX; k++) {
+        const struct generator *g = &generator_table[k];
+        if (g->name)
+            all[n++] =
+                (struct option){g->name, g->argument ? required_argument : no_argument, NULL, GENERATOR + k};
+    }
+    all[n] = (struct option){NULL, 0, NULL, 0};
+}
+
+/* Apply one option.  *ended is set where it was --help or --version. */
+static int apply_option(struct recipe *o, int *ended, int c, const char *arg, fl_err *err)
+{
+    *ended = c == 'h' || c == VERSION;
+    if (c == 'h') print_help();
+    if (c == VERSION) fl_tool_version("voronoi-ice");
+    if (*ended) return 0;
+    if (c < GENERATOR) return apply_common(o, c, arg, err);
+    o->generator_argument = arg;
+    return generator_table[c - GENERATOR].check ? generator_table[c - GENERATOR].check(arg, err) : 0;
+}
+
+int options_parse(struct recipe *o, int *ended, int argc, char **argv, fl_err *err)
+{
+    struct option all[COMMON + GENERATORS_MAX + 1];
+    uint64_t given = 0; /* bit c - SIZE: long option c */
+    int c;
+    *ended = 0;
+    *o = (struct recipe){.out = "-",
+                         .format = "svg",
+                         .material = "ice",
+                         .size = {50.0, 50.0},
+                         .floes = 200,
+                         .smooth = 2,
+                         .concentration = 0.8,
+                         .porosity = 0.3,
+                         .thickness_law = "0.5",
+                         .radius = 0.05,
+                         .layers = 1,
+                         .diameter = 0.25,
+                         .ice_density = 900.0,
+                         .water_density = 1025.0,
+                         .seed = 1};
+    list_options(all);
+    opterr = 0;
+    while (!*ended && (c = getopt_long(argc, argv, ":o:zj:qvh", all, NULL)) != -1) {
+        if (c == ':' || c == '?')
+            return fl_option_unknown("voronoi-ice", all, c, optopt, argv[optind - 1], err);
+        if (c >= SIZE) given |= UINT64_C(1) << (c - SIZE);
+        if (apply_option(o, ended, c, optarg, err)) return -1;
+    }
+    if (*ended) return 0;
     if (optind < argc)
-        return fl_fail(err, FL_USAGE, "\"%.60s\" was not expected, voronoi-ice reads no file", argv[optind]);
+        return fl_fail(err, FL_USAGE, "\"%.60s\" is not expected, voronoi-ice reads no file", argv[optind]);
     if (o->certificate && strcmp(o->certificate, "-") == 0 && strcmp(o->out, "-") == 0)
         return fl_fail(err, FL_USAGE,
-                       "--certificate - and the field both go to standard output: -o is wanted");
+                       "--certificate - and the field both go to standard output: -o is expected");
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
-    if (check_lattice(o, err) || check_water(o, err) || check_graded(o, err) || check_piles(o, err) ||
-        check_bonded(o, err))
+    if (select_generator(o, given, all, err) || check_water(o, given, err) || check_graded(o, given, err) ||
+        check_layers(o, given, err) || check_ridges(o, given, err) || check_bonded(o, given, err))
         return -1;
     if (!(o->ice_density < o->water_density))
         return fl_fail(err, FL_USAGE, "--ice-density %g is not below --water-density %g: the floes sink",
                        o->ice_density, o->water_density);
     return 0;
-}
-
-static void add_numbers(fl_history_line *by, const char *option, char divide, int n, const double *x)
-{
-    char text[9][FL_NUMBER_LEN], all[9 * (FL_NUMBER_LEN + 1) + 1] = "";
-    for (int k = 0; k < n; k++) {
-        const size_t at = strlen(all);
-        snprintf(all + at, sizeof all - at, "%s%.1s", fl_number_text(x[k], text[k]),
-                 k + 1 < n ? &divide : "");
-    }
-    fl_history_line_add(by, "%s%s", option, all);
-}
-
-static void add_pair(fl_history_line *by, const char *option, char divide, fl_vec2 p)
-{
-    add_numbers(by, option, divide, 2, (const double[]){p.x, p.y});
-}
-
-void options_id(struct options *o, const fl_ice_field *field)
-{
-    if (!o->id || strcmp(o->id, "auto") != 0) return;
-    snprintf(o->id_made, sizeof o->id_made, "%016llx", (unsigned long long)fl_ice_field_hash(field));
-    o->id = o->id_made;
-}
-
-static void add_grade(fl_history_line *by, const struct options *o)
-{
-    char text[FL_NUMBER_LEN], option[FL_NUMBER_LEN + 16];
-    snprintf(option, sizeof option, "--grade %s:", fl_number_text(o->grade_angle, text));
-    if (o->grade_file) fl_history_line_word(by, option, o->grade_file);
-    else add_numbers(by, option, ',', 2, o->grade);
-}
-
-void options_by(const struct options *o, fl_history_line *by)
-{
-    fl_history_line_start(by, "voronoi-ice");
-    if (o->id) fl_history_line_add(by, "--id %s", o->id);
-    if (o->outline) fl_history_line_word(by, "--outline ", o->outline);
-    else if (o->disc[0] > 0.0) add_numbers(by, "--outline disc:", ',', 3, o->disc);
-    else {
-        add_pair(by, "--size ", 'x', o->size);
-        add_pair(by, "--origin ", ',', o->origin);
-    }
-    if (o->lattice >= 0) {
-        fl_history_line_add(by, "--lattice %s --layers %d", LATTICES[o->lattice], o->layers);
-        add_numbers(by, "--diameter ", ',', 1, &o->diameter);
-    } else {
-        fl_history_line_add(by, "--floes %d", o->floes);
-        if (o->sizes) fl_history_line_word(by, "--sizes ", o->sizes);
-        if (o->graded) add_grade(by, o);
-        else if (!o->bonded) add_numbers(by, "--concentration ", ',', 1, &o->concentration);
-        fl_history_line_word(by, "--thickness ", o->thickness_law);
-        add_numbers(by, "--radius ", ',', 1, &o->radius);
-        fl_history_line_add(by, "--seed %llu", (unsigned long long)o->seed);
-        fl_history_line_add(by, "--smooth %d", o->smooth);
-    }
-    if (o->lattice < 0 && o->layers > 1) fl_history_line_add(by, "--layers %d", o->layers);
-    if (o->rubble) fl_history_line_add(by, "--rubble");
-    for (int k = 0; k < o->ridges; k++) add_numbers(by, "--ridge ", ',', 9, o->ridge[k]);
-    if (o->ridges && o->block > 0.0) add_numbers(by, "--block ", ',', 1, &o->block);
-    if (o->ridges) add_numbers(by, "--porosity ", ',', 1, &o->porosity);
-    if (o->pancakes) fl_history_line_add(by, "--pancakes %d", o->pancakes);
-    if (o->bonded) fl_history_line_add(by, "--bonded");
-    if (o->periodic[0] || o->periodic[1])
-        fl_history_line_add(by, "--periodic %s%s", o->periodic[0] ? "x" : "", o->periodic[1] ? "y" : "");
-    fl_history_line_add(by, "--material %s", o->material);
-    add_numbers(by, "--ice-density ", ',', 1, &o->ice_density);
-    add_numbers(by, "--water-density ", ',', 1, &o->water_density);
-    add_pair(by, "--velocity ", ',', o->velocity);
-    for (int k = 0; k < o->keep_outs; k++) {
-        const struct keep_out *s = &o->keep_out[k];
-        if (s->circle)
-            add_numbers(by, "--keep-out circle:", ',', 3, (const double[]){s->lo.x, s->lo.y, s->r});
-        else add_numbers(by, "--keep-out box:", ',', 4, (const double[]){s->lo.x, s->lo.y, s->hi.x, s->hi.y});
-    }
-    for (int k = 0; k < o->leads; k++) add_numbers(by, "--lead ", ',', 5, o->lead[k]);
-    for (int k = 0; k < o->structures; k++) fl_history_line_word(by, "--keep-out ", o->structure[k]);
-    if (o->structures) add_numbers(by, "--margin ", ',', 1, &o->margin);
 }
