@@ -10,7 +10,7 @@
 #define NEARLY_TOUCHING 1e-2
 
 typedef struct {
-    const fl_part *a, *b;
+    const fl_subsimplex *a, *b;
     int fine, found;
     double enough, slack; /* slack that is rounding, slack of *out */
     fl_gap *out;
@@ -95,7 +95,7 @@ static void try_points(search *s, int32_t i, int32_t j)
 
 static void try_vertex_edge(search *s, int32_t i, const int32_t *e, int swapped)
 {
-    const fl_part *pt = swapped ? s->b : s->a, *eg = swapped ? s->a : s->b;
+    const fl_subsimplex *pt = swapped ? s->b : s->a, *eg = swapped ? s->a : s->b;
     const fl_vec3 p = pt->v[i];
     fl_vec3 e0 = eg->v[e[0]], e1 = eg->v[e[1]];
     /* From the nearer end the offset is the smaller part of the difference that it is taken from. */
@@ -197,7 +197,7 @@ static void try_edges(search *s, const int32_t *ea, const int32_t *eb)
     offer(s, 2, ea, 2, eb, &c);
 }
 
-int fl_closest_simplex_points(const fl_part *a, const fl_part *b, double size, int fine, fl_gap *out)
+int fl_closest_simplex_points(const fl_subsimplex *a, const fl_subsimplex *b, double size, int fine, fl_gap *out)
 {
     static const int32_t side[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     const int32_t na = a->n, nb = b->n, ea = na == 3 ? 3 : na - 1, eb = nb == 3 ? 3 : nb - 1;

@@ -2,13 +2,13 @@
 /* closest_simplex.h -- nearest points of two points, segments or triangles, by closed formulae over all their parts. */
 #ifndef FL_NARROW_CLOSEST_SIMPLEX_H
 #define FL_NARROW_CLOSEST_SIMPLEX_H
-#include "narrow/gjk.h"
+#include "narrow/simplex.h"
 
 typedef struct {
     int32_t n;    /* 1 to 3 vertices */
     int32_t i[3]; /* their numbers in the core, ascending */
     fl_vec3 v[3]; /* world [m] */
-} fl_part;
+} fl_subsimplex;
 
 /* Nearest points of hull(a) and hull(b), which do not meet: vertex against triangle, edge against edge,
  * vertex against edge, vertex against vertex, each where the feet of the common normal lie inside; of all
@@ -23,6 +23,6 @@ typedef struct {
  *   size   of the pair: a length to which rounding is relative                                   [m]
  * Sets d, n, pa, pb and the features of *out, and returns 1; 0, and leaves *out, when no part has a
  * normal. */
-int fl_closest_simplex_points(const fl_part *a, const fl_part *b, double size, int fine, fl_gap *out);
+int fl_closest_simplex_points(const fl_subsimplex *a, const fl_subsimplex *b, double size, int fine, fl_gap *out);
 
 #endif

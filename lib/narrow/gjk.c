@@ -43,9 +43,9 @@ typedef struct {
 } pair;
 
 /* The vertices at[0 .. k) of c, sorted, each once; map gives their numbers in the whole core. */
-static fl_part part_of(fl_core c, int32_t k, const int32_t *at, const int32_t *map)
+static fl_subsimplex part_of(fl_core c, int32_t k, const int32_t *at, const int32_t *map)
 {
-    fl_part f = {.n = 0};
+    fl_subsimplex f = {.n = 0};
     for (int32_t p = 0; p < k; p++) {
         int32_t q = f.n;
         while (q > 0 && f.i[q - 1] > at[p]) q--;
@@ -145,7 +145,7 @@ static int answer_on(const pair *p, const planes *f, int fine, fl_gap *out)
                  : !fl_gjk_double(a, b, p->size, &s, &n, h, &out->iterations))
             return 0;
     }
-    const fl_part fa = part_of(a, direct ? a.n : s.n, direct ? first : s.a, all ? NULL : f->a.at),
+    const fl_subsimplex fa = part_of(a, direct ? a.n : s.n, direct ? first : s.a, all ? NULL : f->a.at),
                   fb = part_of(b, direct ? b.n : s.n, direct ? first : s.b, all ? NULL : f->b.at);
     return fl_closest_simplex_points(&fa, &fb, p->size, fine, out);
 }
@@ -288,7 +288,7 @@ static int settle(const pair *p, fl_vec3 n, const fl_support_heights *h, const f
 /* What the walk in pairs of doubles found, with the vertices of its simplex as features. */
 static void own_answer(const pair *p, const fl_simplex *s, const fl_gap *own, fl_gap *out)
 {
-    const fl_part a = part_of(p->a, s->n, s->a, NULL), b = part_of(p->b, s->n, s->b, NULL);
+    const fl_subsimplex a = part_of(p->a, s->n, s->a, NULL), b = part_of(p->b, s->n, s->b, NULL);
     *out = *own;
     out->na = a.n;
     out->nb = b.n;

@@ -3,7 +3,7 @@
  * in doubles. */
 #ifndef FL_NARROW_GJK_DOUBLE_H
 #define FL_NARROW_GJK_DOUBLE_H
-#include "narrow/gjk.h"
+#include "narrow/simplex.h"
 
 /* Rounding of a comparison of two support heights: the dot product of a unit vector and a difference has an
  * error of at most 3 units of 2^-53 of the extent, on either core. */
@@ -13,12 +13,6 @@
  * simplex of extent E carries a rounding of a few 2^-53 E, so its direction one of a few 2^-53 E / d: at
  * 1e-4 E some 1e-12 rad. */
 #define FL_GJK_DD_BELOW 1e-4
-
-/* Up to four vertex differences w[k] = a.v[a[k]] - b.v[b[k]], each pair once. */
-typedef struct {
-    int32_t n, a[4], b[4];
-    fl_vec3 w[4];
-} fl_simplex;
 
 /* Cores of up to this many vertices are looked at whole. */
 enum { FL_CORE_SMALL = 64 };

@@ -6,6 +6,7 @@
 #include "geom/quadrature_rules.h"
 #include "patch/cone_side.h"
 #include "patch/edge_integral.h"
+#include "patch/patch_law.h"
 
 /* Most pieces of an edge: 2 by each threefold way up to 1e9, and a few. */
 enum { BREAKS = 64 };

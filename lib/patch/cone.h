@@ -19,13 +19,8 @@
  * and bunched where s ends. */
 #ifndef FL_PATCH_CONE_H
 #define FL_PATCH_CONE_H
-#include "patch/patch_points.h"
-
-/* Between the disc of radius r0 about the origin and that of radius r1 about (0, 0, h); h > 0, r0, r1 >= 0.
- * [m] */
-typedef struct {
-    double r0, r1, h;
-} fl_truncated_cone;
+#include "patch/cone_profile.h"
+#include "patch/patch_types.h"
 
 /* Largest n.x over it. */
 double fl_cone_support(const fl_truncated_cone *c, fl_vec3 n);

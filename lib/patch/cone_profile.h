@@ -4,7 +4,13 @@
 #ifndef FL_PATCH_CONE_PROFILE_H
 #define FL_PATCH_CONE_PROFILE_H
 #include <stdint.h>
-#include "patch/cone.h"
+#include "geom/vec3.h"
+
+/* Between the disc of radius r0 about the origin and that of radius r1 about (0, 0, h); h > 0, r0, r1 >= 0.
+ * [m] */
+typedef struct {
+    double r0, r1, h;
+} fl_truncated_cone;
 
 /* The frustum there, the radius R of what meets it, normal and length of the slant side. */
 typedef struct {

@@ -3,7 +3,7 @@
  * the places they become. */
 #ifndef FL_PATCH_CONE_SUM_H
 #define FL_PATCH_CONE_SUM_H
-#include "patch/patch_points.h"
+#include "patch/patch_types.h"
 
 /* What is summed over a face or an edge: u and its derivatives; the force, its moment about o, and the
  * couple; places weighed by du, along x and y. */

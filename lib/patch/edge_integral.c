@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "patch/edge_integral.h"
+#include "patch/patch_law.h"
 #include <assert.h>
 #include <math.h>
 #include <stddef.h>

@@ -12,7 +12,7 @@
 #ifndef FL_PATCH_EDGE_INTEGRAL_H
 #define FL_PATCH_EDGE_INTEGRAL_H
 #include "base/simd.h"
-#include "patch/patch_points.h"
+#include "patch/patch_types.h"
 
 enum { FL_EDGE_CURVED_NODES = 10 };
 

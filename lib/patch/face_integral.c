@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "patch/face_integral.h"
 #include <math.h>
 #include "base/array.h"
 #include "base/simd.h"
-#include "patch/face_integral.h"
+#include "geom/quadrature_rules.h"
 #include "narrow/overlap.h"
 
 #define SAME 1e-13 /* of the size: how far below the other's plane still counts as on it */
@@ -10,19 +11,6 @@
 #define NOTHING 1e-13
 #define ALIKE 0.5 /* what holds for integrals is taken to hold for their sums above this */
 #define SLIM 4.0  /* cotangent of half the angle of a corner */
-
-enum { NODES = 3 };
-
-/* Gauss' three points on [0, 1] */
-static const double GAUSS[NODES] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
-static const double GAUSS_WEIGHT[NODES] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-
-/* and four, for s^4 times the fade times the way along a side */
-enum { SIDE_NODES = 4 };
-static const double SIDE[SIDE_NODES] = {0.06943184420297371239, 0.33000947820757186760,
-                                        0.66999052179242813240, 0.93056815579702628761};
-static const double SIDE_WEIGHT[SIDE_NODES] = {0.17392742256872692869, 0.32607257743127307131,
-                                               0.32607257743127307131, 0.17392742256872692869};
 
 /* A corner of F over the plane of f: plane coordinates and overlap; the side that starts here is part of F's
  * own rim (1) or not (0). */
@@ -92,10 +80,10 @@ static inline __attribute__((always_inline)) void fan(sums *q, const piece *p, c
                   cross = FL_SIMD_MASKED(valid, p->x * p->dy - p->y * p->dx);
     const fl_simd from = FL_SIMD_MASKED(valid, p->s), end = FL_SIMD_MASKED(valid, p->s + p->ds), zero = {0};
     fl_simd sum = zero;
-    for (int k = 0; k < NODES; k++) {
-        const double z = GAUSS[k];
+    for (int k = 0; k < FL_LINE3_NODES; k++) {
+        const double z = FL_LINE3_NODE[k];
         const fl_simd B = p->s + z * p->ds, x = p->x + z * p->dx, y = p->y + z * p->dy;
-        const fl_simd share = GAUSS_WEIGHT[k] * cross;
+        const fl_simd share = FL_LINE3_WEIGHT[k] * cross;
         fl_simd c = share, i0, i1, i2, j;
         if (faded) {
             c *= p->w + z * p->dw;
@@ -164,10 +152,10 @@ static inline __attribute__((always_inline)) void along(const piece *p, const fl
                                                         fl_simd *all, fl_simd *far)
 {
     fl_simd sum = {0}, more = {0};
-    for (int k = 0; k < SIDE_NODES; k++) {
-        const double z = SIDE[k];
+    for (int k = 0; k < FL_LINE4_NODES; k++) {
+        const double z = FL_LINE4_NODE[k];
         const fl_simd s = p->s + z * p->ds, s2 = s * s;
-        const fl_simd c = SIDE_WEIGHT[k] * *dt * (p->w + z * p->dw) * s2 * s2;
+        const fl_simd c = FL_LINE4_WEIGHT[k] * *dt * (p->w + z * p->dw) * s2 * s2;
         sum += c;
         more += c * (*t0 + z * *dt);
     }

@@ -12,7 +12,7 @@
  * it: two more terms of the gradient, which have no energy of their own. */
 #ifndef FL_PATCH_FACE_INTEGRAL_H
 #define FL_PATCH_FACE_INTEGRAL_H
-#include "patch/patch_points.h"
+#include "patch/patch_types.h"
 
 #define FL_FACE_PAIR_COSINE 0.86602540378443865 /* of the angle between faces beyond which there is no area */
 

@@ -8,7 +8,7 @@
  * to ask for that again. */
 #ifndef FL_PATCH_FEATURE_FILTER_H
 #define FL_PATCH_FEATURE_FILTER_H
-#include "patch/patch_points.h"
+#include "patch/patch_types.h"
 
 /* What is asked: features of `own`, with the reach R above the other's, `behind` below its faces, and the
  * margin [m]; faces whose normals meet by an angle whose cosine is not above `turned`. */

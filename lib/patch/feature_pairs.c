@@ -5,7 +5,6 @@
 #include "patch/feature_pairs.h"
 #include "base/array.h"
 #include "patch/face_integral.h"
-#include "patch/mesh_under_face.h"
 #include "patch/edge_integral.h"
 #include "patch/feature_filter.h"
 
@@ -566,6 +565,24 @@ int fl_feature_pairs_build(fl_feature_pairs *l, fl_patch_points *w, const fl_pat
     return 0;
 }
 
+int fl_feature_pairs_transform(fl_patch_points *w, const fl_feature_pairs *l, const fl_poly *a, fl_mat3 M,
+                               fl_vec3 o)
+{
+    if (fl_patch_points_reserve_core(w, a)) return -1;
+    w->M = M, w->o = o;
+    const void *whole = fl_feature_pairs_integers(l);
+    const int32_t from = l->vertices[0] + l->vertices[1];
+    for (int32_t k = from; k < from + l->used_vertices; k++) {
+        const int32_t v = fl_feature_integer(whole, l->width, k);
+        w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
+    }
+    for (int32_t k = from + l->used_vertices; k < from + l->used_vertices + l->used_faces; k++) {
+        const int32_t f = fl_feature_integer(whole, l->width, k);
+        w->na[f] = m3_mul(M, a->n[f]);
+    }
+    return 0;
+}
+
 void fl_feature_draft_free(draft *d)
 {
     if (!d) return;
@@ -578,7 +595,6 @@ void fl_feature_draft_free(draft *d)
 void fl_feature_pairs_free(fl_feature_pairs *l)
 {
     free(l->block), free(l->candidate);
-    fl_mesh_under_face_free(l->under_face);
     *l = (fl_feature_pairs){0};
 }
 

@@ -15,7 +15,7 @@
 #define FL_PATCH_FEATURE_PAIRS_H
 #include <stdint.h>
 #include "base/simd.h"
-#include "patch/patch_points.h"
+#include "patch/patch_types.h"
 
 typedef enum {
     FL_PAIR_VERTEX_FACE,
@@ -32,6 +32,14 @@ typedef struct {
     fl_vec3 g;
     double c;
 } fl_core_plane;
+
+/* Direction constant: a plane is shifted by this much before a point is compared with it, so that a point
+ * exactly on it is on the same side for every query.  Far below rounding of any distance; the three irrational
+ * factors keep it from being 0 for planes along an axis or a diagonal. */
+FL_SIMD_INLINE double fl_plane_tie_offset(fl_vec3 g)
+{
+    return 1e-300 * (0.5772156649 * g.x + 0.4342944819 * g.y + 0.6931471806 * g.z);
+}
 
 /* A list lies in one block: planes, numbers, and whole numbers of 8 bits each, or of 16 or 32 where one of
  * them would not fit.  Planes of two bodies are not kept, which would be more than half of a list: what they
@@ -172,11 +180,6 @@ static inline int fl_feature_pairs_valid(fl_feature_pairs *l, const fl_mat3 *M, 
 /* Enter of A what the list speaks of, as fl_patch_points_transform().  -1 when memory runs out. */
 int fl_feature_pairs_transform(fl_patch_points *w, const fl_feature_pairs *l, const fl_poly *a, fl_mat3 M,
                                fl_vec3 o);
-
-/* The places of all that is listed, added to w, where A has been entered.  rim_a, rim_b: widths of the fading
- * rims of the faces of A, of B [m].  -1 when memory runs out. */
-int fl_feature_pairs_evaluate(fl_patch_points *w, const fl_feature_pairs *l, const fl_patch_core *A,
-                              const fl_patch_core *B, double R, double behind, double rim_a, double rim_b);
 
 /* Planes of one way where they are not kept; p: the core that they are of, out: [cuts[way]]. */
 void fl_feature_pairs_make_planes(const fl_feature_pairs *l, int way, const fl_poly *p, fl_core_plane *out);

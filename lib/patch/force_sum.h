@@ -18,7 +18,7 @@
 #ifndef FL_PATCH_FORCE_SUM_H
 #define FL_PATCH_FORCE_SUM_H
 #include "base/simd.h"
-#include "patch/patch_points.h"
+#include "patch/patch_types.h"
 #include "patch/stiffness_bound.h"
 
 /* Force and moment. */

@@ -34,7 +34,7 @@ static int kind_of(int32_t head, int32_t sides)
 static void put_plane(fl_mesh_edge_four *h, int32_t lane, int32_t k, const fl_core_plane *p, double sign)
 {
     const fl_core_plane none = {{0.0, 0.0, 0.0}, -1.0}, *of = p ? p : &none;
-    const double hair = 1e-300 * (0.5772156649 * of->g.x + 0.4342944819 * of->g.y + 0.6931471806 * of->g.z);
+    const double hair = fl_plane_tie_offset(of->g);
     const double all[NUMBERS] = {of->g.x, of->g.y, of->g.z, of->c, hair};
     for (int i = 0; i < NUMBERS; i++) h->plane[k][i][lane] = sign * all[i];
 }

@@ -8,6 +8,7 @@
 #include "patch/mesh_under_face_clip.h"
 #include "patch/edge_integral.h"
 #include "patch/mesh_under_face_sum.h"
+#include "patch/patch_law.h"
 
 /* A feature of B under F; corners of faces and ends of edges are numbers of the footing's vertices. */
 typedef fl_under_face_facet tile;
@@ -617,6 +618,12 @@ void fl_mesh_under_face_free(fl_mesh_under_face *o)
         free(o->x), free(o->row), free(o->mine), free(o->others), free(o->four), free(o->of_four),
         free(o->end), free(o->cut[0]), free(o->cut[1]);
     free(o);
+}
+
+void fl_mesh_under_face_free_pairs(fl_feature_pairs *l)
+{
+    fl_mesh_under_face_free(l->under_face);
+    fl_feature_pairs_free(l);
 }
 
 void fl_mesh_under_face_work_free(fl_mesh_under_face_work *room)

@@ -59,6 +59,9 @@ int fl_mesh_under_face_evaluate(fl_patch_points *w, const fl_feature_pairs *l, f
                                 const fl_patch_core *A, const fl_patch_core *B, double R, double behind,
                                 double rim, fl_feature_pairs *rest);
 
+/* Frees l and what fl_mesh_under_face_list() has stored in it; leaves a zeroed struct. */
+void fl_mesh_under_face_free_pairs(fl_feature_pairs *l);
+
 void fl_mesh_under_face_free(fl_mesh_under_face *o); /* takes NULL */
 void fl_mesh_under_face_work_free(fl_mesh_under_face_work *work);
 

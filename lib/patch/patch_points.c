@@ -1,18 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "patch/patch_points.h"
 #include <math.h>
 #include "base/array.h"
-#include "base/pi.h"
+#include "patch/edge_integral.h"
 #include "patch/face_integral.h"
 #include "patch/feature_pairs.h"
-#include "patch/edge_integral.h"
-
-int fl_patch_points_reserve_core(fl_patch_points *w, const fl_poly *a)
-{
-    return fl_reserve(&w->va, &w->va_cap, a->nv, sizeof *w->va) ||
-                   fl_reserve(&w->na, &w->na_cap, a->nf, sizeof *w->na)
-               ? -1
-               : 0;
-}
+#include "patch/plane_distances.h"
 
 int fl_patch_points_transform(fl_patch_points *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
 {
@@ -21,39 +14,6 @@ int fl_patch_points_transform(fl_patch_points *w, const fl_poly *a, fl_mat3 M, f
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
     for (int32_t f = 0; f < a->nf; f++) w->na[f] = m3_mul(M, a->n[f]);
     return 0;
-}
-
-int fl_patch_points_grow(fl_patch_points *w)
-{
-    return fl_reserve(&w->point, &w->point_cap, (int64_t)w->n + 1, sizeof *w->point);
-}
-
-int fl_patch_points_add_vertex(fl_patch_points *w, const fl_patch_core *own, double other, int32_t v,
-                               fl_vec3 n, double overlap)
-{
-    const double sharp = fl_poly_corner_angle(own->p, v) * FL_PATCH_CORNER_WEIGHT, s2 = overlap * overlap;
-    const double k = (sharp < 1.0 ? sharp : 1.0) * FL_PATCH_ROUND_FACTOR * (0.4 * PI) *
-                     fl_patch_feature_radius(own->r, other);
-    if (!(k > 0.0)) return 0;
-    fl_patch_point *const to = fl_patch_points_next(w);
-    if (!to) return -1;
-    const fl_vec3 across = v3_scale(own->side, n);
-    *to = (fl_patch_point){.overlap = overlap,
-                           .u = k * s2 * s2 * overlap,
-                           .du = 5.0 * k * s2 * s2,
-                           .ddu = 20.0 * k * s2 * overlap,
-                           .n = across,
-                           .unit_normal = across,
-                           .p = v3_madd(own->v[v], 0.5 * overlap - own->r, n)};
-    return 0;
-}
-
-int fl_patch_points_add_plain(fl_patch_points *w, fl_vec3 x, fl_vec3 n, double overlap, double ra)
-{
-    return fl_patch_points_add(
-        w,
-        (fl_patch_point){
-            .overlap = overlap, .du = 1.0, .n = n, .unit_normal = n, .p = v3_madd(x, 0.5 * overlap - ra, n)});
 }
 
 /* The features of a core with a point below `limit` along n. */
@@ -77,12 +37,6 @@ static int in_reach(fl_feature_set *r, const fl_patch_core *a, fl_vec3 n, double
         if (near) r->face[r->faces++] = f;
     }
     return 0;
-}
-
-void fl_feature_set_free(fl_feature_set *r)
-{
-    free(r->vertex), free(r->edge), free(r->face);
-    *r = (fl_feature_set){0};
 }
 
 static int list_matches(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B, double R,

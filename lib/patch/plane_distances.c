@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "patch/plane_distances.h"
 #include <math.h>
 #include <stddef.h>
 #include "base/array.h"
 #include "base/simd.h"
-#include "patch/face_integral.h"
-#include "patch/feature_pairs.h"
 #include "patch/edge_integral.h"
+#include "patch/face_integral.h"
+#include "patch/patch_law.h"
 
 /* Of how far things are and how large: what rounding makes of a distance from a plane. */
 #define NEAR 4e-15
@@ -21,7 +22,7 @@ FL_SIMD_VERSIONS static void heights(const fl_core_plane *cut, const int32_t *li
     for (int32_t c = 0; c < rows; c++) {
         const int32_t k = list ? list[c] : c;
         const fl_core_plane p = cut[k];
-        const double hair = 1e-300 * (0.5772156649 * p.g.x + 0.4342944819 * p.g.y + 0.6931471806 * p.g.z);
+        const double hair = fl_plane_tie_offset(p.g);
         const double on = near * (fabs(p.g.x) + fabs(p.g.y) + fabs(p.g.z));
         for (int32_t v = 0; v < columns; v += FL_SIMD_WIDTH) {
             const fl_simd X = *(const fl_simd *)(x + v), Y = *(const fl_simd *)(y + v);
@@ -210,24 +211,6 @@ INLINE int face(const meeting *q, row r, int wide, int32_t sides)
     }
     return fl_face_integral_over_face(q->w, q->own, get(r, wide, FL_ROW_OWN), q->other,
                                       get(r, wide, FL_ROW_OTHER), q->R, q->behind, q->rim);
-}
-
-int fl_feature_pairs_transform(fl_patch_points *w, const fl_feature_pairs *l, const fl_poly *a, fl_mat3 M,
-                               fl_vec3 o)
-{
-    if (fl_patch_points_reserve_core(w, a)) return -1;
-    w->M = M, w->o = o;
-    const void *whole = fl_feature_pairs_integers(l);
-    const int32_t from = l->vertices[0] + l->vertices[1];
-    for (int32_t k = from; k < from + l->used_vertices; k++) {
-        const int32_t v = fl_feature_integer(whole, l->width, k);
-        w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
-    }
-    for (int32_t k = from + l->used_vertices; k < from + l->used_vertices + l->used_faces; k++) {
-        const int32_t f = fl_feature_integer(whole, l->width, k);
-        w->na[f] = m3_mul(M, a->n[f]);
-    }
-    return 0;
 }
 
 INLINE int all_rows(const meeting way[2], const fl_feature_pairs *l, int wide)

@@ -3,6 +3,8 @@
 #include "base/array.h"
 #include "structure/mesh_contact.h"
 #include "narrow/closest_point.h"
+#include "patch/patch_law.h"
+#include "patch/plane_distances.h"
 
 /* Two distances within this fraction of the size are one: rounding of the coordinates. */
 #define SAME 1e-12
