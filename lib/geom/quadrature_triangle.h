@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* quadrature_triangle.h -- means over a triangle of powers of s, which is linear in it, four triangles at a time.
+/* quadrature_triangle.h -- means over a triangle of powers of s, which is linear in it, four triangles at a
+ * time.
  *
  * With s = a, b, c at the corners they are complete symmetric sums h_k of degree k, in which no number is
  * subtracted:

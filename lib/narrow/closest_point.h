@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* closest_point.h -- nearest points of simple things: a point and a convex polyhedron, two segments, a point and a
- * truncated cone.  Distances are signed where the thing has an inside. */
+/* closest_point.h -- nearest points of simple things: a point and a convex polyhedron, two segments, a point
+ * and a truncated cone.  Distances are signed where the thing has an inside. */
 #ifndef FL_NARROW_CLOSEST_POINT_H
 #define FL_NARROW_CLOSEST_POINT_H
 #include "geom/poly.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* closest_simplex.h -- nearest points of two points, segments or triangles, by closed formulae over all their parts. */
+/* closest_simplex.h -- nearest points of two points, segments or triangles, by closed formulae over all their
+ * parts. */
 #ifndef FL_NARROW_CLOSEST_SIMPLEX_H
 #define FL_NARROW_CLOSEST_SIMPLEX_H
 #include "narrow/simplex.h"

@@ -34,17 +34,16 @@ typedef struct {
 /* Two letters and a nul: "VV" .. "FF"; "--" for FL_MODE_NONE. */
 const char *fl_mode_name(fl_mode mode);
 
-/* The contact of a and b at whatever distance.
- *   before   the mode this pair had last time, FL_MODE_NONE for a new pair: a parallel mode is entered below
+/* The contact of a and b at whatever distance. before   the mode this pair had last time, FL_MODE_NONE for a
+ * new pair: a parallel mode is entered below
  *            FL_PARALLEL_ENTER and left above FL_PARALLEL_LEAVE
- *   cache    as for fl_gjk, may be NULL;   count   as for fl_penetration_find, may be NULL
+ * cache    as for fl_gjk, may be NULL;   count   as for fl_penetration_find, may be NULL
  *
- * n is the direction of least distance (fl_gjk) or of least penetration (fl_penetration_find).  On each side a face
- * or an edge that touches the nearest vertices counts when its angle to the plane across n is within the
- * tolerance.  Tried in this order, with the features projected along n: two faces with an area in common
- * (FF), an edge with a length inside a face (EF), two edges parallel within the tolerance with a length
- * in common (EP).  When none is found the mode is that of the nearest features (VV VE VF EE).  Cannot
- * fail. */
+ * n is the direction of least distance (fl_gjk) or of least penetration (fl_penetration_find).  On each side
+ * a face or an edge that touches the nearest vertices counts when its angle to the plane across n is within
+ * the tolerance.  Tried in this order, with the features projected along n: two faces with an area in common
+ * (FF), an edge with a length inside a face (EF), two edges parallel within the tolerance with a length in
+ * common (EP).  When none is found the mode is that of the nearest features (VV VE VF EE).  Cannot fail. */
 void fl_contact_find(const fl_solid *a, const fl_solid *b, fl_mode before, fl_gjk_cache *cache,
                      fl_penetration_count *count, fl_contact *out);
 

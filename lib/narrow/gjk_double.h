@@ -35,13 +35,12 @@ typedef struct {
     double low, of[FL_CORE_SMALL];
 } fl_support_heights;
 
-/* The vertices within band of the lowest along dir, ascending, and above[], how far each is above it.
- * What is below a height is in one piece on a convex body, so where edges are known only that piece and its
+/* The vertices within band of the lowest along dir, ascending, and above[], how far each is above it. What is
+ * below a height is in one piece on a convex body, so where edges are known only that piece and its
  * neighbours are looked at, from vertex `from` on; a little more of it than the band, so that no dent that
- * fl_poly_make() lets pass hides a lower vertex.
- *   h      heights along dir, or NULL
- *   clear  out: no vertex is as near as this to the border of the band                         [m]
- * Returns how many, or FL_CORE_SMALL + 1 for more than FL_CORE_SMALL, and then at and above are not filled. */
+ * fl_poly_make() lets pass hides a lower vertex. h      heights along dir, or NULL clear  out: no vertex is
+ * as near as this to the border of the band                         [m] Returns how many, or FL_CORE_SMALL +
+ * 1 for more than FL_CORE_SMALL, and then at and above are not filled. */
 int32_t fl_core_support_band(fl_core c, fl_vec3 dir, const fl_support_heights *h, int32_t from, double band,
                              int32_t *at, double *above, double *clear);
 
@@ -53,12 +52,10 @@ void fl_simplex_start(fl_simplex *s, fl_core a, fl_core b, const fl_gjk_cache *c
 int fl_simplex_has(int32_t n, const int32_t *a, const int32_t *b, int32_t i, int32_t j);
 
 /* From simplex s to the nearest point of hull(a) - hull(b) to the origin; s ends as the points that carry it.
- *   size    sum of the extents                                                                  [m]
- *   n       out: unit vector to that point
- *   h[2]    out: heights of a along n, of b along -n
- *   steps   counts the supports
- * Returns 1; or 0 when doubles cannot tell: the cores may meet, are nearer than FL_GJK_DD_BELOW size, or there
- * was no end after 64 supports.  s is good to go on from either way. */
+ * size    sum of the extents                                                                  [m] n
+ * out: unit vector to that point h[2]    out: heights of a along n, of b along -n steps   counts the supports
+ * Returns 1; or 0 when doubles cannot tell: the cores may meet, are nearer than FL_GJK_DD_BELOW size, or
+ * there was no end after 64 supports.  s is good to go on from either way. */
 int fl_gjk_double(fl_core a, fl_core b, double size, fl_simplex *s, fl_vec3 *n, fl_support_heights *h,
                   int32_t *steps);
 

@@ -39,12 +39,12 @@ typedef struct {
  *     depth = min over unit n of  max_b n.y - min_a n.x .
  * For polyhedra the minimum is attained at a face normal of a or b or at the cross product of an edge of
  * each; all are tried when ea eb <= 2^20, the edge pairs being thinned by the test that their arcs on the
- * Gauss sphere cross (Gregorius 2013).  Beyond that the faces are tried, and the direction that libccd's
- * MPR proposes (cores scaled to unit size about the centre of the pair, support calls capped) is carried
- * to the exact direction of the facet it belongs to.  libccd is asked in both cases and checked: see
- * fl_penetration_count. Points, segments and flat polygons are allowed.  Equal minima go to the direction that
- * points from the centre of b to that of a, then to the first in the order faces of a, faces of b, edges:
- * coincident bodies get one direction, always the same. Cannot fail.  Together with fl_gjk the signed
+ * Gauss sphere cross (Gregorius 2013).  Beyond that the faces are tried, and the direction that libccd's MPR
+ * proposes (cores scaled to unit size about the centre of the pair, support calls capped) is carried to the
+ * exact direction of the facet it belongs to.  libccd is asked in both cases and checked: see
+ * fl_penetration_count. Points, segments and flat polygons are allowed.  Equal minima go to the direction
+ * that points from the centre of b to that of a, then to the first in the order faces of a, faces of b,
+ * edges: coincident bodies get one direction, always the same. Cannot fail.  Together with fl_gjk the signed
  * distance (d, or -depth) is continuous through zero. */
 void fl_penetration_find(const fl_solid *a, const fl_solid *b, fl_penetration_count *count,
                          fl_penetration *out);

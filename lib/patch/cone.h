@@ -2,8 +2,8 @@
 /* cone.h -- the places of a dilated convex core on a solid truncated cone, which is exact: no polygon.
  *
  * The frustum C is smooth or a rim everywhere, so that it has no features of its own: what d(x), the signed
- * distance from C, says on the surface of the core A is all of the potential of patch_points.h, as over a plane.
- * With s = R - d, U is the sum over A of
+ * distance from C, says on the surface of the core A is all of the potential of patch_points.h, as over a
+ * plane. With s = R - d, U is the sum over A of
  *     faces F      int m(c) s^4 dA,     c = -n_F.n(x),  n = grad d,  m = (4 c^2 - 3)^2, 0 beyond 30 degrees
  *     edges        w L (256/315) sqrt(2 R) int s^(9/2) dl
  *     vertices     w L (2 pi/5) R s^5
@@ -25,9 +25,8 @@
 /* Largest n.x over it. */
 double fl_cone_support(const fl_truncated_cone *c, fl_vec3 n);
 
-/* Add all places of core a, radius ra, after fl_patch_points_transform() into the frame of the frustum, to w->place and
- * w->couple.  -1 when memory runs out.
- */
+/* Add all places of core a, radius ra, after fl_patch_points_transform() into the frame of the frustum, to
+ * w->place and w->couple.  -1 when memory runs out. */
 int fl_cone_evaluate(fl_patch_points *w, const fl_poly *a, const fl_truncated_cone *c, double ra);
 
 #endif

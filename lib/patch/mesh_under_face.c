@@ -422,9 +422,8 @@ static int corners_apart(const work *q, const point *p, const int32_t *list, int
     return 0;
 }
 
-/* Three places with the force, the moment and the spread of all: those of face_integral.h; and what pulls at the
- * sides.
- */
+/* Three places with the force, the moment and the spread of all: those of face_integral.h; and what pulls at
+ * the sides. */
 static int put(work *q)
 {
     static const double COS[3] = {1.0, -0.5, -0.5}, SIN[3] = {0.0, 0.86602540378443865, -0.86602540378443865};
@@ -456,7 +455,8 @@ static int put(work *q)
                                (fl_patch_point){.du = size, .n = v3_scale(1.0 / size, pull), .p = g->o});
 }
 
-/* Of the rims of a polygon the widest that leaves each side half its length, rim at most: as in face_integral.c. */
+/* Of the rims of a polygon the widest that leaves each side half its length, rim at most: as in
+ * face_integral.c. */
 static double rim_within(const fl_under_face_side *s, const double *length, int32_t n, double rim)
 {
     double last = 0.0, first = 0.0;

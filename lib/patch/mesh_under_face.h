@@ -11,8 +11,8 @@
  * h changes with a motion of A as if F pressed along its normal in x, so that all their forces have the
  * direction of -n_F: one sum has the force and the moment of a thousand faces, eight or four at a time, and
  * beside it stands the couple dU/dc n_F x n_f.  There is no rim to pull: by Gauss' theorem the pulls of the
- * sides of f in face_integral.h are what its forces along n_f lack of those along n_F.  All this is exact where f is
- * flat; corners off its plane count where they are.
+ * sides of f in face_integral.h are what its forces along n_f lack of those along n_F.  All this is exact
+ * where f is flat; corners off its plane count where they are.
  *
  * Where f lies over one side of F, with the inward normal m there and d = m.(x - p_m), it is cut:
  *     to d >= 0                       for f over F, which fades as d/rim to the side,
@@ -20,9 +20,8 @@
  * That gives forces that move with the side,
  *     m s^4/rim                            for each area of the rim,
  *     (m + n_F m.n_f/c) s^4/|grad g|       for each length of the border g = 0 there at x + n_f h/c,
- * and no more than that: one more place has their sum.
- * Edges are cut at any sides.  What is over two sides of F, or within a hair of one, is left to face_integral.h and
- * edge_integral.h.
+ * and no more than that: one more place has their sum. Edges are cut at any sides.  What is over two sides of
+ * F, or within a hair of one, is left to face_integral.h and edge_integral.h.
  *
  * What is under F is asked anew at each evaluation, and the sums run in the order of features: not a bit
  * depends on when the lists were made. */
@@ -50,11 +49,9 @@ typedef struct {
  * when memory runs out. */
 int fl_mesh_under_face_list(fl_feature_pairs *l, const fl_patch_core *A, const fl_patch_core *B);
 
-/* The places of all that lies under faces of A now, and of mesh_edge_batch.h, added to w; *rest is l without the matches
- * that this accounts for, and borrows from l and work.
- *   behind   as in feature_pairs.h [m]
- *   rim  width of the fading rims of A's faces, at most [m]
- * -1 when memory runs out. */
+/* The places of all that lies under faces of A now, and of mesh_edge_batch.h, added to w; *rest is l without
+ * the matches that this accounts for, and borrows from l and work. behind   as in feature_pairs.h [m] rim
+ * width of the fading rims of A's faces, at most [m] -1 when memory runs out. */
 int fl_mesh_under_face_evaluate(fl_patch_points *w, const fl_feature_pairs *l, fl_mesh_under_face_work *work,
                                 const fl_patch_core *A, const fl_patch_core *B, double R, double behind,
                                 double rim, fl_feature_pairs *rest);

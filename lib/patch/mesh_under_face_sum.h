@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* mesh_under_face_sum.h -- what of a surface lies under a plane face F, and sums over it, as mesh_under_face.h has them: faces that
- * are whole under F, edges and corners, four at a time.  What s = 0 or a side of F cuts is in mesh_under_face_clip.h.
+/* mesh_under_face_sum.h -- what of a surface lies under a plane face F, and sums over it, as
+ * mesh_under_face.h has them: faces that are whole under F, edges and corners, four at a time.  What s = 0 or
+ * a side of F cuts is in mesh_under_face_clip.h.
  *
  * Heights h are over F, against its normal n; x and y are places in its plane.  s = R - h, and s = R - h/c
  * for what of F lies over a face f, c = -n.n_f. */

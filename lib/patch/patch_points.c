@@ -16,8 +16,8 @@ int fl_patch_points_transform(fl_patch_points *w, const fl_poly *a, fl_mat3 M, f
     return 0;
 }
 
-/* The features of a core with a point below `limit` along n. */
-static int in_reach(fl_feature_set *r, const fl_patch_core *a, fl_vec3 n, double limit)
+/* Lists the features of a core with a point below `limit` along n. */
+static int find_features_below(fl_feature_set *r, const fl_patch_core *a, fl_vec3 n, double limit)
 {
     const fl_poly *p = a->p;
     r->vertices = r->edges = r->faces = 0;
@@ -39,29 +39,33 @@ static int in_reach(fl_feature_set *r, const fl_patch_core *a, fl_vec3 n, double
     return 0;
 }
 
-static int list_matches(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B, double R,
+static int build_feature_pairs(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B, double R,
                         fl_vec3 n, int deep, fl_feature_pairs *l)
 {
     const double margin = deep ? 0.0 : fl_feature_pairs_margin(l, R);
     double low = INFINITY, high = -INFINITY;
     for (int32_t v = 0; v < A->p->nv; v++) low = fmin(low, v3_dot(n, A->v[v]));
     for (int32_t v = 0; v < B->p->nv; v++) high = fmax(high, v3_dot(n, B->v[v]));
-    if (in_reach(&w->near_a, A, n, high + R + margin) ||
-        in_reach(&w->near_b, B, v3_neg(n), R + margin - low) ||
+    if (find_features_below(&w->near_a, A, n, high + R + margin) ||
+        find_features_below(&w->near_b, B, v3_neg(n), R + margin - low) ||
         fl_feature_pairs_build(l, w, A, &w->near_a, B, &w->near_b, R, 0.0, margin))
         return -1;
     l->separated = !deep && low - high > margin;
     return 0;
 }
 
-/* What the shift by D n adds to the gradient of U.  A place of direction m changes by
+/* Adds the derivatives of the shift D n of A to the gradient of U, D the penetration.  The overlap at a point
+ * of direction m changes by
  *     ds = dD - m.(dx + n dD + D dn)
- * and a rim by its last part: the terms with dD are a force along n at the deepest point.  A normal that is a
- * face's turns with its body, so that the places lie on the lines through that body's points where they are.
- * One of two edges turns with both: taken as B's, with
- *     D G.dn' = D/|c| w.(ea x (eb x G')),   c = ea x eb, G = sum of du m, G' = G - n (n.G), w of A against B,
- * left over, a couple. */
-static int add_depth(fl_patch_points *w, const fl_penetration *deep, double R)
+ * and that of a rim force by the second part only.
+ * - The terms with dD are a force along n at the deepest point.
+ * - A normal n of a face turns with its body.  The points then lie on the lines through the points of that
+ *   body before the shift.
+ * - A normal n across two edges turns with both bodies.  It is treated as turning with B; what remains is a
+ *   couple,
+ *     D G.dn' = D/|c| w.(ea x (eb x G')),   c = ea x eb,   G = sum of du m,   G' = G - n (n.G),
+ * with w the rotation of A against B. */
+static int add_penetration_terms(fl_patch_points *w, const fl_penetration *deep, double R)
 {
     const fl_vec3 n = deep->n;
     double sum = 0.0;
@@ -96,14 +100,14 @@ int fl_patch_points_find(fl_patch_points *w, const fl_poly *a, const fl_poly *b,
         w->o = v3_add(o, out);
     }
     if ((depth > 0.0 || !fl_feature_pairs_valid(l, &w->M, w->o)) &&
-        list_matches(w, &A, &B, R, n, depth > 0.0, l))
+        build_feature_pairs(w, &A, &B, R, n, depth > 0.0, l))
         return -1;
     if (fl_feature_pairs_evaluate(w, l, &A, &B, R, 0.0, rim, rim)) return -1;
-    if (v3_norm2(deep->n) == 0.0) return 0; /* the cores do not meet */
-    l->max_shift2 = 0.0;                    /* of cores that were moved */
+    if (v3_norm2(deep->n) == 0.0) return 0; /* the cores do not overlap */
+    l->max_shift2 = 0.0;                    /* not valid for the shifted core */
     w->o = o;
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_sub(w->va[v], out);
-    return add_depth(w, deep, R);
+    return add_penetration_terms(w, deep, R);
 }
 
 int fl_patch_points_find_listed(fl_patch_points *w, const fl_poly *a, const fl_poly *b, double ra, double rb,

@@ -13,15 +13,14 @@
  * out. */
 int fl_patch_points_transform(fl_patch_points *w, const fl_poly *a, fl_mat3 M, fl_vec3 o);
 
-/* Finds all patch points of two cores, in a fixed order, after fl_patch_points_transform().
- *   a, b    cores in their own frames
- *   ra, rb  dilation radii [m]
- *   n       unit vector from B to A in the frame of B.  It only excludes features: the points do not depend
+/* Finds all patch points of two cores, in a fixed order, after fl_patch_points_transform(). a, b    cores in
+ * their own frames ra, rb  dilation radii [m] n       unit vector from B to A in the frame of B.  It only
+ * excludes features: the points do not depend
  *           on it.  Fast where it separates the cores by nearly their distance.
- *   deep    penetration of the cores, depth 0 where they do not overlap; n is its direction then
- *   l       feature pairs of this contact, rebuilt when they are out of date
- * Cores that penetrate by D are evaluated as if A were shifted by D n, with s = R + D - d.  The derivatives of
- * D and of n add points of their own.  -1 when memory runs out. */
+ * deep    penetration of the cores, depth 0 where they do not overlap; n is its direction then l
+ * feature pairs of this contact, rebuilt when they are out of date Cores that penetrate by D are evaluated as
+ * if A were shifted by D n, with s = R + D - d.  The derivatives of D and of n add points of their own.  -1
+ * when memory runs out. */
 int fl_patch_points_find(fl_patch_points *w, const fl_poly *a, const fl_poly *b, double ra, double rb,
                          fl_vec3 n, const fl_penetration *deep, fl_feature_pairs *l);
 

@@ -63,9 +63,9 @@ typedef struct {
     fl_vec3 o;        /* origin of A */
     fl_feature_set near_a, near_b;
     fl_distance_table distances[2];
-    fl_patch_point *point;           /* [n] */
-    fl_vec3 couple;                  /* times dW/dU: moment on A besides those of the forces, minus it on B [m6] */
-    fl_vec3 *polygon;                /* scratch of face_integral.c and cone_face.c */
+    fl_patch_point *point; /* [n] */
+    fl_vec3 couple;        /* times dW/dU: moment on A besides those of the forces; minus it on B [m6] */
+    fl_vec3 *polygon;      /* scratch of face_integral.c and cone_face.c */
     void *point_lanes, *area_motion; /* scratch of force_sum.c */
     struct fl_feature_draft *draft;  /* scratch of feature_pairs.c */
     struct fl_edge_integral *edges;  /* queue of edge_integral.c */

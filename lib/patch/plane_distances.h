@@ -11,11 +11,11 @@
 /* Adds the patch points of all listed pairs to w, after A has been transformed (fl_patch_points_transform(),
  * fl_feature_pairs_transform()).
  *   R             reach: sum of the dilation radii and the penetration [m]
- *   depth_below   how far below a face its prism extends [m]
+ *   prism_depth   how far below a face its prism extends [m]
  *   rim_a, rim_b  widths of the fading rims of the faces of A and of B [m]
  * -1 when memory runs out. */
 int fl_feature_pairs_evaluate(fl_patch_points *w, const fl_feature_pairs *l, const fl_patch_core *A,
-                              const fl_patch_core *B, double R, double depth_below, double rim_a,
+                              const fl_patch_core *B, double R, double prism_depth, double rim_a,
                               double rim_b);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* stiffness_bound.h -- how stiff a contact is for one of its bodies: a bound of the square of the frequency that it
- * gives.
+/* stiffness_bound.h -- how stiff a contact is for one of its bodies: a bound of the square of the frequency
+ * that it gives.
  *
  * Motions are measured by the mass: with g = M^-1/2 (force, torque) of a unit force at a place, the stiffness
  * of the contact is the 6 by 6 matrix K = sum k g g^T, and omega^2 is its largest eigenvalue. */

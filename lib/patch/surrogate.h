@@ -190,7 +190,8 @@ static inline double fl_surrogate_max_change(double tolerance) { return 1.5 * sq
 /* Those of all threads. */
 fl_surrogate_count fl_surrogate_count_sum(const fl_surrogate_count *count, int32_t threads);
 
-/* n <= FL_SURROGATE_BATCH of them side by side; all lanes are filled, what is behind the last is one of them. */
+/* n <= FL_SURROGATE_BATCH of them side by side; all lanes are filled, what is behind the last is one of them.
+ */
 void fl_surrogate_pack(fl_surrogate_lanes *b, const fl_surrogate *const *s, int n);
 
 /* What they tell for the poses M, o of A in the frame of B, as fl_patch_points_transform() has them. */
