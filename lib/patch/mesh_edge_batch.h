@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* mesh_edge_batch.h -- edge pairs of a core A and a mesh B, evaluated four at a time: edges of A over triangles
- * and edges of B, edges of B over edges of A.
+/* mesh_edge_batch.h -- edge pairs of a core A and a mesh B, evaluated four at a time: edges of A over
+ * triangles and edges of B, edges of B over edges of A.
  *
  * The distances from the planes of a pair, the part of the edge beyond all of them and its foot on the other
  * edge are computed in SIMD registers, one pair a lane.  Pairs with a remaining part get their points from

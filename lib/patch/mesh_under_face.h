@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* mesh_under_face.h -- patch terms of a mesh of many small triangles under one face F of a core, in one sum.
  *
- * A is the core, B the mesh, n_F the normal of F, p_F a point of it, R the reach.  Where a face f of B, an edge
- * or a corner lies in the prism over F, farther from the sides of F than its fading rim is wide, F cuts
+ * A is the core, B the mesh, n_F the normal of F, p_F a point of it, R the reach.  Where a face f of B, an
+ * edge or a corner lies in the prism over F, farther from the sides of F than its fading rim is wide, F cuts
  * nothing of it and covers it whole.  Its parts of U (patch_law.h) are then integrals over f, the edge or the
  * corner, which are fixed in B, of powers of s, with h = n_F.(x - p_F):
  *     s = R - h                       of f over F, of an edge and of a corner
@@ -10,12 +10,12 @@
  *     U = 1/2 m(c) (int (R - h)^4 c dA + int (R - h/c)^4 dA) + ...
  * A motion of A changes h as if F pressed along its normal at x, so all forces have the direction -n_F.  One
  * sum has the force and the moment of a thousand faces, computed four or eight at a time, besides the couple
- * dU/dc n_F x n_f.  There is no rim force: by Gauss' theorem the rim forces of the sides of f (face_integral.h)
- * are the difference of its forces along n_f and along n_F.  All this is exact where f is flat; corners off
- * its plane count where they are.
+ * dU/dc n_F x n_f.  There is no rim force: by Gauss' theorem the rim forces of the sides of f
+ * (face_integral.h) are the difference of its forces along n_f and along n_F.  All this is exact where f is
+ * flat; corners off its plane count where they are.
  *
- * Where f lies over a side of F it is clipped.  With the inward normal m of the side, a point p_m on it and
- * d = m.(x - p_m):
+ * Where f lies over a side of F it is clipped.  With the inward normal m of the side, a point p_m on it and d
+ * = m.(x - p_m):
  *     to d >= 0                      for f over F; its weight fades as d/rim towards the side
  *     to g = d + (h/c) m.n_f >= 0    for F over f
  * The clipping adds forces that move with the side,

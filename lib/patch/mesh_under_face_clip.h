@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* mesh_under_face_clip.h -- facets of a mesh that s = 0 or a side of F cuts (mesh_under_face_sum.h).  The parts
- * that count are split into triangles and integrated four at a time. */
+/* mesh_under_face_clip.h -- facets of a mesh that s = 0 or a side of F cuts (mesh_under_face_sum.h).  The
+ * parts that count are split into triangles and integrated four at a time. */
 #ifndef FL_PATCH_MESH_UNDER_FACE_CLIP_H
 #define FL_PATCH_MESH_UNDER_FACE_CLIP_H
 #include "patch/mesh_under_face_sum.h"
