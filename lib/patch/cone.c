@@ -16,7 +16,7 @@ enum { MAX_PIECES = 64 };
  */
 #define FAR_EDGE 0.25
 
-/* Shortest piece over the length of an edge that meets the axis: shorter ones add nothing to a double. */
+/* Shortest piece over the length of the edge, where it meets the axis; it bounds the number of pieces. */
 #define SHORTEST_PIECE 1e-9
 
 double fl_cone_support(const fl_truncated_cone *c, fl_vec3 n)

@@ -13,7 +13,7 @@ enum { X, Y, H, S = H, D };
  *     ALL                       all of it
  *     IN, OUT                   the part with D >= 0; it holds the first corner only, or the two others
  *     IN_AT_SIDE, OUT_AT_SIDE   the same, the border D = 0 being a side of F: adds a side force
- *     RIM_STRIP                 the part 0 <= D <= rim, with the weight D/rim, where both lines pass between the
+ *     RIM_STRIP                 the part 0 <= D <= rim, with the weight D/rim; both lines pass between the
  *                               first corner and the others: adds a side force
  *     FADING                    all of it with the weight D/rim: adds a side force */
 enum { ALL, IN, OUT, IN_AT_SIDE, OUT_AT_SIDE, RIM_STRIP, FADING, QUEUES };
