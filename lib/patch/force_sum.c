@@ -174,8 +174,8 @@ static int32_t count_lanes(const fl_patch_points *s) { return (s->n + FL_SIMD_WI
 
 enum { AREA_POINTS = 3 }; /* points of an area */
 
-/* Approach of an area: speed `mean` at its middle, off[] more at its points, `amplitude` faster and slower at two
- * of the points of four_point_area(). */
+/* Approach of an area: speed `mean` at its middle, off[] more at its points, `amplitude` faster and slower at
+ * two of the points of four_point_area(). */
 typedef struct {
     uint32_t k; /* its first point */
     double mean, amplitude, off[AREA_POINTS];

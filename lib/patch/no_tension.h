@@ -2,7 +2,7 @@
 /* no_tension.h -- damping never turns a pressure into tension: the correction where only sums are known.
  *
  * Damping multiplies the pressure e of each point by x, of which mean and variance var are known.  If x is
- * uniform over mean +- a, and s = a - mean > 0,
+ * uniform over mean +- a, and s = a - mean > 0 is the length of the part below 0,
  *     p = mean of max(0, -x) = s^2/(4 a)
  *     q = mean of max(0, -x) (x - mean) / var = -s^2 (s/3 + mean/2)/(2 a var)
  * The part of the sums of e (n, t) that follows x is corrected along with it: by p times their mean and q

@@ -2,7 +2,7 @@
 #include "base/simd.h"
 #include "patch/stiffness_bound.h"
 
-typedef double rows[6][8];
+typedef double rows6[6][8];
 
 FL_SIMD4_VERSIONS static void add_outer_product(rows6 a, double k, fl_vec3 f, fl_vec3 t)
 {
