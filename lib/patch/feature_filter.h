@@ -3,8 +3,10 @@
  * other, and within reach of it.
  *
  * The region of a face, an edge or a vertex is bounded by planes (feature_pairs.h).  A feature of the own
- * core is rejected by the distances of its vertices from these planes: - a vertex that is below one of the
- * planes, - a face that has no corner above one of the planes, - an edge that has no point above all planes.
+ * core is rejected by the distances of its vertices from these planes:
+ *   - a vertex that is below one of the planes,
+ *   - a face that has no corner above one of the planes,
+ *   - an edge that has no point above all planes.
  * Each distance is tested with a margin, by which points may move until the next test.  Planes that all
  * vertices of a feature clear by more than a second margin need not be tested until then: they are marked. */
 #ifndef FL_PATCH_FEATURE_FILTER_H

@@ -31,14 +31,14 @@
  * error grows as the third power of the path, so reach = path (0.15 tolerance / error)^(3/8), 3/8 for 1/3; as
  * its square where t is not known, then with 1/2.  error: that of force and moment over a, over the force;
  * while the bodies approach or separate, over the force that the energy of this motion would give.  It is
- * measured at the end of each path, where it is largest.  Besides: - z changes by 3/2 tolerance^(1/4) at
- * most. - A rotation brings a corner without pressure nearer by at most a small part of the radii.  Sliding
- * convex
- *     bodies have no point deeper than predicted; rotating ones may have.
- * - A path along a plane does not count: it changes nothing. - Where an error is far above the tolerance the
- *   contact has become another one: what was learnt is dropped,
- *     and the earlier evaluations too, unless the path was far beyond its range.
- * - A contact has no surrogate where its pressures oppose each other, as in a slot: their sum is not their
+ * measured at the end of each path, where it is largest.  Besides:
+ *   - z changes by 3/2 tolerance^(1/4) at most.
+ *   - A rotation brings a corner without pressure nearer by at most a small part of the radii.  Sliding
+ *     convex bodies have no point deeper than predicted; rotating ones may have.
+ *   - A path along a plane does not count: it changes nothing.
+ *   - Where an error is far above the tolerance the contact has become another one: what was learnt is
+ *     dropped, and the earlier evaluations too, unless the path was far beyond its range.
+ *   - A contact has no surrogate where its pressures oppose each other, as in a slot: their sum is not their
  *     force.
  *
  * Energy defect.  At an exact evaluation W jumps by the error of the surrogate, as a rule with the same sign
@@ -50,8 +50,8 @@
  *
  * Stiffness for friction.  dF/ds = p (p - 1) W (dz/ds)^2/z^2 along the force and F = p W (dz/ds)/z, so dF/ds
  * goes as F^2/W.  It is multiplied by 1 + c s, at least 1/2, c from the error found at the last exact
- * evaluation over the path.  Without c friction springs lose as much over a path however many evaluations
- * divide it.
+ * evaluation over the path.  Friction springs lose energy wherever dF/ds is predicted too high; without c the
+ * loss over a path does not shrink with the number of evaluations.
  *
  * Damping and friction use the points of the last exact evaluation, with all their pressures times one factor
  * that gives the surrogate's force.  They rotate with the force, and shift to where force and moment put its
@@ -88,7 +88,7 @@ typedef struct {
 typedef struct {
     int valid; /* may be evaluated */
     int used;  /* has been evaluated since the last exact evaluation */
-    /* Of the last exact evaluation.  From here on doubles only, which fl_surrogate_pack() reads as an array. */
+    /* Of the last exact evaluation.  Doubles only from here on: fl_surrogate_pack() reads them as an array. */
     double g[6], H[21];             /* H: upper triangle                         [1/m], [1/m2] */
     double path[6], third_order[6]; /* e, t                                        [1], [1/m3] */
     double slope_trend;             /* c                                                 [1/m] */
