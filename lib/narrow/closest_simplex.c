@@ -23,9 +23,9 @@ typedef struct {
 } candidate;
 
 /* By division, not by a reciprocal: a direction along an axis comes out exact. */
-static fl_vec3 divide(fl_vec3 a, double d) { return v3(a.x / d, a.y / d, a.z / d); }
+static fl_vec3 divide_vector(fl_vec3 a, double d) { return v3(a.x / d, a.y / d, a.z / d); }
 
-static fl_ddv negate(fl_ddv a) { return (fl_ddv){dd_neg(a.x), dd_neg(a.y), dd_neg(a.z)}; }
+static fl_ddv negate_vector(fl_ddv a) { return (fl_ddv){dd_neg(a.x), dd_neg(a.y), dd_neg(a.z)}; }
 
 static fl_ddv to_dd(fl_vec3 v) { return (fl_ddv){dd_of(v.x), dd_of(v.y), dd_of(v.z)}; }
 
@@ -78,7 +78,7 @@ static void take_vertex_candidate(candidate_search *s, int32_t i, int32_t n, con
     c.pb = swapped ? p : foot;
     if (swapped) {
         c.n = v3_neg(c.n);
-        c.m = negate(c.m);
+        c.m = negate_vector(c.m);
     }
     if (swapped) take_candidate(s, n, k, 1, &i, &c);
     else take_candidate(s, 1, &i, n, k, &c);
@@ -89,7 +89,7 @@ static void try_points(candidate_search *s, int32_t i, int32_t j)
     const fl_vec3 p = s->a->v[i], q = s->b->v[j], w = v3_sub(p, q);
     const double d = v3_norm(w);
     if (!(d > 0.0)) return;
-    candidate c = {.d = d, .n = divide(w, d), .pa = p, .pb = q};
+    candidate c = {.d = d, .n = divide_vector(w, d), .pa = p, .pb = q};
     if (s->fine) c.m = ddv_diff(p, q);
     take_candidate(s, 1, &i, 1, &j, &c);
 }
@@ -121,7 +121,7 @@ static void try_vertex_edge(candidate_search *s, int32_t i, const int32_t *e, in
     if (!(t > 0.0 && t < 1.0)) return;
     c.d = v3_norm(w);
     if (!(c.d > 0.0)) return;
-    c.n = divide(w, c.d);
+    c.n = divide_vector(w, c.d);
     take_vertex_candidate(s, i, 2, e, swapped, c, p, v3_madd(e0, t, l));
 }
 
@@ -134,19 +134,19 @@ static int common_normal(const candidate_search *s, fl_vec3 e1, fl_vec3 e0, fl_v
     double h;
     if (!s->fine && v3_norm2(p) > NEARLY_PARALLEL * v3_norm2(e) * v3_norm2(g)) {
         *m = to_dd(p);
-        c->n = divide(p, v3_norm(p));
+        c->n = divide_vector(p, v3_norm(p));
         h = v3_dot(c->n, v3_sub(x, y));
     } else {
         *m = ddv_cross(ddv_diff(e1, e0), ddv_diff(g1, g0));
         const double len = v3_norm(ddv_round(*m));
         if (!(len > 0.0)) return 0;
         const fl_dd high = ddv_dot(*m, ddv_diff(x, y));
-        c->n = divide(ddv_round(*m), len);
+        c->n = divide_vector(ddv_round(*m), len);
         h = high.h / len;
     }
     c->d = fabs(h);
     if (h < 0.0) c->n = v3_neg(c->n);
-    if (s->fine) c->m = h < 0.0 ? negate(*m) : *m;
+    if (s->fine) c->m = h < 0.0 ? negate_vector(*m) : *m;
     return h != 0.0;
 }
 

@@ -29,7 +29,7 @@ static plane_point project_corner(const fl_plane_axes *t, const fl_loop *a, int3
     return project_point(t, a->v[a->loop[k]]);
 }
 
-static int32_t leftmost(const fl_plane_axes *t, const fl_loop *a, double *lo, double *hi)
+static int32_t find_leftmost(const fl_plane_axes *t, const fl_loop *a, double *lo, double *hi)
 {
     int32_t at = 0;
     *lo = *hi = project_corner(t, a, 0).x;
@@ -76,13 +76,13 @@ typedef struct {
     double a, x, y; /* area and first moments */
 } moments;
 
-static double interpolate(const double *v, double s) { return (1.0 - s) * v[0] + s * v[1]; }
+static double interpolate_linear(const double *v, double s) { return (1.0 - s) * v[0] + s * v[1]; }
 
 static strip cut_strip(const strip *t, double s0, double s1)
 {
-    return (strip){{interpolate(t->x, s0), interpolate(t->x, s1)},
-                   {interpolate(t->u, s0), interpolate(t->u, s1)},
-                   {interpolate(t->l, s0), interpolate(t->l, s1)}};
+    return (strip){{interpolate_linear(t->x, s0), interpolate_linear(t->x, s1)},
+                   {interpolate_linear(t->u, s0), interpolate_linear(t->u, s1)},
+                   {interpolate_linear(t->l, s0), interpolate_linear(t->l, s1)}};
 }
 
 static void add_open_strip(moments *sum, strip t)
@@ -122,9 +122,9 @@ static void add_strip(moments *sum, double x0, double x1, const double *ua, cons
         strip t;
         for (int e = 0; e < 2; e++) {
             const double at = s[k + e];
-            t.x[e] = interpolate((const double[2]){x0, x1}, at);
-            t.u[e] = fmin(interpolate(ua, at), interpolate(ub, at));
-            t.l[e] = fmax(interpolate(la, at), interpolate(lb, at));
+            t.x[e] = interpolate_linear((const double[2]){x0, x1}, at);
+            t.u[e] = fmin(interpolate_linear(ua, at), interpolate_linear(ub, at));
+            t.l[e] = fmax(interpolate_linear(la, at), interpolate_linear(lb, at));
         }
         add_open_strip(sum, t);
     }
@@ -133,7 +133,7 @@ static void add_strip(moments *sum, double x0, double x1, const double *ua, cons
 fl_projected_overlap fl_overlap_area(const fl_plane_axes *t, fl_loop a, fl_loop b)
 {
     double la, ha, lb, hb;
-    const int32_t ia = leftmost(t, &a, &la, &ha), ib = leftmost(t, &b, &lb, &hb);
+    const int32_t ia = find_leftmost(t, &a, &la, &ha), ib = find_leftmost(t, &b, &lb, &hb);
     const double end = fmin(ha, hb);
     double x = fmax(la, lb);
     moments sum = {0};

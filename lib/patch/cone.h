@@ -8,8 +8,8 @@
  *     face F     int m(c) s^4 dA,     c = -n_F.n(x),  n = grad d,  m = (4 c^2 - 3)^2, 0 beyond 30 degrees
  *     edge       w L (256/315) sqrt(2 R) int s^(9/2) dl
  *     vertex     w L (2 pi/5) R s^5
- * A rim, or the point of a cone, that presses into a face counts in the first term: int s^4 over its strip,
- * sqrt(2 R s) wide, is the edge term of patch_law.h.  Force and couple are the gradient,
+ * A rim, or the point of a cone, that is pressed into a face counts in the first term: int s^4 over its
+ * strip, sqrt(2 R s) wide, is the edge term of patch_law.h.  Force and couple are the gradient,
  *     f = int (4 m s^3 n + m' s^4 K n_F) dA at x,     couple int m' s^4 n_F x n dA,
  * where K = grad n is the curvature of the surface at distance d: e e / rho around the axis, times the radial
  * component of n, and 1/d in the profile plane at rims.  The domain belongs to A, so no border moves.

@@ -175,7 +175,7 @@ FL_SIMD_VERSIONS static int32_t integrate_over_faces(const fl_edge_face_lanes *f
 /* --- edges over lines and points ------------------------------------------------------------------------ */
 
 /* An edge relative to the line or point below it.  The parameter is x = t - m, where m is the point of the
- * edge part nearest to the line: d^2 = least2 + x (lean + uu x).  lean is 0 but for rounding where m is
+ * edge part nearest to the line: d^2 = least2 + x (linear + uu x).  linear is 0 but for rounding where m is
  * inside the part.  (Measured from the nearest point of the infinite line x would lose all digits when edges
  * are parallel but for rounding.)
  *     tau + t slope   foot of the edge on the other line
@@ -185,7 +185,7 @@ FL_SIMD_VERSIONS static int32_t integrate_over_faces(const fl_edge_face_lanes *f
  *     half            distance in x to where s = 0;  a: to where d is singular */
 typedef struct {
     double lo[FL_SIMD_WIDTH], hi[FL_SIMD_WIDTH], m[FL_SIMD_WIDTH], tau[FL_SIMD_WIDTH], slope[FL_SIMD_WIDTH];
-    double uu[FL_SIMD_WIDTH], lean[FL_SIMD_WIDTH], least2[FL_SIMD_WIDTH], a[FL_SIMD_WIDTH],
+    double uu[FL_SIMD_WIDTH], linear[FL_SIMD_WIDTH], least2[FL_SIMD_WIDTH], a[FL_SIMD_WIDTH],
         half[FL_SIMD_WIDTH];
     double q[3][FL_SIMD_WIDTH], u[3][FL_SIMD_WIDTH];
     double from[FL_SIMD_WIDTH], by[FL_SIMD_WIDTH];
@@ -208,10 +208,10 @@ typedef struct {
     double f[FL_SIMD_WIDTH], fx[FL_SIMD_WIDTH], fxx[FL_SIMD_WIDTH];
 } edge_sums;
 
-FL_SIMD_INLINE void distance(const fl_simd *least2, const fl_simd *lean, const fl_simd *uu, const fl_simd *x,
-                             fl_simd *d)
+FL_SIMD_INLINE void distance_at(const fl_simd *least2, const fl_simd *linear, const fl_simd *uu,
+                                const fl_simd *x, fl_simd *d)
 {
-    *d = *least2 + *x * (*lean + *uu * *x);
+    *d = *least2 + *x * (*linear + *uu * *x);
     take_square_roots(d);
 }
 
@@ -230,7 +230,7 @@ FL_SIMD_VERSIONS static void prepare_over_points(const fl_edge_point_lanes *p, d
     fl_simd m = FL_SIMD_SELECT(foot > begin, foot, begin);
     m = FL_SIMD_SELECT(m < end, m, end);
     const fl_simd3 q = FL_SIMD3_MADD(q1, m, u);
-    const fl_simd least2 = FL_SIMD3_DOT(q, q), away = FL_SIMD3_DOT(q, u), lean = 2.0 * away;
+    const fl_simd least2 = FL_SIMD3_DOT(q, q), away = FL_SIMD3_DOT(q, u), linear = 2.0 * away;
     fl_simd reserve_points = R * R - least2;
     const fl_simd_mask there = (begin < end) & (reserve_points > 0.0);
     reserve_points = FL_SIMD_MASKED(there, reserve_points);
@@ -248,8 +248,8 @@ FL_SIMD_VERSIONS static void prepare_over_points(const fl_edge_point_lanes *p, d
                        backwards = zero_hi & ~zero_lo, longer = ~(half <= EIGHT_NODES_MAX * a),
                        which = -2 * (zero_lo + zero_hi) - longer;
     fl_simd s_lo, s_hi, s_mid;
-    distance(&least2, &lean, &uu, &lo, &s_lo), distance(&least2, &lean, &uu, &hi, &s_hi);
-    distance(&least2, &lean, &uu, &mid, &s_mid);
+    distance_at(&least2, &linear, &uu, &lo, &s_lo), distance_at(&least2, &linear, &uu, &hi, &s_hi);
+    distance_at(&least2, &linear, &uu, &mid, &s_mid);
     s_lo = R - s_lo, s_hi = R - s_hi, s_mid = R - s_mid;
     const fl_simd ends = FL_SIMD_MAX(s_lo, s_hi), most = FL_SIMD_MAX(ends, s_mid);
     const fl_simd_mask near_lo = ~zero_lo & (s_lo < NEARLY_ZERO * most),
@@ -260,7 +260,7 @@ FL_SIMD_VERSIONS static void prepare_over_points(const fl_edge_point_lanes *p, d
     FL_SIMD_STORE(out->from) = FL_SIMD_SELECT(backwards, to, from), FL_SIMD_STORE(out->by) = by;
     FL_SIMD_STORE(out->lo) = lo, FL_SIMD_STORE(out->hi) = hi, FL_SIMD_STORE(out->m) = m;
     FL_SIMD_STORE(out->tau) = tau, FL_SIMD_STORE(out->slope) = slope;
-    FL_SIMD_STORE(out->uu) = uu, FL_SIMD_STORE(out->lean) = lean, FL_SIMD_STORE(out->least2) = least2;
+    FL_SIMD_STORE(out->uu) = uu, FL_SIMD_STORE(out->linear) = linear, FL_SIMD_STORE(out->least2) = least2;
     FL_SIMD_STORE(out->a) = a, FL_SIMD_STORE(out->half) = half;
     FL_SIMD3_STORE(out->q, q), FL_SIMD3_STORE(out->u, u);
     MASK_INTO(out->some) = some, MASK_INTO(out->zeros) = -(zero_lo + zero_hi),
@@ -304,7 +304,7 @@ static int append_rule_piece(const edge_cutter *b, fl_edge_span t, int zero_lo, 
 
 static double overlap_of(const edge_cutter *b, double x)
 {
-    return b->R - sqrt(b->f->least2[b->l] + x * (b->f->lean[b->l] + b->f->uu[b->l] * x));
+    return b->R - sqrt(b->f->least2[b->l] + x * (b->f->linear[b->l] + b->f->uu[b->l] * x));
 }
 
 /* Appends the quarters next to ends with nearly s = 0, and what remains between them. */
@@ -354,7 +354,7 @@ static int cut_edge(struct fl_edge_integral *w, const edge_feet *f, int32_t l, i
 
 /* Four pieces by lanes, each of some edge, with its own rule. */
 typedef struct {
-    fl_simd least2, lean, uu, small, from, by;
+    fl_simd least2, linear, uu, small, from, by;
     const gauss_rule *g[FL_SIMD_WIDTH];
 } piece_lanes;
 
@@ -379,7 +379,7 @@ FL_SIMD_INLINE void integrate_pieces(const piece_lanes *p, double R, const fl_si
         for (int k = 0; k < FL_SIMD_WIDTH; k++) {
             const fl_simd x = p->from + p->by * node[k];
             fl_simd d;
-            distance(&p->least2, &p->lean, &p->uu, &x, &d);
+            distance_at(&p->least2, &p->linear, &p->uu, &x, &d);
             const fl_simd_mask in = (d < R) & (d > p->small);
             const fl_simd s = FL_SIMD_MASKED(in, R - d);
             fl_simd s_root = s;
@@ -410,7 +410,7 @@ FL_SIMD_VERSIONS static void integrate_single_pieces(const fl_edge_point_lanes *
     const fl_simd_mask counted = MASK(a->some) & ~MASK(a->more);
     const piece_lanes q = {
         FL_SIMD_LOAD(a->least2),
-        FL_SIMD_LOAD(a->lean),
+        FL_SIMD_LOAD(a->linear),
         FL_SIMD_LOAD(a->uu),
         FL_SIMD_LOAD(p->small),
         FL_SIMD_LOAD(a->from),
@@ -429,7 +429,7 @@ FL_SIMD_VERSIONS static void integrate_four(const struct fl_edge_integral *w, co
     FL_SIMD_UNROLL
     for (int l = 0; l < FL_SIMD_WIDTH; l++) {
         const int32_t k = q[l]->edge / FL_SIMD_WIDTH, lane = q[l]->edge % FL_SIMD_WIDTH;
-        four.least2[l] = w->feet[k].least2[lane], four.lean[l] = w->feet[k].lean[lane];
+        four.least2[l] = w->feet[k].least2[lane], four.linear[l] = w->feet[k].linear[lane];
         four.uu[l] = w->feet[k].uu[lane], four.small[l] = p[k].small[lane];
         four.from[l] = q[l]->from, four.by[l] = q[l]->by, four.g[l] = q[l]->g;
     }

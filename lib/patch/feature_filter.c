@@ -114,7 +114,7 @@ INLINE fl_vec3 side_normal(const fl_patch_core *q, int32_t f, int32_t a, int32_t
 }
 
 /* Points below a face by at most s->prism_depth may belong to it beyond a concave side, up to the bisector of
- * the two faces: they lean by 60 degrees at most, the bisector by half of it; tan 30 deg. */
+ * the two faces: they are inclined by 60 degrees at most, the bisector by half of it; tan 30 deg. */
 #define CONCAVE_SHIFT 0.57735026918962576
 
 static region region_of_face(filter_plane *to, const fl_feature_query *s, int32_t f)

@@ -502,13 +502,13 @@ static int pack_list(fl_feature_pairs *l, const list_draft *d, const fl_poly *a,
 INLINE void make_planes(const fl_feature_pairs *l, int wide, int direction, const fl_poly *p,
                         fl_core_plane *out)
 {
-    const void *told = fl_feature_pairs_plane_indices(l);
+    const void *indices = fl_feature_pairs_plane_indices(l);
     int64_t at = direction ? 4 * (int64_t)l->planes[0] : 0;
     for (int32_t k = 0; k < l->planes[direction]; k++, at += 4) {
-        const plane_key q = {.f = fl_feature_integer(told, wide, at) - INDEX_OFFSET,
-                             .a = fl_feature_integer(told, wide, at + 1) - INDEX_OFFSET,
-                             .b = fl_feature_integer(told, wide, at + 2) - INDEX_OFFSET,
-                             .g = fl_feature_integer(told, wide, at + 3) - INDEX_OFFSET};
+        const plane_key q = {.f = fl_feature_integer(indices, wide, at) - INDEX_OFFSET,
+                             .a = fl_feature_integer(indices, wide, at + 1) - INDEX_OFFSET,
+                             .b = fl_feature_integer(indices, wide, at + 2) - INDEX_OFFSET,
+                             .g = fl_feature_integer(indices, wide, at + 3) - INDEX_OFFSET};
         out[k] = plane_of(p, &q);
     }
 }

@@ -157,7 +157,7 @@ static inline int32_t fl_feature_row_next(const void *integers, int width, int32
 
 /* Margin of the next list [m].  Building a list costs as much as some evaluations, and a wider margin makes
  * each evaluation dearer.  The sum is least where the margin is proportional to the root of R times the path
- * per evaluation, which the last list tells.  Only the cost depends on it.
+ * per evaluation, which follows from the last list.  Only the cost depends on it.
  *     R   reach [m] */
 double fl_feature_pairs_margin(const fl_feature_pairs *l, double R);
 

@@ -54,22 +54,22 @@ static fl_vec3 sum_vector(const fl_simd a[3])
     return v3(fl_simd_sum(&a[0]), fl_simd_sum(&a[1]), fl_simd_sum(&a[2]));
 }
 
-static double largest(const fl_simd *a)
+static double largest_lane(const fl_simd *a)
 {
     double most = 0.0;
     for (int l = 0; l < FL_SIMD_WIDTH; l++) most = (*a)[l] > most ? (*a)[l] : most;
     return most;
 }
 
-FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *place, int32_t n, point_four *t,
+FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n, point_four *t,
                                          fl_force_sum *q)
 {
-    const fl_vec3 at = place[0].p;
+    const fl_vec3 at = point[0].p;
     const fl_simd zero = {0};
     fl_simd u = zero, ddu = zero, most = zero, pressed = zero, elastic = zero;
     fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero}, mid[3] = {zero, zero, zero};
     for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH, t++) {
-        const fl_patch_point *p = place + k;
+        const fl_patch_point *p = point + k;
         fl_patch_point last[FL_SIMD_WIDTH];
         if (n - k < FL_SIMD_WIDTH) { /* pad with points without force */
             for (int l = 0; l < FL_SIMD_WIDTH; l++) last[l] = k + l < n ? p[l] : (fl_patch_point){0};
@@ -82,8 +82,8 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *place, int32_t n,
         arm[0] -= at.x, arm[1] -= at.y;
         arm[2] = (fl_simd){p[0].p.z, p[1].p.z, p[2].p.z, p[3].p.z} - at.z;
         const fl_simd pull[3] = {all * nx, all * ny, all * nz};
-        const fl_simd_mask presses = ux != 0.0;
-        const fl_simd du = FL_SIMD_MASKED(presses, all), bent = FL_SIMD_MASKED(presses, curve);
+        const fl_simd_mask not_rim = ux != 0.0;
+        const fl_simd du = FL_SIMD_MASKED(not_rim, all), bent = FL_SIMD_MASKED(not_rim, curve);
         fl_simd moment[3];
         CROSS(moment, arm, pull);
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
@@ -100,7 +100,7 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *place, int32_t n,
     q->du = fl_simd_sum(&pressed), q->pressure = fl_simd_sum(&elastic);
     q->gradient = (fl_wrench){sum_vector(f), sum_vector(m)};
     q->pressure_moment = sum_vector(mid);
-    q->overlap = largest(&most);
+    q->overlap = largest_lane(&most);
 }
 
 FL_SIMD_VERSIONS static void sum_motion(point_four *t, int32_t lanes, fl_vec3 v, fl_vec3 spin,
@@ -214,7 +214,7 @@ static int find_areas(fl_patch_points *s)
     return 0;
 }
 
-static double positive(double c) { return c > 0.0 ? c : 0.0; }
+static double positive_part(double c) { return c > 0.0 ? c : 0.0; }
 
 /* du_approach of areas that approach in part: four points instead of three. */
 static double approach_correction(const fl_patch_points *s)
@@ -223,9 +223,10 @@ static double approach_correction(const fl_patch_points *s)
     const area_motion *a = s->area_motion;
     for (int32_t k = 0; k < s->areas; k++, a++) {
         if (fabs(a->mean) >= a->amplitude) continue;
-        double approach = 0.25 * (positive(a->mean + a->amplitude) + positive(a->mean - a->amplitude)) +
-                          0.5 * positive(a->mean);
-        for (int c = 0; c < AREA_POINTS; c++) approach -= positive(a->mean + a->off[c]) / AREA_POINTS;
+        double approach =
+            0.25 * (positive_part(a->mean + a->amplitude) + positive_part(a->mean - a->amplitude)) +
+            0.5 * positive_part(a->mean);
+        for (int c = 0; c < AREA_POINTS; c++) approach -= positive_part(a->mean + a->off[c]) / AREA_POINTS;
         all += AREA_POINTS * s->point[a->k].du * approach;
     }
     return all;

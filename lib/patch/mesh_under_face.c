@@ -47,8 +47,8 @@ struct fl_mesh_under_face {
 
 /* A pair of F and a feature of B. */
 typedef struct {
-    int32_t F, kind, own, direction, match; /* kind 0: a face, 1: an edge, 2: a vertex; own: feature of B */
-    double factor;                          /* of an edge */
+    int32_t F, kind, own, direction, pair; /* kind 0: a face, 1: an edge, 2: a vertex; own: feature of B */
+    double factor;                         /* of an edge */
 } pair_key;
 
 static int compare_keys(const void *x, const void *y)
@@ -216,7 +216,7 @@ static int list_facet(group_builder *s, const pair_key *k, const int32_t *list, 
         return -1;
     mesh_facet *t = &o->facet[s->facets++];
     *t = (mesh_facet){k->own, o->corners, corners, {-1, -1}};
-    t->match[k->direction] = k->match;
+    t->pair[k->direction] = k->pair;
     for (int32_t c = 0; c < corners; c++)
         o->corner[o->corners++] = index_of(list, n, p->loop[p->first[k->own] + c]);
     return 0;
@@ -269,17 +269,17 @@ static int list_group(group_builder *s, const pair_key *k, int32_t n)
     for (int32_t c = 0; c < n; c++) {
         if (k[c].kind == 0) {
             if (c > 0 && k[c - 1].kind == 0 && k[c - 1].own == k[c].own)
-                o->facet[s->facets - 1].match[k[c].direction] = k[c].match;
+                o->facet[s->facets - 1].pair[k[c].direction] = k[c].pair;
             else if (list_facet(s, &k[c], list, all)) return -1;
         } else if (k[c].kind == 1) {
             if (fl_reserve(&o->edge, &o->edge_cap, (int64_t)s->edges + 1, sizeof *o->edge)) return -1;
             const fl_edge e = p->edge[k[c].own];
             o->edge[s->edges++] =
-                (mesh_edge){{index_of(list, all, e.a), index_of(list, all, e.b)}, k[c].match, k[c].factor};
+                (mesh_edge){{index_of(list, all, e.a), index_of(list, all, e.b)}, k[c].pair, k[c].factor};
         } else {
             if (fl_reserve(&o->point, &o->point_cap, (int64_t)s->points + 1, sizeof *o->point)) return -1;
             const double sharp = fmax(fl_poly_corner_angle(p, k[c].own) * FL_PATCH_CORNER_WEIGHT, 0.0);
-            o->point[s->points++] = (mesh_corner){index_of(list, all, k[c].own), k[c].match,
+            o->point[s->points++] = (mesh_corner){index_of(list, all, k[c].own), k[c].pair,
                                                   (sharp < 1.0 ? sharp : 1.0) * FL_PATCH_ROUND_FACTOR *
                                                       (0.4 * PI) * fl_patch_feature_radius(s->B->r, s->A->r)};
         }
@@ -304,7 +304,7 @@ int fl_mesh_under_face_list(fl_feature_pairs *l, const fl_patch_core *A, const f
         group_builder s = {.o = o, .l = l, .A = A, .B = B};
         const int32_t n = make_keys(l, A, B, o->row, k);
         for (int32_t c = 0; c < l->n; c++) o->state[c] = 0;
-        for (int32_t c = 0; c < n; c++) o->state[k[c].match] = (uint8_t)(1 + k[c].direction);
+        for (int32_t c = 0; c < n; c++) o->state[k[c].pair] = (uint8_t)(1 + k[c].direction);
         o->groups = o->corners = o->other = o->fours = o->facet_corners = o->ends = 0;
         rc = fl_mesh_edge_batch_list(&o->edge_batch, l, o->row, A, B, o->state, OF_EDGE_BATCH);
         for (int32_t c = 0; c < l->n; c++)
@@ -327,8 +327,8 @@ typedef struct {
     const fl_patch_core *A, *B;
     const fl_mesh_under_face *o;
     fl_mesh_under_face_work *room;
-    int32_t matches; /* listed */
-    int open;        /* room->skipped is in use */
+    int32_t pairs; /* listed */
+    int open;      /* room->skipped is in use */
     fl_under_face g;
     fl_under_face_sums sum;
     fl_under_face_side_force pull;
@@ -337,12 +337,12 @@ typedef struct {
 } evaluation;
 
 /* Leaves a pair to the caller. */
-static void skip_pair(evaluation *q, int32_t match)
+static void skip_pair(evaluation *q, int32_t pair)
 {
-    if (match < 0) return;
-    if (!q->open) memset(q->room->skipped, 0, (size_t)q->matches);
+    if (pair < 0) return;
+    if (!q->open) memset(q->room->skipped, 0, (size_t)q->pairs);
     q->open = 1;
-    q->room->skipped[match] = 1;
+    q->room->skipped[pair] = 1;
 }
 
 /* Centre and second moments of a sum: three points at x + a cos, y + b cos + c sin have the same. */
@@ -517,7 +517,7 @@ static int sum_faces(evaluation *q, const mesh_facet *t, const fl_under_face_fac
     uint8_t *const is = q->room->status;
     if (fl_under_face_sort(&q->g, t, four, o->facet_corner, n, f, is))
         for (int32_t k = 0; k < n; k++)
-            if (is[k] & FL_UNDER_FACE_SKIPPED) skip_pair(q, t[k].match[0]), skip_pair(q, t[k].match[1]);
+            if (is[k] & FL_UNDER_FACE_SKIPPED) skip_pair(q, t[k].pair[0]), skip_pair(q, t[k].pair[1]);
     q->most = f->most;
     if (f->wholes) fl_under_face_sum_whole(&q->g, t, o->corner, q->B->n, f->whole, f->wholes, &q->sum);
     if (f->cuts)
@@ -531,7 +531,7 @@ static int sum_edges(evaluation *q, const mesh_edge *e, const int32_t *end, int3
     uint8_t *const is = q->room->status;
     if (fl_under_face_sort_edges(&q->g, e, end, n, q->room->edge_part, &pieces, is))
         for (int32_t k = 0; k < n; k++)
-            if (is[k] & FL_UNDER_FACE_SKIPPED) skip_pair(q, e[k].match);
+            if (is[k] & FL_UNDER_FACE_SKIPPED) skip_pair(q, e[k].pair);
     if (pieces) fl_under_face_sum_edges(&q->g, q->room->edge_part, pieces, &q->sum, &q->most);
     return q->w->keep_features ? add_edges(q, pieces) : 0;
 }
@@ -543,7 +543,7 @@ static int sum_corners(evaluation *q, const mesh_corner *p, int32_t n)
     int32_t *const list = q->room->list, some = 0;
     for (int32_t k = 0; k < n; k++) {
         const fl_under_face_vertex v = g->vertex[p[k].v];
-        if (!(fabs(v.clear) > near && v.h >= 0.0)) skip_pair(q, p[k].match);
+        if (!(fabs(v.clear) > near && v.h >= 0.0)) skip_pair(q, p[k].pair);
         else if (v.clear > 0.0 && v.h < g->R) list[some++] = k;
     }
     if (some) fl_under_face_sum_corners(g, p, list, some, &q->sum, &q->most);
@@ -589,7 +589,7 @@ int fl_mesh_under_face_evaluate(fl_patch_points *w, const fl_feature_pairs *l, f
     if (fl_reserve(&room->skipped, &room->skipped_cap, l->n, sizeof *room->skipped) ||
         fl_reserve(&room->remaining, &room->remaining_cap, l->n, sizeof *room->remaining))
         return -1;
-    evaluation q = {.w = w, .A = A, .B = B, .o = o, .room = room, .matches = l->n};
+    evaluation q = {.w = w, .A = A, .B = B, .o = o, .room = room, .pairs = l->n};
     for (int32_t k = 0; k < o->groups; k++) {
         const face_group *from = &o->group[k], *to = from + 1;
         const int32_t vertices = to->vertex - from->vertex, facets = to->facet - from->facet,

@@ -88,7 +88,7 @@ FL_SIMD_INLINE void add_fading(triangle_sums *t, const fl_simd *a, const fl_simd
 }
 
 /* x, y and s at the fraction `at` from a to b. */
-FL_SIMD_INLINE void interpolate(const fl_simd *a, const fl_simd *b, const fl_simd *at, fl_simd out[3])
+FL_SIMD_INLINE void interpolate_corner(const fl_simd *a, const fl_simd *b, const fl_simd *at, fl_simd out[3])
 {
     FL_SIMD_UNROLL
     for (int i = 0; i < 3; i++) out[i] = a[i] + *at * (b[i] - a[i]);
@@ -146,12 +146,12 @@ FL_SIMD_INLINE void sum_four(const triangle_queue *b, int at, int what, const fl
         const fl_simd one1 = 1.0 / (c0[D] - c1[D]), one2 = 1.0 / (c0[D] - c2[D]);
         const fl_simd t1 = c0[D] * one1, t2 = c0[D] * one2;
         fl_simd p[3], r[3];
-        interpolate(c0, c1, &t1, p), interpolate(c0, c2, &t2, r);
+        interpolate_corner(c0, c1, &t1, p), interpolate_corner(c0, c2, &t2, r);
         RAISE_MAX(top, p), RAISE_MAX(top, r);
         if (what == RIM_STRIP) {
             const fl_simd in = c0[D] - g->rim, t3 = in * one1, t4 = in * one2;
             fl_simd v[3], w[3];
-            interpolate(c0, c1, &t3, v), interpolate(c0, c2, &t4, w);
+            interpolate_corner(c0, c1, &t3, v), interpolate_corner(c0, c2, &t4, w);
             RAISE_MAX(top, v), RAISE_MAX(top, w);
             add_fading(&t, p, v, w, (const fl_simd[3]){zero, one, one});
             add_fading(&t, p, w, r, (const fl_simd[3]){zero, one, zero});
@@ -197,8 +197,8 @@ typedef struct {
     double nx, ny, over;
 } facet_geometry;
 
-FL_SIMD_INLINE void append(triangle_queues *to, int what, const node *c0, const node *c1, const node *c2,
-                           const node *kind, const node *turn)
+FL_SIMD_INLINE void append_triangle(triangle_queues *to, int what, const node *c0, const node *c1,
+                                    const node *c2, const node *kind, const node *turn)
 {
     triangle_queue *const b = &to->of[what];
     clip_triangle *e = &b->of[b->n++];
@@ -246,14 +246,14 @@ FL_SIMD_INLINE void append_fading(const fl_under_face *g, const node p[3], const
     const int which = sign_bits(d[0], d[1], d[2]), deep = sign_bits(e[0], e[1], e[2]);
     if (which == 0) return;
     if (deep == 7) {
-        append(to, ALL, &p[0], &p[1], &p[2], kind, turn);
+        append_triangle(to, ALL, &p[0], &p[1], &p[2], kind, turn);
         return;
     }
     if (which == deep) { /* both lines pass between the same corners */
         const int i = ODD[which], j = NEXT[i + 1], k = NEXT[i + 2];
         const node less = {0.0, 0.0, 0.0, rim}, a = p[i] - less, b = p[j] - less, c = p[k] - less;
-        append(to, ONLY_ONE(which) ? IN : OUT, &a, &b, &c, kind, turn);
-        append(to, RIM_STRIP, &p[i], &p[j], &p[k], kind, turn);
+        append_triangle(to, ONLY_ONE(which) ? IN : OUT, &a, &b, &c, kind, turn);
+        append_triangle(to, RIM_STRIP, &p[i], &p[j], &p[k], kind, turn);
         return;
     }
     node over[2][3], in[2][3], out[2][3];
@@ -263,8 +263,10 @@ FL_SIMD_INLINE void append_fading(const fl_under_face *g, const node p[3], const
         const node *r = over[m];
         split_triangle(r, (const double[3]){r[0][D] - rim, r[1][D] - rim, r[2][D] - rim}, in, &inside, out,
                        &outside);
-        for (int k = 0; k < inside; k++) append(to, ALL, &in[k][0], &in[k][1], &in[k][2], kind, turn);
-        for (int k = 0; k < outside; k++) append(to, FADING, &out[k][0], &out[k][1], &out[k][2], kind, turn);
+        for (int k = 0; k < inside; k++)
+            append_triangle(to, ALL, &in[k][0], &in[k][1], &in[k][2], kind, turn);
+        for (int k = 0; k < outside; k++)
+            append_triangle(to, FADING, &out[k][0], &out[k][1], &out[k][2], kind, turn);
     }
 }
 
@@ -274,8 +276,8 @@ FL_SIMD_INLINE void append_clipped(const node p[3], int is_side, const node *kin
 {
     const int which = sign_bits(p[0][D], p[1][D], p[2][D]), i = ODD[which], j = NEXT[i + 1], k = NEXT[i + 2];
     if (which == 0) return;
-    append(to, which == 7 ? ALL : (ONLY_ONE(which) ? IN : OUT) + (is_side ? IN_AT_SIDE - IN : 0), &p[i],
-           &p[j], &p[k], kind, turn);
+    append_triangle(to, which == 7 ? ALL : (ONLY_ONE(which) ? IN : OUT) + (is_side ? IN_AT_SIDE - IN : 0),
+                    &p[i], &p[j], &p[k], kind, turn);
 }
 
 /* Clips triangle p of f for one of the two integrals; D: distance within the first of the sides.

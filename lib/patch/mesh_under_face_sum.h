@@ -48,7 +48,7 @@ enum { FL_UNDER_FACE_SKIPPED = 1 };
 /* Face f of the mesh; its corners corner[first .. first + n); the pairs of F over f and of f over F in the
  * list, -1 where not listed. */
 typedef struct {
-    int32_t f, first, n, match[2];
+    int32_t f, first, n, pair[2];
 } fl_under_face_facet;
 
 /* Four facets: their normals by axes; corner k of the four at first + 4 k.  A facet with fewer corners than
@@ -60,7 +60,7 @@ typedef struct {
 
 /* An edge: its ends, its pair in the list, fl_edge_integral_factor(). */
 typedef struct {
-    int32_t v[2], match;
+    int32_t v[2], pair;
     double factor;
 } fl_under_face_edge;
 
@@ -72,7 +72,7 @@ typedef struct {
 
 /* A corner of the mesh: its vertex, its pair in the list, the factor of s^5 in U. */
 typedef struct {
-    int32_t v, match;
+    int32_t v, pair;
     double factor;
 } fl_under_face_corner;
 

@@ -40,7 +40,7 @@ static int find_features_below(fl_feature_set *r, const fl_patch_core *a, fl_vec
 }
 
 static int build_feature_pairs(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B, double R,
-                        fl_vec3 n, int deep, fl_feature_pairs *l)
+                               fl_vec3 n, int deep, fl_feature_pairs *l)
 {
     const double margin = deep ? 0.0 : fl_feature_pairs_margin(l, R);
     double low = INFINITY, high = -INFINITY;

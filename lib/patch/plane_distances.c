@@ -12,7 +12,7 @@
 #define ON_PLANE_TOL 4e-15
 
 /* Distances h = g.x - c of points x, y, z from planes, from all or those in the list; `columns` points, a
- * multiple of FL_SIMD_WIDTH.  A point on a plane gets the distance fl_plane_tie_offset(), whoever asks.  A
+ * multiple of FL_SIMD_WIDTH.  A point on a plane gets the distance fl_plane_tie_offset(), for every query.  A
  * point counts as on the plane when |h| <= near |g|_1: planes that coincide are rounded separately, and a
  * point on all of them must be on the same side of each. */
 FL_SIMD_VERSIONS static void tabulate_distances(const fl_core_plane *cut, const int32_t *list, int32_t planes,

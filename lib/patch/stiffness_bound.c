@@ -38,7 +38,7 @@ FL_SIMD_INLINE void multiply_add(square3 out, const double (*x)[4], const double
     }
 }
 
-FL_SIMD_INLINE void transpose(square3 out, const double (*x)[4])
+FL_SIMD_INLINE void transpose3(square3 out, const double (*x)[4])
 {
     fl_simd r[4] = {FL_SIMD_LOAD(x[0]), FL_SIMD_LOAD(x[1]), FL_SIMD_LOAD(x[2]), {0}};
     fl_simd_transpose(r);
@@ -51,18 +51,18 @@ FL_SIMD4_VERSIONS static void add_springs(rows6 K, double scale, double light, c
                                           const square3 A, const square3 Rt, const square3 Mt)
 {
     square3 At, M, R, D, Dt, E, one, two;
-    transpose(At, A);
-    transpose(M, Mt);
-    transpose(R, Rt);
+    transpose3(At, A);
+    transpose3(M, Mt);
+    transpose3(R, Rt);
     multiply_add(D, A, q->linear, q->coupling); /* sum of k t n^T */
-    transpose(Dt, (const double(*)[4])D);
+    transpose3(Dt, (const double(*)[4])D);
     multiply_add(one, q->coupling, (const double(*)[4])At, q->angular);
     multiply_add(E, A, (const double(*)[4])Dt, (const double(*)[4])one); /* sum of k t t^T */
     multiply_add(one, (const double(*)[4])M, (const double(*)[4])E, NULL);
     multiply_add(E, (const double(*)[4])one, Mt, NULL);
     multiply_add(one, (const double(*)[4])M, (const double(*)[4])D, NULL);
     multiply_add(D, (const double(*)[4])one, Rt, NULL);
-    transpose(Dt, (const double(*)[4])D);
+    transpose3(Dt, (const double(*)[4])D);
     multiply_add(one, (const double(*)[4])R, q->linear, NULL);
     multiply_add(two, (const double(*)[4])one, Rt, NULL);
     const double mixing = scale * light, moving = mixing * light;

@@ -88,7 +88,7 @@ typedef struct {
 typedef struct {
     int valid; /* may be evaluated */
     int used;  /* has been evaluated since the last exact evaluation */
-    /* Of the last exact evaluation.  Doubles only from here on: fl_surrogate_pack() reads them as an array. */
+    /* Of the last exact evaluation.  Doubles only from here on, which fl_surrogate_pack() reads in a row. */
     double g[6], H[21];             /* H: upper triangle                         [1/m], [1/m2] */
     double path[6], third_order[6]; /* e, t                                        [1], [1/m3] */
     double slope_trend;             /* c                                                 [1/m] */
@@ -214,7 +214,7 @@ static inline int fl_surrogate_in_range(const fl_surrogate *s, double path, doub
            z > 1.0 - s->max_change && z < 1.0 + s->max_change;
 }
 
-/* True if the error of this value tells how large it was within the range. */
+/* True if the error of this value allows an estimate of the error within the range. */
 static inline int fl_surrogate_in_double_range(const fl_surrogate *s, const fl_surrogate_value *t)
 {
     return fl_surrogate_in_range(s, t->path, t->turn, t->z, 2.0);
