@@ -3,8 +3,8 @@
  * polyhedron.
  *
  * The cone C is smooth or a rim everywhere and has no features of its own.  The signed distance d(x) from C,
- * evaluated on the surface of the core A, gives the whole potential of patch_law.h, as over a plane.  With s
- * = R - d, U is the sum over A of
+ * evaluated on the surface of the core A, gives the whole potential of patch_law.h, as over a plane.  With
+ * s = R - d, U is the sum over A of
  *     face F     int m(c) s^4 dA,     c = -n_F.n(x),  n = grad d,  m = (4 c^2 - 3)^2, 0 beyond 30 degrees
  *     edge       w L (256/315) sqrt(2 R) int s^(9/2) dl
  *     vertex     w L (2 pi/5) R s^5

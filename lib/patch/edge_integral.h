@@ -6,7 +6,7 @@
  * the prism over a face, the wedge over an edge, the cone over a vertex.  The line is cut where it passes
  * from one region to the next and where s = 0.  Each piece is integrated by a Gauss rule that accounts for
  * the root of s at such an end.  Where s is linear (over a face) FL_LINE_NODES nodes are exact
- * (quadrature_line.h). Elsewhere 8 nodes, or FL_EDGE_CURVED_NODES for large overlaps, are within 2e-8 in
+ * (quadrature_line.h).  Elsewhere 8 nodes, or FL_EDGE_CURVED_NODES for large overlaps, are within 2e-8 in
  * energy, force and moment.
  *
  * Edges are queued until all edges of a contact are known, then evaluated FL_SIMD_WIDTH at a time.  The

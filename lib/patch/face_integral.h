@@ -2,9 +2,9 @@
 /* face_integral.h -- face term of the law `patch`: 1/2 m int s^4 dA of a face of one core over a face of the
  * other (patch_law.h), as patch points.
  *
- * Face F of the own core is projected along the normal n_f of face f onto the plane of f and clipped to s >
- * 0. There s = R - h is linear, h the height of F over that plane.  The intersection with f is not built.
- * The integral over a polygon is a sum over pieces p0 p1 of its border,
+ * Face F of the own core is projected along the normal n_f of face f onto the plane of f and clipped to
+ * s > 0.  There s = R - h is linear, h the height of F over that plane.  The intersection with f is not
+ * built.  The integral over a polygon is a sum over pieces p0 p1 of its border,
  *     int g dA = sum (p0 x p1) int_0^1 dt int_0^1 rho g(o + rho (p(t) - o)) drho,
  * with an origin o near by.  The border consists of the parts of the sides of F inside f and the parts of the
  * sides of f inside F.  The integral over rho is closed; over t a Gauss rule of three points is exact for

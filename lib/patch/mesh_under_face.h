@@ -14,8 +14,8 @@
  * (face_integral.h) are the difference of its forces along n_f and along n_F.  All this is exact where f is
  * flat; corners off its plane count where they are.
  *
- * Where f lies over a side of F it is clipped.  With the inward normal m of the side, a point p_m on it and d
- * = m.(x - p_m):
+ * Where f lies over a side of F it is clipped.  With the inward normal m of the side, a point p_m on it and
+ * d = m.(x - p_m):
  *     to d >= 0                      for f over F; its weight fades as d/rim towards the side
  *     to g = d + (h/c) m.n_f >= 0    for F over f
  * The clipping adds forces that move with the side,

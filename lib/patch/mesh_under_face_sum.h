@@ -3,8 +3,8 @@
  * mesh_under_face.h: triangles that are whole under F, edges and corners, four at a time.  Faces that s = 0
  * or a side of F cuts are in mesh_under_face_clip.h.
  *
- * Coordinates in the plane of F are x, y; the height h is over F, against its normal n.  s = R - h; s = R -
- * h/c for the part of F over a face f of the mesh, c = -n.n_f. */
+ * Coordinates in the plane of F are x, y; the height h is over F, against its normal n.  s = R - h;
+ * s = R - h/c for the part of F over a face f of the mesh, c = -n.n_f. */
 #ifndef FL_PATCH_MESH_UNDER_FACE_SUM_H
 #define FL_PATCH_MESH_UNDER_FACE_SUM_H
 #include "base/simd.h"

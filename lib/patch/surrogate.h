@@ -19,7 +19,7 @@
  * Second order H.  The patch points give one part of H (fl_force_sum_springs()).  The other part is how the
  * points move over the two bodies as these slide and rotate.  It is learnt from the slopes of z at the last
  * exact evaluations, and so is the third order t.  Bodies continue nearly along one line, with the direction
- * e. Over the path h e to the last evaluation, and h' e to it from the one before, slopes changed by r h and
+ * e.  Over the path h e to the last evaluation, and h' e to it from the one before, slopes changed by r h and
  * r' h' more than H predicts.  Where H changes linearly
  *     t = 2 (r - r')/(h + h'),     H e lacks r + h t/2.
  * The third-order term above is the smallest symmetric tensor that maps (e, e) to t.  The smallest symmetric
