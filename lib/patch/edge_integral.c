@@ -271,7 +271,7 @@ FL_SIMD_VERSIONS static void prepare_over_points(const fl_edge_point_lanes *p, d
 
 /* The queue, and scratch for edges over points. */
 struct fl_edge_integral {
-    fl_edge_queue wait; /* must be first: see fl_edge_queue_over_face() */
+    fl_edge_queue queue; /* must be first: see fl_edge_queue_over_face() */
     edge_feet *feet;
     edge_sums *sum;
     edge_piece *piece;
@@ -551,7 +551,7 @@ int fl_edge_integral_begin(fl_patch_points *w)
 {
     struct fl_edge_integral *s = queue_of(w);
     if (!s) return -1;
-    s->wait.faces = s->wait.points = 0;
+    s->queue.faces = s->queue.points = 0;
     return 0;
 }
 
@@ -580,7 +580,7 @@ int fl_edge_queue_grow_points(fl_edge_queue *s)
 
 int fl_edge_integral_finish(fl_patch_points *w, double R)
 {
-    const fl_edge_queue *s = &w->edges->wait;
+    const fl_edge_queue *s = &w->edges->queue;
     const int32_t faces = (s->faces + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH,
                   points = (s->points + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH;
     return fl_edge_integral_over_faces(w, s->face, faces, R) ||
@@ -591,16 +591,16 @@ int fl_edge_integral_finish(fl_patch_points *w, double R)
 
 void fl_edge_integral_free(struct fl_edge_integral *s)
 {
-    if (s) free(s->wait.face), free(s->wait.point), free(s->feet), free(s->sum), free(s->piece);
+    if (s) free(s->queue.face), free(s->queue.point), free(s->feet), free(s->sum), free(s->piece);
     free(s);
 }
 
 double fl_edge_integral_factor(const fl_patch_core *own, int32_t e, double other)
 {
     const fl_edge g = own->p->edge[e];
-    const double sharp = fl_poly_edge_angle(own->p, e) * FL_PATCH_EDGE_WEIGHT,
+    const double weight = fl_poly_edge_angle(own->p, e) * FL_PATCH_EDGE_WEIGHT,
                  rho = fl_patch_feature_radius(own->r, other);
-    return (sharp < 1.0 ? sharp : 1.0) * FL_PATCH_ROUND_FACTOR * (256.0 / 315.0) * sqrt(2.0 * rho) *
+    return (weight < 1.0 ? weight : 1.0) * FL_PATCH_ROUND_FACTOR * (256.0 / 315.0) * sqrt(2.0 * rho) *
            v3_norm(v3_sub(own->p->v[g.b],
                           own->p->v[g.a])); /* from the core's own frame: the same bits in any pose */
 }

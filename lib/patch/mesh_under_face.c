@@ -278,9 +278,9 @@ static int list_group(group_builder *s, const pair_key *k, int32_t n)
                 (mesh_edge){{index_of(list, all, e.a), index_of(list, all, e.b)}, k[c].pair, k[c].factor};
         } else {
             if (fl_reserve(&o->point, &o->point_cap, (int64_t)s->points + 1, sizeof *o->point)) return -1;
-            const double sharp = fmax(fl_poly_corner_angle(p, k[c].own) * FL_PATCH_CORNER_WEIGHT, 0.0);
+            const double weight = fmax(fl_poly_corner_angle(p, k[c].own) * FL_PATCH_CORNER_WEIGHT, 0.0);
             o->point[s->points++] = (mesh_corner){index_of(list, all, k[c].own), k[c].pair,
-                                                  (sharp < 1.0 ? sharp : 1.0) * FL_PATCH_ROUND_FACTOR *
+                                                  (weight < 1.0 ? weight : 1.0) * FL_PATCH_ROUND_FACTOR *
                                                       (0.4 * PI) * fl_patch_feature_radius(s->B->r, s->A->r)};
         }
     }

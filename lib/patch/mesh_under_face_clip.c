@@ -287,15 +287,15 @@ FL_SIMD_INLINE void clip_one_way(const fl_under_face *g, const facet_geometry *f
                                  triangle_queues *to)
 {
     const node *kind = &f->kind[below];
-    node wet[2][3];
+    node overlapping[2][3];
     int n, none;
-    split_triangle(p, (const double[3]){p[0][S], p[1][S], p[2][S]}, wet, &n, NULL, &none);
+    split_triangle(p, (const double[3]){p[0][S], p[1][S], p[2][S]}, overlapping, &n, NULL, &none);
     for (int i = 0; i < n; i++) {
         if (sides == 1) {
             node turn = f->turn;
             turn[2] = m[0]->nx, turn[3] = m[0]->ny;
-            if (below) append_fading(g, wet[i], kind, &turn, to);
-            else append_clipped(wet[i], 1, kind, &turn, to);
+            if (below) append_fading(g, overlapping[i], kind, &turn, to);
+            else append_clipped(overlapping[i], 1, kind, &turn, to);
             continue;
         }
         /* over two sides it is split where both are equally far, and each part lies over one side */
@@ -303,12 +303,12 @@ FL_SIMD_INLINE void clip_one_way(const fl_under_face *g, const facet_geometry *f
         int parts[2];
         double e[3], far[3];
         for (int k = 0; k < 3; k++) {
-            const node x = wet[i][k];
+            const node x = overlapping[i][k];
             far[k] = m[1]->nx * (x[X] - m[1]->x) + m[1]->ny * (x[Y] - m[1]->y);
             if (!below) far[k] += (f->nx * m[1]->nx + f->ny * m[1]->ny) * (g->R - x[S]);
             e[k] = far[k] - x[D];
         }
-        split_triangle(wet[i], e, part[0], &parts[0], part[1], &parts[1]);
+        split_triangle(overlapping[i], e, part[0], &parts[0], part[1], &parts[1]);
         for (int side = 0; side < 2; side++) {
             node turn = f->turn;
             turn[2] = m[side]->nx, turn[3] = m[side]->ny;

@@ -126,10 +126,10 @@ FL_SIMD_VERSIONS int fl_under_face_sort(const fl_under_face *g, const fl_under_f
         const fl_simd nx = FL_SIMD_LOAD(four->n[0]), ny = FL_SIMD_LOAD(four->n[1]),
                       nz = FL_SIMD_LOAD(four->n[2]);
         const fl_simd c = -(g->n.x * nx + g->n.y * ny + g->n.z * nz), in = clear - g->rim;
-        const fl_simd_mask leave = low < 0.0;
-        const fl_simd_mask over = ~leave & (low < R) & (c > 0.0) & (4.0 * c * c > 3.0);
+        const fl_simd_mask skip = low < 0.0;
+        const fl_simd_mask over = ~skip & (low < R) & (c > 0.0) & (4.0 * c * c > 3.0);
         fl_simd_mask inside = (in > 0.0) & (c * c * in * in > (1.0 - c * c) * R * R);
-        fl_simd_mask code = (leave & FL_UNDER_FACE_SKIPPED) | (over & OVER);
+        fl_simd_mask code = (skip & FL_UNDER_FACE_SKIPPED) | (over & OVER);
         const fl_simd_mask cut = over & ~inside;
         side_search s;
         if (fl_simd_any(&cut)) {
@@ -205,10 +205,10 @@ FL_SIMD_VERSIONS int fl_under_face_sort_edges(const fl_under_face *g, const fl_u
         load_vertices(g, end, v0);
         load_vertices(g, end + FL_SIMD_WIDTH, v1);
         const fl_simd s0 = R - v0[H], s1 = R - v1[H], zero_at = s0 / (s0 - s1);
-        const fl_simd_mask wet0 = s0 > 0.0, wet1 = s1 > 0.0, over = (v0[H] >= 0.0) & (v1[H] >= 0.0);
-        const fl_simd_mask some = over & (wet0 | wet1),
+        const fl_simd_mask in_reach0 = s0 > 0.0, in_reach1 = s1 > 0.0, over = (v0[H] >= 0.0) & (v1[H] >= 0.0);
+        const fl_simd_mask some = over & (in_reach0 | in_reach1),
                            off = some & ~((v0[CLEAR] > near) & (v1[CLEAR] > near));
-        fl_simd lo = FL_SIMD_MASKED(~wet0, zero_at), hi = FL_SIMD_SELECT(wet1, one, zero_at);
+        fl_simd lo = FL_SIMD_MASKED(~in_reach0, zero_at), hi = FL_SIMD_SELECT(in_reach1, one, zero_at);
         fl_simd_mask unsure = {0};
         if (fl_simd_any(&off)) clip_to_sides(g, end, &lo, &hi, &unsure);
         const fl_simd_mask code =
