@@ -268,14 +268,3 @@ int fl_options_read(const fl_option_table *t, void *options, unsigned char *give
         if (read_operand(t, options, argv[optind], err)) return -1;
     return 0;
 }
-
-int fl_option_unknown(const char *program, const struct option *known, int c, int letter, const char *word,
-                      fl_err *err)
-{
-    if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see %s --help", word, program);
-    if (!letter) return fl_fail(err, FL_USAGE, "%.60s is no option, see %s --help", word, program);
-    for (; known->name; known++)
-        if (known->val == letter)
-            return fl_fail(err, FL_USAGE, "%.60s: that option takes no value, see %s --help", word, program);
-    return fl_fail(err, FL_USAGE, "-%c is no option, see %s --help", letter, program);
-}

@@ -12,7 +12,7 @@ enum { FAST_GZIP = 2 }; /* level: a checkpoint is written often and read seldom 
 
 /* The whole file as one text.  fl_hash() reads words of eight bytes and pads the last one, so the file is
  * hashed in one piece. */
-static int compose(char **text, size_t *n, const char *history, const fl_restart_part *part, int parts)
+static int compose_text(char **text, size_t *n, const char *history, const fl_restart_part *part, int parts)
 {
     FILE *f = open_memstream(text, n);
     if (!f) return -1;
@@ -32,7 +32,7 @@ int fl_restart_write(const char *path, const char *history, const fl_restart_par
     char *text = NULL;
     size_t n = 0;
     int rc = -1;
-    if (compose(&text, &n, history, part, parts)) fl_fail(err, FL_SYSTEM, "out of memory for %s", path);
+    if (compose_text(&text, &n, history, part, parts)) fl_fail(err, FL_SYSTEM, "out of memory for %s", path);
     else if (fl_out_open(&out, path, FAST_GZIP, err) == 0) {
         fwrite(text, 1, n, out.f);
         fprintf(out.f, "end %016" PRIx64 "\n", fl_hash(FL_HASH_START, text, (int64_t)n));

@@ -5,15 +5,15 @@
 #include "body/integrate.h"
 #include "contact/bond_list.h"
 
-static double power(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
+static double power_of(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
 
 /* Grow an array to `want` elements if it has fewer than n; the new ones are 0.  -1 if memory runs out. */
 static int grow_zeroed(void *array, int32_t *cap, int32_t n, int32_t want, size_t size)
 {
-    fl_err lost = {0};
+    fl_err unused = {0};
     void *old;
     if (n <= *cap) return 0;
-    void *const fresh = fl_alloc(want, size, &lost);
+    void *const fresh = fl_alloc(want, size, &unused);
     if (!fresh) return -1;
     memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T */
     if (old) memcpy(fresh, old, (size_t)*cap * size);
@@ -119,9 +119,9 @@ static void add_sphere_works(const fl_world *w, int32_t k, const fl_velocity_cha
     const double sixth = w->dt / 6.0;
     q->damping -= w->dt * v3_dot(f1->damping, v) +
                   sixth * (v3_dot(f1->damping, first->v) - v3_dot(f0->damping, back->v));
-    q->friction -= w->dt * power(f1->friction, f1->torque, v, spin) +
-                   sixth * (power(f1->friction, f1->torque, first->v, first->w) -
-                            power(f0->friction, f0->torque, back->v, back->w));
+    q->friction -= w->dt * power_of(f1->friction, f1->torque, v, spin) +
+                   sixth * (power_of(f1->friction, f1->torque, first->v, first->w) -
+                            power_of(f0->friction, f0->torque, back->v, back->w));
 }
 
 fl_work fl_work_of_step(const fl_world *w, int32_t k, const fl_velocity_change *first,
@@ -133,16 +133,16 @@ fl_work fl_work_of_step(const fl_world *w, int32_t k, const fl_velocity_change *
     if (!first) first = &none;
     if (f1->contacts) {
         const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-        q.damping -= w->dt * power(f1->damping, f1->damping_torque, v, spin);
-        q.friction -= w->dt * power(f1->friction, f1->friction_torque, v, spin);
+        q.damping -= w->dt * power_of(f1->damping, f1->damping_torque, v, spin);
+        q.friction -= w->dt * power_of(f1->friction, f1->friction_torque, v, spin);
     }
     /* Without contacts at the begin of the step F0 is 0, and a0 is small against the acceleration by F1. */
     if (f0->contacts) {
         const double sixth = w->dt / 6.0; /* dt^2/12 over the dt/2 of a kick */
-        q.damping -= sixth * (power(f1->damping, f1->damping_torque, first->v, first->w) -
-                              power(f0->damping, f0->damping_torque, back->v, back->w));
-        q.friction -= sixth * (power(f1->friction, f1->friction_torque, first->v, first->w) -
-                               power(f0->friction, f0->friction_torque, back->v, back->w));
+        q.damping -= sixth * (power_of(f1->damping, f1->damping_torque, first->v, first->w) -
+                              power_of(f0->damping, f0->damping_torque, back->v, back->w));
+        q.friction -= sixth * (power_of(f1->friction, f1->friction_torque, first->v, first->w) -
+                               power_of(f0->friction, f0->friction_torque, back->v, back->w));
     }
     if (w->spheres.bodies && k < w->n) add_sphere_works(w, k, first, back, &q);
     return q;
@@ -193,7 +193,7 @@ static double drive_power(const fl_world *w)
     for (int32_t k = 0; k < w->pieces; k++) {
         const int32_t j = w->n + k, m = w->moving.mover_of_piece[k];
         if (m < 0 || w->moving.movers.motion[m].free_dof) continue;
-        sum -= power(w->b.f[j], w->b.t[j], w->b.v[j], w->b.w[j]);
+        sum -= power_of(w->b.f[j], w->b.t[j], w->b.v[j], w->b.w[j]);
     }
     return sum;
 }
@@ -227,14 +227,14 @@ fl_work fl_work_ahead(const fl_world *w)
         if (has_sphere_sum) {
             const fl_sphere_sum *q = &w->spheres.sum[k];
             sum.damping -= h * v3_dot(q->damping, v) + sixth * v3_dot(q->damping, a.v);
-            sum.friction -=
-                h * power(q->friction, q->torque, v, spin) + sixth * power(q->friction, q->torque, a.v, a.w);
+            sum.friction -= h * power_of(q->friction, q->torque, v, spin) +
+                            sixth * power_of(q->friction, q->torque, a.v, a.w);
         }
         if (s->contacts == 0) continue;
-        sum.damping -= h * power(s->damping, s->damping_torque, v, spin) +
-                       sixth * power(s->damping, s->damping_torque, a.v, a.w);
-        sum.friction -= h * power(s->friction, s->friction_torque, v, spin) +
-                        sixth * power(s->friction, s->friction_torque, a.v, a.w);
+        sum.damping -= h * power_of(s->damping, s->damping_torque, v, spin) +
+                       sixth * power_of(s->damping, s->damping_torque, a.v, a.w);
+        sum.friction -= h * power_of(s->friction, s->friction_torque, v, spin) +
+                        sixth * power_of(s->friction, s->friction_torque, a.v, a.w);
     }
     return sum;
 }

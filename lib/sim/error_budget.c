@@ -201,10 +201,10 @@ static double difference_at(const fl_error_budget *g, int32_t c, const fl_window
 
 /* The larger one of both comparisons, each relative to its load and times the last load.  At one time
  * alone the difference may be small by chance, as a later impact cancels the error of an earlier one. */
-static double difference(const fl_error_budget *g, const fl_window_end *x, const fl_window_end *y,
-                         double *along)
+static double load_difference(const fl_error_budget *g, const fl_window_end *x, const fl_window_end *y,
+                              double *along)
 {
-    double most = 0.0, unused, one;
+    double largest = 0.0, unused, one;
     const double whole = difference_at(g, COMPARISONS - 1, x, NULL, &unused);
     *along = 0.0;
     if (!y) return whole;
@@ -212,9 +212,9 @@ static double difference(const fl_error_budget *g, const fl_window_end *x, const
         const double size = difference_at(g, c, x, NULL, &unused);
         const double rel = size > 0.0 ? difference_at(g, c, x, y, &one) / size : 0.0;
         if (size > 0.0) *along += one / size * whole / COMPARISONS;
-        most = fmax(most, rel);
+        largest = fmax(largest, rel);
     }
-    return whole * most;
+    return whole * largest;
 }
 
 /* Half of the sum of momentum differences: a contact of two floes counts twice. */
@@ -230,7 +230,7 @@ static double halving_ratio(double order) { return fl_exp(order * fl_log(2.0)); 
 
 /* e and p from three differences.  An order above 2 is not accepted: sliding and successive impacts are
  * less smooth than a window may suggest. */
-static double richardson(double first, double second, double both, double *order)
+static double richardson_error(double first, double second, double both, double *order)
 {
     *order = 2.0;
     if (first > 0.0 && second > 0.0) *order = fl_log(first / second) / fl_log(2.0);
@@ -250,13 +250,14 @@ static void compare_ends(const fl_error_budget *g, double h, int ends, fl_error_
         v->size = v->impulse = 1.0;
         return;
     }
-    v->size = difference(g, c, NULL, &unused);
+    v->size = load_difference(g, c, NULL, &unused);
     v->impulse = fmax(c->contact_impulse, c->momentum_change);
-    const double both = difference(g, c, a, &along), all = momentum_difference(g, a, c);
+    const double both = load_difference(g, c, a, &along), all = momentum_difference(g, a, c);
     if (ends == 3) {
-        v->error = richardson(difference(g, b, a, &unused), difference(g, c, b, &unused), both, &v->order);
-        v->momentum_error =
-            richardson(momentum_difference(g, a, b), momentum_difference(g, b, c), all, &v->momentum_order);
+        v->error = richardson_error(load_difference(g, b, a, &unused), load_difference(g, c, b, &unused),
+                                    both, &v->order);
+        v->momentum_error = richardson_error(momentum_difference(g, a, b), momentum_difference(g, b, c), all,
+                                             &v->momentum_order);
     } else {
         v->order = order, v->momentum_order = astray_order;
         v->error = both / (1.0 - 1.0 / halving_ratio(order));
@@ -277,30 +278,30 @@ static double scaled_error(double e, double order, double h, double from)
 
 double fl_error_budget_estimate(const fl_error_budget *g, double h)
 {
-    double along = 0.0, squares = 0.0, size = 0.0, most = 0.0, largest = 0.0;
+    double along = 0.0, squares = 0.0, size = 0.0, max_error = 0.0, largest = 0.0;
     for (int32_t k = 0; k < g->windows; k++) {
         const fl_error_window *v = &g->window[k];
         const double e = scaled_error(v->error, v->order, h, v->h);
         along += v->error > 0.0 ? v->signed_error * (e / v->error) : 0.0;
         squares += e * e;
         size += v->size;
-        if (v->size > 0.0) most = fmax(most, e);
+        if (v->size > 0.0) max_error = fmax(max_error, e);
         largest = fmax(largest, v->size);
     }
     if (size <= 0.0) return 0.0;
-    if (g->load == FL_ERROR_OF_PEAK) return most / largest;
+    if (g->load == FL_ERROR_OF_PEAK) return max_error / largest;
     return isfinite(squares) ? fmax(fabs(along), sqrt(squares)) / size : INFINITY;
 }
 
 static double momentum_error_of(const fl_error_budget *g, double h)
 {
-    double off = 0.0, size = 0.0;
+    double error = 0.0, size = 0.0;
     for (int32_t k = 0; k < g->windows; k++) {
         const fl_error_window *v = &g->window[k];
-        off += scaled_error(v->momentum_error, v->momentum_order, h, v->h);
+        error += scaled_error(v->momentum_error, v->momentum_order, h, v->h);
         size += v->impulse;
     }
-    return size > 0.0 ? off / size : 0.0;
+    return size > 0.0 ? error / size : 0.0;
 }
 
 /* Error over the allowed error. */
@@ -328,8 +329,9 @@ static double largest_step(const fl_error_budget *g, double h)
 /* Number of steps in a row that are at most h. */
 static int32_t row_steps(const fl_error_budget *g, double h)
 {
-    const double m = ceil(g->row_interval / h * (1.0 - 1e-12)), most = (double)g->min_row_steps * STEP_RANGE;
-    return (int32_t)fmin(fmax(m, g->min_row_steps), most);
+    const double m = ceil(g->row_interval / h * (1.0 - 1e-12)),
+                 max_steps = (double)g->min_row_steps * STEP_RANGE;
+    return (int32_t)fmin(fmax(m, g->min_row_steps), max_steps);
 }
 
 /* Number of steps in a row with the largest step used. */
@@ -361,15 +363,15 @@ static int search_step(fl_error_budget *g, int32_t *m, int32_t rows, fl_err *err
         known = isfinite(v->error);
         failed += g->end[ends - 1].failed;
         if (failed == MAX_FAILED && passed == 0.0) break; /* the run will fail with a message of its own */
-        const double off = error_ratio(g, h);
-        if (off < IMPROVED * least) useless = 0, least = off, best = *m, tried = *v;
-        else if (isfinite(off) && *m >= 2 * best) useless++;
+        const double error = error_ratio(g, h);
+        if (error < IMPROVED * least) useless = 0, least = error, best = *m, tried = *v;
+        else if (isfinite(error) && *m >= 2 * best) useless++;
         if (useless == MAX_USELESS && passed == 0.0) {
             *m = best, *v = tried;
             break;
         }
         double next;
-        if (off <= 1.0) {
+        if (error <= 1.0) {
             passed = h;
             accepted = *v;
             next = largest_step(g, h);
@@ -419,13 +421,14 @@ static int widen_list(const fl_error_budget *g, fl_world *w, fl_err *err)
 {
     const fl_bodies *b = &w->b;
     const double T = g->row_interval * g->window_rows, fall = v3_norm(w->gravity) * T;
-    double most = 0.0, used = 0.0;
+    double longest = 0.0, used = 0.0;
     for (int32_t k = 0; k < b->total; k++) {
-        most = fmax(most, T * (1.5 * (v3_norm(b->v[k]) + v3_norm(b->w[k]) * b->bounding_radius[k]) + fall));
+        longest =
+            fmax(longest, T * (1.5 * (v3_norm(b->v[k]) + v3_norm(b->w[k]) * b->bounding_radius[k]) + fall));
         used = fmax(used, b->odometer[k] - w->odometer_at_search[k]);
     }
-    if (2.0 * (most + used) <= w->skin) return 0;
-    w->skin = fmax(w->skin, 4.0 * most);
+    if (2.0 * (longest + used) <= w->skin) return 0;
+    w->skin = fmax(w->skin, 4.0 * longest);
     w->last_search_step = -1;
     return fl_neighbour_list_update(w, err);
 }
@@ -437,7 +440,8 @@ static int can_afford(const fl_error_budget *g, const fl_world *w)
 }
 
 /* Root mean square distance of two ends: positions, and velocities times T. */
-static double distance(const fl_error_budget *g, const fl_window_end *x, const fl_window_end *y, double T)
+static double state_distance(const fl_error_budget *g, const fl_window_end *x, const fl_window_end *y,
+                             double T)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < g->trial.n; i++) {
@@ -460,7 +464,7 @@ static int measure_divergence(fl_error_budget *g, const fl_world *w, int64_t row
         start += 5.0 * s * s;
     }
     start = sqrt(start / w->n);
-    const double end = distance(g, &g->end[0], &g->end[1], g->row_interval * rows);
+    const double end = state_distance(g, &g->end[0], &g->end[1], g->row_interval * rows);
     if (start > 0.0 && end > 0.0 && isfinite(end) && !g->end[1].failed) {
         g->growth_log_sum += fl_log(end / start);
         g->growth_time += g->row_interval * rows;
@@ -592,10 +596,11 @@ int fl_error_budget_make(fl_error_budget *g, const fl_scene *scene, const fl_ice
         fl_error_budget_free(g);
         return -1;
     }
-    const double most = fmin(fl_automatic_step(&g->trial, &body), fmin(g->row_interval, scene->run.duration));
+    const double longest =
+        fmin(fl_automatic_step(&g->trial, &body), fmin(g->row_interval, scene->run.duration));
     g->limit = fl_predict_step_limit(&g->trial);
     g->lateral_share = fl_lateral_share(&g->trial);
-    g->min_row_steps = (int32_t)fmin(ceil(g->row_interval / most * (1.0 - 1e-12)), MAX_ROW_STEPS);
+    g->min_row_steps = (int32_t)fmin(ceil(g->row_interval / longest * (1.0 - 1e-12)), MAX_ROW_STEPS);
     g->window_rows = (int32_t)ceil((double)WINDOW_STEPS / g->min_row_steps);
     g->known_momentum = fl_alloc(PARTS + g->trial.parts, sizeof *g->known_momentum, err);
     g->trial_momentum = fl_alloc(PARTS + g->trial.parts, sizeof *g->trial_momentum, err);
@@ -629,7 +634,7 @@ static void exchange_real(fl_state_io *t, double *x, int error)
         fl_text_fail(t->in, t->err, "not a finite number");
 }
 
-static int exchange(FILE *f, fl_text *in, fl_error_budget *g, fl_err *err)
+static int exchange_budget(FILE *f, fl_text *in, fl_error_budget *g, fl_err *err)
 {
     fl_state_io t = {f, in, err};
     int64_t *const count[] = {&g->n_searches, &g->last_search_step, &g->trial_steps, &g->last_search_cost};
@@ -670,12 +675,12 @@ void fl_error_budget_write(FILE *f, const fl_error_budget *g)
 {
     fl_err unused = {0};
     fl_error_budget copy = *g; /* exchange() takes pointers to non-const; nothing is changed */
-    exchange(f, NULL, &copy, &unused);
+    exchange_budget(f, NULL, &copy, &unused);
 }
 
 int fl_error_budget_read(fl_error_budget *g, fl_text *in, fl_err *err)
 {
-    if (exchange(NULL, in, g, err)) return -1;
+    if (exchange_budget(NULL, in, g, err)) return -1;
     const int more = fl_text_row(in, err);
     if (more > 0) fl_text_fail(in, err, "unexpected \"%.40s\" after the error budget", in->field[0]);
     return more ? -1 : 0;

@@ -169,17 +169,17 @@ static void begin_batch(fl_world *w, batch_list *c, double h)
     fl_bodies *b = &w->b;
     fl_environment *sea = &w->sea;
     const int kicks = b->added_mass || sea->waves;
-    const int32_t *was = w->previous_sums.slot, *at = c->at, n = c->n;
+    const int32_t *previous = w->previous_sums.slot, *at = c->at, n = c->n;
     int32_t busy[FL_BODY_BATCH], n_busy = 0, any = 0;
     fl_velocity_change before[FL_BODY_BATCH];
     double g[6][FL_BODY_BATCH];
     fl_body_batch_water water_batch, *water;
     fl_body_batch s;
     if (n == 0) return;
-    for (int32_t k = 0; k < n; k++) any |= was[at[k]];
+    for (int32_t k = 0; k < n; k++) any |= previous[at[k]];
     for (int32_t k = 0; k < n && any; k++) {
         busy[n_busy] = k;
-        n_busy += was[at[k]] != 0;
+        n_busy += previous[at[k]] != 0;
     }
     for (int32_t k = 0; k < n_busy; k++) before[k] = velocities_of(b, at[busy[k]]);
     load_batch(w, &s, c, h);
@@ -366,19 +366,19 @@ static int32_t find_touching(const fl_world *w, const batch_list *c, int32_t bus
 {
     const int32_t *at = c->at, n = c->n;
     const int all = w->bonds.n > 0;
-    const int32_t *sink = w->contact_sums.slot, *was = w->previous_sums.slot;
+    const int32_t *slot = w->contact_sums.slot, *previous = w->previous_sums.slot;
     int32_t n_busy = 0, any = 0;
     if (!w->contact_sums.one_each && !w->previous_sums.one_each) {
-        for (int32_t k = 0; k < n; k++) any |= sink[at[k]] | was[at[k]];
+        for (int32_t k = 0; k < n; k++) any |= slot[at[k]] | previous[at[k]];
         for (int32_t k = 0; k < n && any; k++) {
             busy[n_busy] = k;
-            n_busy += (sink[at[k]] | was[at[k]]) != 0;
+            n_busy += (slot[at[k]] | previous[at[k]]) != 0;
         }
         return n_busy;
     }
     for (int32_t k = 0; k < n; k++)
-        if (all || w->body_touches[at[k]] || w->contact_sums.sum[sink[at[k]]].contacts ||
-            w->previous_sums.sum[was[at[k]]].contacts)
+        if (all || w->body_touches[at[k]] || w->contact_sums.sum[slot[at[k]]].contacts ||
+            w->previous_sums.sum[previous[at[k]]].contacts)
             busy[n_busy++] = k;
     return n_busy;
 }
@@ -531,14 +531,14 @@ static int32_t end_batched_spheres(fl_world *w, int32_t k, int32_t to, double h,
  * Returns 0 if the block is not such a block. */
 static int end_sphere_block(fl_world *w, int32_t from, int32_t to, double h, fl_body_block *own, int *finite)
 {
-    const int32_t *sink = w->contact_sums.slot, *was = w->previous_sums.slot;
+    const int32_t *slot = w->contact_sums.slot, *previous = w->previous_sums.slot;
     fl_free_batch_work works;
-    int32_t pressed = 0;
+    int32_t touched = 0;
     if (!w->spheres.bodies || !w->b.is_isotropic[from] || w->sea.n || w->driven_floes.n ||
         w->contact_sums.one_each || !(h > 0.0))
         return 0;
-    for (int32_t k = from; k < to; k++) pressed |= sink[k] | was[k];
-    if (pressed || simple_run_end(w, from, to) < to) return 0;
+    for (int32_t k = from; k < to; k++) touched |= slot[k] | previous[k];
+    if (touched || simple_run_end(w, from, to) < to) return 0;
     *finite = fl_free_batch_end_step(w, from, to, h, &works);
     add_sphere_works(own, &works, to - from);
     for (int32_t k = from; k < to; k++)
@@ -635,17 +635,17 @@ static int end_block(fl_world *w, int32_t g, double h, batch_list *c)
     return !finite;
 }
 
-/* Second half for the bodies of blocks [g, last) that are not ballistic.  lost: 1 if a number may not be
+/* Second half for the bodies of blocks [g, last) that are not ballistic.  suspect: 1 if a number may not be
  * finite. A body that wakes and is touched is handled alone, see fl_sleep_second_half(). */
 static void end_awake_bodies(fl_world *w, int32_t g, int32_t last, double h, batch_list *c,
-                             int lost[FL_BLOCKS_AT_ONCE])
+                             int suspect[FL_BLOCKS_AT_ONCE])
 {
     int32_t active[FL_BLOCKS_AT_ONCE * FL_BODY_BLOCK];
     const int32_t n = fl_sleep_list_active(w, g * FL_BODY_BLOCK, block_end(w, last - 1), active);
     for (int32_t i = 0; i < n; i++) {
         const int32_t k = active[i];
         int finite = 1;
-        lost[k / FL_BODY_BLOCK - g] = 1;
+        suspect[k / FL_BODY_BLOCK - g] = 1;
         if (w->b.is_isotropic[k]) { /* spheres never sleep */
             end_batch(w, c, h);
             i += end_sphere_run(w, k, block_end(w, k / FL_BODY_BLOCK), h, &finite) - k - 1;
@@ -666,15 +666,15 @@ static void end_awake_bodies(fl_world *w, int32_t g, int32_t last, double h, bat
 void fl_blocks_second_half(fl_world *w, int32_t g, int32_t last, double h)
 {
     batch_list c = {.n = 0};
-    int lost[FL_BLOCKS_AT_ONCE];
+    int suspect[FL_BLOCKS_AT_ONCE];
     if (w->sleep.state) {
-        for (int32_t k = g; k < last; k++) start_block(w, k), lost[k - g] = 0;
-        end_awake_bodies(w, g, last, h, &c, lost);
+        for (int32_t k = g; k < last; k++) start_block(w, k), suspect[k - g] = 0;
+        end_awake_bodies(w, g, last, h, &c, suspect);
     } else {
-        for (int32_t k = g; k < last; k++) lost[k - g] = end_block(w, k, h, &c);
+        for (int32_t k = g; k < last; k++) suspect[k - g] = end_block(w, k, h, &c);
     }
     end_batch(w, &c, h);
     for (int32_t k = g; k < last; k++)
-        if (lost[k - g])
+        if (suspect[k - g])
             w->blocks[k].not_finite = first_not_finite(&w->b, k * FL_BODY_BLOCK, block_end(w, k));
 }

@@ -230,15 +230,16 @@ static int is_free(const fl_world *w, int32_t i, fl_err *err)
     int fits = vertices_about(w, i, b->x[i], &va, &cap_a, err) ? -1 : 1;
     for (int32_t k = 0; k < b->total - w->walls && fits == 1; k++) {
         if (k == i || (k < w->n && fl_body_absent(w, k))) continue;
-        fl_vec3 off = v3_sub(b->x[k], b->x[i]), origin = b->x[i];
+        fl_vec3 offset = v3_sub(b->x[k], b->x[i]), origin = b->x[i];
         if (w->cell.periodic) {
-            const fl_vec3 distance = fl_periodic_cell_offset(
-                &w->cell, v3(image_shift(off.x, L.x), image_shift(off.y, L.y), image_shift(off.z, L.z)));
-            off = v3_sub(off, distance);
-            origin = v3_add(origin, distance);
+            const fl_vec3 shift =
+                fl_periodic_cell_offset(&w->cell, v3(image_shift(offset.x, L.x), image_shift(offset.y, L.y),
+                                                     image_shift(offset.z, L.z)));
+            offset = v3_sub(offset, shift);
+            origin = v3_add(origin, shift);
         }
         const double R = b->radius[i] + b->radius[k];
-        if (v3_norm(off) > size + b->bounding_radius[k] + b->radius[k]) continue;
+        if (v3_norm(offset) > size + b->bounding_radius[k] + b->radius[k]) continue;
         fl_gap gap;
         if (vertices_about(w, k, origin, &vb, &cap_b, err)) {
             fits = -1;
@@ -263,13 +264,13 @@ static int place_copy(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
     const fl_mat3 R = fl_body_axes(b, i);
     for (int32_t v = 0; v < b->core[i].nv; v++)
         front = fmax(front, coordinate_along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
-    const double distance = t->sign * (t->entry + in - front - b->radius[i]);
+    const double shift = t->sign * (t->entry + in - front - b->radius[i]);
     const double drift = t->sign * t->speed;
-    const fl_vec3 held =
+    const fl_vec3 prescribed =
         v3(b->fixed_dof[i] & FL_DOF_X ? b->v[i].x : 0.0, b->fixed_dof[i] & FL_DOF_Y ? b->v[i].y : 0.0,
            b->fixed_dof[i] & FL_DOF_Z ? b->v[i].z : 0.0); /* prescribed by its group */
-    b->x[i] = v3_add(b->x[i], v3(t->axis ? 0.0 : distance, t->axis ? distance : 0.0, 0.0));
-    b->v[i] = v3(t->axis ? held.x : drift, t->axis ? drift : held.y, held.z);
+    b->x[i] = v3_add(b->x[i], v3(t->axis ? 0.0 : shift, t->axis ? shift : 0.0, 0.0));
+    b->v[i] = v3(t->axis ? prescribed.x : drift, t->axis ? drift : prescribed.y, prescribed.z);
     fl_body_set_spin(b, i, v3(0, 0, 0));
     return 0;
 }
@@ -277,10 +278,10 @@ static int place_copy(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
 void fl_inflow_set_guided(fl_world *w, int32_t i, int guided)
 {
     fl_inflow_state *t = &w->inflow;
-    uint8_t *const hold = &w->b.fixed_dof[i];
+    uint8_t *const fixed = &w->b.fixed_dof[i];
     if (guided == t->guided[i]) return;
-    if (guided) t->own_fixed_dof[i] = *hold, *hold |= FL_DOF_X | FL_DOF_Y | FL_DOF_RZ;
-    else *hold = t->own_fixed_dof[i];
+    if (guided) t->own_fixed_dof[i] = *fixed, *fixed |= FL_DOF_X | FL_DOF_Y | FL_DOF_RZ;
+    else *fixed = t->own_fixed_dof[i];
     t->guided[i] = (uint8_t)guided;
 }
 
@@ -307,9 +308,9 @@ static void admit_floe(fl_world *w, int32_t i)
 static int place_due(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
-    const double distance = t->speed * fl_world_time(w), step = t->speed * w->dt;
+    const double shift = t->speed * fl_world_time(w), step = t->speed * w->dt;
     for (;;) {
-        const double delay = distance - t->lag[k] - (double)t->next_copy[k] * t->pitch;
+        const double delay = shift - t->lag[k] - (double)t->next_copy[k] * t->pitch;
         if (delay < 0.0) return 0;
         if (delay >= t->pitch) {
             const double behind = floor(delay / t->pitch);
@@ -361,9 +362,9 @@ static void release_guided(fl_world *w)
 static int is_due(const fl_world *w)
 {
     const fl_inflow_state *t = &w->inflow;
-    const double distance = t->speed * fl_world_time(w);
+    const double shift = t->speed * fl_world_time(w);
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)
-        if (distance >= t->lag[k] + (double)t->next_copy[k] * t->pitch) return 1;
+        if (shift >= t->lag[k] + (double)t->next_copy[k] * t->pitch) return 1;
     return 0;
 }
 

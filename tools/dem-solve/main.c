@@ -105,8 +105,8 @@ struct inputs {
     fl_history_line by;
 };
 
-/* If a file named by the scene does not exist, fail with the line of the scene.  Its reader reports other failures,
- * and files named on the command line. */
+/* If a file named by the scene does not exist, fail with the line of the scene.  Its reader reports other
+ * failures, and files named on the command line. */
 static int check_file(const fl_scene *s, const char *key, const char *path, fl_err *err)
 {
     fl_err why = {0};

@@ -93,8 +93,8 @@ void reschedule(struct run *r, struct outputs *u)
     for (int k = 0; k < TIMERS; k++) move_timer(&u->timer[k], u->timer[k].k, r->w);
 }
 
-/* The time now as rows write it: the time at which the row was due, 0.3 and not 0.1 + 0.1 + 0.1, if the step is
- * there but for rounding. */
+/* The time now as rows write it: the time at which the row was due, 0.3 and not 0.1 + 0.1 + 0.1, if the
+ * step is there but for rounding. */
 static double row_time(const struct run *r, double due)
 {
     const double t = fl_world_time(r->w);
@@ -174,7 +174,8 @@ static int write_loads_rows(struct run *r, struct outputs *u, double t, fl_err *
     return fl_out_flush(&u->table[TABLE_LOADS], err);
 }
 
-/* Step from which on shapes of new floes have not been written: that of the last frame with ice; -1: all have. */
+/* Step from which on shapes of new floes have not been written: that of the last frame with ice; -1: all
+ * have. */
 static int64_t first_new_shape(const struct run *r, const struct outputs *u)
 {
     struct timer last = u->timer[TIMER_ICE];

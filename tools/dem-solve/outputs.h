@@ -59,7 +59,8 @@ int open_outputs(struct run *r, struct outputs *u, fl_err *err);
 /* From now on an incomplete table keeps its rows and its name. */
 void keep_outputs(struct outputs *u);
 
-/* Write what is due at this step; or the last, shorter row of the loads at the end of the run.  -1 with FL_SYSTEM. */
+/* Write what is due at this step; or the last, shorter row of the loads at the end of the run.  -1 with
+ * FL_SYSTEM. */
 int write_due(struct run *r, struct outputs *u, fl_err *err);
 int write_last_loads(struct run *r, struct outputs *u, fl_err *err);
 

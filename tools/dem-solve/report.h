@@ -6,7 +6,8 @@
 
 void write_report(const struct run *r, FILE *f);
 
-/* A note before the run about bonds that are too long for their fracture energy; nothing without such bonds. */
+/* A note before the run about bonds that are too long for their fracture energy; nothing without such
+ * bonds. */
 void note_long_bonds(const fl_world *w, FILE *f);
 
 #endif

@@ -23,8 +23,8 @@ static void on_signal(int number)
     else stop_signal = number;
 }
 
-/* SIGTERM, SIGINT and SIGHUP end the run after the step under way; a second one ends the program at once.  After
- * SIGPIPE the run ends when a row has failed. */
+/* SIGTERM, SIGINT and SIGHUP end the run after the step under way; a second one ends the program at
+ * once.  After SIGPIPE the run ends when a row has failed. */
 static void catch_signals(const struct run *r)
 {
     static const int STOP[] = {SIGTERM, SIGINT, SIGHUP};
@@ -72,7 +72,8 @@ static void show_progress(const struct run *r, double begun, int last)
     fflush(stderr);
 }
 
-/* At the end of a row of the loads run.error may change the step, and with it the steps at which rows are due. */
+/* At the end of a row of the loads run.error may change the step, and with it the steps at which rows are
+ * due. */
 static int update_step(struct run *r, struct outputs *u, fl_err *err)
 {
     const struct timer *const loads = &u->timer[TABLE_LOADS];
@@ -128,8 +129,8 @@ static int run_steps(struct run *r, struct outputs *u, int show, double begun, f
     }
     r->stopped = w->step < r->steps ? stop_signal : 0;
     if (r->stopped) return save_if_due(r, u, 0, err); /* the signal may have come before the first step */
-    /* A longer run would have no shorter last row and no energy check here, so the checkpoint that it could resume
-     * comes before them. */
+    /* A longer run would have no shorter last row and no energy check here, so the checkpoint that it
+     * could resume comes before them. */
     if (save_if_due(r, u, 1, err) || fl_energy_check(w, err)) return -1;
     return write_last_loads(r, u, err);
 }

@@ -16,23 +16,11 @@
 #include "step_choice.h"
 #include "world/access.h"
 
-/* Keys that a resumed run may change.  The first two give it another step from then on; the others change no step
- * and no row. */
+/* Keys that a resumed run may change, besides the paths of its tables.  The first two give it another step
+ * from then on; the others change no step and no row. */
 enum { STEP_KEYS = 2 };
-static const char *const FREE_KEY[] = {"run.dt",
-                                       "run.safety",
-                                       "run.duration",
-                                       "run.threads",
-                                       "output.state",
-                                       "output.energy",
-                                       "output.contacts",
-                                       "output.hash",
-                                       "output.panels",
-                                       "output.events",
-                                       "output.bonds",
-                                       "output.frames",
-                                       "output.checkpoint",
-                                       "output.checkpoint_every"};
+static const char *const FREE_KEY[] = {"run.dt",      "run.safety",        "run.duration",
+                                       "run.threads", "output.checkpoint", "output.checkpoint_every"};
 
 /* --- write ------------------------------------------------------------------------------------- */
 
@@ -44,7 +32,7 @@ static int close_text(FILE *f, fl_restart_part *part, const size_t *n, fl_err *e
     return 0;
 }
 
-int save_inputs_as_text(fl_restart_part kept[INPUT_TEXTS], const fl_ice_field *field,
+int save_inputs_as_text(fl_restart_part input[INPUT_TEXTS], const fl_ice_field *field,
                         const fl_surface *surface, const fl_ice_field *feed, const fl_history_line *by,
                         fl_err *err)
 {
@@ -53,15 +41,15 @@ int save_inputs_as_text(fl_restart_part kept[INPUT_TEXTS], const fl_ice_field *f
     for (int k = 0; k < INPUT_TEXTS; k++) {
         char *text = NULL;
         size_t n = 0;
-        kept[k] = (fl_restart_part){.name = ""};
+        input[k] = (fl_restart_part){.name = ""};
         if (!present[k]) continue;
-        snprintf(kept[k].name, sizeof kept[k].name, "%s", NAME[k]);
+        snprintf(input[k].name, sizeof input[k].name, "%s", NAME[k]);
         FILE *f = open_memstream(&text, &n);
         if (!f) return fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
         if (k == 1) fl_gstruct_write(f, surface, by);
         else fl_ice_field_write(f, k ? feed : field, by);
-        const int bad = close_text(f, &kept[k], &n, err);
-        kept[k].text = text;
+        const int bad = close_text(f, &input[k], &n, err);
+        input[k].text = text;
         if (bad) return -1;
     }
     return 0;
@@ -82,27 +70,27 @@ static void write_positions(FILE *f, const struct run *r, const struct outputs *
 
 int save_write(struct run *r, struct outputs *u, fl_err *err)
 {
-    enum { SCENE, ICE, STRUCTURE, INFLOW, PLACE, LOADS, STATE, BUDGET, BESIDE, PARTS };
+    enum { SCENE, ICE, STRUCTURE, INFLOW, POSITIONS, LOADS, STATE, BUDGET, COMPANION, PARTS };
     fl_restart_part part[PARTS] = {
         [SCENE] = {.name = "scene"},
         [ICE] = r->input_text[0],
         [STRUCTURE] = r->input_text[1],
         [INFLOW] = r->input_text[2],
-        [PLACE] = {.name = "tables"},
+        [POSITIONS] = {.name = "tables"},
         [LOADS] = {.name = "loads", .text = r->loads_path, .n = (int64_t)strlen(r->loads_path)},
         [STATE] = {.name = "state"},
         [BUDGET] = {.name = "budget"},
-        [BESIDE] = {.name = "beside"}};
+        [COMPANION] = {.name = "beside"}};
     fl_file_mark mark[TABLES];
     char *text[PARTS] = {0}, *history = NULL;
     size_t n[PARTS] = {0};
     const double begun = wall_clock();
-    fl_scene scene = *r->scene; /* a copy, in which only this is changed */
+    fl_scene scene = *r->scene; /* a copy for writing, without the number of threads */
     int rc = -1;
-    const int beside = r->budget && fl_companion_is_active(&r->budget->companion);
+    const int companion = r->budget && fl_companion_is_active(&r->budget->companion);
     if (!r->budget) part[BUDGET].name[0] = '\0';
-    if (!beside) part[BESIDE].name[0] = '\0';
-    scene.run.threads = 0; /* they belong to the machine: no other byte of a checkpoint depends on it */
+    if (!companion) part[COMPANION].name[0] = '\0';
+    scene.run.threads = 0; /* the only byte that would depend on the machine */
     for (int k = 0; k < TABLES; k++)
         if (u->table[k].f && fl_out_mark(&u->table[k], &mark[k], err)) return -1;
     for (int k = 0; k < PARTS; k++) {
@@ -113,10 +101,10 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
             goto done;
         }
         if (k == SCENE) fl_scene_write(f, &scene);
-        if (k == PLACE) write_positions(f, r, u, mark);
+        if (k == POSITIONS) write_positions(f, r, u, mark);
         if (k == STATE) fl_snapshot_write(f, r->w);
         if (k == BUDGET) fl_error_budget_write(f, r->budget);
-        if (k == BESIDE) fl_snapshot_write(f, &r->budget->companion.world);
+        if (k == COMPANION) fl_snapshot_write(f, &r->budget->companion.world);
         if (close_text(f, &part[k], &n[k], err)) goto done;
         part[k].text = text[k];
     }
@@ -141,18 +129,30 @@ done:
 
 /* --- read -------------------------------------------------------------------------------------- */
 
-/* 1 if the key of an assignment is FREE_KEY[k]. */
-static int sets_key(const char *set, int k)
+/* 1 if an assignment sets that key. */
+static int sets_key(const char *set, const char *key)
 {
     const size_t len = strcspn(set, "= ");
-    return strlen(FREE_KEY[k]) == len && strncmp(FREE_KEY[k], set, len) == 0;
+    return strlen(key) == len && strncmp(key, set, len) == 0;
+}
+
+/* 1 if an assignment sets the path of a table. */
+static int sets_table_path(const char *set)
+{
+    char key[32];
+    for (int k = 0; k < TABLES; k++) {
+        snprintf(key, sizeof key, "output.%s", table_name(k));
+        if (k != TABLE_LOADS && sets_key(set, key)) return 1;
+    }
+    return 0;
 }
 
 static int change_key(fl_scene *scene, const char *set, fl_err *err)
 {
     const int keys = (int)(sizeof FREE_KEY / sizeof *FREE_KEY);
-    for (int k = 0; k < keys; k++)
-        if (sets_key(set, k)) return fl_scene_set(scene, set, err);
+    int may = sets_table_path(set);
+    for (int k = 0; k < keys; k++) may |= sets_key(set, FREE_KEY[k]);
+    if (may) return fl_scene_set(scene, set, err);
     return fl_fail(err, FL_USAGE,
                    "--set: \"%.60s\" would change the run that is resumed; run.duration, "
                    "run.threads, run.dt, run.safety and files of output may be changed",
@@ -266,13 +266,13 @@ static int read_positions(struct run *r, struct outputs *u, fl_file_mark mark[TA
     return err->code ? -1 : 0;
 }
 
-/* Change the step from now on if the command line does: rows are due at the first step at or after their times.
- * water.every stays the same number of steps. */
+/* Change the step from now on if the command line does: rows are due at the first step at or after their
+ * times. water.every stays the same number of steps. */
 static int change_step(struct run *r, double dt, fl_err *err)
 {
     int requested = 0;
     for (int k = 0; k < r->o->sets; k++)
-        for (int c = 0; c < STEP_KEYS; c++) requested |= sets_key(r->o->set[k], c);
+        for (int c = 0; c < STEP_KEYS; c++) requested |= sets_key(r->o->set[k], FREE_KEY[c]);
     if (!requested || dt == r->w->dt) return 0;
     if (!r->o->quiet)
         fprintf(stderr, "dem-solve: note: from t = %.9g s on steps are %.4g s instead of %.4g s\n",

@@ -25,15 +25,15 @@ void count_steps(struct run *r) { r->steps = step_at(r->w, r->scene->run.duratio
 
 int check_step_count(const struct run *r, fl_err *err)
 {
-    const double most = 9007199254740992.0, n = r->scene->run.duration / r->w->dt; /* 2^53 */
-    if (n < most) return 0;
+    const double limit = 9007199254740992.0, n = r->scene->run.duration / r->w->dt; /* 2^53 */
+    if (n < limit) return 0;
     return fl_scene_fail(r->scene, "run.duration", err,
                          "run.duration of %g s in steps of %g s: %.3g steps, at most %.3g expected",
-                         r->scene->run.duration, r->w->dt, n, most);
+                         r->scene->run.duration, r->w->dt, n, limit);
 }
 
-/* The step is half of the critical one, or what one damped contact leaves or 0.8 of it, or less by many damped
- * contacts. */
+/* The step is half of the critical one, or what one damped contact leaves or 0.8 of it, or less by many
+ * damped contacts. */
 static void describe_damped_step(char *to, size_t n, double share, double left, double critical)
 {
     const double part = share / left;

@@ -7,8 +7,8 @@
 /* Relative difference of two times that are equal but for rounding. */
 #define TIME_ROUNDING 1e-12
 
-/* Choose the step: that of the scene, or the automatic one, a little smaller so that it divides the interval of
- * the loads.  Sets r->w->dt, critical, step_body, step_by and steps. */
+/* Choose the step: that of the scene, or the automatic one, a little smaller so that it divides the
+ * interval of the loads.  Sets r->w->dt, critical, step_body, step_by and steps. */
 void choose_step(struct run *r);
 
 /* First step at or after time t; a step that differs from t by rounding alone counts as at t. */

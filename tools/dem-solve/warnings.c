@@ -7,12 +7,12 @@
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
 
-/* A hull is at rest if mass and centre differ by less than this from its displacement, relative to displacement
- * and size. */
+/* A hull is at rest if mass and centre differ by less than this from its displacement, relative to
+ * displacement and size. */
 #define AT_REST 1e-3
 
-/* Bodies that overlap at the start are pushed apart, with loads that belong to no case.  A run may take hours, so
- * this is said before it.  Rounded edges cannot overlap by more than the sum of the radii. */
+/* Bodies that overlap at the start are pushed apart, with loads that belong to no case.  A run may take
+ * hours, so this is said before it.  Rounded edges cannot overlap by more than the sum of the radii. */
 static void warn_overlaps(const struct run *r)
 {
     const fl_world *w = r->w;
@@ -122,8 +122,8 @@ static void warn_waves(const struct run *r)
             steep, breaking);
 }
 
-/* A material of the scene file itself that nothing uses is likely misspelt.  Included files may have more materials
- * than needed, and floes that come in later may use any. */
+/* A material of the scene file itself that nothing uses is likely misspelt.  Included files may have more
+ * materials than needed, and floes that come in later may use any. */
 static void warn_materials(const struct run *r)
 {
     const fl_world *w = r->w;
@@ -152,18 +152,18 @@ void warn_at_start(const struct run *r)
 }
 
 /* Thickness of a dilated body: smallest extent along the normals of its faces. */
-static double thickness(const fl_poly *p, double radius)
+static double thickness_of(const fl_poly *p, double radius)
 {
-    double least = p->nf ? INFINITY : 0.0;
+    double smallest = p->nf ? INFINITY : 0.0;
     for (int32_t f = 0; f < p->nf; f++) {
         double lo = INFINITY, hi = -INFINITY;
         for (int32_t v = 0; v < p->nv; v++) {
             const double h = v3_dot(p->n[f], p->v[v]);
             lo = fmin(lo, h), hi = fmax(hi, h);
         }
-        least = fmin(least, hi - lo);
+        smallest = fmin(smallest, hi - lo);
     }
-    return least + 2.0 * radius;
+    return smallest + 2.0 * radius;
 }
 
 /* Two bodies that move by less than their thickness in a step cannot pass each other. */
@@ -173,7 +173,7 @@ void warn_at_row(struct run *r, double t)
     for (int32_t i = 0; i < w->n && !r->warned_fast; i++) {
         const double distance = w->dt * v3_norm(w->b.v[i]);
         if (!(distance > 2.0 * w->b.radius[i]) || fl_body_absent(w, i)) continue;
-        const double body_thickness = thickness(&w->b.core[i], w->b.radius[i]);
+        const double body_thickness = thickness_of(&w->b.core[i], w->b.radius[i]);
         if (!(distance > body_thickness) || isinf(distance)) continue;
         r->warned_fast = 1;
         fprintf(

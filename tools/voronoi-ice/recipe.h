@@ -21,6 +21,7 @@ struct keep_out {
 struct recipe {
     const struct generator *generator;
     const char *generator_argument; /* NULL: none */
+    int generator_given;            /* a generator without an argument was chosen */
     const char *out, *material;     /* borrowed from argv */
     const char *plot, *format;      /* folder of pictures, NULL: none; svg or png */
     const char *id;                 /* NULL: none */
@@ -54,7 +55,7 @@ struct recipe {
     int bonded;
     int32_t layers;
     double diameter; /* of the spheres of a lattice [m] */
-    int gzip, quiet, verbose, threads;
+    int gzip, quiet, verbose, threads, ended;
     int has_origin, has_floes, has_concentration; /* given on the command line */
     const char *sizes; /* full name of a law, or a file; NULL: areas of Voronoi cells */
     int sizes_file;    /* sizes is a file */
