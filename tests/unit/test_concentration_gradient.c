@@ -29,7 +29,7 @@ static void a_line_and_a_table_agree(void **state)
                 fl_concentration_at(&b, (fl_vec2){99.0, 0.0}) == 0.9);
     fl_concentration_free(&a);
     fl_concentration_free(&b);
-    /* along another direction it runs from one corner of the box to the opposite one */
+    /* in another direction it runs from one corner of the box to the opposite one */
     assert_int_equal(fl_concentration_linear(&a, acos(-1.0) / 4.0, 0.1, 0.5, LO, HI, &err), 0);
     assert_near(fl_concentration_at(&a, LO), 0.1, 1e-14);
     assert_near(fl_concentration_at(&a, HI), 0.5, 1e-14);
@@ -37,7 +37,7 @@ static void a_line_and_a_table_agree(void **state)
     fl_concentration_free(&a);
 }
 
-static void wrong_tables_are_told(void **state)
+static void invalid_tables_are_reported(void **state)
 {
     (void)state;
     static const char *const text[] = {"",          "s[m] c\n",       "0 0\n",          "0 1\n",
@@ -52,8 +52,9 @@ static void wrong_tables_are_told(void **state)
     }
 }
 
-/* Each floe covers its part to rounding, all together what all parts ask for, held ones or not. */
-static void floes_cover_their_parts(void **state)
+/* Each floe covers its share to rounding, and all floes together cover the requested area, fixed floes
+ * included. */
+static void floes_cover_their_share(void **state)
 {
     (void)state;
     for (int k = 0; k < 12; k++) {
@@ -91,7 +92,7 @@ static void floes_cover_their_parts(void **state)
     }
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     fl_vec2 site[10];
@@ -125,7 +126,7 @@ static void memory_that_runs_out_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_line_and_a_table_agree), cmocka_unit_test(wrong_tables_are_told),
-        cmocka_unit_test(floes_cover_their_parts), cmocka_unit_test(memory_that_runs_out_is_told)};
+        cmocka_unit_test(a_line_and_a_table_agree), cmocka_unit_test(invalid_tables_are_reported),
+        cmocka_unit_test(floes_cover_their_share), cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

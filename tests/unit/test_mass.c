@@ -66,8 +66,8 @@ static void sphere_and_capsule(void **state)
     fl_poly_free(&p);
 }
 
-/* A regular polygon of many sides is nearly a disc: P + B(r) is then a disc with a rounded rim, whose volume
- * and moments are integrals of the half circle. */
+/* A regular polygon of many sides is nearly a disc: P + B(r) is then a disc with a rounded rim, the volume
+ * and moments of which are integrals over the half circle. */
 static void flat_core_is_a_pancake(void **state)
 {
     (void)state;
@@ -94,7 +94,8 @@ static void flat_core_is_a_pancake(void **state)
         axial += 0.5 * PI * w * w * w * w * dz;
         across += (0.25 * PI * w * w * w * w + PI * w * w * z * z) * dz;
     }
-    const double rim = 4.0 * PI * PI / (3.0 * N * N); /* the polygon misses its circle by this in area */
+    const double rim =
+        4.0 * PI * PI / (3.0 * N * N); /* the polygon is smaller than the circle by this area */
     assert_near(m.volume, vol, rim);
     assert_near(m.inertia.z, axial, 2 * rim);
     assert_near(m.inertia.x, across, 2 * rim);
@@ -108,8 +109,8 @@ static void flat_core_is_a_pancake(void **state)
     fl_poly_free(&p);
 }
 
-/* The moments of P + B(r), counted on a grid that is fine enough for three digits: the corner formulae by
- * another road. */
+/* The moments of P + B(r), counted on a grid fine enough for three digits: an independent check of the corner
+ * formulae. */
 static void round_moments_match_a_count(void **state)
 {
     (void)state;
@@ -120,7 +121,7 @@ static void round_moments_match_a_count(void **state)
         fl_poly p;
         fl_mass m;
         shape_regular(&p, faces, 1.0);
-        /* uneven, so that no moment is right by symmetry */
+        /* unequal, so that no moment is right by symmetry */
         fl_poly q;
         fl_vec3 v[12];
         for (int32_t k = 0; k < p.nv; k++)
@@ -237,7 +238,7 @@ static void far_from_the_origin(void **state)
         fl_mass m, n;
         shape_random_polytope(&p, &g, 6);
         const double r = fl_rng_in(&g, 0.0, 0.3);
-        /* a shift that is a power of two moves the vertices without rounding them much */
+        /* a shift by a power of two moves the vertices almost without rounding */
         shape_copy_moved(&q, &p, 1.0, q_one(), v3(1048576, -1048576, 524288));
         assert_int_equal(fl_mass_of(&m, &p, r, &err), 0);
         assert_int_equal(fl_mass_of(&n, &q, r, &err), 0);

@@ -9,12 +9,12 @@
 #include "stat/pressure.h"
 #include "support/near.h"
 
-static fl_contact_event at(double x, double y, double z, double push)
+static fl_contact_event event_at(double x, double y, double z, double push)
 {
     return (fl_contact_event){.part = -1, .p = v3(x, y, z), .n = v3(1, 0, 0), .normal_force = push};
 }
 
-static fl_window best_of(int32_t n, const fl_contact_event *hit, double area)
+static fl_window best_window(int32_t n, const fl_contact_event *hit, double area)
 {
     fl_window_work w = {0};
     fl_window best;
@@ -24,45 +24,46 @@ static fl_window best_of(int32_t n, const fl_contact_event *hit, double area)
     return best;
 }
 
-/* Three contacts on a wall, 1 m apart on a line: a disc of less than 1 m across holds one, of 1 m two. */
-static void three_on_a_line(void **state)
+/* Three contacts on a wall, 1 m apart on a line: a disc smaller than 1 m holds one, of 1 m two. */
+static void a_window_holds_the_contacts_that_fit(void **state)
 {
-    const fl_contact_event hit[] = {at(0, 0, 0, 5), at(0, 1, 0, 4), at(0, 2, 0, 8)};
+    const fl_contact_event hit[] = {event_at(0, 0, 0, 5), event_at(0, 1, 0, 4), event_at(0, 2, 0, 8)};
     (void)state;
-    fl_window b = best_of(3, hit, PI * 0.499 * 0.499);
+    fl_window b = best_window(3, hit, PI * 0.499 * 0.499);
     assert_near(b.force, 8.0, 1e-15);
     assert_int_equal(b.contacts, 1);
     assert_near(b.centre.y, 2.0, 1e-12);
-    b = best_of(3, hit, PI * 0.501 * 0.501);
+    b = best_window(3, hit, PI * 0.501 * 0.501);
     assert_near(b.force, 12.0, 1e-15);
     assert_int_equal(b.contacts, 2);
     assert_true(b.centre.y > 1.4 && b.centre.y < 1.6 && fabs(b.centre.z) < 0.05);
-    b = best_of(3, hit, PI * 1.001 * 1.001);
+    b = best_window(3, hit, PI * 1.001 * 1.001);
     assert_near(b.force, 17.0, 1e-15);
-    assert_int_equal(best_of(0, hit, 1.0).contacts, 0);
+    assert_int_equal(best_window(0, hit, 1.0).contacts, 0);
 }
 
-/* What lies over an area, or along a line, gives a small window its part; what pulls, none; nor do another
- * part and the other side of a thin wall. */
+/* A contact spread over an area or along a line gives a small window its share. A tensile contact gives none,
+ * nor do another part and the other side of a thin wall. */
 static void shares_and_sides(void **state)
 {
-    fl_contact_event hit[] = {at(0, 0, 0, 10), at(0, 0.1, 0, 6), at(0, 0, 0.1, -3), at(0, 0, 0, 7),
-                              at(0.01, 0, 0, 9)};
+    fl_contact_event hit[] = {event_at(0, 0, 0, 10), event_at(0, 0.1, 0, 6), event_at(0, 0, 0.1, -3),
+                              event_at(0, 0, 0, 7), event_at(0.01, 0, 0, 9)};
     (void)state;
     hit[0].area = 4.0;
     hit[1].length = 2.0;
     hit[3].part = -2;
     hit[4].n = v3(-1, 0, 0);
     const double area = PI * 0.25; /* 1 m across */
-    assert_near(best_of(2, hit, area).force, 10.0 * area / 4.0 + 3.0, 1e-15);
-    assert_near(best_of(5, hit, area).force, 9.0, 1e-15); /* the other side carries more */
+    assert_near(best_window(2, hit, area).force, 10.0 * area / 4.0 + 3.0, 1e-15);
+    assert_near(best_window(5, hit, area).force, 9.0, 1e-15); /* the other side has a larger load */
     hit[4].normal_force = 1.0;
-    assert_near(best_of(5, hit, area).force, 10.0 * area / 4.0 + 3.0, 1e-15);
-    assert_near(best_of(3, hit, 100.0).force, 16.0, 1e-15);
+    assert_near(best_window(5, hit, area).force, 10.0 * area / 4.0 + 3.0, 1e-15);
+    assert_near(best_window(3, hit, 100.0).force, 16.0, 1e-15);
 }
 
-/* On random walls no disc of a fine grid of centres carries more than the window, which carries that. */
-static void no_disc_carries_more(void **state)
+/* On random walls no disc of a fine grid of centres has a larger load than the window, and the window has
+ * that load. */
+static void no_disc_has_a_larger_load(void **state)
 {
     enum { N = 12, GRID = 60 };
     (void)state;
@@ -79,7 +80,7 @@ static void no_disc_carries_more(void **state)
             hit[k] = (fl_contact_event){.part = -1, .n = n, .normal_force = fl_rng_in(&g, 0.5, 2.0)};
             hit[k].p = v3_add(v3_scale(u[k], e), v3_scale(v[k], f));
         }
-        const fl_window b = best_of(N, hit, PI * r * r);
+        const fl_window b = best_window(N, hit, PI * r * r);
         for (int i = -GRID / 4; i <= GRID * 5 / 4; i++) {
             for (int j = -GRID / 4; j <= GRID * 5 / 4; j++) {
                 double sum = 0.0;
@@ -127,8 +128,8 @@ static int read_all(const char *rows, const fl_contact_selection *ask, fl_contac
     return more;
 }
 
-/* Times at which nothing touches are missing in the table, and count all the same. */
-static void contacts_are_read(void **state)
+/* Times without contact are missing in the table, but are counted. */
+static void contact_tables_are_read(void **state)
 {
     static const char rows[] =
         "0.1 1 2 FF 0 1 0 0 0 0 0 0 0 9 0 0 0\n0.2 1 -1 FF 0 1 0 0 1 2 3 0 0.5 9 0 -2 1\n"
@@ -183,9 +184,11 @@ static void bad_contacts_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(three_on_a_line),      cmocka_unit_test(shares_and_sides),
-        cmocka_unit_test(no_disc_carries_more), cmocka_unit_test(fits_and_reference),
-        cmocka_unit_test(contacts_are_read),    cmocka_unit_test(bad_contacts_are_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_window_holds_the_contacts_that_fit),
+                                       cmocka_unit_test(shares_and_sides),
+                                       cmocka_unit_test(no_disc_has_a_larger_load),
+                                       cmocka_unit_test(fits_and_reference),
+                                       cmocka_unit_test(contact_tables_are_read),
+                                       cmocka_unit_test(bad_contacts_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,7 +24,7 @@ static void philox_known_answers(void **state)
         pi);
 }
 
-/* Seed, entity and purpose each start their own sequence; the same three start the same one. */
+/* Seed, entity and purpose each start their own sequence; equal values of the three start the same one. */
 static void streams_differ(void **state)
 {
     (void)state;
@@ -39,8 +39,8 @@ static void streams_differ(void **state)
     for (int k = 0; k < 100; k++) assert_true(fl_rng_u64(&a) != first);
 }
 
-/* Mean, variance and correlation of neighbours of n numbers.  Their standard errors for uniforms are
- * 1/sqrt(12 n), 1/sqrt(180 n), 1/(12 sqrt n); five of them are allowed: once in 1.7 million seeds. */
+/* Mean, variance and correlation of neighbours of n numbers. Their standard errors for uniforms are 1/sqrt(12
+ * n), 1/sqrt(180 n), 1/(12 sqrt n); five of them are allowed: exceeded once in 1.7 million seeds. */
 static void uniform_moments(void **state)
 {
     enum { N = 200000 };

@@ -20,7 +20,7 @@ static int read_text(fl_series *s, const fl_record_selection *ask, const char *d
     return fl_series_read(s, test_file("series", data, strlen(data)), ask, &err);
 }
 
-static void expect_told(int code, int line, const char *says)
+static void expect_message(int code, int line, const char *says)
 {
     char want[1200];
     if (line) snprintf(want, sizeof want, "%s:%d: %s", test_path("series"), line, says);
@@ -35,7 +35,7 @@ static const char TWO[] = HEAD "1 a 3 4 12 20 1\n1 b 0 0 0 0 0\n"
                                "3 b 6 8 0 11 2\n3 a 0 0 0 1 0\n" /* the order of the parts may change */
                                "4 a 1 -2 2 4 1\n4 b -1 2 -2 4 1\n";
 
-static void parts_and_total(void **state)
+static void parts_add_up_to_the_total(void **state)
 {
     fl_series s;
     (void)state;
@@ -58,7 +58,7 @@ static void parts_and_total(void **state)
     fl_series_free(&s);
 }
 
-static void asking(void **state)
+static void signals_are_selected(void **state)
 {
     const char *const force[] = {"f"}, *const peak[] = {"fpeak", "contacts"}, *const wrong[] = {"fpeek"};
     fl_series s;
@@ -93,14 +93,14 @@ static void asking(void **state)
     ask.signal = wrong;
     ask.signals = 1;
     assert_int_equal(read_text(&s, &ask, TWO), -1);
-    expect_told(FL_INPUT, 3, "no column fpeek in this loads table, the nearest is fpeak");
+    expect_message(FL_INPUT, 3, "no column fpeek in this loads table, the nearest is fpeak");
     ask = ALL;
     ask.part = "bb";
     assert_int_equal(read_text(&s, &ask, TWO), -1);
-    expect_told(FL_INPUT, 0, "no part bb, the nearest is b");
+    expect_message(FL_INPUT, 0, "no part bb, the nearest is b");
 }
 
-static void cuts(void **state)
+static void selected_intervals(void **state)
 {
     fl_series s;
     fl_record_selection ask = ALL;
@@ -119,10 +119,10 @@ static void cuts(void **state)
     fl_series_free(&s);
     ask.last = 0.5; /* no whole interval lies in the last half second */
     assert_int_equal(read_text(&s, &ask, TWO), -1);
-    expect_told(FL_INPUT, 0, "no row lies between 3.5 s and 4 s, the record is from 0 s to 4 s");
+    expect_message(FL_INPUT, 0, "no row lies between 3.5 s and 4 s, the record is from 0 s to 4 s");
 }
 
-/* A sample stands for the time nearer to it than to its neighbours. */
+/* A sample represents the time closer to it than to its neighbours. */
 static void samples_of_another_table(void **state)
 {
     const char *const column[] = {"kinetic"}, *const x[] = {"x"};
@@ -130,7 +130,7 @@ static void samples_of_another_table(void **state)
     fl_record_selection ask = ALL;
     (void)state;
     assert_int_equal(read_text(&s, &ask, "#energy 1\nt[s] kinetic[J]\n0 1\n"), -1);
-    expect_told(FL_USAGE, 0, "a column of this energy table must be chosen, it is not loads");
+    expect_message(FL_USAGE, 0, "a column of this energy table must be chosen, it is not loads");
     ask.signal = column;
     ask.signals = 1;
     assert_int_equal(read_text(&s, &ask, "#energy 1\nt[s] kinetic[J]\n0 1\n2 5\n6 7\n"), 0);
@@ -153,8 +153,8 @@ static const char TOUCH[] = "#contacts 1\nt[s] i j fn[N] gap[m]\n0 1 2 10 -1\n0 
                             "1 5 2 7 0.5\n"
                             "3 1 2 1 -1\n3 2 4 2 -3\n3 4 -1 4 -2\n";
 
-/* Rows of one time become one, or some of them are chosen. */
-static void rows_of_one_time(void **state)
+/* Rows of one time are reduced to one, or selected by a filter. */
+static void rows_of_one_time_are_reduced(void **state)
 {
     static const double want[FL_REDUCTIONS][3] = {{0},        {40, 7, 7}, {20, 7, 7.0 / 3.0},
                                                   {10, 7, 1}, {30, 7, 4}, {2, 1, 3}};
@@ -164,7 +164,7 @@ static void rows_of_one_time(void **state)
     (void)state;
     fl_record_selection ask = {.signal = fn, .signals = 1, .from = -INFINITY, .to = INFINITY};
     assert_int_equal(read_text(&s, &ask, TOUCH), -1);
-    expect_told(FL_INPUT, 4, "several rows at 0 s, and no column part or body tells them apart");
+    expect_message(FL_INPUT, 4, "several rows at 0 s, and no column part or body tells them apart");
     for (ask.reduction = FL_REDUCE_SUM; ask.reduction < FL_REDUCTIONS; ask.reduction++) {
         assert_int_equal(read_text(&s, &ask, TOUCH), 0);
         assert_int_equal(s.n, 3);
@@ -190,11 +190,11 @@ static void rows_of_one_time(void **state)
     ask.wheres = 1;
     ask.where = none;
     assert_int_equal(read_text(&s, &ask, TOUCH), -1);
-    expect_told(FL_INPUT, 8, "the contacts table ends here without a row that meets the conditions");
+    expect_message(FL_INPUT, 8, "the contacts table ends here without a row that meets the conditions");
     ask.where = wrong;
     assert_int_equal(read_text(&s, &ask, TOUCH), -1);
     assert_int_equal(err.code, FL_USAGE);
-    /* Of a loads table too: then there is no total beside it. */
+    /* For a loads table too: then it has no total in addition. */
     ask = (fl_record_selection){.from = -INFINITY, .to = INFINITY, .reduction = FL_REDUCE_MAX};
     assert_int_equal(read_text(&s, &ask, TWO), 0);
     assert_int_equal(s.parts, 1);
@@ -202,7 +202,7 @@ static void rows_of_one_time(void **state)
     fl_series_free(&s);
 }
 
-static void complaints(void **state)
+static void errors_are_reported(void **state)
 {
     static const struct {
         const char *data;
@@ -231,7 +231,7 @@ static void complaints(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         fl_series s;
         assert_int_equal(read_text(&s, &ALL, bad[k].data), -1);
-        expect_told(FL_INPUT, bad[k].line, bad[k].says);
+        expect_message(FL_INPUT, bad[k].line, bad[k].says);
         assert_null(s.x);
     }
 }
@@ -320,7 +320,7 @@ static void filtered_view(void **state)
     fl_series_free(&s);
 }
 
-static int clean(void **state)
+static int remove_files(void **state)
 {
     (void)state;
     unlink(test_path("series"));
@@ -329,14 +329,14 @@ static int clean(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(parts_and_total),
-                                       cmocka_unit_test(asking),
-                                       cmocka_unit_test(cuts),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(parts_add_up_to_the_total),
+                                       cmocka_unit_test(signals_are_selected),
+                                       cmocka_unit_test(selected_intervals),
                                        cmocka_unit_test(samples_of_another_table),
-                                       cmocka_unit_test(rows_of_one_time),
-                                       cmocka_unit_test(complaints),
+                                       cmocka_unit_test(rows_of_one_time_are_reduced),
+                                       cmocka_unit_test(errors_are_reported),
                                        cmocka_unit_test(one_part_called_total_is_the_total),
                                        cmocka_unit_test(resampling_keeps_the_impulse),
                                        cmocka_unit_test(filtered_view)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }
