@@ -66,20 +66,20 @@ static void every_pair_is_evaluated_once(void **state)
     make_floe_rows(&l, 4);
     fl_world *w = &l.w;
     fl_err err = {0};
-    uint8_t *hit = fl_alloc(w->n_pair, 1, &err);
-    assert_non_null(hit);
-    memcpy(hit, w->pair_touches, (size_t)w->n_pair);
-    for (int team = 1; team <= 4; team++) {
+    uint8_t *touches = fl_alloc(w->n_pair, 1, &err);
+    assert_non_null(touches);
+    memcpy(touches, w->pair_touches, (size_t)w->n_pair);
+    for (int nthreads = 1; nthreads <= 4; nthreads++) {
         for (int32_t c = 0; c < w->n_pair; c++)
             w->pair_touches[c] = 2, w->pair[c].free_travel = -1.0, fl_set_next_check(w, c);
         fl_share_active_pairs(w);
-#pragma omp parallel num_threads(team)
+#pragma omp parallel num_threads(nthreads)
         fl_evaluate_active_pairs(w, 0.0, 0);
-        assert_memory_equal(w->pair_touches, hit, (size_t)w->n_pair);
+        assert_memory_equal(w->pair_touches, touches, (size_t)w->n_pair);
         for (int32_t t = 0; t < 4; t++) assert_true(w->pair_share[t].next >= w->pair_share[t].end);
     }
     assert_int_equal(w->failed, 0);
-    free(hit);
+    free(touches);
     lab_free(&l);
 }
 
@@ -90,15 +90,16 @@ static void sleeping_pairs_are_not_evaluated(void **state)
     lab l;
     make_floe_rows(&l, 2);
     fl_world *w = &l.w;
-    int32_t slept = 0;
+    int32_t sleeping = 0;
     for (int32_t c = 0; c < w->n_pair; c++)
         if (!w->pair[c].touching)
-            w->pair[c].free_travel = 1e9, fl_set_next_check(w, c), w->pair_touches[c] = 2, slept++;
-    assert_true(slept > 0);
+            w->pair[c].free_travel = 1e9, fl_set_next_check(w, c), w->pair_touches[c] = 2, sleeping++;
+    assert_true(sleeping > 0);
     fl_share_active_pairs(w);
     fl_evaluate_active_pairs(w, 0.0, 0);
-    for (int32_t c = 0; c < w->n_pair; c++) slept -= w->pair_touches[c] == 2 && w->pair[c].free_travel == 1e9;
-    assert_int_equal(slept, 0);
+    for (int32_t c = 0; c < w->n_pair; c++)
+        sleeping -= w->pair_touches[c] == 2 && w->pair[c].free_travel == 1e9;
+    assert_int_equal(sleeping, 0);
     lab_free(&l);
 }
 

@@ -118,5 +118,5 @@ int main(void)
         cmocka_unit_test(aligned_and_zero),          cmocka_unit_test(refuses_sizes_that_overflow),
         cmocka_unit_test(growth_keeps_the_contents), cmocka_unit_test(growth_that_fails_changes_nothing),
         cmocka_unit_test(fails_from_the_nth_on),     cmocka_unit_test(the_first_failure_is_reported)};
-    return cmocka_run_group_tests_name("mem", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("array", tests, NULL, NULL);
 }

@@ -25,25 +25,25 @@ static void check_alone(void *arg)
 static void test_all_wait_for_all(void **state)
 {
     (void)state;
-    fl_barrier gate;
+    fl_barrier barrier;
     book q = {0};
-    int early = 0, team = 0;
-    fl_barrier_make(&gate);
+    int early = 0, team_size = 0;
+    fl_barrier_make(&barrier);
 #pragma omp parallel num_threads(THREADS) reduction(+ : early)
     {
         const int n = omp_get_num_threads(), t = omp_get_thread_num();
-        if (t == 0) team = n;
+        if (t == 0) team_size = n;
         for (int round = 1; n == THREADS && round <= ROUNDS; round++) {
             if (t == round % THREADS && round % 100 == 0)
                 nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
             q.came[t] = round;
-            fl_barrier_wait(&gate, n, check_alone, &q);
+            fl_barrier_wait(&barrier, n, check_alone, &q);
             early += q.called != round; /* the next round cannot be recorded before this one is complete */
-            fl_barrier_wait(&gate, n, NULL, NULL);
+            fl_barrier_wait(&barrier, n, NULL, NULL);
         }
     }
-    fl_barrier_free(&gate);
-    assert_int_equal(team, THREADS);
+    fl_barrier_free(&barrier);
+    assert_int_equal(team_size, THREADS);
     assert_int_equal(q.called, ROUNDS);
     assert_int_equal(q.wrong, 0);
     assert_int_equal(early, 0);
@@ -54,12 +54,12 @@ static void add_one(void *arg) { ++*(int *)arg; }
 static void test_one_thread_passes_alone(void **state)
 {
     (void)state;
-    fl_barrier gate;
+    fl_barrier barrier;
     int n = 0;
-    fl_barrier_make(&gate);
-    for (int k = 0; k < 3; k++) fl_barrier_wait(&gate, 1, add_one, &n);
-    fl_barrier_wait(&gate, 1, NULL, NULL);
-    fl_barrier_free(&gate);
+    fl_barrier_make(&barrier);
+    for (int k = 0; k < 3; k++) fl_barrier_wait(&barrier, 1, add_one, &n);
+    fl_barrier_wait(&barrier, 1, NULL, NULL);
+    fl_barrier_free(&barrier);
     assert_int_equal(n, 3);
 }
 

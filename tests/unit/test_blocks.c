@@ -106,7 +106,7 @@ static void a_core_thinner_than_its_radius_is_reported(void **state)
 {
     (void)state;
     const fl_vec3 rim[4] = {{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}};
-    int told = 0, made = 0;
+    int refused = 0, made = 0;
     for (double solid = 0.02; solid < 0.4; solid += 0.02) {
         fl_poly r = {0};
         fl_blocks b = {0};
@@ -116,7 +116,7 @@ static void a_core_thinner_than_its_radius_is_reported(void **state)
         const int rc = fl_blocks_shrink(&b, solid, 0.05, &err);
         if (rc) assert_int_equal(err.code, FL_INPUT);
         if (rc) assert_true(made == 0 && strstr(err.text, "vanish") != NULL);
-        told += rc != 0;
+        refused += rc != 0;
         made += rc == 0;
         for (int32_t i = 0; rc == 0 && i < b.n; i++)
             for (int32_t f = 0; f < b.core[i].nf; f++) {
@@ -128,7 +128,7 @@ static void a_core_thinner_than_its_radius_is_reported(void **state)
         fl_blocks_free(&b);
         fl_poly_free(&r);
     }
-    assert_true(told > 0 && made > 0);
+    assert_true(refused > 0 && made > 0);
 }
 
 /* One more block leaves the sites of the other blocks unchanged. */

@@ -166,13 +166,13 @@ static void springs_are_those_of_the_section(void **state)
     (void)state;
     const double h = 1e-7, A = 0.24, Iy = 0.4 * 0.6 * 0.6 * 0.6 / 12, Iz = 0.6 * 0.4 * 0.4 * 0.4 / 12;
     static const fl_vec3 U[2] = {{1, 0, 0}, {0, 1, 0}};
-    const double want[2] = {1e9 * A, 4e8 * A};
+    const double expected[2] = {1e9 * A, 4e8 * A};
     for (int k = 0; k < 2; k++) {
         two t;
         make_two_bodies(&t);
         move_body(&t, 1, v3_scale(h, U[k]), ZERO);
         fl_bond_force(&t.c, &t.b, ZERO);
-        assert_near(v3_dot(t.c.force, U[k]) / h, want[k], 1e-8);
+        assert_near(v3_dot(t.c.force, U[k]) / h, expected[k], 1e-8);
         free_two_bodies(&t);
     }
     static const fl_vec3 V[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -252,7 +252,7 @@ static void a_closed_crack_still_carries_pressure(void **state)
         }
     }
     assert_true(broken);
-    /* of the contact stiffness of a point, the damaged share has worn off */
+    /* the force falls with the part of the face that is still opposite its partner */
     assert_near(t.c.force.x, before * (0.4 - 0.02) / (0.4 - slid), 1e-9);
     const double store = t.c.elastic_energy;
     assert_true(store > 0.0);
@@ -274,7 +274,7 @@ static void energies_balance(void **state)
         make_two_bodies(&t);
         t.c.fracture_energy[0] = n % 3 ? 600 : 0, t.c.fracture_energy[1] = n % 3 ? 900 : 0;
         t.c.friction = n % 2 ? 0.3 : 0.0;
-        double work = 0.0, most = 0.0;
+        double work = 0.0, largest = 0.0;
         fl_bond_force(&t.c, &t.b, ZERO);
         fl_vec3 u = v3_scale(2e-6, v3_unit(random_vector(&g, 1)));
         u.x = fabs(
@@ -284,7 +284,7 @@ static void energies_balance(void **state)
             move_body(&t, 1, u, ZERO);
             const int ended = fl_bond_force(&t.c, &t.b, ZERO);
             work += 0.5 * v3_dot(v3_add(f0, t.c.force), u);
-            most = fmax(most, work);
+            largest = fmax(largest, work);
             if (ended) break;
         }
         assert_int_equal(t.c.state, FL_BOND_ENDED);
@@ -292,7 +292,7 @@ static void energies_balance(void **state)
         assert_near_of(work,
                        t.c.elastic_energy + t.c.friction_spring_energy + t.c.dissipated +
                            t.c.given_to_friction - t.c.friction_spring_energy,
-                       1e-9, most);
+                       1e-9, largest);
         if (t.c.fracture_energy[0] > 0.0) {
             const double share =
                 t.c.ks * (u.y * u.y + u.z * u.z) / (t.c.kn * u.x * u.x + t.c.ks * (u.y * u.y + u.z * u.z));
@@ -361,7 +361,7 @@ static void common_faces_are_found(void **state)
 static void a_batch_has_the_bits_of_single_bonds(void **state)
 {
     (void)state;
-    int held = 0, left = 0;
+    int in_batch = 0, single = 0;
     for (int way = 0; way < 60; way++) {
         fl_rng g = fl_rng_of(test_seed(), way, FL_RNG_TEST);
         const int n = 1 + way % FL_LANE_COUNT;
@@ -373,10 +373,10 @@ static void a_batch_has_the_bits_of_single_bonds(void **state)
         fl_err err = {0};
         assert_int_equal(fl_bodies_alloc(&b, 2 * FL_LANE_COUNT, 2 * FL_LANE_COUNT, &err), 0);
         for (int k = 0; k < n; k++) {
-            const double size = k % 4 == 3 ? 0.01 : 1e-4, turns = k % 5 == 4 ? 2.0 : size;
+            const double size = k % 4 == 3 ? 0.01 : 1e-4, rotation = k % 5 == 4 ? 2.0 : size;
             make_two_bodies(&t[k]);
             for (int e = 0; e < 2; e++)
-                move_body(&t[k], e, random_vector(&g, size), random_vector(&g, turns));
+                move_body(&t[k], e, random_vector(&g, size), random_vector(&g, rotation));
             if (way % 7 == 6 && k == 2) move_body(&t[k], 1, ZERO, v3(3.14159265358979, 0, 0));
             for (int e = 0; e < 2; e++) {
                 b.x[2 * k + e] = t[k].b.x[e], b.q[2 * k + e] = t[k].b.q[e];
@@ -395,11 +395,11 @@ static void a_batch_has_the_bits_of_single_bonds(void **state)
             const fl_bond before = one[k];
             fl_bond_force(&one[k], &b, off[k]);
             assert_memory_equal(&all[k], done[k] ? &one[k] : &before, sizeof all[k]);
-            held += done[k], left += !done[k];
+            in_batch += done[k], single += !done[k];
         }
         fl_bodies_free(&b);
     }
-    assert_true(held > 100 && left > 50);
+    assert_true(in_batch > 100 && single > 50);
 }
 
 int main(void)

@@ -85,12 +85,12 @@ static void bonded_spheres_turn(void **state)
     fl_body_set_spin(&l.w.b, 1, v3(0.3, 0, 0));
     fl_err err = {0};
     assert_int_equal(fl_step_start(&l.w, &err), 0);
-    double most = 0.0;
+    double largest = 0.0;
     for (int k = 0; k < 2000; k++) {
         assert_int_equal(lab_run(&l, 1), 0);
-        most = fmax(most, l.w.b.w[0].x);
+        largest = fmax(largest, l.w.b.w[0].x);
     }
-    assert_near(most, 0.3, 1e-3); /* equal bodies exchange the spin */
+    assert_near(largest, 0.3, 1e-3); /* equal bodies exchange the spin */
     fl_energy_update(&l.w);
     assert_near_of(l.w.ledger.residual, 0, 1e-3, l.w.ledger.throughput);
     lab_free(&l);
@@ -129,9 +129,9 @@ static void bonds_limit_the_step(void **state)
     make_two_bodies(&l, 0);
     lab_make(&l, 0);
     const fl_bond *c = &l.w.bonds.bond[0];
-    const double least = c->kn * c->area * 2.0 * l.w.b.invm[0];
-    assert_true(fl_bond_list_omega2(&l.w, 0) >= least);
-    assert_true(fl_bond_list_omega2(&l.w, 0) < 20.0 * least);
+    const double lower_bound = c->kn * c->area * 2.0 * l.w.b.invm[0];
+    assert_true(fl_bond_list_omega2(&l.w, 0) >= lower_bound);
+    assert_true(fl_bond_list_omega2(&l.w, 0) < 20.0 * lower_bound);
     assert_near(fl_bond_list_max_omega2(&l.w, 0), fl_bond_list_omega2(&l.w, 0), 1e-9);
     assert_true(l.w.dt < 2.0 / sqrt(fl_bond_list_omega2(&l.w, 0)));
     fl_bond_end(&l.w.bonds.bond[0]);
@@ -167,5 +167,5 @@ int main(void)
         cmocka_unit_test(bonded_spheres_turn),          cmocka_unit_test(a_floe_that_leaves_loses_its_bonds),
         cmocka_unit_test(bonds_limit_the_step),         cmocka_unit_test(invalid_bonds_are_refused),
     };
-    return cmocka_run_group_tests_name("bonds of a world", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("bond_list", tests, NULL, NULL);
 }

@@ -45,7 +45,7 @@ static void compare_with_brute_force(const fl_bvh *t, const fl_aabb *box, int32_
  * box found, it visits the nearest box. */
 static void check_walk(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_vec3 x, double within)
 {
-    int32_t *times = calloc((size_t)n + 1, sizeof *times), looks = 0;
+    int32_t *times = calloc((size_t)n + 1, sizeof *times), visits = 0;
     double nearest = INFINITY, found = INFINITY;
     assert_non_null(times);
     fl_bvh_walk at = fl_bvh_walk_from(t, box, x);
@@ -56,9 +56,9 @@ static void check_walk(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_vec3 x
         nearest = fmin(nearest, d2);
     }
     at = fl_bvh_walk_from(t, box, x);
-    for (int32_t k; (k = fl_bvh_walk_next(&at, found)) >= 0; looks++)
+    for (int32_t k; (k = fl_bvh_walk_next(&at, found)) >= 0; visits++)
         found = fmin(found, sqrt(aabb_distance2(box[k], x)));
-    assert_true(n == 0 ? looks == 0 : found == sqrt(nearest));
+    assert_true(n == 0 ? visits == 0 : found == sqrt(nearest));
     free(times);
 }
 

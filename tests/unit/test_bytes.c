@@ -35,7 +35,7 @@ static void rows_do_not_depend_on_the_window(void **state)
     static const char text[] = "\xef\xbb\xbf"
                                "a b\r\n# no\r\n\r\nc \\\r\nd\\\n e\n\r\rf\rg \\\\ h\n#\n"
                                "a_word_that_is_longer_than_the_window_is i\nlast";
-    static const char want[] =
+    static const char expected[] =
         "1:a,b 6:c,d,e 9:f 10:g,\\\\,h 12:a_word_that_is_longer_than_the_window_is,i 13:last ";
     for (int32_t window = 3; window < 120; window++) {
         char got[400] = "";
@@ -48,7 +48,7 @@ static void rows_do_not_depend_on_the_window(void **state)
                 sprintf(got + strlen(got), "%s%s", b.field[k], k + 1 < b.words ? "," : " ");
         }
         assert_int_equal(more, 0);
-        assert_string_equal(got, want);
+        assert_string_equal(got, expected);
     }
 }
 
@@ -57,15 +57,15 @@ static void lines_and_bytes_do_not_depend_on_the_window(void **state)
     (void)state;
     static const char text[] = "one\r\ntwo \r\r\nthree\n\n12345678";
     for (int32_t window = 1; window < 40; window++) {
-        static const char *const want[] = {"one", "two ", "", "three", ""};
+        static const char *const expected[] = {"one", "two ", "", "three", ""};
         const unsigned char *p;
         open_with(text, sizeof text - 1, window);
         for (int k = 0; k < 5; k++) {
             char *line;
             int32_t len;
             assert_int_equal(fl_bytes_line(&b, &line, &len, &err), 1);
-            assert_string_equal(line, want[k]);
-            assert_int_equal(len, strlen(want[k]));
+            assert_string_equal(line, expected[k]);
+            assert_int_equal(len, strlen(expected[k]));
         }
         for (int k = 0; k < 4; k++) {
             assert_int_equal(fl_bytes_read(&b, 2, &p, &err), 1);
@@ -85,7 +85,7 @@ static void numbers_and_marks_do_not_depend_on_the_window(void **state)
         "  1.5\t-2e3\r\n\n 3 nan 0.0000000000000000000000000000000000000000000000000000000000000"
         "0000000000000000000000000000000000000000000000000000000000000000000000000007\n"
         "$E\n$EndXY\n x$EndX\n\001\002$EndX\n$EndX \nrest 7";
-    static const double want[] = {1.5, -2000.0, 3.0};
+    static const double expected[] = {1.5, -2000.0, 3.0};
     for (int32_t window = 1; window < 300; window += 1 + window / 40) {
         const char *p;
         char *line;
@@ -95,7 +95,7 @@ static void numbers_and_marks_do_not_depend_on_the_window(void **state)
         b.line = 1;
         for (int k = 0; k < 3; k++) {
             assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 1);
-            assert_true(x == want[k]);
+            assert_true(x == expected[k]);
         }
         assert_int_equal(b.line, 3);
         assert_int_equal(fl_bytes_real(&b, 1, &x, &err), 1); /* any byte */

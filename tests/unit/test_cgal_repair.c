@@ -105,19 +105,19 @@ static void doubled_and_reversed_triangles_are_repaired(void **state)
 static void holes_are_closed_on_request(void **state)
 {
     (void)state;
-    for (int32_t most = 0; most < 6; most++) {
+    for (int32_t max_hole_edges = 0; max_hole_edges < 6; max_hole_edges++) {
         fl_surface s = {0};
         fl_part *p = part(&s);
         fl_repair did;
         fl_mesh_quality q;
         fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
         p->nt -= 2; /* the top: a boundary of four edges */
-        q = repaired(p, most, &did);
-        assert_int_equal(did.holes, most >= 4);
-        assert_int_equal(did.patched, most >= 4 ? 2 : 0);
-        assert_int_equal(did.bounding, most >= 4);
-        assert_int_equal(q.open, most >= 4 ? 0 : 4);
-        if (most >= 4) assert_near(q.volume, 1.0, 1e-15);
+        q = repaired(p, max_hole_edges, &did);
+        assert_int_equal(did.holes, max_hole_edges >= 4);
+        assert_int_equal(did.patched, max_hole_edges >= 4 ? 2 : 0);
+        assert_int_equal(did.bounding, max_hole_edges >= 4);
+        assert_int_equal(q.open, max_hole_edges >= 4 ? 0 : 4);
+        if (max_hole_edges >= 4) assert_near(q.volume, 1.0, 1e-15);
         fl_surface_free(&s);
     }
 }

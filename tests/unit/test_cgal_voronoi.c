@@ -18,7 +18,7 @@ static void neighbours_of(int32_t n, const fl_vec2 *site, int32_t *first, int32_
 }
 
 /* Sites in another order with their old names have the same neighbours in the same order. */
-static void ties_are_decided_by_site_names(void **state)
+static void neighbours_are_ordered_by_site_names(void **state)
 {
     (void)state;
     fl_vec2 site[N], other[N];
@@ -157,7 +157,7 @@ static void orientation_is_exact(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ties_are_decided_by_site_names),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(neighbours_are_ordered_by_site_names),
                                        cmocka_unit_test(few_sites_and_sites_on_a_line),
                                        cmocka_unit_test(neighbours_are_those_with_an_empty_circle),
                                        cmocka_unit_test(two_sites_at_one_point_are_named),

@@ -60,7 +60,7 @@ static void floes_cover_their_share(void **state)
     for (int k = 0; k < 12; k++) {
         const int32_t n = 50 + 20 * k;
         fl_vec2 site[300];
-        double part[300], area[300], want = 0.0, off = 1.0, radius = 0.05 * (k % 3);
+        double part[300], area[300], expected = 0.0, off = 1.0, radius = 0.05 * (k % 3);
         fl_concentration_gradient g = {0};
         fl_power_cells c = {0};
         fl_floes a = {0};
@@ -78,12 +78,12 @@ static void floes_cover_their_share(void **state)
         fl_power_cells_centroids(&c, site);
         for (int32_t i = 0; i < n; i++) {
             part[i] = fl_concentration_at(&g, site[i]);
-            want += part[i] * area[i];
+            expected += part[i] * area[i];
         }
         assert_int_equal(fl_floes_make_graded(&a, &c, part, radius, (fl_vec2){0, 0}, &off, &err), 0);
         assert_int_equal(fl_certificate_make(&cert, &a, &err), 0);
         assert_int_equal(cert.overlaps, 0);
-        assert_near(cert.total_area, want, 1e-12);
+        assert_near(cert.total_area, expected, 1e-12);
         if (a.limited == 0) assert_true(off < 1e-12);
         assert_true(off < 0.05);
         fl_floes_free(&a);

@@ -181,7 +181,7 @@ static fl_mode tilted_mode(double angle, fl_mode before)
     return contact_of(box(2, 2, 2), v3(0, 0, 3), v3(angle, 0, 0), box(4, 4, 2), before).mode;
 }
 
-static void modes_change_with_hysteresis_in_angle(void **state)
+static void modes_change_with_hysteresis(void **state)
 {
     (void)state;
     for (double t = 1e-16; t < 0.9e-3; t *= 7.0) {
@@ -233,21 +233,22 @@ static void outlines_overlap(void **state)
         const fl_mat3 r = rotation_of(v3(0, 0, 0.0174532925 * k));
         const struct {
             double x, y, w, h, area, cx, cy;
-        } want[] = {
+        } expected[] = {
             {0, 0, 1, 1, 1, .5, .5},    {1, 0, 1, 1, 0, 0, 0},           {1, 1, 1, 1, 0, 0, 0},
             {.5, 0, 1, 1, .5, .75, .5}, {.25, .25, .5, .5, .25, .5, .5}, {.5, .5, 3, 3, .25, .75, .75},
             {-1, -1, 3, 3, 1, .5, .5},  {0, 0, .5, 2, .5, .25, .5},      {5, 5, 1, 1, 0, 0, 0}};
-        for (size_t c = 0; c < sizeof want / sizeof *want; c++) {
+        for (size_t c = 0; c < sizeof expected / sizeof *expected; c++) {
             fl_vec3 a[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, b[4];
             for (int i = 0; i < 4; i++) {
-                b[i] = m3_mul(r, v3(want[c].x + want[c].w * a[i].x, want[c].y + want[c].h * a[i].y, 7.0));
+                b[i] = m3_mul(r, v3(expected[c].x + expected[c].w * a[i].x,
+                                    expected[c].y + expected[c].h * a[i].y, 7.0));
                 a[i] = m3_mul(r, a[i]);
             }
             const fl_plane_axes t = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
             const fl_projected_overlap o = fl_overlap_area(&t, (fl_loop){a, loop, 4}, (fl_loop){b, other, 4});
-            assert_near_of(o.size, want[c].area, 4e-15, 1.0);
-            if (want[c].area > 0.0) {
-                const fl_vec3 m = m3_mul(r, v3(want[c].cx, want[c].cy, 0));
+            assert_near_of(o.size, expected[c].area, 4e-15, 1.0);
+            if (expected[c].area > 0.0) {
+                const fl_vec3 m = m3_mul(r, v3(expected[c].cx, expected[c].cy, 0));
                 assert_near_of(o.x, m.x, 1e-14, 1.0);
                 assert_near_of(o.y, m.y, 1e-14, 1.0);
             }
@@ -261,7 +262,7 @@ int main(void)
                                        cmocka_unit_test(edges_lie_on_faces),
                                        cmocka_unit_test(parallel_edges_share_a_length),
                                        cmocka_unit_test(points_have_no_extent),
-                                       cmocka_unit_test(modes_change_with_hysteresis_in_angle),
+                                       cmocka_unit_test(modes_change_with_hysteresis),
                                        cmocka_unit_test(depth_continues_where_distance_ends),
                                        cmocka_unit_test(outlines_overlap)};
     return cmocka_run_group_tests(tests, NULL, NULL);

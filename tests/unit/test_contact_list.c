@@ -105,7 +105,7 @@ static void sphere_pairs_match_general_pairs(void **state)
  * itself. */
 static void damping_uses_the_speed_at_the_end(void **state)
 {
-    int64_t pulled = 0, touched = 0;
+    int64_t without_force = 0, touched = 0;
     (void)state;
     for (int k = 0; k < test_times(20); k++) {
         lab l;
@@ -141,7 +141,7 @@ static void damping_uses_the_speed_at_the_end(void **state)
                 assert_true(fabs(v3_dot(p.force, n) - normal) < 1e-5 * elastic);
                 assert_near3(p.force_damping, v3_madd(p.force, -elastic, n), elastic);
                 had = elastic, damped = v3_dot(p.force_damping, n);
-                pulled += normal == 0.0, touched++;
+                without_force += normal == 0.0, touched++;
             }
             for (int i = 0; i < 2; i++) {
                 b->f[i] = b->t[i] = v3(0, 0, 0);
@@ -152,7 +152,7 @@ static void damping_uses_the_speed_at_the_end(void **state)
         }
         lab_free(&l);
     }
-    assert_true(touched > 20 * test_times(20) && pulled < touched);
+    assert_true(touched > 20 * test_times(20) && without_force < touched);
 }
 
 /* Share of damping in the force on a sphere at rest that a current presses against a wall. */
@@ -181,7 +181,7 @@ static double damping_share_at_rest(double safety)
 
 /* Drag is included in the predicted velocities: the share is zero but for quadratic drag between the halves
  * of a step, to order 2. */
-static void drag_enters_the_damping_of_a_wall_contact(void **state)
+static void predicted_velocities_include_drag(void **state)
 {
     (void)state;
     const double long_steps = damping_share_at_rest(0.4), half = damping_share_at_rest(0.2);
@@ -276,9 +276,7 @@ static void deep_and_grazing_wall_contacts_match(void **state)
     lab_start(&l);
     lab_set(&l, "material.ice.young=1 MPa");
     lab_set(&l, "contact.friction=0.3");
-    lab_set(
-        &l,
-        "contact.restitution=1"); /* the contact list assumes that a sphere comes from its previous position */
+    lab_set(&l, "contact.restitution=1"); /* spheres come from their previous positions */
     lab_set(&l, "boundary.type=free free rigid");
     lab_set(&l, "boundary.min=none none 0");
     lab_sphere(&l, v3(0, 0, 0.99), 1.0, v3(0.1, 0, -0.1), v3(0, 0, 0));
@@ -346,7 +344,7 @@ static void chunk_sums_match_pair_sums(void **state)
     fl_vec3 *f = calloc((size_t)w->b.total, sizeof *f), *t = calloc((size_t)w->b.total, sizeof *t);
     assert_true(f && t);
     fl_pair_iterator at = {.w = w};
-    double damping = 0.0, friction = 0.0, elastic = 0.0, spring = 0.0, size = 0.0, worst = 0.0, most = 0.0;
+    double damping = 0.0, friction = 0.0, elastic = 0.0, spring = 0.0, size = 0.0, worst = 0.0, largest = 0.0;
     int64_t touching = 0;
     int32_t i = -1, j = -1;
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
@@ -360,7 +358,7 @@ static void chunk_sums_match_pair_sums(void **state)
         friction -= v3_dot(p->force_friction, dv) + v3_dot(p->torque_i_friction, w->b.w[i]) +
                     v3_dot(p->torque_j_friction, w->b.w[j]);
         elastic += p->energy, spring += p->spring_energy;
-        size += v3_norm(p->force), most = fmax(most, v3_norm(p->force));
+        size += v3_norm(p->force), largest = fmax(largest, v3_norm(p->force));
         worst = fmax(worst, p->overlap / (w->b.radius[i] + w->b.radius[j]));
         touching++;
     }
@@ -368,12 +366,12 @@ static void chunk_sums_match_pair_sums(void **state)
     for (int32_t k = 0; k < w->n; k++) {
         fl_vec3 fk = v3(0, 0, 0), tk = v3(0, 0, 0);
         fl_sphere_add_forces(w, k, &fk, &tk);
-        assert_near3(fk, f[k], most), assert_near3(tk, t[k], most);
+        assert_near3(fk, f[k], largest), assert_near3(tk, t[k], largest);
     }
     double d = 0.0, r = 0.0, e = 0.0, s = 0.0;
     powers_of(w, &d, &r), fl_contact_list_energy(w, &e, &s);
     const fl_sphere_totals all = fl_contact_list_totals(w);
-    assert_near_of(d, damping, TOL, most), assert_near_of(r, friction, TOL, most);
+    assert_near_of(d, damping, TOL, largest), assert_near_of(r, friction, TOL, largest);
     assert_near(e, elastic, 1e-11), assert_near(s, spring, 1e-11);
     assert_near(all.force_sum, size, 1e-11), assert_near(all.max_overlap, worst, 1e-11);
     assert_int_equal(all.touching, touching);
@@ -522,12 +520,12 @@ static void results_do_not_depend_on_the_shares(void **state)
 }
 
 /* Pairs above one another, the second of the k-th pair k cells away: evaluated as if it were in this cell.
- * The rotations take more values than a byte holds. */
+ * The numbers of distinct image shifts are one that fits a byte, and one that does not. */
 static void every_periodic_image_matches(void **state)
 {
     enum { PAIRS = 300 };
     static fl_vec3 f[2 * PAIRS];
-    double most = 0.0;
+    double largest = 0.0;
     (void)state;
     for (int cells = 0; cells <= PAIRS; cells += PAIRS / 2) {
         lab l;
@@ -549,10 +547,10 @@ static void every_periodic_image_matches(void **state)
         for (int32_t i = 0; i < l.w.n; i++) {
             fl_vec3 F = v3(0, 0, 0), T = v3(0, 0, 0);
             fl_sphere_add_forces(&l.w, i, &F, &T);
-            if (cells == 0) f[i] = F, most = fmax(most, v3_norm(F));
-            assert_near_of(v3_norm(v3_sub(F, f[i])), 0.0, 1e-9, most); /* 5000 m of an overlap of 16 mm */
+            if (cells == 0) f[i] = F, largest = fmax(largest, v3_norm(F));
+            assert_near_of(v3_norm(v3_sub(F, f[i])), 0.0, 1e-9, largest); /* 5000 m of an overlap of 16 mm */
         }
-        assert_true(most > 0.0);
+        assert_true(largest > 0.0);
         lab_free(&l);
     }
 }
@@ -580,7 +578,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sphere_pairs_match_general_pairs),
                                        cmocka_unit_test(damping_uses_the_speed_at_the_end),
-                                       cmocka_unit_test(drag_enters_the_damping_of_a_wall_contact),
+                                       cmocka_unit_test(predicted_velocities_include_drag),
                                        cmocka_unit_test(wall_contacts_match_general_pairs),
                                        cmocka_unit_test(deep_and_grazing_wall_contacts_match),
                                        cmocka_unit_test(only_hertz_on_rigid_walls_is_fast),
@@ -590,5 +588,5 @@ int main(void)
                                        cmocka_unit_test(results_do_not_depend_on_the_shares),
                                        cmocka_unit_test(every_periodic_image_matches),
                                        cmocka_unit_test(allocation_failure_is_reported)};
-    return cmocka_run_group_tests_name("balls", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("contact_list", tests, NULL, NULL);
 }

@@ -20,13 +20,13 @@ static int free_part(void **state)
 static fl_crossing compare_with_cgal(void)
 {
     const fl_soup s = {p.nv, p.nt, p.nv ? &p.v[0].x : NULL, p.nt ? p.t[0].v : NULL};
-    fl_crossing want, got;
-    if (fl_cgal_crossings(&s, &want, &err)) fail_msg("%s", err.text);
+    fl_crossing expected, got;
+    if (fl_cgal_crossings(&s, &expected, &err)) fail_msg("%s", err.text);
     for (int threads = 1; threads <= 3; threads++) {
         omp_set_num_threads(threads);
         if (fl_part_crossings(&p, &got, &err)) fail_msg("%s", err.text);
-        assert_int_equal(got.crossings, want.crossings);
-        assert_int_equal(got.touching, want.touching);
+        assert_int_equal(got.crossings, expected.crossings);
+        assert_int_equal(got.touching, expected.touching);
     }
     return got;
 }

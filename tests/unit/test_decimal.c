@@ -14,12 +14,12 @@ enum { TEXT = 2000 };
 static void compare_with_strtod(const char *text, long k)
 {
     char *end;
-    const double want = strtod(text, &end);
+    const double expected = strtod(text, &end);
     double x = 99.0;
     const char *stop = fl_decimal_read(text, &x);
-    if (stop == end && memcmp(&x, &want, sizeof x) == 0) return;
+    if (stop == end && memcmp(&x, &expected, sizeof x) == 0) return;
     print_error("seed %llu case %ld: \"%s\" reads as %a, %a is expected\n", (unsigned long long)test_seed(),
-                k, text, x, want);
+                k, text, x, expected);
     fail();
 }
 

@@ -28,7 +28,7 @@ static double ring_area(const fl_domain *d, int32_t r)
     return fl_polygon_area(d->first[r + 1] - d->first[r], d->v + d->first[r]);
 }
 
-static void cut_cells(fl_pieces *p, const fl_domain *d, int32_t n, uint64_t seed, double least)
+static void cut_cells(fl_pieces *p, const fl_domain *d, int32_t n, uint64_t seed, double min_share)
 {
     fl_vec2 site[300];
     fl_power_cells c = {0};
@@ -38,7 +38,7 @@ static void cut_cells(fl_pieces *p, const fl_domain *d, int32_t n, uint64_t seed
     assert_int_equal(fl_power_cells_build(&c, n, site, (fl_vec2){d->lo.x - 1, d->lo.y - 1},
                                           (fl_vec2){d->hi.x + 1, d->hi.y + 1}, &err),
                      0);
-    assert_int_equal(fl_domain_cut(p, &c, d, least, &err), 0);
+    assert_int_equal(fl_domain_cut(p, &c, d, min_share, &err), 0);
     fl_power_cells_free(&c);
 }
 
@@ -54,16 +54,16 @@ static void pieces_fill_the_water_and_no_more(void **state)
         fl_pieces p = {0};
         fl_faces f = {0};
         fl_err err = {0};
-        double want, sum = 0.0;
+        double expected, sum = 0.0;
         make_star(&d, &g, 3 + (int32_t)(seed % 30), (fl_vec2){0, 0}, 10.0, 14.0);
         for (int32_t k = 0; k < islands; k++)
             make_star(&d, &g, 3 + k, (fl_vec2){2.0 * cos(2.1 * k), 2.0 * sin(2.1 * k)}, 0.3, 1.2);
-        want = ring_area(&d, 0);
-        assert_true(want > 0.0);
-        for (int32_t k = 0; k < islands; k++) want += ring_area(&d, 1 + k); /* clockwise: negative */
+        expected = ring_area(&d, 0);
+        assert_true(expected > 0.0);
+        for (int32_t k = 0; k < islands; k++) expected += ring_area(&d, 1 + k); /* clockwise: negative */
         assert_int_equal(fl_domain_build(&d, &err), 0);
         cut_cells(&p, &d, n, seed, 0.0);
-        assert_near(p.area, want, 1e-11);
+        assert_near(p.area, expected, 1e-11);
         assert_true(p.dropped_area == 0.0 && p.dropped == 0);
         for (int32_t i = 0; i < p.cells.n; i++) {
             const int32_t m = p.cells.first[i + 1] - p.cells.first[i];
@@ -76,7 +76,7 @@ static void pieces_fill_the_water_and_no_more(void **state)
             }
             if (i > 0 && i < p.largest) assert_true(p.parent[i] > p.parent[i - 1]);
         }
-        assert_near(sum, want, 1e-11);
+        assert_near(sum, expected, 1e-11);
         {
             const fl_floes as = {.n = p.cells.n, .first = p.cells.first, .outer = p.cells.v};
             assert_int_equal(fl_faces_find(&f, &as, &err), 0);

@@ -107,7 +107,7 @@ static void edges_over_lines_and_points(void **state)
         assert_int_equal(fl_edge_integral_begin(&w), 0);
         assert_int_equal(fl_edge_queue_over_point(&line, t, q.c, c % 5 ? &e : NULL, 1e-13), 0);
         assert_int_equal(fl_edge_integral_finish(&w, R), 0);
-        sums got = {0}, want = {0};
+        sums got = {0}, expected = {0};
         for (int k = 0; k < w.n; k++)
             add_to_sums(&got, w.point[k].u, w.point[k].du, v3_scale(w.point[k].du, w.point[k].n),
                         w.point[k].p);
@@ -115,14 +115,14 @@ static void edges_over_lines_and_points(void **state)
                       r = v3_madd(q.x0, -v3_dot(q.x0, q.e), q.e);
         const double uu = v3_norm2(across), foot = uu > 0.0 ? -v3_dot(r, across) / uu : t.lo;
         const double nearest = foot > t.lo ? (foot < t.hi ? foot : t.hi) : t.lo;
-        integrate_one_way(&q, nearest, t.lo, &want);
-        integrate_one_way(&q, nearest, t.hi, &want);
-        if (!(want.u > 1e-30)) continue;
+        integrate_one_way(&q, nearest, t.lo, &expected);
+        integrate_one_way(&q, nearest, t.hi, &expected);
+        if (!(expected.u > 1e-30)) continue;
         some++;
-        worst = fmax(worst, fabs(got.u - want.u) / want.u);
-        worst = fmax(worst, fabs(got.du - want.du) / want.du);
-        worst = fmax(worst, v3_norm(v3_sub(got.f, want.f)) / want.du);
-        worst = fmax(worst, v3_norm(v3_sub(got.m, want.m)) / (want.du * (v3_norm(q.u) + R)));
+        worst = fmax(worst, fabs(got.u - expected.u) / expected.u);
+        worst = fmax(worst, fabs(got.du - expected.du) / expected.du);
+        worst = fmax(worst, v3_norm(v3_sub(got.f, expected.f)) / expected.du);
+        worst = fmax(worst, v3_norm(v3_sub(got.m, expected.m)) / (expected.du * (v3_norm(q.u) + R)));
     }
     printf("%d edges over lines and points: off by %.1e\n", some, worst);
     fl_patch_points_free(&w);

@@ -217,14 +217,14 @@ static void a_part_taken_alone_is_closed(void **state)
 {
     (void)state;
     const char *const pattern[] = {"B"};
-    char hit[1] = {0};
-    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = hit};
+    char matches[1] = {0};
+    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = matches};
     fl_mesh_quality q;
     add_block(4, 3, 5);
     q = build_surface(&w);
     assert_int_equal(s.n, 1);
     assert_string_equal(s.part[0].name, "b");
-    assert_true(q.closed && hit[0]);
+    assert_true(q.closed && matches[0]);
     assert_near(q.volume, 30.0, 1e-14);
 }
 

@@ -69,7 +69,7 @@ static void lift_is_the_gradient_of_the_energy(void **state)
     }
 }
 
-static void drag_is_the_exact_decay_and_books_its_work(void **state)
+static void drag_is_the_exact_decay_and_records_its_work(void **state)
 {
     (void)state;
     lab l;
@@ -214,14 +214,14 @@ static void heave_between_evaluations_gains_no_energy(void **state)
 static void waves_are_sampled_often_enough(void **state)
 {
     fl_err err = {0};
-    int turns;
+    int rotational;
     lab l;
     (void)state;
     make_floe_in_ripples(&l, 5e-3, 18);
     fl_world *w = &l.w;
     w->b.q[0] = q_one();
-    assert_near(fl_environment_omega2(&w->sea, &w->b, 0, &turns), 9.81 / DRAFT, 1e-12);
-    assert_false(turns);
+    assert_near(fl_environment_omega2(&w->sea, &w->b, 0, &rotational), 9.81 / DRAFT, 1e-12);
+    assert_false(rotational);
     assert_int_equal(fl_check_wave_sampling(w, &err), 0);
     w->sea.sample_every = 19;
     assert_int_equal(fl_check_wave_sampling(w, &err), -1);
@@ -351,8 +351,8 @@ static void water_forces_of_a_batch_have_the_same_bits(void **state)
 /* Samples the waves twice; the second sample is a little later and elsewhere, so that all values change. */
 static void sample_waves_twice(fl_world *w)
 {
-    for (int look = 0; look < 2; look++) {
-        w->sea.sample_now = 1, w->sea.time = 0.02 * look;
+    for (int pass = 0; pass < 2; pass++) {
+        w->sea.sample_now = 1, w->sea.time = 0.02 * pass;
         for (int32_t k = 0; k < SEVERAL; k++) {
             fl_body_external_force(w, k);
             w->b.x[k] = v3_madd(w->b.x[k], 0.02, w->b.v[k]);
@@ -410,7 +410,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(buoyancy_carries_the_weight_at_the_draft),
         cmocka_unit_test(lift_is_the_gradient_of_the_energy),
-        cmocka_unit_test(drag_is_the_exact_decay_and_books_its_work),
+        cmocka_unit_test(drag_is_the_exact_decay_and_records_its_work),
         cmocka_unit_test(wind_acts_on_the_dry_part),
         cmocka_unit_test(drag_does_not_move_fixed_directions),
         cmocka_unit_test(rounded_bodies_float_by_their_round_shape),

@@ -176,7 +176,7 @@ static void malformed_text_is_refused(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         err = (fl_err){0};
-        if (fl_exact_read(&s, bad[k], &err) != -1) fail_msg("\"%s\" was taken", bad[k]);
+        if (fl_exact_read(&s, bad[k], &err) != -1) fail_msg("\"%s\" was accepted", bad[k]);
         assert_int_equal(err.code, FL_INPUT);
     }
     err = (fl_err){0};
@@ -197,5 +197,5 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(known_sums), cmocka_unit_test(order_is_free),
                                        cmocka_unit_test(nearest_value), cmocka_unit_test(moments_are_exact),
                                        cmocka_unit_test(malformed_text_is_refused)};
-    return cmocka_run_group_tests_name("exactsum", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("exact_sum", tests, NULL, NULL);
 }

@@ -24,10 +24,10 @@ static uint64_t hash_double(uint64_t sum, double x)
 static uint64_t hash_points(fl_patch_points *w, const fl_poly *a, const fl_poly *b, fl_quat q, fl_vec3 x,
                             fl_feature_pairs *l)
 {
-    const fl_penetration apart = {0};
+    const fl_penetration separate = {0};
     uint64_t sum = 0;
     assert_int_equal(fl_patch_points_transform(w, a, q_matrix(q), x), 0);
-    assert_int_equal(fl_patch_points_find(w, a, b, RADIUS, RADIUS, v3(1, 0, 0), &apart, l), 0);
+    assert_int_equal(fl_patch_points_find(w, a, b, RADIUS, RADIUS, v3(1, 0, 0), &separate, l), 0);
     for (int32_t k = 0; k < w->n; k++) {
         const fl_patch_point *p = &w->point[k];
         sum = hash_double(hash_double(hash_double(hash_double(sum, p->u), p->du), p->p.x), p->n.y);
@@ -45,7 +45,7 @@ static void omitted_pairs_change_no_bit(void **state)
         fl_poly a = {0}, b = {0};
         fl_feature_pairs kept = {0};
         fl_err err = {0};
-        int lists = 0, places = 0;
+        int lists = 0, points = 0;
         assert_int_equal(fl_poly_box(&a, v3(0.5, far ? 1.2 : 0.6, 0.2), &err) ||
                              fl_poly_box(&b, v3(0.5, far ? 30.0 : 0.7, 0.25), &err),
                          0);
@@ -61,10 +61,10 @@ static void omitted_pairs_change_no_bit(void **state)
             assert_true(hash_points(&w, &a, &b, q, x, &kept) == once);
             fl_feature_pairs_free(&fresh);
             lists += kept.uses == 1;
-            places += w.n;
+            points += w.n;
         }
         assert_in_range(lists, 10, 200);
-        assert_true(places > 4000);
+        assert_true(points > 4000);
         fl_feature_pairs_free(&kept);
         fl_patch_points_free(&w);
         fl_poly_free(&a), fl_poly_free(&b);
@@ -75,7 +75,7 @@ static void omitted_pairs_change_no_bit(void **state)
 static void distant_sides_are_not_listed(void **state)
 {
     (void)state;
-    const fl_penetration apart = {0};
+    const fl_penetration separate = {0};
     fl_patch_points w = {0};
     fl_poly a = {0}, b = {0};
     fl_feature_pairs l = {0};
@@ -83,7 +83,7 @@ static void distant_sides_are_not_listed(void **state)
     assert_int_equal(fl_poly_box(&a, v3(0.5, 0.6, 0.2), &err) || fl_poly_box(&b, v3(3, 3, 0.3), &err), 0);
     const fl_vec3 x = v3(0.1, 0.2, 0.5 + 0.9 * R);
     assert_int_equal(fl_patch_points_transform(&w, &a, q_matrix(q_of_vector(v3(1e-3, 0, 0.3))), x), 0);
-    assert_int_equal(fl_patch_points_find(&w, &a, &b, RADIUS, RADIUS, v3(0, 0, 1), &apart, &l), 0);
+    assert_int_equal(fl_patch_points_find(&w, &a, &b, RADIUS, RADIUS, v3(0, 0, 1), &separate, &l), 0);
     assert_true(w.n > 10 && l.n > 8);
     assert_int_equal(l.planes[0], 1);
     fl_feature_pairs_free(&l);
@@ -152,15 +152,15 @@ static void many_corners_match_few_corners(void **state)
                          fl_poly_prism(&many, MANY, xy, -1, 0, &err),
                      0);
     const fl_vec3 x = v3(0.1, 0.2, 0.2 + 0.9 * R), up = v3(0, 0, 1);
-    const fl_penetration apart = {0};
+    const fl_penetration separate = {0};
     assert_int_equal(fl_patch_points_transform(&w, &a, q_matrix(q), x), 0);
-    assert_int_equal(fl_patch_points_find(&w, &a, &few, RADIUS, RADIUS, up, &apart, &l), 0);
+    assert_int_equal(fl_patch_points_find(&w, &a, &few, RADIUS, RADIUS, up, &separate, &l), 0);
     const double u = sum_of_u(&w);
-    const int32_t places = w.n;
-    assert_int_equal(fl_patch_points_find(&w, &a, &many, RADIUS, RADIUS, up, &apart, &m), 0);
+    const int32_t points = w.n;
+    assert_int_equal(fl_patch_points_find(&w, &a, &many, RADIUS, RADIUS, up, &separate, &m), 0);
     assert_true(u > 0.0 && !l.width && m.width);
     assert_near(sum_of_u(&w), u, 1e-12);
-    assert_int_equal(w.n, places);
+    assert_int_equal(w.n, points);
     assert_true(fl_feature_pairs_bytes(&l) < 3000.0);
     fl_feature_pairs_free(&l), fl_feature_pairs_free(&m);
     fl_patch_points_free(&w);

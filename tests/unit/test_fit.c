@@ -241,7 +241,7 @@ static void clustered_maxima_end_at_the_shape_bound(void **state)
     for (int k = 0; k < N; k++) x[k] = 100.0 + 10.0 * log((N - k) / (N + 1.0));
     for (int kind = FL_GEV; kind < FL_DISTS; kind++) {
         const fl_dist best = fit_sample(kind, FL_FIT_LIKELIHOOD, N, x, 60.0);
-        const double most = fl_fit_log_likelihood(&best, N, x);
+        const double largest = fl_fit_log_likelihood(&best, N, x);
         assert_near(best.shape, -0.5, 1e-12);
         assert_true(fl_dist_upper_quantile(&best, 1e-12) > x[0]);
         for (int k = 0; k < 8; k++) {
@@ -249,7 +249,7 @@ static void clustered_maxima_end_at_the_shape_bound(void **state)
             d.scale *= 1.0 + 0.01 * (k % 3 - 1);
             if (kind == FL_GEV) d.location += 0.01 * d.scale * (k / 3 - 1);
             if (d.scale != best.scale || d.location != best.location)
-                assert_true(fl_fit_log_likelihood(&d, N, x) < most);
+                assert_true(fl_fit_log_likelihood(&d, N, x) < largest);
         }
     }
 }

@@ -22,7 +22,7 @@ static void formats_give_columns(void **state)
                                       "(i0)",  "(65i1)", "(0i9)",  "(1i80)", "(99x,i2)",
                                       "(3q9)", "(3i9",   "(3i9,,", "(i9;)",  "(99999999999999999999i3)"};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
-        if (fl_columns_parse(&f, bad[k]) == 0) fail_msg("\"%s\" was taken", bad[k]);
+        if (fl_columns_parse(&f, bad[k]) == 0) fail_msg("\"%s\" was accepted", bad[k]);
 }
 
 static int integer_in(const char *row, int width, int64_t *x)

@@ -59,7 +59,7 @@ static void check_field(const fl_power_cells *c, const fl_floes *a, double conce
 static void concentration_is_reached_without_overlap(void **state)
 {
     (void)state;
-    static const double asked[] = {0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95};
+    static const double requested[] = {0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95};
     for (int s = 0; s < test_times(30); s++) {
         const double radius[3] = {0.0, 0.05, 0.12};
         fl_power_cells c = {0};
@@ -67,10 +67,10 @@ static void concentration_is_reached_without_overlap(void **state)
         for (int k = 0; k < 8; k++) {
             fl_floes a = {0};
             fl_err err = {0};
-            if (fl_floes_make(&a, &c, asked[k], radius[s % 3], (fl_vec2){0, 0}, &err))
-                fail_msg("seed %d concentration %g: %s", s, asked[k], err.text);
+            if (fl_floes_make(&a, &c, requested[k], radius[s % 3], (fl_vec2){0, 0}, &err))
+                fail_msg("seed %d concentration %g: %s", s, requested[k], err.text);
             assert_int_equal(a.n, 120);
-            check_field(&c, &a, asked[k], radius[s % 3]);
+            check_field(&c, &a, requested[k], radius[s % 3]);
             fl_floes_free(&a);
         }
         fl_power_cells_free(&c);
@@ -248,7 +248,7 @@ static void make_squares(fl_floes *a, int32_t n, double gap, double by)
     }
 }
 
-static void the_certificate_detects_overlaps_and_gaps(void **state)
+static void the_certificate_measures_gaps_and_overlaps(void **state)
 {
     (void)state;
     const double gap[] = {0.5, 1e-9, 0.0, -1e-9, -0.2};
@@ -329,7 +329,7 @@ int main(void)
                                        cmocka_unit_test(impossible_requests_are_refused),
                                        cmocka_unit_test(threads_change_nothing),
                                        cmocka_unit_test(removing_floes_keeps_the_others),
-                                       cmocka_unit_test(the_certificate_detects_overlaps_and_gaps),
+                                       cmocka_unit_test(the_certificate_measures_gaps_and_overlaps),
                                        cmocka_unit_test(the_certificate_detects_invalid_polygons),
                                        cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -51,17 +51,17 @@ static void the_stiffness_sum_matches_single_points(void **state)
         fl_force_sum_springs(&s, &springs);
         for (int32_t i = 0; i < 3; i++) {
             fl_stiffness K = {0}, L = {0};
-            double most = 0.0;
+            double largest = 0.0;
             fl_stiffness_add_springs(&K, &b, i, 2.5, &springs, R, a);
             for (int32_t k = 0; k < n; k++) {
                 const fl_patch_point *p = &s.point[k];
                 const fl_vec3 f = m3_mul(R, p->unit_normal), r = m3_mul(R, v3_sub(p->p, s.point[0].p));
                 if (p->u > 0.0) fl_stiffness_add_force(&L, &b, i, 2.5 * p->ddu, f, v3_cross(v3_add(r, a), f));
             }
-            for (int r = 0; r < 6; r++) most = fmax(most, L.a[r][r]);
-            assert_true(i < 2 ? most > 0.0 : most == 0.0); /* fixed directions have none */
+            for (int r = 0; r < 6; r++) largest = fmax(largest, L.a[r][r]);
+            assert_true(i < 2 ? largest > 0.0 : largest == 0.0); /* fixed directions have none */
             for (int r = 0; r < 6; r++)
-                for (int c = 0; c < 8; c++) assert_near_of(K.a[r][c], L.a[r][c], 1e-14, most);
+                for (int c = 0; c < 8; c++) assert_near_of(K.a[r][c], L.a[r][c], 1e-14, largest);
         }
     }
     fl_patch_points_free(&s);
@@ -76,7 +76,7 @@ static void the_force_sum_matches_single_points(void **state)
     for (int32_t n = 1; n < 14; n++) {
         const fl_vec3 v = random_vector(&g), turn = random_vector(&g);
         const double chi = 0.3;
-        double u = 0.0, pressed = 0.0, normal = 0.0, size = 0.0;
+        double u = 0.0, compressed = 0.0, normal = 0.0, size = 0.0;
         fl_vec3 f = v3(0, 0, 0), m = f, more = f;
         fl_force_sum q;
         fill_points(&s, n, &g);
@@ -93,11 +93,11 @@ static void the_force_sum_matches_single_points(void **state)
                            1.0 + fabs(closing) + v3_norm(arm));
             f = v3_add(f, pull), m = v3_add(m, v3_cross(arm, pull));
             more = v3_madd(more, now - e, p->unit_normal);
-            u += p->u, pressed += p->u > 0.0 ? p->du : 0.0, normal += now;
+            u += p->u, compressed += p->u > 0.0 ? p->du : 0.0, normal += now;
             size += (1.0 + v3_norm(arm)) * v3_norm(pull) * (1.0 + fabs(closing));
         }
         assert_near(q.u, u, 1e-14);
-        assert_near(q.du, pressed, 1e-14);
+        assert_near(q.du, compressed, 1e-14);
         assert_near_of(q.damped_pressure, normal, 1e-14, size);
         assert_near_of(v3_norm(v3_sub(q.gradient.f, f)), 0.0, 1e-14, size);
         assert_near_of(v3_norm(v3_sub(q.gradient.m, m)), 0.0, 1e-14, size);
@@ -181,12 +181,12 @@ static void a_uniform_pressure_is_limited_as_a_whole(void **state)
     assert_int_equal(fl_reserve(&s.point, &s.point_cap, 3, sizeof *s.point), 0);
     for (double rate = 0.0; rate < 20.0; rate += 0.25)
         for (double sink = -2.0; sink < 8.0; sink += 0.25) {
-            double all = 0.0, turns = 0.0;
+            double all = 0.0, moment = 0.0;
             const int32_t n = 2000;
             for (int32_t k = 0; k < n; k++) {
                 const double h = -1.0 + (k + 0.5) * 2.0 / n, f = fmax(0.0, 1.0 + sink + rate * h);
                 all += f * sqrt(1.0 - h * h) * 4.0 / (n * 3.14159265358979);
-                turns += f * h * sqrt(1.0 - h * h) * 4.0 / (n * 3.14159265358979);
+                moment += f * h * sqrt(1.0 - h * h) * 4.0 / (n * 3.14159265358979);
             }
             s.n = 0;
             add_area(&s, 1.0, v3(0, 0, 0), x, y, 0.1 + sink + rate);
@@ -197,7 +197,7 @@ static void a_uniform_pressure_is_limited_as_a_whole(void **state)
             const fl_vec3 m = v3_add(q.damped_moment, v3_scale(q.damped_pressure, s.point[0].p));
             const double size = 1.0 + sink + rate > 0.0 ? fabs(1.0 + sink) + rate : 1.0;
             assert_near_of(q.damped_pressure, all, rate < 1.0 + sink ? 1e-4 : 0.05, size);
-            assert_near_of(m.x, turns, rate < 1.0 + sink ? 1e-4 : 0.05, size);
+            assert_near_of(m.x, moment, rate < 1.0 + sink ? 1e-4 : 0.05, size);
             assert_near_of(m.y, 0.0, 1e-14, size);
         }
     fl_patch_points_free(&s);

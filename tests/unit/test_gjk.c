@@ -90,15 +90,15 @@ static void an_invalid_cache_changes_nothing(void **state)
         const fl_core a = fl_solid_core(&q.a), b = fl_solid_core(&q.b);
         const fl_gap cold = gap_of(a, b);
         fl_gap g;
-        fl_gjk_cache foul[] = {{-3, {0}, {0}},
-                               {4, {0, 0, 0, 0}, {0, 0, 0, 0}},
-                               {7, {1 << 30, -1, 5, 5}, {0, 1, 2, 3}},
-                               {INT32_MAX, {a.n - 1, 0, a.n / 2, 0}, {0, b.n - 1, 0, b.n / 2}}};
-        for (size_t f = 0; f < sizeof foul / sizeof *foul; f++) {
-            fl_gjk(a, b, &foul[f], &g);
+        fl_gjk_cache invalid[] = {{-3, {0}, {0}},
+                                  {4, {0, 0, 0, 0}, {0, 0, 0, 0}},
+                                  {7, {1 << 30, -1, 5, 5}, {0, 1, 2, 3}},
+                                  {INT32_MAX, {a.n - 1, 0, a.n / 2, 0}, {0, b.n - 1, 0, b.n / 2}}};
+        for (size_t f = 0; f < sizeof invalid / sizeof *invalid; f++) {
+            fl_gjk(a, b, &invalid[f], &g);
             assert_int_equal(g.overlap, cold.overlap);
             assert_near_of(g.d, cold.d, 1e-14, q.size + cold.d);
-            assert_true(foul[f].n >= 1 && foul[f].n <= 4);
+            assert_true(invalid[f].n >= 1 && invalid[f].n <= 4);
         }
         pair_free(&q);
     }

@@ -79,7 +79,7 @@ static void a_round_trip_keeps_the_bytes(void **state)
 static void each_fault_has_its_message(void **state)
 {
     static const struct {
-        const char *text, *says; /* after the name of the file */
+        const char *text, *message; /* after the name of the file */
     } fault[] = {
         {"", ": empty, a g_struct file is expected"},
         {"hello\n", ":1: \"hello\" does not open a g_struct file, \"#g_struct 1\" is expected"},
@@ -117,7 +117,7 @@ static void each_fault_has_its_message(void **state)
         assert_int_equal(fl_gstruct_read(&s, path, &err), -1);
         assert_int_equal(err.code, FL_INPUT);
         assert_int_equal(strncmp(err.text, path, strlen(path)), 0);
-        assert_string_equal(err.text + strlen(path), fault[k].says);
+        assert_string_equal(err.text + strlen(path), fault[k].message);
         assert_null(s.part);
     }
     unlink(test_path("g"));

@@ -84,5 +84,5 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_at_any_position),
                                        cmocka_unit_test(an_l_shape_with_water_through_its_vertices),
                                        cmocka_unit_test(a_body_that_cannot_float_is_reported)};
-    return cmocka_run_group_tests_name("flotation", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("hydrostatics", tests, NULL, NULL);
 }

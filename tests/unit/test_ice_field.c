@@ -46,10 +46,10 @@ static void a_field_is_read_whole(void **state)
     fl_ice_field_free(&a);
 }
 
-static char *write_field(const fl_ice_field *a, char *buf, size_t room)
+static char *write_field(const fl_ice_field *a, char *buf, size_t capacity)
 {
     fl_history_line by;
-    FILE *f = fmemopen(buf, room, "w");
+    FILE *f = fmemopen(buf, capacity, "w");
     assert_non_null(f);
     fl_history_line_start(&by, "test");
     fl_ice_field_write(f, a, &by);
@@ -272,7 +272,7 @@ static void the_order_depends_only_on_the_bodies(void **state)
 static void a_large_field_follows_the_hilbert_curve(void **state)
 {
     enum { SIDE = 80, N = SIDE * SIDE };
-    static int32_t place[2][N + 1], at[N];
+    static int32_t position[2][N + 1], at[N];
     (void)state;
     for (int k = 0; k < 2; k++) {
         fl_ice_field a = {0};
@@ -286,12 +286,12 @@ static void a_large_field_follows_the_hilbert_curve(void **state)
                              0);
         }
         assert_int_equal(fl_ice_field_order(&a, at, &err), 0);
-        for (int32_t i = 0; i < N; i++) place[k][a.id[i]] = i;
+        for (int32_t i = 0; i < N; i++) position[k][a.id[i]] = i;
         fl_ice_field_free(&a);
     }
-    assert_memory_equal(place[0], place[1], sizeof place[0]);
+    assert_memory_equal(position[0], position[1], sizeof position[0]);
     int32_t near = 0;
-    for (int32_t c = 0; c + SIDE < N; c++) near += abs(place[0][c + 1 + SIDE] - place[0][c + 1]) < 256;
+    for (int32_t c = 0; c + SIDE < N; c++) near += abs(position[0][c + 1 + SIDE] - position[0][c + 1]) < 256;
     assert_true(near > 0.85 * N);
 }
 

@@ -57,14 +57,14 @@ static void options_record_what_they_matched(void **state)
 {
     (void)state;
     const char *const pattern[] = {"leg*", "deck", "nothing"};
-    char hit[3] = {0};
+    char matches[3] = {0};
     fl_string_table seen = {0};
     fl_err err = {0};
-    fl_import_options w = {.pattern = pattern, .patterns = 3, .matched = hit, .available = &seen};
+    fl_import_options w = {.pattern = pattern, .patterns = 3, .matched = matches, .available = &seen};
     assert_int_equal(fl_import_selects(&w, "leg 1", &err), 1);
     assert_int_equal(fl_import_selects(&w, "hull", &err), 0);
     assert_int_equal(fl_import_selects(&w, "DECK", &err), 1);
-    assert_true(hit[0] && hit[1] && !hit[2]);
+    assert_true(matches[0] && matches[1] && !matches[2]);
     assert_int_equal(seen.n, 3);
     assert_string_equal(seen.name[1], "hull");
     assert_true(fl_import_by_name(&w));

@@ -22,7 +22,7 @@ static fl_vec3 random_vector(fl_rng *g)
 }
 
 /* One body of mass 2 and moments I, in random orientation and motion; fixed rotations at rest. */
-static void random_body(fl_bodies *b, fl_rng *g, fl_vec3 I, unsigned hold)
+static void random_body(fl_bodies *b, fl_rng *g, fl_vec3 I, unsigned fixed)
 {
     fl_err err = {0};
     assert_int_equal(fl_bodies_alloc(b, 1, 1, &err), 0);
@@ -31,12 +31,12 @@ static void random_body(fl_bodies *b, fl_rng *g, fl_vec3 I, unsigned hold)
     fl_body_set_inertia(b, 0, I);
     b->bounding_radius[0] = 1.0;
     b->q[0] = shape_rotation(g);
-    b->fixed_dof[0] = (uint8_t)hold;
+    b->fixed_dof[0] = (uint8_t)fixed;
     b->v[0] = random_vector(g);
     fl_vec3 w = random_vector(g);
-    if (hold & FL_DOF_RX) w.x = 0.0;
-    if (hold & FL_DOF_RY) w.y = 0.0;
-    if (hold & FL_DOF_RZ) w.z = 0.0;
+    if (fixed & FL_DOF_RX) w.x = 0.0;
+    if (fixed & FL_DOF_RY) w.y = 0.0;
+    if (fixed & FL_DOF_RZ) w.z = 0.0;
     fl_body_update_spin(b, 0);
     fl_body_set_spin(b, 0, w);
 }
@@ -88,10 +88,10 @@ static void a_symmetric_top_turns_exactly(void **state)
         const fl_quat q = b.q[0];
         const fl_vec3 L = b.L[0];
         const double along = v3_dot(m3_col(fl_body_axes(&b, 0), axis), L);
-        const fl_quat want = q_mul(q_of_vector(v3_scale(dt / mid, L)),
-                                   q_mul(q, q_about_axis(axis, dt * (1.0 / other - 1.0 / mid) * along)));
+        const fl_quat expected = q_mul(q_of_vector(v3_scale(dt / mid, L)),
+                                       q_mul(q, q_about_axis(axis, dt * (1.0 / other - 1.0 / mid) * along)));
         fl_drift(&b, 0, dt);
-        assert_near_of(rotation_between(b.q[0], want), 0.0, 1e-14, 1.0);
+        assert_near_of(rotation_between(b.q[0], expected), 0.0, 1e-14, 1.0);
         assert_memory_equal(&b.L[0], &L, sizeof L);
         fl_bodies_free(&b);
     }
@@ -120,10 +120,10 @@ static void a_drift_is_reversible(void **state)
 static void the_travel_counter_is_an_upper_bound(void **state)
 {
     (void)state;
-    for (unsigned hold = 0; hold < 64; hold += 4) {
-        fl_rng g = fl_rng_of(test_seed(), 200 + hold, FL_RNG_TEST);
+    for (unsigned fixed = 0; fixed < 64; fixed += 4) {
+        fl_rng g = fl_rng_of(test_seed(), 200 + fixed, FL_RNG_TEST);
         fl_bodies b;
-        random_body(&b, &g, v3(1, 1.5, 2.2), hold);
+        random_body(&b, &g, v3(1, 1.5, 2.2), fixed);
         double worst = 0.0;
         for (int k = 0; k < 1000; k++) {
             const fl_vec3 x = b.x[0];
@@ -147,10 +147,10 @@ static void the_travel_counter_is_an_upper_bound(void **state)
 static void fixed_directions_stay(void **state)
 {
     (void)state;
-    for (unsigned hold = 0; hold < 64; hold++) {
-        fl_rng g = fl_rng_of(test_seed(), hold, FL_RNG_TEST);
+    for (unsigned fixed = 0; fixed < 64; fixed++) {
+        fl_rng g = fl_rng_of(test_seed(), fixed, FL_RNG_TEST);
         fl_bodies b;
-        random_body(&b, &g, v3(1, 1.5, 2.2), hold);
+        random_body(&b, &g, v3(1, 1.5, 2.2), fixed);
         const fl_vec3 v = b.v[0], w = b.w[0];
         for (int k = 0; k < 500; k++) {
             b.f[0] = random_vector(&g);
@@ -159,12 +159,12 @@ static void fixed_directions_stay(void **state)
             fl_drift(&b, 0, 0.02);
             fl_kick(&b, 0, 0.01);
         }
-        assert_int_equal(b.v[0].x == v.x, (hold & FL_DOF_X) != 0);
-        assert_int_equal(b.v[0].y == v.y, (hold & FL_DOF_Y) != 0);
-        assert_int_equal(b.v[0].z == v.z, (hold & FL_DOF_Z) != 0);
-        assert_int_equal(b.w[0].x == w.x, (hold & FL_DOF_RX) != 0);
-        assert_int_equal(b.w[0].y == w.y, (hold & FL_DOF_RY) != 0);
-        assert_int_equal(b.w[0].z == w.z, (hold & FL_DOF_RZ) != 0);
+        assert_int_equal(b.v[0].x == v.x, (fixed & FL_DOF_X) != 0);
+        assert_int_equal(b.v[0].y == v.y, (fixed & FL_DOF_Y) != 0);
+        assert_int_equal(b.v[0].z == v.z, (fixed & FL_DOF_Z) != 0);
+        assert_int_equal(b.w[0].x == w.x, (fixed & FL_DOF_RX) != 0);
+        assert_int_equal(b.w[0].y == w.y, (fixed & FL_DOF_RY) != 0);
+        assert_int_equal(b.w[0].z == w.z, (fixed & FL_DOF_RZ) != 0);
         const fl_vec3 s = m3_tmul(fl_body_axes(&b, 0), b.L[0]);
         assert_near_of(distance_between(m3_mul(fl_body_axes(&b, 0), v3(s.x, s.y / 1.5, s.z / 2.2)), b.w[0]),
                        0.0, 1e-13, v3_norm(b.w[0]));
@@ -259,14 +259,14 @@ static void the_work_of_a_prescribed_rotation_is_recorded(void **state)
     random_body(&b, &g, v3(1, 1.5, 2.2), FL_DOF_RZ);
     fl_body_set_spin(&b, 0, v3(0.2, 0.1, 2.0));
     const double before = fl_body_kinetic_energy(&b, 0);
-    double worst = 0.0, most = 0.0;
+    double worst = 0.0, largest = 0.0;
     for (int k = 0; k < 4000; k++) {
         fl_drift(&b, 0, 5e-4);
         worst = fmax(worst, fabs(fl_body_kinetic_energy(&b, 0) - before - b.work_of_constraints[0]));
-        most = fmax(most, fabs(b.work_of_constraints[0]));
+        largest = fmax(largest, fabs(b.work_of_constraints[0]));
         assert_true(b.w[0].z == 2.0);
     }
-    assert_true(most > 0.01 * before);
+    assert_true(largest > 0.01 * before);
     assert_near_of(worst, 0.0, 1e-5, before); /* order 2 of 5e-4 s at 2 rad/s */
     fl_bodies_free(&b);
 }
@@ -309,12 +309,12 @@ static void a_driven_group_does_the_work_on_what_it_pushes(void **state)
 static void prescribed_velocity_with_added_mass(void **state)
 {
     (void)state;
-    const unsigned hold[] = {0,
-                             FL_DOF_X,
-                             FL_DOF_X | FL_DOF_Y | FL_DOF_Z,
-                             FL_DOF_Z | FL_DOF_RX,
-                             TURNS,
-                             FL_DOF_Y | FL_DOF_RY | FL_DOF_RZ};
+    const unsigned fixed[] = {0,
+                              FL_DOF_X,
+                              FL_DOF_X | FL_DOF_Y | FL_DOF_Z,
+                              FL_DOF_Z | FL_DOF_RX,
+                              TURNS,
+                              FL_DOF_Y | FL_DOF_RY | FL_DOF_RZ};
     for (int k = 0; k < 6; k++) {
         fl_rng g = fl_rng_of(test_seed(), 60 + k, FL_RNG_TEST);
         fl_bodies b;
@@ -322,7 +322,7 @@ static void prescribed_velocity_with_added_mass(void **state)
         double off[2];
         for (int fine = 0; fine < 2; fine++) {
             g = fl_rng_of(test_seed(), 60 + k, FL_RNG_TEST);
-            random_body(&b, &g, v3(1, 2, 3), hold[k]);
+            random_body(&b, &g, v3(1, 2, 3), fixed[k]);
             assert_int_equal(fl_bodies_alloc_added_mass(&b, &err), 0);
             b.added_mass[0] = v3(0.3, 1.0, 5.0);
             const fl_vec3 v = b.v[0];
@@ -331,9 +331,9 @@ static void prescribed_velocity_with_added_mass(void **state)
                 fl_kick(&b, 0, fine ? 5e-4 : 1e-3); /* no force: the constraint does no work */
                 fl_drift(&b, 0, fine ? 1e-3 : 2e-3);
             }
-            if (hold[k] & FL_DOF_X) assert_true(b.v[0].x == v.x);
-            if (hold[k] & FL_DOF_Y) assert_true(b.v[0].y == v.y);
-            if (hold[k] & FL_DOF_Z) assert_true(b.v[0].z == v.z);
+            if (fixed[k] & FL_DOF_X) assert_true(b.v[0].x == v.x);
+            if (fixed[k] & FL_DOF_Y) assert_true(b.v[0].y == v.y);
+            if (fixed[k] & FL_DOF_Z) assert_true(b.v[0].z == v.z);
             off[fine] = fabs(fl_body_kinetic_energy(&b, 0) - b.work_of_constraints[0] - start);
             assert_near_of(off[fine], 0.0, 1e-3, start);
             fl_bodies_free(&b);
@@ -345,7 +345,7 @@ static void prescribed_velocity_with_added_mass(void **state)
 enum { SEVERAL = 53 };
 
 /* Symmetric tops, bricks and spheres, some at rest, some with `wild` times the spin of the others. */
-static void make_bodies(fl_bodies *b, double wild)
+static void make_bodies(fl_bodies *b, double spin_factor)
 {
     fl_err err = {0};
     assert_int_equal(fl_bodies_alloc(b, SEVERAL, SEVERAL, &err), 0);
@@ -364,7 +364,7 @@ static void make_bodies(fl_bodies *b, double wild)
         b->v[i] = random_vector(&g), b->f[i] = random_vector(&g), b->t[i] = random_vector(&g);
         fl_body_update_spin(b, i);
         const fl_vec3 spin = random_vector(&g);
-        if (i % 5) fl_body_set_spin(b, i, v3_scale(i % 11 == 3 ? wild : 1.0, spin));
+        if (i % 5) fl_body_set_spin(b, i, v3_scale(i % 11 == 3 ? spin_factor : 1.0, spin));
         else b->t[i] = v3(0, 0, 0);
     }
 }
@@ -382,7 +382,7 @@ static void add_water(fl_bodies *b)
     }
 }
 
-static void move_in_batches(fl_bodies *b, int32_t from, int32_t to, double h, int pushed)
+static void move_in_batches(fl_bodies *b, int32_t from, int32_t to, double h, int with_kick)
 {
     int32_t at[FL_BODY_BATCH];
     fl_body_batch_water along, *const water = b->added_mass ? &along : NULL;
@@ -392,7 +392,7 @@ static void move_in_batches(fl_bodies *b, int32_t from, int32_t to, double h, in
     fl_body_batch_load_forces(&s, b);
     fl_body_batch_load_pose(&s, b);
     if (water) fl_body_batch_load_water(water, b, &s);
-    if (pushed && !water) fl_body_batch_kick_momentum(&s);
+    if (with_kick && !water) fl_body_batch_kick_momentum(&s);
     else fl_body_batch_update_axes(&s), fl_body_batch_kick(&s, water);
     const int done = fl_body_batch_drift(&s, water);
     fl_body_batch_store_velocities(&s, b);
@@ -402,12 +402,12 @@ static void move_in_batches(fl_bodies *b, int32_t from, int32_t to, double h, in
 }
 
 /* Runs of spheres and of other bodies, in batches. */
-static void move_in_full_batches(fl_bodies *b, int32_t from, int32_t to, double h, double dt, int pushed)
+static void move_in_full_batches(fl_bodies *b, int32_t from, int32_t to, double h, double dt, int with_kick)
 {
     for (int32_t i = from, end; i < to; i = end) {
         for (end = i + 1; end < to && b->is_isotropic[end] == b->is_isotropic[i] && end < i + FL_BODY_BATCH;)
             end++;
-        if (!b->is_isotropic[i]) move_in_batches(b, i, end, h, pushed);
+        if (!b->is_isotropic[i]) move_in_batches(b, i, end, h, with_kick);
         else if (!b->added_mass) fl_kick_drift_isotropic(b, i, end, h, dt);
         else
             for (int32_t k = i; k < end; k++) fl_kick(b, k, h), fl_drift(b, k, dt);
@@ -418,10 +418,10 @@ static void a_batch_has_the_bits_of_single_bodies(void **state)
 {
     (void)state;
     /* low orders of the series suffice for some bodies; some rotate by more than a radian a step */
-    const double wild[] = {1.0, 5.0, 500.0};
+    const double spin_factor[] = {1.0, 5.0, 500.0};
     for (int way = 0; way < 6; way++) {
         fl_bodies one, all;
-        make_bodies(&one, wild[way % 3]), make_bodies(&all, wild[way % 3]);
+        make_bodies(&one, spin_factor[way % 3]), make_bodies(&all, spin_factor[way % 3]);
         if (way >= 3) add_water(&one), add_water(&all);
         for (int k = 0; k < 40; k++) {
             for (int32_t i = 0; i < SEVERAL; i++) {

@@ -100,12 +100,12 @@ static void damping_of_many_is_stable(void **state)
     for (size_t k = 0; k < sizeof N / sizeof *N; k++)
         for (double C = 0.01; C < 1e5; C *= 1.5) {
             damped_mass s = {.x = 0.0, .v = 1.0};
-            double d, most = 0.0;
+            double d, largest = 0.0;
             for (int i = 0; i < 4000; i++) {
                 step_damped_mass(&s, 2.0, C / N[k], N[k], 0.7, &d);
-                most = fmax(most, fabs(s.v));
+                largest = fmax(largest, fabs(s.v));
             }
-            assert_true(most < 30.0 && fabs(s.v) <= 1.0);
+            assert_true(largest < 30.0 && fabs(s.v) <= 1.0);
         }
 }
 
@@ -199,10 +199,10 @@ static void normal_powers_are_derivatives_of_one_another(void **state)
 static void manual_modes_are_those_of_the_table(void **state)
 {
     static const double overlap[] = {1e-4, 1e-3, 1e-2};
-    static const double want[][6] = {/* VV, VF, EP literal, EP si, EF literal, FF [N] */
-                                     {164, 232, 819, 216e3, 1.16e3, 224e3},
-                                     {5.18e3, 7.33e3, 25.9e3, 2.16e6, 36.6e3, 2.24e6},
-                                     {164e3, 232e3, 819e3, 21.6e6, 1.16e6, 22.4e6}};
+    static const double expected[][6] = {/* VV, VF, EP literal, EP si, EF literal, FF [N] */
+                                         {164, 232, 819, 216e3, 1.16e3, 224e3},
+                                         {5.18e3, 7.33e3, 25.9e3, 2.16e6, 36.6e3, 2.24e6},
+                                         {164e3, 232e3, 819e3, 21.6e6, 1.16e6, 22.4e6}};
     static const struct {
         fl_manual_kind touch;
         int si;
@@ -217,7 +217,8 @@ static void manual_modes_are_those_of_the_table(void **state)
                 .kind = mode[m].touch, .length = 5.0, .area = 12.5, .r_low = 0.1, .r_high = 0.1, .edge = 5.0};
             double n;
             const double k = fl_manual_stiffness(&c, modulus, overlap[s], mode[m].si, 0, &n);
-            assert_near(k * fl_normal_power(overlap[s], n), want[s][m], 5e-3); /* three digits are printed */
+            assert_near(k * fl_normal_power(overlap[s], n), expected[s][m],
+                        5e-3); /* three digits are printed */
         }
     }
 }
@@ -232,10 +233,10 @@ static void manual_crossed_edges(void **state)
         const double angle = k * PI / 18.0;
         const fl_manual_contact c = {
             .kind = FL_MANUAL_EE, .sine = sin(angle), .r_low = 0.1, .r_high = 0.3, .edge = 5.0};
-        const double R = sqrt(0.03) / sin(angle), want = fl_material_hertz(modulus, R);
-        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 0, &n), want, 1e-12);
+        const double R = sqrt(0.03) / sin(angle), expected = fl_material_hertz(modulus, R);
+        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 0, &n), expected, 1e-12);
         assert_near(n, 1.5, 0.0);
-        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 1, &n), want * sqrt(2.0), 1e-12);
+        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 1, &n), expected * sqrt(2.0), 1e-12);
     }
     fl_manual_contact c = {.kind = FL_MANUAL_EE, .r_low = 0.1, .r_high = 0.1, .edge = 5.0};
     /* parallel: half the radius in one direction, edge^2/(4 s) in the other. With the angle the first grows
@@ -384,9 +385,9 @@ static void friction_damping_solves_its_equation(void **state)
         /* the point then moves with this velocity, and the contact represents `count` of them */
         const double across = 0.5 * (3.0 + v3_norm2(one) + v3_norm2(two) - projected_matrix(n, one, two)),
                      all = fl_damping_implicit_weight(0.5 * dt * coef * across, many, 2.0 * many);
-        const fl_vec3 push = v3_madd(v3_scale(all, v3_sub(x.f, old)), 1.0, way);
-        const fl_vec3 eased = v3_madd(v3_madd(push, v3_dot(one, push), one), v3_dot(two, push), two);
-        fl_vec3 then = v3_madd(v, 0.5 * dt, eased);
+        const fl_vec3 rhs = v3_madd(v3_scale(all, v3_sub(x.f, old)), 1.0, way);
+        const fl_vec3 product = v3_madd(v3_madd(rhs, v3_dot(one, rhs), one), v3_dot(two, rhs), two);
+        fl_vec3 then = v3_madd(v, 0.5 * dt, product);
         /* of the old force, which is not tangential, only the tangential part */
         const fl_vec3 flat = v3_madd(old, -v3_dot(old, n), n), off = v3_sub(flat, old),
                       more = v3_scale(all, off),
@@ -412,7 +413,7 @@ static void friction_creates_no_energy(void **state)
         const double dt = 1e-3, base = 1000.0, a1 = fl_rng_in(&g, 1, 20), a2 = fl_rng_in(&g, 1, 20),
                      b = fl_rng_in(&g, 1, 20), mu = fl_rng_in(&g, 0.05, 5), damp = fl_rng_in(&g, 0, 3);
         fl_friction_springs s = {0};
-        double taken = 0.0, moved = 0.0;
+        double dissipated = 0.0, moved = 0.0;
         fl_vec3 before = v3(0, 0, 0);
         const fl_vec3 n = v3(0, 0, 1);
         for (int i = 1; i <= 20000; i++) {
@@ -420,17 +421,17 @@ static void friction_creates_no_energy(void **state)
             const fl_vec3 v = v3(sin(a1 * t), cos(a2 * t), 0);
             const fl_vec3 f = slide_point(&s, n, v, 0.0, dt, k, damp, mu * base * depth * sqrt(depth));
             assert_true(v3_norm(f) <= mu * base * depth * sqrt(depth) * (1.0 + 1e-15));
-            taken -= 0.5 * dt * v3_dot(v3_add(f, before), v);
+            dissipated -= 0.5 * dt * v3_dot(v3_add(f, before), v);
             moved += dt * v3_norm(v);
             before = f;
             /* energy returned so far never exceeds the energy put in; the rule's error is of order dt of the
              * work */
-            if (taken - fl_tangent_energy(s) < -2.0 * dt * base * moved) {
+            if (dissipated - fl_tangent_energy(s) < -2.0 * dt * base * moved) {
                 print_error("seed %llu case %ld\n", (unsigned long long)test_seed(), c);
                 assert_true(0);
             }
         }
-        assert_true(taken > fl_tangent_energy(s));
+        assert_true(dissipated > fl_tangent_energy(s));
     }
 }
 
@@ -443,11 +444,11 @@ static void friction_unloads_along_its_stiffness(void **state)
     fl_friction_springs s = {.k = k1};
     (void)state;
     for (int i = 0; i < 100; i++) slide_point(&s, n, there, 0.0, dt, k1, 0.0, far);
-    const double held = fl_tangent_energy(s);
+    const double stored = fl_tangent_energy(s);
     assert_near(s.force.x, -k1 * 100 * dt, 1e-12);
     slide_point(&s, n, still, 0.0, dt, k2, 0.0, far);
     assert_near(s.force.x, -k2 * 100 * dt, 1e-12);
-    assert_near(fl_tangent_energy(s), held * k2 / k1, 1e-12);
+    assert_near(fl_tangent_energy(s), stored * k2 / k1, 1e-12);
     for (int i = 0; i < 100; i++) slide_point(&s, n, v3_neg(there), 0.0, dt, k2, 0.0, far);
     assert_near_of(s.force.x, 0.0, 1e-12, k1 * 100 * dt);
     /* stiffer again, the force stays: incremental */
@@ -468,7 +469,7 @@ static void a_corrected_stiffness_creates_no_energy(void **state)
     slide_point(&s, n, v3(1, 0, 0), 0.0, dt, 1000.0, 0.0, limit);
     fl_friction_springs fallen = s;
     assert_near(slide_point(&fallen, n, rest, 0.0, dt, 900.0, 0.0, limit).x, -0.9, 1e-14);
-    const double held = fl_tangent_energy(s);
+    const double stored = fl_tangent_energy(s);
     fallen = s;
     fl_tangent_rescale(&fallen, 0.95, 1); /* predicted to fall to 1000, it fell to 950 */
     assert_near(slide_point(&fallen, n, rest, 0.0, dt, 950.0, 0.0, limit).x, -0.95, 1e-14);
@@ -476,7 +477,7 @@ static void a_corrected_stiffness_creates_no_energy(void **state)
     fl_tangent_rescale(&fallen, 1.05, 1);
     assert_near(slide_point(&fallen, n, rest, 0.0, dt, 1050.0, 0.0, limit).x, -1.05, 1e-14);
     fl_tangent_rescale(&s, 0.9, 0);
-    assert_near(fl_tangent_energy(s), held, 1e-14);
+    assert_near(fl_tangent_energy(s), stored, 1e-14);
     assert_near(slide_point(&s, n, rest, 0.0, dt, 900.0, 0.0, limit).x, -sqrt(0.9), 1e-14);
     assert_near(s.k, 900.0, 1e-14);
     fl_tangent_rescale(&s, 1.1, 0);
@@ -537,7 +538,7 @@ static void sliding_follows_the_path_to_order_two(void **state)
     (void)state;
     for (int r = 0; r < 4; r++) {
         fl_vec3 e[2];
-        double late = 0.0;
+        double lag = 0.0;
         for (int fine = 0; fine < 2; fine++) {
             const double dt = fine ? 0.01 * row[r].dt : row[r].dt;
             const fl_friction_contact c = {.n = v3(0, 0, 1), .k = row[r].k, .limit = limit};
@@ -547,13 +548,13 @@ static void sliding_follows_the_path_to_order_two(void **state)
                 const fl_friction_motion by = {.v = v3(cos(mid), sin(mid), 0),
                                                .v_end = v3(cos(at), sin(at), 0)};
                 s = fl_tangent_step(s, c, by, dt).springs;
-                late = v3_cross(by.v_end, s.force).z;
+                lag = v3_cross(by.v_end, s.force).z;
             }
             e[fine] = s.force;
             assert_near(v3_norm(e[fine]), limit, 1e-14);
         }
         if (r < 3) off[r] = v3_norm(v3_sub(e[0], e[1]));
-        else assert_near(late, omega * limit / row[r].k, 0.02);
+        else assert_near(lag, omega * limit / row[r].k, 0.02);
     }
     assert_true(off[0] < 1.1e-3);
     assert_near_of(off[0] / off[1], 4.0, 0.2, 4.0);
@@ -567,7 +568,7 @@ static void torsion_and_sliding_share_the_limit(void **state)
     const double k = 1000.0, dt = 1e-3, arm = 0.2, limit = 5.0, spin = 3.0;
     const fl_friction_contact c = {.n = v3(0, 0, 1), .k = k, .limit = limit, .arm = arm};
     fl_friction_springs s = {.k = k, .k_turn = k * arm * arm};
-    double m = 0.0, taken = 0.0, before = 0.0;
+    double m = 0.0, dissipated = 0.0, before = 0.0;
     (void)state;
     friction_force(&s, &c, v3(0, 0, 0), spin, 0.0, dt, &m);
     assert_near(m, -k * arm * arm * spin * dt, 1e-14);
@@ -586,11 +587,11 @@ static void torsion_and_sliding_share_the_limit(void **state)
         const fl_vec3 v = v3(cos(5.0 * t), sin(2.0 * t), 0);
         f = friction_force(&s, &c, v, w, 0.0, dt, &m);
         const double power = -(v3_dot(f, v) + m * w);
-        taken += 0.5 * dt * (power + before);
+        dissipated += 0.5 * dt * (power + before);
         before = power;
-        assert_true(taken - fl_tangent_energy(s) > -2.0 * dt * k * dt * i);
+        assert_true(dissipated - fl_tangent_energy(s) > -2.0 * dt * k * dt * i);
     }
-    assert_true(taken > fl_tangent_energy(s));
+    assert_true(dissipated > fl_tangent_energy(s));
     const fl_friction_contact point = {.n = v3(0, 0, 1), .k = k, .limit = limit};
     friction_force(&s, &point, v3(1, 0, 0), spin, 0.0, dt, &m); /* a point has no torsion */
     assert_near(m, 0.0, 0.0);

@@ -111,5 +111,5 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(bins_have_stated_limits),
                                        cmocka_unit_test(sums_of_fixed_times), cmocka_unit_test(quantiles),
                                        cmocka_unit_test(means_of_the_highest_share)};
-    return cmocka_run_group_tests_name("classes", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("log_histogram", tests, NULL, NULL);
 }

@@ -56,11 +56,12 @@ static void sphere_and_capsule(void **state)
     fl_poly_free(&p);
     assert_int_equal(fl_poly_make(&p, 2, v, 0, NULL, NULL, &err), 0);
     assert_int_equal(fl_mass_of(&m, &p, r, &err), 0);
-    const double cyl = PI * r * r * l, ball = 4.0 / 3 * PI * r * r * r;
-    assert_near(m.volume, cyl + ball, 1e-14);
-    assert_near(m.inertia.x, cyl * r * r / 2 + ball * 0.4 * r * r, 1e-14);
+    const double cyl = PI * r * r * l, sphere_volume = 4.0 / 3 * PI * r * r * r;
+    assert_near(m.volume, cyl + sphere_volume, 1e-14);
+    assert_near(m.inertia.x, cyl * r * r / 2 + sphere_volume * 0.4 * r * r, 1e-14);
     assert_near(m.inertia.y,
-                cyl * (l * l / 12 + r * r / 4) + ball * (0.4 * r * r + l * l / 4 + 0.375 * l * r), 1e-14);
+                cyl * (l * l / 12 + r * r / 4) + sphere_volume * (0.4 * r * r + l * l / 4 + 0.375 * l * r),
+                1e-14);
     assert_near(m.inertia.z, m.inertia.y, 1e-14);
     assert_near(fabs(v3_dot(m3_col(m.axes, 0), v3(0, 0.6, 0.8))), 1.0, 1e-15);
     fl_poly_free(&p);
@@ -171,9 +172,9 @@ static void round_moments_match_a_count(void **state)
         const double cell = step * step * step, tol = 4e-3;
         assert_near(n * cell, m.volume, tol);
         assert_near_of(v3_norm(v3_sub(v3_scale(1 / n, s), m.centre)), 0.0, tol, 1.0);
-        const double want[6] = {m.second.m[0][0], m.second.m[1][1], m.second.m[2][2],
-                                m.second.m[0][1], m.second.m[0][2], m.second.m[1][2]};
-        for (int k = 0; k < 6; k++) assert_near_of(xx[k] * cell, want[k], tol, m.second.m[0][0]);
+        const double expected[6] = {m.second.m[0][0], m.second.m[1][1], m.second.m[2][2],
+                                    m.second.m[0][1], m.second.m[0][2], m.second.m[1][2]};
+        for (int k = 0; k < 6; k++) assert_near_of(xx[k] * cell, expected[k], tol, m.second.m[0][0]);
         fl_poly_free(&p);
         fl_poly_free(&q);
     }
@@ -190,11 +191,11 @@ static void cube_volume_follows_steiner(void **state)
         fl_poly p;
         fl_mass m;
         assert_int_equal(fl_poly_box(&p, v3(s / 2, s / 2, s / 2), &err), 0);
-        const double want = s * s * s + 6 * s * s * r + 3 * PI * s * r * r + 4 * PI * r * r * r / 3;
-        assert_near(fl_dilate_volume(&p, r), want, 1e-14);
+        const double expected = s * s * s + 6 * s * s * r + 3 * PI * s * r * r + 4 * PI * r * r * r / 3;
+        assert_near(fl_dilate_volume(&p, r), expected, 1e-14);
         assert_near(fl_dilate_area(&p, r), 6 * s * s + 6 * PI * s * r + 4 * PI * r * r, 1e-14);
         assert_int_equal(fl_mass_of(&m, &p, r, &err), 0);
-        assert_near(m.volume, want, 1e-14);
+        assert_near(m.volume, expected, 1e-14);
         fl_poly_free(&p);
     }
 }

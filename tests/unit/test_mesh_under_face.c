@@ -9,8 +9,8 @@
 #define RADIUS 0.05
 
 /* A sheet of n by n cells on 2 m with curvatures 1/8 1/m and 1/5 1/m, convex or hollow, with roughness
- * `rough`; its seams are inclined by `lean`. */
-static void make_sheet(fl_surface *s, int n, double hollow, double rough, double lean)
+ * `rough`; its seams are inclined by `incline`. */
+static void make_sheet(fl_surface *s, int n, double hollow, double rough, double incline)
 {
     fl_err err = {0};
     assert_true(fl_surface_add(s, "sheet", 5, &err) == 0);
@@ -18,7 +18,7 @@ static void make_sheet(fl_surface *s, int n, double hollow, double rough, double
     for (int j = 0; j <= n; j++) {
         for (int i = 0; i <= n; i++) {
             fl_rng g = fl_rng_of(test_seed(), j * (n + 1) + i, FL_RNG_TEST);
-            const double x = 2.0 * i / n - 1.0 + lean * j / n, y = 2.0 * j / n - 1.0;
+            const double x = 2.0 * i / n - 1.0 + incline * j / n, y = 2.0 * j / n - 1.0;
             const double z = -hollow * (x * x / 16.0 + y * y / 10.0) + fl_rng_in(&g, -rough, rough);
             assert_int_equal(fl_surface_vertex(p, v3(x, y, z), &err), 0);
         }
@@ -56,7 +56,7 @@ static void sums_under_a_face_are_the_same(void **state)
     (void)state;
     static const struct {
         int n;
-        double hollow, rough, lean;
+        double hollow, rough, incline;
     } CASE[5] = {{40, 1.0, 0.0, 0.07},
                  {60, 1.0, 1e-3, 0.07},
                  {40, -0.3, 0.0, 0.07},
@@ -69,8 +69,8 @@ static void sums_under_a_face_are_the_same(void **state)
     for (int c = 0; c < 5; c++) {
         fl_surface surface = {0};
         fl_structure st = {0};
-        const int on_seams = CASE[c].lean == 0.0;
-        make_sheet(&surface, CASE[c].n, CASE[c].hollow, CASE[c].rough, CASE[c].lean);
+        const int on_seams = CASE[c].incline == 0.0;
+        make_sheet(&surface, CASE[c].n, CASE[c].hollow, CASE[c].rough, CASE[c].incline);
         assert_int_equal(fl_structure_build(&st, &surface, &err), 0);
         const fl_piece *piece = &st.piece[0];
         assert_int_equal(piece->kind, FL_PIECE_MESH);
@@ -100,7 +100,7 @@ static void sums_under_a_face_are_the_same(void **state)
             assert_int_equal(
                 fl_mesh_contact_points(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, &l, &distance), 0);
             const sums fast = sums_of(&w);
-            const int32_t places = w.n;
+            const int32_t points = w.n;
             double shares = 0.0;
             for (int32_t i = 0; i < w.features; i++) {
                 shares += w.feature[i].force;
@@ -133,7 +133,7 @@ static void sums_under_a_face_are_the_same(void **state)
                 assert_near_of(fast.u, slow.u, 1.0, same * slow.u + 1e-15 * slow.du);
                 assert_near_of(v3_norm(v3_sub(fast.f, slow.f)), 0.0, 1.0, off);
                 assert_near_of(v3_norm(v3_sub(fast.m, slow.m)), 0.0, 1.0, off);
-                saved += w.n - places;
+                saved += w.n - points;
             }
             fl_feature_pairs_free(&l);
             fl_poly_free(&box);
@@ -169,7 +169,7 @@ static void old_lists_change_no_bit(void **state)
         const fl_vec3 at = v3_sub(
             v3(fl_rng_in(&g, -0.3, 0.3), fl_rng_in(&g, -0.3, 0.3), 0.3 + fl_rng_in(&g, 0, 0.04)), piece->x);
         sums seen[2];
-        int32_t places[2];
+        int32_t points[2];
         double distance;
         for (int way = 0; way < 3;
              way++) { /* the other body elsewhere, with the same list, and here again with another */
@@ -178,10 +178,10 @@ static void old_lists_change_no_bit(void **state)
             assert_int_equal(fl_patch_points_transform(&w, &box, q_matrix(q), x), 0);
             assert_int_equal(
                 fl_mesh_contact_points(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, l, &distance), 0);
-            if (way) seen[way - 1] = sums_of(&w), places[way - 1] = w.n;
+            if (way) seen[way - 1] = sums_of(&w), points[way - 1] = w.n;
         }
         moved += old.n != new.n;
-        assert_int_equal(places[0], places[1]);
+        assert_int_equal(points[0], points[1]);
         assert_memory_equal(&seen[0], &seen[1], sizeof seen[0]);
         fl_feature_pairs_free(&old);
         fl_feature_pairs_free(&new);

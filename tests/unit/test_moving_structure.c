@@ -132,7 +132,7 @@ static void added_mass_counts_in_critical_damping(void **state)
 static void invalid_motions_are_reported(void **state)
 {
     static const struct {
-        const char *set[4], *says;
+        const char *set[4], *message;
     } wrong[] = {
         {{"structure.free=x"}, "structure.mass: free directions have a mass, and none is given"},
         {{"structure.mass=1"}, "a mass bears on free directions, and none of x y z is free"},
@@ -163,7 +163,7 @@ static void invalid_motions_are_reported(void **state)
         lab_set(&l, "structure.file=lab");
         for (int s = 0; s < 4 && wrong[k].set[s]; s++) lab_set(&l, wrong[k].set[s]);
         assert_int_equal(fl_scene_check(&l.scene, &err), -1);
-        if (!strstr(err.text, wrong[k].says)) fail_msg("%s", err.text);
+        if (!strstr(err.text, wrong[k].message)) fail_msg("%s", err.text);
         lab_free(&l);
     }
     lab l;
@@ -192,5 +192,5 @@ int main(void)
                                        cmocka_unit_test(mass_and_springs_limit_the_step),
                                        cmocka_unit_test(added_mass_counts_in_critical_damping),
                                        cmocka_unit_test(invalid_motions_are_reported)};
-    return cmocka_run_group_tests_name("ride", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("moving_structure", tests, NULL, NULL);
 }

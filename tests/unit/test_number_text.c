@@ -55,13 +55,13 @@ static void text_reads_back(void **state)
 /* The text equals the shortest text of the C library that reads back. */
 static void compare_with_library(double x)
 {
-    char buf[FL_NUMBER_LEN], theirs[FL_NUMBER_LEN];
+    char buf[FL_NUMBER_LEN], library_text[FL_NUMBER_LEN];
     if (!isfinite(x) || x == 0.0) return;
     for (int digits = 15; digits <= 17; digits++) {
-        snprintf(theirs, sizeof theirs, "%.*g", digits, x);
-        if (strtod(theirs, NULL) == x) break;
+        snprintf(library_text, sizeof library_text, "%.*g", digits, x);
+        if (strtod(library_text, NULL) == x) break;
     }
-    assert_string_equal(fl_number_text(x, buf), theirs);
+    assert_string_equal(fl_number_text(x, buf), library_text);
 }
 
 /* Random bits, coordinates, thousandths, integers, decimals of every length and size; every power of ten and
@@ -141,7 +141,7 @@ static void reads_doubles(void **state)
     }
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         double x = 99;
-        if (fl_number_f64(bad[k], &x) != -1) fail_msg("\"%s\" was taken for %g", bad[k], x);
+        if (fl_number_f64(bad[k], &x) != -1) fail_msg("\"%s\" was accepted for %g", bad[k], x);
         assert_true(x == 99); /* unchanged */
     }
 }
@@ -163,7 +163,7 @@ static void reads_integers(void **state)
     assert_int_equal(fl_number_i32("-1", 0, 7, &x), -1);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         if (fl_number_i32(bad[k], INT32_MIN, INT32_MAX, &x) != -1)
-            fail_msg("\"%s\" was taken for %d", bad[k], x);
+            fail_msg("\"%s\" was accepted for %d", bad[k], x);
     assert_int_equal(x, 7);
 }
 
@@ -173,7 +173,7 @@ static void reads_seeds(void **state)
     static const char *const bad[] = {"", "-1", "+1", "18446744073709551616", "1.0", " 1", "1 ", "0x1"};
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
-        if (fl_number_u64(bad[k], &x) != -1) fail_msg("\"%s\" was taken", bad[k]);
+        if (fl_number_u64(bad[k], &x) != -1) fail_msg("\"%s\" was accepted", bad[k]);
     assert_true(x == 99);
     assert_int_equal(fl_number_u64("18446744073709551615", &x), 0);
     assert_true(x == UINT64_MAX);
@@ -190,5 +190,5 @@ int main(void)
                                        cmocka_unit_test(reads_integers),
                                        cmocka_unit_test(reads_seeds),
                                        cmocka_unit_test(text_equals_that_of_the_library)};
-    return cmocka_run_group_tests_name("num", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("number_text", tests, NULL, NULL);
 }

@@ -57,8 +57,9 @@ static fl_part honeycomb(fl_rng *g)
 static fl_vec3 outward_of(const fl_vec3 x[3])
 {
     const fl_vec3 c = v3_scale(1.0 / 3.0, v3_add(x[0], v3_add(x[1], x[2])));
-    const double most = N - 1, o = 1e-9;
-    return v3((c.x > most - o) - (c.x < o), (c.y > most - o) - (c.y < o), (c.z > 0.5 * most - o) - (c.z < o));
+    const double upper = N - 1, o = 1e-9;
+    return v3((c.x > upper - o) - (c.x < o), (c.y > upper - o) - (c.y < o),
+              (c.z > 0.5 * upper - o) - (c.z < o));
 }
 
 static void the_skin_of_a_honeycomb_is_oriented_outward(void **state)
@@ -250,14 +251,14 @@ static void bodies_that_share_edges_stay_separate(void **state)
 {
     fl_part p = {0};
     fl_weld w;
-    int32_t shell[36], odd;
+    int32_t shell[36], odd_edges;
     (void)state;
     fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
     fl_facet_box(&p, v3(1, 1, 0), v3(2, 2, 1), &err);
     fl_facet_box(&p, v3(0, 1, 0), v3(1, 3, 1), &err); /* walls of both, a wall of the first, and edges */
     assert_int_equal(fl_part_weld(&p, 0.0, &w, &err), 0);
-    assert_int_equal(fl_part_connected(&p, shell, &odd, &err), 0);
-    assert_int_equal(odd, 0);
+    assert_int_equal(fl_part_connected(&p, shell, &odd_edges, &err), 0);
+    assert_int_equal(odd_edges, 0);
     for (int32_t t = 0; t < 36; t++) assert_int_equal(shell[t], t / 12 * 12);
     fl_part_free(&p);
 }

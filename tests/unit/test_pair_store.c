@@ -127,7 +127,7 @@ static void make_all_kinds(lab *l, double stiffness)
 static void a_given_stiffness_acts_on_all_kinds(void **state)
 {
     (void)state;
-    lab l, told;
+    lab l, given;
     make_all_kinds(&l, 0.0);
     const fl_bodies *b = &l.w.b;
     for (int32_t i = 0; i < l.w.n; i++) {
@@ -138,10 +138,10 @@ static void a_given_stiffness_acts_on_all_kinds(void **state)
             const double area =
                 j == l.w.n ? l.w.max_face_area[i] : fmin(l.w.max_face_area[i], l.w.max_face_area[j]);
             const double R = fl_material_radius(b->radius[i], b->radius[j]);
-            make_all_kinds(&told, face ? fl_material_punch(E, area) : fl_material_hertz(E, R));
-            assert_true(fabs(fl_pair_stiffness(&told.w, i, j, &m) / k - 1.0) < 1e-14);
+            make_all_kinds(&given, face ? fl_material_punch(E, area) : fl_material_hertz(E, R));
+            assert_true(fabs(fl_pair_stiffness(&given.w, i, j, &m) / k - 1.0) < 1e-14);
             assert_true(m == n);
-            lab_free(&told);
+            lab_free(&given);
         }
     }
     lab_free(&l);
@@ -172,8 +172,8 @@ static void allocation_failure_ends_the_step(void **state)
     make_two_floes(&l, NULL);
     int rc = 0;
     for (int k = 0; k < 600 && rc == 0; k++) {
-        const int soon = l.w.n_pair && !l.w.pair[0].contact;
-        if (soon) fl_alloc_fail_after(0);
+        const int fail_allocation = l.w.n_pair && !l.w.pair[0].contact;
+        if (fail_allocation) fl_alloc_fail_after(0);
         rc = fl_step(&l.w, &err);
         fl_alloc_fail_after(-1);
     }

@@ -18,12 +18,12 @@ static fl_aabb random_box(fl_rng *g, double side, double lo, double hi)
 }
 
 /* n moving boxes, then `held` fixed ones, then `wide` half-spaces. */
-static fl_aabb *make_boxes(fl_rng *g, int32_t n, int32_t held, int32_t wide)
+static fl_aabb *make_boxes(fl_rng *g, int32_t n, int32_t fixed, int32_t wide)
 {
-    fl_aabb *box = calloc((size_t)(n + held + wide) + 1, sizeof *box);
+    fl_aabb *box = calloc((size_t)(n + fixed + wide) + 1, sizeof *box);
     assert_non_null(box);
-    for (int32_t k = 0; k < n + held; k++) box[k] = random_box(g, 10.0, -4.0, k % 50 == 0 ? 2.0 : 0.3);
-    for (int32_t k = n + held; k < n + held + wide; k++) {
+    for (int32_t k = 0; k < n + fixed; k++) box[k] = random_box(g, 10.0, -4.0, k % 50 == 0 ? 2.0 : 0.3);
+    for (int32_t k = n + fixed; k < n + fixed + wide; k++) {
         box[k] = (fl_aabb){v3(-INFINITY, -INFINITY, -INFINITY), v3(INFINITY, INFINITY, INFINITY)};
         if (k % 2) box[k].hi.x = -5.0;
         else box[k].lo.z = 5.0;
@@ -54,12 +54,12 @@ static void pairs_are_those_of_brute_force(void **state)
     for (long c = 0; c < test_times(30); c++) {
         fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
         fl_err err = {0};
-        const int32_t n = (int32_t)fl_rng_in(&g, 0, 300), held = (int32_t)fl_rng_in(&g, 0, 40),
+        const int32_t n = (int32_t)fl_rng_in(&g, 0, 300), fixed = (int32_t)fl_rng_in(&g, 0, 40),
                       wide = (int32_t)fl_rng_in(&g, 0, 6);
-        fl_aabb *box = make_boxes(&g, n, held, wide);
-        assert_int_equal(fl_pairs_find(&p, box, n, n + held + wide, wide, &err),
+        fl_aabb *box = make_boxes(&g, n, fixed, wide);
+        assert_int_equal(fl_pairs_find(&p, box, n, n + fixed + wide, wide, &err),
                          0); /* the lists are used again */
-        compare_with_brute_force(&p, box, n, n + held + wide);
+        compare_with_brute_force(&p, box, n, n + fixed + wide);
         free(box);
     }
     fl_pairs_free(&p);
@@ -94,10 +94,10 @@ static void cleared_pairs_are_found_again(void **state)
 
 static void lists_do_not_depend_on_the_threads(void **state)
 {
-    const int32_t n = 1500, held = 20, wide = 2;
+    const int32_t n = 1500, fixed = 20, wide = 2;
     const int threads[] = {1, 2, 3, 8};
     fl_rng g = fl_rng_of(test_seed(), 1, FL_RNG_TEST);
-    fl_aabb *box = make_boxes(&g, n, held, wide);
+    fl_aabb *box = make_boxes(&g, n, fixed, wide);
     fl_pairs one = {0};
     const int before = omp_get_max_threads();
     (void)state;
@@ -105,9 +105,9 @@ static void lists_do_not_depend_on_the_threads(void **state)
         fl_pairs p = {0};
         fl_err err = {0};
         omp_set_num_threads(threads[k]);
-        assert_int_equal(fl_pairs_find(&p, box, n, n + held + wide, wide, &err), 0);
+        assert_int_equal(fl_pairs_find(&p, box, n, n + fixed + wide, wide, &err), 0);
         if (k == 0) {
-            compare_with_brute_force(&p, box, n, n + held + wide);
+            compare_with_brute_force(&p, box, n, n + fixed + wide);
             one = p;
             continue;
         }
@@ -185,8 +185,8 @@ static void periodic_images_are_found(void **state)
     for (long c = 0; c < test_times(30); c++) {
         fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
         fl_err err = {0};
-        const int32_t n = (int32_t)fl_rng_in(&g, 0, 100), held = (int32_t)fl_rng_in(&g, 0, 10),
-                      total = n + held;
+        const int32_t n = (int32_t)fl_rng_in(&g, 0, 100), fixed = (int32_t)fl_rng_in(&g, 0, 10),
+                      total = n + fixed;
         const int32_t which = (int32_t)fl_rng_in(&g, 1, 8);
         int64_t at = 0;
         p.period = v3(which & 1 ? 20.0 : 0, which & 2 ? 23.0 : 0, which & 4 ? 21.0 : 0);

@@ -59,16 +59,17 @@ static void many_sides_approach_the_rounded_square(void **state)
 {
     (void)state;
     const fl_vec2 lo = {-1.0, -1.0}, hi = {1.0, 1.0};
-    const double r = FL_PANCAKES_ROUNDNESS, most = 4.0 - (4.0 - acos(-1.0)) * r * r;
+    const double r = FL_PANCAKES_ROUNDNESS, max_area = 4.0 - (4.0 - acos(-1.0)) * r * r;
     const fl_vec2 site = {0.1, 0.2};
     fl_power_cells cells = {0};
     fl_floes a = {0};
     fl_err err = {0};
     assert_int_equal(fl_power_cells_build(&cells, 1, &site, lo, hi, &err), 0);
-    assert_int_equal(fl_pancakes_make(&a, &cells, 120, 0.999 * most / 4.0, 0.0, (fl_vec2){0, 0}, &err), 0);
+    assert_int_equal(fl_pancakes_make(&a, &cells, 120, 0.999 * max_area / 4.0, 0.0, (fl_vec2){0, 0}, &err),
+                     0);
     assert_true(a.inset < 5e-4);
     fl_floes_free(&a);
-    assert_int_equal(fl_pancakes_make(&a, &cells, 120, most / 4.0, 0.0, (fl_vec2){0, 0}, &err), -1);
+    assert_int_equal(fl_pancakes_make(&a, &cells, 120, max_area / 4.0, 0.0, (fl_vec2){0, 0}, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
     err = (fl_err){0};
     assert_int_equal(fl_pancakes_make(&a, &cells, 12, 0.5, 1.5, (fl_vec2){0, 0}, &err), -1);

@@ -31,18 +31,18 @@ static void panel_sums_are_the_part_load(void **state)
     (void)state;
     for (int law = 0; law < 4; law++) {
         lab l;
-        double most = 0.0;
+        double largest = 0.0;
         scene_of_everything(&l, 3, LAW[law]);
         lab_set(&l, "output.panels=panels");
         lab_set(&l, "output.events=events");
         lab_make(&l, 0);
         assert_int_equal(lab_run(&l, 200), 0);
-        for (int32_t p = 0; p < l.w.parts; p++) most = fmax(most, v3_norm(l.w.part_impulse[p]));
-        assert_true(most > 0.0);
+        for (int32_t p = 0; p < l.w.parts; p++) largest = fmax(largest, v3_norm(l.w.part_impulse[p]));
+        assert_true(largest > 0.0);
         for (int32_t p = 0; p < l.w.parts; p++) {
             const fl_vec3 load = l.w.part_impulse[p];
-            assert_near_of(v3_norm(v3_sub(panel_impulse(&l.w, p), load)), 0.0, 1e-12, most);
-            assert_near_of(v3_norm(v3_sub(event_impulse(&l.w, p), load)), 0.0, 1e-12, most);
+            assert_near_of(v3_norm(v3_sub(panel_impulse(&l.w, p), load)), 0.0, 1e-12, largest);
+            assert_near_of(v3_norm(v3_sub(event_impulse(&l.w, p), load)), 0.0, 1e-12, largest);
         }
         fl_panels_end_interval(&l.w);
         fl_events_end_interval(&l.w);
@@ -89,7 +89,7 @@ static void a_face_is_spread_over_triangles(void **state)
 {
     enum { N = 20 };
     lab l;
-    double mean = 0.0, under = 0.0, least = INFINITY, most = 0.0;
+    double mean = 0.0, under = 0.0, smallest = INFINITY, largest = 0.0;
     fl_vec3 middle = ZERO;
     (void)state;
     lab_start(&l);
@@ -107,12 +107,12 @@ static void a_face_is_spread_over_triangles(void **state)
         if (p->centroid.z < 0.0 || dx > 0.9 + 0.3 || dy > 0.6 + 0.3) assert_near(pressure, 0, 0);
         else if (dx < 0.9 - 0.3 && dy < 0.6 - 0.3) {
             under += p->area;
-            least = fmin(least, -pressure);
-            most = fmax(most, -pressure);
+            smallest = fmin(smallest, -pressure);
+            largest = fmax(largest, -pressure);
         }
     }
     assert_true(under > 0.5);
-    assert_near(least, most, 1e-9); /* uniform */
+    assert_near(smallest, largest, 1e-9); /* uniform */
     assert_near(mean, l.w.part_impulse[0].z, 1e-12);
     assert_near_of(middle.x / mean, 0.1, 0.02, 1.0);
     assert_near_of(middle.y / mean, -0.05, 0.02, 1.0);
@@ -192,5 +192,5 @@ int main(void)
         cmocka_unit_test(panel_sums_are_the_part_load), cmocka_unit_test(the_nearest_triangle_takes_the_load),
         cmocka_unit_test(a_face_is_spread_over_triangles), cmocka_unit_test(an_event_has_its_area),
         cmocka_unit_test(a_dome_is_loaded_triangle_by_triangle)};
-    return cmocka_run_group_tests_name("press", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("panel_load", tests, NULL, NULL);
 }

@@ -87,5 +87,5 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sums_have_the_defined_order), cmocka_unit_test(sums_do_not_depend_on_the_threads),
         cmocka_unit_test(hash_sees_every_bit), cmocka_unit_test(hash_mixes_both_halves)};
-    return cmocka_run_group_tests_name("par", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("parallel", tests, NULL, NULL);
 }

@@ -133,7 +133,7 @@ static void walls_merge_as_a_groove_closes(void **state)
             fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
             const double x = fl_rng_in(&g, -0.15, 0.15),
                          z = fabs(x) * tan(bend) + fl_rng_in(&g, 0.01, 0.13) / cos(bend);
-            double want = 0.0, d[2];
+            double expected = 0.0, d[2];
             int over[2];
             for (int s = 0; s < 2; s++) { /* the right wall, the left */
                 const double ux = s ? -cos(bend) : cos(bend), uz = sin(bend), along = x * ux + z * uz;
@@ -141,9 +141,9 @@ static void walls_merge_as_a_groove_closes(void **state)
                 d[s] = over[s] ? fabs(z * ux - x * uz) : hypot(x, z);
             }
             const double pass = fmax(hypot(x, z), fmax(d[0], d[1]));
-            want = hertz_energy(d[0]) + hertz_energy(d[1]) - hertz_energy(pass);
+            expected = hertz_energy(d[0]) + hertz_energy(d[1]) - hertz_energy(pass);
             const evaluation m = evaluate(&b, v3(x, fl_rng_in(&g, -0.5, 0.5), z), c & 1);
-            assert_near(m.W, want, 1e-9);
+            assert_near(m.W, expected, 1e-9);
         }
         /* halfway up, both equal */
         const evaluation m = evaluate(&b, v3(0, 0.1, 0.95 * R / cos(bend)), 1);
@@ -273,17 +273,17 @@ static void energy_and_force_are_continuous(void **state)
             evaluation was = evaluate(&b, x, 1);
             for (int s = 0; s < 60; s++) {
                 x = v3_madd(x, h, way);
-                const evaluation now = evaluate(&b, x, s % 7 == 0), anew = evaluate(&b, x, 1);
-                assert_true(now.W == anew.W && now.F.x == anew.F.x && now.F.y == anew.F.y &&
-                            now.F.z == anew.F.z);
+                const evaluation now = evaluate(&b, x, s % 7 == 0), refreshed = evaluate(&b, x, 1);
+                assert_true(now.W == refreshed.W && now.F.x == refreshed.F.x && now.F.y == refreshed.F.y &&
+                            now.F.z == refreshed.F.z);
                 if (b.w.n && b.w.point[0].overlap > 0.999 * R) break; /* the centre crosses a wall */
                 /* the mean of the slopes at both ends; slopes change where walls start or stop
                  * contributing */
-                const double change = now.W - was.W, told = -0.5 * h * v3_dot(v3_add(now.F, was.F), way);
+                const double change = now.W - was.W, predicted = -0.5 * h * v3_dot(v3_add(now.F, was.F), way);
                 assert_true(fabs(change) <= h * fmax(now.steep, was.steep) * 1.0001 + 1e-16);
                 if (now.steep > 0.0) {
                     seen++, several += now.walls > 1;
-                    wrong += fabs(change - told) > 1e-3 * h * now.steep;
+                    wrong += fabs(change - predicted) > 1e-3 * h * now.steep;
                 }
                 was = now;
             }
@@ -357,7 +357,7 @@ static void a_convex_body_has_one_contact(void **state)
 {
     (void)state;
     bench b;
-    int lone = 0;
+    int single = 0;
     add_sheet(part_of(&b), 10, roof_height);
     prepare(&b);
     for (int c = 0; c < 1000; c++) {
@@ -365,9 +365,9 @@ static void a_convex_body_has_one_contact(void **state)
         const double x = fl_rng_in(&g, -0.7, 0.7), y = fl_rng_in(&g, -0.7, 0.7);
         const evaluation m = evaluate(&b, v3(x, y, roof_height(x, y) + fl_rng_in(&g, 0.0, 0.1)), 1);
         assert_true(m.walls <= 1);
-        lone += b.l.single_wall;
+        single += b.l.single_wall;
     }
-    assert_true(lone > 950);
+    assert_true(single > 950);
     free_bench(&b);
 }
 

@@ -95,77 +95,77 @@ static void each_fault_has_its_message(void **state)
     int32_t loop[24], first[7];
     for (int fault = 0; fault < 14; fault++) {
         int32_t nv = 8, nf = 6;
-        const char *say = "";
+        const char *message = "";
         memcpy(v, cube_v, sizeof cube_v);
         memcpy(loop, cube_loop, sizeof loop);
         memcpy(first, cube_first, sizeof first);
         switch (fault) {
         case 0:
             memcpy(loop + 12, (int32_t[4]){5, 6, 2, 1}, 4 * sizeof *loop);
-            say = "face 3 is turned inside out";
+            message = "face 3 is turned inside out";
             break;
         case 1:
             for (int k = 0; k < 24; k++) loop[k] = cube_loop[k / 4 * 4 + 3 - k % 4];
-            say = "face 0 is turned inside out";
+            message = "face 0 is turned inside out";
             break;
         case 2:
             v[6] = v3(0.5, 0.5, 0.5);
-            say = "face 1 is not flat: its vertices span 0.384900179459751 m across its plane";
+            message = "face 1 is not flat: its vertices span 0.384900179459751 m across its plane";
             break;
         case 3:
             v[1].x = NAN;
-            say = "vertex 1 is not finite";
+            message = "vertex 1 is not finite";
             break;
         case 4:
             loop[3] = 8;
-            say = "face 0 names vertex 8, but there are 8 (0 to 7)";
+            message = "face 0 names vertex 8, but there are 8 (0 to 7)";
             break;
         case 5:
             loop[3] = -1;
-            say = "face 0 names vertex -1, but there are 8 (0 to 7)";
+            message = "face 0 names vertex -1, but there are 8 (0 to 7)";
             break;
         case 6:
             nf = 5;
-            say = "the edge of vertices 0 and 3, on face 0, has no second face: the core is not closed";
+            message = "the edge of vertices 0 and 3, on face 0, has no second face: the core is not closed";
             break;
         case 7:
             nv = 9;
             v[8] = v3(0.5, 0.5, 0.5);
-            say = "vertex 8 belongs to no face";
+            message = "vertex 8 belongs to no face";
             break;
         case 8:
             loop[1] = loop[0];
-            say = "face 0 names vertex 3 twice";
+            message = "face 0 names vertex 3 twice";
             break;
         case 9:
             v[2] = v[1];
-            say = "vertices 2 and 1 coincide: they are 0 m apart";
+            message = "vertices 2 and 1 coincide: they are 0 m apart";
             break;
         case 10:
             first[3] = first[2] + 2;
-            say = "face 2 has 2 vertices, at least 3 are wanted";
+            message = "face 2 has 2 vertices, at least 3 are wanted";
             break;
         case 11:
             first[0] = 1;
-            say = "face 0 starts at 1 of the index list, not at 0";
+            message = "face 0 starts at 1 of the index list, not at 0";
             break;
         case 12:
             v[0].y = 1e200;
-            say = "a vertex lies 1e+200 m away";
+            message = "a vertex lies 1e+200 m away";
             break;
         case 13:
             first[4] = INT32_MIN;
-            say = "face 3 has -2147483660 vertices, at least 3 are wanted";
+            message = "face 3 has -2147483660 vertices, at least 3 are wanted";
             break;
         }
         if (fault == 2) { /* the digits are not compared */
             fl_err err = {0};
             fl_poly p;
             assert_int_equal(fl_poly_make(&p, nv, v, nf, first, loop, &err), -1);
-            assert_memory_equal(err.text, say, 32);
+            assert_memory_equal(err.text, message, 32);
             continue;
         }
-        expect_refusal(nv, v, nf, first, loop, say);
+        expect_refusal(nv, v, nf, first, loop, message);
     }
 }
 
@@ -279,9 +279,9 @@ static void straight_corners_and_coplanar_faces_are_accepted(void **state)
     fl_poly p;
     assert_int_equal(fl_poly_make(&p, 9, v, 7, first, loop, &err), 0);
     assert_int_equal(p.ne, 14);
-    double least = 9.0;
-    for (int e = 0; e < p.ne; e++) least = fmin(least, fl_poly_compute_bend(&p, e));
-    assert_near_of(least, 0.0, 1e-15, 1.0);
+    double smallest = 9.0;
+    for (int e = 0; e < p.ne; e++) smallest = fmin(smallest, fl_poly_compute_bend(&p, e));
+    assert_near_of(smallest, 0.0, 1e-15, 1.0);
     fl_poly_free(&p);
 }
 

@@ -39,13 +39,13 @@ static void cells_tile_the_rectangle(void **state)
             area += fl_polygon_area(side_count(&c, i), c.v + c.first[i]);
             for (int32_t k = c.first[i]; k < c.first[i + 1]; k++) {
                 const int32_t j = c.side[k].tag;
-                int32_t twin = 0;
+                int32_t partners = 0;
                 assert_true(fl_polygon_side_distance(c.side[k], site[i]) <= 0.0);
                 if (j < 0) continue;
                 for (int32_t m = c.first[j]; m < c.first[j + 1]; m++)
-                    twin += c.side[m].tag == i && c.side[m].nx == -c.side[k].nx &&
-                            c.side[m].ny == -c.side[k].ny && c.side[m].c == -c.side[k].c;
-                assert_int_equal(twin, 1);
+                    partners += c.side[m].tag == i && c.side[m].nx == -c.side[k].nx &&
+                                c.side[m].ny == -c.side[k].ny && c.side[m].c == -c.side[k].c;
+                assert_int_equal(partners, 1);
             }
         }
         assert_near(area, (HI.x - LO.x) * (HI.y - LO.y), 1e-13);

@@ -87,7 +87,7 @@ static void straight_pairs_and_single_rows(void **state)
 static void invalid_tracks_are_refused(void **state)
 {
     static const struct {
-        const char *text, *says;
+        const char *text, *message;
     } wrong[] = {
         {"#track 1\nt x\n0 1\n0 2\n", ":4: time 0 s does not follow 0 s"},
         {"#track 1\nt x\n0 1\n1 1e20\n", ":4: x is 1e+20, at most 1e+15 is expected"},
@@ -105,7 +105,7 @@ static void invalid_tracks_are_refused(void **state)
         const char *path = test_file("track", wrong[k].text, strlen(wrong[k].text));
         assert_int_equal(fl_track_read(&tr, path, 1, &err), -1);
         assert_int_equal(err.code, FL_INPUT);
-        if (!strstr(err.text, wrong[k].says)) fail_msg("%s", err.text);
+        if (!strstr(err.text, wrong[k].message)) fail_msg("%s", err.text);
         assert_null(tr.t);
     }
 }
@@ -115,5 +115,5 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cubic_is_kept), cmocka_unit_test(velocity_and_acceleration_are_continuous_at_rows),
         cmocka_unit_test(straight_pairs_and_single_rows), cmocka_unit_test(invalid_tracks_are_refused)};
-    return cmocka_run_group_tests_name("track", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("prescribed_track", tests, NULL, NULL);
 }

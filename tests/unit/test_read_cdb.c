@@ -73,8 +73,8 @@ static void components_are_parts(void **state)
                                "        10        11       -12\n"
                                "CMBLOCK,SOME_NODES,NODE,       1\n(8i10)\n         1\n";
     const char *pattern[] = {"all*"};
-    char hit[1] = {0};
-    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = hit};
+    char matches[1] = {0};
+    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = matches};
     (void)state;
     reads(text);
     assert_int_equal(s.n, 3);
@@ -88,7 +88,7 @@ static void components_are_parts(void **state)
     assert_int_equal(read_some(text, &w), 0);
     assert_int_equal(s.n, 1);
     assert_int_equal(s.part[0].nt, 8);
-    assert_int_equal(hit[0], 1);
+    assert_int_equal(matches[0], 1);
 }
 
 static void types_may_come_as_a_block(void **state)

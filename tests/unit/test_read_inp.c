@@ -106,9 +106,9 @@ static void types_have_shapes(void **state)
         snprintf(names, sizeof names, "%s", row[k].names);
         for (word = strtok(names, " "); word; word = strtok(NULL, " ")) {
             fl_inp_type t = {0};
-            const int taken = fl_inp_type_of(word, &t);
-            if (taken != (row[k].shape >= 0) || (taken && (int)t.shape != row[k].shape)) fail_msg("%s", word);
-            if (taken) assert_int_equal(t.nodes, fl_shape_nodes(t.shape));
+            const int known = fl_inp_type_of(word, &t);
+            if (known != (row[k].shape >= 0) || (known && (int)t.shape != row[k].shape)) fail_msg("%s", word);
+            if (known) assert_int_equal(t.nodes, fl_shape_nodes(t.shape));
         }
     }
 }

@@ -25,12 +25,12 @@ static const char *write_record(const char *name, int n, const double *fx)
     return path;
 }
 
-static void run_to_end(fl_run *r, const char *path, const fl_record_selection *ask,
+static void run_to_end(fl_run *r, const char *path, const fl_record_selection *selection,
                        const fl_summary_settings *how)
 {
     int more;
     err = (fl_err){0};
-    assert_int_equal(fl_run_open(r, path, ask, how, &err), 0);
+    assert_int_equal(fl_run_open(r, path, selection, how, &err), 0);
     while ((more = fl_run_next(r, &err)) > 0) {}
     assert_int_equal(more, 0);
     assert_int_equal(fl_run_finish(r, "#by loadstats --summary\n", &err), 0);
@@ -92,10 +92,10 @@ static void blocks_and_extremes(void **state)
     assert_string_equal(r.sum.history, "#by test 1\n#by loadstats --summary\n");
     fl_run_close(&r);
     /* A selected interval, where blocks start at its beginning. */
-    fl_record_selection ask = FX;
-    ask.from = 1.0;
-    ask.to = 4.0;
-    run_to_end(&r, write_record("cut", 10, fx), &ask, &how);
+    fl_record_selection selection = FX;
+    selection.from = 1.0;
+    selection.to = 4.0;
+    run_to_end(&r, write_record("cut", 10, fx), &selection, &how);
     assert_int_equal(r.sum.entry[0].rows, 6);
     assert_int_equal(fl_multiset_size(&r.sum.entry[0].block), 1);
     assert_true(r.sum.entry[0].block.v[0].x == 2.0);
@@ -105,18 +105,18 @@ static void blocks_and_extremes(void **state)
 static void errors_are_reported(void **state)
 {
     const double fx[] = {1, 2, 3};
-    fl_record_selection ask = FX;
+    fl_record_selection selection = FX;
     fl_run r = {0};
-    char want[900];
+    char expected[900];
     (void)state;
-    ask.from = 10.0;
+    selection.from = 10.0;
     const char *path = write_record("late", 3, fx);
     err = (fl_err){0};
-    assert_int_equal(fl_run_open(&r, path, &ask, &HOW, &err), 0);
+    assert_int_equal(fl_run_open(&r, path, &selection, &HOW, &err), 0);
     assert_int_equal(fl_run_next(&r, &err), 0);
     assert_int_equal(fl_run_finish(&r, "", &err), -1);
-    snprintf(want, sizeof want, "%s: the cut leaves no row, the record ends at 1.5 s", path);
-    assert_string_equal(err.text, want);
+    snprintf(expected, sizeof expected, "%s: the cut leaves no row, the record ends at 1.5 s", path);
+    assert_string_equal(err.text, expected);
     fl_run_close(&r);
     unlink(path);
     const char text[] = "#other 1\nt fx\n0 1\n1e14 2\n3e14 1\n";
@@ -124,8 +124,9 @@ static void errors_are_reported(void **state)
     err = (fl_err){0};
     assert_int_equal(fl_run_open(&r, path, &FX, &HOW, &err), 0);
     assert_int_equal(fl_run_next(&r, &err), -1);
-    snprintf(want, sizeof want, "%s: a row lasts for 1e+14 s, at most 1.09951e+12 s can be summed up", path);
-    assert_string_equal(err.text, want);
+    snprintf(expected, sizeof expected, "%s: a row lasts for 1e+14 s, at most 1.09951e+12 s can be summed up",
+             path);
+    assert_string_equal(err.text, expected);
     assert_int_equal(err.code, FL_INPUT);
     fl_run_close(&r);
     unlink(path);
@@ -164,5 +165,5 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(cycles), cmocka_unit_test(blocks_and_extremes),
                                        cmocka_unit_test(errors_are_reported),
                                        cmocka_unit_test(memory_is_constant)};
-    return cmocka_run_group_tests_name("reduce", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("run_summary", tests, NULL, NULL);
 }

@@ -40,7 +40,7 @@ static void expect_refusal(const char *text, const char *tail)
     fl_scene s;
     fl_err err;
     const char *at;
-    if (load(&s, text, &err) == 0) fail_msg("taken, but %s is expected:\n%s", tail, text);
+    if (load(&s, text, &err) == 0) fail_msg("accepted, but %s is expected:\n%s", tail, text);
     at = strstr(err.text, "case.scene");
     if (!at || strcmp(at + strlen("case.scene"), tail) != 0)
         fail_msg("for\n%s\nit says   %s\nwanted    ...case.scene%s", text, err.text, tail);
@@ -219,7 +219,7 @@ static void the_grammar_is_that_of_scene_5(void **state)
     fl_scene_free(&s);
 }
 
-static void words_are_read_as_in_the_manual(void **state)
+static void keys_of_the_manual_are_read(void **state)
 {
     fl_scene s;
     (void)state;
@@ -496,7 +496,7 @@ static void a_failed_set_changes_nothing(void **state)
     fl_scene_free(&s);
 }
 
-static void pair_values_come_from_the_closest_section(void **state)
+static void pairs_use_the_most_specific_section(void **state)
 {
     fl_scene s;
     fl_scene_contact c;
@@ -704,12 +704,12 @@ int main(void)
         cmocka_unit_test(values_carry_units),
         cmocka_unit_test(vectors_take_one_number_or_three),
         cmocka_unit_test(the_grammar_is_that_of_scene_5),
-        cmocka_unit_test(words_are_read_as_in_the_manual),
+        cmocka_unit_test(keys_of_the_manual_are_read),
         cmocka_unit_test(each_complaint_names_file_and_line),
         cmocka_unit_test(sections_are_checked_against_each_other),
         cmocka_unit_test(set_overrides_the_file),
         cmocka_unit_test(a_failed_set_changes_nothing),
-        cmocka_unit_test(pair_values_come_from_the_closest_section),
+        cmocka_unit_test(pairs_use_the_most_specific_section),
         cmocka_unit_test(the_scene_overrides_included_files),
         cmocka_unit_test(bonds_are_checked),
         cmocka_unit_test(a_written_scene_reads_back),

@@ -76,12 +76,12 @@ static void collect_state(rows *all, lab *l, int wraps)
 
 static void collect_budget(rows *all)
 {
-    fl_total_load borne[2] = {{.peak = 0.0}};
+    fl_total_load loads[2] = {{.peak = 0.0}};
     fl_error_budget g = {.trial = {.parts = 3},
                          .window_rows = 1,
                          .min_row_steps = 1,
                          .windows = 1,
-                         .companion = {.world = {.parts = 1}, .run_load = &borne[0], .own_load = &borne[1]}};
+                         .companion = {.world = {.parts = 1}, .run_load = &loads[0], .own_load = &loads[1]}};
     g.window[0] = (fl_error_window){.h = 1.0, .order = 1.0, .momentum_order = 1.0};
     double known[5] = {0};
     char *text = NULL;
@@ -144,5 +144,5 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(each_layout_has_a_version_number),
                                        cmocka_unit_test(a_budget_of_failed_trials_comes_back)};
-    return cmocka_run_group_tests_name("state of a world", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("snapshot", tests, NULL, NULL);
 }

@@ -62,14 +62,14 @@ static void the_coordination_number_is_that_of_the_lattice(void **state)
     (void)state;
     static const struct {
         enum fl_packing_kind kind;
-        int32_t want;
+        int32_t expected;
     } of[3] = {{FL_PACKING_HCP, 12}, {FL_PACKING_HEX, 8}, {FL_PACKING_SQUARE, 6}};
     for (int m = 0; m < 3; m++) {
         fl_sphere_packing a = make_packing(of[m].kind, 1.0, 5, 9.0, 9.0);
         const int32_t middle = (2 * a.rows + a.rows / 2) * a.columns + a.columns / 2;
         int32_t have = 0;
         for (int32_t k = 0; k < a.pairs; k++) have += a.pair[k][0] == middle || a.pair[k][1] == middle;
-        assert_int_equal(have, of[m].want);
+        assert_int_equal(have, of[m].expected);
         fl_sphere_packing_free(&a);
     }
 }

@@ -30,12 +30,13 @@ static int make_sample(void **state)
 }
 
 /* Read all of it in pieces of at most `piece`; returns the length, or -1. */
-static int64_t slurp(const char *path, unsigned char *to, int64_t room, int64_t piece, fl_err *err)
+static int64_t slurp(const char *path, unsigned char *to, int64_t capacity, int64_t piece, fl_err *err)
 {
     int64_t n = 0, k = 0;
     fl_in *in = fl_in_open(path, err);
     if (!in) return -1;
-    while (n < room && (k = fl_in_read(in, to + n, piece < room - n ? piece : room - n, err)) > 0) n += k;
+    while (n < capacity && (k = fl_in_read(in, to + n, piece < capacity - n ? piece : capacity - n, err)) > 0)
+        n += k;
     fl_in_close(in);
     return k < 0 ? -1 : n;
 }
@@ -317,7 +318,7 @@ static void unfinished_output_is_kept(void **state)
         fl_err err = {0};
         fl_out out;
         struct rlimit was, small;
-        char want[1500];
+        char expected[1500];
         const char *path = test_path("rows"), *part = part_of(path);
         int bad = 0;
         assert_int_equal(getrlimit(RLIMIT_FSIZE, &was), 0);
@@ -334,9 +335,10 @@ static void unfinished_output_is_kept(void **state)
         assert_int_equal(fl_out_close(&out, &err), -1);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &was), 0);
         signal(SIGXFSZ, old);
-        snprintf(want, sizeof want, keep ? "%s: %s; what was written until then is kept in %s" : "%s: %s",
-                 path, "File too large", part);
-        assert_string_equal(err.text, want);
+        snprintf(expected, sizeof expected,
+                 keep ? "%s: %s; what was written until then is kept in %s" : "%s: %s", path,
+                 "File too large", part);
+        assert_string_equal(err.text, expected);
         assert_false(exists(path));
         assert_int_equal(exists(part), keep);
         if (!keep) continue;

@@ -27,11 +27,11 @@ static fl_mesh_quality measure_part(const fl_part *p)
     return q;
 }
 
-static void assert_point(fl_vec3 x, fl_vec3 want, double tol, double scale)
+static void assert_point(fl_vec3 x, fl_vec3 expected, double tol, double scale)
 {
-    assert_near_of(x.x, want.x, tol, scale);
-    assert_near_of(x.y, want.y, tol, scale);
-    assert_near_of(x.z, want.z, tol, scale);
+    assert_near_of(x.x, expected.x, tol, scale);
+    assert_near_of(x.y, expected.y, tol, scale);
+    assert_near_of(x.z, expected.z, tol, scale);
 }
 
 static void reverse_triangle(fl_part *p, int32_t t)
@@ -184,7 +184,8 @@ static void polygons_become_triangles(void **state)
     static const double arrow[][2] = {{0, 0}, {2, -2}, {1, 0}, {2, 2}};
     static const double comb[][2] = {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {4, 1},
                                      {4, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
-    static const double tee[][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}; /* a corner on a straight side */
+    static const double with_straight_corner[][2] = {
+        {0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}; /* a corner on a straight side */
     static const double hole[][2] = {
         {0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, /* out, and back in to the hole */
         {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
@@ -193,7 +194,7 @@ static void polygons_become_triangles(void **state)
     check_polygon(6, ell, 6.0, 4);
     check_polygon(4, arrow, 2.0, 2);
     check_polygon(12, comb, 13.0, 10);
-    check_polygon(5, tee, 4.0, 3);
+    check_polygon(5, with_straight_corner, 4.0, 3);
 }
 
 static void expect_split(const double (*x)[3], const int32_t first[3])

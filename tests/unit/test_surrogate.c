@@ -238,11 +238,11 @@ static void an_evaluation_adds_a_sample(void **state)
         for (int k = 0; k < 20; k++) {
             placed_pair l;
             const direction a = random_path(&g);
-            double e[3], untaught;
+            double e[3], before_sampling;
             place_boxes(&l, kind);
             assert_true(prediction_error(&l) < 1e-9);
             move_along(&l, a, 0.04 * DEPTH);
-            untaught = prediction_error(&l);
+            before_sampling = prediction_error(&l);
             move_along(&l, a, -0.02 * DEPTH);
             evaluate(&l);
             assert_true(prediction_error(&l) < 1e-9);
@@ -251,7 +251,7 @@ static void an_evaluation_adds_a_sample(void **state)
                 e[c] = prediction_error(&l);
             }
             move_along(&l, a, 0.0);
-            better += log2(untaught / fmax(prediction_error(&l), 1e-12)) / (20.0 * KINDS);
+            better += log2(before_sampling / fmax(prediction_error(&l), 1e-12)) / (20.0 * KINDS);
             if (e[0] > 1e-7) log_ratio += log2(e[1] / e[0]), many++;
             free_boxes(&l);
         }
@@ -308,14 +308,14 @@ static void set_velocity(placed_pair *l, direction a, double times)
 }
 
 /* Damping force, predicted and evaluated, relative to the undamped force. */
-static void damping_force(placed_pair *l, fl_vec3 *told, fl_vec3 *looked)
+static void damping_force(placed_pair *l, fl_vec3 *predicted, fl_vec3 *evaluated)
 {
     l->p.surrogate->reach = FL_SURROGATE_MAX_REACH;
     fl_pair_evaluate(&l->l.w, &l->p, 0, 0.0, 0);
     assert_true(l->p.surrogate->used);
     const fl_pair p = lab_look(&l->l.w, 0, 1);
     const double each = 1.0 / v3_norm(v3_sub(v3_sub(p.force, p.force_damping), p.force_friction));
-    *told = v3_scale(each, l->p.force_damping), *looked = v3_scale(each, p.force_damping);
+    *predicted = v3_scale(each, l->p.force_damping), *evaluated = v3_scale(each, p.force_damping);
 }
 
 /* Predicted damping equals the evaluated one at the evaluated pose, also where part of the pressure would
@@ -329,26 +329,27 @@ static void damping_is_predicted(void **state)
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < 60; k++) {
             placed_pair l;
-            fl_vec3 told[2], looked[2];
+            fl_vec3 predicted[2], evaluated[2];
             const direction a = random_path(&g);
             place_boxes(&l, kind);
             l.l.w.dt = 0.0; /* of no length: nothing is limited */
             set_velocity(&l, a, k % 2 ? 0.02 : 0.3);
             fl_pair_evaluate_exact(&l.l.w, &l.p, 0, NULL, 0.0, 0);
-            damping_force(&l, &told[0], &looked[0]);
+            damping_force(&l, &predicted[0], &evaluated[0]);
             const fl_surrogate *s = l.p.surrogate;
-            const int held = s->half_width != FL_UNIFORM_HALF_WIDTH;
+            const int limited = s->half_width != FL_UNIFORM_HALF_WIDTH;
             move_along(&l, a, 0.01 * DEPTH);
-            damping_force(&l, &told[1], &looked[1]);
-            if (!held) assert_true(v3_norm(v3_sub(told[0], looked[0])) < 1e-9);
-            for (int c = 0; c < 2; c++) deviation[held][c] += v3_norm(v3_sub(told[c], looked[c]));
-            changed[held] += v3_norm(v3_sub(looked[1], looked[0]));
-            many[held]++;
+            damping_force(&l, &predicted[1], &evaluated[1]);
+            if (!limited) assert_true(v3_norm(v3_sub(predicted[0], evaluated[0])) < 1e-9);
+            for (int c = 0; c < 2; c++) deviation[limited][c] += v3_norm(v3_sub(predicted[c], evaluated[c]));
+            changed[limited] += v3_norm(v3_sub(evaluated[1], evaluated[0]));
+            many[limited]++;
             free_boxes(&l);
         }
     assert_true(many[0] > 100 && many[1] > 20);
     assert_true(deviation[1][0] < 1e-3 * changed[1]); /* their mean and one moment are right */
-    for (int held = 0; held < 2; held++) assert_true(deviation[held][1] < 2e-3 * changed[held]);
+    for (int limited = 0; limited < 2; limited++)
+        assert_true(deviation[limited][1] < 2e-3 * changed[limited]);
 }
 
 /* A contact predicted by the surrogate is nearly over, beyond the surrogate's range: its error estimate stays

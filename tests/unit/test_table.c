@@ -15,13 +15,13 @@ static int open_table(fl_table *t, const char *kind, const char *data)
 }
 
 /* err is "<path>:LINE: SAYS"; LINE 0 means "<path>: SAYS". */
-static void expect_message(int line, const char *says)
+static void expect_message(int line, const char *message)
 {
-    char want[1200];
-    if (line) snprintf(want, sizeof want, "%s:%d: %s", test_path("table"), line, says);
-    else snprintf(want, sizeof want, "%s: %s", test_path("table"), says);
+    char expected[1200];
+    if (line) snprintf(expected, sizeof expected, "%s:%d: %s", test_path("table"), line, message);
+    else snprintf(expected, sizeof expected, "%s: %s", test_path("table"), message);
     assert_int_equal(err.code, FL_INPUT);
-    assert_string_equal(err.text, want);
+    assert_string_equal(err.text, expected);
 }
 
 static void columns_and_rows(void **state)
@@ -84,7 +84,7 @@ static void errors_are_reported(void **state)
     static const struct {
         const char *data;
         int line;
-        const char *says;
+        const char *message;
     } bad[] = {
         {"", 0, "empty, a loads file is expected"},
         {"#state 1\nt\n", 1, "this is a state file, a loads file is expected"},
@@ -99,7 +99,7 @@ static void errors_are_reported(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         fl_table t;
         assert_int_equal(open_table(&t, "loads", bad[k].data), -1);
-        expect_message(bad[k].line, bad[k].says);
+        expect_message(bad[k].line, bad[k].message);
         assert_null(t.name);
     }
 }

@@ -27,13 +27,13 @@ static void close_text(fl_text *t)
 }
 
 /* err is "<path>:LINE: SAYS"; LINE 0 means "<path>: SAYS". */
-static void expect_message(int line, const char *says)
+static void expect_message(int line, const char *message)
 {
-    char want[1200];
-    if (line) snprintf(want, sizeof want, "%s:%d: %s", test_path("text"), line, says);
-    else snprintf(want, sizeof want, "%s: %s", test_path("text"), says);
+    char expected[1200];
+    if (line) snprintf(expected, sizeof expected, "%s:%d: %s", test_path("text"), line, message);
+    else snprintf(expected, sizeof expected, "%s: %s", test_path("text"), message);
     assert_int_equal(err.code, FL_INPUT);
-    assert_string_equal(err.text, want);
+    assert_string_equal(err.text, expected);
 }
 
 static void lines_may_have_any_end(void **state)
@@ -129,7 +129,7 @@ static void kind_and_version(void **state)
         close_text(&t);
     }
     static const struct {
-        const char *data, *says;
+        const char *data, *message;
     } bad[] = {
         {"#loads 3\n", "loads version 3 is newer than this program, which reads up to 2"},
         {"#state 1\n", "this is a state file, a loads file is expected"},
@@ -147,7 +147,7 @@ static void kind_and_version(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         open_text(&t, bad[k].data);
         assert_int_equal(fl_text_magic(&t, "loads", 2, &err), -1);
-        expect_message(1, bad[k].says);
+        expect_message(1, bad[k].message);
         close_text(&t);
     }
 }

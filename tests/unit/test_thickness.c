@@ -13,21 +13,21 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double draw_sample(const fl_thickness *t, uint64_t seed, double least, double *h, double *mean,
+static double draw_sample(const fl_thickness *t, uint64_t seed, double min_thickness, double *h, double *mean,
                           double *cv)
 {
     double sum = 0.0, square = 0.0;
     for (int32_t i = 0; i < N; i++) {
         int32_t again;
-        h[i] = fl_thickness_draw(t, seed, i, least, &again);
-        assert_true(h[i] > least);
+        h[i] = fl_thickness_draw(t, seed, i, min_thickness, &again);
+        assert_true(h[i] > min_thickness);
         sum += h[i];
         square += h[i] * h[i];
     }
     *mean = sum / N;
     *cv = sqrt(square / N - *mean * *mean) / *mean;
     qsort(h, N, sizeof *h, ascending);
-    return fl_thickness_ks_distance(t, least, N, h);
+    return fl_thickness_ks_distance(t, min_thickness, N, h);
 }
 
 /* Kolmogorov's distance of N numbers exceeds 1.95 / sqrt(N) once in a thousand times: 0.0138. */

@@ -36,7 +36,7 @@ static void the_fastest_count_is_found(void **state)
     assert_int_equal(settled_count(&t, 1.0, 0.0), 2);
 }
 
-static void busy_processors_are_released(void **state)
+static void a_busy_processor_lowers_the_count(void **state)
 {
     fl_thread_count t;
     (void)state;
@@ -80,7 +80,7 @@ static void a_given_count_stays(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_fastest_count_is_found), cmocka_unit_test(busy_processors_are_released),
+        cmocka_unit_test(the_fastest_count_is_found), cmocka_unit_test(a_busy_processor_lowers_the_count),
         cmocka_unit_test(trials_become_rare), cmocka_unit_test(a_given_count_stays)};
-    return cmocka_run_group_tests_name("team", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("thread_count", tests, NULL, NULL);
 }

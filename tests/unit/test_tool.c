@@ -9,7 +9,7 @@
 #include "support/near.h"
 
 /* The end of a program, in a child with standard output to `out`: its status, and its text on stderr. */
-static int run_end(const char *out, const char *text, int rc, fl_err err, char *said, size_t room)
+static int run_end(const char *out, const char *text, int rc, fl_err err, char *text_out, size_t capacity)
 {
     const char *path = test_path("said");
     int status = -1;
@@ -27,7 +27,7 @@ static int run_end(const char *out, const char *text, int rc, fl_err err, char *
     assert_true(WIFEXITED(status));
     FILE *f = fopen(path, "r");
     assert_non_null(f);
-    said[fread(said, 1, room - 1, f)] = '\0';
+    text_out[fread(text_out, 1, capacity - 1, f)] = '\0';
     fclose(f);
     unlink(path);
     return WEXITSTATUS(status);
@@ -35,38 +35,38 @@ static int run_end(const char *out, const char *text, int rc, fl_err err, char *
 
 static void status_is_the_code(void **state)
 {
-    char said[800];
+    char text_out[800];
     (void)state;
-    assert_int_equal(run_end("/dev/null", "text", 0, (fl_err){0}, said, sizeof said), FL_DONE);
-    assert_string_equal(said, "");
+    assert_int_equal(run_end("/dev/null", "text", 0, (fl_err){0}, text_out, sizeof text_out), FL_DONE);
+    assert_string_equal(text_out, "");
     for (int code = FL_NO; code <= FL_NUMERIC; code++) {
         fl_err err = {0};
         fl_fail(&err, code, "a.loads:%d: what was found", code);
-        char want[80];
-        snprintf(want, sizeof want, "loadstats: a.loads:%d: what was found\n", code);
-        assert_int_equal(run_end("/dev/null", "", -1, err, said, sizeof said), code);
-        assert_string_equal(said, want);
+        char expected[80];
+        snprintf(expected, sizeof expected, "loadstats: a.loads:%d: what was found\n", code);
+        assert_int_equal(run_end("/dev/null", "", -1, err, text_out, sizeof text_out), code);
+        assert_string_equal(text_out, expected);
     }
     /* an answer "no" that needs no sentence */
-    assert_int_equal(run_end("/dev/null", "", -1, (fl_err){.code = FL_NO}, said, sizeof said), FL_NO);
-    assert_string_equal(said, "");
+    assert_int_equal(run_end("/dev/null", "", -1, (fl_err){.code = FL_NO}, text_out, sizeof text_out), FL_NO);
+    assert_string_equal(text_out, "");
     /* failed without a message */
-    assert_int_equal(run_end("/dev/null", "", -1, (fl_err){0}, said, sizeof said), FL_SYSTEM);
+    assert_int_equal(run_end("/dev/null", "", -1, (fl_err){0}, text_out, sizeof text_out), FL_SYSTEM);
 }
 
 static void lost_output_is_an_error(void **state)
 {
-    char said[800];
+    char text_out[800];
     (void)state;
-    assert_int_equal(run_end("/dev/full", "text", 0, (fl_err){0}, said, sizeof said), FL_SYSTEM);
-    assert_string_equal(said, "loadstats: <stdout>: No space left on device\n");
+    assert_int_equal(run_end("/dev/full", "text", 0, (fl_err){0}, text_out, sizeof text_out), FL_SYSTEM);
+    assert_string_equal(text_out, "loadstats: <stdout>: No space left on device\n");
     /* nothing written, nothing lost */
-    assert_int_equal(run_end("/dev/full", "", 0, (fl_err){0}, said, sizeof said), FL_DONE);
+    assert_int_equal(run_end("/dev/full", "", 0, (fl_err){0}, text_out, sizeof text_out), FL_DONE);
     /* the first failure is the one reported */
     fl_err err = {0};
     fl_fail(&err, FL_INPUT, "first");
-    assert_int_equal(run_end("/dev/full", "text", -1, err, said, sizeof said), FL_INPUT);
-    assert_string_equal(said, "loadstats: first\n");
+    assert_int_equal(run_end("/dev/full", "text", -1, err, text_out, sizeof text_out), FL_INPUT);
+    assert_string_equal(text_out, "loadstats: first\n");
 }
 
 /* In a child without some of its first three files: the descriptor of a newly opened file, and the answers of

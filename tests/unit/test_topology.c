@@ -46,18 +46,18 @@ static void equal_shapes_are_shared_unchanged(void **state)
     static fl_poly p[N], q[N];
     fl_topologies t = {0};
     fl_err err = {0};
-    double apart = 0.0, together = 0.0;
+    double separate_bytes = 0.0, shared_bytes = 0.0;
     for (int k = 0; k < N; k++) {
         prism(&p[k], 3 + k % KINDS, 1.0 + k);
         assert_int_equal(fl_poly_copy(&q[k], &p[k], &err), 0);
-        apart += fl_poly_bytes(&q[k]);
+        separate_bytes += fl_poly_bytes(&q[k]);
         assert_int_equal(fl_topologies_share(&t, &q[k], FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &err), 0);
         assert_same(&p[k], &q[k]);
-        together += fl_poly_bytes(&q[k]);
+        shared_bytes += fl_poly_bytes(&q[k]);
     }
     assert_int_equal(t.n, KINDS);
     for (int k = KINDS; k < N; k++) assert_ptr_equal(q[k].loop, q[k - KINDS].loop);
-    assert_true(together + fl_topologies_bytes(&t) < 0.75 * apart);
+    assert_true(shared_bytes + fl_topologies_bytes(&t) < 0.75 * separate_bytes);
     for (int k = 0; k < N; k++) {
         fl_poly r = {0};
         assert_same(&p[k], &q[k]); /* independent of later additions */

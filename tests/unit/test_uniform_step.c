@@ -14,10 +14,10 @@ static fl_err err;
 static int read_text(fl_series *s, const char *data, double after)
 {
     static const char *const column[] = {"fx"};
-    const fl_record_selection ask = {
+    const fl_record_selection selection = {
         .signal = column, .signals = 1, .from = -INFINITY, .to = INFINITY, .after_first_load = after};
     err = (fl_err){0};
-    return fl_series_read(s, test_file("evenly", data, strlen(data)), &ask, &err);
+    return fl_series_read(s, test_file("evenly", data, strlen(data)), &selection, &err);
 }
 
 /* Rows of 1, 2 and 1 s with 3, 6 and -3 in steps of 1.5 s: 4 and 6, and then 1 s remains. */
@@ -63,7 +63,7 @@ static void a_sine_has_the_known_loss(void **state)
         fl_series s;
         fl_resampling_loss loss[2];
         double mean = 0.0, square = 0.0;
-        const double a = 0.5 * w * h, want = 0.5 * (1.0 - pow(sin(a) / a, 2.0));
+        const double a = 0.5 * w * h, expected = 0.5 * (1.0 - pow(sin(a) / a, 2.0));
         assert_int_equal(read_text(&s, data, 0.0), 0);
         double before = 0.0;
         for (int32_t k = 0; k < s.n; k++) before += s.x[0][k] * s.x[0][k] / s.n;
@@ -74,7 +74,7 @@ static void a_sine_has_the_known_loss(void **state)
             square += s.x[0][k] * s.x[0][k] / s.n;
         }
         assert_near(mean, 5.0, 1e-12);
-        assert_near_of(loss[0].rms * loss[0].rms, want, 1e-4, 0.5);
+        assert_near_of(loss[0].rms * loss[0].rms, expected, 1e-4, 0.5);
         assert_near_of(loss[0].rms * loss[0].rms, before - square, 1e-10, 25.0);
         fl_series_free(&s);
     }
@@ -85,7 +85,7 @@ static void the_front_can_be_left_out(void **state)
 {
     static const char data[] = "#loads 1\nt part fx[N]\n1 a 0\n2 a 0\n3 a 5\n4 a 0\n5 a 1\n6 a 2\n";
     fl_series s;
-    char want[400];
+    char expected[400];
     (void)state;
     assert_int_equal(read_text(&s, data, 2.0), 0);
     assert_near(s.edge[0], 4.0, 0.0); /* the row from 2 to 3 s is the first with a load */
@@ -94,8 +94,8 @@ static void the_front_can_be_left_out(void **state)
     assert_int_equal(read_text(&s, data, 4.5), -1);
     assert_int_equal(err.code, FL_INPUT);
     assert_int_equal(read_text(&s, "#loads 1\nt part fx[N]\n1 a 0\n2 a 0\n", 1.0), -1);
-    snprintf(want, sizeof want, "%s: every load is 0, there is no first load", test_path("evenly"));
-    assert_string_equal(err.text, want);
+    snprintf(expected, sizeof expected, "%s: every load is 0, there is no first load", test_path("evenly"));
+    assert_string_equal(err.text, expected);
 }
 
 static void limits_and_allocation_failure(void **state)

@@ -9,7 +9,7 @@
 
 static fl_err err;
 static fl_part p;
-static uint8_t tame[FL_VERTEX_FAN_MAX + 2];
+static uint8_t simple[FL_VERTEX_FAN_MAX + 2];
 
 static int free_part(void **state)
 {
@@ -30,16 +30,16 @@ static void add_triangle(int32_t a, int32_t b, int32_t c)
 
 static void find_simple(void)
 {
-    if (fl_vertex_fans_simple(&p, tame, &err)) fail_msg("%s", err.text);
+    if (fl_vertex_fans_simple(&p, simple, &err)) fail_msg("%s", err.text);
 }
 
 /* n corners on a circle about vertex 0, with `turns` revolutions. */
-static void make_ring(int n, int turns, double low, double high)
+static void make_ring(int n, int revolutions, double low, double high)
 {
     free_part(NULL);
     add_vertex(0, 0, 0);
     for (int k = 0; k < n; k++)
-        add_vertex(cos(2 * PI * turns * k / n), sin(2 * PI * turns * k / n), k % 2 ? high : low);
+        add_vertex(cos(2 * PI * revolutions * k / n), sin(2 * PI * revolutions * k / n), k % 2 ? high : low);
     for (int k = 0; k < n; k++) add_triangle(0, 1 + k, 1 + (k + 1) % n);
 }
 
@@ -49,11 +49,11 @@ static void closed_fans_are_simple(void **state)
     for (int n = 3; n < 200; n += 1 + n / 20) {
         make_ring(n, 1, 0.0, 0.0);
         find_simple();
-        assert_int_equal(tame[0], 1);
-        for (int k = 1; k <= n; k++) assert_int_equal(tame[k], 1); /* two on the border, side by side */
+        assert_int_equal(simple[0], 1);
+        for (int k = 1; k <= n; k++) assert_int_equal(simple[k], 1); /* two on the border, side by side */
         make_ring(n, 1, -0.1, n % 2 ? -0.1 : 0.2);
         find_simple();
-        assert_int_equal(tame[0], 1);
+        assert_int_equal(simple[0], 1);
     }
 }
 
@@ -63,55 +63,56 @@ static void large_closed_fans_are_simple(void **state)
     (void)state;
     make_ring(FL_VERTEX_FAN_MAX, 1, -0.5, -0.5);
     find_simple();
-    assert_int_equal(tame[0], 1);
+    assert_int_equal(simple[0], 1);
     for (int k = 0; k < 500; k++) { /* some out of order */
         const fl_tri keep = p.t[7 * k];
         p.t[7 * k] = p.t[FL_VERTEX_FAN_MAX - 1 - 11 * k];
         p.t[FL_VERTEX_FAN_MAX - 1 - 11 * k] = keep;
     }
     find_simple();
-    assert_int_equal(tame[0], 1);
+    assert_int_equal(simple[0], 1);
     p.nt--; /* a gap */
     find_simple();
-    assert_int_equal(tame[0], 1);
+    assert_int_equal(simple[0], 1);
     p.t[p.nt - 2] = p.t[0]; /* one twice, one missing */
     find_simple();
-    assert_int_equal(tame[0], 0);
+    assert_int_equal(simple[0], 0);
     make_ring(FL_VERTEX_FAN_MAX + 1, 1, 0.0, 0.0);
     find_simple();
-    assert_int_equal(tame[0], 0);
+    assert_int_equal(simple[0], 0);
 }
 
 static void other_fans_are_not_simple(void **state)
 {
     (void)state;
-    for (int turns = 2; turns < 5; turns++) { /* each triangle is valid alone, and they cover one another */
-        make_ring(7, turns, 0.0, 0.0);
+    for (int revolutions = 2; revolutions < 5;
+         revolutions++) { /* each triangle is valid alone, and they cover one another */
+        make_ring(7, revolutions, 0.0, 0.0);
         find_simple();
-        assert_int_equal(tame[0], 0);
+        assert_int_equal(simple[0], 0);
     }
     make_ring(6, 1, 0.0, 0.0);
     p.nt--;
     add_triangle(0, 1, 6); /* closed the wrong way */
     find_simple();
-    assert_int_equal(tame[0], 0);
+    assert_int_equal(simple[0], 0);
     p.nt--;
     add_triangle(0, 6, 1);
     add_triangle(0, 6, 1); /* twice */
     find_simple();
-    assert_int_equal(tame[0], 0);
+    assert_int_equal(simple[0], 0);
     make_ring(5, 1, 0.0, 0.0);
     add_triangle(0, 1, 0);
     find_simple();
-    assert_int_equal(tame[0], 0);
+    assert_int_equal(simple[0], 0);
     make_ring(6, 1, 0.0, 0.0);
     p.v[3] = v3(0.9, 0.1, 0.0); /* folded back */
     find_simple();
-    assert_int_equal(tame[0], 0);
+    assert_int_equal(simple[0], 0);
     make_ring(6, 1, 0.0, 0.0);
     p.v[2] = v3(2.0, 0.0, 0.0); /* without area */
     find_simple();
-    assert_int_equal(tame[0], 0);
+    assert_int_equal(simple[0], 0);
 }
 
 /* Sectors side by side from one border to another, in any order. */
@@ -129,7 +130,7 @@ static void open_fans_are_simple(void **state)
                 p.t[u] = (fl_tri){{swap.v[2], swap.v[0], swap.v[1]}};
             }
             find_simple();
-            assert_int_equal(tame[0], 1);
+            assert_int_equal(simple[0], 1);
         }
 }
 
@@ -143,13 +144,13 @@ static void fans_with_slits_are_not_simple(void **state)
         add_vertex(cos(a), sin(a), 0.0);
         p.t[7].v[2] = 9; /* instead of corner 1, and at its position for a = 0 */
         find_simple();
-        assert_int_equal(tame[0], a < -0.05);
+        assert_int_equal(simple[0], a < -0.05);
     }
     make_ring(6, 1, 0.0, 0.0); /* two chains */
     p.t[1] = p.t[--p.nt];
     p.t[3] = p.t[--p.nt];
     find_simple();
-    assert_int_equal(tame[0], 0);
+    assert_int_equal(simple[0], 0);
 }
 
 /* Rings of random corners, triangles in any order: where the fan is simple the search of CGAL finds no
@@ -177,9 +178,9 @@ static void simple_fans_do_not_cross(void **state)
         }
         if (k % 4 == 3 && n > 4) p.nt -= 1 + k % 2; /* a chain, or two */
         find_simple();
-        is += tame[0];
-        is_not += !tame[0];
-        if (!tame[0]) continue;
+        is += simple[0];
+        is_not += !simple[0];
+        if (!simple[0]) continue;
         const fl_soup s = {p.nv, p.nt, &p.v[0].x, p.t[0].v};
         if (fl_cgal_crossings(&s, &c, &err)) fail_msg("%s", err.text);
         assert_int_equal(c.crossings, 0);
@@ -196,7 +197,7 @@ static void allocation_failure_is_reported(void **state)
     for (long fail = 0; rc; fail++) {
         err = (fl_err){0};
         fl_alloc_fail_after(fail);
-        rc = fl_vertex_fans_simple(&p, tame, &err);
+        rc = fl_vertex_fans_simple(&p, simple, &err);
         fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
     }

@@ -73,7 +73,7 @@ static void invalid_waterlines_are_refused(void **state)
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
         fl_waterline w;
         fl_err err = {0};
-        if (fl_waterline_make(&w, text[k], &err) == 0) print_error("taken: \"%s\"\n", text[k]);
+        if (fl_waterline_make(&w, text[k], &err) == 0) print_error("accepted: \"%s\"\n", text[k]);
         assert_int_equal(err.code, FL_USAGE);
     }
 }

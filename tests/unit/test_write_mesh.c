@@ -62,7 +62,7 @@ static void merge(const fl_surface *s, fl_surface *out)
 typedef void write_fn(FILE *f, const fl_surface *s);
 static void put_ply(FILE *f, const fl_surface *s) { assert_int_equal(fl_ply_write(f, s, &err), 0); }
 
-static void round_trip(write_fn *put, const fl_surface *s, const fl_surface *want)
+static void round_trip(write_fn *put, const fl_surface *s, const fl_surface *expected)
 {
     char *text = NULL;
     size_t n = 0;
@@ -73,15 +73,15 @@ static void round_trip(write_fn *put, const fl_surface *s, const fl_surface *wan
     assert_int_equal(fclose(f), 0);
     if (fl_mesh_read(&back, test_file("all", text, n), NULL, note, &err)) fail_msg("%s", err.text);
     free(text);
-    assert_int_equal(back.n, want->n);
+    assert_int_equal(back.n, expected->n);
     for (int32_t i = 0; i < back.n; i++) {
         assert_int_equal(fl_part_weld(&back.part[i], 0.0, &w, &err), 0);
-        if (want->n == 1) { /* named by its file */
+        if (expected->n == 1) { /* named by its file */
             free(back.part[i].name);
             back.part[i].name = strdup("all");
         }
     }
-    assert_true(mesh_same(&back, want));
+    assert_true(mesh_same(&back, expected));
     fl_surface_free(&back);
 }
 
@@ -146,12 +146,12 @@ static void a_vtp_file_holds_the_same(void **state)
     assert_int_equal(take_uint(&at, 8), 24 * nv);
     for (int32_t i = 0; i < s.n; i++)
         for (int32_t v = 0; v < s.part[i].nv; v++) {
-            const double want[3] = {s.part[i].v[v].x, s.part[i].v[v].y, s.part[i].v[v].z};
+            const double expected[3] = {s.part[i].v[v].x, s.part[i].v[v].y, s.part[i].v[v].z};
             for (int c = 0; c < 3; c++) {
                 const uint64_t bits = take_uint(&at, 8);
                 double x;
                 memcpy(&x, &bits, sizeof x);
-                assert_true(x == want[c]);
+                assert_true(x == expected[c]);
             }
         }
     assert_int_equal(take_uint(&at, 8), 12 * nt);

@@ -94,12 +94,12 @@ static int gmsh_type(enum fl_shape shape)
 /* Edges of which the middle nodes follow the corners, in Gmsh's order and in that of mesh/elements.h. */
 static void gmsh_nodes(const model_element *e, int64_t node[20])
 {
-    static const char *const theirs[FL_SHAPES] = {
+    static const char *const gmsh_edges[FL_SHAPES] = {
         [FL_TET10] = "011220032313",
         [FL_HEX20] = "010304121523263745475667",
         [FL_WEDGE15] = "010203121425343545",
     };
-    static const char *const ours[FL_SHAPES] = {
+    static const char *const own_edges[FL_SHAPES] = {
         [FL_TET10] = "011220031323",
         [FL_HEX20] = "011223304556677404152637",
         [FL_WEDGE15] = "011220344553031425",
@@ -107,9 +107,9 @@ static void gmsh_nodes(const model_element *e, int64_t node[20])
     const int c = fl_shape_corners(e->shape);
     memcpy(node, e->node, sizeof e->node);
     for (int i = c; i < fl_shape_nodes(e->shape); i++) {
-        const char *a = theirs[e->shape] + 2 * (i - c);
+        const char *a = gmsh_edges[e->shape] + 2 * (i - c);
         for (int j = c; j < fl_shape_nodes(e->shape); j++) {
-            const char *b = ours[e->shape] + 2 * (j - c);
+            const char *b = own_edges[e->shape] + 2 * (j - c);
             if ((a[0] == b[0] && a[1] == b[1]) || (a[0] == b[1] && a[1] == b[0])) node[i] = e->node[j];
         }
     }

@@ -47,7 +47,7 @@ static void check_travels(int n, int threads)
     fl_err err = {0};
     move_bodies(&l, n, threads);
     const fl_world *w = &l.w;
-    const double room = w->skin * (1.0 - 1e-6);
+    const double allowed = w->skin * (1.0 - 1e-6);
     double *found = fl_alloc(w->b.total, sizeof *found, &err);
     assert_non_null(found);
     const int64_t searches = w->searches;
@@ -55,7 +55,7 @@ static void check_travels(int n, int threads)
         const int64_t before = w->searches;
         memcpy(found, w->odometer_at_search, (size_t)w->b.total * sizeof *found);
         assert_int_equal(lab_run(&l, 1), 0);
-        assert_int_equal(w->searches - before, longest_travels(w, found) >= room);
+        assert_int_equal(w->searches - before, longest_travels(w, found) >= allowed);
     }
     assert_true(w->searches > searches + 3);
     free(found);

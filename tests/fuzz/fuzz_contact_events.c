@@ -40,4 +40,4 @@ static int fuzz_one(const unsigned char *data, size_t n)
     return rc == FUZZ_BROKEN ? FUZZ_BROKEN : fuzz_verdict(rc, &err);
 }
 
-int main(int argc, char **argv) { return fuzz_main(argc, argv, "hits", fuzz_one); }
+int main(int argc, char **argv) { return fuzz_main(argc, argv, "contact_events", fuzz_one); }

@@ -45,8 +45,8 @@ static int untangle(fl_soup *s, fl_untangle *did, fl_err *why)
 {
     const fl_part p = {.nv = s->nv, .nt = s->nt, .v = (fl_vec3 *)s->x, .t = (fl_tri *)s->t};
     int32_t *shell = fl_alloc(p.nt, sizeof *shell, why);
-    int32_t odd;
-    const int rc = fl_part_connected(&p, shell, &odd, why) || fl_cgal_untangle(s, shell, did, why);
+    int32_t odd_edges;
+    const int rc = fl_part_connected(&p, shell, &odd_edges, why) || fl_cgal_untangle(s, shell, did, why);
     free(shell);
     return rc ? -1 : 0;
 }
@@ -173,8 +173,8 @@ static void a_two_sided_plate_encloses_nothing(void **state)
 }
 
 /* A leg of sixteen sides and braces of eight, all through one point of its axis. Their ends share corners and
- * edges, and many corners lie within rounding of others' faces. Between axis and wall the leg covers each
- * brace's volume, so the volume is that of a joint of two, three or four. */
+ * edges, and many corners lie within rounding of others' faces. The leg hides the inner end of each
+ * brace, so the volume shows that all of them were joined. */
 static void joints_of_tubes_become_one(void **state)
 {
     (void)state;
@@ -228,10 +228,10 @@ static void a_self_intersecting_patch_is_rebuilt(void **state)
     fl_part_free(&p);
 }
 
-static void distance_of(const fl_part *a, const fl_part *b, double *least, double *most)
+static void distance_of(const fl_part *a, const fl_part *b, double *lower, double *upper)
 {
     fl_soup s = soup_of(a), t = soup_of(b);
-    if (fl_cgal_distance(&s, &t, 1e-9, least, most, &err)) fail_msg("%s", err.text);
+    if (fl_cgal_distance(&s, &t, 1e-9, lower, upper, &err)) fail_msg("%s", err.text);
     fl_soup_free(&s);
     fl_soup_free(&t);
 }
@@ -239,7 +239,7 @@ static void distance_of(const fl_part *a, const fl_part *b, double *least, doubl
 static void distances_have_lower_and_upper_bounds(void **state)
 {
     fl_part a = triangle_part(v3(0, 0, 0), v3(4, 0, 0), v3(0, 4, 0)), b = {0}, c = {0};
-    double least, most;
+    double lower, upper;
     (void)state;
     /* the same plane in other triangles: 0 to rounding in both directions */
     for (int i = 0; i < 7; i++)
@@ -258,28 +258,28 @@ static void distances_have_lower_and_upper_bounds(void **state)
                 fl_surface_triangle(&b, b.nv - 3, b.nv - 2, b.nv - 1, &err);
             }
         }
-    distance_of(&a, &b, &least, &most);
-    assert_true(most < 1e-8);
-    distance_of(&b, &a, &least, &most);
-    assert_true(most < 1e-12);
+    distance_of(&a, &b, &lower, &upper);
+    assert_true(upper < 1e-8);
+    distance_of(&b, &a, &lower, &upper);
+    assert_true(upper < 1e-12);
     /* one corner lifted by 0.25, another moved out by 3: found to a hundredth */
     a.v[0].z = 0.25;
-    distance_of(&a, &b, &least, &most);
-    assert_true(least <= 0.25 + 1e-12 && most >= 0.25 && most <= 0.2526);
+    distance_of(&a, &b, &lower, &upper);
+    assert_true(lower <= 0.25 + 1e-12 && upper >= 0.25 && upper <= 0.2526);
     a.v[0].z = 0.0;
     a.v[1].x = 7.0;
-    distance_of(&a, &b, &least, &most);
-    assert_true(least <= 3.0 + 1e-12 && most >= 3.0 && most <= 3.031);
-    distance_of(&b, &a, &least, &most);
-    assert_true(most < 1e-8);
+    distance_of(&a, &b, &lower, &upper);
+    assert_true(lower <= 3.0 + 1e-12 && upper >= 3.0 && upper <= 3.031);
+    distance_of(&b, &a, &lower, &upper);
+    assert_true(upper < 1e-8);
     /* the centre of a square is farthest from its boundary: the largest distance is not at a corner */
     fl_facet_box(&c, v3(0, 0, 0), v3(2, 2, 2), &err);
     a.nt = a.nv = 0;
     for (int k = 0; k < 4; k++) fl_surface_vertex(&a, v3(k & 1 ? 2 : 0, k & 2 ? 2 : 0, 1), &err);
     fl_surface_triangle(&a, 0, 1, 3, &err);
     fl_surface_triangle(&a, 0, 3, 2, &err);
-    distance_of(&a, &c, &least, &most);
-    assert_true(least <= 1.0 + 1e-12 && most >= 1.0 && most <= 1.011);
+    distance_of(&a, &c, &lower, &upper);
+    assert_true(lower <= 1.0 + 1e-12 && upper >= 1.0 && upper <= 1.011);
     /* a strip along the axis of a tube is equally far from many long triangles, which cuts along them reduce
      * only slowly */
     a.nt = a.nv = c.nt = c.nv = 0;
@@ -287,8 +287,8 @@ static void distances_have_lower_and_upper_bounds(void **state)
     fl_surface_triangle(&a, 0, 1, 3, &err);
     fl_surface_triangle(&a, 0, 3, 2, &err);
     fl_facet_cone(&c, &(fl_cone){v3(0, 0, 0), v3(0, 0, 10), 0.5, 0.5}, 360, &err);
-    distance_of(&a, &c, &least, &most);
-    assert_true(most >= least && most <= 1.02 * least && fabs(least - 0.5) < 1e-3);
+    distance_of(&a, &c, &lower, &upper);
+    assert_true(upper >= lower && upper <= 1.02 * lower && fabs(lower - 0.5) < 1e-3);
     fl_part_free(&a);
     fl_part_free(&b);
     fl_part_free(&c);
@@ -302,15 +302,15 @@ static void simplification_stays_within_the_distance(void **state)
         fl_part p = {0}, q = {0};
         fl_soup s, t;
         int32_t gone;
-        double least, most;
+        double lower, upper;
         fl_facet_cone(&p, &(fl_cone){v3(0, 0, 0), v3(0, 0, 3), 1.0, 1.0}, 60, &err);
         s = soup_of(&p);
         if (fl_cgal_simplify(&s, within, &gone, &err)) fail_msg("%s", err.text);
         assert_int_equal(s.nt, p.nt - gone);
         assert_true(gone > 60);
         t = soup_of(&p);
-        assert_int_equal(fl_cgal_distance(&s, &t, 1e-9, &least, &most, &err), 0);
-        assert_true(most <= 1.02 * within);
+        assert_int_equal(fl_cgal_distance(&s, &t, 1e-9, &lower, &upper, &err), 0);
+        assert_true(upper <= 1.02 * within);
         fl_soup_free(&t);
         set_part(&q, &s);
         assert_int_equal(measure_part(&q).open + measure_part(&q).branched, 0);
@@ -323,17 +323,17 @@ static void remeshing_evens_edges_and_keeps_the_surface(void **state)
 {
     fl_part p = {0}, q = {0};
     fl_soup s, t;
-    double least, most;
+    double lower, upper;
     fl_mesh_quality m;
     (void)state;
     fl_facet_box(&p, v3(0, 0, 0), v3(1, 2, 3), &err);
     s = soup_of(&p);
     t = soup_of(&p);
     if (fl_cgal_remesh(&s, 0.25, &err)) fail_msg("%s", err.text);
-    assert_int_equal(fl_cgal_distance(&s, &t, 1e-9, &least, &most, &err), 0);
-    assert_true(most < 1e-8);
-    assert_int_equal(fl_cgal_distance(&t, &s, 1e-9, &least, &most, &err), 0);
-    assert_true(most < 1e-8);
+    assert_int_equal(fl_cgal_distance(&s, &t, 1e-9, &lower, &upper, &err), 0);
+    assert_true(upper < 1e-8);
+    assert_int_equal(fl_cgal_distance(&t, &s, 1e-9, &lower, &upper, &err), 0);
+    assert_true(upper < 1e-8);
     set_part(&q, &s);
     m = measure_part(&q);
     assert_int_equal(m.open + m.branched + m.degenerate, 0);
@@ -368,9 +368,9 @@ static void no_triangle_soup_crashes(void **state)
             fl_err e = {0};
             fl_crossing c;
             fl_untangle did;
-            fl_repair mended;
+            fl_repair repair;
             int32_t gone;
-            int rc = fl_cgal_repair(&s, 0, 0.0, &mended, &e);
+            int rc = fl_cgal_repair(&s, 0, 0.0, &repair, &e);
             if (rc == 0 && what == 0) rc = fl_cgal_crossings(&s, &c, &e);
             if (rc == 0 && what == 1) rc = untangle(&s, &did, &e);
             if (rc == 0 && what == 2) rc = fl_cgal_simplify(&s, 0.1, &gone, &e);
@@ -382,9 +382,9 @@ static void no_triangle_soup_crashes(void **state)
             for (int32_t m = 0; m < 3 * s.nt; m++) assert_true(s.t[m] >= 0 && s.t[m] < s.nv);
             for (int32_t m = 0; m < 3 * s.nv; m++) assert_true(isfinite(s.x[m]));
             if (s.nt && t.nt) {
-                double least, most;
-                assert_int_equal(fl_cgal_distance(&s, &t, 1e-6, &least, &most, &e), 0);
-                assert_true(least >= 0.0 && most >= least && most < 10.0);
+                double lower, upper;
+                assert_int_equal(fl_cgal_distance(&s, &t, 1e-6, &lower, &upper, &e), 0);
+                assert_true(lower >= 0.0 && upper >= lower && upper < 10.0);
             }
             fl_soup_free(&s);
             fl_soup_free(&t);
