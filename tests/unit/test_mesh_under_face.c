@@ -3,6 +3,8 @@
 #include <math.h>
 #include "base/pi.h"
 #include "base/rng.h"
+#include "patch/patch_law.h"
+#include "patch/plane_distances.h"
 #include "structure/mesh_contact.h"
 #include "support/near.h"
 
@@ -135,7 +137,7 @@ static void sums_under_a_face_are_the_same(void **state)
                 assert_near_of(v3_norm(v3_sub(fast.m, slow.m)), 0.0, 1.0, off);
                 saved += w.n - points;
             }
-            fl_feature_pairs_free(&l);
+            fl_mesh_under_face_free_pairs(&l);
             fl_poly_free(&box);
         }
         fl_structure_free(&st);
@@ -183,8 +185,8 @@ static void old_lists_change_no_bit(void **state)
         moved += old.n != new.n;
         assert_int_equal(points[0], points[1]);
         assert_memory_equal(&seen[0], &seen[1], sizeof seen[0]);
-        fl_feature_pairs_free(&old);
-        fl_feature_pairs_free(&new);
+        fl_mesh_under_face_free_pairs(&old);
+        fl_mesh_under_face_free_pairs(&new);
     }
     assert_true(moved > 0); /* otherwise nothing has been shown */
     fl_poly_free(&box);

@@ -74,7 +74,8 @@ static void bad_files_are_reported_with_their_line(void **state)
     expect_refusal("<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\"></VTKFile>",
                    "with zlib or not packed");
     expect_refusal(HEAD "<PolyData><Piece>" POINTS, "before </VTKFile>");
-    expect_refusal(HEAD "<PolyData><Piece>" POINTS POLYS("0 1 3", "3") TAIL, "cell 0 wants point 3, 0 to 2");
+    expect_refusal(HEAD "<PolyData><Piece>" POINTS POLYS("0 1 3", "3") TAIL,
+                   "cell 0 refers to point 3, 0 to 2");
     expect_refusal(HEAD "<PolyData><Piece>" POINTS POLYS("0 1 2", "4") TAIL, "corners up to place 4");
     expect_refusal(HEAD "<PolyData><Piece>" POINTS POLYS("0 1 x", "3") TAIL,
                    ":3: \"x\" was found, a number is expected");

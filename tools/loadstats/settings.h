@@ -44,7 +44,7 @@ struct options {
     const char *quantiles_text; /* as given, or NULL */
     const struct table *table;  /* table_kind.h */
     int table_given;
-    enum sample sample;         /* values to which distributions are fitted */
+    int sample;                 /* enum sample: values to which distributions are fitted */
     double gap, block;          /* [s] */
     double area[AREAS_MAX];     /* of windows of local pressure [m^2] */
     double height[HEIGHTS_MAX]; /* rising, of the edges of panels [m] */
