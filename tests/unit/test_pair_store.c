@@ -127,7 +127,7 @@ static void make_all_kinds(lab *l, double stiffness)
 static void a_given_stiffness_acts_on_all_kinds(void **state)
 {
     (void)state;
-    lab l, given;
+    lab l, explicit_world;
     make_all_kinds(&l, 0.0);
     const fl_bodies *b = &l.w.b;
     for (int32_t i = 0; i < l.w.n; i++) {
@@ -138,11 +138,11 @@ static void a_given_stiffness_acts_on_all_kinds(void **state)
             const double area =
                 j == l.w.n ? l.w.max_face_area[i] : fmin(l.w.max_face_area[i], l.w.max_face_area[j]);
             const double R = fl_material_radius(b->radius[i], b->radius[j]);
-            make_all_kinds(&given, face ? fl_material_punch(E, area) : fl_material_hertz(E, R));
-            const fl_pair_spring given = fl_pair_stiffness(&given.w, i, j);
+            make_all_kinds(&explicit_world, face ? fl_material_punch(E, area) : fl_material_hertz(E, R));
+            const fl_pair_spring given = fl_pair_stiffness(&explicit_world.w, i, j);
             assert_true(fabs(given.k / k - 1.0) < 1e-14);
             assert_true(given.exponent == s.exponent && given.points == s.points);
-            lab_free(&given);
+            lab_free(&explicit_world);
         }
     }
     lab_free(&l);
