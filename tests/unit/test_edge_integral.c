@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include "geom/quadrature_rules.h"
 #include "patch/edge_integral.h"
+#include "patch/patch_points.h"
 #include "support/shapes.h"
 
 enum { CASES = 4000 };
