@@ -47,7 +47,8 @@ static void astm_example(void)
             verify_row("F02", "Miner sum of n S^m, m = 3 4 5", damage(&(fl_sn_curve){.m = m[j], .a = 1.0}),
                        sum[j], 1e-14, VERIFY_REL);
         verify_row("F03", "equivalent range, m = 3, (1094 / 4)^(1/3)",
-                   fl_rainflow_equivalent(rainflow.cycles, rainflow.cycle, 3.0), cbrt(273.5), 1e-14, VERIFY_REL);
+                   fl_rainflow_equivalent(rainflow.cycles, rainflow.cycle, 3.0), cbrt(273.5), 1e-14,
+                   VERIFY_REL);
     }
     verify_true("F04", "and repeated for ever",
                 count_cycles(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, 9, x));

@@ -10,7 +10,7 @@
 
 static const fl_vec3 Z = {0, 0, 0};
 
-/* What a base is that many small ones hit. */
+/* The base that many small bodies hit. */
 enum base { HELD, HEAVY, MOORED, BASES };
 static const char *const BASE[] = {"a held body", "a body 1e5 times as heavy", "a structure on springs"};
 
