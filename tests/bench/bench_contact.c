@@ -161,7 +161,7 @@ static double energy_at(lab *l, const fl_pair *p, fl_vec3 d)
     fl_bodies *b = &l->w.b;
     const fl_vec3 x = b->x[0];
     b->x[0] = v3_add(x, d);
-    const double e = lab_look(&l->w, p->i, p->j).energy;
+    const double e = lab_evaluate_pair(&l->w, p->i, p->j).energy;
     b->x[0] = x;
     return e;
 }
@@ -170,7 +170,7 @@ static double energy_at(lab *l, const fl_pair *p, fl_vec3 d)
 static double off_gradient(lab *l, const fl_pair *p)
 {
     const double h = 1e-7;
-    const fl_vec3 f = lab_look(&l->w, p->i, p->j).force;
+    const fl_vec3 f = lab_evaluate_pair(&l->w, p->i, p->j).force;
     const fl_vec3 g = v3(energy_at(l, p, v3(h, 0, 0)) - energy_at(l, p, v3(-h, 0, 0)),
                          energy_at(l, p, v3(0, h, 0)) - energy_at(l, p, v3(0, -h, 0)),
                          energy_at(l, p, v3(0, 0, h)) - energy_at(l, p, v3(0, 0, -h)));
@@ -222,7 +222,7 @@ static double ask_ccd(lab *l, const fl_pair *p, int mpr, double *error)
         found = (mpr ? ccdMPRPenetration(&a, &b, &ccd, &depth, &dir, &at)
                      : ccdGJKPenetration(&a, &b, &ccd, &depth, &dir, &at)) == 0;
     const double spent = (now() - begun) / CCD_TIMES;
-    *error = found ? fabs((double)depth / lab_look(&l->w, p->i, p->j).overlap - 1.0) : -1.0;
+    *error = found ? fabs((double)depth / lab_evaluate_pair(&l->w, p->i, p->j).overlap - 1.0) : -1.0;
     return spent;
 }
 
@@ -247,7 +247,7 @@ static double told(which c, double tolerance, double *looks, double *off)
     *off = 0.0;
     for (int k = 0; k < 400; k++) {
         evaluate_all(&l, 1);
-        const fl_vec3 f = lab_look(&l.w, p->i, p->j).force;
+        const fl_vec3 f = lab_evaluate_pair(&l.w, p->i, p->j).force;
         *off = fmax(*off, v3_norm(v3_sub(v3_sub(p->force, v3_add(p->force_friction, p->force_damping)), f)) /
                               v3_norm(f));
     }
@@ -302,7 +302,7 @@ static fl_pair boxes(const char *law, double tilt, double slide)
             v3(0, 0, 0));
     lab_box(&l, v3(0, 0, 0), v3(2, 2, 0.25), RADIUS, flat, v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 1e-9);
-    const fl_pair p = lab_look(&l.w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
     lab_free(&l);
     return p;
 }

@@ -220,8 +220,8 @@ static int make_globes(globes *m, int32_t rings, int32_t around)
     *m = (globes){0};
     for (int f = 0; f < FRAMES; f++) {
         fl_poly p[2] = {{0}, {0}};
-        if (pair_globe(&p[0], rings, around, v3(1.0, 0.8, 0.6)) ||
-            pair_globe(&p[1], rings, around, v3(0.7, 1.0, 0.9)) || pair_take(&m->q[f], p[0], p[1])) {
+        if (pair_ellipsoid(&p[0], rings, around, v3(1.0, 0.8, 0.6)) ||
+            pair_ellipsoid(&p[1], rings, around, v3(0.7, 1.0, 0.9)) || pair_take(&m->q[f], p[0], p[1])) {
             fl_poly_free(&p[0]);
             fl_poly_free(&p[1]);
             return -1;

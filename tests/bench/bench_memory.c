@@ -28,7 +28,7 @@ static double memory(void)
 static int row(int32_t n, int water)
 {
     lab l;
-    eddies_start(&l, n, STIRRED);
+    stirring_flow_start(&l, n, STIRRED);
     if (water) lab_set(&l, "run.gravity=9.81"), lab_set(&l, "water.current=0.5 0 0");
     const double before = memory();
     lab_make(&l, 0.0);

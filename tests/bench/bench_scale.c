@@ -62,7 +62,7 @@ static void start(field *f, int32_t n)
     f->n = n;
     f->search = INFINITY;
     for (int p = 0; p < PARTS; p++) f->contact[p] = f->emptied[p] = INFINITY;
-    eddies_start(&f->l, n, STIRRED);
+    stirring_flow_start(&f->l, n, STIRRED);
     lab_make(&f->l, 0.0);
     f->bad = lab_run(&f->l, (int64_t)(END / f->l.w.dt));
 }

@@ -196,7 +196,7 @@ static double energy_at(lab *l, fl_vec3 d)
     fl_bodies *b = &l->w.b;
     const fl_vec3 x = b->x[0];
     b->x[0] = v3_add(x, d);
-    const double e = lab_look(&l->w, 0, 1).energy;
+    const double e = lab_evaluate_pair(&l->w, 0, 1).energy;
     b->x[0] = x;
     return e;
 }
@@ -239,7 +239,7 @@ static void told(const structure *c, int edge_on, found *out)
     for (int k = 0; k < 400; k++) {
         go(&l, k);
         fl_pair_evaluate(&l.w, &p, 0, 1e-9, 0);
-        const fl_vec3 f = lab_look(&l.w, 0, 1).force;
+        const fl_vec3 f = lab_evaluate_pair(&l.w, 0, 1).force;
         out->told_off =
             fmax(out->told_off,
                  v3_norm(v3_sub(v3_sub(p.force, v3_add(p.force_friction, p.force_damping)), f)) / v3_norm(f));
@@ -252,7 +252,7 @@ static int run(const structure *c, int edge_on, found *out)
 {
     lab l;
     make(&l, c, edge_on, 0.0);
-    const fl_vec3 f = lab_look(&l.w, 0, 1).force;
+    const fl_vec3 f = lab_evaluate_pair(&l.w, 0, 1).force;
     fl_pair p;
     *out = (found){
         .triangles = l.surface.part[0].nt, .f = v3_norm(f), .off = off_gradient(&l, f), .ns = INFINITY};

@@ -93,7 +93,7 @@ static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touc
         assert_int_equal(lab_run(&l, steps - how->stop), 0);
     }
     const uint64_t got = bits_of(&l.w);
-    if (it->scene == scene_of_traffic) assert_true(l.w.inflow.n_entered > 0 && l.w.inflow.n_left > 0);
+    if (it->scene == scene_of_inflow) assert_true(l.w.inflow.n_entered > 0 && l.w.inflow.n_left > 0);
     if (it->scene == scene_of_bonds && steps >= 200) {
         const fl_bond_counts c = fl_bond_list_counts(&l.w);
         assert_true(c.state[FL_BOND_DAMAGED] > 0 && c.state[FL_BOND_BROKEN] > 0 &&
@@ -121,11 +121,11 @@ static void compare(const way *how, int ways, const what *it, int64_t steps, int
         most = searches > most ? searches : most;
     }
     /* the searches did differ, but for those that every newcomer and every end of a bond asks for */
-    assert_true(most >
-                (it->scene == scene_of_traffic || it->scene == scene_of_visits || it->scene == scene_of_bonds
-                     ? 1
-                     : 4) *
-                    fewest);
+    assert_true(most > (it->scene == scene_of_inflow || it->scene == scene_of_inflow_interval ||
+                                it->scene == scene_of_bonds
+                            ? 1
+                            : 4) *
+                           fewest);
 }
 
 /* 512 bodies: enough for 16 threads. */
@@ -137,9 +137,9 @@ static void threads_and_searches(void **state)
     const way few[] = {
         {1, 0, 1.0, 0, 0, 0}, {16, 0, 0.2, 0, 0, 0}, {16, 1, 1.0, 7, 3, 0}, {3, 0, 1.0, 0, 0, 1}};
     const what it[] = {{scene_of_everything, 8, "patch"},
-                       {scene_of_wraps, 8, "patch"},
-                       {scene_of_traffic, 8, "patch"},
-                       {scene_of_balls, 8, "patch"},
+                       {scene_of_periodic_cell, 8, "patch"},
+                       {scene_of_inflow, 8, "patch"},
+                       {scene_of_spheres, 8, "patch"},
                        {scene_of_bonds, 8, "patch"}};
     (void)state;
     compare(how, sizeof how / sizeof *how, &it[0], 10, 2000);
@@ -148,13 +148,13 @@ static void threads_and_searches(void **state)
 
 static void laws(void **state)
 {
-    static const what IT[] = {{scene_of_everything, 3, "patch"},  {scene_of_everything, 3, "core"},
-                              {scene_of_everything, 3, "manual"}, {scene_of_everything, 3, "manual-si"},
-                              {scene_of_wraps, 3, "patch"},       {scene_of_seas, 3, "patch"},
-                              {scene_of_traffic, 3, "patch"},     {scene_of_balls, 3, "patch"},
-                              {scene_of_bonds, 3, "patch"},       {scene_of_bonds, 3, "manual"},
-                              {scene_of_looks, 3, "patch"},       {scene_of_glances, 3, "patch"},
-                              {scene_of_visits, 3, "patch"},      {scene_of_surrogates, 3, "patch"}};
+    static const what IT[] = {{scene_of_everything, 3, "patch"},      {scene_of_everything, 3, "core"},
+                              {scene_of_everything, 3, "manual"},     {scene_of_everything, 3, "manual-si"},
+                              {scene_of_periodic_cell, 3, "patch"},   {scene_of_seas, 3, "patch"},
+                              {scene_of_inflow, 3, "patch"},          {scene_of_spheres, 3, "patch"},
+                              {scene_of_bonds, 3, "patch"},           {scene_of_bonds, 3, "manual"},
+                              {scene_of_water_interval, 3, "patch"},  {scene_of_sea_interval, 3, "patch"},
+                              {scene_of_inflow_interval, 3, "patch"}, {scene_of_surrogates, 3, "patch"}};
     const way how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                        {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                        {1, 0, 1.0, 0, 0, 1}};
@@ -171,7 +171,7 @@ static void teams_that_change(void **state)
         const char *key;
     } IT[] = {{scene_of_everything, "run.sleep=1e-3"},
               {scene_of_everything, "run.sleep=none"},
-              {scene_of_balls, "contact.law=patch"},
+              {scene_of_spheres, "contact.law=patch"},
               {scene_of_bonds, "contact.law=patch"},
               {scene_of_surrogates, "contact.law=patch"}};
     (void)state;

@@ -269,7 +269,7 @@ static void flush_bodies_do_not_hang_on_rounding(void **state)
                       aside = q_rotate(q, v3(1.1e-9, 0.7e-9, 0));
         for (int c = 0; c < 3; c++) { /* there, and a nanometre to either side */
             lab_pose(&l.w, 0, v3_madd(x, c == 0 ? 0.0 : c == 1 ? 1.0 : -1.0, aside), l.w.b.q[1]);
-            const fl_pair p = lab_look(&l.w, 0, 1);
+            const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
             W[c] = p.energy, f[c] = p.force;
         }
         assert_true(fabs(W[0] / (0.5 * (W[1] + W[2])) - 1.0) < 1e-11);

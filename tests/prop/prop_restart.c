@@ -69,12 +69,13 @@ static void any_step_is_a_place_to_stop(void **state)
     static const struct {
         void (*scene)(lab *l, int32_t side, const char *law);
         const char *law;
-    } IT[] = {
-        {scene_of_everything, "patch"},     {scene_of_everything, "core"}, {scene_of_everything, "manual"},
-        {scene_of_everything, "manual-si"}, {scene_of_wraps, "patch"},     {scene_of_seas, "patch"},
-        {scene_of_balls, "patch"},          {scene_of_traffic, "patch"},   {scene_of_bonds, "patch"},
-        {scene_of_looks, "patch"},          {scene_of_glances, "patch"},   {scene_of_visits, "patch"},
-        {scene_of_surrogates, "patch"}};
+    } IT[] = {{scene_of_everything, "patch"},    {scene_of_everything, "core"},
+              {scene_of_everything, "manual"},   {scene_of_everything, "manual-si"},
+              {scene_of_periodic_cell, "patch"}, {scene_of_seas, "patch"},
+              {scene_of_spheres, "patch"},       {scene_of_inflow, "patch"},
+              {scene_of_bonds, "patch"},         {scene_of_water_interval, "patch"},
+              {scene_of_sea_interval, "patch"},  {scene_of_inflow_interval, "patch"},
+              {scene_of_surrogates, "patch"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
         lab whole;
@@ -155,7 +156,7 @@ static void lists_are_not_seen(void **state)
 
 static void told_and_guided(lab *l)
 {
-    scene_of_traffic(l, 3, "patch");
+    scene_of_inflow(l, 3, "patch");
     lab_set(l, "contact.surrogate=0.01");
     lab_make(l, 0);
 }
@@ -214,8 +215,8 @@ static void who_is_let_go_is_told_as_before(void **state)
  */
 static void a_state_stays_what_it_is(void **state)
 {
-    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {scene_of_everything, scene_of_wraps,
-                                                                     scene_of_surrogates, scene_of_seas};
+    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {
+        scene_of_everything, scene_of_periodic_cell, scene_of_surrogates, scene_of_seas};
     (void)state;
     for (size_t k = 0; k < sizeof SCENE / sizeof *SCENE; k++) {
         lab whole;
@@ -253,7 +254,7 @@ static void a_state_stays_what_it_is(void **state)
  * before: the water was met at the time of these. */
 static void a_step_that_begins_anew_finds_the_water_it_had(void **state)
 {
-    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {scene_of_seas, scene_of_glances};
+    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {scene_of_seas, scene_of_sea_interval};
     (void)state;
     for (size_t k = 0; k < sizeof SCENE / sizeof *SCENE; k++)
         for (int64_t at = 1; at < 10; at++) {

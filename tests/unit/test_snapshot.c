@@ -126,11 +126,11 @@ static void a_layout_has_its_number(void **state)
     (void)state;
     scene_of_everything(&l, 2, NULL), lab_set(&l, "run.sleep=1e-3"), state_of(&all, &l, 0);
     scene_of_seas(&l, 2, NULL), state_of(&all, &l, 0);
-    scene_of_glances(&l, 2, NULL), state_of(&all, &l, 0);
-    scene_of_traffic(&l, 2, NULL), state_of(&all, &l, 0);
-    scene_of_wraps(&l, 3, NULL), state_of(&all, &l, 1);
-    scene_of_balls(&l, 3, NULL), state_of(&all, &l, 1);
-    scene_of_balls(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), state_of(&all, &l, 0);
+    scene_of_sea_interval(&l, 2, NULL), state_of(&all, &l, 0);
+    scene_of_inflow(&l, 2, NULL), state_of(&all, &l, 0);
+    scene_of_periodic_cell(&l, 3, NULL), state_of(&all, &l, 1);
+    scene_of_spheres(&l, 3, NULL), state_of(&all, &l, 1);
+    scene_of_spheres(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), state_of(&all, &l, 0);
     scene_of_bonds(&l, 3, NULL), state_of(&all, &l, 1);
     scene_of_surrogates(&l, 2, NULL), state_of(&all, &l, 0);
     budget_of(&all);

@@ -23,7 +23,7 @@ static void sphere_at(const char *id, const char *what, double r0, double r1, do
     lab_cone(&l, (fl_cone){o, v3_add(o, q_rotate(q, v3(0, 0, h))), r0, r1});
     lab_make(&l, 1e-9);
     lab_pose(&l.w, 0, v3_add(o, q_rotate(q, x)), q_one());
-    const fl_pair p = lab_look(&l.w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
     verify_row(id, what, p.overlap, overlap, 1e-14, VERIFY_ABS);
     if (overlap > 0.0 && v3_norm(n) > 0.0)
         verify_row(id, "  direction", v3_norm(v3_sub(v3_unit(p.force), q_rotate(q, v3_unit(n)))), 0.0, 1e-13,
@@ -83,7 +83,7 @@ static void all_round_cylinder(void)
             const fl_vec3 out = v3(cos(a), sin(a), 0);
             lab_pose(&l.w, 0, v3_scale(R + reach[edge], out),
                      q_about_axis(2, a + (edge ? PI - atan2(0.35, 0.45) : 0.0)));
-            const fl_pair p = lab_look(&l.w, 0, 1);
+            const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
             off = fmax(off, fabs(p.overlap - 0.01));
             turn = fmax(turn, v3_norm(v3_cross(v3_unit(p.force), out)));
             low = fmin(low, v3_dot(p.force, out)), high = fmax(high, v3_dot(p.force, out));
@@ -100,7 +100,7 @@ static void all_round_cylinder(void)
 static double energy_at(lab *l, fl_vec3 x, fl_quat q)
 {
     lab_pose(&l->w, 0, x, q);
-    return lab_look(&l->w, 0, 1).energy;
+    return lab_evaluate_pair(&l->w, 0, 1).energy;
 }
 
 /* Force and torque against differences of the energy, on cylinders and cones, with and without the
@@ -128,7 +128,7 @@ static void energy_gradient(void)
                 e = energy_at(&l, v3((far - 0.01) * cos(a), (far - 0.01) * sin(a), z), q);
             const fl_vec3 x = v3(far * cos(a), far * sin(a), z);
             lab_pose(&l.w, 0, x, q);
-            const fl_pair p = lab_look(&l.w, 0, 1);
+            const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
             if (!(p.overlap > 0.002)) continue;
             const double h = 1e-7;
             fl_vec3 f, t;
@@ -167,7 +167,7 @@ static void cylinder_as_wall(void)
             make_floe_on_cone(&l, 1e6, 1e6, 4.0);
         }
         lab_pose(&l.w, 0, v3(k ? 0.495 : 1e6 + 0.495, 0.01, 0.02), q);
-        const fl_pair p = lab_look(&l.w, 0, 1);
+        const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
         f[k] = v3_norm(p.force) / p.k; /* a wall has another stiffness than a structure */
         lab_free(&l);
     }
@@ -223,13 +223,13 @@ static void moving_hull(void)
     const fl_aabb box = node[0].box;
     const fl_vec3 x = v3(2.49, 0.3, 0.1);
     lab_pose(&l.w, 0, x, l.w.q0[0]);
-    const fl_pair before = lab_look(&l.w, 0, 1);
+    const fl_pair before = lab_evaluate_pair(&l.w, 0, 1);
     lab_pose(&l.w, 0, v3(60, 0, 0), q_one());
     lab_run(&l, 1000);
     const fl_bodies *m = &l.w.moving.movers.b;
     const fl_vec3 from = v3_sub(x, v3(0.2, 0.1, 0));
     lab_pose(&l.w, 0, v3_add(m->x[0], m3_mul(fl_body_axes(m, 0), from)), q_mul(m->q[0], l.w.q0[0]));
-    const fl_pair after = lab_look(&l.w, 0, 1);
+    const fl_pair after = lab_evaluate_pair(&l.w, 0, 1);
     char what[96];
     snprintf(what, sizeof what, "a hull of %d triangles, moved and turned for 1 s: force", shell->tree.n);
     verify_row("hull", what,

@@ -56,7 +56,7 @@ static double largest_jump(lab *l, sampler at, double from, double to, double fi
 
 static sample sample_contact(lab *l, double s)
 {
-    const fl_pair p = lab_look(&l->w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(&l->w, 0, 1);
     const double f = v3_norm(p.force);
     return (sample){s, f, p.energy, p.torque_i.y, v3_scale(1.0 / f, p.force), p.force, p.mode};
 }
@@ -613,7 +613,7 @@ static double equilibrium_overlap(lab *l, int32_t i, int32_t j, double load)
     double s = 1e-3;
     for (int k = 0; k < 30; k++) {
         l->w.b.x[i].z = z - s;
-        s *= load / v3_norm(lab_look(&l->w, i < j ? i : j, i < j ? j : i).force);
+        s *= load / v3_norm(lab_evaluate_pair(&l->w, i < j ? i : j, i < j ? j : i).force);
     }
     l->w.b.x[i].z = z;
     return s;

@@ -25,7 +25,7 @@ static double energy_error_of_gas(const char *law, double safety, double time, d
                                   double *surrogate_share)
 {
     lab l;
-    if (surrogate > 0.0) lab_gas_told(&l, safety, surrogate);
+    if (surrogate > 0.0) lab_gas_surrogate(&l, safety, surrogate);
     else lab_gas(&l, law, safety);
     const double start = lab_energy(&l);
     const int64_t some = (int64_t)(0.5 / l.w.dt);
@@ -84,7 +84,7 @@ static double force_of_face(double area, double radius, double overlap)
     lab_box(&l, v3(0, 0, 3.0 * h), v3(h, h, h), radius, q_one(), ZERO, ZERO);
     lab_make(&l, 1e-9);
     l.w.b.x[1].z -= overlap;
-    const double f = v3_norm(lab_look(&l.w, 0, 1).force);
+    const double f = v3_norm(lab_evaluate_pair(&l.w, 0, 1).force);
     lab_free(&l);
     return f;
 }
@@ -111,7 +111,7 @@ static double slide_force(void *what, double s, double t)
     fl_vec3 f[2];
     for (int k = 0; k < 2; k++) {
         l->w.b.x[1].x = k ? t : s;
-        f[k] = lab_look(&l->w, 0, 1).force;
+        f[k] = lab_evaluate_pair(&l->w, 0, 1).force;
     }
     return v3_norm(v3_sub(f[1], f[0]));
 }
@@ -124,11 +124,11 @@ static void slide_off_face(void)
     lab_box(&l, v3(0, 0, 0), v3(0.5, 0.4, 0.3), radius, q_one(), ZERO, ZERO);
     lab_box(&l, v3(0, 0.1, 0.6 - s), v3(0.5, 0.4, 0.3), radius, q_one(), ZERO, ZERO);
     lab_make(&l, 1e-9);
-    const double whole = v3_norm(lab_look(&l.w, 0, 1).force);
+    const double whole = v3_norm(lab_evaluate_pair(&l.w, 0, 1).force);
     double most = 0.0, before = INFINITY;
     for (int k = 0; k <= 1000; k++) {
         l.w.b.x[1].x = 1e-3 * k;
-        const double f = fabs(lab_look(&l.w, 0, 1).force.z) / whole;
+        const double f = fabs(lab_evaluate_pair(&l.w, 0, 1).force.z) / whole;
         if (k > 0) most = fmax(most, f - before);
         before = f;
     }

@@ -178,7 +178,7 @@ static void far_from_origin(void)
         lab_box(&l, v3(k * shift, 0, 0), v3(0.5, 0.5, 0.25), 0.0625, q_one(), ZERO, ZERO);
         lab_box(&l, v3(k * shift + 0.125, 0.25, 0.49609375), v3(0.5, 0.5, 0.25), 0.0625, q_one(), ZERO, ZERO);
         lab_make(&l, 1e-9);
-        f[k] = lab_look(&l.w, 0, 1).force;
+        f[k] = lab_evaluate_pair(&l.w, 0, 1).force;
         lab_free(&l);
     }
     verify_below("H20", "1000 km away: change of a force over its size",
@@ -235,7 +235,8 @@ static void extreme_laws(void)
     }
     verify_below("H31", "mu 0.3 and 1e6, or e 0 and 0.5; all laws: energy gained",
                  fmax(worst[0][0], worst[1][0]), 0.0);
-    verify_below("H31", "mu 0 and e 1; patch, core: energy gained", worst[0][1], fmax(1e-4, lab_told()));
+    verify_below("H31", "mu 0 and e 1; patch, core: energy gained", worst[0][1],
+                 fmax(1e-4, lab_surrogate_tolerance()));
     verify_note("the forces of the manual follow from no potential: where their modes change, energy is "
                 "gained or lost");
     verify_below("H31", "mu 0 and e 1; manual, manual-si: energy gained", worst[1][1], 0.01);
@@ -310,9 +311,9 @@ static void tabulate_springs(double d, double between[NODES], double plate[NODES
     const fl_quat q0 = l.w.b.q[0], q1 = l.w.b.q[1];
     for (int k = 0; k < NODES; k++) {
         lab_pose(&l.w, 0, v3(0, 0, 0), q0), lab_pose(&l.w, 1, v3(1.0 - k * d, 0, 0), q1);
-        between[k] = v3_norm(lab_look(&l.w, 0, 1).force);
+        between[k] = v3_norm(lab_evaluate_pair(&l.w, 0, 1).force);
         lab_pose(&l.w, 1, v3(1.0 + k * d, 0, 0), q1);
-        plate[k] = v3_norm(lab_look(&l.w, 1, 2).force);
+        plate[k] = v3_norm(lab_evaluate_pair(&l.w, 1, 2).force);
     }
     lab_free(&l);
 }
@@ -361,7 +362,7 @@ static void jam_of_row(void)
     verify_note("%d floes in a row are pushed at %g m/s against a plate: %.3g m/s through the ice", JAM,
                 speed, (JAM - 1) / travel);
     verify_row("H27", "force on the plate against a chain of masses, over the largest", off / most, 0.0,
-               fmax(1e-4, lab_told()), VERIFY_ABS);
+               fmax(1e-4, lab_surrogate_tolerance()), VERIFY_ABS);
     verify_row("H27", "arrival of the first wave over length / speed", arrived / travel, 1.0, 0.1,
                VERIFY_ABS);
     verify_below("H27", "largest overlap over the radii", l.w.max_overlap, 0.3);
@@ -490,7 +491,7 @@ static void contact_after_bond(int round)
                       : "blocks: failed, opened, in contact again",
                 seen[0] && seen[1] && seen[2] && seen[3] && v3_norm(last) > 0.01 * size);
     verify_below("H33", "jump of the force beyond stiffness x path, over the force", jump / size,
-                 fmax(1e-9, lab_told()));
+                 fmax(1e-9, lab_surrogate_tolerance()));
     verify_below("H33", "force where the contact replaces the bond, over the force", left / size, 1e-9);
     lab_free(&l);
 }
@@ -559,7 +560,8 @@ static void work_per_body(void)
 int main(void)
 {
     verify_begin("hard cases");
-    if (lab_told() > 0.0) verify_note("contacts by surrogates of %g", lab_told());
+    if (lab_surrogate_tolerance() > 0.0)
+        verify_note("contacts by surrogates of %g", lab_surrogate_tolerance());
     thin_floe();
     mass_ratio();
     crush_pebble();

@@ -30,7 +30,7 @@ static void triangles(lab *l, int32_t nv, const fl_vec3 *v, int32_t nt, const in
 static fl_pair evaluate_at(lab *l, fl_vec3 x, fl_quat q)
 {
     lab_pose(&l->w, 0, x, q);
-    return lab_look(&l->w, 0, 1);
+    return lab_evaluate_pair(&l->w, 0, 1);
 }
 
 /* Deviation of force and moment from the gradient of the energy, over the force: the best of several

@@ -99,7 +99,7 @@ static double automatic_step(lab *l, const packing *h, int measured)
 {
     fl_world *w = &l->w;
     int32_t body;
-    if (h->half.x == 0.0) w->b.v[0].x = sqrt(0.8 * lab_look(w, 0, 1).k * pow(1e-3, 2.5) / w->b.m[0]);
+    if (h->half.x == 0.0) w->b.v[0].x = sqrt(0.8 * lab_evaluate_pair(w, 0, 1).k * pow(1e-3, 2.5) / w->b.m[0]);
     lab_set(l, measured ? "run.error=0.01" : "run.error=none");
     const double dt = fl_automatic_step(w, &body), share = dt / fl_critical_step(w) * fl_lateral_share(w);
     const fl_predicted_limit foreseen = fl_predict_step_limit(w);

@@ -45,7 +45,7 @@ static void sphere_and_cylinder(void)
     verify_note("overlap of a sphere of 0.1 m and the cylinder of 0.5 m between z = 0 and 2 [m]");
     for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
         lab_pose(&l.w, 0, at[k].x, q_one());
-        const fl_pair p = lab_look(&l.w, 0, 1);
+        const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
         verify_row("V30", at[k].what, p.overlap, at[k].overlap, 1e-14, VERIFY_ABS);
         if (at[k].overlap == 0.0) continue;
         const fl_vec3 n = v3_scale(1.0 / v3_norm(p.force), p.force);
@@ -109,7 +109,7 @@ static fl_vec3 start_of_slide;
 static fl_vec3 force_at(lab *l, double s)
 {
     l->w.b.x[0] = v3_add(start_of_slide, v3(s, 0.37 * s, 0));
-    return lab_look(&l->w, 0, 1).force;
+    return lab_evaluate_pair(&l->w, 0, 1).force;
 }
 
 static double force_change(void *what, double s, double t)
@@ -130,7 +130,7 @@ static void wall_by_triangles(void)
             for (int k = 0; k < 6; k++) {
                 lab l;
                 on_face(&l, (enum face)kind, ns[k / 2], k % 2, sphere);
-                const fl_pair p = lab_look(&l.w, 0, 1);
+                const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
                 if (k == 0) f0 = p.force, t0 = p.torque_i;
                 off = fmax(off,
                            fmax(v3_norm(v3_sub(p.force, f0)), v3_norm(v3_sub(p.torque_i, t0))) / v3_norm(f0));
@@ -170,7 +170,7 @@ static void rounded_coordinates(void)
             verify_row("H29", "  faces", piece->core.nf, 6, 0, VERIFY_ABS);
             verify_row("H29", "  vertices", piece->core.nv, 8, 0, VERIFY_ABS);
         }
-        f[k] = lab_look(&l.w, 0, 1).force;
+        f[k] = lab_evaluate_pair(&l.w, 0, 1).force;
         lab_free(&l);
     }
     /* a plane through rounded corners has an error of 1e-7 m, against an overlap of 0.01 m */
@@ -217,9 +217,9 @@ static double walk_change(void *what, double s, double t)
 {
     const walk *w = what;
     w->l->w.b.x[0] = v3_sub(w->path(s), w->tip);
-    const fl_pair a = lab_look(&w->l->w, 0, 1);
+    const fl_pair a = lab_evaluate_pair(&w->l->w, 0, 1);
     w->l->w.b.x[0] = v3_sub(w->path(t), w->tip);
-    const fl_pair b = lab_look(&w->l->w, 0, 1);
+    const fl_pair b = lab_evaluate_pair(&w->l->w, 0, 1);
     if (w->energy) return fabs(b.energy - a.energy) / fmax(a.energy, b.energy);
     return v3_norm(v3_sub(b.force, a.force)) / fmax(v3_norm(a.force), v3_norm(b.force));
 }
@@ -540,7 +540,7 @@ static double energy_difference(lab *l, fl_vec3 x, fl_quat q, fl_vec3 d, fl_vec3
     for (int k = 0; k < 2; k++) {
         const double way = k ? -1.0 : 1.0;
         lab_pose(&l->w, 0, v3_madd(x, way, d), q_mul(q_of_vector(v3_scale(way, turn)), q));
-        e[k] = lab_look(&l->w, 0, 1).energy;
+        e[k] = lab_evaluate_pair(&l->w, 0, 1).energy;
     }
     lab_pose(&l->w, 0, x, q);
     return 0.5 * (e[0] - e[1]);
@@ -573,7 +573,7 @@ static void gradient_on_hull(void)
         lab_make(&l, 1e-9);
         const fl_vec3 x = v3(0.013, 0.007, low + 0.044), axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         lab_pose(&l.w, 0, x, q);
-        const fl_pair now = lab_look(&l.w, 0, 1);
+        const fl_pair now = lab_evaluate_pair(&l.w, 0, 1);
         for (int c = 0; c < 3; c++) {
             const fl_vec3 d = v3_scale(h, axis[c]);
             df = fmax(df, fabs(v3_dot(now.force, axis[c]) + energy_difference(&l, x, q, d, ZERO) / h));
