@@ -127,7 +127,7 @@ const char *fuzz_file(const unsigned char *data, size_t n)
     return scratch;
 }
 
-/* --- bytes ---------------------------------------------------------------------------------------------- */
+/* --- bytes -------------------------------------------------------------------------------------------- */
 
 /* Replaces `cut` bytes at `from` by put[n]. */
 static void splice(bytes *b, int32_t from, int32_t cut, const void *put, int32_t n)
@@ -183,7 +183,7 @@ static void load_corpus(const char *folder)
     if (files) qsort(corpus, (size_t)files, sizeof *corpus, compare_names);
 }
 
-/* --- damage --------------------------------------------------------------------------------------------- */
+/* --- damage ------------------------------------------------------------------------------------------- */
 
 static int32_t below(fl_rng *g, int32_t n) { return n > 0 ? (int32_t)(fl_rng_u64(g) % (uint64_t)n) : 0; }
 
@@ -317,7 +317,7 @@ static void damage(bytes *out, const bytes *file, int64_t m)
     for (int32_t k = 1 + below(&g, 4); k > 0; k--) damage_once(out, &g);
 }
 
-/* --- a file of the corpus ------------------------------------------------------------------------------- */
+/* --- a file of the corpus ----------------------------------------------------------------------------- */
 
 /* Processor time, not elapsed time: the load of the machine must not fail a reader. */
 static void limit_time(time_t seconds)

@@ -15,7 +15,7 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* --- a row of blocks along x ------------------------------------------------------------------- */
+/* --- a row of blocks along x -------------------------------------------------------------------------- */
 
 /* n bonded blocks of a bar that starts at x = 0.  Scene keys are set before. */
 static void make_bar(lab *l, int32_t n, double length, double width, double height, double radius)
@@ -146,7 +146,7 @@ static void bending_frequency(void)
     lab_free(&l);
 }
 
-/* --- one face ---------------------------------------------------------------------------------- */
+/* --- one face ----------------------------------------------------------------------------------------- */
 
 /* Two blocks of 0.4 m with a face of 0.3 by 0.2 m.  For a displacement u and a rotation v of the second
  * block about the centre of the face: force, moment about that centre, and whether the bond is intact. */
@@ -274,7 +274,7 @@ static void softening_cycle(void)
     lab_free(&l);
 }
 
-/* --- the balance of energy ------------------------------------------------------------------------ */
+/* --- the balance of energy ---------------------------------------------------------------------------- */
 
 /* A plate of 4 x 4 boxes whose boxes fly apart at 0.3 m/s each: faces soften, break, close, slide and are
  * removed; or they break at once. */
@@ -322,7 +322,7 @@ static void energy_balance(void)
     }
 }
 
-/* --- bars and beams that break ----------------------------------------------------------------- */
+/* --- bars and beams that break ------------------------------------------------------------------------ */
 
 /* The bar is pulled at both ends, slowly against its elastic waves.  The middle face is a thousandth
  * weaker, for the place where a uniform bar breaks depends on rounding. */

@@ -13,7 +13,7 @@
 #include "sim/step.h"
 #include "world/access.h"
 
-/* --- the scenes -------------------------------------------------------------------------------- */
+/* --- the scenes --------------------------------------------------------------------------------------- */
 
 static const fl_vec3 NONE = {0, 0, 0};
 
@@ -155,7 +155,7 @@ static const scene SCENE[] = {
     {"current, two legs", two_legs, 0.6},       {"current, nine floes, a post", field, 0.5}};
 enum { SCENES = sizeof SCENE / sizeof *SCENE, PARTS = 2 };
 
-/* --- a run ------------------------------------------------------------------------------------- */
+/* --- a run -------------------------------------------------------------------------------------------- */
 
 static const double EVERY = 0.02;
 
@@ -281,7 +281,7 @@ static void crowded_floes(void)
     verify_true("E12", "the report says that it exceeds the budget", chosen.since >= 0.0);
 }
 
-/* --- the order ----------------------------------------------------------------------------------- */
+/* --- the order ---------------------------------------------------------------------------------------- */
 
 static int by_value(const void *a, const void *b)
 {
@@ -314,7 +314,7 @@ static void order_of_impulse(void)
     verify_row("E10", "order of the sum over all scenes", 0.5 * log2(all / all_then), 2.0, 0.4, VERIFY_ABS);
 }
 
-/* --- without a budget -------------------------------------------------------------------------- */
+/* --- without a budget --------------------------------------------------------------------------------- */
 
 /* The error that the report gives for the automatic step, at no cost, against steps of a sixteenth.
  * Returns bits: 1 the peak error is at most 1.6 times the reported one, 2 the impulse is within its bound.
@@ -422,7 +422,7 @@ static void report_of_automatic_step(void)
     verify_row("E05", "impulse errors above the reported one", over, 0, 0, VERIFY_ABS);
 }
 
-/* --- horizon of prediction ----------------------------------------------------------------------- */
+/* --- horizon of prediction ---------------------------------------------------------------------------- */
 
 /* Elastic square floes that collide about a post between walls: neighbouring trajectories diverge. */
 static void billiards(lab *l)
@@ -445,7 +445,7 @@ static void make_billiards(lab *l, int neighbour, double seconds, double error)
     billiards(l);
 }
 
-/* --- contacts of little effect, and interrupted searches ------------------------------------------- */
+/* --- contacts of little effect, and interrupted searches ---------------------------------------------- */
 
 /* Two floes that graze one another at 0.1 mm/s, beside one that tumbles through the water: a world at t = 0
  * and its error budget. */

@@ -15,8 +15,7 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* --- continuity -------------------------------------------------------------------------------------------
- */
+/* --- continuity --------------------------------------------------------------------------------------- */
 
 typedef struct {
     double s, f, w, t; /* parameter, size of the force, energy, torque about y */
@@ -196,8 +195,7 @@ static void tilt_on_box(const char *law, int pass)
     }
 }
 
-/* --- energy -----------------------------------------------------------------------------------------------
- */
+/* --- energy ------------------------------------------------------------------------------------------- */
 
 /* Drops the box of V40 with the given tilts on a block.  Returns energy after over energy before. */
 static double drop_box(const char *law, double tx, double ty, double fraction)
@@ -263,8 +261,7 @@ static void energy_of_drops(void)
     verify_order("V40", "patch: mean |ratio - 1| against dt over the automatic", h, off, 4, 2.5, 0.3);
 }
 
-/* --- the hard cases ---------------------------------------------------------------------------------------
- */
+/* --- the hard cases ----------------------------------------------------------------------------------- */
 
 static void nearly_parallel(void)
 {

@@ -13,7 +13,7 @@
 #define G 9.81
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* --- the driven row ---------------------------------------------------------------------------- */
+/* --- the driven row ----------------------------------------------------------------------------------- */
 
 /* A driven floe that is free to heave is held by its spring; a free floe beside it is not. */
 static void heave_of_driven_floe(void)
@@ -92,7 +92,7 @@ static void drive_chain(void)
     lab_free(&l);
 }
 
-/* --- H26 ---------------------------------------------------------------------------------------- */
+/* --- H26 ---------------------------------------------------------------------------------------------- */
 
 /* One floe is driven against a fixed one whose edge lies lower by half of the thickness: it slides over or
  * under it. */
@@ -144,7 +144,7 @@ static void raft_over_floe(double tilt)
     lab_free(&l);
 }
 
-/* --- H27 ---------------------------------------------------------------------------------------- */
+/* --- H27 ---------------------------------------------------------------------------------------------- */
 
 /* A loose field between walls is compacted by a driven row until it jams. */
 static void jam_field(void)
@@ -231,7 +231,7 @@ static void wave_through_row(void)
     lab_free(&l);
 }
 
-/* --- H28 ---------------------------------------------------------------------------------------- */
+/* --- H28 ---------------------------------------------------------------------------------------------- */
 
 /* A floe is pressed between two cylinders, by its weight along x or by a current; the mirrored scene moves
  * alike.  In water it rolls when it hits, and friction keeps the rounding of that: up to 1e-7 m, which is
@@ -271,7 +271,7 @@ static void press_between_cylinders(double off, int wet)
     lab_free(&l);
 }
 
-/* --- H31 ---------------------------------------------------------------------------------------- */
+/* --- H31 ---------------------------------------------------------------------------------------------- */
 
 /* Laws with extreme parameters: energy never grows. */
 static void extreme_laws(void)

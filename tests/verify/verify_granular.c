@@ -17,7 +17,7 @@ static void run_for(lab *l, double seconds)
     if (lab_run(l, (int64_t)(seconds / l->w.dt))) exit(1);
 }
 
-/* --- V26: a block on a slope ----------------------------------------------------------------------- */
+/* --- V26: a block on a slope -------------------------------------------------------------------------- */
 
 #define BASE 10.0 /* wide [m] */
 #define ROUND 0.05
@@ -89,7 +89,7 @@ static void blocks_on_slope(void)
                 tilt_block(11.9, 45.0 * DEGREES).tilt > 10.0 * DEGREES);
 }
 
-/* --- heaps of spheres ------------------------------------------------------------------------------ */
+/* --- heaps of spheres --------------------------------------------------------------------------------- */
 
 /* Across [m]; a slice of five. */
 #define D 0.1

@@ -45,7 +45,7 @@ static void start_world(lab *l)
     lab_cone(l, (fl_cone){v3(0, 0, -1), v3(0, 0, 1), 0.5, 0.5});
 }
 
-/* --- prescribed motion ----------------------------------------------------------------------- */
+/* --- prescribed motion -------------------------------------------------------------------------------- */
 
 /* Largest error of a track of n intervals against sin(2 t) and 0.5 sin(3 t): displacement, velocity,
  * position of a piece. */
@@ -139,7 +139,7 @@ static void clamp_in_rotation(void)
                  3e-7); /* the velocities at its end are predicted to order 2 */
 }
 
-/* --- on springs ------------------------------------------------------------------------------ */
+/* --- on springs --------------------------------------------------------------------------------------- */
 
 /* Displacement of a mass at time s after the other end of its spring and dashpot has stepped by 1:
  *     x = 1 - exp(-D w s) (cos wd s - D w/wd sin wd s),  wd = w sqrt(1 - D^2);
@@ -283,7 +283,7 @@ static void dashpot(void)
     }
 }
 
-/* --- among the ice --------------------------------------------------------------------------- */
+/* --- among the ice ------------------------------------------------------------------------------------ */
 
 static fl_vec3 total_momentum(const lab *l, fl_vec3 *turn)
 {

@@ -27,7 +27,7 @@ typedef struct {
     long ccd_meet, mpr_none, mpr_wrong, epa_none, epa_wrong, capped;
 } tally;
 
-/* ---- libccd -------------------------------------------------------------------------------------------- */
+/* --- libccd ------------------------------------------------------------------------------------------- */
 
 typedef struct {
     fl_core c;
@@ -87,7 +87,7 @@ static void compare_libccd(const pair_case *q, const oracle_gap *o, tally *t)
     }
 }
 
-/* ---- lib/narrow ---------------------------------------------------------------------------------------- */
+/* --- lib/narrow --------------------------------------------------------------------------------------- */
 
 static double angle_to_oracle(const oracle_gap *o, fl_vec3 n)
 {

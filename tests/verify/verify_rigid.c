@@ -29,7 +29,7 @@ static const char *label_of(const char *what, const char *word)
     return line;
 }
 
-/* --- no contacts: floor `body` alone ----------------------------------------------------------------- */
+/* --- no contacts: floor `body` alone ------------------------------------------------------------------ */
 
 static int one_body(fl_bodies *b, fl_vec3 I, fl_vec3 w, double m)
 {
@@ -190,8 +190,7 @@ static void heavy_top(void)
     verify_order("V18", "omega(10 s) against the step [s]", h, error, 4, 2.0, 0.1);
 }
 
-/* --- box against box ---------------------------------------------------------------------------------------
- */
+/* --- box against box ---------------------------------------------------------------------------------- */
 
 static void total_momenta(const lab *l, fl_vec3 *p, fl_vec3 *J, double *ps, double *Js)
 {
@@ -263,8 +262,7 @@ static void box_impacts(void)
     verify_below("V23", "largest |dJ| over the sum of |J|", dJ, 1e-12);
 }
 
-/* --- block on an incline
- * ------------------------------------------------------------------------------------ */
+/* --- block on an incline ------------------------------------------------------------------------------ */
 
 /* A block rests on the plane z = 0 under a gravity that is inclined by `slope`.  It starts at its
  * equilibrium overlap. */
@@ -346,8 +344,7 @@ static void stand_on_slopes(void)
     stand_on_slope(1, verify_quick() ? 6.0 : 60.0);
 }
 
-/* --- rocking
- * ------------------------------------------------------------------------------------------------ */
+/* --- rocking ------------------------------------------------------------------------------------------ */
 
 /* A block of 2b x 2h = 0.5 x 2 m, tilted about its right foot at x = 0; depth 0.5 m.
  *     bars  it stands on two bars with its outermost 2 mm, not on a plane.  Housner's landing is an impulse at the other foot; a base that closes over its whole width is hit along all of it, and loses less */
@@ -423,8 +420,7 @@ static void rocking_block(void)
     }
 }
 
-/* --- the ledger
- * --------------------------------------------------------------------------------------------- */
+/* --- the ledger --------------------------------------------------------------------------------------- */
 
 /* A box falls on a plane with spin, bounces and slides to rest: largest residual on the way over the
  * initial energy.  `fine` divides the automatic step. */

@@ -13,7 +13,7 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* --- triangles ----------------------------------------------------------------------------------- */
+/* --- triangles ---------------------------------------------------------------------------------------- */
 
 static void triangles(lab *l, int32_t nv, const fl_vec3 *v, int32_t nt, const int32_t (*t)[3], fl_quat q)
 {
@@ -58,7 +58,7 @@ static double off_gradient(lab *l, fl_vec3 x, fl_quat q, double step)
     return best;
 }
 
-/* --- inclined walls of an L, with a floe near them that does not touch ------------------------------ */
+/* --- inclined walls of an L, with a floe near them that does not touch -------------------------------- */
 
 /* An L of 2 m with legs of 1 m, 4 m high, and the two blocks of which it consists. */
 static void make_ell(lab *l, fl_quat q, fl_poly block[2])
@@ -175,7 +175,7 @@ static void beside_free_edges(void)
     lab_free(&l);
 }
 
-/* --- seams ------------------------------------------------------------------------------------------ */
+/* --- seams -------------------------------------------------------------------------------------------- */
 
 /* Two panels that meet in x = 0 and rise (or fall) by the slope on both sides. */
 static void two_panels(lab *l, double slope)
@@ -292,7 +292,7 @@ static void inner_corners(void)
     }
 }
 
-/* --- degenerate triangles -------------------------------------------------------------------------- */
+/* --- degenerate triangles ----------------------------------------------------------------------------- */
 
 static void flat_triangles(void)
 {
@@ -455,7 +455,7 @@ static void many_corners(void)
     verify_below("SH9", "a disc of 240 corners: |F + grad W| / F", worst, 3e-7);
 }
 
-/* --- slim corners --------------------------------------------------------------------------------------- */
+/* --- slim corners ------------------------------------------------------------------------------------- */
 
 static void slim_wedges(void)
 {

@@ -46,8 +46,7 @@ static const char *label(const char *what, const char *of)
     return line;
 }
 
-/* --- one impact -------------------------------------------------------------------------------------------
- */
+/* --- one impact --------------------------------------------------------------------------------------- */
 
 typedef struct {
     double force, depth, time; /* largest normal force [N] and overlap [m]; duration [s] */
@@ -204,8 +203,7 @@ static void damped_impact(void)
     }
 }
 
-/* --- oblique impacts --------------------------------------------------------------------------------------
- */
+/* --- oblique impacts ---------------------------------------------------------------------------------- */
 
 static double tangential_ratio(const material *m) { return 2.0 * (1.0 - m->poisson) / (2.0 - m->poisson); }
 
@@ -330,8 +328,7 @@ static void spinning_spheres(void)
     }
 }
 
-/* --- damping ----------------------------------------------------------------------------------------------
- */
+/* --- damping ------------------------------------------------------------------------------------------ */
 
 /* M s'' = -F(s, s') from s = 0, s' = v, by the classical Runge-Kutta method; returns -s'(end)/v.  The contact
  * ends when s is 0 again (attract), or when F falls to 0.  The last step is shortened onto the end by
@@ -525,8 +522,7 @@ static void hunt_crossley(void)
     verify_order("V10", "boxes by patch: e against the step", h, error, 4, 2.0, 0.3);
 }
 
-/* --- longer motions ---------------------------------------------------------------------------------------
- */
+/* --- longer motions ----------------------------------------------------------------------------------- */
 
 /* A sphere lies on a plane and rolls from rest: no rolling friction, mu > 2/7 tan(slope). */
 static void roll_from_rest(void)

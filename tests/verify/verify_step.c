@@ -180,7 +180,7 @@ static void pinched_capsule(const char *id, double half, double share)
     verify_below(id, "largest stable step over the initial estimate", stable / bound, 4.0);
 }
 
-/* --- with damping ------------------------------------------------------------------------------ */
+/* --- with damping ------------------------------------------------------------------------------------- */
 
 /* A body at rest on a wall: a sphere or a box.  A box that is rotated about y leans on another wall, or on
  * a step. */
@@ -423,7 +423,7 @@ static void box_in_slot(const char *id)
         }
 }
 
-/* --- accuracy, beside stability ------------------------------------------------------------------ */
+/* --- accuracy, beside stability ----------------------------------------------------------------------- */
 
 /* Spheres with friction in close packing between walls settle under their weight.  Returns the impulse on
  * the floor in each tenth of the time, for a number of steps [N s]. */

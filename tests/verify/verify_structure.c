@@ -73,7 +73,7 @@ static void crossed_cylinders(void)
     }
 }
 
-/* --- flat walls ------------------------------------------------------------------------------------ */
+/* --- flat walls --------------------------------------------------------------------------------------- */
 
 enum face { WALL, OPEN, PLATE };
 static const char *const FACE[3] = {"block", "block without a side", "plate"};
