@@ -53,7 +53,7 @@ energy_every = $end
 END
     dem-solve -q --ice ice.dat --report report -o loads scene 2>err || fail "dem-solve: $(cat err)"
     awk -v bodies=$bodies '
-        /ns a body-step/ {
+        /ns per body-step/ {
             print "step", $1 * bodies / 1e9
             for (k = 1; k < NF; k++) if (sub(/^\(/, "", $k)) print "pairs", $k
         }

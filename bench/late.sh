@@ -60,7 +60,7 @@ second()
 }
 
 # Time of a contact and step on the clock [ns].
-cost() { awk '/ns a contact-step/ { print $5 }' "$1"; }
+cost() { awk '/ns per contact-step/ { print $5 }' "$1"; }
 
 # row START TOLERANCE: what its least run took, and what it did in the second.  What is told of a run that
 # goes on is of all of it: what was told before is taken away.
@@ -70,8 +70,8 @@ row()
     [ "$1" = checkpoint ] && before=before-$2.report since=$after
     awk -v first="$1 $2" -v since="$since" '
         /^steps/ { done = steps; steps = $2 }
-        /ns a contact-step/ { ns = $5; contacts = substr($9, 2); all += (steps - done) * contacts }
-        /^surrogate/ { earlier = told; told = $2 * all }
+        /ns per contact-step/ { ns = $5; contacts = substr($9, 2); all += (steps - done) * contacts }
+        /^surrogate/ { earlier = told; told = $3 * all }
         /^processor/ { cpu = $2 }
         /^state hash/ { hash = $3 }
         FNR == 1 { split("", col) }

@@ -8,8 +8,8 @@ FNR == 1 { file++; split("", col); t0 = 0 }
 file == 1 {
     if (/^steps/) { steps = $2; dt = $4 }
     if (/simulated in/) { T = $2; wall += $6 }
-    if (/found by/) wall += $(NF - 1)
-    if (/ns a body-step/) { for (k = 1; k < NF; k++) if (index($k, "(") == 1) contacts = substr($k, 2) }
+    if (/steps in trials/) wall += $(NF - 1)
+    if (/ns per body-step/) { for (k = 1; k < NF; k++) if (index($k, "(") == 1) contacts = substr($k, 2) }
     if (/^processor/) cpu = $2
     if (/^energy residual/) energy = $3
     if (/^largest overlap/) overlap = $3

@@ -43,10 +43,13 @@ errors()
         "$1/$3.loads" "$1/$2.state" "$1/$3.state"
 }
 
-# asleep REPORT: the part of the body-steps, steps at a time, largest error over the radius, and its largest sum.
-asleep()
+# skipped REPORT: share of the body-steps skipped, steps per skip, largest error over the radius, and its largest sum.
+skipped()
 {
-    sed -n 's/^asleep *\([^ ]*\) of all body-steps coasting, \([^ ]*\) at a time.* off by \([^ ]*\) of the radius.*and \([^ ]*\) in all/\1\t\2\t\3\t\4/p' "$1"
+    sed -n '
+        s/^sleeping *\([^ ]*\) % of body-steps skipped without contact, \([^ ]*\) steps per skip.*/\1 \2/p
+        s/^ *error of a skip at most \([^ ]*\) of the radius.*, \([^ ]*\) in sum.*/\1 \2/p' "$1" |
+        awk 'NR == 1 { share = $1 / 100; span = $2 } NR == 2 { print share "\t" span "\t" $1 "\t" $2 }'
 }
 
 # row SCENE TOLERANCE SLEEP: what the run took, what slept, and how far it is off.
@@ -54,9 +57,9 @@ row()
 {
     name=$2-$3
     r=$1/$name.report
-    slept=$(asleep "$r")
+    slept=$(skipped "$r")
     { errors "$1" "$name" reference && errors "$1" "$name" 0-none; } |
-        awk -v at="$1	$2	$3" -v told="$(number "$r" surrogate)" -v slept="${slept:-0	-	-	-}" '
+        awk -v at="$1	$2	$3" -v told="$(number "$r" "surrogate share")" -v slept="${slept:-0	-	-	-}" '
             BEGIN { FS = OFS = "\t" }
             NR == 1 { first = at OFS $2 OFS $4 OFS (told == "" ? 0 : told) OFS slept OFS $9 OFS $10 OFS $12
                       cost = $5 OFS $7 OFS $14 }

@@ -50,7 +50,7 @@ row()
     r=$1/$name.report
     printf '%s\t%s\t%s\t' "$1" "$2" "$3"
     { errors "$1" "$name" reference && errors "$1" "$name" "$2-0"; } |
-        awk -v seen="$(number "$r" 'step over critical')" -v told="$(number "$r" surrogate)" \
+        awk -v seen="$(number "$r" 'step over critical')" -v told="$(number "$r" "surrogate share")" \
             -v off="$(number "$r" 'told in')" -v worst="$(number "$r" 'of them, by')" '
             BEGIN { FS = OFS = "\t" }
             function given(x, other) { return x == "" ? other : x }

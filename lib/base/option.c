@@ -55,7 +55,7 @@ int fl_option_time(const char *word, const char *text, double *seconds, fl_err *
             return 0;
         }
     }
-    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", expected a time above 0, as 90 or 90s 10min 3h 2d 50a",
+    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", expected a time above 0, as 90, 10min, 3h, 2d or 50a",
                    word, text);
 }
 
@@ -267,15 +267,4 @@ int fl_options_read(const fl_option_table *t, void *options, unsigned char *give
     for (; optind < argc; optind++)
         if (read_operand(t, options, argv[optind], err)) return -1;
     return 0;
-}
-
-int fl_option_unknown(const char *program, const struct option *known, int c, int letter, const char *word,
-                      fl_err *err)
-{
-    if (c == ':') return fl_fail(err, FL_USAGE, "%.60s needs a value, see %s --help", word, program);
-    if (!letter) return fl_fail(err, FL_USAGE, "%.60s is no option, see %s --help", word, program);
-    for (; known->name; known++)
-        if (known->val == letter)
-            return fl_fail(err, FL_USAGE, "%.60s: that option takes no value, see %s --help", word, program);
-    return fl_fail(err, FL_USAGE, "-%c is no option, see %s --help", letter, program);
 }

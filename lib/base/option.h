@@ -106,10 +106,4 @@ int fl_option_numbers(const char *word, const char *text, char divide, int least
 /* Calls `call` for each entry of a list with commas; an empty entry is an error. */
 int fl_option_each(const char *word, const char *text, fl_option_call *call, void *options, fl_err *err);
 
-/* Until every program reads its options by a table. */
-struct option;
-int fl_option_unknown(const char *program, const struct option *known, int c, int letter, const char *word,
-                      fl_err *err);
-#define fl_option_whole fl_option_integer
-
 #endif

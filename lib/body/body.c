@@ -8,31 +8,33 @@ int fl_bodies_alloc(fl_bodies *b, int32_t n, int32_t total, fl_err *err)
     const struct {
         void *array;
         size_t size;
-    } want[] = {{&b->x, sizeof *b->x},
-                {&b->v, sizeof *b->v},
-                {&b->L, sizeof *b->L},
-                {&b->q, sizeof *b->q},
-                {&b->w, sizeof *b->w},
-                {&b->f, sizeof *b->f},
-                {&b->t, sizeof *b->t},
-                {&b->m, sizeof *b->m},
-                {&b->invm, sizeof *b->invm},
-                {&b->I, sizeof *b->I},
-                {&b->invI, sizeof *b->invI},
-                {&b->radius, sizeof *b->radius},
-                {&b->bounding_radius, sizeof *b->bounding_radius},
-                {&b->core, sizeof *b->core},
-                {&b->fixed_dof, sizeof *b->fixed_dof},
-                {&b->is_isotropic, sizeof *b->is_isotropic},
-                {&b->work_of_constraints, sizeof *b->work_of_constraints},
-                {&b->odometer, sizeof *b->odometer}};
-    for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
-        void *p = fl_alloc((int64_t)total + 1, want[k].size, err); /* four numbers of the last x are there */
+    } arrays[] = {{&b->x, sizeof *b->x},
+                  {&b->v, sizeof *b->v},
+                  {&b->L, sizeof *b->L},
+                  {&b->q, sizeof *b->q},
+                  {&b->w, sizeof *b->w},
+                  {&b->f, sizeof *b->f},
+                  {&b->t, sizeof *b->t},
+                  {&b->m, sizeof *b->m},
+                  {&b->invm, sizeof *b->invm},
+                  {&b->I, sizeof *b->I},
+                  {&b->invI, sizeof *b->invI},
+                  {&b->radius, sizeof *b->radius},
+                  {&b->bounding_radius, sizeof *b->bounding_radius},
+                  {&b->core, sizeof *b->core},
+                  {&b->fixed_dof, sizeof *b->fixed_dof},
+                  {&b->is_isotropic, sizeof *b->is_isotropic},
+                  {&b->work_of_constraints, sizeof *b->work_of_constraints},
+                  {&b->odometer, sizeof *b->odometer}};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        void *p =
+            /* +1: SIMD loads of the last x read four numbers */
+            fl_alloc((int64_t)total + 1, arrays[k].size, err);
         if (!p) {
             fl_bodies_free(b);
             return -1;
         }
-        *(void **)want[k].array = p;
+        *(void **)arrays[k].array = p;
     }
     for (int32_t i = 0; i < total; i++) {
         b->q[i] = q_one();

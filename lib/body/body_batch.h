@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* body_batch.h -- a few bodies side by side, one array a quantity, so that the formulae of integrate.h take several
- * at a time.  Each body gets the bits that it gets there: fl_kick() and fl_drift() of bodies that
- * nothing holds and that are no balls.  Each has a step of its own.
+/* body_batch.h -- up to 16 bodies side by side, one array per quantity: fl_kick() and fl_drift() on SIMD
+ * lanes.
  *
- *     fl_body_batch_load(), fl_body_batch_update_axes(), fl_body_batch_load_forces(), fl_body_batch_load_pose();
- *     fl_body_batch_kick() or fl_body_batch_kick_momentum(), fl_body_batch_drift();
- *     fl_body_batch_store_velocities(), fl_body_batch_store_pose()
+ * Each body gets the same bits as from integrate.h. A body here has no fixed degree of freedom and is not
+ * isotropic. Each has its own step. The order of calls:
  *
- * Where they move water with them that is taken by fl_body_batch_load_water(), given to what it bears on, and put
- * back by fl_body_batch_store_water(); else it is NULL.
+ *     fl_body_batch_load(), _update_axes(), _load_forces(), _load_pose();
+ *     fl_body_batch_kick() or _kick_momentum(), fl_body_batch_drift();
+ *     fl_body_batch_store_velocities(), _store_pose()
  *
- * What is taken and not put back stays as it was.  Bodies that follow one another and fill their registers
- * are a row, whose arrays are moved whole; others are picked out one by one, and lanes that are left in the
- * last register are filled with the last of them. */
+ * With added mass, fl_body_batch_load_water() loads the added mass and the flow. They are passed on to kick,
+ * drift and drag, and fl_body_batch_store_water() stores the result. Without added mass that argument is
+ * NULL.
+ *
+ * Arrays that are loaded and not stored stay unchanged. A batch is contiguous if its bodies are consecutive
+ * and fill whole registers: its arrays move as blocks. Other bodies are gathered one by one, and unused lanes
+ * of the last register repeat the last body. */
 #ifndef FL_BODY_BODY_BATCH_H
 #define FL_BODY_BODY_BATCH_H
 #include "base/simd.h"
@@ -22,37 +25,37 @@
 enum { FL_BODY_BATCH = 16 };
 
 typedef struct {
-    int32_t n, lanes;                     /* bodies, and lanes that are filled: n <= lanes <= FL_BODY_BATCH */
-    int32_t contiguous;                   /* whether they are one */
-    const int32_t *index;                 /* [lanes] which */
-    _Alignas(64) double h[FL_BODY_BATCH]; /* half of the step [s] */
-    double m[FL_BODY_BATCH], invm[FL_BODY_BATCH], invI[3][FL_BODY_BATCH]; /* what they are, as in body.h */
+    int32_t n, lanes;                     /* bodies, and filled lanes: n <= lanes <= FL_BODY_BATCH */
+    int32_t contiguous;                   /* 1: consecutive bodies that fill all lanes */
+    const int32_t *index;                 /* [lanes] body of each lane */
+    _Alignas(64) double h[FL_BODY_BATCH]; /* half the step [s] */
+    double m[FL_BODY_BATCH], invm[FL_BODY_BATCH], invI[3][FL_BODY_BATCH]; /* constants, as in body.h */
     double v[3][FL_BODY_BATCH], L[3][FL_BODY_BATCH], w[3][FL_BODY_BATCH];
     double q[4][FL_BODY_BATCH], R[9][FL_BODY_BATCH]; /* R row by row */
     double f[3][FL_BODY_BATCH], t[3][FL_BODY_BATCH];
     double x[3][FL_BODY_BATCH], odometer[FL_BODY_BATCH], bounding_radius[FL_BODY_BATCH];
 } fl_body_batch;
 
-/* Of bodies that move water with them, as in body.h. */
+/* Added mass of the bodies of a batch, as in body.h. */
 typedef struct {
     _Alignas(64) double added_mass[3][FL_BODY_BATCH],
         flow_velocity[3][FL_BODY_BATCH], flow_work[FL_BODY_BATCH];
 } fl_body_batch_water;
 
-/* Of 1 to FL_BODY_BATCH bodies at[]: m, invm, invI, q, v, L and w; half of their step is h.  at has room for FL_BODY_BATCH,
- * and is kept. */
+/* Loads m, invm, invI, q, v, L and w of bodies at[0 .. n), 1 <= n <= FL_BODY_BATCH. h is half their step. at
+ * has FL_BODY_BATCH elements and is borrowed. */
 void fl_body_batch_load(fl_body_batch *s, const fl_bodies *b, int32_t *at, int32_t n, double h);
 
-/* R of q. */
+/* Updates R from q. */
 void fl_body_batch_update_axes(fl_body_batch *s);
 
-/* Of the same: f and t; x, odometer and bound. */
+/* Loads f and t; x, odometer and bounding_radius. */
 void fl_body_batch_load_forces(fl_body_batch *s, const fl_bodies *b);
 void fl_body_batch_load_pose(fl_body_batch *s, const fl_bodies *b);
 
 void fl_body_batch_load_water(fl_body_batch_water *a, const fl_bodies *b, const fl_body_batch *s);
 
-/* f and t of the k-th of them. */
+/* Loads f and t of lane k. */
 static inline void fl_body_batch_load_force(fl_body_batch *s, const fl_bodies *b, int32_t k)
 {
     const fl_vec3 f = b->f[s->index[k]], t = b->t[s->index[k]];
@@ -60,13 +63,13 @@ static inline void fl_body_batch_load_force(fl_body_batch *s, const fl_bodies *b
     s->t[0][k] = t.x, s->t[1][k] = t.y, s->t[2][k] = t.z;
 }
 
-/* Of an array that has a number a body, where theirs are to be written: where they lie, or in room. */
+/* Where to write an array a with one number per body: in place if contiguous, else in room. */
 static inline double *fl_body_batch_buffer(const fl_body_batch *s, double *a, double room[FL_BODY_BATCH])
 {
     return s->contiguous ? &a[s->index[0]] : room;
 }
 
-/* The same, and there they are. */
+/* The numbers of a batch in array a: in place if contiguous, else gathered into room. */
 static inline double *fl_body_batch_gather(const fl_body_batch *s, double *a, double room[FL_BODY_BATCH])
 {
     int32_t k = 0;
@@ -76,37 +79,37 @@ static inline double *fl_body_batch_gather(const fl_body_batch *s, double *a, do
     return room;
 }
 
-/* And back, what has become of them there. */
+/* Writes gathered numbers back to array a. Does nothing if contiguous. */
 static inline void fl_body_batch_scatter(const fl_body_batch *s, double *a, const double *seen)
 {
     for (int32_t k = 0; k < s->n && !s->contiguous; k++) a[s->index[k]] = seen[k];
 }
 
-/* Weight and nothing else: f = m g, t = 0. */
+/* Sets f = m g, t = 0. */
 void fl_body_batch_set_weight(fl_body_batch *s, fl_vec3 gravity);
 
-/* As fl_kick(), by h; wants R. */
+/* fl_kick() by h; needs R. */
 void fl_body_batch_kick(fl_body_batch *s, const fl_body_batch_water *a);
 
-/* The same of v and L alone, of bodies that move no water, where w is not asked for before fl_body_batch_drift(),
- * which puts in another. */
+/* fl_kick() of v and L alone, without added mass; for callers that do not read w before
+ * fl_body_batch_drift(), which sets it anew. */
 void fl_body_batch_kick_momentum(fl_body_batch *s);
 
-/* What such a kick changes: g[0..2] of v, g[3..5] of w, which wants R. */
+/* Change of v (g[0..2]) and w (g[3..5]) by such a kick; needs R. */
 void fl_body_batch_velocity_change(const fl_body_batch *s, const fl_body_batch_water *a,
                                    double (*g)[FL_BODY_BATCH]);
 
-/* As fl_drift(), by 2 h; with water it wants R, which it renews.  Returns 1; or 0 and nothing is changed when
- * one of them turns by more than a radian or so in that, for which the series here is not made. */
+/* fl_drift() by 2 h; with added mass it needs R and updates it. Returns 1, or 0 with nothing changed if a
+ * body turns by more than about a radian in the step, beyond the range of the series. */
 int fl_body_batch_drift(fl_body_batch *s, fl_body_batch_water *a);
 
 void fl_body_batch_store_forces(const fl_body_batch *s, fl_bodies *b);     /* f, t */
 void fl_body_batch_store_velocities(const fl_body_batch *s, fl_bodies *b); /* v, L, w */
 void fl_body_batch_store_pose(const fl_body_batch *s, fl_bodies *b);       /* x, q, odometer */
 void fl_body_batch_store_water(const fl_body_batch *s, const fl_body_batch_water *a,
-                               fl_bodies *b); /* carried */
+                               fl_bodies *b); /* flow_work */
 
-/* For loops over lanes: a vector of the i-th of them; a is const or not, which a function would not take. */
+/* Vector of lane i, for loops over lanes. A macro, since a may be const or not. */
 #define FL_BODY_BATCH_VEC(a, i) v3((a)[0][i], (a)[1][i], (a)[2][i])
 
 FL_SIMD_INLINE void fl_body_batch_set_vec(double (*a)[FL_BODY_BATCH], int32_t i, fl_vec3 v)
@@ -114,14 +117,14 @@ FL_SIMD_INLINE void fl_body_batch_set_vec(double (*a)[FL_BODY_BATCH], int32_t i,
     a[0][i] = v.x, a[1][i] = v.y, a[2][i] = v.z;
 }
 
-/* Its axes. */
+/* R of lane i by rows. */
 FL_SIMD_INLINE fl_rows3 fl_body_batch_axes(const fl_body_batch *s, int32_t i)
 {
     return (fl_rows3){FL_BODY_BATCH_VEC(s->R, i), FL_BODY_BATCH_VEC(s->R + 3, i),
                       FL_BODY_BATCH_VEC(s->R + 6, i)};
 }
 
-/* fl_body_momentum() and fl_body_velocity_of_momentum() with added masses. */
+/* fl_body_momentum() and fl_body_velocity_of_momentum() with added mass. */
 FL_SIMD_INLINE fl_vec3 fl_body_batch_momentum(fl_rows3 R, double m, fl_vec3 added, fl_vec3 v)
 {
     return v3_madd(r3_mul(R, v3_mul(added, r3_tmul(R, v))), m, v);
@@ -133,7 +136,7 @@ FL_SIMD_INLINE fl_vec3 fl_body_batch_velocity(fl_rows3 R, double m, fl_vec3 adde
     return r3_mul(R, v3(p.x / (m + added.x), p.y / (m + added.y), p.z / (m + added.z)));
 }
 
-/* Of vectors that follow each other the four from the k-th on to arrays of their components, and back. */
+/* Four consecutive vectors from lane k on to component arrays, and back. */
 FL_SIMD_INLINE void fl_body_batch_unpack_vec(double (*to)[FL_BODY_BATCH], const fl_vec3 *a, int32_t k)
 {
     fl_simd v[3];
@@ -147,7 +150,7 @@ FL_SIMD_INLINE void fl_body_batch_pack_vec(fl_vec3 *a, const double (*from)[FL_B
     fl_simd_to_triples(&a[k], v);
 }
 
-/* The same of four numbers of each of structs of so many bytes. */
+/* The same for four numbers of each of consecutive structs of `bytes` bytes. */
 FL_SIMD_INLINE void fl_body_batch_unpack4(double (*to)[FL_BODY_BATCH], const void *a, size_t bytes, int32_t k)
 {
     const char *at = (const char *)a + (size_t)k * bytes;
@@ -157,7 +160,7 @@ FL_SIMD_INLINE void fl_body_batch_unpack4(double (*to)[FL_BODY_BATCH], const voi
     FL_SIMD_UNROLL for (int c = 0; c < FL_SIMD_WIDTH; c++) FL_SIMD_STORE(&to[c][k]) = r[c];
 }
 
-/* The same of those that are picked out, from k on. */
+/* The same for structs gathered by index, from lane k on. */
 FL_SIMD_INLINE void fl_body_batch_gather4(double (*to)[FL_BODY_BATCH], const void *a, size_t bytes,
                                           const int32_t *at, int32_t k)
 {

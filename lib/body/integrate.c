@@ -2,8 +2,8 @@
 #include "base/simd.h"
 #include "body/integrate.h"
 
-/* Rounding alone moves |q| from 1: one Newton step for 1/sqrt(|q|^2) takes it back. */
-static fl_quat renormal(fl_quat q)
+/* Only rounding moves |q| from 1: one Newton step for 1/sqrt(|q|^2) removes it. */
+static fl_quat normalise(fl_quat q)
 {
     const double s = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
@@ -26,7 +26,7 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3
     l = v3_dot(e, L);
     if (a0 != 0.0) q = q_mul(q, q_about_axis(0, a0 * l));
     *mean = v3_madd(top, 0.5 * less, v3_madd(first, l, e));
-    return renormal(q);
+    return normalise(q);
 }
 
 void fl_kick(fl_bodies *b, int32_t i, double h)
@@ -39,7 +39,7 @@ void fl_kick(fl_bodies *b, int32_t i, double h)
     if (b->fixed_dof[i]) fl_body_apply_fixed_dof(b, i, v0, w0);
 }
 
-/* Solve the k x k system a x = y, k <= 3, a symmetric and positive definite (Cholesky). */
+/* Solves the k x k system a x = y, k <= 3, with a symmetric and positive definite (Cholesky). */
 static void solve_spd(int k, double a[3][3], const double *y, double *x)
 {
     for (int i = 0; i < k; i++) {
@@ -60,9 +60,9 @@ static void solve_spd(int k, double a[3][3], const double *y, double *x)
     }
 }
 
-/* The vector u whose held components are those given and whose free ones have the momentum Y = A u, where A
- * has the diagonal `diag` in the axes of R.  hold: bit r for the world's axis r. */
-static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3 given, fl_vec3 Y)
+/* The vector u with the given fixed components whose free components satisfy Y = A u; A is `diag` in the axes
+ * of R. hold: bit r fixes world axis r. */
+static fl_vec3 solve_free_dof(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3 given, fl_vec3 Y)
 {
     double A[3][3], a[3][3], y[3], s[3], u[3];
     int free_axis[3], k = 0;
@@ -85,62 +85,62 @@ static fl_vec3 solve_free(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_vec3
     return v3(u[0], u[1], u[2]);
 }
 
-/* The turning part: w of the held axes given, of the free ones from what is left of L. */
-static void hold_turn(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
+/* Sets the fixed components of w as given, and the free ones from L. */
+static void apply_fixed_rotation(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
 {
     const fl_mat3 R = fl_body_axes(b, i);
-    fl_body_set_spin(b, i, solve_free(&R, b->I[i], hold / FL_DOF_RX, w_held, b->L[i]));
+    fl_body_set_spin(b, i, solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, w_held, b->L[i]));
 }
 
-/* The velocity of body i that has the momentum P, but for what is held. */
-static fl_vec3 hold_speed(const fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 P)
+/* Velocity of body i at momentum P, with its fixed components as given. */
+static fl_vec3 velocity_with_fixed_dof(const fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 P)
 {
     const unsigned hold = b->fixed_dof[i] & (FL_DOF_X | FL_DOF_Y | FL_DOF_Z);
     const fl_vec3 m = v3(b->m[i], b->m[i], b->m[i]);
     if (!hold) return fl_body_velocity_of_momentum(b, i, P);
     const fl_mat3 R = fl_body_axes(b, i);
-    return solve_free(&R, v3_add(m, b->added_mass[i]), hold, v_held, P);
+    return solve_free_dof(&R, v3_add(m, b->added_mass[i]), hold, v_held, P);
 }
 
-/* Work of an impulse of what holds: only along the held axes is it one, beyond rounding. */
-static double holding_straight(unsigned hold, fl_vec3 impulse, fl_vec3 v)
+/* Work of a constraint impulse. It acts along fixed axes only; other components are rounding. */
+static double linear_constraint_work(unsigned hold, fl_vec3 impulse, fl_vec3 v)
 {
     return (hold & FL_DOF_X ? impulse.x * v.x : 0.0) + (hold & FL_DOF_Y ? impulse.y * v.y : 0.0) +
            (hold & FL_DOF_Z ? impulse.z * v.z : 0.0);
 }
 
-/* Work of a turning impulse of what holds: only along the held axes is it one, beyond rounding. */
-static double holding(unsigned hold, fl_vec3 impulse, fl_vec3 w)
+/* Work of an angular constraint impulse. It acts about fixed axes only; other components are rounding. */
+static double angular_constraint_work(unsigned hold, fl_vec3 impulse, fl_vec3 w)
 {
     return (hold & FL_DOF_RX ? impulse.x * w.x : 0.0) + (hold & FL_DOF_RY ? impulse.y * w.y : 0.0) +
            (hold & FL_DOF_RZ ? impulse.z * w.z : 0.0);
 }
 
-/* What holds a turn acts between kicks too: with products of inertia, turning about one axis takes a torque
- * about the others.  It has no component along the free axes, so L keeps its free components and w its held
- * ones.  By the midpoint, order 2. */
-static void drift_held(fl_bodies *b, int32_t i, double dt)
+/* A constraint of rotation acts between kicks too: with products of inertia, rotation about one axis needs a
+ * torque about the others. It has no component about the free axes, so L keeps its free components and w its
+ * fixed ones. Midpoint rule, order 2. */
+static void drift_fixed_rotation(fl_bodies *b, int32_t i, double dt)
 {
     const unsigned hold = b->fixed_dof[i];
     const fl_quat q = b->q[i];
     const fl_vec3 w = b->w[i], L = b->L[i];
     b->q[i] = q_mul(q_of_vector(v3_scale(0.5 * dt, w)), q);
-    hold_turn(b, i, hold, w);
-    b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
+    apply_fixed_rotation(b, i, hold, w);
+    b->q[i] = normalise(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
     b->L[i] = L;
-    hold_turn(b, i, hold, w);
-    b->work_of_constraints[i] += holding(hold, v3_sub(b->L[i], L), w);
+    apply_fixed_rotation(b, i, hold, w);
+    b->work_of_constraints[i] += angular_constraint_work(hold, v3_sub(b->L[i], L), w);
 }
 
-/* How far a step from q to r takes a point at distance 1 at most: the chord 2 sin(angle/2).  |w| dt would not
- * do, for w changes on the way. */
-static double chord(fl_quat q, fl_quat r)
+/* Largest path of a point at distance 1 in the rotation from q to r: the chord 2 sin(angle/2). |w| dt is no
+ * bound, since w changes within the step. */
+static double chord_of_turn(fl_quat q, fl_quat r)
 {
     const fl_quat d = q_mul(r, q_conj(q));
     return 2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
 }
 
-static void turn(fl_bodies *b, int32_t i, double dt)
+static void drift_rotation(fl_bodies *b, int32_t i, double dt)
 {
     const fl_quat q = b->q[i];
     const int held = b->fixed_dof[i] & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ);
@@ -149,19 +149,18 @@ static void turn(fl_bodies *b, int32_t i, double dt)
         return;
     }
     if (held) {
-        drift_held(b, i, dt);
-    } else if (b->is_isotropic[i]) { /* turns about L for ever, and nothing of it moves by that */
-        b->q[i] = renormal(q_mul(q_of_vector(v3_scale(dt * b->invI[i].x, b->L[i])), q));
+        drift_fixed_rotation(b, i, dt);
+    } else if (b->is_isotropic[i]) { /* it turns about L, and no point of its core moves by that */
+        b->q[i] = normalise(q_mul(q_of_vector(v3_scale(dt * b->invI[i].x, b->L[i])), q));
         return;
     } else {
         b->q[i] = fl_drift_rotation(q, b->L[i], b->invI[i], dt, &b->w[i]);
     }
-    b->odometer[i] += chord(q, b->q[i]) * b->bounding_radius[i];
+    b->odometer[i] += chord_of_turn(q, b->q[i]) * b->bounding_radius[i];
 }
 
-/* Half a step straight on, with the moment of the water on a body that goes askew; P goes with the speed u
- * through it. */
-static void go_straight(fl_bodies *b, int32_t i, double h, fl_vec3 P)
+/* Half a translation, with Munk's moment; P is the momentum of the velocity u through the water. */
+static void translate_with_water(fl_bodies *b, int32_t i, double h, fl_vec3 P)
 {
     const unsigned hold = b->fixed_dof[i];
     const fl_vec3 v = b->v[i], w = b->w[i];
@@ -171,13 +170,13 @@ static void go_straight(fl_bodies *b, int32_t i, double h, fl_vec3 P)
     b->w[i] = fl_body_apply_inverse_inertia(b, i, b->L[i]);
     if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) {
         const fl_vec3 L = b->L[i];
-        hold_turn(b, i, hold, w);
-        b->work_of_constraints[i] += holding(hold, v3_sub(b->L[i], L), w);
+        apply_fixed_rotation(b, i, hold, w);
+        b->work_of_constraints[i] += angular_constraint_work(hold, v3_sub(b->L[i], L), w);
     }
 }
 
 /* 1/2 U.M_a U */
-static double carried(const fl_bodies *b, int32_t i)
+static double flow_energy(const fl_bodies *b, int32_t i)
 {
     const fl_vec3 u = m3_tmul(fl_body_axes(b, i), b->flow_velocity[i]);
     return 0.5 * v3_dot(u, v3_mul(b->added_mass[i], u));
@@ -186,19 +185,19 @@ static double carried(const fl_bodies *b, int32_t i)
 static void drift_with_water(fl_bodies *b, int32_t i, double dt)
 {
     const fl_vec3 U = b->flow_velocity[i], v = b->v[i];
-    const double before = carried(b, i);
+    const double before = flow_energy(b, i);
     fl_vec3 P = fl_body_momentum(b, i, v3_sub(v, U));
-    go_straight(b, i, 0.5 * dt, P);
-    turn(b, i, dt);
+    translate_with_water(b, i, 0.5 * dt, P);
+    drift_rotation(b, i, dt);
     const fl_vec3 mean = b->w[i];
-    b->v[i] = v3_add(U, hold_speed(b, i, v3_sub(v, U), P));
+    b->v[i] = v3_add(U, velocity_with_fixed_dof(b, i, v3_sub(v, U), P));
     if (b->fixed_dof[i]) {
         const fl_vec3 now = fl_body_momentum(b, i, v3_sub(b->v[i], U));
-        b->work_of_constraints[i] += holding_straight(b->fixed_dof[i], v3_sub(now, P), v);
+        b->work_of_constraints[i] += linear_constraint_work(b->fixed_dof[i], v3_sub(now, P), v);
         P = now;
     }
-    b->flow_work[i] += carried(b, i) - before;
-    go_straight(b, i, 0.5 * dt, P);
+    b->flow_work[i] += flow_energy(b, i) - before;
+    translate_with_water(b, i, 0.5 * dt, P);
     if (!(b->fixed_dof[i] & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ))) b->w[i] = mean;
 }
 
@@ -210,7 +209,7 @@ void fl_drift(fl_bodies *b, int32_t i, double dt)
     }
     b->x[i] = v3_madd(b->x[i], dt, b->v[i]);
     b->odometer[i] += fabs(dt) * v3_norm(b->v[i]);
-    turn(b, i, dt);
+    drift_rotation(b, i, dt);
 }
 
 void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *turn)
@@ -218,7 +217,7 @@ void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *t
     const unsigned hold = b->fixed_dof[i];
     const fl_vec3 rest = v3(0, 0, 0);
     if (b->added_mass) {
-        *a = hold_speed(b, i, rest, b->f[i]);
+        *a = velocity_with_fixed_dof(b, i, rest, b->f[i]);
     } else {
         *a = v3_scale(b->invm[i], b->f[i]);
         if (hold & FL_DOF_X) a->x = 0.0;
@@ -230,23 +229,23 @@ void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *t
         return;
     }
     const fl_mat3 R = fl_body_axes(b, i);
-    *turn = solve_free(&R, b->I[i], hold / FL_DOF_RX, rest, b->t[i]);
+    *turn = solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, rest, b->t[i]);
 }
 
-/* --- balls, several at a time ------------------------------------------------------------------ */
+/* --- isotropic bodies, four at a time ---------------------------------------------------------- */
 
-/* From the first of them on. */
+/* Arrays from the first body of the run on. */
 typedef struct {
     const double *invm;
     const fl_vec3 *invI, *f, *t;
     fl_vec3 *v, *L, *w, *x;
     fl_quat *q;
     double *odometer;
-} plain;
+} isotropic_run;
 
 #define NORM2(a) (a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
 
-/* q_versine() and q_sinc() of four. */
+/* q_versine() and q_sinc() of four lanes. */
 FL_SIMD_INLINE void versine_and_sinc(const fl_simd *x2, fl_simd *versine, fl_simd *sinc)
 {
     const fl_simd x = *x2, v = x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720))),
@@ -264,9 +263,9 @@ FL_SIMD_INLINE void versine_and_sinc(const fl_simd *x2, fl_simd *versine, fl_sim
     *versine = FL_SIMD_SELECT(few, v, cosine), *sinc = FL_SIMD_SELECT(few, f, sine);
 }
 
-/* Kick and drift of the four from the k-th on; whether they did turn: by more than the series is for they do
- * not. */
-FL_SIMD_INLINE int move_four(const plain *a, int32_t k, double h, double dt)
+/* Kick and drift of the four bodies from k on. Returns 0, without the drift, if one turns beyond the range of
+ * the series. */
+FL_SIMD_INLINE int kick_drift_four(const isotropic_run *a, int32_t k, double h, double dt)
 {
     const fl_simd s = h * FL_SIMD_LOAD(&a->invm[k]);
     fl_simd ease[3], f[3], t[3], v[3], L[3], w[3], r[3], x[3], q[4];
@@ -315,23 +314,23 @@ FL_SIMD_INLINE int move_four(const plain *a, int32_t k, double h, double dt)
     return 1;
 }
 
-/* The first of n, a multiple of four, that do not turn as the others do, or n; up to it all are done, and its
- * four are kicked. */
-FL_SIMD4_VERSIONS static int32_t move_plain(const plain *restrict a, int32_t from, int32_t n, double h,
-                                            double dt)
+/* Runs until four bodies turn beyond the series: returns the first of those four, kicked and not drifted, or
+ * n. n is a multiple of four. */
+FL_SIMD4_VERSIONS static int32_t kick_drift_run(const isotropic_run *restrict a, int32_t from, int32_t n,
+                                                double h, double dt)
 {
     for (int32_t k = from; k < n; k += FL_SIMD_WIDTH)
-        if (!move_four(a, k, h, dt)) return k;
+        if (!kick_drift_four(a, k, h, dt)) return k;
     return n;
 }
 
 void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
 {
     const int32_t n = to - from, four = n - n % FL_SIMD_WIDTH;
-    const plain a = {b->invm + from, b->invI + from, b->f + from, b->t + from, b->v + from,
-                     b->L + from,    b->w + from,    b->x + from, b->q + from, b->odometer + from};
+    const isotropic_run a = {b->invm + from, b->invI + from, b->f + from, b->t + from, b->v + from,
+                             b->L + from,    b->w + from,    b->x + from, b->q + from, b->odometer + from};
     for (int32_t k = 0; k < four;) {
-        const int32_t wild = move_plain(&a, k, four, h, dt);
+        const int32_t wild = kick_drift_run(&a, k, four, h, dt);
         for (k = wild; k < four && k < wild + FL_SIMD_WIDTH; k++) fl_drift(b, from + k, dt);
     }
     for (int32_t k = four; k < n; k++) {
@@ -340,12 +339,12 @@ void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, d
     }
 }
 
-/* u for Y by solve_free() with nothing given, as a matrix. */
-static fl_sym3 free_ease(const fl_mat3 *R, fl_vec3 diag, unsigned hold)
+/* The matrix from Y to u of solve_free_dof() with the fixed components zero. */
+static fl_sym3 free_inverse(const fl_mat3 *R, fl_vec3 diag, unsigned hold)
 {
-    const fl_vec3 none = v3(0, 0, 0), x = solve_free(R, diag, hold, none, v3(1, 0, 0)),
-                  y = solve_free(R, diag, hold, none, v3(0, 1, 0)),
-                  z = solve_free(R, diag, hold, none, v3(0, 0, 1));
+    const fl_vec3 none = v3(0, 0, 0), x = solve_free_dof(R, diag, hold, none, v3(1, 0, 0)),
+                  y = solve_free_dof(R, diag, hold, none, v3(0, 1, 0)),
+                  z = solve_free_dof(R, diag, hold, none, v3(0, 0, 1));
     return (fl_sym3){x.x, x.y, x.z, y.y, y.z, z.z};
 }
 
@@ -355,11 +354,11 @@ fl_mobility fl_body_mobility(const fl_bodies *b, int32_t i)
     if (i >= b->n) return e;
     const unsigned stands = fl_body_fixed_translations(b, i), turns = b->fixed_dof[i] / FL_DOF_RX;
     const fl_mat3 R = fl_body_axes(b, i);
-    e.angular = turns ? free_ease(&R, b->I[i], turns) : s3_from_principal(&R, b->invI[i]);
+    e.angular = turns ? free_inverse(&R, b->I[i], turns) : s3_from_principal(&R, b->invI[i]);
     if (b->added_mass) {
         const fl_vec3 m = v3_add(v3(b->m[i], b->m[i], b->m[i]), b->added_mass[i]);
         e.linear =
-            stands ? free_ease(&R, m, stands) : s3_from_principal(&R, v3(1.0 / m.x, 1.0 / m.y, 1.0 / m.z));
+            stands ? free_inverse(&R, m, stands) : s3_from_principal(&R, v3(1.0 / m.x, 1.0 / m.y, 1.0 / m.z));
     } else {
         const double each = b->invm[i];
         e.linear = (fl_sym3){.xx = stands & FL_DOF_X ? 0.0 : each,
@@ -375,17 +374,17 @@ void fl_body_apply_fixed_dof(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_
     const fl_vec3 v = b->v[i], L = b->L[i];
     if (b->added_mass) {
         const fl_vec3 P = fl_body_momentum(b, i, v);
-        b->v[i] = hold_speed(b, i, v_held, P);
-        if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) hold_turn(b, i, hold, w_held);
+        b->v[i] = velocity_with_fixed_dof(b, i, v_held, P);
+        if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) apply_fixed_rotation(b, i, hold, w_held);
         b->work_of_constraints[i] +=
-            holding_straight(hold, v3_sub(fl_body_momentum(b, i, b->v[i]), P), v_held) +
-            holding(hold, v3_sub(b->L[i], L), w_held);
+            linear_constraint_work(hold, v3_sub(fl_body_momentum(b, i, b->v[i]), P), v_held) +
+            angular_constraint_work(hold, v3_sub(b->L[i], L), w_held);
         return;
     }
     if (hold & FL_DOF_X) b->v[i].x = v_held.x;
     if (hold & FL_DOF_Y) b->v[i].y = v_held.y;
     if (hold & FL_DOF_Z) b->v[i].z = v_held.z;
-    if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) hold_turn(b, i, hold, w_held);
-    b->work_of_constraints[i] +=
-        b->m[i] * v3_dot(v3_sub(b->v[i], v), v_held) + holding(hold, v3_sub(b->L[i], L), w_held);
+    if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) apply_fixed_rotation(b, i, hold, w_held);
+    b->work_of_constraints[i] += b->m[i] * v3_dot(v3_sub(b->v[i], v), v_held) +
+                                 angular_constraint_work(hold, v3_sub(b->L[i], L), w_held);
 }

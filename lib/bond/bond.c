@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "bond/bond.h"
 #include "bond/bond_kinematics.h"
 
 static const double LOBATTO[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
@@ -32,8 +33,8 @@ void fl_bond_set_face(fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_vec3 x, fl
     c->bi = m3_tmul(Ri, h), c->bj = m3_tmul(Rj, h);
 }
 
-/* 0 where the sides have turned away from each other, and there is no frame. */
-static int stand(const fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_bond_kinematics *q)
+/* Returns 0 if the sides have turned away from each other, so that there is no frame. */
+static int find_kinematics(const fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_bond_kinematics *q)
 {
     const fl_vec3 off = v3_add(v3_sub(b->x[c->j], b->x[c->i]), way);
     const fl_bond_kinematics to =
@@ -44,18 +45,18 @@ static int stand(const fl_bond *c, const fl_bodies *b, fl_vec3 way, fl_bond_kine
     return 1;
 }
 
-static void separation(const fl_bond_kinematics *q, double xi, double eta, double s[3])
+static void separation_at(const fl_bond_kinematics *q, double xi, double eta, double s[3])
 {
     s[0] = q->s.x + xi * q->su.x + eta * q->sv.x;
     s[1] = q->s.y + xi * q->su.y + eta * q->sv.y;
     s[2] = q->s.z + xi * q->su.z + eta * q->sv.z;
 }
 
-/* --- how a point breaks ------------------------------------------------------------------------ */
+/* --- fracture of a point ------------------------------------------------------------------------ */
 
-/* Begin the damage of a point whose stress has reached the strength: lambda at that, by the way on which all
- * of it grows alike, and the end. */
-static void begin(const fl_bond *c, fl_bond_point *p, double lambda2, double shear2, double over)
+/* Begins the damage of a point whose stress has reached the strength: sets lambda_c, on a path along which
+ * all stresses grow in proportion, and lambda_f. */
+static void begin_damage(const fl_bond *c, fl_bond_point *p, double lambda2, double shear2, double over)
 {
     const double share = shear2 / lambda2;
     double mixed = 1.0;
@@ -66,8 +67,8 @@ static void begin(const fl_bond *c, fl_bond_point *p, double lambda2, double she
     if (p->lambda_f <= p->lambda_c) p->lambda_f = p->lambda_c;
 }
 
-/* Damage by the separation s. */
-static double damage(const fl_bond *c, fl_bond_point *p, const double s[3])
+/* Damage at the separation s. */
+static double damage_of(const fl_bond *c, fl_bond_point *p, const double s[3])
 {
     const double open = fl_bond_positive_part(s[0]), pressed = fl_bond_positive_part(-s[0]),
                  shear2 = s[1] * s[1] + s[2] * s[2];
@@ -78,7 +79,7 @@ static double damage(const fl_bond *c, fl_bond_point *p, const double s[3])
                      limit = c->cohesion + c->friction * c->kn * pressed;
         const double over = sigma * sigma + tau2 / (limit * limit);
         if (!(over >= 1.0)) return 0.0;
-        begin(c, p, lambda2, c->ks * shear2, over);
+        begin_damage(c, p, lambda2, c->ks * shear2, over);
     }
     if (p->lambda_f == p->lambda_c) return 1.0;
     const double lambda = sqrt(lambda2);
@@ -87,8 +88,8 @@ static double damage(const fl_bond *c, fl_bond_point *p, const double s[3])
     return d >= 1.0 ? 1.0 : d > p->d ? d : p->d;
 }
 
-/* Slip so that friction bears what is there: e[2], what its springs are drawn by. */
-static void rub(const fl_bond *c, fl_bond_point *p, const double s[3], double kn, double e[2])
+/* Slips until friction carries the traction; e[2]: the stretch of the friction springs. */
+static void slip_to_friction(const fl_bond *c, fl_bond_point *p, const double s[3], double kn, double e[2])
 {
     const double limit = c->friction * kn * fl_bond_positive_part(-s[0]);
     double e0 = s[1] - p->slip[0], e1 = s[2] - p->slip[1];
@@ -101,26 +102,26 @@ static void rub(const fl_bond *c, fl_bond_point *p, const double s[3], double kn
     e[0] = e0, e[1] = e1;
 }
 
-/* How much of the two sides still faces the other. */
-static double facing(const fl_bond *c, const fl_bond_kinematics *q)
+/* Share h of the sides that still overlap. */
+static double overlap_share(const fl_bond *c, const fl_bond_kinematics *q)
 {
     const double a = fl_bond_positive_part(1.0 - fabs(q->s.y) / (2.0 * v3_norm(c->ai))),
                  b = fl_bond_positive_part(1.0 - fabs(q->s.z) / (2.0 * v3_norm(c->bi)));
     return a * b * (q->cosine < FL_BOND_TURN_COSINE ? q->cosine / FL_BOND_TURN_COSINE : 1.0);
 }
 
-/* How much of the pressing part is gone. */
-static double wear(const fl_bond *c, const fl_bond_kinematics *q)
+/* Wear c of the stiffness in compression. */
+static double wear_of(const fl_bond *c, const fl_bond_kinematics *q)
 {
     double now = 0.0;
-    if (c->state == FL_BOND_BROKEN) now = c->h0 > 0.0 ? 1.0 - facing(c, q) / c->h0 : 1.0;
+    if (c->state == FL_BOND_BROKEN) now = c->h0 > 0.0 ? 1.0 - overlap_share(c, q) / c->h0 : 1.0;
     else if (q->cosine < FL_BOND_TURN_COSINE) now = 1.0 - q->cosine / FL_BOND_TURN_COSINE;
     return now > c->wear ? now : c->wear;
 }
 
-/* --- all of it --------------------------------------------------------------------------------- */
+/* --- the face ---------------------------------------------------------------------------------- */
 
-static void add(fl_traction *t, double xi, double eta, double x, double y, double z)
+static void add_traction(fl_traction *t, double xi, double eta, double x, double y, double z)
 {
     const fl_vec3 f = v3(x, y, z);
     t->f = v3_add(t->f, f);
@@ -128,12 +129,12 @@ static void add(fl_traction *t, double xi, double eta, double x, double y, doubl
     t->fv = v3_add(t->fv, v3_scale(eta, f));
 }
 
-static fl_vec3 moment(const double s[3], double x, double y, double z)
+static fl_vec3 half_moment(const double s[3], double x, double y, double z)
 {
     return fl_traction_moment(v3(s[0], s[1], s[2]), v3(x, y, z));
 }
 
-static fl_bond_wrench dash(const fl_bond *c, const fl_bodies *b, const fl_bond_kinematics *q)
+static fl_bond_wrench damping_wrench(const fl_bond *c, const fl_bodies *b, const fl_bond_kinematics *q)
 {
     const fl_traction rate = fl_bond_separation_rate(*q, b->v[c->i], b->w[c->i], b->v[c->j], b->w[c->j]);
     fl_traction t = {0};
@@ -146,14 +147,14 @@ static fl_bond_wrench dash(const fl_bond *c, const fl_bodies *b, const fl_bond_k
         const double scale = fl_bond_quadrature_point(k, &xi, &eta) * c->area * c->damping * (1.0 - p->d);
         const fl_vec3 r = v3_madd(v3_madd(rate.f, xi, rate.fu), eta, rate.fv),
                       x = v3_mul(v3(scale * c->kn, scale * c->ks, scale * c->ks), r);
-        add(&t, xi, eta, x.x, x.y, x.z);
-        separation(q, xi, eta, s);
-        half = v3_add(half, moment(s, x.x, x.y, x.z));
+        add_traction(&t, xi, eta, x.x, x.y, x.z);
+        separation_at(q, xi, eta, s);
+        half = v3_add(half, half_moment(s, x.x, x.y, x.z));
     }
     return fl_traction_at_middle(*q, t, half);
 }
 
-static void calm(fl_bond *c)
+static void clear_output(fl_bond *c)
 {
     c->force = c->torque_i = c->torque_j = c->force_damping = c->torque_i_damping = c->torque_j_damping =
         c->force_friction = c->torque_i_friction = c->torque_j_friction = v3(0, 0, 0);
@@ -163,12 +164,12 @@ static void calm(fl_bond *c)
 void fl_bond_end(fl_bond *c)
 {
     c->dissipated += c->elastic_energy;
-    calm(c);
+    clear_output(c);
     c->state = FL_BOND_ENDED;
 }
 
-/* What is kept of a look. */
-static void keep(fl_bond *c, const fl_bond_kinematics *q)
+/* Stores the separation. */
+static void store_separation(fl_bond *c, const fl_bond_kinematics *q)
 {
     c->s[0] = q->s.x, c->s[1] = q->s.y, c->s[2] = q->s.z;
     c->su[0] = q->su.x, c->su[1] = q->su.y, c->su[2] = q->su.z;
@@ -178,26 +179,26 @@ static void keep(fl_bond *c, const fl_bond_kinematics *q)
 void fl_bond_update_separation(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
     fl_bond_kinematics q;
-    if (c->state != FL_BOND_ENDED && stand(c, b, way, &q)) keep(c, &q);
+    if (c->state != FL_BOND_ENDED && find_kinematics(c, b, way, &q)) store_separation(c, &q);
 }
 
-/* What the points come to. */
+/* Sums over the points. */
 typedef struct {
     fl_traction elastic, friction;
-    double turn[2];         /* for the turn of m */
-    fl_vec3 half;           /* the moment of friction */
-    int hurt, failed, open; /* points */
-} result;
+    double turn[2];            /* for the rotation of m */
+    fl_vec3 half;              /* moment of friction */
+    int damaged, failed, open; /* numbers of points */
+} point_sums;
 
-/* Point k: what a look does to it, and what it gives.  more: what has worn off since the last. */
-static void look_at(fl_bond *c, const fl_bond_kinematics *q, int k, double more, result *out)
+/* Evaluates point k and adds its tractions. more: wear since the last evaluation. */
+static void evaluate_point(fl_bond *c, const fl_bond_kinematics *q, int k, double more, point_sums *out)
 {
     fl_bond_point *p = &c->point[k];
     double xi, eta, s[3], before[3];
     const double wa = fl_bond_quadrature_point(k, &xi, &eta) * c->area, pressing = c->kn * (1.0 - c->wear);
-    separation(q, xi, eta, s);
+    separation_at(q, xi, eta, s);
     for (int e = 0; e < 3; e++) before[e] = c->s[e] + xi * c->su[e] + eta * c->sv[e];
-    const double d = damage(c, p, s), grown = d - p->d, shear2 = s[1] * before[1] + s[2] * before[2];
+    const double d = damage_of(c, p, s), grown = d - p->d, shear2 = s[1] * before[1] + s[2] * before[2];
     if (grown > 0.0)
         c->dissipated +=
             0.5 * wa * grown *
@@ -207,75 +208,80 @@ static void look_at(fl_bond *c, const fl_bond_kinematics *q, int k, double more,
             0.5 * wa * more * c->kn * fl_bond_positive_part(-s[0]) * fl_bond_positive_part(-before[0]);
     p->d = d;
     const double kn = s[0] > 0.0 ? (1.0 - d) * c->kn : pressing, ks = (1.0 - d) * c->ks;
-    add(&out->elastic, xi, eta, wa * kn * s[0], wa * ks * s[1], wa * ks * s[2]);
+    add_traction(&out->elastic, xi, eta, wa * kn * s[0], wa * ks * s[1], wa * ks * s[2]);
     c->elastic_energy += 0.5 * wa * (kn * s[0] * s[0] + ks * (s[1] * s[1] + s[2] * s[2]));
     out->turn[0] += wa * (kn - ks) * s[0] * s[1];
     out->turn[1] += wa * (kn - ks) * s[0] * s[2];
-    out->hurt += d > 0.0;
+    out->damaged += d > 0.0;
     out->failed += d == 1.0;
     out->open += s[0] >= 0.0;
     if (d == 0.0) return;
     double e[2];
-    rub(c, p, s, pressing, e);
+    slip_to_friction(c, p, s, pressing, e);
     const double k_rub = wa * d * c->ks, held = 0.5 * wa * c->ks * (e[0] * e[0] + e[1] * e[1]);
-    add(&out->friction, xi, eta, 0.0, k_rub * e[0], k_rub * e[1]);
-    out->half = v3_add(out->half, moment(s, 0.0, k_rub * e[0], k_rub * e[1]));
+    add_traction(&out->friction, xi, eta, 0.0, k_rub * e[0], k_rub * e[1]);
+    out->half = v3_add(out->half, half_moment(s, 0.0, k_rub * e[0], k_rub * e[1]));
     c->friction_spring_energy += d * held;
     c->given_to_friction += grown * held;
     c->dissipated -= grown * held;
 }
 
-/* Whether no point can have reached its strength. */
-static int holds(const fl_bond *c, const fl_bond_kinematics *q)
+/* True if no point can have reached its strength. */
+static int is_below_strength(const fl_bond *c, const fl_bond_kinematics *q)
 {
     return fl_bond_strength_used(*q, c->kn, c->ks, c->tensile_strength, c->cohesion) < FL_BOND_INTACT_LIMIT;
 }
 
-/* What acts elastically. */
-static void spring(fl_bond *c, fl_bond_wrench p) { c->force = p.f, c->torque_i = p.ti, c->torque_j = p.tj; }
-
-/* A face of which some point may be damaged, or worn by so much more.  1 where it is ended. */
-static int break_up(fl_bond *c, const fl_bond_kinematics *q, double more, result *r)
+/* Sets the elastic force and torques. */
+static void set_elastic(fl_bond *c, fl_bond_wrench p)
 {
-    for (int k = 0; k < FL_BOND_POINTS; k++) look_at(c, q, k, more, r);
-    keep(c, q);
-    if (c->state != FL_BOND_BROKEN && r->failed == FL_BOND_POINTS) c->h0 = facing(c, q);
+    c->force = p.f, c->torque_i = p.ti, c->torque_j = p.tj;
+}
+
+/* Evaluates all points of a face with damage, or with `more` wear. Returns 1 if the face ends. */
+static int evaluate_points(fl_bond *c, const fl_bond_kinematics *q, double more, point_sums *r)
+{
+    for (int k = 0; k < FL_BOND_POINTS; k++) evaluate_point(c, q, k, more, r);
+    store_separation(c, q);
+    if (c->state != FL_BOND_BROKEN && r->failed == FL_BOND_POINTS) c->h0 = overlap_share(c, q);
     if (c->state != FL_BOND_BROKEN)
-        c->state = r->failed == FL_BOND_POINTS ? FL_BOND_BROKEN : r->hurt ? FL_BOND_DAMAGED : FL_BOND_INTACT;
+        c->state = r->failed == FL_BOND_POINTS ? FL_BOND_BROKEN
+                   : r->damaged                ? FL_BOND_DAMAGED
+                                               : FL_BOND_INTACT;
     if (c->state == FL_BOND_BROKEN && (r->open == FL_BOND_POINTS || c->wear >= 1.0)) return 1;
-    spring(c, fl_traction_with_rotation(*q, r->elastic, r->turn[0], r->turn[1]));
+    set_elastic(c, fl_traction_with_rotation(*q, r->elastic, r->turn[0], r->turn[1]));
     return 0;
 }
 
 int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 {
     fl_bond_kinematics q;
-    result r = {0};
+    point_sums r = {0};
     if (c->state == FL_BOND_ENDED) return 0;
-    if (!stand(c, b, way, &q)) {
+    if (!find_kinematics(c, b, way, &q)) {
         fl_bond_end(c);
         return 1;
     }
-    const double worn = wear(c, &q), more = worn - c->wear;
-    c->wear = worn;
-    calm(c);
-    if (c->state == FL_BOND_INTACT && worn == 0.0 && holds(c, &q)) {
-        keep(c, &q);
-        spring(c, fl_bond_elastic_wrench(q, c->area, c->kn, c->ks));
+    const double worn_now = wear_of(c, &q), more = worn_now - c->wear;
+    c->wear = worn_now;
+    clear_output(c);
+    if (c->state == FL_BOND_INTACT && worn_now == 0.0 && is_below_strength(c, &q)) {
+        store_separation(c, &q);
+        set_elastic(c, fl_bond_elastic_wrench(q, c->area, c->kn, c->ks));
         c->elastic_energy = fl_bond_elastic_energy(q, c->area, c->kn, c->ks);
-    } else if (break_up(c, &q, more, &r)) {
+    } else if (evaluate_points(c, &q, more, &r)) {
         fl_bond_end(c);
         return 1;
     }
-    if (r.hurt) {
+    if (r.damaged) {
         const fl_bond_wrench p = fl_traction_at_middle(q, r.friction, r.half);
         c->force_friction = p.f, c->torque_i_friction = p.ti, c->torque_j_friction = p.tj;
     }
     if (c->damping > 0.0) {
-        const fl_bond_wrench p = dash(c, b, &q);
+        const fl_bond_wrench p = damping_wrench(c, b, &q);
         c->force_damping = p.f, c->torque_i_damping = p.ti, c->torque_j_damping = p.tj;
     }
-    if (!r.hurt && !(c->damping > 0.0)) return 0;
+    if (!r.damaged && !(c->damping > 0.0)) return 0;
     c->force = v3_add(c->force, v3_add(c->force_friction, c->force_damping));
     c->torque_i = v3_add(c->torque_i, v3_add(c->torque_i_friction, c->torque_i_damping));
     c->torque_j = v3_add(c->torque_j, v3_add(c->torque_j_friction, c->torque_j_damping));

@@ -1,27 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bond_kinematics.h -- how the two sides of a bond stand to one another, and what a whole one does: by value, for
- * one and for loops over lanes alike, so that both have the same bits.  The equations are those of bond.h. */
+/* bond_kinematics.h -- kinematics of a bonded face, and the forces of an intact one.
+ *
+ * The functions work by value, so that one bond and loops over lanes get the same bits. The equations are
+ * those of bond.h. */
 #ifndef FL_BOND_BOND_KINEMATICS_H
 #define FL_BOND_BOND_KINEMATICS_H
-#include "bond/bond.h"
+#include "base/simd.h"
 #include "geom/rows3.h"
 
-/* Cosines between which the pressing part of a crack wears off as it turns: 60 and 90 degrees. */
+/* cos 60 degrees: between 60 and 90 degrees of rotation a crack loses its stiffness in compression. */
 #define FL_BOND_TURN_COSINE 0.5
 
-/* Of the sides i and j, world axes: from the bodies' centres to the face, its half sides, its normals; from
- * the one side to the other; the frame m, ta, tb and in it the separation of the centre and its change along
+/* Sides i and j in world axes: offsets from the bodies' centres to the face, half sides, normals; the vector
+ * between the sides; the frame m, ta, tb, and in it the separation of the centre and its change along the
  * half sides. */
 typedef struct {
     fl_vec3 ri, rj, ui, uj, vi, vj, ni, nj;
     fl_vec3 centre, m, ta, tb;
     fl_vec3 s, su, sv;
-    fl_vec3 tangent;       /* along ta, as long as both half sides together; or nothing, where they cancel */
-    double length, cosine; /* |n_i + n_j|, n_i.n_j; a frame there is where that is above 0 */
+    /* direction of ta, with the length of both first half sides together; 0 if they cancel */
+    fl_vec3 tangent;
+    double length, cosine; /* |n_i + n_j|, n_i.n_j; the frame exists if that is above 0 */
 } fl_bond_kinematics;
 
-/* The face in the frames of its bodies, and as they stand; off: from the centre of i to that of j.  Leaves
- * ta, tb and what is told in the frame. */
+/* Kinematics of a face given in the frames of its bodies; off: from the centre of i to that of j. Leaves ta,
+ * tb and the components in the frame at 0. */
 FL_SIMD_INLINE fl_bond_kinematics fl_bond_kinematics_of(fl_vec3 pi, fl_vec3 pj, fl_vec3 ni, fl_vec3 nj,
                                                         fl_vec3 ai, fl_vec3 aj, fl_vec3 bi, fl_vec3 bj,
                                                         fl_rows3 Ri, fl_rows3 Rj, fl_vec3 off)
@@ -39,13 +42,17 @@ FL_SIMD_INLINE fl_bond_kinematics fl_bond_kinematics_of(fl_vec3 pi, fl_vec3 pj, 
     return q;
 }
 
-/* Sides that are turned by half a turn about m cancel; then ta is not theirs. */
+/* Least tangent^2 over half side^2. At 1e-12 the sum of the half sides is 1e-6 of either, and its direction
+ * still right to 1e-10. */
+#define FL_BOND_MIN_TANGENT2 1e-12
+
+/* True if the half sides define ta: they cancel if the sides are turned by 180 degrees about m. */
 FL_SIMD_INLINE int fl_bond_frame_defined(fl_bond_kinematics q)
 {
-    return v3_norm2(q.tangent) > 1e-12 * v3_norm2(q.ui);
+    return v3_norm2(q.tangent) > FL_BOND_MIN_TANGENT2 * v3_norm2(q.ui);
 }
 
-/* A vector in the frame, and back. */
+/* Components in the frame, and back. */
 FL_SIMD_INLINE fl_vec3 fl_bond_to_frame(fl_bond_kinematics q, fl_vec3 x)
 {
     return v3(v3_dot(q.m, x), v3_dot(q.ta, x), v3_dot(q.tb, x));
@@ -56,7 +63,7 @@ FL_SIMD_INLINE fl_vec3 fl_bond_to_world(fl_bond_kinematics q, fl_vec3 x)
     return v3_madd(v3_madd(v3_scale(x.x, q.m), x.y, q.ta), x.z, q.tb);
 }
 
-/* The rest of it. */
+/* Completes the kinematics with the direction ta. */
 FL_SIMD_INLINE fl_bond_kinematics fl_bond_set_frame(fl_bond_kinematics q, fl_vec3 ta)
 {
     q.ta = ta;
@@ -69,11 +76,12 @@ FL_SIMD_INLINE fl_bond_kinematics fl_bond_set_frame(fl_bond_kinematics q, fl_vec
 
 FL_SIMD_INLINE double fl_bond_positive_part(double x) { return x > 0.0 ? x : 0.0; }
 
-/* A whole face that has used up less holds as it is. */
+/* A face that has used less of its strength stays intact. The bound is computed in some 30 operations, so
+ * that it is right to 30 * 2^-53 = 3e-15; 1e-9 covers that. */
 #define FL_BOND_INTACT_LIMIT (1.0 - 1e-9)
 
-/* What of its strength the most loaded point of a whole face can have used up at most, 1 at all: the largest
- * opening and shear that any may have, and no help of pressure. */
+/* Upper bound of the used share of strength, 1 at failure, over the points of an intact face: the largest
+ * opening and shear of any point, without the help of compression. */
 FL_SIMD_INLINE double fl_bond_strength_used(fl_bond_kinematics q, double kn, double ks, double tension,
                                             double cohesion)
 {
@@ -84,7 +92,7 @@ FL_SIMD_INLINE double fl_bond_strength_used(fl_bond_kinematics q, double kn, dou
     return sigma * sigma / T + tau2 / C;
 }
 
-/* Sums over the points of a traction, of it times either coordinate; in the frame. */
+/* Sums over the points of a traction, and of it times either coordinate; in the frame. */
 typedef struct {
     fl_vec3 f, fu, fv;
 } fl_traction;
@@ -94,7 +102,7 @@ typedef struct {
     fl_vec3 f, ti, tj;
 } fl_bond_wrench;
 
-/* Tractions that act on i at the points of i and on j at those of j. */
+/* Wrench of tractions that act on i at the points of i and on j at those of j. */
 FL_SIMD_INLINE fl_bond_wrench fl_traction_at_points(fl_bond_kinematics q, fl_traction t)
 {
     const fl_vec3 F = fl_bond_to_world(q, t.f), U = fl_bond_to_world(q, t.fu), V = fl_bond_to_world(q, t.fv);
@@ -102,7 +110,7 @@ FL_SIMD_INLINE fl_bond_wrench fl_traction_at_points(fl_bond_kinematics q, fl_tra
                             v3_neg(v3_add(v3_cross(q.rj, F), v3_add(v3_cross(q.uj, U), v3_cross(q.vj, V))))};
 }
 
-/* Tractions that act in the middle between the two; half: sum over points of s x traction, over 2. */
+/* Wrench of tractions that act midway between the points; half: sum over points of s x traction, over 2. */
 FL_SIMD_INLINE fl_bond_wrench fl_traction_at_middle(fl_bond_kinematics q, fl_traction t, fl_vec3 half)
 {
     const fl_vec3 h = fl_bond_to_world(q, half);
@@ -110,10 +118,10 @@ FL_SIMD_INLINE fl_bond_wrench fl_traction_at_middle(fl_bond_kinematics q, fl_tra
     return (fl_bond_wrench){p.f, v3_add(p.ti, h), v3_add(p.tj, h)};
 }
 
-/* Of a point at s. */
+/* Contribution of a point at separation s to `half`. */
 FL_SIMD_INLINE fl_vec3 fl_traction_moment(fl_vec3 s, fl_vec3 x) { return v3_scale(0.5, v3_cross(s, x)); }
 
-/* Velocity of j against i in the middle of the points: at the centre, and its change along half sides. */
+/* Velocity of j relative to i midway between the points: at the centre, and its change along half sides. */
 FL_SIMD_INLINE fl_traction fl_bond_separation_rate(fl_bond_kinematics q, fl_vec3 vi, fl_vec3 wi, fl_vec3 vj,
                                                    fl_vec3 wj)
 {
@@ -127,15 +135,15 @@ FL_SIMD_INLINE fl_traction fl_bond_separation_rate(fl_bond_kinematics q, fl_vec3
         fl_bond_to_frame(q, v3_sub(v3_cross(wj, v3_sub(q.vj, sv)), v3_cross(wi, v3_add(q.vi, sv))))};
 }
 
-/* The sums over the points of a whole face whose stiffness is K over all of it: the weights have sum 1, and
- * 1/3 with the square of a coordinate. */
+/* Sums over the points of an intact face of stiffness K: the weights have the sum 1, and 1/3 with the square
+ * of a coordinate. */
 FL_SIMD_INLINE fl_traction fl_traction_intact(fl_vec3 K, fl_vec3 s, fl_vec3 su, fl_vec3 sv)
 {
     const fl_vec3 third = v3(K.x / 3.0, K.y / 3.0, K.z / 3.0);
     return (fl_traction){v3_mul(K, s), v3_mul(third, su), v3_mul(third, sv)};
 }
 
-/* The same with the turn of m, which takes y and z along ta and tb. */
+/* fl_traction_at_points() with the rotation of m, whose moments about ta and tb come from y and z. */
 FL_SIMD_INLINE fl_bond_wrench fl_traction_with_rotation(fl_bond_kinematics q, fl_traction t, double y,
                                                         double z)
 {
@@ -144,7 +152,7 @@ FL_SIMD_INLINE fl_bond_wrench fl_traction_with_rotation(fl_bond_kinematics q, fl
     return (fl_bond_wrench){p.f, v3_sub(p.ti, v3_cross(q.ni, across)), v3_sub(p.tj, v3_cross(q.nj, across))};
 }
 
-/* Of elastic tractions of a whole face. */
+/* Wrench of the elastic tractions of an intact face. */
 FL_SIMD_INLINE fl_bond_wrench fl_bond_elastic_wrench(fl_bond_kinematics q, double area, double kn, double ks)
 {
     const fl_vec3 s = q.s, su = q.su, sv = q.sv;
@@ -154,7 +162,7 @@ FL_SIMD_INLINE fl_bond_wrench fl_bond_elastic_wrench(fl_bond_kinematics q, doubl
     return fl_traction_with_rotation(q, t, y, z);
 }
 
-/* And what they store [J]. */
+/* Elastic energy of an intact face [J]. */
 FL_SIMD_INLINE double fl_bond_elastic_energy(fl_bond_kinematics q, double area, double kn, double ks)
 {
     const fl_vec3 s = q.s, su = q.su, sv = q.sv;
@@ -164,7 +172,7 @@ FL_SIMD_INLINE double fl_bond_elastic_energy(fl_bond_kinematics q, double area, 
     return 0.5 * area * (kn * x + ks * (y + z));
 }
 
-/* Of the dashpots of a whole face, c over its springs. */
+/* Wrench of the dashpots of an intact face, c times its springs. */
 FL_SIMD_INLINE fl_bond_wrench fl_bond_damping_wrench(fl_bond_kinematics q, double c, double area, double kn,
                                                      double ks, fl_traction rate)
 {

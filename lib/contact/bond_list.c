@@ -4,52 +4,57 @@
 #include "base/array.h"
 #include "bond/bond_batch.h"
 #include "bond/common_face.h"
-#include "geom/clip.h"
 #include "contact/bond_list.h"
+#include "geom/clip.h"
 #include "patch/stiffness_bound.h"
 #include "world/access.h"
 
-/* Centres nearer than this of the size of their face, along its normal, have no length between them. */
-#define FLAT 1e-6
+/* Least length of a bond over the size of its face. */
+#define MIN_LENGTH 1e-6
 
-/* All six directions. */
-enum { HELD = 63 };
+/* All six degrees of freedom fixed. */
+enum { ALL_FIXED = 63 };
 
-/* --- which there are --------------------------------------------------------------------------- */
+/* --- set-up ------------------------------------------------------------------------------------ */
 
-static fl_vec3 way_of(const fl_world *w, int32_t k)
+/* Offset of the image of j [m]. */
+static fl_vec3 image_offset(const fl_world *w, int32_t k)
 {
     const int32_t *image = &w->bonds.image[3 * k];
     return w->cell.periodic ? fl_periodic_cell_offset(&w->cell, v3(image[0], image[1], image[2]))
                             : v3(0, 0, 0);
 }
 
-static double nearest(double apart, double length) { return length > 0.0 ? round(apart / length) : 0.0; }
+static double nearest_cell(double apart, double length) { return length > 0.0 ? round(apart / length) : 0.0; }
 
-/* How many lengths of the cell x is from body i. */
-static fl_vec3 cells_to(const fl_world *w, int32_t i, fl_vec3 x)
+/* Offset of x from body i in lengths of the cell. */
+static fl_vec3 cells_between(const fl_world *w, int32_t i, fl_vec3 x)
 {
     const fl_vec3 L = w->cell.length, off = v3_sub(x, w->b.x[i]);
     if (!w->cell.periodic) return v3(0, 0, 0);
-    return v3(nearest(off.x, L.x), nearest(off.y, L.y), nearest(off.z, L.z));
+    return v3(nearest_cell(off.x, L.x), nearest_cell(off.y, L.y), nearest_cell(off.z, L.z));
 }
 
-/* The sharp shape of body k of the field; left empty for what is round. */
-static int sharp(const fl_ice_field *field, int32_t k, fl_poly *out, fl_err *err)
+/* The sharp shape of body k of the field; empty if its core has no faces. */
+static int make_sharp_shape(const fl_ice_field *field, int32_t k, fl_poly *out, fl_err *err)
 {
     fl_err why = {0};
     if (field->core[k].nf == 0) return 0;
     const int bad = field->radius[k] > 0.0 ? fl_poly_offset(out, &field->core[k], field->radius[k], &why)
                                            : fl_poly_copy(out, &field->core[k], &why);
-    if (!bad || why.code != FL_SYSTEM) return 0; /* a shape that has none has no face in common either */
+    if (!bad || why.code != FL_SYSTEM) return 0; /* without a sharp shape it has no common face */
     *err = why;
     return -1;
 }
 
-static double weaker(double limit, double length) { return length > limit ? sqrt(limit / length) : 1.0; }
+/* Factor of a strength that keeps a bond longer than the limit from snapping back. */
+static double strength_factor(double limit, double length)
+{
+    return length > limit ? sqrt(limit / length) : 1.0;
+}
 
-/* The law of bond c of length l, and reduced mass m. */
-static void law_of(const fl_world *w, fl_bond *c, double l, double m)
+/* Sets the law of bond c of the length l and the reduced mass m. */
+static void set_law(const fl_world *w, fl_bond *c, double l, double m)
 {
     const fl_scene_bond *s = &w->scene->bond;
     const fl_scene_material *A = &w->scene->material[w->material[c->i]],
@@ -68,13 +73,14 @@ static void law_of(const fl_world *w, fl_bond *c, double l, double m)
     c->mixed_mode_exponent = s->mixing;
     if (s->softening == FL_SOFTENING_STRETCH) c->min_ductility = s->stretch;
     if (s->softening == FL_SOFTENING_WEAKEN) {
-        c->tensile_strength *= weaker(fl_bond_max_length(E, c->fracture_energy[0], c->tensile_strength), l);
-        c->cohesion *= weaker(fl_bond_max_length(G, c->fracture_energy[1], c->cohesion), l);
+        c->tensile_strength *=
+            strength_factor(fl_bond_max_length(E, c->fracture_energy[0], c->tensile_strength), l);
+        c->cohesion *= strength_factor(fl_bond_max_length(G, c->fracture_energy[1], c->cohesion), l);
     }
     c->damping = 2.0 * s->damping / sqrt(c->kn * c->area / m);
 }
 
-/* Bond k from a record; shape[] are the sharp shapes of the field. */
+/* Makes bond k from its record; shape[]: the sharp shapes of the field. */
 static int make_bond(fl_world *w, int32_t k, const fl_ice_field *field, const fl_poly *shape, fl_err *err)
 {
     const fl_ice_field_bond *d = &field->bond[k];
@@ -82,25 +88,25 @@ static int make_bond(fl_world *w, int32_t k, const fl_ice_field *field, const fl
     const int32_t i = d->i, j = d->j;
     fl_bond *c = &w->bonds.bond[k];
     fl_common_face face;
-    const fl_vec3 ci = cells_to(w, i, d->x), cells = v3_sub(cells_to(w, j, d->x), ci);
+    const fl_vec3 ci = cells_between(w, i, d->x), cells = v3_sub(cells_between(w, j, d->x), ci);
     w->bonds.image[3 * k] = (int32_t)cells.x;
     w->bonds.image[3 * k + 1] = (int32_t)cells.y;
     w->bonds.image[3 * k + 2] = (int32_t)cells.z;
-    const fl_vec3 way = way_of(w, k), x = v3_sub(d->x, fl_periodic_cell_offset(&w->cell, ci));
-    const fl_vec3 off = v3_sub(v3_add(b->x[j], way), b->x[i]);
+    const fl_vec3 offset = image_offset(w, k), x = v3_sub(d->x, fl_periodic_cell_offset(&w->cell, ci));
+    const fl_vec3 off = v3_sub(v3_add(b->x[j], offset), b->x[i]);
     *c = (fl_bond){.i = i, .j = j, .area = d->area};
     const int found =
-        shape[i].nf && shape[j].nf ? fl_common_face_find(&shape[i], &shape[j], way, x, &face, err) : 0;
+        shape[i].nf && shape[j].nf ? fl_common_face_find(&shape[i], &shape[j], offset, x, &face, err) : 0;
     if (found < 0) return -1;
     if (!found && v3_norm2(off) > 0.0) fl_common_face_disc(d->area, x, v3_unit(off), &face);
     const double l = found || v3_norm2(off) > 0.0 ? v3_dot(face.n, off) : 0.0;
-    if (!(l > FLAT * sqrt(d->area)))
+    if (!(l > MIN_LENGTH * sqrt(d->area)))
         return fl_fail(err, FL_INPUT,
                        "%s: the bond of body %d and %d has no length: their centres are %g m apart "
                        "across it",
                        w->scene->ice.file, w->id[i], w->id[j], l);
-    law_of(w, c, l, b->m[i] * b->m[j] / (b->m[i] + b->m[j]));
-    fl_bond_set_face(c, b, way, face.x, face.n, face.a, face.b);
+    set_law(w, c, l, b->m[i] * b->m[j] / (b->m[i] + b->m[j]));
+    fl_bond_set_face(c, b, offset, face.x, face.n, face.a, face.b);
     return 0;
 }
 
@@ -111,7 +117,7 @@ static int make_all(fl_world *w, const fl_ice_field *field, fl_err *err)
     for (int32_t k = 0; k < field->bonds && rc == 0; k++) {
         const int32_t of[2] = {field->bond[k].i, field->bond[k].j};
         for (int e = 0; e < 2 && rc == 0; e++)
-            if (shape[of[e]].nv == 0) rc = sharp(field, of[e], &shape[of[e]], err);
+            if (shape[of[e]].nv == 0) rc = make_sharp_shape(field, of[e], &shape[of[e]], err);
         if (rc == 0) rc = make_bond(w, k, field, shape, err);
     }
     for (int32_t k = 0; shape && k < field->n; k++) fl_poly_free(&shape[k]);
@@ -128,7 +134,7 @@ static int index_bonds(fl_world *w, fl_err *err)
     if (!s->first || !s->of) return -1;
     for (int32_t k = 0; k < s->n; k++) s->first[s->bond[k].i + 1]++, s->first[s->bond[k].j + 1]++;
     for (int32_t i = 0; i < w->n; i++) s->first[i + 1] += s->first[i];
-    /* filled from the front, each offset ends where the next begins; then all go back by one */
+    /* filling moves each offset to the start of the next; then all move back by one */
     for (int32_t k = 0; k < s->n; k++) {
         s->of[s->first[s->bond[k].i]++] = k;
         s->of[s->first[s->bond[k].j]++] = k;
@@ -138,14 +144,14 @@ static int index_bonds(fl_world *w, fl_err *err)
     return 0;
 }
 
-/* The springs of bond c, for one of its bodies; none for one that nothing moves. */
-static void stiffen(const fl_world *w, const fl_bond *c, int is_i, double share, fl_stiffness *out)
+/* Adds the springs of bond c to the stiffness of one of its bodies, unless that is fixed. */
+static void add_stiffness(const fl_world *w, const fl_bond *c, int is_i, double share, fl_stiffness *out)
 {
     const fl_bodies *b = &w->b;
     const int32_t k = is_i ? c->i : c->j;
     const fl_mat3 R = fl_body_axes(b, k);
     const fl_vec3 n = m3_mul(R, is_i ? c->ni : c->nj);
-    if (b->fixed_dof[k] == HELD) return;
+    if (b->fixed_dof[k] == ALL_FIXED) return;
     for (int at = 0; at < FL_BOND_POINTS; at++) {
         double xi, eta;
         const double wa = share * fl_bond_quadrature_point(at, &xi, &eta) * c->area;
@@ -157,8 +163,8 @@ static void stiffen(const fl_world *w, const fl_bond *c, int is_i, double share,
     }
 }
 
-/* Shares of omega^2 as step.c has them for contacts: K + sqrt(K K') of the two bodies' own. */
-static int measure(fl_world *w, fl_err *err)
+/* Shares of omega^2 as for contacts: K + sqrt(K K') of the two bodies' own bounds. */
+static int bound_stiffness(fl_world *w, fl_err *err)
 {
     fl_bond_list *s = &w->bonds;
     fl_stiffness *all = fl_alloc(w->n, sizeof *all, err);
@@ -173,12 +179,13 @@ static int measure(fl_world *w, fl_err *err)
         double own[2];
         for (int e = 0; e < 2; e++) {
             fl_stiffness K = {0};
-            stiffen(w, c, e == 0, 1.0, &K);
+            add_stiffness(w, c, e == 0, 1.0, &K);
             own[e] = fl_stiffness_bound(&K);
         }
         for (int e = 0; e < 2; e++) {
             s->omega2[2 * k + e] = own[e] + sqrt(own[0] * own[1]);
-            if (own[e] > 0.0) stiffen(w, c, e == 0, s->omega2[2 * k + e] / own[e], &all[e ? c->j : c->i]);
+            if (own[e] > 0.0)
+                add_stiffness(w, c, e == 0, s->omega2[2 * k + e] / own[e], &all[e ? c->j : c->i]);
         }
     }
     for (int32_t i = 0; i < w->n; i++) s->max_omega2[i] = fl_stiffness_bound(&all[i]);
@@ -203,7 +210,7 @@ int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
         const int32_t of[2] = {s->bond[k].i, s->bond[k].j};
         for (int e = 0; e < 2; e++) w->b.is_isotropic[of[e]] = 0;
     }
-    return index_bonds(w, err) || measure(w, err) ? -1 : 0;
+    return index_bonds(w, err) || bound_stiffness(w, err) ? -1 : 0;
 }
 
 void fl_bond_list_free(fl_bond_list *s)
@@ -213,7 +220,7 @@ void fl_bond_list_free(fl_bond_list *s)
     *s = (fl_bond_list){0};
 }
 
-/* --- the pairs they leave ---------------------------------------------------------------------- */
+/* --- pairs of ended bonds ---------------------------------------------------------------------- */
 
 int32_t fl_bond_list_find(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
 {
@@ -237,10 +244,11 @@ void fl_bond_list_init_pair(const fl_world *w, fl_pair *p)
 
 void fl_bond_list_restore_radii(fl_world *w, fl_pair *p, double R, double distance)
 {
-    const double keep = R > 0.0 ? distance / R : 1.0;
-    if (keep > p->radius_factor) {
-        p->radius_factor = keep < 1.0 ? keep : 1.0;
-        if (p->feature_pairs) p->feature_pairs->max_shift2 = 0.0; /* what is listed knows the radii */
+    const double factor = R > 0.0 ? distance / R : 1.0;
+    if (factor > p->radius_factor) {
+        p->radius_factor = factor < 1.0 ? factor : 1.0;
+        if (p->feature_pairs)
+            p->feature_pairs->max_shift2 = 0.0; /* the listed features depend on the radii */
     }
     w->bonds.radius_factor[p->bond - 1] = p->radius_factor;
 }
@@ -252,53 +260,53 @@ void fl_bond_list_first_contact(fl_world *w, fl_pair *p)
 
 /* --- in a step --------------------------------------------------------------------------------- */
 
-static void touch_one(fl_world *w, int32_t k)
+static void evaluate_bond(fl_world *w, int32_t k)
 {
     fl_bond *c = &w->bonds.bond[k];
-    if (c->state == FL_BOND_ENDED || !fl_bond_force(c, &w->b, way_of(w, k))) return;
+    if (c->state == FL_BOND_ENDED || !fl_bond_force(c, &w->b, image_offset(w, k))) return;
 #pragma omp atomic write
     w->bonds.ended = 1;
 }
 
-/* Those that are whole, side by side. */
-static void touch_whole(fl_world *w, const int32_t *at, int n)
+/* Evaluates n intact bonds in a batch. */
+static void evaluate_intact(fl_world *w, const int32_t *at, int n)
 {
     fl_bond *c[FL_LANE_COUNT] = {0};
-    fl_vec3 way[FL_LANE_COUNT] = {0};
+    fl_vec3 offset[FL_LANE_COUNT] = {0};
     uint8_t done[FL_LANE_COUNT];
     if (n == 0) return;
-    for (int k = 0; k < n; k++) c[k] = &w->bonds.bond[at[k]], way[k] = way_of(w, at[k]);
-    fl_bond_batch_force(c, way, n, &w->b, done);
+    for (int k = 0; k < n; k++) c[k] = &w->bonds.bond[at[k]], offset[k] = image_offset(w, at[k]);
+    fl_bond_batch_force(c, offset, n, &w->b, done);
     for (int k = 0; k < n; k++)
-        if (!done[k]) touch_one(w, at[k]);
+        if (!done[k]) evaluate_bond(w, at[k]);
 }
 
 void fl_bond_list_evaluate(fl_world *w, int32_t from, int32_t to)
 {
-    int32_t whole[FL_LANE_COUNT];
+    int32_t intact[FL_LANE_COUNT];
     int n = 0;
     for (int32_t k = from; k < to; k++) {
         const fl_bond *c = &w->bonds.bond[k];
         if (k + FL_LANE_COUNT < w->bonds.n) fl_prefetch(c + FL_LANE_COUNT, offsetof(fl_bond, force_friction));
-        if (c->state == FL_BOND_INTACT && c->wear == 0.0) whole[n++] = k;
-        else touch_one(w, k);
-        if (n == FL_LANE_COUNT) touch_whole(w, whole, n), n = 0;
+        if (c->state == FL_BOND_INTACT && c->wear == 0.0) intact[n++] = k;
+        else evaluate_bond(w, k);
+        if (n == FL_LANE_COUNT) evaluate_intact(w, intact, n), n = 0;
     }
-    touch_whole(w, whole, n);
+    evaluate_intact(w, intact, n);
 }
 
-static void add_sink(fl_contact_sum *sink, const fl_bond *c, int is_i)
+static void add_sums(fl_contact_sum *sums, const fl_bond *c, int is_i)
 {
     const double sign = is_i ? 1.0 : -1.0;
     if (c->damping == 0.0 && c->state == FL_BOND_INTACT) return;
-    sink->contacts++;
-    sink->damping = v3_madd(sink->damping, sign, c->force_damping);
-    sink->damping_torque = v3_add(sink->damping_torque, is_i ? c->torque_i_damping : c->torque_j_damping);
-    sink->friction = v3_madd(sink->friction, sign, c->force_friction);
-    sink->friction_torque = v3_add(sink->friction_torque, is_i ? c->torque_i_friction : c->torque_j_friction);
+    sums->contacts++;
+    sums->damping = v3_madd(sums->damping, sign, c->force_damping);
+    sums->damping_torque = v3_add(sums->damping_torque, is_i ? c->torque_i_damping : c->torque_j_damping);
+    sums->friction = v3_madd(sums->friction, sign, c->force_friction);
+    sums->friction_torque = v3_add(sums->friction_torque, is_i ? c->torque_i_friction : c->torque_j_friction);
 }
 
-void fl_bond_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t, fl_contact_sum *sink)
+void fl_bond_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t, fl_contact_sum *sums)
 {
     const fl_bond_list *s = &w->bonds;
     for (int64_t at = s->first[k]; at < s->first[k + 1]; at++) {
@@ -306,16 +314,16 @@ void fl_bond_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *
         if (c->state == FL_BOND_ENDED) continue;
         *f = v3_madd(*f, c->i == k ? 1.0 : -1.0, c->force);
         *t = v3_add(*t, c->i == k ? c->torque_i : c->torque_j);
-        add_sink(sink, c, c->i == k);
+        add_sums(sums, c, c->i == k);
     }
 }
 
-void fl_bond_list_add_sums(const fl_world *w, int32_t k, fl_contact_sum *sink)
+void fl_bond_list_add_sums(const fl_world *w, int32_t k, fl_contact_sum *sums)
 {
     const fl_bond_list *s = &w->bonds;
     for (int64_t at = s->first[k]; at < s->first[k + 1]; at++) {
         const fl_bond *c = &s->bond[s->of[at]];
-        if (c->state != FL_BOND_ENDED) add_sink(sink, c, c->i == k);
+        if (c->state != FL_BOND_ENDED) add_sums(sums, c, c->i == k);
     }
 }
 
@@ -342,7 +350,7 @@ void fl_bond_list_end_absent(fl_world *w)
         fl_bond *c = &w->bonds.bond[k];
         if (c->state == FL_BOND_ENDED || !(fl_body_absent(w, c->i) || fl_body_absent(w, c->j))) continue;
         const double spent = c->dissipated;
-        fl_bond_end(c); /* what it held goes with the floe */
+        fl_bond_end(c); /* its stored energy leaves with the floe */
         c->dissipated = spent;
     }
 }
@@ -350,12 +358,12 @@ void fl_bond_list_end_absent(fl_world *w)
 void fl_bond_list_refresh(fl_world *w)
 {
     for (int32_t k = 0; k < w->bonds.n; k++)
-        fl_bond_update_separation(&w->bonds.bond[k], &w->b, way_of(w, k));
+        fl_bond_update_separation(&w->bonds.bond[k], &w->b, image_offset(w, k));
 }
 
 fl_bond_load fl_bond_list_load(const fl_world *w, int32_t k)
 {
-    fl_bond_load out = fl_bond_section_load(&w->bonds.bond[k], &w->b, way_of(w, k));
+    fl_bond_load out = fl_bond_section_load(&w->bonds.bond[k], &w->b, image_offset(w, k));
     out.x = fl_periodic_cell_wrap(&w->cell, out.x);
     return out;
 }
@@ -379,14 +387,15 @@ fl_bond_counts fl_bond_list_counts(const fl_world *w)
     double area = 0.0;
     for (int32_t k = 0; k < w->bonds.n; k++) {
         const fl_bond *c = &w->bonds.bond[k];
-        const double takes = fl_bond_fracture_energy(c);
+        const double fracture = fl_bond_fracture_energy(c);
         n.state[c->state]++;
-        if (isfinite(takes)) n.energy += takes * c->area, area += c->area;
+        if (isfinite(fracture)) n.energy += fracture * c->area, area += c->area;
         if (c->state >= FL_BOND_BROKEN) n.area += c->area;
-        if (isfinite(takes) && c->fracture_energy[0] > 0.0 && takes > c->fracture_energy[0] * (1.0 + 1e-9))
+        if (isfinite(fracture) && c->fracture_energy[0] > 0.0 &&
+            fracture > c->fracture_energy[0] * (1.0 + 1e-9))
             n.coarse++;
         n.longest = fmax(n.longest, c->length);
-        if (isinf(c->tensile_strength)) continue; /* it breaks in shear alone */
+        if (isinf(c->tensile_strength)) continue; /* it breaks only in shear */
         const double limit =
             fl_bond_max_length(c->kn * c->length, c->fracture_energy[0], c->tensile_strength);
         if (n.limit == 0.0 || limit < n.limit) n.limit = limit;

@@ -2,30 +2,31 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "base/simd.h"
-#include "structure/mesh_contact.h"
-#include "patch/cone.h"
-#include "narrow/closest_point.h"
+#include "contact/pair_geometry.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "contact/pair_geometry.h"
+#include "narrow/closest_point.h"
+#include "patch/cone.h"
+#include "structure/mesh_contact.h"
 #include "world/access.h"
 
-/* A pair that is not touching asks for its true distance only within this multiple of its reach: beyond, the
- * bound by the old direction lets it sleep for long enough.  One that hovers nearer than that is awake in
- * nearly every step: it asks in one of so many, and else believes the bound that it does not touch. */
+/* A pair that does not touch computes its exact distance only within this multiple of the sum of its radii.
+ * Beyond, the bound by the old direction gives enough free travel.  A pair that stays nearer is due in nearly
+ * every step: it computes the distance in one step of EXACT_EVERY and else relies on the bound. */
 #define NEARLY 1.02
-enum { HOVERS = 8 };
+enum { EXACT_EVERY = 8 };
 
-/* A number without the rhythm that steps and pairs may have. */
-static uint32_t mixed(int64_t step, int32_t k)
+/* A hash of step and pair, so that the choice follows no period of either. */
+static uint32_t hash_of(int64_t step, int32_t k)
 {
     return ((uint32_t)step * UINT32_C(2654435761) + (uint32_t)k * UINT32_C(0x9e3779b1)) >> 16;
 }
 
-static double believed(const fl_world *w, int32_t i, int32_t j)
+/* Multiple of the sum of the radii beyond which the bound suffices. */
+static double bound_factor(const fl_world *w, int32_t i, int32_t j)
 {
-    return mixed(w->step, i + j) % HOVERS ? 1.0 : NEARLY;
+    return hash_of(w->step, i + j) % EXACT_EVERY ? 1.0 : NEARLY;
 }
 
 fl_relative_pose fl_relative_pose_of(const fl_world *w, const fl_pair *p)
@@ -48,11 +49,11 @@ fl_relative_pose fl_relative_pose_of(const fl_world *w, const fl_pair *p)
     return r;
 }
 
-/* --- where they touch -------------------------------------------------------------------------- */
+/* --- contact points ---------------------------------------------------------------------------- */
 
-/* One point against anything with a closed form. */
-static int point_places(fl_patch_points *s, const fl_poly *b, const fl_piece *piece, fl_vec3 x, double ra,
-                        double R, double *distance)
+/* The contact point of a point x with a plane, a cone, a point or a convex polyhedron. */
+static int find_point_of_sphere(fl_patch_points *s, const fl_poly *b, const fl_piece *piece, fl_vec3 x,
+                                double ra, double R, double *distance)
 {
     fl_closest_point q;
     if (piece && piece->kind == FL_PIECE_PLANE) q = (fl_closest_point){.d = x.z, .n = v3(0, 0, 1)};
@@ -63,8 +64,8 @@ static int point_places(fl_patch_points *s, const fl_poly *b, const fl_piece *pi
     return q.d < R ? fl_patch_points_add_plain(s, x, q.n, R - q.d, ra) : 0;
 }
 
-/* The point of A that is lowest over the plane, for `core`. */
-static int lowest_place(fl_patch_points *s, int32_t nv, double ra, double *distance)
+/* The lowest vertex of A over a plane, for springs at the closest point. */
+static int find_lowest_point(fl_patch_points *s, int32_t nv, double ra, double *distance)
 {
     fl_vec3 x = v3(0, 0, INFINITY);
     for (int32_t v = 0; v < nv; v++)
@@ -73,8 +74,8 @@ static int lowest_place(fl_patch_points *s, int32_t nv, double ra, double *dista
     return x.z < ra ? fl_patch_points_add_plain(s, x, v3(0, 0, 1), ra - x.z, ra) : 0;
 }
 
-/* The least n.v of m points. */
-FL_SIMD_VERSIONS static double lowest(const fl_vec3 *v, int32_t m, fl_vec3 n)
+/* The smallest n.v of m points. */
+FL_SIMD_VERSIONS static double min_projection(const fl_vec3 *v, int32_t m, fl_vec3 n)
 {
     fl_simd least = {INFINITY, INFINITY, INFINITY, INFINITY};
     double low = INFINITY;
@@ -97,11 +98,11 @@ FL_SIMD_VERSIONS static double lowest(const fl_vec3 *v, int32_t m, fl_vec3 n)
 /* Width of the gap that the planes across n leave between the cores: a lower bound of their distance. */
 static double gap_along(const fl_vec3 *va, int32_t na, const fl_poly *b, fl_vec3 n)
 {
-    return lowest(va, na, n) + lowest(b->v, b->nv, v3_neg(n));
+    return min_projection(va, na, n) + min_projection(b->v, b->nv, v3_neg(n));
 }
 
-/* Normals of A in B's frame, for the few who ask; to be freed.  NULL when memory runs out. */
-static fl_vec3 *normals(const fl_poly *a, const fl_mat3 *M)
+/* Face normals of A in B's frame; the caller frees them.  NULL when memory runs out. */
+static fl_vec3 *rotate_normals(const fl_poly *a, const fl_mat3 *M)
 {
     fl_err lost = {0};
     fl_vec3 *n = fl_alloc(a->nf, sizeof *n, &lost);
@@ -109,11 +110,11 @@ static fl_vec3 *normals(const fl_poly *a, const fl_mat3 *M)
     return n;
 }
 
-/* The rare case of overlapping cores; the scratch of places holds the vertices of A. */
-static int penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl_patch_points *s, fl_mat3 M,
-                       fl_penetration *deep)
+/* Penetration of overlapping cores, which is rare; s holds the vertices of A. */
+static int find_penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl_patch_points *s,
+                            fl_mat3 M, fl_penetration *deep)
 {
-    fl_vec3 *const n = normals(a, &M);
+    fl_vec3 *const n = rotate_normals(a, &M);
     if (!n) return -1;
     const fl_solid A = {a, s->va, n, 0.0}, B = {b, b->v, b->n, 0.0};
     fl_penetration_count count = {0};
@@ -131,10 +132,11 @@ static int penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl
 }
 
 /* Direction between the cores in B's frame, p->axis, and a lower bound of their distance (negative:
- * penetration).  The direction of the last look serves while it still separates them by `enough`; otherwise
- * gap has the nearest points, where it is not NULL. */
-static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b, const fl_patch_points *s,
-                    fl_mat3 M, double enough, fl_penetration *deep, fl_gap *gap, double *distance)
+ * penetration).  The direction of the last evaluation is kept while it separates them by more than `enough`.
+ * Otherwise gap, unless NULL, receives the closest points. */
+static int find_separation(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
+                           const fl_patch_points *s, fl_mat3 M, double enough, fl_penetration *deep,
+                           fl_gap *gap, double *distance)
 {
     *distance = gap_along(s->va, a->nv, b, p->axis);
     *deep = (fl_penetration){0};
@@ -158,7 +160,7 @@ static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
         *distance = gap->d;
         return 0;
     }
-    if (penetration(w, a, b, s, M, deep)) return -1;
+    if (find_penetration(w, a, b, s, M, deep)) return -1;
     p->axis = deep->n;
     p->has_axis = 1;
     p->cores_overlap = 1;
@@ -166,17 +168,17 @@ static int separate(fl_world *w, fl_pair *p, const fl_poly *a, const fl_poly *b,
     return 0;
 }
 
-/* How much of U on a cone is that of the cone itself, the rest being that of its polygon, and its
- * derivatives: after the height z of the centre of A, and after a turn of A. */
+/* Weight of the exact cone in U; the rest is that of its polyhedron.  And the derivatives of the weight, by
+ * the height z of the centre of A and by a rotation of A. */
 typedef struct {
-    double cone, slope; /* [1/m] */
-    fl_vec3 turn;       /* [1/rad] */
-} part_of_cone;
+    double weight, slope; /* -, [1/m] */
+    fl_vec3 turn;         /* [1/rad] */
+} cone_weight;
 
-/* How far A reaches along the axis of the cone from its centre, or more, and what that changes by as A turns:
- * of how far its vertices are the norm (sum h^8)^(1/8), which bends smoothly and does not ask how A's own
- * axes lie. */
-static double reach_along(const fl_poly *a, const fl_mat3 *M, fl_vec3 *turn)
+/* Upper bound of the extent of A along the axis of the cone, from its centre, and the derivative by a
+ * rotation of A.  It is the norm (sum h^8)^(1/8) over the heights h of the vertices, which is smooth and
+ * does not depend on the choice of A's axes. */
+static double extent_along(const fl_poly *a, const fl_mat3 *M, fl_vec3 *turn)
 {
     const fl_vec3 axis = v3(M->m[2][0], M->m[2][1], M->m[2][2]);
     double sum = 0.0;
@@ -191,13 +193,13 @@ static double reach_along(const fl_poly *a, const fl_mat3 *M, fl_vec3 *turn)
     return e;
 }
 
-/* All where the ends are farther from the centre of A than twice its reach and R together, none where they
- * are nearer than once. */
-static part_of_cone share_of_cone(const fl_piece *piece, const fl_poly *a, const fl_relative_pose *r,
+/* The weight is 1 where both ends of the cone are farther from the centre of A than twice its extent plus
+ * R, and 0 where one is nearer than once that. */
+static cone_weight cone_weight_of(const fl_piece *piece, const fl_poly *a, const fl_relative_pose *r,
                                   double R)
 {
     fl_vec3 turn;
-    const double z = r->o.z, size = reach_along(a, &r->M, &turn) + R;
+    const double z = r->o.z, size = extent_along(a, &r->M, &turn) + R;
     double share[2], along[2], by_size[2];
     for (int end = 0; end < 2; end++) {
         const double t = (end ? piece->h - z : z) / size - 1.0, u = t <= 0.0 ? 0.0 : t >= 1.0 ? 1.0 : t;
@@ -206,14 +208,14 @@ static part_of_cone share_of_cone(const fl_piece *piece, const fl_poly *a, const
         along[end] = end ? -bend : bend;
         by_size[end] = -bend * (t + 1.0);
     }
-    return (part_of_cone){share[0] * share[1], along[0] * share[1] + share[0] * along[1],
-                          v3_scale(by_size[0] * share[1] + share[0] * by_size[1], turn)};
+    return (cone_weight){share[0] * share[1], along[0] * share[1] + share[0] * along[1],
+                         v3_scale(by_size[0] * share[1] + share[0] * by_size[1], turn)};
 }
 
-/* Add the places on the cone itself.  Its polygon tells a direction that separates the two, the cone how far;
- * what overlaps it is looked at every time. */
-static int cone_places(fl_pair *p, fl_patch_points *s, const fl_poly *a, const fl_poly *b,
-                       const fl_piece *piece, double ra, double *distance)
+/* Adds the contact points with the exact cone.  Its polyhedron gives a separating direction, the cone the
+ * distance along it.  An overlapping pair is computed anew every time. */
+static int add_cone_points(fl_pair *p, fl_patch_points *s, const fl_poly *a, const fl_poly *b,
+                           const fl_piece *piece, double ra, double *distance)
 {
     const fl_truncated_cone cone = {piece->r0, piece->r1, piece->h};
     p->cores_overlap = 0;
@@ -231,27 +233,27 @@ static int cone_places(fl_pair *p, fl_patch_points *s, const fl_poly *a, const f
     return *distance < ra ? fl_cone_evaluate(s, a, &cone, ra) : 0;
 }
 
-/* U = (1 - share) of the first n places + share of the others; where the share changes a force along the
- * axis, and a couple. */
-static int blend(fl_patch_points *s, int32_t n, fl_vec3 couple, const part_of_cone *of, fl_vec3 centre)
+/* Blends U = (1 - weight) of the first n points + weight of the others.  A change of the weight adds a
+ * force along the axis and a couple. */
+static int blend_points(fl_patch_points *s, int32_t n, fl_vec3 couple, const cone_weight *of, fl_vec3 centre)
 {
     double u[2] = {0};
     for (int32_t k = 0; k < s->n; k++) {
         fl_patch_point *q = &s->point[k];
-        const double part = k < n ? 1.0 - of->cone : of->cone;
+        const double part = k < n ? 1.0 - of->weight : of->weight;
         u[k >= n] += q->u;
         q->u *= part, q->du *= part, q->ddu *= part;
     }
     const double more = u[1] - u[0], du = -of->slope * more;
-    s->couple = v3_add(v3_scale(1.0 - of->cone, couple), v3_scale(of->cone, s->couple));
+    s->couple = v3_add(v3_scale(1.0 - of->weight, couple), v3_scale(of->weight, s->couple));
     s->couple = v3_madd(s->couple, -more, of->turn);
     if (du == 0.0) return 0;
     return fl_patch_points_add(
         s, (fl_patch_point){.du = fabs(du), .n = v3(0, 0, du > 0.0 ? 1.0 : -1.0), .p = centre});
 }
 
-/* The list of a pair, which only pairs that come within reach have.  NULL when memory runs out. */
-static fl_feature_pairs *matches_of(fl_pair *p)
+/* The feature pairs of p, allocated once the pair comes within reach.  NULL when memory runs out. */
+static fl_feature_pairs *feature_pairs_of(fl_pair *p)
 {
     if (!p->feature_pairs) {
         fl_err lost = {0};
@@ -260,27 +262,27 @@ static fl_feature_pairs *matches_of(fl_pair *p)
     return p->feature_pairs;
 }
 
-/* The places of two convex cores in B's frame, A's entered. */
-static int convex_places(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_relative_pose *r,
-                         double *distance)
+/* Contact points of two convex cores in B's frame; the vertices of A are in s. */
+static int find_convex_points(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_relative_pose *r,
+                              double *distance)
 {
     const fl_bodies *b = &w->b;
     const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
     const double ra = p->radius_factor * b->radius[p->i], rb = p->radius_factor * b->radius[p->j],
                  R = ra + rb;
-    const int core_law = p->law->kind == FL_LAW_CORE;
+    const int nearest = p->points == FL_POINTS_NEAREST;
     fl_penetration deep;
     fl_gap gap;
-    /* A direction that separates the cores at all is enough to find the places of a touching pair; one that
-     * sleeps wants its distance. */
-    if (separate(w, p, A, B, s, r->M,
-                 core_law      ? INFINITY
-                 : p->touching ? 0.0
-                               : believed(w, p->i, p->j) * R,
-                 &deep, core_law ? &gap : NULL, distance))
+    /* A touching pair needs only a direction that separates the cores; one that does not touch needs its
+     * distance. */
+    if (find_separation(w, p, A, B, s, r->M,
+                        nearest       ? INFINITY
+                        : p->touching ? 0.0
+                                      : bound_factor(w, p->i, p->j) * R,
+                        &deep, nearest ? &gap : NULL, distance))
         return -1;
     if (*distance >= R) return 0;
-    if (core_law) {
+    if (nearest) {
         if (p->cores_overlap) {
             const double overlap = R - *distance;
             fl_vec3 x = v3(0, 0, 0);
@@ -293,11 +295,11 @@ static int convex_places(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_r
         }
         return fl_patch_points_add_plain(s, gap.pa, gap.n, R - gap.d, ra);
     }
-    fl_feature_pairs *const l = matches_of(p);
+    fl_feature_pairs *const l = feature_pairs_of(p);
     if (!l || fl_patch_points_find(s, A, B, ra, rb, p->axis, &deep, l)) return -1;
-    if (s->n == 0 && *distance < R) { /* the old direction was only a bound: ask for the distance */
+    if (s->n == 0 && *distance < R) { /* the old direction gave only a bound: compute the distance */
         p->has_axis = 0;
-        return separate(w, p, A, B, s, r->M, INFINITY, &deep, NULL, distance);
+        return find_separation(w, p, A, B, s, r->M, INFINITY, &deep, NULL, distance);
     }
     return 0;
 }
@@ -312,9 +314,9 @@ int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
                  R = ra + rb;
     s->n = 0;
     if (A->nv == 1 && (!piece || piece->kind != FL_PIECE_MESH))
-        return point_places(s, B, piece, r->o, ra, R, distance);
-    if (B->nv == 1 && !piece) { /* the point is B: look from A, then turn the place round */
-        if (point_places(s, A, NULL, v3_neg(m3_tmul(r->M, r->o)), rb, R, distance)) return -1;
+        return find_point_of_sphere(s, B, piece, r->o, ra, R, distance);
+    if (B->nv == 1 && !piece) { /* the point is B: compute from A, then swap */
+        if (find_point_of_sphere(s, A, NULL, v3_neg(m3_tmul(r->M, r->o)), rb, R, distance)) return -1;
         if (s->n) {
             const fl_vec3 n = v3_neg(m3_mul(r->M, s->point[0].n));
             const double overlap = s->point[0].overlap;
@@ -323,44 +325,47 @@ int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
         }
         return 0;
     }
-    if (p->touching && p->exponent == 0.0 && (!piece || piece->kind == FL_PIECE_SOLID) && p->feature_pairs &&
-        p->feature_pairs->separated && fl_feature_pairs_valid(p->feature_pairs, &r->M, r->o)) {
+    if (p->touching && p->points == FL_POINTS_PATCH && (!piece || piece->kind == FL_PIECE_SOLID) &&
+        p->feature_pairs && p->feature_pairs->separated &&
+        fl_feature_pairs_valid(p->feature_pairs, &r->M, r->o)) {
         if (fl_patch_points_find_listed(s, A, B, ra, rb, r->M, r->o, p->feature_pairs)) return -1;
         p->cores_overlap = 0;
         if (s->n) return 0;
     }
     if (fl_patch_points_transform(s, A, r->M, r->o)) return -1;
     if (piece && piece->kind == FL_PIECE_PLANE)
-        return p->exponent > 0.0 ? lowest_place(s, A->nv, ra, distance)
-                                 : fl_patch_points_on_plane(s, A, ra, distance);
-    if (piece && piece->kind == FL_PIECE_MESH && A->nv == 1 && p->exponent > 0.0)
-        return matches_of(p)
+        return p->points == FL_POINTS_NEAREST ? find_lowest_point(s, A->nv, ra, distance)
+                                              : fl_patch_points_on_plane(s, A, ra, distance);
+    if (piece && piece->kind == FL_PIECE_MESH && A->nv == 1 && p->points == FL_POINTS_NEAREST)
+        return feature_pairs_of(p)
                    ? fl_mesh_contact_sphere(s, &w->mesh_near[thread], piece, ra, p->feature_pairs, distance)
                    : -1;
     if (piece && piece->kind == FL_PIECE_MESH)
-        return matches_of(p) ? fl_mesh_contact_points(s, &w->mesh_near[thread], A, piece, ra, ra + w->skin,
-                                                      p->feature_pairs, distance)
-                             : -1;
+        return feature_pairs_of(p) ? fl_mesh_contact_points(s, &w->mesh_near[thread], A, piece, ra,
+                                                            ra + w->skin, p->feature_pairs, distance)
+                                   : -1;
     double farther = INFINITY;
-    part_of_cone of = {0};
-    if (piece && piece->kind == FL_PIECE_CONE && p->exponent == 0.0) of = share_of_cone(piece, A, r, ra);
-    if (of.cone < 1.0 && convex_places(w, p, s, r, distance)) return -1;
-    if (of.cone == 0.0) return 0;
+    cone_weight of = {0};
+    if (piece && piece->kind == FL_PIECE_CONE && p->points == FL_POINTS_PATCH)
+        of = cone_weight_of(piece, A, r, ra);
+    if (of.weight < 1.0 && find_convex_points(w, p, s, r, distance)) return -1;
+    if (of.weight == 0.0) return 0;
     const int32_t n = s->n;
     const int deep = p->cores_overlap;
     const fl_vec3 couple = n ? s->couple : v3(0, 0, 0);
     s->couple = v3(0, 0, 0);
-    if (cone_places(p, s, A, B, piece, ra, &farther)) return -1;
-    p->cores_overlap |= of.cone < 1.0 ? deep : 0;
-    *distance = of.cone < 1.0 ? fmin(*distance, farther) : farther;
-    return of.cone < 1.0 ? blend(s, n, couple, &of, r->o) : 0;
+    if (add_cone_points(p, s, A, B, piece, ra, &farther)) return -1;
+    p->cores_overlap |= of.weight < 1.0 ? deep : 0;
+    *distance = of.weight < 1.0 ? fmin(*distance, farther) : farther;
+    return of.weight < 1.0 ? blend_points(s, n, couple, &of, r->o) : 0;
 }
 
-/* The contact of two dilated cores, the scratch of places holding the vertices of A. */
-static int entered_contact(const fl_patch_points *s, const fl_poly *A, const fl_poly *B, double ra, double rb,
-                           const fl_mat3 *M, fl_mode before, fl_gjk_cache *cache, fl_contact *out)
+/* The contact of features of two dilated cores; s holds the vertices of A. */
+static int find_feature_contact(const fl_patch_points *s, const fl_poly *A, const fl_poly *B, double ra,
+                                double rb, const fl_mat3 *M, fl_mode before, fl_gjk_cache *cache,
+                                fl_contact *out)
 {
-    fl_vec3 *const n = normals(A, M);
+    fl_vec3 *const n = rotate_normals(A, M);
     if (!n) return -1;
     const fl_solid a = {A, s->va, n, ra}, b = {B, B->v, B->n, rb};
     fl_contact_find(&a, &b, before, cache, NULL, out);
@@ -374,33 +379,33 @@ int fl_pair_find_contact(fl_world *w, fl_pair *p, int32_t thread, const fl_relat
     const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
     fl_patch_points *const s = &w->scratch[thread];
     if (fl_patch_points_transform(s, A, r->M, r->o)) return -1;
-    return entered_contact(s, A, B, p->radius_factor * b->radius[p->i], p->radius_factor * b->radius[p->j],
-                           &r->M, p->mode, &p->cache, out);
+    return find_feature_contact(s, A, B, p->radius_factor * b->radius[p->i],
+                                p->radius_factor * b->radius[p->j], &r->M, p->mode, &p->cache, out);
 }
 
-/* --- how far apart they are --------------------------------------------------------------------- */
+/* --- free travel ----------------------------------------------------------------------------- */
 
-/* Farther apart than this multiple of its reach, a pair forgets which of its features may touch: a contact
- * that chatters opens by less, and one that comes back later is listed anew for as much as four looks. */
+/* Beyond this multiple of the sum of its radii a pair releases its feature pairs.  A chattering contact
+ * opens by less.  Listing the features anew costs as much as four evaluations. */
 #define FAR 1.003
 
-/* What the odometers add up to when cores that are so far apart now may touch. */
-static double awake_after(const fl_world *w, int32_t i, int32_t j, double distance, double R)
+/* Sum of the odometers at which cores at this distance may touch. */
+static double free_travel_of(const fl_world *w, int32_t i, int32_t j, double distance, double R)
 {
     return w->b.odometer[i] + w->b.odometer[j] + (distance > R ? (distance - R) * (1.0 - 1e-9) : 0.0);
 }
 
 void fl_pair_set_free_travel(const fl_world *w, fl_pair *p, double distance, double R)
 {
-    p->free_travel = awake_after(w, p->i, p->j, distance, R);
+    p->free_travel = free_travel_of(w, p->i, p->j, distance, R);
     if (distance > FAR * R) fl_pair_free(p);
 }
 
-/* The lowest of A over planes across n, in world axes, from its centre. */
-static double lowest_of(const fl_world *w, int32_t i, fl_vec3 n)
+/* The smallest n.v over the core of body i, from its centre, world axes. */
+static double min_extent_of(const fl_world *w, int32_t i, fl_vec3 n)
 {
     const fl_poly *A = &w->b.core[i];
-    return lowest(A->v, A->nv, m3_tmul(fl_body_axes(&w->b, i), n));
+    return min_projection(A->v, A->nv, m3_tmul(fl_body_axes(&w->b, i), n));
 }
 
 int fl_pair_still_apart(const fl_world *w, fl_neighbour_pair *q)
@@ -411,9 +416,9 @@ int fl_pair_still_apart(const fl_world *w, fl_neighbour_pair *q)
     const fl_piece *piece = fl_world_piece(w, j);
     const int wall = piece && piece->kind == FL_PIECE_PLANE && !piece->elastic;
     const double R = b->radius[i] + b->radius[j];
-    fl_pair *const p = q->contact; /* it has let go a moment ago */
+    fl_pair *const p = q->contact; /* set if the contact has just opened */
     if ((p && (p->touching || p->bond)) || b->core[i].nv == 1 ||
-        fl_pair_law_of(w, i, j)->kind != FL_LAW_PATCH)
+        fl_pair_law_of(w, i, j)->law->points != FL_POINTS_PATCH)
         return 0;
     if (!wall && (!(p ? p->has_axis : q->has_axis) || B->nv == 1 || (piece && piece->kind != FL_PIECE_SOLID)))
         return 0;
@@ -423,24 +428,24 @@ int fl_pair_still_apart(const fl_world *w, fl_neighbour_pair *q)
                               : v3(q->axis[0], q->axis[1], q->axis[2]),
                   n = wall ? m3_col(axes, 2) : m3_mul(axes, axis);
     const double apart = -v3_dot(n, fl_separation(w, i, j, q->image)),
-                 distance = lowest_of(w, i, n) + apart + (wall ? 0.0 : lowest(B->v, B->nv, v3_neg(axis)));
-    if (!(distance > (wall ? 1.0 : believed(w, i, j)) * R))
-        return 0; /* of a wall it is no bound, but the truth */
+                 distance = min_extent_of(w, i, n) + apart +
+                            (wall ? 0.0 : min_projection(B->v, B->nv, v3_neg(axis)));
+    if (!(distance > (wall ? 1.0 : bound_factor(w, i, j)) * R))
+        return 0; /* of a wall the distance is exact */
     q->cores_overlap = 0;
-    q->free_travel = awake_after(w, i, j, distance, R);
+    q->free_travel = free_travel_of(w, i, j, distance, R);
     if (!p) return 1;
     p->cores_overlap = 0;
     fl_pair_set_free_travel(w, p, distance, R);
     return 1;
 }
 
-/* Of a shell the deepest place, or where it is nearest: in the frame of B. */
-static int probe_shell(fl_world *w, const fl_pair *p, const fl_relative_pose *r, double reach,
-                       fl_contact *out)
+/* The deepest contact point on a mesh, or the nearest point: in the frame of B. */
+static int probe_mesh(fl_world *w, const fl_pair *p, const fl_relative_pose *r, double reach, fl_contact *out)
 {
     const double ra = p->radius_factor * w->b.radius[p->i];
     fl_patch_points *s = &w->scratch[0];
-    fl_pair own = *p; /* its list of features stays as it is */
+    fl_pair own = *p; /* p keeps its feature pairs */
     double distance, deepest = -INFINITY;
     fl_gap gap;
     own.feature_pairs = NULL;
@@ -474,7 +479,7 @@ int fl_pair_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out)
     fl_patch_points *s = &w->scratch[0];
     if (fl_patch_points_transform(s, A, r.M, r.o)) return 0;
     if (piece && piece->kind == FL_PIECE_MESH) {
-        if (!probe_shell(w, p, &r, reach, out)) return 0;
+        if (!probe_mesh(w, p, &r, reach, out)) return 0;
     } else if (piece && (piece->kind == FL_PIECE_PLANE || (piece->kind == FL_PIECE_CONE && A->nv == 1))) {
         double d;
         s->n = 0;
@@ -492,10 +497,11 @@ int fl_pair_probe(fl_world *w, const fl_pair *p, double reach, fl_contact *out)
             out->p = v3_madd(r.o, -ra - 0.5 * out->gap, q.n);
         }
     } else {
-        if (entered_contact(s, A, B, b->radius[i], b->radius[j], &r.M, FL_MODE_NONE, NULL, out)) return 0;
+        if (find_feature_contact(s, A, B, b->radius[i], b->radius[j], &r.M, FL_MODE_NONE, NULL, out))
+            return 0;
     }
     out->n = m3_mul(r.R, out->n);
-    /* b->x[j] where j is no image: the bits of a scene without a cell */
+    /* b->x[j] without a cell: the same bits as with j in its own image */
     out->p = v3_add(w->cell.periodic ? v3_add(b->x[i], r.off) : b->x[j], m3_mul(r.R, out->p));
     out->p = fl_periodic_cell_wrap(&w->cell, out->p);
     return out->gap < reach;

@@ -11,7 +11,10 @@ void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 {
     const double mi = w->b.m[i], mj = w->b.m[j];
     *p = (fl_pair){.i = i, .j = j, .radius_factor = 1.0, .law = fl_pair_law_of(w, i, j)};
-    p->k = fl_pair_stiffness(w, i, j, &p->exponent);
+    const fl_pair_spring s = fl_pair_stiffness(w, i, j);
+    p->k = s.k;
+    p->exponent = s.exponent;
+    p->points = fl_pair_points(w, i, j, s);
     p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
 }
 
@@ -44,16 +47,16 @@ void fl_neighbour_pair_expand(const fl_world *w, const fl_neighbour_pair *q, fl_
     for (int k = 0; k < 4; k++) p->cache.a[k] = q->cache_a[k], p->cache.b[k] = q->cache_b[k];
 }
 
-/* What others read of it. */
-static void tell(fl_neighbour_pair *q, const fl_pair *p)
+/* Copies to q what other modules read there. */
+static void copy_state(fl_neighbour_pair *q, const fl_pair *p)
 {
     q->touching = p->touching != 0;
     q->cores_overlap = p->cores_overlap != 0;
     q->free_travel = p->free_travel;
 }
 
-/* Room of its own for p, by any thread. */
-static int hold(fl_world *w, fl_neighbour_pair *q, const fl_pair *p)
+/* Copies p into a contact record of q; any thread. */
+static int take_record(fl_world *w, fl_neighbour_pair *q, const fl_pair *p)
 {
     fl_pair_store *s = &w->pair_store;
     fl_pair_slot *slot = NULL;
@@ -71,11 +74,11 @@ static int hold(fl_world *w, fl_neighbour_pair *q, const fl_pair *p)
     if (!slot) return -1;
     slot->pair = *p;
     q->contact = &slot->pair;
-    tell(q, p);
+    copy_state(q, p);
     return 0;
 }
 
-static void let_go(fl_world *w, fl_neighbour_pair *q)
+static void release_record(fl_world *w, fl_neighbour_pair *q)
 {
     fl_pair_slot *slot = (fl_pair_slot *)(void *)q->contact;
     if (!slot) return;
@@ -87,11 +90,11 @@ static void let_go(fl_world *w, fl_neighbour_pair *q)
     }
 }
 
-_Static_assert(sizeof(fl_neighbour_pair) <= 64, "a near pair is a line of the cache");
+_Static_assert(sizeof(fl_neighbour_pair) <= 64, "a near pair fits into a cache line");
 
-/* x to single precision, towards 0: an axis of such gets no longer, and stays what it is the next time.  By
- * its bits: a compiler may take a number to float and back for nothing. */
-static double shorter(double x)
+/* Rounds x to single precision towards 0: the axis gets no longer, and a second rounding changes nothing.  It
+ * works on the bits, since a compiler may drop a conversion to float and back. */
+static double round_to_float(double x)
 {
     uint64_t bits;
     if (!(fabs(x) >= 0x1p-126)) return 0.0;
@@ -101,29 +104,29 @@ static double shorter(double x)
     return x;
 }
 
-/* Keep of p what lasts while it does not touch. */
-static void leave(fl_world *w, fl_neighbour_pair *q, fl_pair *p)
+/* Stores in q what lasts while the pair does not touch, and releases its contact record. */
+static void store_in_neighbour(fl_world *w, fl_neighbour_pair *q, fl_pair *p)
 {
-    fl_pair_free(p); /* what kept it from rolling */
-    tell(q, p);
+    fl_pair_free(p);
+    copy_state(q, p);
     q->has_axis = p->has_axis != 0;
     q->axis[0] = (float)p->axis.x, q->axis[1] = (float)p->axis.y, q->axis[2] = (float)p->axis.z;
     q->mode = (uint8_t)p->mode;
     q->cache_size = (uint8_t)(p->cache.n & 7);
     for (int k = 0; k < 4; k++)
         q->cache_a[k] = (uint8_t)p->cache.a[k], q->cache_b[k] = (uint8_t)p->cache.b[k];
-    let_go(w, q);
+    release_record(w, q);
 }
 
 void fl_neighbour_pair_free(fl_world *w, fl_neighbour_pair *q)
 {
     if (q->contact) fl_pair_free(q->contact);
-    let_go(w, q);
+    release_record(w, q);
 }
 
-/* It has to be told more of than fl_neighbour_pair can: it touches, has a list, has been frozen, or a core has so many
- * vertices that the cache of the query of distances does not fit. */
-static int wants_own(const fl_world *w, const fl_pair *p)
+/* True if fl_neighbour_pair cannot hold the pair: it touches, has a list of features or was bonded, or a core
+ * has so many vertices that the cache of the distance query does not fit. */
+static int needs_record(const fl_world *w, const fl_pair *p)
 {
     return p->touching || p->feature_pairs || p->surrogate || p->bond || w->b.core[p->i].nv > UINT8_MAX ||
            w->b.core[p->j].nv > UINT8_MAX;
@@ -131,13 +134,13 @@ static int wants_own(const fl_world *w, const fl_pair *p)
 
 int fl_neighbour_pair_store(fl_world *w, fl_neighbour_pair *q, fl_pair *p)
 {
-    if (!p->touching) /* whether it has room of its own or not: a state that is read tells only one of the two */
-        p->axis = v3(shorter(p->axis.x), shorter(p->axis.y), shorter(p->axis.z));
-    if (!wants_own(w, p)) {
-        leave(w, q, p);
+    if (!p->touching) /* with or without a record: a checkpoint stores only one of the two */
+        p->axis = v3(round_to_float(p->axis.x), round_to_float(p->axis.y), round_to_float(p->axis.z));
+    if (!needs_record(w, p)) {
+        store_in_neighbour(w, q, p);
     } else if (p == q->contact) {
-        tell(q, p);
-    } else if (hold(w, q, p)) {
+        copy_state(q, p);
+    } else if (take_record(w, q, p)) {
         fl_pair_free(p);
         return -1;
     }

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* panel_load.h -- where the ice presses on the structure: on which panels, and from which floe.
+/* panel_load.h -- loads on the panels of the structure, and load events of each floe on each part.
  *
- * A panel is a triangle of the mesh, or a cone as a whole.  Every place of a contact has its own normal
- * force. Places that stand for a strip or for an area, patch_points.h, are spread over it again, as an even
- * pressure with their mean and second moments, and each triangle has the share that lies over it; others fall
- * to the nearest one as a whole.  What is left of the force of the pair, friction and what rims pull, is
- * shared out in the ratio of the normal forces.  So the panels of a part have its load, to rounding.  The
- * same places, summed over the interval for each floe and part, are the events.
+ * A panel is a triangle of the mesh, or a whole cone.  Each contact point has its own normal force.
+ * - Points that stand for a strip or an area (patch_points.h) are spread over it as an even pressure with
+ *   the same mean and second moments.  Each triangle gets the share that lies over it.
+ * - Other points go to the nearest triangle.
+ * - The rest of the force of the pair, which is friction and the pull of rims, is distributed in proportion
+ *   to the normal forces.
+ * So the panels of a part sum up to its load, to rounding.  The same points, summed over an interval for
+ * each floe and part, are the events.
  *
- * w->press.panels is 0 and nothing here is called where the scene asks for neither. */
+ * Without output.panels and output.events, w->panel_load.panels is 0 and nothing here is called. */
 #ifndef FL_CONTACT_PANEL_LOAD_H
 #define FL_CONTACT_PANEL_LOAD_H
 #include "world/world.h"
@@ -21,38 +23,37 @@ struct fl_load_event {
     fl_vec3 impulse_point;  /* sum of normal impulse times point [N s m] */
     double impulse_sum;     /* sum of normal impulses [N s] */
     double impulse_area;    /* sum of normal impulse times area [N s m2] */
-    double max_overlap;     /* largest [m] */
+    double max_overlap;     /* [m] */
 };
 
-/* Panels of the surface, when output.panels or output.events asks.  -1 with FL_SYSTEM. */
+/* Makes the panels of the surface if output.panels or output.events is set.  -1 with FL_SYSTEM. */
 int fl_panels_make(fl_world *w, const fl_surface *surface, fl_err *err);
 void fl_panels_free(fl_panel_loads *s);
 
-/* Whether panels want to know all places of pair p. */
+/* True if the panels need the contact points of pair p. */
 static inline int fl_panels_need_points(const fl_world *w, const fl_pair *p)
 {
     return w->panel_load.panels && p->j >= w->n && p->j < w->n + w->pieces;
 }
 
-/* For pair p of a floe and a piece, evaluated just now by the calling thread: its places.
- *   scale  force of a place per unit of its pull: of `patch` dW/dU, else the stiffness
+/* Records the contact points of pair p of a floe and a piece, which the calling thread has just evaluated.
+ *   scale  force of a point per unit of its weight: dW/dU of a patch, else the stiffness
  *   chi    damping factor [s/m]
- * A thread that runs out of memory sets w->failed. */
+ * Sets w->failed when memory runs out. */
 void fl_panels_record_points(fl_world *w, const fl_pair *p, const fl_patch_points *s, double scale,
                              double chi);
 
-/* The same for a law with one contact: at, n in the frame of the piece. */
+/* The same for a law with one contact of the area given [m2]; at, n in the frame of the piece. */
 void fl_panels_record_point(fl_world *w, const fl_pair *p, fl_vec3 at, fl_vec3 n, double area);
 
-/* Before the pairs are evaluated, and after: forget, then put in the order of the pairs.  -1 with FL_SYSTEM.
- */
+/* Clears the points before the pairs are evaluated, and sorts them by pair afterwards.  -1 with FL_SYSTEM. */
 void fl_panels_clear(fl_world *w);
 int fl_panels_sort(fl_world *w, fl_err *err);
 
-/* Add h times what was found to the panels and events of the interval.  -1 with FL_SYSTEM. */
+/* Adds h [s] times the recorded forces to the panels and events of the interval.  -1 with FL_SYSTEM. */
 int fl_panels_accumulate(fl_world *w, double h, fl_err *err);
 
-/* An interval ends. */
+/* Ends an interval: clears the impulses, or the events. */
 void fl_panels_end_interval(fl_world *w);
 void fl_events_end_interval(fl_world *w);
 

@@ -3,71 +3,75 @@
 #include <math.h>
 #include <stddef.h>
 #include "base/simd.h"
-#include "law/damping.h"
-#include "contact/velocity_predictor.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "patch/no_tension.h"
 #include "contact/surrogate_batch.h"
+#include "contact/velocity_predictor.h"
+#include "law/damping.h"
+#include "patch/no_tension.h"
 
-/* Forces and torques of fl_pair: f, ti, tj, fd, di, dj, fs, si, sj, and one number more. */
-enum { HAD = 28, SLIP = 8 };
+/* Numbers of rows: force to torque_j_friction of fl_pair and one more; fl_friction_springs and two more. */
+enum { PREVIOUS = 28, SPRINGS = 8 };
 
-/* What is known of contacts beside what their surrogates tell.  World axes, but for what is said to be in the
- * frame of B. */
+/* State and results of the contacts of a batch.  World axes unless a comment says "frame of B". */
 typedef struct {
     fl_surrogate_lanes s;
-    _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row                       */
-    fl_lane off[3], u[3], wi[3], wj[3];      /* from A's centre to B's; v_A - v_B, lag and all; spins  */
-    fl_lane lags;                            /* dt of fl_pair_rotation_lag(), 0 where a ball touches */
-    fl_lane du[3], dwi[3], dwj[3],
-        pressed;      /* by how much the end of the step is ahead of them, velocity_predictor.h */
-    fl_lane had[HAD]; /* what fl_pair had, from f on */
-    fl_lane mass, reduced, touch, rest, damping, friction, tangential; /* of pair and law              */
-    fl_lane turn[3]; /* of the force since the look; frame of B                */
-    fl_lane chi, damps, grown, by[3], fd[3], md[3]; /* of damping; frame of B, for a share of 1             */
-    fl_lane slip[SLIP];                             /* as it is remembered; the last two are nothing */
-    fl_lane ease[6];                                /* world axes */
-    fl_lane n[3], rubs[3], next[3], aj[3], k, g, limit, arm, twist, dw, dw_next; /* as friction sees them */
-    fl_lane to[FL_PAIR_RESULTS]; /* what fl_pair gets                       */
+    _Alignas(64) fl_lane qi[4], qj[4], R[9]; /* attitudes; axes of B, row by row */
+    fl_lane off[3], u[3];                    /* from A's centre to B's; v_A - v_B with the lag */
+    fl_lane wi[3], wj[3];                    /* angular velocities */
+    fl_lane lag_dt;                          /* dt of fl_pair_rotation_lag(), 0 for spheres */
+    fl_lane du[3], dwi[3], dwj[3], count;    /* fl_predicted_velocity */
+    fl_lane previous[PREVIOUS];              /* results of the last step, from force on */
+    fl_lane mass, reduced, max_approach;     /* of the pair */
+    fl_lane slow_factor, impact_damping, friction, tangential; /* of its law */
+    fl_lane turn[3]; /* rotation of the force since the exact evaluation, frame of B */
+    /* damping; fd and md in the frame of B, for a force ratio of 1 */
+    fl_lane chi, weight_y, growth, shift[3], fd[3], md[3];
+    fl_lane springs[SPRINGS]; /* fl_friction_springs; the last two are unused */
+    fl_lane compliance[6];
+    /* input of friction */
+    fl_lane n[3], v[3], v_end[3], aj[3], k, g, limit, arm, spin_mean, spin, spin_end;
+    fl_lane results[FL_PAIR_RESULTS]; /* of fl_pair, from force on */
 } batch;
 
 #define OF(member) (b->s.s + FL_SURROGATE_ROW(member))
-#define TO(member) (b->to + (offsetof(fl_pair, member) - offsetof(fl_pair, force)) / sizeof(double))
+#define TO(member) (b->results + (offsetof(fl_pair, member) - offsetof(fl_pair, force)) / sizeof(double))
 
-FL_SIMD4_VERSIONS static void turn_in(fl_lane *row, const double *const *of, int rows)
+FL_SIMD4_VERSIONS static void load_rows(fl_lane *row, const double *const *of, int rows)
 {
     fl_lanes_load(row, of, rows);
 }
 
-FL_SIMD_INLINE fl_friction_springs slip_of(const batch *b, int k)
+FL_SIMD_INLINE fl_friction_springs springs_of(const batch *b, int k)
 {
-    return (fl_friction_springs){fl_lane3(b->slip, k), b->slip[3].a[k], b->slip[4].a[k], b->slip[5].a[k]};
+    return (fl_friction_springs){fl_lane3(b->springs, k), b->springs[3].a[k], b->springs[4].a[k],
+                                 b->springs[5].a[k]};
 }
 
 /* fl_previous_force_of() */
-FL_SIMD_INLINE fl_previous_force before_of(const batch *b, int k)
+FL_SIMD_INLINE fl_previous_force previous_of(const batch *b, int k)
 {
-    const fl_lane *h = b->had;
+    const fl_lane *h = b->previous;
     return fl_previous_force_from(
         fl_wrench_about_middle(fl_lane3(h, k), fl_lane3(h + 3, k), fl_lane3(h + 6, k)),
         fl_wrench_about_middle(fl_lane3(h + 9, k), fl_lane3(h + 12, k), fl_lane3(h + 15, k)),
-        fl_wrench_about_middle(fl_lane3(h + 18, k), fl_lane3(h + 21, k), fl_lane3(h + 24, k)), slip_of(b, k));
+        fl_wrench_about_middle(fl_lane3(h + 18, k), fl_lane3(h + 21, k), fl_lane3(h + 24, k)),
+        springs_of(b, k));
 }
 
-FL_SIMD_INLINE fl_sym3 ease_of(const fl_lane *a, int k)
+FL_SIMD_INLINE fl_sym3 compliance_of(const fl_lane *a, int k)
 {
     return (fl_sym3){a[0].a[k], a[1].a[k], a[2].a[k], a[3].a[k], a[4].a[k], a[5].a[k]};
 }
 
-FL_SIMD_INLINE void put_ease(fl_lane *a, int k, fl_sym3 K)
+FL_SIMD_INLINE void set_compliance(fl_lane *a, int k, fl_sym3 K)
 {
     a[0].a[k] = K.xx, a[1].a[k] = K.xy, a[2].a[k] = K.xz;
     a[3].a[k] = K.yy, a[4].a[k] = K.yz, a[5].a[k] = K.zz;
 }
 
-static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt)
+static void load_batch(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt)
 {
     const fl_surrogate *s[FL_SURROGATE_BATCH];
     const double *qi[FL_SURROGATE_BATCH], *qj[FL_SURROGATE_BATCH], *had[FL_SURROGATE_BATCH],
@@ -81,7 +85,7 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         had[k] = fl_lane_column(&c->force);
         slip[k] = fl_lane_column(&c->springs);
         fl_lane3_set(b->off, k, fl_separation(w, i, j, c->image));
-        b->lags.a[k] = o->is_isotropic[i] || o->is_isotropic[j] ? 0.0 : dt;
+        b->lag_dt.a[k] = o->is_isotropic[i] || o->is_isotropic[j] ? 0.0 : dt;
         fl_lane3_set(b->u, k, v3_sub(o->v[i], o->v[j]));
         fl_lane3_set(b->wi, k, o->w[i]);
         fl_lane3_set(b->wj, k, o->w[j]);
@@ -89,16 +93,16 @@ static void lay(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt
         fl_lane3_set(b->du, k, lead.v);
         fl_lane3_set(b->dwi, k, lead.wi);
         fl_lane3_set(b->dwj, k, lead.wj);
-        b->pressed.a[k] = lead.contact_count;
-        b->mass.a[k] = b->reduced.a[k] = c->mass, b->touch.a[k] = c->max_approach_speed;
-        b->rest.a[k] = c->law->slow_damping_factor, b->damping.a[k] = c->law->impact_damping;
+        b->count.a[k] = lead.contact_count;
+        b->mass.a[k] = b->reduced.a[k] = c->mass, b->max_approach.a[k] = c->max_approach_speed;
+        b->slow_factor.a[k] = c->law->slow_damping_factor, b->impact_damping.a[k] = c->law->impact_damping;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential_ratio;
     }
     fl_surrogate_pack(&b->s, s, FL_SURROGATE_BATCH);
-    turn_in(b->qi, qi, 4);
-    turn_in(b->qj, qj, 4);
-    turn_in(b->had, had, HAD);
-    turn_in(b->slip, slip, SLIP);
+    load_rows(b->qi, qi, 4);
+    load_rows(b->qj, qj, 4);
+    load_rows(b->previous, had, PREVIOUS);
+    load_rows(b->springs, slip, SPRINGS);
 }
 
 /* --- lane by lane ------------------------------------------------------------------------------- */
@@ -108,30 +112,30 @@ FL_SIMD_INLINE fl_rows3 rows_of(const fl_lane *R, int k)
     return (fl_rows3){fl_lane3(R, k), fl_lane3(R + 3, k), fl_lane3(R + 6, k)};
 }
 
-/* The velocity of A against B at aj from B's centre, in the mean of the step. */
-FL_SIMD_INLINE fl_vec3 went(const batch *b, int k, fl_vec3 aj)
+/* Mean velocity of A against B in the step at aj from B's centre. */
+FL_SIMD_INLINE fl_vec3 mean_velocity(const batch *b, int k, fl_vec3 aj)
 {
     const fl_vec3 ai = v3_add(aj, fl_lane3(b->off, k));
     return v3_add(fl_lane3(b->u, k),
                   v3_sub(v3_cross(fl_lane3(b->wi, k), ai), v3_cross(fl_lane3(b->wj, k), aj)));
 }
 
-/* By how much the end of the step is ahead of that. */
-FL_SIMD_INLINE fl_vec3 leads(const batch *b, int k, fl_vec3 aj)
+/* Predicted change of that velocity until the end of the step. */
+FL_SIMD_INLINE fl_vec3 predicted_change(const batch *b, int k, fl_vec3 aj)
 {
     const fl_predicted_velocity lead = {
         .v = fl_lane3(b->du, k), .wi = fl_lane3(b->dwi, k), .wj = fl_lane3(b->dwj, k)};
     return fl_predicted_velocity_at(&lead, v3_add(aj, fl_lane3(b->off, k)), aj);
 }
 
-/* How A stands to B. */
-FL_SIMD_VERSIONS static void relate(batch *restrict b)
+/* Relative poses, velocities with the lag, and compliances in world axes. */
+FL_SIMD_VERSIONS static void find_poses(batch *restrict b)
 {
 #pragma omp simd
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         const fl_rows3 A = fl_lane_axes(b->qi, k), B = fl_lane_axes(b->qj, k);
         const fl_vec3 lag =
-            fl_rotation_lag(fl_lane3(b->wi, k), fl_lane3(b->wj, k), fl_lane3(b->off, k), b->lags.a[k]);
+            fl_rotation_lag(fl_lane3(b->wi, k), fl_lane3(b->wj, k), fl_lane3(b->off, k), b->lag_dt.a[k]);
         fl_lane3_set(b->u, k, v3_add(fl_lane3(b->u, k), lag));
         fl_lane3_set(b->du, k, v3_sub(fl_lane3(b->du, k), lag));
         const fl_vec3 x = v3(A.x.x, A.y.x, A.z.x), y = v3(A.x.y, A.y.y, A.z.y), z = v3(A.x.z, A.y.z, A.z.z);
@@ -143,14 +147,14 @@ FL_SIMD_VERSIONS static void relate(batch *restrict b)
         fl_lane3_set(b->s.M, k, v3(Mx.x, My.x, Mz.x));
         fl_lane3_set(b->s.M + 3, k, v3(Mx.y, My.y, Mz.y));
         fl_lane3_set(b->s.M + 6, k, v3(Mx.z, My.z, Mz.z));
-        put_ease(b->ease, k,
-                 s3_rotated(ease_of((b->s.s + FL_SURROGATE_ROW(compliance.xx)), k), v3(B.x.x, B.y.x, B.z.x),
-                            v3(B.x.y, B.y.y, B.z.y), v3(B.x.z, B.y.z, B.z.z)));
+        set_compliance(b->compliance, k,
+                       s3_rotated(compliance_of((b->s.s + FL_SURROGATE_ROW(compliance.xx)), k),
+                                  v3(B.x.x, B.y.x, B.z.x), v3(B.x.y, B.y.y, B.z.y), v3(B.x.z, B.y.z, B.z.z)));
     }
 }
 
-/* The mass that meets, and how it yields, where that hangs on the force. */
-static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
+/* Effective mass and compliance, for pairs in which they depend on the force. */
+static void find_masses(batch *b, const fl_world *w, fl_pair *const *p, int n)
 {
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         const fl_pair *c = p[k < n ? k : 0];
@@ -163,32 +167,33 @@ static void weigh(batch *b, const fl_world *w, fl_pair *const *p, int n)
         const fl_pair_mobility ease = fl_pair_mobility_of(w, c);
         b->mass.a[k] = fl_pair_mass(w, c, &ease, f, ti, tj);
         OF(inv_mass)->a[k] = fl_pair_compliance(&ease, f, ti, tj, b->s.force_ratio.a[k] * OF(pressure)->a[k]);
-        put_ease(b->ease, k, fl_pair_compliance_matrix(&ease, v3_add(at, fl_lane3(b->off, k)), at));
+        set_compliance(b->compliance, k,
+                       fl_pair_compliance_matrix(&ease, v3_add(at, fl_lane3(b->off, k)), at));
         OF(turn_compliance)->a[k] = fl_pair_turn_compliance(&ease, v3_unit(f));
     }
 }
 
-/* The mean of max(0, x) over x spread evenly about c, by so much both ways. */
-FL_SIMD_INLINE double met_of(double c, double wide)
+/* Mean of max(0, x) for x distributed evenly on [c - wide, c + wide]. */
+FL_SIMD_INLINE double mean_approach(double c, double wide)
 {
     const double over = c + wide, part = 0.25 * over * over / (wide > 0.0 ? wide : 1.0);
     return c >= wide ? c : over > 0.0 ? part : 0.0;
 }
 
 /* Row r of a symmetric matrix times (v, w). */
-FL_SIMD_INLINE double row_by(const fl_lane *A, int k, int r, fl_vec3 v, fl_vec3 w)
+FL_SIMD_INLINE double row_times(const fl_lane *A, int k, int r, fl_vec3 v, fl_vec3 w)
 {
     const uint8_t *at = FL_UPPER[r];
     return (A[at[0]].a[k] * v.x + A[at[1]].a[k] * v.y + A[at[2]].a[k] * v.z) +
            (A[at[3]].a[k] * w.x + A[at[4]].a[k] * w.y + A[at[5]].a[k] * w.z);
 }
 
-/* a after a small turn. */
-FL_SIMD_INLINE fl_vec3 after(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(turn, a)); }
+/* a after a small rotation. */
+FL_SIMD_INLINE fl_vec3 rotated(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(turn, a)); }
 
-/* How A moves against B, and what damping adds to a share of 1: -chi times the sums over
- * e (n, t) (n, t)^T.  What presses has turned as the force has since the look. */
-FL_SIMD_VERSIONS static void move(batch *restrict b, fl_predictor_step of)
+/* Motion of A against B, and damping for a force ratio of 1: -chi times the sums over e (n, t) (n, t)^T.  The
+ * pressures are rotated as the force has been since the last exact evaluation. */
+FL_SIMD_VERSIONS static void find_damping(batch *restrict b, fl_predictor_step of)
 {
     const fl_lane *A = OF(damping);
 #pragma omp simd
@@ -196,114 +201,119 @@ FL_SIMD_VERSIONS static void move(batch *restrict b, fl_predictor_step of)
         const fl_rows3 R = rows_of(b->R, k);
         const fl_vec3 first = fl_lane3(OF(first_point), k), force = fl_lane3(b->s.f, k),
                       D = fl_lane3(OF(direction), k), T = fl_lane3(OF(torque), k);
-        /* the pressures move to where force and moment want them */
+        /* the pressures shift to where the force and the moment act */
         const fl_vec3 arm = v3_sub(fl_lane3(b->s.point, k), first);
-        const fl_vec3 acts =
+        const fl_vec3 centre =
             fl_surrogate_force_centre(force, v3_add(fl_lane3(b->s.m, k), v3_cross(arm, force)));
-        const fl_vec3 by = v3_sub(acts, fl_lane3(OF(centre), k));
-        const fl_vec3 was = fl_lane3(OF(g), k); /* against the force */
+        const fl_vec3 by = v3_sub(centre, fl_lane3(OF(centre), k));
+        const fl_vec3 was = fl_lane3(OF(g), k); /* opposite to the force */
         const double size2 = v3_norm2(force) * v3_norm2(was), each2 = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0;
         const fl_vec3 turn = v3_scale(each2, v3_cross(force, was)), back = v3_neg(turn);
         const fl_vec3 aj = r3_mul(R, v3_add(first, by)),
                       turns = v3_sub(fl_lane3(b->wi, k), fl_lane3(b->wj, k)),
                       more = v3_sub(fl_lane3(b->dwi, k), fl_lane3(b->dwj, k));
-        const fl_vec3 v = after(back, r3_tmul(R, v3_add(went(b, k, aj), leads(b, k, aj))));
-        const fl_vec3 w = after(back, r3_tmul(R, v3_add(turns, more)));
-        const fl_vec3 f = v3(row_by(A, k, 0, v, w), row_by(A, k, 1, v, w), row_by(A, k, 2, v, w)),
-                      m = v3(row_by(A, k, 3, v, w), row_by(A, k, 4, v, w), row_by(A, k, 5, v, w));
+        const fl_vec3 v =
+            rotated(back, r3_tmul(R, v3_add(mean_velocity(b, k, aj), predicted_change(b, k, aj))));
+        const fl_vec3 w = rotated(back, r3_tmul(R, v3_add(turns, more)));
+        const fl_vec3 f = v3(row_times(A, k, 0, v, w), row_times(A, k, 1, v, w), row_times(A, k, 2, v, w)),
+                      m = v3(row_times(A, k, 3, v, w), row_times(A, k, 4, v, w), row_times(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
-        /* the speed that damping asks for, the mean of what approaches, likewise spread evenly */
-        const double c2 = each * (v3_dot(f, v) + v3_dot(m, w)), apart = c2 - closing * closing,
-                     wide = sqrt(3.0 * (apart > 0.0 ? apart : 0.0)), met = met_of(closing, wide),
-                     touch = met > b->touch.a[k] ? met : b->touch.a[k];
-        const double chi =
-            fl_damping_chi(b->damping.a[k], b->rest.a[k], touch, b->s.energy.a[k], b->mass.a[k]);
-        /* what of the change is its own */
-        const fl_previous_force before = before_of(b, k);
-        const double size = v3_norm(force), presses = b->s.force_ratio.a[k] * OF(pressure)->a[k],
-                     own = fl_predict_approach(closing, size, chi * size, OF(inv_mass)->a[k], b->pressed.a[k],
-                                               of, before),
-                     nearer = fl_predictor_share(size, presses) * (own - closing), ends = closing + nearer;
-        const double grown = 1.0 + chi * ends, var = chi * chi * apart;
-        const fl_no_tension held = fl_no_tension_of(
-            grown, var, OF(half_width)->a[k] * sqrt(var > 0.0 ? var : 0.0), OF(skewness)->a[k]);
-        const double adds = -chi * (1.0 + held.q), still = held.p + held.q * (1.0 - grown);
-        b->touch.a[k] = touch;
+        /* approach speed for damping: the mean over the approaching points, with evenly distributed speeds */
+        const double c2 = each * (v3_dot(f, v) + v3_dot(m, w)), variance = c2 - closing * closing,
+                     wide = sqrt(3.0 * (variance > 0.0 ? variance : 0.0)),
+                     mean = mean_approach(closing, wide),
+                     touch = mean > b->max_approach.a[k] ? mean : b->max_approach.a[k];
+        const double chi = fl_damping_chi(b->impact_damping.a[k], b->slow_factor.a[k], touch,
+                                          b->s.energy.a[k], b->mass.a[k]);
+        /* the change by the contact itself */
+        const fl_previous_force before = previous_of(b, k);
+        const double size = v3_norm(force), pressure = b->s.force_ratio.a[k] * OF(pressure)->a[k],
+                     corrected = fl_predict_approach(closing, size, chi * size, OF(inv_mass)->a[k],
+                                                     b->count.a[k], of, before),
+                     correction = fl_predictor_share(size, pressure) * (corrected - closing),
+                     end_speed = closing + correction;
+        const double growth = 1.0 + chi * end_speed, var = chi * chi * variance;
+        const fl_no_tension stable = fl_no_tension_of(
+            growth, var, OF(half_width)->a[k] * sqrt(var > 0.0 ? var : 0.0), OF(skewness)->a[k]);
+        const double factor = -chi * (1.0 + stable.q), unmoved = stable.p + stable.q * (1.0 - growth);
+        b->max_approach.a[k] = touch;
         b->chi.a[k] = chi;
-        b->damps.a[k] = 2.0 * of.half_step * chi * presses / b->reduced.a[k];
-        b->grown.a[k] = grown + held.p;
-        fl_lane3_set(b->by, k, by);
+        b->weight_y.a[k] = 2.0 * of.half_step * chi * pressure / b->reduced.a[k];
+        b->growth.a[k] = growth + stable.p;
+        fl_lane3_set(b->shift, k, by);
         fl_lane3_set(b->turn, k, turn);
-        fl_lane3_set(b->fd, k, after(turn, v3_madd(v3_scale(still, D), adds, v3_madd(f, -nearer, D))));
-        fl_lane3_set(b->md, k, after(turn, v3_madd(v3_scale(still, T), adds, v3_madd(m, -nearer, T))));
+        fl_lane3_set(b->fd, k,
+                     rotated(turn, v3_madd(v3_scale(unmoved, D), factor, v3_madd(f, -correction, D))));
+        fl_lane3_set(b->md, k,
+                     rotated(turn, v3_madd(v3_scale(unmoved, T), factor, v3_madd(m, -correction, T))));
     }
 }
 
-/* The force of W and what damping adds to it; and what friction sees. */
-FL_SIMD_VERSIONS static void bear(batch *restrict b)
+/* The force of W with damping, and the input of friction. */
+FL_SIMD_VERSIONS static void find_normal_forces(batch *restrict b)
 {
 #pragma omp simd
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         const fl_rows3 R = rows_of(b->R, k);
         const fl_vec3 first = fl_lane3(OF(first_point), k), point = fl_lane3(b->s.point, k),
                       f = fl_lane3(b->s.f, k), m = fl_lane3(b->s.m, k), off = fl_lane3(b->off, k);
-        const double share = b->s.force_ratio.a[k], grown = b->grown.a[k];
-        const fl_vec3 by = fl_lane3(b->by, k), turn = fl_lane3(b->turn, k);
+        const double share = b->s.force_ratio.a[k], growth = b->growth.a[k];
+        const fl_vec3 by = fl_lane3(b->shift, k), turn = fl_lane3(b->turn, k);
         fl_vec3 fd = fl_lane3(b->fd, k), md = fl_lane3(b->md, k);
-        const fl_vec3 still = after(turn, fl_lane3(OF(direction), k)), direction = v3_add(still, fd),
-                      turning = v3_add(after(turn, fl_lane3(OF(torque), k)), md);
-        /* damping must not leave what the force is off from the pressures by */
+        const fl_vec3 unmoved = rotated(turn, fl_lane3(OF(direction), k)), direction = v3_add(unmoved, fd),
+                      turning = v3_add(rotated(turn, fl_lane3(OF(torque), k)), md);
+        /* the force that is not pressure scales with damping as well */
         const fl_vec3 rest =
-            v3_sub(v3_sub(v3_scale(1.0 / share, f), after(turn, fl_lane3(OF(other_force), k))), still);
-        const fl_vec3 less = v3_madd(fd, grown - 1.0, rest);
-        fd = v3(grown < 1.0 ? less.x : fd.x, grown < 1.0 ? less.y : fd.y, grown < 1.0 ? less.z : fd.z);
+            v3_sub(v3_sub(v3_scale(1.0 / share, f), rotated(turn, fl_lane3(OF(other_force), k))), unmoved);
+        const fl_vec3 less = v3_madd(fd, growth - 1.0, rest);
+        fd = v3(growth < 1.0 ? less.x : fd.x, growth < 1.0 ? less.y : fd.y, growth < 1.0 ? less.z : fd.z);
         md = v3_add(md, v3_cross(by, fd));
-        /* in the world */
+        /* to world axes */
         const fl_vec3 at = r3_mul(R, point), aj = r3_mul(R, first), F = r3_mul(R, f), FM = r3_mul(R, m);
         const fl_vec3 D1 = v3_scale(share, r3_mul(R, fd)), DM = v3_scale(share, r3_mul(R, md));
-        const fl_vec3 amid = v3_scale(0.5, off);
-        const fl_wrench elastic = {F, v3_add(v3_cross(v3_add(at, amid), F), FM)},
-                        damping = {D1, v3_add(v3_cross(v3_add(aj, amid), D1), DM)};
-        const fl_previous_force was = before_of(b, k);
-        const fl_wrench held = fl_stabilised_damping(elastic, damping, share * OF(pressure)->a[k],
-                                                     b->damps.a[k], b->pressed.a[k], was, 0.0);
-        const fl_vec3 D = held.f, half = v3_cross(amid, D), di = v3_add(half, held.m),
-                      dj = v3_sub(half, held.m);
+        const fl_vec3 middle = v3_scale(0.5, off);
+        const fl_wrench elastic = {F, v3_add(v3_cross(v3_add(at, middle), F), FM)},
+                        damping = {D1, v3_add(v3_cross(v3_add(aj, middle), D1), DM)};
+        const fl_previous_force was = previous_of(b, k);
+        const fl_wrench stable = fl_stabilised_damping(elastic, damping, share * OF(pressure)->a[k],
+                                                       b->weight_y.a[k], b->count.a[k], was, 0.0);
+        const fl_vec3 D = stable.f, half = v3_cross(middle, D), di = v3_add(half, stable.m),
+                      dj = v3_sub(half, stable.m);
         fl_lane3_set(TO(force_damping), k, D);
         fl_lane3_set(TO(torque_i_damping), k, di);
         fl_lane3_set(TO(torque_j_damping), k, dj);
         fl_lane3_set(TO(force), k, v3_add(F, D));
         fl_lane3_set(TO(torque_i), k, v3_add(v3_add(v3_cross(v3_add(at, off), F), FM), di));
         fl_lane3_set(TO(torque_j), k, v3_sub(dj, v3_add(v3_cross(at, F), FM)));
-        /* friction, where all that presses acts, and as high as it does */
+        /* friction centre at the centre of the pressures, in size and height */
         const double size = v3_norm(direction), least = 1e-12 * OF(pressure)->a[k],
-                     each = size > least ? 1.0 / size : 0.0, rubs = size > least ? b->friction.a[k] : 0.0,
-                     springs = rubs > 0.0 ? b->tangential.a[k] : 0.0;
+                     each = size > least ? 1.0 / size : 0.0, mu = size > least ? b->friction.a[k] : 0.0,
+                     springs = mu > 0.0 ? b->tangential.a[k] : 0.0;
         const fl_vec3 n = r3_mul(R, v3_scale(each, direction));
-        const fl_vec3 acts = v3_add(v3_add(by, after(turn, fl_lane3(OF(centre_offset), k))),
-                                    v3_scale(each * each, v3_cross(direction, turning)));
-        const fl_vec3 centred = v3_add(aj, r3_mul(R, acts));
+        const fl_vec3 centre = v3_add(v3_add(by, rotated(turn, fl_lane3(OF(centre_offset), k))),
+                                      v3_scale(each * each, v3_cross(direction, turning)));
+        const fl_vec3 at_centre = v3_add(aj, r3_mul(R, centre));
         const double wi = v3_dot(fl_lane3(b->wi, k), n), wj = v3_dot(fl_lane3(b->wj, k), n),
                      more = v3_dot(fl_lane3(b->dwi, k), n) - v3_dot(fl_lane3(b->dwj, k), n);
-        const fl_vec3 goes = went(b, k, centred);
+        const fl_vec3 v = mean_velocity(b, k, at_centre);
         fl_lane3_set(b->n, k, n);
-        fl_lane3_set(b->aj, k, centred);
-        fl_lane3_set(b->rubs, k, goes);
-        fl_lane3_set(b->next, k, v3_add(goes, leads(b, k, centred)));
+        fl_lane3_set(b->aj, k, at_centre);
+        fl_lane3_set(b->v, k, v);
+        fl_lane3_set(b->v_end, k, v3_add(v, predicted_change(b, k, at_centre)));
         b->k.a[k] = springs * b->s.slope.a[k];
         b->g.a[k] = springs * b->chi.a[k] * (share * OF(pressure)->a[k]);
-        b->limit.a[k] = rubs * (share * size);
+        b->limit.a[k] = mu * (share * size);
         b->arm.a[k] = OF(radius)->a[k];
-        b->dw.a[k] = wi - wj;
-        b->dw_next.a[k] = wi - wj + more;
-        b->twist.a[k] = 0.5 * (wi + wj);
+        b->spin.a[k] = wi - wj;
+        b->spin_end.a[k] = wi - wj + more;
+        b->spin_mean.a[k] = 0.5 * (wi + wj);
     }
 }
 
-/* Friction; and what else is told. */
-FL_SIMD_VERSIONS static void rub(batch *restrict b, fl_predictor_step of, int survey)
+/* Friction and the remaining results. */
+FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step of, int survey)
 {
-    const double asked = survey ? 1.0 : 0.0;
+    const double surveyed = survey ? 1.0 : 0.0;
 #pragma omp simd
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         const fl_friction_contact c = {
@@ -312,18 +322,18 @@ FL_SIMD_VERSIONS static void rub(batch *restrict b, fl_predictor_step of, int su
             .g = b->g.a[k],
             .limit = b->limit.a[k],
             .arm = b->arm.a[k],
-            .compliance = ease_of(b->ease, k),
+            .compliance = compliance_of(b->compliance, k),
             .turn_compliance = OF(turn_compliance)->a[k],
-            .contact_count = b->pressed.a[k],
+            .contact_count = b->count.a[k],
         };
         const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
-        const fl_friction_springs was = slip_of(b, k);
-        const fl_previous_force before = before_of(b, k);
-        const fl_friction_motion by = {fl_lane3(b->rubs, k),
-                                       fl_lane3(b->next, k),
-                                       b->dw.a[k],
-                                       b->dw_next.a[k],
-                                       b->twist.a[k],
+        const fl_friction_springs was = springs_of(b, k);
+        const fl_previous_force before = previous_of(b, k);
+        const fl_friction_motion by = {fl_lane3(b->v, k),
+                                       fl_lane3(b->v_end, k),
+                                       b->spin.a[k],
+                                       b->spin_end.a[k],
+                                       b->spin_mean.a[k],
                                        before.friction_damping,
                                        fl_previous_damping_moment(before, c.n, ai, aj),
                                        of.half_step,
@@ -331,10 +341,10 @@ FL_SIMD_VERSIONS static void rub(batch *restrict b, fl_predictor_step of, int su
         const fl_friction_result to = fl_tangent_step(was, c, by, of.dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
-        const double spring = fl_tangent_energy(to.springs), slope = asked * b->s.slope.a[k];
-        fl_lane3_set(b->slip, k, to.springs.force);
-        b->slip[3].a[k] = to.springs.k, b->slip[4].a[k] = to.springs.moment,
-        b->slip[5].a[k] = to.springs.k_turn;
+        const double spring = fl_tangent_energy(to.springs), slope = surveyed * b->s.slope.a[k];
+        fl_lane3_set(b->springs, k, to.springs.force);
+        b->springs[3].a[k] = to.springs.k, b->springs[4].a[k] = to.springs.moment,
+        b->springs[5].a[k] = to.springs.k_turn;
         fl_lane3_set(TO(force_friction), k, t);
         fl_lane3_set(TO(torque_i_friction), k, si);
         fl_lane3_set(TO(torque_j_friction), k, sj);
@@ -353,8 +363,9 @@ FL_SIMD_VERSIONS static void rub(batch *restrict b, fl_predictor_step of, int su
 
 static_assert(offsetof(fl_friction_springs, k_turn) == 5 * sizeof(double), "six in a row");
 
-/* To those that are done. */
-FL_SIMD4_VERSIONS static void give(const batch *restrict b, fl_pair *const *p, const uint8_t *done, int n)
+/* Stores the results in the pairs that are done. */
+FL_SIMD4_VERSIONS static void store_results(const batch *restrict b, fl_pair *const *p, const uint8_t *done,
+                                            int n)
 {
     for (int k = 0; k < n; k += FL_SIMD_WIDTH) {
         double nowhere[FL_PAIR_RESULTS], last[FL_SIMD_WIDTH][FL_SIMD_WIDTH], *to[FL_SIMD_WIDTH],
@@ -366,18 +377,18 @@ FL_SIMD4_VERSIONS static void give(const batch *restrict b, fl_pair *const *p, c
             slip[l] = c ? (double *)(void *)&c->springs : nowhere;
             end[l] = last[l];
         }
-        fl_lanes_store(slip, b->slip, k);
-        fl_lanes_store(end, b->slip + FL_SIMD_WIDTH, k);
+        fl_lanes_store(slip, b->springs, k);
+        fl_lanes_store(end, b->springs + FL_SIMD_WIDTH, k);
         for (int row = 0; row < FL_PAIR_RESULTS; row += FL_SIMD_WIDTH) {
             double *const at[FL_SIMD_WIDTH] = {to[0] + row, to[1] + row, to[2] + row, to[3] + row};
-            fl_lanes_store(at, b->to + row, k);
+            fl_lanes_store(at, b->results + row, k);
         }
         for (int l = 0; l < FL_SIMD_WIDTH && k + l < n; l++) {
             fl_pair *const c = p[k + l];
             if (!done[k + l]) continue;
             c->springs.moment = last[l][0], c->springs.k_turn = last[l][1];
             c->surrogate->used = 1;
-            c->max_approach_speed = b->touch.a[k + l];
+            c->max_approach_speed = b->max_approach.a[k + l];
         }
     }
 }
@@ -388,20 +399,20 @@ void fl_surrogate_batch_evaluate(const fl_world *w, fl_pair *const *p, int n, do
     const fl_predictor_step of = fl_predictor_step_of(w, dt);
     batch b;
     int any = 0;
-    lay(&b, w, p, n, dt);
-    relate(&b);
+    load_batch(&b, w, p, n, dt);
+    find_poses(&b);
     fl_surrogate_evaluate(&b.s);
-    weigh(&b, w, p, n);
-    move(&b, of);
+    find_masses(&b, w, p, n);
+    find_damping(&b, of);
     for (int k = 0; k < n; k++) {
         done[k] = fl_surrogate_in_range(p[k]->surrogate, b.s.path.a[k], b.s.turn.a[k], b.s.z.a[k], 1.0) &&
                   b.s.force_ratio.a[k] > 0.0;
         any |= done[k];
     }
     if (any) {
-        bear(&b);
-        rub(&b, of, survey);
-        give(&b, p, done, n);
+        find_normal_forces(&b);
+        find_friction(&b, of, survey);
+        store_results(&b, p, done, n);
     }
     for (int k = 0; k < n; k++)
         if (!done[k]) t[k] = fl_surrogate_unpack(&b.s, k);

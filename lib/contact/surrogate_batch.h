@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* surrogate_batch.h -- the forces of contacts that have hardly moved, as their surrogates tell them, several at a time:
- * one array a number, each contact in a lane of its own, whose bits do not hang on what is beside it. */
+/* surrogate_batch.h -- forces of contacts that have hardly moved, from their surrogates
+ * (patch/surrogate.h), several at a time: one array for each quantity, one contact in each lane.  The bits
+ * of a contact do not depend on the other lanes. */
 #ifndef FL_CONTACT_SURROGATE_BATCH_H
 #define FL_CONTACT_SURROGATE_BATCH_H
 #include "contact/panel_load.h"
 #include "world/world.h"
 
-/* Whether contact p may be told of: it has been looked at, and nobody wants to know its places. */
+/* True if the surrogate may stand in for contact p: it has been evaluated before and no output needs its
+ * points. */
 static inline int fl_surrogate_applies(const fl_world *w, const fl_pair *p)
 {
     return p->touching && p->surrogate && p->surrogate->valid && !fl_panels_need_points(w, p);
 }
 
-/* n <= FL_SURROGATE_BATCH contacts that may be told of, over a step of dt [s].  done[k]: 1 where p[k] has its forces; 0
- * where it has to be looked at, and t[k] has what was told for its pose. */
+/* Evaluates n <= FL_SURROGATE_BATCH contacts, for which fl_surrogate_applies(), over a step of dt [s].
+ * done[k] is 1 if p[k] has its forces.  It is 0 if p[k] needs an exact evaluation; t[k] is then the value
+ * for its pose. */
 void fl_surrogate_batch_evaluate(const fl_world *w, fl_pair *const *p, int n, double dt, int survey,
                                  uint8_t *done, fl_surrogate_value *t);
 

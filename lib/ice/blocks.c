@@ -10,14 +10,14 @@
 #include "geom/mass.h"
 #include "ice/blocks.h"
 
-/* Sites to a cell of the grid that finds neighbours. */
-#define CROWD 3.0
-/* The parts filled must agree with the one asked for to this part, which is far below any porosity that is
- * known, and above the rounding of volumes. */
-#define FILLED 1e-10
-#define ROUGH 0.1 /* the most that blocks which vanish together may leave of what is asked for */
+/* Mean number of sites in a cell of the search grid. */
+#define SITES_PER_CELL 3.0
+/* Relative tolerance of the filled volume: far below the accuracy of any measured porosity, above the
+ * rounding of volumes. */
+#define FILL_TOL 1e-10
+#define FILL_MAX_ERROR 0.1 /* largest relative error that blocks vanishing together may leave */
 
-enum { STEPS = 80, DEEPER = 12, TRIES = 100000 };
+enum { STEPS = 80, MAX_ROUNDS = 12, TRIES = 100000 };
 
 double fl_blocks_volume(const fl_poly *p)
 {
@@ -27,7 +27,7 @@ double fl_blocks_volume(const fl_poly *p)
     return six / 3.0;
 }
 
-static int holds(const fl_poly *p, fl_vec3 x)
+static int contains_point(const fl_poly *p, fl_vec3 x)
 {
     for (int32_t f = 0; f < p->nf; f++)
         if (v3_dot(p->n[f], x) > p->c[f]) return 0;
@@ -36,8 +36,8 @@ static int holds(const fl_poly *p, fl_vec3 x)
 
 /* --- sites ---------------------------------------------------------------------------------------------- */
 
-static int throw_sites(int32_t n, uint64_t seed, int64_t first, const fl_poly *region, fl_vec3 *site,
-                       fl_err *err)
+static int draw_sites(int32_t n, uint64_t seed, int64_t first, const fl_poly *region, fl_vec3 *site,
+                      fl_err *err)
 {
     const fl_aabb box = fl_poly_aabb(region);
     for (int32_t i = 0; i < n; i++) {
@@ -47,33 +47,33 @@ static int throw_sites(int32_t n, uint64_t seed, int64_t first, const fl_poly *r
             site[i].x = fl_rng_in(&g, box.lo.x, box.hi.x);
             site[i].y = fl_rng_in(&g, box.lo.y, box.hi.y);
             site[i].z = fl_rng_in(&g, box.lo.z, box.hi.z);
-        } while (!holds(region, site[i]) && ++tries < TRIES);
+        } while (!contains_point(region, site[i]) && ++tries < TRIES);
         if (tries == TRIES) return fl_fail(err, FL_NUMERIC, "a region fills next to nothing of its box");
     }
     return 0;
 }
 
-/* Sites by the cells of a grid: those of cell k are order[first[k] .. first[k + 1]). */
+/* Sites sorted by grid cells: those of cell k are order[first[k] .. first[k + 1]). */
 struct grid {
     fl_vec3 lo;
     double step;
     int32_t m[3], *first, *order;
 };
 
-static int32_t along(double x, double lo, double step, int32_t m)
+static int32_t grid_index(double x, double lo, double step, int32_t m)
 {
     const double t = floor((x - lo) / step);
     return t < 0.0 ? 0 : t >= m ? m - 1 : (int32_t)t;
 }
 
-static void place(const struct grid *g, fl_vec3 x, int32_t at[3])
+static void grid_cell_of(const struct grid *g, fl_vec3 x, int32_t at[3])
 {
-    at[0] = along(x.x, g->lo.x, g->step, g->m[0]);
-    at[1] = along(x.y, g->lo.y, g->step, g->m[1]);
-    at[2] = along(x.z, g->lo.z, g->step, g->m[2]);
+    at[0] = grid_index(x.x, g->lo.x, g->step, g->m[0]);
+    at[1] = grid_index(x.y, g->lo.y, g->step, g->m[1]);
+    at[2] = grid_index(x.z, g->lo.z, g->step, g->m[2]);
 }
 
-static int32_t number(const struct grid *g, const int32_t at[3])
+static int32_t grid_cell_number(const struct grid *g, const int32_t at[3])
 {
     return (at[2] * g->m[1] + at[1]) * g->m[0] + at[0];
 }
@@ -83,9 +83,9 @@ static int grid_build(struct grid *g, int32_t n, const fl_vec3 *site, fl_aabb bo
     const double size[3] = {box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z};
     int32_t cells = 1;
     g->lo = box.lo;
-    g->step = cbrt(CROWD * volume / n);
+    g->step = cbrt(SITES_PER_CELL * volume / n);
     for (int k = 0; k < 3; k++) {
-        /* a long thin region has few sites to its box: no more cells than would hold them all in a row */
+        /* a long thin region has few sites in its box: limit the number of grid cells */
         g->m[k] = (int32_t)fmin(fmax(1.0, ceil(size[k] / g->step)), 512.0);
         g->step = fmax(g->step, size[k] / 512.0);
     }
@@ -98,14 +98,14 @@ static int grid_build(struct grid *g, int32_t n, const fl_vec3 *site, fl_aabb bo
     if (!g->first || !g->order) return -1;
     for (int32_t i = 0; i < n; i++) {
         int32_t at[3];
-        place(g, site[i], at);
-        g->first[number(g, at) + 2]++;
+        grid_cell_of(g, site[i], at);
+        g->first[grid_cell_number(g, at) + 2]++;
     }
     for (int32_t k = 2; k <= cells; k++) g->first[k] += g->first[k - 1];
     for (int32_t i = 0; i < n; i++) {
         int32_t at[3];
-        place(g, site[i], at);
-        g->order[g->first[number(g, at) + 1]++] = i;
+        grid_cell_of(g, site[i], at);
+        g->order[g->first[grid_cell_number(g, at) + 1]++] = i;
     }
     return 0;
 }
@@ -118,24 +118,25 @@ static void grid_free(struct grid *g)
 
 /* --- cells ---------------------------------------------------------------------------------------------- */
 
-struct other {
-    double far;
+struct neighbour {
+    double distance;
     int32_t j;
 };
 
-static int nearer(const void *a, const void *b)
+static int by_distance(const void *a, const void *b)
 {
-    const struct other *p = a, *q = b;
-    if (p->far != q->far) return (p->far > q->far) - (p->far < q->far);
+    const struct neighbour *p = a, *q = b;
+    if (p->distance != q->distance) return (p->distance > q->distance) - (p->distance < q->distance);
     return (p->j > q->j) - (p->j < q->j);
 }
 
-/* Sites in the cells of the grid that are `ring` cells away along some axis, and no more along any. */
-static int gather(const struct grid *g, const fl_vec3 *site, int32_t i, int32_t ring, struct other **list,
-                  int32_t *cap, int32_t *n, fl_err *err)
+/* Collect the sites in the grid cells at a distance of exactly `ring` cells in the maximum norm, nearest
+ * first. */
+static int collect_ring(const struct grid *g, const fl_vec3 *site, int32_t i, int32_t ring,
+                        struct neighbour **list, int32_t *cap, int32_t *n, fl_err *err)
 {
     int32_t at[3], to[3];
-    place(g, site[i], at);
+    grid_cell_of(g, site[i], at);
     *n = 0;
     for (to[2] = at[2] - ring; to[2] <= at[2] + ring; to[2]++)
         for (to[1] = at[1] - ring; to[1] <= at[1] + ring; to[1]++)
@@ -146,18 +147,19 @@ static int gather(const struct grid *g, const fl_vec3 *site, int32_t i, int32_t 
                     out |= to[k] < 0 || to[k] >= g->m[k];
                 }
                 if (out || far < ring) continue;
-                for (int32_t k = g->first[number(g, to)]; k < g->first[number(g, to) + 1]; k++) {
+                for (int32_t k = g->first[grid_cell_number(g, to)]; k < g->first[grid_cell_number(g, to) + 1];
+                     k++) {
                     const int32_t j = g->order[k];
                     if (j == i) continue;
                     if (fl_grow(list, cap, (int64_t)*n + 1, sizeof **list, err)) return -1;
-                    (*list)[(*n)++] = (struct other){v3_norm(v3_sub(site[j], site[i])), j};
+                    (*list)[(*n)++] = (struct neighbour){v3_norm(v3_sub(site[j], site[i])), j};
                 }
             }
-    if (*n) qsort(*list, (size_t)*n, sizeof **list, nearer);
+    if (*n) qsort(*list, (size_t)*n, sizeof **list, by_distance);
     return 0;
 }
 
-static double farthest(const fl_poly *p, fl_vec3 x)
+static double farthest_corner(const fl_poly *p, fl_vec3 x)
 {
     double r = 0.0;
     for (int32_t v = 0; v < p->nv; v++) r = fmax(r, v3_norm2(v3_sub(p->v[v], x)));
@@ -169,26 +171,26 @@ static int cut_cell(fl_poly *cell, const fl_poly *region, const struct grid *g, 
 {
     const int32_t most =
         g->m[0] > g->m[1] ? (g->m[0] > g->m[2] ? g->m[0] : g->m[2]) : (g->m[1] > g->m[2] ? g->m[1] : g->m[2]);
-    struct other *list = NULL;
+    struct neighbour *list = NULL;
     int32_t cap = 0, n;
     double reach;
     int rc = -1;
     if (fl_poly_copy(cell, region, err)) return -1;
-    reach = 2.0 * farthest(cell, site[i]);
-    /* what lies beyond a ring of the grid is that many steps away at least */
+    reach = 2.0 * farthest_corner(cell, site[i]);
+    /* sites beyond a ring of the grid are at least that many steps away */
     for (int32_t ring = 0; ring <= most && (ring - 1) * g->step < reach; ring++) {
-        if (gather(g, site, i, ring, &list, &cap, &n, err)) goto done;
-        for (int32_t k = 0; k < n && list[k].far < reach; k++) {
-            const fl_vec3 o = site[list[k].j], d = v3_scale(1.0 / list[k].far, v3_sub(o, site[i]));
+        if (collect_ring(g, site, i, ring, &list, &cap, &n, err)) goto done;
+        for (int32_t k = 0; k < n && list[k].distance < reach; k++) {
+            const fl_vec3 o = site[list[k].j], d = v3_scale(1.0 / list[k].distance, v3_sub(o, site[i]));
             const int32_t nv = cell->nv;
             if (fl_poly_cut(cell, d, v3_dot(d, v3_lerp(site[i], o, 0.5)), err)) goto done;
             if (cell->nv == 0) {
                 fl_fail(err, FL_NUMERIC, "the cell of block %d vanishes: another site is too near", i);
                 goto done;
             }
-            if (cell->nv != nv || k % 8 == 0) reach = 2.0 * farthest(cell, site[i]);
+            if (cell->nv != nv || k % 8 == 0) reach = 2.0 * farthest_corner(cell, site[i]);
         }
-        reach = 2.0 * farthest(cell, site[i]);
+        reach = 2.0 * farthest_corner(cell, site[i]);
     }
     rc = 0;
 done:
@@ -201,7 +203,7 @@ static void free_polys(int32_t n, fl_poly *p)
     for (int32_t i = 0; p && i < n; i++) fl_poly_free(&p[i]);
 }
 
-static int divide(fl_blocks *b, const fl_poly *region, fl_err *err)
+static int cut_cells(fl_blocks *b, const fl_poly *region, fl_err *err)
 {
     struct grid g = {0};
     int32_t bad = INT32_MAX;
@@ -234,14 +236,14 @@ int fl_blocks_cells(fl_blocks *out, const fl_poly *region, int32_t n, uint64_t s
     b.core = fl_alloc(n, sizeof *b.core, err);
     b.volume = fl_alloc(n, sizeof *b.volume, err);
     if (!b.site || !b.cell || !b.core || !b.volume) goto done;
-    if (throw_sites(n, seed, first, region, b.site, err) || divide(&b, region, err)) goto done;
+    if (draw_sites(n, seed, first, region, b.site, err) || cut_cells(&b, region, err)) goto done;
     for (int k = 0; k < smooth; k++) {
         for (int32_t i = 0; i < n; i++) {
             fl_mass m;
             if (fl_mass_of(&m, &b.cell[i], 0.0, err)) goto done;
             b.site[i] = m.centre;
         }
-        if (divide(&b, region, err)) goto done;
+        if (cut_cells(&b, region, err)) goto done;
     }
     for (int32_t i = 0; i < n; i++) b.volume[i] = fl_blocks_volume(&b.cell[i]);
     b.cells_volume = fl_parallel_sum(b.volume, n);
@@ -255,8 +257,8 @@ done:
 
 /* --- blocks --------------------------------------------------------------------------------------------- */
 
-/* An offset that leaves nothing, or nothing with faces, is no failure here: there is no block.  1 then. */
-static int offset(fl_poly *out, const fl_poly *in, double r, fl_err *err)
+/* Offset a polyhedron.  Returns 1 if nothing with faces remains, which means that there is no block. */
+static int offset_poly(fl_poly *out, const fl_poly *in, double r, fl_err *err)
 {
     fl_err why = {0};
     if (r == 0.0) return fl_poly_copy(out, in, err);
@@ -264,11 +266,11 @@ static int offset(fl_poly *out, const fl_poly *in, double r, fl_err *err)
     return why.code == FL_SYSTEM ? fl_fail(err, FL_SYSTEM, "%s", why.text) : 1;
 }
 
-/* A core is a body, and no sheet: between two planes along its faces there is this much of the dilation
- * radius at least, and of its size. */
+/* A core has a least width between two parallel planes, over the dilation radius and over its size;
+ * otherwise it would be a sheet. */
 static const double THICK_OF_RADIUS = 1e-2, THICK_OF_SIZE = 1e-4;
 
-static int too_thin(const fl_poly *p, double radius)
+static int is_too_thin(const fl_poly *p, double radius)
 {
     const double least = fmax(THICK_OF_RADIUS * radius, THICK_OF_SIZE * p->size);
     for (int32_t f = 0; f < p->nf; f++) {
@@ -279,8 +281,8 @@ static int too_thin(const fl_poly *p, double radius)
     return 0;
 }
 
-/* How far corners of p stand out of the cell moved inward by d. */
-static double beyond(const fl_poly *cell, const fl_poly *p, double d)
+/* Largest distance of corners of p beyond the faces of the cell moved inward by d. */
+static double max_excess(const fl_poly *cell, const fl_poly *p, double d)
 {
     double most = -INFINITY;
     for (int32_t f = 0; f < cell->nf; f++)
@@ -288,24 +290,25 @@ static double beyond(const fl_poly *cell, const fl_poly *p, double d)
     return most;
 }
 
-/* The core of a cell for a gap, and the volume of its outer block; no core (nv = 0) where room is lacking. */
-static int shape(const fl_poly *cell, double gap, double radius, fl_poly *core, double *volume, fl_err *err)
+/* Make the core of a cell for an inset, and the volume of its outer block; nv = 0 if there is no room. */
+static int make_block(const fl_poly *cell, double inset, double radius, fl_poly *core, double *volume,
+                      fl_err *err)
 {
-    const double spare = (1.0 - FL_BLOCKS_CLEARANCE) * gap + 1e-12 * cell->size;
+    const double spare = (1.0 - FL_BLOCKS_CLEARANCE) * inset + 1e-12 * cell->size;
     double deeper = 0.0;
     *volume = 0.0;
     fl_poly_free(core);
-    for (int k = 0; k < DEEPER; k++) {
+    for (int k = 0; k < MAX_ROUNDS; k++) {
         fl_poly c = {0}, outer = {0};
         double out;
-        int rc = offset(&c, cell, -(gap + radius + deeper), err);
-        if (rc == 0) rc = too_thin(&c, radius);
-        if (rc == 0) rc = offset(&outer, &c, radius, err);
+        int rc = offset_poly(&c, cell, -(inset + radius + deeper), err);
+        if (rc == 0) rc = is_too_thin(&c, radius);
+        if (rc == 0) rc = offset_poly(&outer, &c, radius, err);
         if (rc) {
             fl_poly_free(&c);
             return rc < 0 ? -1 : 0;
         }
-        out = beyond(cell, &outer, gap);
+        out = max_excess(cell, &outer, inset);
         if (out <= spare) {
             *volume = fl_blocks_volume(&outer);
             *core = c;
@@ -319,13 +322,13 @@ static int shape(const fl_poly *cell, double gap, double radius, fl_poly *core, 
     return 0;
 }
 
-static int shrink_all(fl_blocks *b, double gap, double radius, double *sum, fl_err *err)
+static int shrink_cells(fl_blocks *b, double inset, double radius, double *sum, fl_err *err)
 {
     int32_t bad = INT32_MAX;
 #pragma omp parallel for schedule(dynamic, 8)
     for (int32_t i = 0; i < b->n; i++) {
         fl_err why = {0};
-        if (shape(&b->cell[i], gap, radius, &b->core[i], &b->volume[i], &why) == 0) continue;
+        if (make_block(&b->cell[i], inset, radius, &b->core[i], &b->volume[i], &why) == 0) continue;
 #pragma omp critical
         if (i < bad) {
             bad = i;
@@ -339,44 +342,44 @@ static int shrink_all(fl_blocks *b, double gap, double radius, double *sum, fl_e
 int fl_blocks_shrink(fl_blocks *b, double solid, double radius, fl_err *err)
 {
     const double want = solid * b->region_volume;
-    double lo = 0.0, hi = cbrt(b->region_volume / b->n), over_lo, over_hi, over, sum, gap = 0.0;
-    if (shrink_all(b, lo, radius, &sum, err)) return -1;
+    double lo = 0.0, hi = cbrt(b->region_volume / b->n), over_lo, over_hi, over, sum, inset = 0.0;
+    if (shrink_cells(b, lo, radius, &sum, err)) return -1;
     over_lo = sum - want;
     if (over_lo < 0.0)
         return fl_fail(
             err, FL_INPUT,
-            "blocks of dilation radius %.4g m fill %.4g of their region at most, %.10g was asked for: a "
-            "smaller radius or larger blocks are wanted",
+            "blocks of dilation radius %.4g m fill %.4g of their region at most, %.10g is requested: a "
+            "smaller radius or larger blocks are needed",
             radius, sum / b->region_volume, solid);
-    over_hi = -want; /* a gap of the size of a cell leaves nothing */
+    over_hi = -want; /* an inset of the size of a cell leaves nothing */
     over = over_lo;
-    for (int step = 0; step < STEPS && fabs(over) > FILLED * want; step++) {
+    for (int step = 0; step < STEPS && fabs(over) > FILL_TOL * want; step++) {
         const double line = lo + (hi - lo) * (over_lo / (over_lo - over_hi));
-        gap = step % 3 == 2 || !(line > lo && line < hi) ? 0.5 * (lo + hi) : line;
-        if (shrink_all(b, gap, radius, &sum, err)) return -1;
+        inset = step % 3 == 2 || !(line > lo && line < hi) ? 0.5 * (lo + hi) : line;
+        if (shrink_cells(b, inset, radius, &sum, err)) return -1;
         over = sum - want;
         if (over > 0.0) {
-            lo = gap;
+            lo = inset;
             over_lo = over;
         } else {
-            hi = gap;
+            hi = inset;
             over_hi = over;
         }
     }
-    if (fabs(over) > ROUGH * want)
+    if (fabs(over) > FILL_MAX_ERROR * want)
         return fl_fail(
             err, FL_INPUT,
             "blocks of dilation radius %.4g m vanish, many at a time, where they fill %.4g of their "
-            "region, %.10g was asked for: a smaller radius is wanted",
+            "region, %.10g is requested: a smaller radius is needed",
             radius, (want + over_lo) / b->region_volume, solid);
-    b->inset = gap;
+    b->inset = inset;
     b->solid_volume = sum;
     b->blockless = 0;
     for (int32_t i = 0; i < b->n; i++) b->blockless += b->core[i].nv == 0;
     return 0;
 }
 
-static int separated(const fl_poly *a, const fl_poly *c, fl_vec3 d)
+static int is_separated(const fl_poly *a, const fl_poly *c, fl_vec3 d)
 {
     double most = -INFINITY, least = INFINITY;
     for (int32_t v = 0; v < a->nv; v++) most = fmax(most, v3_dot(d, a->v[v]));
@@ -394,9 +397,9 @@ int fl_blocks_overlaps(const fl_blocks *b, double radius, int64_t *pairs, fl_err
     *pairs = 0;
     if (!outer || !box) goto done;
     for (int32_t i = 0; i < b->n; i++) {
-        box[i] = (fl_aabb){b->site[i], b->site[i]}; /* of nothing: meets its own site only */
+        box[i] = (fl_aabb){b->site[i], b->site[i]}; /* empty box, meets its own site only */
         if (b->core[i].nv == 0) continue;
-        if (offset(&outer[i], &b->core[i], radius, err) < 0) goto done;
+        if (offset_poly(&outer[i], &b->core[i], radius, err) < 0) goto done;
         box[i] = fl_poly_aabb(&outer[i]);
     }
     if (fl_bvh_build(&tree, box, b->n, err)) goto done;
@@ -405,7 +408,7 @@ int fl_blocks_overlaps(const fl_blocks *b, double radius, int64_t *pairs, fl_err
             if (fl_grow(&near, &cap, got, sizeof *near, err)) goto done;
         for (int32_t k = 0; k < got; k++)
             if (near[k] > i && outer[i].nv && outer[near[k]].nv)
-                *pairs += !separated(&outer[i], &outer[near[k]], v3_sub(b->site[near[k]], b->site[i]));
+                *pairs += !is_separated(&outer[i], &outer[near[k]], v3_sub(b->site[near[k]], b->site[i]));
     }
     rc = 0;
 done:

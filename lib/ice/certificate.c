@@ -7,8 +7,8 @@
 #include "ice/certificate.h"
 #include "shim/cgal_voronoi.h"
 
-static int32_t sides(const fl_floes *a, int32_t i) { return a->first[i + 1] - a->first[i]; }
-static const fl_vec2 *outer(const fl_floes *a, int32_t i) { return a->outer + a->first[i]; }
+static int32_t side_count(const fl_floes *a, int32_t i) { return a->first[i + 1] - a->first[i]; }
+static const fl_vec2 *outer_of(const fl_floes *a, int32_t i) { return a->outer + a->first[i]; }
 
 static int is_convex(int32_t n, const fl_vec2 *v)
 {
@@ -30,43 +30,43 @@ static int side_separates(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 
     return 0;
 }
 
-static int apart(const fl_floes *a, int32_t i, int32_t j)
+static int are_separate(const fl_floes *a, int32_t i, int32_t j)
 {
-    return side_separates(sides(a, i), outer(a, i), sides(a, j), outer(a, j)) ||
-           side_separates(sides(a, j), outer(a, j), sides(a, i), outer(a, i));
+    return side_separates(side_count(a, i), outer_of(a, i), side_count(a, j), outer_of(a, j)) ||
+           side_separates(side_count(a, j), outer_of(a, j), side_count(a, i), outer_of(a, i));
 }
 
 static fl_aabb box_of(const fl_floes *a, int32_t i)
 {
     fl_aabb b = aabb_empty();
-    for (int32_t k = 0; k < sides(a, i); k++) b = aabb_add(b, v3(outer(a, i)[k].x, outer(a, i)[k].y, 0.0));
+    for (int32_t k = 0; k < side_count(a, i); k++)
+        b = aabb_add(b, v3(outer_of(a, i)[k].x, outer_of(a, i)[k].y, 0.0));
     return b;
 }
 
-/* The nearest pair of those seen, the first of them where several are as near. */
+/* The nearest pair so far; of equally near pairs the first. */
 struct nearest {
     double gap;
     int32_t i, j;
 };
 
-static void take(struct nearest *n, double gap, int32_t i, int32_t j)
+static void keep_nearest(struct nearest *n, double gap, int32_t i, int32_t j)
 {
     if (gap > n->gap || (gap == n->gap && (i > n->i || (i == n->i && j >= n->j)))) return;
     *n = (struct nearest){gap, i, j};
 }
 
-/* The floes along Hilbert's curve, in the order of which they are worked on: what is near a floe has been
- * seen a moment before. */
-struct row {
+/* Floes in the order of a Hilbert curve, so that neighbours are near in memory and still in the cache. */
+struct ordered_floes {
     const fl_floes *a;
-    int32_t *floe; /* [n] at place k */
-    fl_aabb *box;  /* [n] of it  [m] */
+    int32_t *floe; /* [n] at position k */
+    fl_aabb *box;  /* [n] of that floe [m] */
     fl_bvh tree;
 };
 
-/* What the floe at place k has to do with those of higher places that are near it. */
-static int look_round(const struct row *r, double reach, int32_t k, int32_t **near, int32_t *cap,
-                      int64_t *overlaps, struct nearest *n, fl_err *err)
+/* Evaluate the pairs of the floe at position k with near floes at higher positions. */
+static int evaluate_near_pairs(const struct ordered_floes *r, double reach, int32_t k, int32_t **near,
+                               int32_t *cap, int64_t *overlaps, struct nearest *n, fl_err *err)
 {
     const fl_floes *a = r->a;
     const fl_aabb q = aabb_grow(r->box[k], reach);
@@ -77,19 +77,21 @@ static int look_round(const struct row *r, double reach, int32_t k, int32_t **ne
         const int32_t l = (*near)[e];
         if (l <= k) continue;
         const int32_t i = r->floe[k] < r->floe[l] ? r->floe[k] : r->floe[l], j = r->floe[k] + r->floe[l] - i;
-        if (aabb_overlap(r->box[k], r->box[l]) && !apart(a, i, j)) {
+        if (aabb_overlap(r->box[k], r->box[l]) && !are_separate(a, i, j)) {
             ++*overlaps;
-            take(n, 0.0, i, j);
+            keep_nearest(n, 0.0, i, j);
         } else {
-            take(n, fl_polygon_distance(sides(a, i), outer(a, i), sides(a, j), outer(a, j)), i, j);
+            keep_nearest(
+                n, fl_polygon_distance(side_count(a, i), outer_of(a, i), side_count(a, j), outer_of(a, j)), i,
+                j);
         }
     }
     return 0;
 }
 
-/* Pairs within reach of each other: count those not apart, find the nearest.  Touching boxes are within any
- * reach >= 0, so that each pass sees every overlap there is. */
-static int pass(const struct row *r, double reach, fl_certificate *out, fl_err *err)
+/* Evaluate all pairs within `reach`: count overlaps, find the nearest pair.  Boxes that touch are within
+ * any reach >= 0, so each pass counts all overlaps. */
+static int evaluate_pairs(const struct ordered_floes *r, double reach, fl_certificate *out, fl_err *err)
 {
     struct nearest best = {INFINITY, INT32_MAX, INT32_MAX};
     int64_t overlaps = 0;
@@ -101,11 +103,11 @@ static int pass(const struct row *r, double reach, fl_certificate *out, fl_err *
         fl_err why = {0};
 #pragma omp for schedule(static)
         for (int32_t k = 0; k < r->a->n; k++)
-            if (!failed && look_round(r, reach, k, &near, &cap, &overlaps, &mine, &why)) failed = 1;
+            if (!failed && evaluate_near_pairs(r, reach, k, &near, &cap, &overlaps, &mine, &why)) failed = 1;
         free(near);
 #pragma omp critical
         {
-            take(&best, mine.gap, mine.i, mine.j);
+            keep_nearest(&best, mine.gap, mine.i, mine.j);
             if (failed && err->code == 0) *err = why;
         }
     }
@@ -116,7 +118,7 @@ static int pass(const struct row *r, double reach, fl_certificate *out, fl_err *
     return failed ? -1 : 0;
 }
 
-static int row_make(struct row *r, fl_err *err)
+static int order_floes(struct ordered_floes *r, fl_err *err)
 {
     const int32_t n = r->a->n;
     fl_vec2 *corner = fl_alloc(n, sizeof *corner, err);
@@ -124,7 +126,7 @@ static int row_make(struct row *r, fl_err *err)
     r->floe = fl_alloc(n, sizeof *r->floe, err);
     r->box = fl_alloc(n, sizeof *r->box, err);
     if (!corner || !r->floe || !r->box) goto done;
-    for (int32_t i = 0; i < n; i++) corner[i] = outer(r->a, i)[0];
+    for (int32_t i = 0; i < n; i++) corner[i] = outer_of(r->a, i)[0];
     if (fl_hilbert_order(n, corner, r->floe, err)) goto done;
     for (int32_t k = 0; k < n; k++) r->box[k] = box_of(r->a, r->floe[k]);
     rc = fl_bvh_build(&r->tree, r->box, n, err);
@@ -135,17 +137,17 @@ done:
 
 static int measure_pairs(const fl_floes *a, fl_certificate *out, fl_err *err)
 {
-    struct row r = {.a = a};
+    struct ordered_floes r = {.a = a};
     fl_aabb all = aabb_empty();
-    /* Neighbours stand two insets apart: one pass finds the nearest, unless floes are few and far between. */
+    /* neighbours are two insets apart: one pass finds the nearest pair, unless floes are sparse */
     double reach = 2.0 * a->inset * (1.0 + 1e-9), far;
     int rc = -1;
-    if (row_make(&r, err)) goto done;
+    if (order_floes(&r, err)) goto done;
     for (int32_t k = 0; k < a->n; k++) all = aabb_join(all, r.box[k]);
     far = hypot(all.hi.x - all.lo.x, all.hi.y - all.lo.y);
     if (!(reach > 1e-6 * far)) reach = 1e-6 * far;
     for (;; reach *= 2.0) {
-        if (pass(&r, reach, out, err)) goto done;
+        if (evaluate_pairs(&r, reach, out, err)) goto done;
         if (out->min_gap <= reach || reach > far) break;
     }
     rc = 0;
@@ -167,7 +169,7 @@ static int measure_areas(const fl_floes *a, fl_certificate *out, fl_err *err)
 {
     double *area = fl_alloc(a->n, sizeof *area, err), *square = fl_alloc(a->n, sizeof *square, err);
     if (area && square) {
-        for (int32_t i = 0; i < a->n; i++) area[i] = fl_polygon_area(sides(a, i), outer(a, i));
+        for (int32_t i = 0; i < a->n; i++) area[i] = fl_polygon_area(side_count(a, i), outer_of(a, i));
         out->total_area = fl_parallel_sum(area, a->n);
         out->mean_area = out->total_area / a->n;
         out->min_area_floe = out->max_area_floe = 0;
@@ -185,13 +187,14 @@ static int measure_areas(const fl_floes *a, fl_certificate *out, fl_err *err)
     return area && square ? 0 : -1;
 }
 
-static int32_t count_bent(const fl_floes *a)
+static int32_t count_nonconvex(const fl_floes *a)
 {
-    int32_t bent = 0;
-#pragma omp parallel for schedule(static) reduction(+ : bent)
+    int32_t nonconvex = 0;
+#pragma omp parallel for schedule(static) reduction(+ : nonconvex)
     for (int32_t i = 0; i < a->n; i++)
-        bent += !is_convex(sides(a, i), a->core + a->first[i]) || !is_convex(sides(a, i), outer(a, i));
-    return bent;
+        nonconvex += !is_convex(side_count(a, i), a->core + a->first[i]) ||
+                     !is_convex(side_count(a, i), outer_of(a, i));
+    return nonconvex;
 }
 
 int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err)
@@ -199,7 +202,7 @@ int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err)
     fl_certificate c = {.min_side = INFINITY, .min_angle = INFINITY};
     for (int32_t i = 0; i < a->n; i++) {
         const fl_vec2 *v = a->core + a->first[i];
-        const int32_t n = sides(a, i);
+        const int32_t n = side_count(a, i);
         for (int32_t k = 0; k < n; k++) {
             const fl_vec2 p = v[k], q = v[k + 1 < n ? k + 1 : 0];
             const double edge = hypot(q.x - p.x, q.y - p.y), angle = corner_angle(v, k, n);
@@ -213,7 +216,7 @@ int fl_certificate_make(fl_certificate *out, const fl_floes *a, fl_err *err)
             }
         }
     }
-    c.nonconvex = count_bent(a);
+    c.nonconvex = count_nonconvex(a);
     c.mean_sides = (double)a->first[a->n] / a->n;
     if (measure_areas(a, &c, err) || measure_pairs(a, &c, err)) return -1;
     *out = c;

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "ice/concentration_gradient.h"
 
-/* As far as any shape may lie [m]. */
+/* Largest coordinate [m]. */
 #define FAR 1e9
 
 double fl_concentration_at(const fl_concentration_gradient *g, fl_vec2 p)

@@ -38,8 +38,8 @@ int fl_domain_add(fl_domain *d, int32_t n, const fl_vec2 *v, fl_err *err)
     return 0;
 }
 
-/* The corner behind corner k of ring r. */
-static fl_vec2 end_of(const fl_domain *d, int32_t r, int32_t k)
+/* The corner after corner k of ring r. */
+static fl_vec2 next_corner(const fl_domain *d, int32_t r, int32_t k)
 {
     return d->v[k + 1 < d->first[r + 1] ? k + 1 : d->first[r]];
 }
@@ -50,7 +50,7 @@ int fl_domain_build(fl_domain *d, fl_err *err)
     if (!d->box) return -1;
     for (int32_t r = 0; r < d->rings; r++)
         for (int32_t k = d->first[r]; k < d->first[r + 1]; k++) {
-            const fl_vec2 p = d->v[k], q = end_of(d, r, k);
+            const fl_vec2 p = d->v[k], q = next_corner(d, r, k);
             d->box[k] = aabb_add(aabb_add(aabb_empty(), v3(p.x, p.y, 0.0)), v3(q.x, q.y, 0.0));
         }
     return fl_bvh_build(&d->tree, d->box, d->corners, err);
@@ -60,7 +60,7 @@ int fl_domain_is_convex(const fl_domain *d)
 {
     if (d->rings != 1) return 0;
     for (int32_t k = 0; k < d->corners; k++) {
-        const fl_vec2 p = d->v[k], q = end_of(d, 0, k), r = d->v[(k + 2) % d->corners];
+        const fl_vec2 p = d->v[k], q = next_corner(d, 0, k), r = d->v[(k + 2) % d->corners];
         if (!((q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x) > 0.0)) return 0;
     }
     return 1;
@@ -78,14 +78,14 @@ static int by_number(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-static int look(const fl_domain *d, fl_aabb q, struct near *near, fl_err *err)
+static int find_sides(const fl_domain *d, fl_aabb q, struct near *near, fl_err *err)
 {
     while ((near->n = fl_bvh_query(&d->tree, d->box, q, near->k, near->cap)) > near->cap)
         if (fl_grow(&near->k, &near->cap, near->n, sizeof *near->k, err)) return -1;
     return 0;
 }
 
-/* The side from corner k; rings are few and corners many, so the ring is looked for by halves. */
+/* The side from corner k.  The ring is found by bisection. */
 static void side_of(const fl_domain *d, int32_t k, fl_vec2 *p, fl_vec2 *q)
 {
     int32_t lo = 0, hi = d->rings;
@@ -95,15 +95,16 @@ static void side_of(const fl_domain *d, int32_t k, fl_vec2 *p, fl_vec2 *q)
         else hi = mid;
     }
     *p = d->v[k];
-    *q = end_of(d, lo, k);
+    *q = next_corner(d, lo, k);
 }
 
-/* A ray towards +x: sides that cross it upward count +1, downward -1; a corner belongs to the side above. */
-static int inside(const fl_domain *d, fl_vec2 at, struct near *near, int *is, fl_err *err)
+/* Winding number by a ray towards +x: sides that cross it upward count +1, downward -1; a corner belongs
+ * to the side above. */
+static int find_winding(const fl_domain *d, fl_vec2 at, struct near *near, int *is, fl_err *err)
 {
     const fl_aabb ray = {{at.x, at.y, 0.0}, {INFINITY, at.y, 0.0}};
     int turns = 0;
-    if (look(d, ray, near, err)) return -1;
+    if (find_sides(d, ray, near, err)) return -1;
     for (int32_t i = 0; i < near->n; i++) {
         fl_vec2 p, q;
         double left;
@@ -121,7 +122,7 @@ int fl_domain_contains(const fl_domain *d, fl_vec2 p, fl_err *err)
 {
     struct near near = {0};
     int is = 0;
-    const int rc = inside(d, p, &near, &is, err);
+    const int rc = find_winding(d, p, &near, &is, err);
     free(near.k);
     return rc ? -1 : is;
 }
@@ -133,11 +134,11 @@ int fl_domain_sites(int32_t n, uint64_t seed, const fl_domain *d, fl_vec2 *site,
     for (int32_t i = 0; i < n; i++) {
         fl_rng g = fl_rng_of(seed, i, FL_RNG_SITE);
         int is = 0;
-        /* a domain of that part of its box is missed so often with a probability of exp(-20) */
+        /* a domain of the least share is missed so often with probability exp(-20) */
         for (int32_t k = 0; k < (int32_t)(20.0 / FL_DOMAIN_MIN_SHARE) && !is; k++) {
             site[i].x = fl_rng_in(&g, d->lo.x, d->hi.x);
             site[i].y = fl_rng_in(&g, d->lo.y, d->hi.y);
-            if (inside(d, site[i], &near, &is, err)) goto done;
+            if (find_winding(d, site[i], &near, &is, err)) goto done;
         }
         if (is) continue;
         fl_fail(err, FL_INPUT, "less than %g of the box of the outline is left for ice, more is expected",
@@ -152,7 +153,7 @@ done:
 
 /* --- cutting -------------------------------------------------------------------------------------------- */
 
-/* Pieces to be looked at, and those that are done, lie in one growing pool each. */
+/* Pool of polygons: those still to be cut, and the finished pieces. */
 struct pool {
     int32_t n, at, cap, first_cap, v_cap, side_cap;
     int32_t *first; /* [n + 1] */
@@ -184,9 +185,9 @@ struct cutting {
     const fl_domain *d;
     double least, touch;
     struct pool todo, done;
-    int32_t *site, site_cap; /* of the pieces done      */
-    double *area, *gone;     /* of those, and of those dropped [m2] */
-    int32_t area_cap, gone_cap, dropped;
+    int32_t *site, site_cap;     /* of the finished pieces */
+    double *area, *dropped_area; /* of the finished and of the dropped pieces [m2] */
+    int32_t area_cap, dropped_cap, dropped;
     struct near near, ray;
     fl_vec2 *v; /* scratch */
     fl_polygon_side *side;
@@ -199,7 +200,7 @@ static fl_polygon_side line_of(fl_vec2 p, fl_vec2 q, int32_t tag)
     return (fl_polygon_side){s * dy, -s * dx, s * (dy * p.x - dx * p.y), tag};
 }
 
-/* Length of the part of p q that lies inside the polygon by more than touch. */
+/* Length of the part of p q that is inside the polygon by more than `touch`. */
 static double length_in(int32_t n, const fl_polygon_side *side, fl_vec2 p, fl_vec2 q, double touch)
 {
     double from = 0.0, to = 1.0;
@@ -213,8 +214,8 @@ static double length_in(int32_t n, const fl_polygon_side *side, fl_vec2 p, fl_ve
     return to > from ? (to - from) * hypot(q.x - p.x, q.y - p.y) : 0.0;
 }
 
-/* The side of the domain that runs through a piece for the longest way, -1 when none does. */
-static int32_t longest(const struct cutting *c, int32_t n, const fl_polygon_side *side)
+/* The side of the domain with the greatest length inside a piece, -1 if there is none. */
+static int32_t longest_side(const struct cutting *c, int32_t n, const fl_polygon_side *side)
 {
     int32_t at = -1;
     double best = c->touch;
@@ -231,15 +232,15 @@ static int32_t longest(const struct cutting *c, int32_t n, const fl_polygon_side
     return at;
 }
 
-/* A piece that nothing runs through is inside or outside as a whole. */
-static int finish(struct cutting *c, int32_t i, int32_t n, fl_vec2 *v, fl_polygon_side *side, int cut,
-                  fl_err *err)
+/* Store a piece that no side crosses, if it is inside the domain and no sliver. */
+static int store_piece(struct cutting *c, int32_t i, int32_t n, fl_vec2 *v, fl_polygon_side *side, int cut,
+                       fl_err *err)
 {
     const double area = fl_polygon_area(n, v);
     double depth = INFINITY;
     int is = 0;
     if (!(area > 0.0)) return 0;
-    if (inside(c->d, fl_polygon_centroid(n, v), &c->ray, &is, err)) return -1;
+    if (find_winding(c->d, fl_polygon_centroid(n, v), &c->ray, &is, err)) return -1;
     if (!is) return 0;
     if (cut) {
         memcpy(c->v, v, (size_t)n * sizeof *v);
@@ -247,8 +248,9 @@ static int finish(struct cutting *c, int32_t i, int32_t n, fl_vec2 *v, fl_polygo
         fl_polygon_inset(n, c->v, c->side, INFINITY, &depth);
     }
     if (depth < c->least) {
-        if (fl_grow(&c->gone, &c->gone_cap, (int64_t)c->dropped + 1, sizeof *c->gone, err)) return -1;
-        c->gone[c->dropped++] = area;
+        if (fl_grow(&c->dropped_area, &c->dropped_cap, (int64_t)c->dropped + 1, sizeof *c->dropped_area, err))
+            return -1;
+        c->dropped_area[c->dropped++] = area;
         return 0;
     }
     if (fl_grow(&c->site, &c->site_cap, (int64_t)c->done.n + 1, sizeof *c->site, err) ||
@@ -266,19 +268,19 @@ static int cut_cell(struct cutting *c, const fl_power_cells *cells, int32_t i, f
     fl_aabb box = aabb_empty();
     if (m < 3) return 0;
     for (int32_t k = 0; k < m; k++) box = aabb_add(box, v3(cells->v[first + k].x, cells->v[first + k].y, 0));
-    if (look(c->d, box, &c->near, err)) return -1;
+    if (find_sides(c->d, box, &c->near, err)) return -1;
     if (c->near.n) qsort(c->near.k, (size_t)c->near.n, sizeof *c->near.k, by_number);
     todo->n = todo->at = 0;
     if (pool_add(todo, m, cells->v + first, cells->side + first, err)) return -1;
     for (int32_t t = 0; t < todo->n; t++) {
         const int32_t at = todo->first[t], n = todo->first[t + 1] - at;
-        const int32_t along = longest(c, n, todo->side + at);
-        /* room for the piece and one corner more, twice: what is cut may not be moved by what is added */
+        const int32_t along = longest_side(c, n, todo->side + at);
+        /* room for the piece and one more corner, twice: the pool may move when a piece is added */
         if (fl_grow(&c->v, &c->v_cap, 2 * ((int64_t)n + 1), sizeof *c->v, err) ||
             fl_grow(&c->side, &c->side_cap, 2 * ((int64_t)n + 1), sizeof *c->side, err))
             return -1;
         if (along < 0) {
-            if (finish(c, i, n, todo->v + at, todo->side + at, t > 0, err)) return -1;
+            if (store_piece(c, i, n, todo->v + at, todo->side + at, t > 0, err)) return -1;
             continue;
         }
         for (int half = 0; half < 2; half++) {
@@ -299,8 +301,8 @@ static int cut_cell(struct cutting *c, const fl_power_cells *cells, int32_t i, f
 
 /* --- the pieces ----------------------------------------------------------------------------------------- */
 
-/* Largest pieces first, in the order of their cells, then the others. */
-static int collect(const struct cutting *c, int32_t cells, fl_pieces *out, fl_err *err)
+/* Collect the pieces: largest pieces first, by cell, then the others. */
+static int collect_pieces(const struct cutting *c, int32_t cells, fl_pieces *out, fl_err *err)
 {
     const int32_t n = c->done.n;
     int32_t *largest = fl_alloc(cells, sizeof *largest, err), to = 0, at = 0;
@@ -325,7 +327,7 @@ static int collect(const struct cutting *c, int32_t cells, fl_pieces *out, fl_er
         }
         if (pass == 0) p.largest = to;
     }
-    p.dropped_area = fl_parallel_sum(c->gone, c->dropped);
+    p.dropped_area = fl_parallel_sum(c->dropped_area, c->dropped);
     p.area = fl_parallel_sum(c->area, n) + p.dropped_area;
     *out = p;
     p = (fl_pieces){0};
@@ -343,13 +345,13 @@ int fl_domain_cut(fl_pieces *out, const fl_power_cells *cells, const fl_domain *
     c.touch = FL_DOMAIN_TOUCH_TOL * hypot(d->hi.x - d->lo.x, d->hi.y - d->lo.y);
     for (int32_t i = 0; i < cells->n; i++)
         if (cut_cell(&c, cells, i, err)) goto done;
-    rc = collect(&c, cells->n, out, err);
+    rc = collect_pieces(&c, cells->n, out, err);
 done:
     pool_free(&c.todo);
     pool_free(&c.done);
     free(c.site);
     free(c.area);
-    free(c.gone);
+    free(c.dropped_area);
     free(c.near.k);
     free(c.ray.k);
     free(c.v);

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "ice/domain_read.h"
 
-/* As far as any shape may lie [m]. */
+/* Largest coordinate [m]. */
 #define FAR 1e9
 
 struct ring {
@@ -39,19 +39,19 @@ static int close_ring(fl_domain *d, struct ring *r, fl_text *in, fl_err *err)
     if (n > 1 && r->v[n - 1].x == r->v[0].x && r->v[n - 1].y == r->v[0].y) n--;
     if (fl_domain_add(d, n, r->v, &why) == 0) return 0;
     if (why.code != FL_INPUT) return fl_fail(err, why.code, "%s", why.text);
-    in->line_number = r->begun; /* the complaint is about the ring, not about the line behind it */
+    in->line_number = r->begun; /* the message is about the ring, not about the line after it */
     fl_text_fail(in, err, "%s", why.text);
     in->line_number = now;
     return -1;
 }
 
-static int blank(const char *line) { return line[strspn(line, " \t\f\v")] == '\0'; }
+static int is_blank(const char *line) { return line[strspn(line, " \t\f\v")] == '\0'; }
 
-static int read_all(fl_domain *d, struct ring *r, fl_text *in, fl_err *err)
+static int read_rings(fl_domain *d, struct ring *r, fl_text *in, fl_err *err)
 {
     int more, rows = 0;
     while ((more = fl_text_line(in, err)) > 0) {
-        const int empty = blank(in->line), cut = fl_text_split(in, err);
+        const int empty = is_blank(in->line), cut = fl_text_split(in, err);
         if (cut < 0) return -1;
         if (cut && rows++ == 0 && in->n == 2 && strcmp(in->field[0], "x[m]") == 0 &&
             strcmp(in->field[1], "y[m]") == 0)
@@ -71,7 +71,7 @@ int fl_domain_read(fl_domain *d, const char *path, fl_err *err)
     struct ring r = {0};
     fl_text in = {0};
     int rc = -1;
-    if (fl_text_open(&in, path, err) == 0) rc = read_all(d, &r, &in, err);
+    if (fl_text_open(&in, path, err) == 0) rc = read_rings(d, &r, &in, err);
     if (rc) fl_domain_free(d);
     free(r.v);
     fl_text_close(&in);

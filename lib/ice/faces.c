@@ -5,7 +5,7 @@
 #include "broad/bvh.h"
 #include "ice/faces.h"
 
-/* A field far from the origin has corners that are rounded to its distance: some hundred ulps of that. */
+/* Rounding of corners of a field far from the origin, over the distance: some hundred ulps. */
 #define FAR 1e-14
 
 struct polygon {
@@ -13,26 +13,26 @@ struct polygon {
     const fl_vec2 *v;
 };
 
-static struct polygon outer(const fl_floes *a, int32_t i)
+static struct polygon outer_of(const fl_floes *a, int32_t i)
 {
     return (struct polygon){a->first[i + 1] - a->first[i], a->outer + a->first[i]};
 }
 
-static fl_vec2 next(struct polygon p, int32_t k) { return p.v[k + 1 < p.n ? k + 1 : 0]; }
+static fl_vec2 next_corner(struct polygon p, int32_t k) { return p.v[k + 1 < p.n ? k + 1 : 0]; }
 
-/* The line through two corners, with the outward normal. */
-static fl_polygon_side line(fl_vec2 p, fl_vec2 q)
+/* The line through two corners, with its outward normal. */
+static fl_polygon_side line_of(fl_vec2 p, fl_vec2 q)
 {
     const double s = 1.0 / hypot(q.x - p.x, q.y - p.y), nx = s * (q.y - p.y), ny = -s * (q.x - p.x);
     return (fl_polygon_side){nx, ny, nx * p.x + ny * p.y, 0};
 }
 
-/* Depth of the overlap by the sides of a: the side that has the other polygon least far behind it. */
-static double depth(struct polygon a, struct polygon b)
+/* Overlap by the sides of a: the least depth of b behind a side of a. */
+static double overlap_behind_sides(struct polygon a, struct polygon b)
 {
     double most = -INFINITY;
     for (int32_t k = 0; k < a.n; k++) {
-        const fl_polygon_side s = line(a.v[k], next(a, k));
+        const fl_polygon_side s = line_of(a.v[k], next_corner(a, k));
         double least = INFINITY;
         for (int32_t j = 0; j < b.n; j++) least = fmin(least, fl_polygon_side_distance(s, b.v[j]));
         most = fmax(most, least);
@@ -40,9 +40,10 @@ static double depth(struct polygon a, struct polygon b)
     return -most;
 }
 
-/* The piece that the sides p q and r s share, from p to q; the line is that of the longer side, whose
- * direction is the better known one.  Returns its length, 0 when there is none. */
-static double shared(fl_vec2 p, fl_vec2 q, fl_vec2 r, fl_vec2 s, double within, fl_vec2 *from, fl_vec2 *to)
+/* The common part of the sides p q and r s, from p to q, on the line of the longer side, whose direction
+ * is more accurate.  Returns its length, 0 if there is none. */
+static double common_part(fl_vec2 p, fl_vec2 q, fl_vec2 r, fl_vec2 s, double within, fl_vec2 *from,
+                          fl_vec2 *to)
 {
     const double pq = hypot(q.x - p.x, q.y - p.y), rs = hypot(s.x - r.x, s.y - r.y);
     const fl_vec2 o = pq >= rs ? p : s, e = pq >= rs ? q : r, b = pq >= rs ? s : p, c = pq >= rs ? r : q;
@@ -57,14 +58,16 @@ static double shared(fl_vec2 p, fl_vec2 q, fl_vec2 r, fl_vec2 s, double within, 
     return hi - lo;
 }
 
-/* Two convex polygons that do not overlap share one piece at most; rounding may make it look like two. */
+/* The common side of two polygons: convex polygons without overlap have at most one; rounding may split
+ * it. */
 static double face_of(struct polygon a, struct polygon b, double within, fl_face *out)
 {
     double best = 0.0;
     for (int32_t k = 0; k < a.n; k++)
         for (int32_t m = 0; m < b.n; m++) {
             fl_vec2 from = {0}, to = {0};
-            const double l = shared(a.v[k], next(a, k), b.v[m], next(b, m), within, &from, &to);
+            const double l =
+                common_part(a.v[k], next_corner(a, k), b.v[m], next_corner(b, m), within, &from, &to);
             if (l <= best) continue;
             best = l;
             out->a = from;
@@ -73,7 +76,7 @@ static double face_of(struct polygon a, struct polygon b, double within, fl_face
     return best;
 }
 
-static int add(fl_faces *f, int32_t *cap, fl_face face, fl_err *err)
+static int add_face(fl_faces *f, int32_t *cap, fl_face face, fl_err *err)
 {
     if (fl_grow(&f->face, cap, (int64_t)f->n + 1, sizeof *f->face, err)) return -1;
     f->face[f->n++] = face;
@@ -86,8 +89,8 @@ static int by_number(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-static int find(fl_faces *f, const fl_floes *a, const fl_bvh *tree, const fl_aabb *box, double within,
-                fl_err *err)
+static int find_pairs(fl_faces *f, const fl_floes *a, const fl_bvh *tree, const fl_aabb *box, double within,
+                      fl_err *err)
 {
     int32_t *near = NULL, near_cap = 0, cap = 0, got;
     int rc = -1;
@@ -97,17 +100,18 @@ static int find(fl_faces *f, const fl_floes *a, const fl_bvh *tree, const fl_aab
             if (fl_grow(&near, &near_cap, got, sizeof *near, err)) goto done;
         qsort(near, (size_t)got, sizeof *near, by_number);
         for (int32_t k = 0; k < got; k++) {
-            const struct polygon p = outer(a, i), r = outer(a, near[k]);
+            const struct polygon p = outer_of(a, i), r = outer_of(a, near[k]);
             fl_face face = {.i = i, .j = near[k]};
             double deep;
             if (near[k] <= i) continue;
-            deep = fmin(depth(p, r), depth(r, p));
+            deep = fmin(overlap_behind_sides(p, r), overlap_behind_sides(r, p));
             if (deep > f->max_overlap) {
                 f->max_overlap = deep;
                 f->max_overlap_pair[0] = i;
                 f->max_overlap_pair[1] = near[k];
             }
-            if (deep >= -within && face_of(p, r, within, &face) > 0.0 && add(f, &cap, face, err)) goto done;
+            if (deep >= -within && face_of(p, r, within, &face) > 0.0 && add_face(f, &cap, face, err))
+                goto done;
         }
     }
     rc = 0;
@@ -125,7 +129,7 @@ int fl_faces_find(fl_faces *out, const fl_floes *a, fl_err *err)
     int rc = -1;
     if (!box || !outline) goto done;
     for (int32_t i = 0; i < a->n; i++) {
-        const struct polygon p = outer(a, i);
+        const struct polygon p = outer_of(a, i);
         box[i] = aabb_empty();
         for (int32_t k = 0; k < p.n; k++) box[i] = aabb_add(box[i], v3(p.v[k].x, p.v[k].y, 0.0));
         all = aabb_join(all, box[i]);
@@ -134,7 +138,7 @@ int fl_faces_find(fl_faces *out, const fl_floes *a, fl_err *err)
     size = fmax(all.hi.x - all.lo.x, all.hi.y - all.lo.y);
     far = fmax(fmax(fabs(all.lo.x), fabs(all.hi.x)), fmax(fabs(all.lo.y), fabs(all.hi.y)));
     f.tolerance = FL_FACES_TOL * size + FAR * far;
-    if (fl_bvh_build(&tree, box, a->n, err) || find(&f, a, &tree, box, f.tolerance, err)) goto done;
+    if (fl_bvh_build(&tree, box, a->n, err) || find_pairs(&f, a, &tree, box, f.tolerance, err)) goto done;
     length = fl_alloc(f.n, sizeof *length, err);
     if (!length) goto done;
     for (int32_t k = 0; k < f.n; k++)

@@ -67,8 +67,8 @@ double fl_floe_sides_inset(const fl_floe_sides *f, int32_t i, double d)
     return d < f->max_inset[i] ? d : f->max_inset[i];
 }
 
-/* The shortest side that e may leave on a core of inscribed radius rho, between sides a and b.  The tangents
- * from the corner of a and b to the inscribed circle leave rho (tan + tan) at depth of the circle: half of it
+/* Least length of side e, between sides a and b, on a core of inscribed radius rho.  The tangents from the
+ * corner of a and b to the inscribed circle cut rho (tan + tan) at the depth of the circle; half of it
  * stays clear. */
 static double least_side(const fl_floe_sides *f, fl_polygon_side a, fl_polygon_side e, fl_polygon_side b,
                          double rho)
@@ -77,10 +77,10 @@ static double least_side(const fl_floe_sides *f, fl_polygon_side a, fl_polygon_s
     return rho * (clear < f->min_side ? clear : f->min_side);
 }
 
-/* The outer corner of a and b at inset d must stay inside the cell by `spare`: how far is it beyond that,
- * against the cell's sides between the two, and against which? */
-static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, fl_polygon_side b, double d,
-                     double spare, int32_t *worst)
+/* The outer corner of a and b at inset d has to be inside the cell by `spare`. Returns how far it is
+ * beyond that, and the side of the cell between a and b that it violates most. */
+static double max_excess(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, fl_polygon_side b,
+                         double d, double spare, int32_t *worst)
 {
     const fl_vec2 w = fl_polygon_side_intersect(a, b, d);
     double most = -INFINITY;
@@ -94,9 +94,9 @@ static double beyond(const fl_polygon_side *cell, int32_t m, fl_polygon_side a, 
     return most;
 }
 
-/* Let side e pass between the core's sides a and b, so deep that its own length is the least one. */
-static void cut_corner(const fl_floe_sides *f, fl_polygon_side *line, unsigned char *state, int32_t e,
-                       fl_polygon_side a, fl_polygon_side b, double inset, double rho)
+/* Move side e inward between the sides a and b of the core until its own length is the least one. */
+static void move_side(const fl_floe_sides *f, fl_polygon_side *line, unsigned char *state, int32_t e,
+                      fl_polygon_side a, fl_polygon_side b, double inset, double rho)
 {
     const fl_vec2 q = fl_polygon_side_intersect(a, b, inset);
     const fl_polygon_side s = line[e];
@@ -106,7 +106,7 @@ static void cut_corner(const fl_floe_sides *f, fl_polygon_side *line, unsigned c
     state[e] = KEPT | FIXED;
 }
 
-/* The core of the sides kept so far, in left and corner; those that vanish are kept no more. */
+/* The core of the sides kept so far; sides that vanish are no longer kept. */
 static int32_t core_of(const fl_polygon_side *line, unsigned char *state, int32_t m, double inset,
                        fl_polygon_side *left, fl_vec2 *corner)
 {
@@ -121,10 +121,10 @@ static int32_t core_of(const fl_polygon_side *line, unsigned char *state, int32_
     return k;
 }
 
-/* The most pressing short side, -1 when there is none: one not yet decided on, or one whose neighbours were
- * cut after it and took of its length; a quarter may go before it is cut again. */
-static int32_t find_short(const fl_floe_sides *f, const unsigned char *state, int32_t n,
-                          const fl_polygon_side *left, const fl_vec2 *corner, double rho)
+/* The shortest side that is too short, -1 if there is none: a side without a decision, or a fixed side
+ * that its neighbours shortened by more than a quarter. */
+static int32_t find_short_side(const fl_floe_sides *f, const unsigned char *state, int32_t n,
+                               const fl_polygon_side *left, const fl_vec2 *corner, double rho)
 {
     int32_t at = -1;
     double least = INFINITY;
@@ -141,24 +141,24 @@ static int32_t find_short(const fl_floe_sides *f, const unsigned char *state, in
     return at;
 }
 
-/* One short side: drop it, cut it deeper, or leave it for good.  Returns 0 when there was none. */
-static int mend_short(const fl_floe_sides *f, const fl_polygon_side *cell, int32_t m, fl_polygon_side *line,
-                      unsigned char *state, int32_t n, const fl_polygon_side *left, const fl_vec2 *corner,
-                      double d, double rho)
+/* Decide on one short side: drop it, move it inward, or keep it.  Returns 0 if there was none. */
+static int fix_short_side(const fl_floe_sides *f, const fl_polygon_side *cell, int32_t m,
+                          fl_polygon_side *line, unsigned char *state, int32_t n, const fl_polygon_side *left,
+                          const fl_vec2 *corner, double d, double rho)
 {
-    const int32_t at = find_short(f, state, n, left, corner, rho);
+    const int32_t at = find_short_side(f, state, n, left, corner, rho);
     int32_t e, worst = 0;
     fl_polygon_side a, b;
     if (at < 0) return 0;
     e = left[at].tag;
     a = left[at ? at - 1 : n - 1];
     b = left[at + 1 < n ? at + 1 : 0];
-    if (n > 3 && fl_polygon_side_sin(a, b) > 0.0 && beyond(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
+    if (n > 3 && fl_polygon_side_sin(a, b) > 0.0 && max_excess(cell, m, a, b, d, 0.5 * d, &worst) <= 0.0)
         state[e] &= (unsigned char)~KEPT;
     else if (fl_polygon_side_sin(a, b) > 0.0 &&
              fl_polygon_side_length(n, corner, at) < least_side(f, a, left[at], b, rho))
-        cut_corner(f, line, state, e, a, b, d + f->radius, rho);
-    else state[e] |= FIXED; /* it stays as it is; between sides that open outward it only looks short */
+        move_side(f, line, state, e, a, b, d + f->radius, rho);
+    else state[e] |= FIXED; /* it stays as it is; between sides that open outward it is short only here */
     return 1;
 }
 
@@ -176,7 +176,8 @@ int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d)
         line[e].tag = e;
         state[e] = KEPT;
     }
-    /* Each side is dropped once and cut a few times; a cell that asks for more has no room for a floe. */
+    /* Each side is dropped once and moved a few times; a cell that needs more rounds has no room for a
+     * floe. */
     for (int32_t round = 0; round < 8 * (m + 2); round++) {
         const int32_t n = core_of(line, state, m, di + f->radius, left, corner);
         int changed = 0;
@@ -184,12 +185,12 @@ int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d)
         for (int32_t k = 0; k < n; k++) {
             const fl_polygon_side a = left[k], b = left[k + 1 < n ? k + 1 : 0];
             int32_t e = 0;
-            if (beyond(cell, m, a, b, di, 0.5 * di, &e) > 0.0) {
-                cut_corner(f, line, state, e, a, b, di + f->radius, rho);
+            if (max_excess(cell, m, a, b, di, 0.5 * di, &e) > 0.0) {
+                move_side(f, line, state, e, a, b, di + f->radius, rho);
                 changed = 1;
             }
         }
-        if (changed || mend_short(f, cell, m, line, state, n, left, corner, di, rho)) continue;
+        if (changed || fix_short_side(f, cell, m, line, state, n, left, corner, di, rho)) continue;
         memcpy(f->side + first, left, (size_t)n * sizeof *left);
         f->count[i] = n;
         return 0;
@@ -197,7 +198,7 @@ int fl_floe_sides_choose(fl_floe_sides *f, int32_t i, double d)
     return -1;
 }
 
-/* Half of every margin may be used up. */
+/* Sides are valid while at least half of every margin is left. */
 int fl_floe_sides_are_valid(fl_floe_sides *f, int32_t i, double d)
 {
     const int32_t first = f->cells->first[i], m = f->cells->first[i + 1] - first, n = f->count[i];
@@ -211,7 +212,7 @@ int fl_floe_sides_are_valid(fl_floe_sides *f, int32_t i, double d)
         int32_t e = 0;
         if ((q.y - p.y) * side[k].nx - (q.x - p.x) * side[k].ny < 0.5 * least_side(f, a, side[k], b, rho))
             return 0;
-        if (beyond(f->cells->side + first, m, side[k], b, di, 0.25 * di, &e) > 0.0) return 0;
+        if (max_excess(f->cells->side + first, m, side[k], b, di, 0.25 * di, &e) > 0.0) return 0;
     }
     return 1;
 }

@@ -7,37 +7,38 @@
 #include "base/pi.h"
 #include "ice/pancakes.h"
 
-/* Steps until the bracket is down to rounding: it halves at least in every second one. */
+/* Iterations until the bracket has the width of rounding: every second one at least halves it. */
 enum { STEPS = 120 };
 
-/* The core of a cell with less than this to spare would have sides too short for any contact. */
+/* Least relative spare radius of a cell; below, a core would have sides too short for any contact. */
 #define ROOM 1e-3
 
-struct dough {
+struct pancakes {
     const fl_power_cells *cells;
     int32_t sides;
     double radius, reach;  /* R, and R / cos(2 pi / S) */
     double *rho;           /* [n] */
     double *area;          /* [n] of the outer polygons */
-    fl_vec2 *v, *outer;    /* scratch: the cell's corners, and sides a floe */
+    fl_vec2 *v, *outer;    /* scratch: corners of the cell, and `sides` for each floe */
     fl_polygon_side *side; /* scratch */
     fl_vec2 *core;         /* [n sides] */
 };
 
-static double inset_of(const struct dough *p, int32_t i, double d)
+static double inset_of(const struct pancakes *p, int32_t i, double d)
 {
     const double most = (1.0 - FL_FLOES_MIN_CORE) * (p->rho[i] - p->reach);
     return d < most ? d : most;
 }
 
-/* The golden section turns neighbours apart from each other, whatever their number. */
-static double phase(int32_t i)
+/* Phase of the normals of floe i, by the golden section: neighbours have different phases for any number
+ * of floes. */
+static double phase_of(int32_t i)
 {
     const double x = 0.61803398874989485 * i;
     return x - floor(x);
 }
 
-static double bake(struct dough *p, int32_t i, double d)
+static double make_pancake(struct pancakes *p, int32_t i, double d)
 {
     const int32_t first = p->cells->first[i], m = p->cells->first[i + 1] - first, s = p->sides;
     const double near = inset_of(p, i, d) + p->reach, r = FL_PANCAKES_ROUNDNESS * (p->rho[i] - near);
@@ -48,8 +49,8 @@ static double bake(struct dough *p, int32_t i, double d)
     memcpy(p->side + first, p->cells->side + first, (size_t)m * sizeof *p->side);
     n = fl_polygon_inset(m, v, p->side + first, near + r, &depth);
     for (int32_t k = 0, at = -1; k < s; k++) {
-        const double t = 2.0 * PI * (k + phase(i)) / s, ux = cos(t), uy = sin(t);
-        if (at < 0) { /* the farthest corner once by looking at all, then by going on counter-clockwise */
+        const double t = 2.0 * PI * (k + phase_of(i)) / s, ux = cos(t), uy = sin(t);
+        if (at < 0) { /* farthest corner: once over all corners, then counter-clockwise from the last one */
             at = 0;
             for (int32_t e = 1; e < n; e++)
                 if (ux * (v[e].x - v[at].x) + uy * (v[e].y - v[at].y) > 0.0) at = e;
@@ -65,20 +66,21 @@ static double bake(struct dough *p, int32_t i, double d)
     return fl_polygon_area(s, outer);
 }
 
-static double bake_all(struct dough *p, double d)
+static double make_pancakes(struct pancakes *p, double d)
 {
 #pragma omp parallel for schedule(static)
-    for (int32_t i = 0; i < p->cells->n; i++) p->area[i] = bake(p, i, d);
+    for (int32_t i = 0; i < p->cells->n; i++) p->area[i] = make_pancake(p, i, d);
     return fl_parallel_sum(p->area, p->cells->n);
 }
 
-/* The covered area falls with d: a bracket, cut by the line through its ends and by halves in turn. */
-static double solve(struct dough *p, double target, double lo, double hi, double over_lo, double over_hi)
+/* The covered area decreases with d: regula falsi and bisection in turn. */
+static double solve_inset(struct pancakes *p, double target, double lo, double hi, double over_lo,
+                          double over_hi)
 {
     double best = INFINITY, d = lo;
     for (int step = 0; step < STEPS && hi > lo; step++) {
         const double x = step % 2 ? 0.5 * (lo + hi) : lo + (hi - lo) * (over_lo / (over_lo - over_hi));
-        const double at = x > lo && x < hi ? x : 0.5 * (lo + hi), over = bake_all(p, at) - target;
+        const double at = x > lo && x < hi ? x : 0.5 * (lo + hi), over = make_pancakes(p, at) - target;
         if (fabs(over) < best) {
             best = fabs(over);
             d = at;
@@ -95,7 +97,7 @@ static double solve(struct dough *p, double target, double lo, double hi, double
     return d;
 }
 
-static int prepare(struct dough *p, double *total, double *most, fl_err *err)
+static int measure_cells(struct pancakes *p, double *total, double *most, fl_err *err)
 {
     const fl_power_cells *c = p->cells;
     int32_t tight = 0;
@@ -114,11 +116,11 @@ static int prepare(struct dough *p, double *total, double *most, fl_err *err)
     return fl_fail(
         err, FL_INPUT,
         "the cell of floe %d has an inscribed radius of %.4g m, too little for a round core inside a "
-        "dilation radius of %.4g m: a smaller radius, fewer floes or more smoothing is wanted",
+        "dilation radius of %.4g m: a smaller radius, fewer floes or more smoothing is needed",
         tight, p->rho[tight], p->radius);
 }
 
-static int serve(struct dough *p, double d, fl_vec2 shift, fl_floes *a, fl_err *err)
+static int move_to_floes(struct pancakes *p, double d, fl_vec2 shift, fl_floes *a, fl_err *err)
 {
     const int32_t n = p->cells->n;
     a->n = n;
@@ -144,7 +146,7 @@ int fl_pancakes_make(fl_floes *out, const fl_power_cells *cells, int32_t sides, 
                      double radius, fl_vec2 shift, fl_err *err)
 {
     const int32_t n = cells->n;
-    struct dough p = {.cells = cells, .sides = sides, .radius = radius};
+    struct pancakes p = {.cells = cells, .sides = sides, .radius = radius};
     fl_floes a = {0};
     double total, most, lo, hi, d;
     int rc = -1;
@@ -155,19 +157,20 @@ int fl_pancakes_make(fl_floes *out, const fl_power_cells *cells, int32_t sides, 
         !(p.v = fl_alloc(cells->first[n], sizeof *p.v, err)) ||
         !(p.side = fl_alloc(cells->first[n], sizeof *p.side, err)) ||
         !(p.core = fl_alloc((int64_t)n * sides, sizeof *p.core, err)) ||
-        !(p.outer = fl_alloc((int64_t)n * sides, sizeof *p.outer, err)) || prepare(&p, &total, &most, err))
+        !(p.outer = fl_alloc((int64_t)n * sides, sizeof *p.outer, err)) ||
+        measure_cells(&p, &total, &most, err))
         goto done;
-    lo = bake_all(&p, 0.0) - concentration * total;
-    hi = bake_all(&p, most) - concentration * total;
+    lo = make_pancakes(&p, 0.0) - concentration * total;
+    hi = make_pancakes(&p, most) - concentration * total;
     if (lo < 0.0 || hi > 0.0) {
         fl_fail(err, FL_INPUT,
-                "round floes in these cells cover %.4g to %.4g of the area, %.10g was asked for",
+                "round floes in these cells cover %.4g to %.4g of the area, %.10g is requested",
                 concentration + hi / total, concentration + lo / total, concentration);
         goto done;
     }
-    d = solve(&p, concentration * total, 0.0, most, lo, hi);
-    bake_all(&p, d);
-    if (serve(&p, d, shift, &a, err)) goto done;
+    d = solve_inset(&p, concentration * total, 0.0, most, lo, hi);
+    make_pancakes(&p, d);
+    if (move_to_floes(&p, d, shift, &a, err)) goto done;
     *out = a;
     a = (fl_floes){0};
     rc = 0;

@@ -4,11 +4,11 @@
 #include "base/array.h"
 #include "ice/periodic.h"
 
-/* Width of the first band, in roots of the mean area of a cell: a cell of random sites reaches farther for
- * its corners in about one field of 1e9 cells. */
+/* Width of the first band, in square roots of the mean area of a cell: cells of random sites need more in
+ * about one of 1e9 cells. */
 #define BAND 3.0
 
-static double wrap(double x, double lo, double hi)
+static double wrap_coordinate(double x, double lo, double hi)
 {
     const double l = hi - lo, t = x - l * floor((x - lo) / l);
     return t < lo || t >= hi ? lo : t; /* rounding */
@@ -16,11 +16,12 @@ static double wrap(double x, double lo, double hi)
 
 fl_vec2 fl_periodic_wrap(fl_vec2 p, fl_vec2 lo, fl_vec2 hi, const int periodic[2])
 {
-    return (fl_vec2){periodic[0] ? wrap(p.x, lo.x, hi.x) : p.x, periodic[1] ? wrap(p.y, lo.y, hi.y) : p.y};
+    return (fl_vec2){periodic[0] ? wrap_coordinate(p.x, lo.x, hi.x) : p.x,
+                     periodic[1] ? wrap_coordinate(p.y, lo.y, hi.y) : p.y};
 }
 
-/* The sites and their copies up to a distance of band outside; of[] is the site of a copy. */
-static int lay_copies(int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, const int reach[2],
+/* Add the copies of the sites up to a distance of band outside; of[] is the site of a copy. */
+static int add_copies(int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, const int reach[2],
                       fl_vec2 band, fl_vec2 **image, int32_t **of, int32_t *count, fl_err *err)
 {
     const double lx = hi.x - lo.x, ly = hi.y - lo.y;
@@ -46,8 +47,8 @@ static int lay_copies(int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, co
     return 0;
 }
 
-static int wide_enough(const fl_power_cells *c, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi,
-                       const int periodic[2])
+static int is_wide_enough(const fl_power_cells *c, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi,
+                          const int periodic[2])
 {
     for (int32_t i = 0; i < n; i++)
         for (int32_t k = c->first[i]; k < c->first[i + 1]; k++) {
@@ -59,8 +60,8 @@ static int wide_enough(const fl_power_cells *c, int32_t n, const fl_vec2 *site, 
     return 1;
 }
 
-/* Forget the cells of the copies. */
-static void keep_first(fl_power_cells *c, int32_t n, const int32_t *of)
+/* Drop the cells of the copies. */
+static void drop_copies(fl_power_cells *c, int32_t n, const int32_t *of)
 {
     c->n = n;
     for (int32_t k = 0; k < c->first[n]; k++)
@@ -78,11 +79,11 @@ int fl_periodic_cells(fl_power_cells *out, int32_t n, const fl_vec2 *site, fl_ve
         fl_vec2 *image = NULL;
         int32_t *of = NULL, m = 0;
         fl_power_cells c = {0};
-        int rc = lay_copies(n, site, lo, hi, reach, b, &image, &of, &m, err);
+        int rc = add_copies(n, site, lo, hi, reach, b, &image, &of, &m, err);
         int ready = 0;
         if (rc == 0) rc = fl_power_cells_build(&c, m, image, from, to, err);
-        if (rc == 0 && (ready = wide_enough(&c, n, site, from, to, periodic))) {
-            keep_first(&c, n, of);
+        if (rc == 0 && (ready = is_wide_enough(&c, n, site, from, to, periodic))) {
+            drop_copies(&c, n, of);
             *out = c;
             c = (fl_power_cells){0};
         }

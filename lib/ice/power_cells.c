@@ -8,8 +8,8 @@
 #include "shim/cgal_power.h"
 #include "shim/cgal_voronoi.h"
 
-/* The rectangle that the sides of a polygon cut is larger than its box by this part, so that every cut is a
- * plain one: no wall of the rectangle runs along a side of the polygon. */
+/* Margin of the initial rectangle over the size of the polygon: no wall of the rectangle coincides with a
+ * side of the polygon. */
 #define CLEAR 0.05
 
 double fl_outline_area(const fl_outline *a)
@@ -18,7 +18,7 @@ double fl_outline_area(const fl_outline *a)
 }
 
 /* Side k of the polygon. */
-static fl_polygon_side wall(const fl_outline *a, int32_t k)
+static fl_polygon_side wall_of(const fl_outline *a, int32_t k)
 {
     const fl_vec2 p = a->v[k], q = a->v[k + 1 < a->n ? k + 1 : 0];
     const double dx = q.x - p.x, dy = q.y - p.y, s = 1.0 / hypot(dx, dy);
@@ -31,7 +31,7 @@ int fl_outline_contains(const fl_outline *a, fl_vec2 p, double within)
           p.y <= a->hi.y - within))
         return 0;
     for (int32_t k = 0; k < a->n; k++)
-        if (fl_polygon_side_distance(wall(a, k), p) > -within) return 0;
+        if (fl_polygon_side_distance(wall_of(a, k), p) > -within) return 0;
     return 1;
 }
 
@@ -51,21 +51,20 @@ void fl_random_sites(int32_t n, uint64_t seed, fl_vec2 lo, fl_vec2 hi, fl_vec2 *
     fl_random_sites_in_outline(n, seed, &(fl_outline){.lo = lo, .hi = hi}, site);
 }
 
-/* The sites along Hilbert's curve, so that neighbours are near in memory; name is the number that the caller
- * knows a site by.  It decides wherever an order does, so that no bit of a cell depends on that of the work.
- */
-struct row {
+/* The sites along a Hilbert curve, so that neighbours are near in memory. name is the index of a site for
+ * the caller; it defines all orders, so that no bit of a cell depends on the order of work. */
+struct ordered_sites {
     int32_t *name;
     fl_vec2 *site;
-    double *weight; /* NULL: all are 0 */
+    double *weight; /* NULL: all 0 */
     char *empty;
     int32_t *near_first, *near;
-    int32_t *from, *count; /* where the cell lies in side and v, and its sides */
+    int32_t *from, *count; /* offset of the cell in side and v, and its number of sides */
     fl_polygon_side *side;
     fl_vec2 *v;
 };
 
-static void row_free(struct row *r)
+static void free_sites(struct ordered_sites *r)
 {
     free(r->name);
     free(r->site);
@@ -79,7 +78,8 @@ static void row_free(struct row *r)
     free(r->v);
 }
 
-static int row_make(struct row *r, int32_t n, const fl_vec2 *site, const double *weight, fl_err *err)
+static int order_sites(struct ordered_sites *r, int32_t n, const fl_vec2 *site, const double *weight,
+                       fl_err *err)
 {
     if (!(r->name = fl_alloc(n, sizeof *r->name, err)) || !(r->site = fl_alloc(n, sizeof *r->site, err)) ||
         !(r->empty = fl_alloc(n, 1, err)) || (weight && !(r->weight = fl_alloc(n, sizeof(double), err))) ||
@@ -96,9 +96,9 @@ static int row_make(struct row *r, int32_t n, const fl_vec2 *site, const double 
                   : fl_cgal_neighbours(n, r->site, r->name, r->near_first, &r->near, err);
 }
 
-/* What is nearer, or of less power, to site i than to site j.  Always computed from the lower to the higher
- * name, so that both cells see one line. */
-static fl_polygon_side bisector(const struct row *r, int32_t i, int32_t j)
+/* The half-plane nearer to site i, or of less power, than to site j.  It is always computed from the lower
+ * to the higher name, so that both cells have the same line. */
+static fl_polygon_side bisector_of(const struct ordered_sites *r, int32_t i, int32_t j)
 {
     const int rising = r->name[i] < r->name[j];
     const int32_t l = rising ? i : j, h = rising ? j : i;
@@ -109,29 +109,29 @@ static fl_polygon_side bisector(const struct row *r, int32_t i, int32_t j)
         s * dx, s * dy, s * (r->weight ? middle + 0.5 * (r->weight[l] - r->weight[h]) : middle), r->name[j]};
 }
 
-/* A rectangle cut k times has at most 4 + k sides; with that room for each no cell runs into the next. */
-static int64_t room(const fl_outline *in, const struct row *r, int32_t k)
+/* Offset of cell k: a rectangle cut k times has at most 4 + k sides. */
+static int64_t offset_of(const fl_outline *in, const struct ordered_sites *r, int32_t k)
 {
     return r->near_first[k] + (4 + (int64_t)in->n) * k;
 }
 
-/* Each thread puts its cells one behind the other, from where the room of its first one begins: memory that
- * no cell needs stays untouched. */
-static void cut_all(struct row *r, int32_t n, const fl_outline *in, fl_vec2 lo, fl_vec2 hi)
+/* Cut all cells.  Each thread stores its cells contiguously from the offset of its first one, so that
+ * unused memory stays untouched. */
+static void cut_cells(struct ordered_sites *r, int32_t n, const fl_outline *in, fl_vec2 lo, fl_vec2 hi)
 {
 #pragma omp parallel
     {
         int32_t at = -1;
 #pragma omp for schedule(static)
         for (int32_t k = 0; k < n; k++) {
-            if (at < 0) at = (int32_t)room(in, r, k);
+            if (at < 0) at = (int32_t)offset_of(in, r, k);
             fl_vec2 *v = r->v + at;
             fl_polygon_side *side = r->side + at;
             int32_t m = r->empty[k] ? 0 : 4;
             fl_polygon_rectangle(lo, hi, v, side);
             for (int32_t e = r->near_first[k]; e < r->near_first[k + 1] && m > 0; e++)
-                m = fl_polygon_cut(m, v, side, bisector(r, k, r->near[e]));
-            for (int32_t e = 0; e < in->n && m > 0; e++) m = fl_polygon_cut(m, v, side, wall(in, e));
+                m = fl_polygon_cut(m, v, side, bisector_of(r, k, r->near[e]));
+            for (int32_t e = 0; e < in->n && m > 0; e++) m = fl_polygon_cut(m, v, side, wall_of(in, e));
             r->from[k] = at;
             r->count[k] = m < 3 ? 0 : m;
             at += r->count[k];
@@ -139,8 +139,8 @@ static void cut_all(struct row *r, int32_t n, const fl_outline *in, fl_vec2 lo, 
     }
 }
 
-/* The cells in the order of their names. */
-static int collect(fl_power_cells *c, const struct row *r, fl_err *err)
+/* Collect the cells in the order of their names. */
+static int collect_cells(fl_power_cells *c, const struct ordered_sites *r, fl_err *err)
 {
     const int32_t n = c->n;
     for (int32_t k = 0; k < n; k++) c->first[r->name[k] + 1] = r->count[k];
@@ -165,28 +165,28 @@ int fl_power_cells_build_in(fl_power_cells *out, int32_t n, const fl_vec2 *site,
                             const fl_outline *in, fl_err *err)
 {
     fl_power_cells c = {.n = n};
-    struct row r = {0};
+    struct ordered_sites r = {0};
     const double margin = in->n ? CLEAR * (in->hi.x - in->lo.x + in->hi.y - in->lo.y) : 0.0;
     const fl_vec2 lo = {in->lo.x - margin, in->lo.y - margin}, hi = {in->hi.x + margin, in->hi.y + margin};
     int32_t sides = 0, corners = 0;
     int rc = -1;
     c.first = fl_alloc((int64_t)n + 1, sizeof *c.first, err);
-    if (!c.first || row_make(&r, n, site, weight, err)) goto done;
-    if (room(in, &r, n) > INT32_MAX) {
+    if (!c.first || order_sites(&r, n, site, weight, err)) goto done;
+    if (offset_of(in, &r, n) > INT32_MAX) {
         fl_fail(err, FL_INPUT, "%d cells in an outline of %d sides are too many, fewer are expected", n,
                 in->n);
         goto done;
     }
-    if (fl_grow(&r.side, &sides, room(in, &r, n), sizeof *r.side, err) ||
-        fl_grow(&r.v, &corners, room(in, &r, n), sizeof *r.v, err))
+    if (fl_grow(&r.side, &sides, offset_of(in, &r, n), sizeof *r.side, err) ||
+        fl_grow(&r.v, &corners, offset_of(in, &r, n), sizeof *r.v, err))
         goto done;
-    cut_all(&r, n, in, lo, hi);
-    if (collect(&c, &r, err)) goto done;
+    cut_cells(&r, n, in, lo, hi);
+    if (collect_cells(&c, &r, err)) goto done;
     *out = c;
     c = (fl_power_cells){0};
     rc = 0;
 done:
-    row_free(&r);
+    free_sites(&r);
     fl_power_cells_free(&c);
     return rc;
 }

@@ -4,8 +4,8 @@
 #include "base/number_text.h"
 #include "ice/sizes_law.h"
 
-/* Bounds within which areas, their sums and their logarithms stay finite: diameters [m], exponents, the shape
- * of a Weibull law (below the least one the mean of a law lies beyond all that a field has), deviations. */
+/* Bounds for which areas, their sums and their logarithms are finite: diameters [m], exponents, the shape
+ * of a Weibull law (below the least one the mean of a law exceeds any field), coefficients of variation. */
 #define SHORTEST 1e-6
 #define LONGEST 1e6
 #define STEEPEST 20.0
@@ -17,7 +17,7 @@
 static const char *const LAWS[] = {"equal", "lognormal", "weibull", "power"};
 enum { LAWS_N = 4, WORDS = 5, WORD_LEN = 64 };
 
-static int begins(const char *text, const char *law)
+static int starts_with(const char *text, const char *law)
 {
     const size_t n = strlen(law);
     return strncmp(text, law, n) == 0 && (text[n] == '\0' || text[n] == ':');
@@ -26,17 +26,18 @@ static int begins(const char *text, const char *law)
 int fl_sizes_is_law(const char *text)
 {
     for (int k = 0; k < LAWS_N; k++)
-        if (begins(text, LAWS[k])) return 1;
+        if (starts_with(text, LAWS[k])) return 1;
     return 0;
 }
 
-static int wanted(fl_err *err, const char *text, const char *what)
+static int fail_law(fl_err *err, const char *text, const char *what)
 {
     return fl_fail(err, FL_USAGE, "--sizes is \"%.80s\", %s is expected", text, what);
 }
 
-/* Words between commas behind the colon; -1 for too many, or too long ones. */
-static int cut(const char *text, char word[WORDS][WORD_LEN])
+/* Split the text after the colon at commas.  Returns the number of words, -1 if there are too many or too
+ * long ones. */
+static int split_words(const char *text, char word[WORDS][WORD_LEN])
 {
     const char *p = strchr(text, ':');
     int n = 0;
@@ -51,7 +52,7 @@ static int cut(const char *text, char word[WORDS][WORD_LEN])
     }
 }
 
-static int number(const char *word, double lo, double hi, double *x)
+static int parse_number(const char *word, double lo, double hi, double *x)
 {
     return fl_number_f64(word, x) || !(*x >= lo && *x <= hi);
 }
@@ -65,13 +66,13 @@ static int parse_power(fl_sizes *s, char *name, const char *text, int n, char wo
     const char *what = n == 5 ? word[3] : "number", *how = n == 5 ? word[4] : "cumulative";
     char t[3][FL_NUMBER_LEN];
     double e = 0.0;
-    if ((n != 3 && n != 5) || number(word[0], -STEEPEST, STEEPEST, &e) ||
-        number(word[1], SHORTEST, LONGEST, &s->dmin) || number(word[2], SHORTEST, LONGEST, &s->dmax) ||
-        !(s->dmin < s->dmax))
-        return wanted(err, text, form);
+    if ((n != 3 && n != 5) || parse_number(word[0], -STEEPEST, STEEPEST, &e) ||
+        parse_number(word[1], SHORTEST, LONGEST, &s->dmin) ||
+        parse_number(word[2], SHORTEST, LONGEST, &s->dmax) || !(s->dmin < s->dmax))
+        return fail_law(err, text, form);
     if ((strcmp(what, "number") != 0 && strcmp(what, "area") != 0) ||
         (strcmp(how, "cumulative") != 0 && strcmp(how, "density") != 0))
-        return wanted(err, text, form);
+        return fail_law(err, text, form);
     s->kind = FL_SIZES_POWER;
     s->beta = e + (what[0] == 'a' ? 2.0 : 0.0) + (how[0] == 'c' ? 1.0 : 0.0);
     snprintf(name, FL_SIZES_LAW_LEN, "power:%s,%s,%s,%s,%s", fl_number_text(e, t[0]),
@@ -83,24 +84,24 @@ int fl_sizes_parse(fl_sizes *out, char name[FL_SIZES_LAW_LEN], const char *text,
 {
     fl_sizes s = {.mean = 1.0};
     char word[WORDS][WORD_LEN], t[FL_NUMBER_LEN], full[FL_SIZES_LAW_LEN] = "equal";
-    const int n = cut(text, word);
-    if (begins(text, "equal")) {
-        if (strcmp(text, "equal") != 0) return wanted(err, text, "equal");
+    const int n = split_words(text, word);
+    if (starts_with(text, "equal")) {
+        if (strcmp(text, "equal") != 0) return fail_law(err, text, "equal");
         s.kind = FL_SIZES_EQUAL;
-    } else if (begins(text, "lognormal")) {
-        if (n != 1 || number(word[0], CV_LEAST, CV_MOST, &s.cv))
-            return wanted(err, text, "lognormal:CV with CV from 0.001 to 100");
+    } else if (starts_with(text, "lognormal")) {
+        if (n != 1 || parse_number(word[0], CV_LEAST, CV_MOST, &s.cv))
+            return fail_law(err, text, "lognormal:CV with CV from 0.001 to 100");
         s.kind = FL_SIZES_LOGNORMAL;
         snprintf(full, sizeof full, "lognormal:%s", fl_number_text(s.cv, t));
-    } else if (begins(text, "weibull")) {
-        if (n != 1 || number(word[0], SHAPE_LEAST, SHAPE_MOST, &s.k))
-            return wanted(err, text, "weibull:K with K from 0.1 to 100");
+    } else if (starts_with(text, "weibull")) {
+        if (n != 1 || parse_number(word[0], SHAPE_LEAST, SHAPE_MOST, &s.k))
+            return fail_law(err, text, "weibull:K with K from 0.1 to 100");
         s.kind = FL_SIZES_WEIBULL;
         snprintf(full, sizeof full, "weibull:%s", fl_number_text(s.k, t));
-    } else if (begins(text, "power")) {
+    } else if (starts_with(text, "power")) {
         if (parse_power(&s, full, text, n, word, err)) return -1;
     } else {
-        return wanted(err, text, "equal, lognormal:CV, weibull:K or power:EXP,DMIN,DMAX,...");
+        return fail_law(err, text, "equal, lognormal:CV, weibull:K or power:EXP,DMIN,DMAX,...");
     }
     *out = s;
     memcpy(name, full, sizeof full);

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sizes_law.h -- the name of a law of sizes, as a user gives it and as a certificate repeats it.
+/* sizes_law.h -- names of size distributions, as a user gives them and a certificate repeats them.
  *
- *     equal                               all floes have the same area
- *     lognormal:CV                        areas, standard deviation over mean CV
- *     weibull:K                           areas, shape K (1 is the exponential law)
- *     power:EXP,DMIN,DMAX[,WHAT,HOW]      diameters D = sqrt(4 a / pi) from DMIN to DMAX [m]
+ *    equal                               all floes have the same area
+ *    lognormal:CV                        areas, coefficient of variation CV
+ *    weibull:K                           areas, shape K (1 is the exponential law)
+ *    power:EXP,DMIN,DMAX[,WHAT,HOW]      diameters D = sqrt(4 a / pi) from DMIN to DMAX [m]
  *
- * Exponents of floe sizes are told in four ways, which differ by up to three.  WHAT is number (of floes) or
- * area (that they cover), HOW is cumulative (of all floes larger than D) or density (per unit of D):
- *     number,density      n(D) ~ D^-EXP           beta = EXP
- *     number,cumulative   N(> D) ~ D^-EXP         beta = EXP + 1    where neither is said
- *     area,density        D^2 n(D) ~ D^-EXP       beta = EXP + 2
- *     area,cumulative     A(> D) ~ D^-EXP         beta = EXP + 3
- * beta is that of sizes.h, n(D) ~ D^-beta on [DMIN, DMAX].  A cumulative law means its density, cut off at
- * DMIN and DMAX; the number above D then bends down near DMAX, as it must.  Source: Rothrock & Thorndike,
- * J. Geophys. Res. 89 (1984) 6477; Stern, Schweiger, Zhang & Steele, Elementa 6 (2018) 49, on conventions. */
+ * Four conventions for exponents of floe sizes are in use; they differ by up to three.  WHAT is number (of
+ * floes) or area (covered by them).  HOW is cumulative (of all floes larger than D) or density (per unit
+ * of D):
+ *    number,density      n(D) ~ D^-EXP           beta = EXP
+ *    number,cumulative   N(> D) ~ D^-EXP         beta = EXP + 1    default
+ *    area,density        D^2 n(D) ~ D^-EXP       beta = EXP + 2
+ *    area,cumulative     A(> D) ~ D^-EXP         beta = EXP + 3
+ * beta is that of sizes.h, n(D) ~ D^-beta on [DMIN, DMAX].  A cumulative law means its density, truncated
+ * at DMIN and DMAX; the number above D therefore bends down near DMAX. Source: Rothrock & Thorndike, J.
+ * Geophys.  Res.  89 (1984) 6477; Stern, Schweiger, Zhang & Steele, Elementa 6 (2018) 49, on conventions. */
 #ifndef FL_ICE_SIZES_LAW_H
 #define FL_ICE_SIZES_LAW_H
 #include "base/err.h"
@@ -22,12 +23,12 @@
 
 enum { FL_SIZES_LAW_LEN = 160 };
 
-/* 1 when the text is the name of a law, or begins like one. */
+/* 1 if the text is the name of a law, or starts like one. */
 int fl_sizes_is_law(const char *text);
 
-/* Read the name of a law.
- *   name  out: the same with nothing left out, which reads as the same law
- * Returns 0, or -1 with FL_USAGE: what was found and what is expected; out and name are untouched then. */
+/* Parse the name of a law.
+ *    name  out: the complete name, with defaults, which gives the same law
+ * Returns 0, or -1 with FL_USAGE (what was found and what is expected); out and name are unchanged then. */
 int fl_sizes_parse(fl_sizes *out, char name[FL_SIZES_LAW_LEN], const char *text, fl_err *err);
 
 #endif

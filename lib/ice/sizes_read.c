@@ -9,8 +9,8 @@
 #include "ice/sizes_read.h"
 #include "shim/cgal_simple.h"
 
-/* Sizes and counts between which a file may lie [m, m2, 1], and coordinates [m]: squares and sums stay
- * finite, and the area of a polygon far from the origin keeps its digits. */
+/* Bounds of sizes and counts [m, m2, 1], and of coordinates [m]: squares and sums are finite, and the area
+ * of a polygon far from the origin is accurate. */
 #define SMALLEST 1e-12
 #define LARGEST 1e12
 #define FAR 1e9
@@ -27,18 +27,18 @@ struct reading {
     int counted;
     int32_t n, cap, corners, room;
     struct size *size;
-    fl_vec2 *v;    /* corners of the polygon at hand */
-    int64_t begun; /* the line of its first corner   */
+    fl_vec2 *v;    /* corners of the current polygon */
+    int64_t begun; /* line of its first corner */
 };
 
-static int add(struct reading *r, double area, double count, fl_err *err)
+static int add_size(struct reading *r, double area, double count, fl_err *err)
 {
     if (fl_grow(&r->size, &r->cap, (int64_t)r->n + 1, sizeof *r->size, err)) return -1;
     r->size[r->n++] = (struct size){area, count};
     return 0;
 }
 
-static int positive(struct reading *r, const char *what, double *x, fl_err *err)
+static int read_positive(struct reading *r, const char *what, double *x, fl_err *err)
 {
     if (fl_text_f64(&r->in, what, x, err)) return -1;
     if (*x >= SMALLEST && *x <= LARGEST) return 0;
@@ -49,10 +49,10 @@ static int positive(struct reading *r, const char *what, double *x, fl_err *err)
 static int read_size(struct reading *r, fl_err *err)
 {
     double x = 0.0, count = 1.0;
-    if (positive(r, "size", &x, err)) return -1;
-    if (r->counted && positive(r, "count", &count, err)) return -1;
+    if (read_positive(r, "size", &x, err)) return -1;
+    if (r->counted && read_positive(r, "count", &count, err)) return -1;
     if (fl_text_no_more(&r->in, err)) return -1;
-    return add(r, r->holds == DIAMETERS ? 0.25 * PI * x * x : x, count, err);
+    return add_size(r, r->holds == DIAMETERS ? 0.25 * PI * x * x : x, count, err);
 }
 
 /* --- polygons ------------------------------------------------------------------------------------------- */
@@ -82,29 +82,29 @@ static int close_polygon(struct reading *r, fl_err *err)
     if (n == 0) return 0;
     r->corners = 0;
     if (n > 1 && v[n - 1].x == v[0].x && v[n - 1].y == v[0].y) n--;
-    r->in.line_number = r->begun; /* the complaint is about the polygon, not about the line behind it */
+    r->in.line_number = r->begun; /* the message is about the polygon, not about the line after it */
     if (n < 3)
         return fl_text_fail(&r->in, err, "a polygon of %d different corners found, three are expected", n);
     simple = fl_cgal_is_simple(n, v, err);
     if (simple < 0) return -1;
     if (!simple)
         return fl_text_fail(&r->in, err,
-                            "the polygon of %d corners crosses or touches itself, one that does not was "
-                            "wanted",
+                            "the polygon of %d corners crosses or touches itself, one that does not is "
+                            "expected",
                             n);
     area = fabs(fl_polygon_area(n, v));
     if (!(area >= SMALLEST && area <= LARGEST))
         return fl_text_fail(&r->in, err, "a polygon of %g m2 found, one from %g to %g is expected", area,
                             SMALLEST, LARGEST);
-    rc = add(r, area, 1.0, err);
+    rc = add_size(r, area, 1.0, err);
     r->in.line_number = now;
     return rc;
 }
 
 /* --- the file ------------------------------------------------------------------------------------------- */
 
-/* 1 when the row names the columns. */
-static int header(struct reading *r)
+/* 1 if the row names the columns. */
+static int read_header(struct reading *r)
 {
     char **f = r->in.field;
     const int32_t n = r->in.n;
@@ -120,15 +120,15 @@ static int header(struct reading *r)
     return 1;
 }
 
-static int blank(const char *line) { return line[strspn(line, " \t\f\v")] == '\0'; }
+static int is_blank(const char *line) { return line[strspn(line, " \t\f\v")] == '\0'; }
 
-static int read_all(struct reading *r, fl_err *err)
+static int read_rows(struct reading *r, fl_err *err)
 {
     int more, rows = 0;
     while ((more = fl_text_line(&r->in, err)) > 0) {
-        const int empty = blank(r->in.line), cut = fl_text_split(&r->in, err);
+        const int empty = is_blank(r->in.line), cut = fl_text_split(&r->in, err);
         if (cut < 0) return -1;
-        if (cut && rows++ == 0 && header(r)) continue;
+        if (cut && rows++ == 0 && read_header(r)) continue;
         if (r->holds == CORNERS && (empty || (cut && strcmp(r->in.field[0], ">") == 0))) {
             if (close_polygon(r, err)) return -1;
         } else if (cut && (r->holds == CORNERS ? read_corner(r, err) : read_size(r, err))) {
@@ -142,18 +142,18 @@ static int read_all(struct reading *r, fl_err *err)
     return 0;
 }
 
-static int ascending(const void *a, const void *b)
+static int by_area(const void *a, const void *b)
 {
     const struct size *x = a, *y = b;
     if (x->area != y->area) return (x->area > y->area) - (x->area < y->area);
     return (x->count > y->count) - (x->count < y->count);
 }
 
-/* Sums of sizes in ascending order lose least, and do not depend on the order of the file. */
-static int sum_up(struct reading *r, fl_sizes *s, fl_err *err)
+/* Cumulative sums in ascending order: least rounding, independent of the order of the file. */
+static int make_sizes(struct reading *r, fl_sizes *s, fl_err *err)
 {
     *s = (fl_sizes){.kind = FL_SIZES_LIST, .n = r->n};
-    qsort(r->size, (size_t)r->n, sizeof *r->size, ascending);
+    qsort(r->size, (size_t)r->n, sizeof *r->size, by_area);
     if (!(s->area = fl_alloc(r->n, sizeof *s->area, err)) ||
         !(s->cumulative_count = fl_alloc((int64_t)r->n + 1, sizeof *s->cumulative_count, err)) ||
         !(s->cumulative_area = fl_alloc((int64_t)r->n + 1, sizeof *s->cumulative_area, err)))
@@ -171,7 +171,7 @@ int fl_sizes_read(fl_sizes *out, const char *path, fl_err *err)
     struct reading r = {0};
     fl_sizes s = {0};
     int rc = -1;
-    if (fl_text_open(&r.in, path, err) || read_all(&r, err) || sum_up(&r, &s, err)) goto done;
+    if (fl_text_open(&r.in, path, err) || read_rows(&r, err) || make_sizes(&r, &s, err)) goto done;
     *out = s;
     s = (fl_sizes){0};
     rc = 0;

@@ -6,26 +6,26 @@
 
 enum { SPHERES_MAX = 1 << 27 };
 
-static double whole(double x) { return floor(x * (1.0 + FL_PACKING_WHOLE_TOL)); }
+static double floor_tolerant(double x) { return floor(x * (1.0 + FL_PACKING_WHOLE_TOL)); }
 
-/* Places along x count half diameters: column c of a row lies at 2 c + aside(). */
-static int aside(enum fl_packing_kind kind, int32_t k, int32_t r)
+/* Positions along x count half diameters: column c of a row is at 2 c + row_offset(). */
+static int row_offset(enum fl_packing_kind kind, int32_t k, int32_t r)
 {
     return kind == FL_PACKING_HCP ? (r + k) & 1 : kind == FL_PACKING_HEX ? r & 1 : 0;
 }
 
-static double row_apart(enum fl_packing_kind kind, double d)
+static double row_spacing(enum fl_packing_kind kind, double d)
 {
     return kind == FL_PACKING_SQUARE ? d : d * sqrt(0.75);
 }
 
 /* --- the pairs ------------------------------------------------------------------------------------------ */
 
-/* Add the pair of sphere i and the one in layer k, row r at place `at`, when there is one. */
-static int touch(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind kind, int32_t i, int32_t k,
-                 int32_t r, int32_t at, fl_err *err)
+/* Add the pair of sphere i and the sphere in layer k, row r at position `at`, if it exists. */
+static int add_pair(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind kind, int32_t i, int32_t k,
+                    int32_t r, int32_t at, fl_err *err)
 {
-    const int32_t twice = at - aside(kind, k, r);
+    const int32_t twice = at - row_offset(kind, k, r);
     if (k >= a->layers || r < 0 || r >= a->rows || twice < 0 || twice >= 2 * a->columns) return 0;
     if (fl_grow(&a->pair, cap, (int64_t)a->pairs + 1, sizeof *a->pair, err)) return -1;
     a->pair[a->pairs][0] = i;
@@ -33,23 +33,23 @@ static int touch(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind kind, 
     return 0;
 }
 
-/* Neighbours of higher number, in ascending order. */
-static int touch_all(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind kind, int32_t k, int32_t r,
+/* Add the neighbours with higher index, ascending. */
+static int add_pairs(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind kind, int32_t k, int32_t r,
                      int32_t c, fl_err *err)
 {
-    const int32_t i = (k * a->rows + r) * a->columns + c, at = 2 * c + aside(kind, k, r);
-    if (touch(a, cap, kind, i, k, r, at + 2, err)) return -1;
+    const int32_t i = (k * a->rows + r) * a->columns + c, at = 2 * c + row_offset(kind, k, r);
+    if (add_pair(a, cap, kind, i, k, r, at + 2, err)) return -1;
     if (kind == FL_PACKING_SQUARE)
-        return touch(a, cap, kind, i, k, r + 1, at, err) || touch(a, cap, kind, i, k + 1, r, at, err);
-    if (touch(a, cap, kind, i, k, r + 1, at - 1, err) || touch(a, cap, kind, i, k, r + 1, at + 1, err))
+        return add_pair(a, cap, kind, i, k, r + 1, at, err) || add_pair(a, cap, kind, i, k + 1, r, at, err);
+    if (add_pair(a, cap, kind, i, k, r + 1, at - 1, err) || add_pair(a, cap, kind, i, k, r + 1, at + 1, err))
         return -1;
-    if (kind == FL_PACKING_HEX) return touch(a, cap, kind, i, k + 1, r, at, err);
-    /* Odd layers stand D sqrt(3)/6 farther along y: from an even one the hollow's third sphere lies a row
-     * back, from an odd one a row ahead. */
-    if (k % 2 == 0 && touch(a, cap, kind, i, k + 1, r - 1, at, err)) return -1;
-    if (touch(a, cap, kind, i, k + 1, r, at - 1, err) || touch(a, cap, kind, i, k + 1, r, at + 1, err))
+    if (kind == FL_PACKING_HEX) return add_pair(a, cap, kind, i, k + 1, r, at, err);
+    /* odd layers are D sqrt(3)/6 farther along y: the third sphere of the hollow is a row back from an
+     * even one, a row ahead from an odd one */
+    if (k % 2 == 0 && add_pair(a, cap, kind, i, k + 1, r - 1, at, err)) return -1;
+    if (add_pair(a, cap, kind, i, k + 1, r, at - 1, err) || add_pair(a, cap, kind, i, k + 1, r, at + 1, err))
         return -1;
-    return k % 2 ? touch(a, cap, kind, i, k + 1, r + 1, at, err) : 0;
+    return k % 2 ? add_pair(a, cap, kind, i, k + 1, r + 1, at, err) : 0;
 }
 
 /* --- the sheet ------------------------------------------------------------------------------------------ */
@@ -57,9 +57,10 @@ static int touch_all(fl_sphere_packing *a, int32_t *cap, enum fl_packing_kind ki
 int fl_sphere_packing_make(fl_sphere_packing *out, enum fl_packing_kind kind, double diameter, int32_t layers,
                            fl_vec2 lo, fl_vec2 hi, fl_err *err)
 {
-    const double d = diameter, wide = hi.x - lo.x, deep = hi.y - lo.y, step = row_apart(kind, d);
-    const double columns = whole(wide / d);
-    const double rows = deep * (1.0 + FL_PACKING_WHOLE_TOL) < d ? 0.0 : 1.0 + whole((deep - d) / step);
+    const double d = diameter, wide = hi.x - lo.x, deep = hi.y - lo.y, step = row_spacing(kind, d);
+    const double columns = floor_tolerant(wide / d);
+    const double rows =
+        deep * (1.0 + FL_PACKING_WHOLE_TOL) < d ? 0.0 : 1.0 + floor_tolerant((deep - d) / step);
     const double shift = kind == FL_PACKING_HCP ? d * sqrt(0.75) / 3.0 : 0.0;
     fl_sphere_packing a = {.layers = layers, .diameter = d};
     fl_vec2 from;
@@ -81,9 +82,9 @@ int fl_sphere_packing_make(fl_sphere_packing *out, enum fl_packing_kind kind, do
     for (int32_t k = 0, i = 0; k < layers; k++)
         for (int32_t r = 0; r < a.rows; r++)
             for (int32_t c = 0; c < a.columns; c++, i++) {
-                a.x[i] = v3(from.x + 0.5 * d * (2 * c + aside(kind, k, r)),
+                a.x[i] = v3(from.x + 0.5 * d * (2 * c + row_offset(kind, k, r)),
                             from.y + step * r + (k % 2 ? shift : 0.0), 0.5 * d + a.layer_spacing * k);
-                if (touch_all(&a, &cap, kind, k, r, c, err)) goto bad;
+                if (add_pairs(&a, &cap, kind, k, r, c, err)) goto bad;
             }
     *out = a;
     return 0;

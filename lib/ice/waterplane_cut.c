@@ -4,16 +4,17 @@
 #include "base/pi.h"
 #include "ice/waterplane_cut.h"
 
-/* Generators of a cone; its discs are drawn as polygons round them, so that nothing is cut off. */
+/* Generators of a cone; its discs are circumscribed polygons, so that nothing is cut off. */
 enum { AROUND = 4 * FL_WATERPLANE_MAX_SIDES };
 
-/* How far a group reaches in each direction 2 pi k / FL_WATERPLANE_MAX_SIDES; those of fewer sides are among them. */
-struct reach {
+/* Extent of a group in each direction 2 pi k / FL_WATERPLANE_MAX_SIDES, which include those of fewer
+ * sides. */
+struct extent {
     double far[FL_WATERPLANE_MAX_SIDES], x0, x1, y0, y1;
     int any;
 };
 
-static void reach_start(struct reach *r)
+static void start_extent(struct extent *r)
 {
     for (int k = 0; k < FL_WATERPLANE_MAX_SIDES; k++) r->far[k] = -INFINITY;
     r->x0 = r->y0 = INFINITY;
@@ -21,16 +22,16 @@ static void reach_start(struct reach *r)
     r->any = 0;
 }
 
-static fl_vec2 direction(int k)
+static fl_vec2 direction_of(int k)
 {
     return (fl_vec2){cos(2.0 * PI * k / FL_WATERPLANE_MAX_SIDES),
                      sin(2.0 * PI * k / FL_WATERPLANE_MAX_SIDES)};
 }
 
-static void reach_point(struct reach *r, double x, double y)
+static void add_point(struct extent *r, double x, double y)
 {
     for (int k = 0; k < FL_WATERPLANE_MAX_SIDES; k++) {
-        const fl_vec2 u = direction(k);
+        const fl_vec2 u = direction_of(k);
         r->far[k] = fmax(r->far[k], u.x * x + u.y * y);
     }
     r->x0 = fmin(r->x0, x);
@@ -40,9 +41,9 @@ static void reach_point(struct reach *r, double x, double y)
     r->any = 1;
 }
 
-/* The piece of an edge between the levels.  The plan view of a polyhedron cut by two levels is spanned by
- * such pieces: its corners are corners and points of edges. */
-static void reach_edge(struct reach *r, fl_vec3 a, fl_vec3 b, double z0, double z1)
+/* Add the part of an edge between the levels.  Corners of the plan view of a cut polyhedron are corners
+ * and points of edges. */
+static void add_edge(struct extent *r, fl_vec3 a, fl_vec3 b, double z0, double z1)
 {
     double from = 0.0, to = 1.0;
     if ((a.z < z0 && b.z < z0) || (a.z > z1 && b.z > z1)) return;
@@ -51,14 +52,14 @@ static void reach_edge(struct reach *r, fl_vec3 a, fl_vec3 b, double z0, double 
     if (b.z < z0) to = (z0 - a.z) / (b.z - a.z);
     if (b.z > z1) to = (z1 - a.z) / (b.z - a.z);
     a = v3_lerp(a, b, from);
-    reach_point(r, a.x, a.y);
+    add_point(r, a.x, a.y);
     if (to > from) {
         const fl_vec3 e = v3_lerp(a, b, (to - from) / (1.0 - from));
-        reach_point(r, e.x, e.y);
+        add_point(r, e.x, e.y);
     }
 }
 
-static void reach_cone(struct reach *r, const fl_cone *c, double z0, double z1)
+static void add_cone(struct extent *r, const fl_cone *c, double z0, double z1)
 {
     const fl_vec3 axis = v3_unit(v3_sub(c->p1, c->p0)), u = v3_normal_to(axis), w = v3_cross(axis, u);
     const double out = 1.0 / cos(PI / AROUND);
@@ -67,37 +68,37 @@ static void reach_cone(struct reach *r, const fl_cone *c, double z0, double z1)
         const double a = 2.0 * PI * k / AROUND;
         const fl_vec3 e = v3_add(v3_scale(out * cos(a), u), v3_scale(out * sin(a), w));
         const fl_vec3 now[2] = {v3_madd(c->p0, c->r0, e), v3_madd(c->p1, c->r1, e)};
-        reach_edge(r, now[0], now[1], z0, z1);
-        if (k) reach_edge(r, last[0], now[0], z0, z1);
-        if (k) reach_edge(r, last[1], now[1], z0, z1);
+        add_edge(r, now[0], now[1], z0, z1);
+        if (k) add_edge(r, last[0], now[0], z0, z1);
+        if (k) add_edge(r, last[1], now[1], z0, z1);
         last[0] = now[0];
         last[1] = now[1];
     }
 }
 
-/* Directions of a polygon that is coarse enough. */
-static int sides_for(double size, double coarse)
+/* Number of sides of a polygon that is within `coarse` of the group. */
+static int count_sides(double size, double coarse)
 {
     int n = FL_WATERPLANE_MIN_SIDES;
     while (n < FL_WATERPLANE_MAX_SIDES && size * (1.0 / cos(PI / n) - 1.0) > coarse) n *= 2;
     return n;
 }
 
-static int keep_out(fl_domain *d, const struct reach *r, double margin, double coarse, int32_t *kept,
+static int add_hole(fl_domain *d, const struct extent *r, double margin, double coarse, int32_t *kept,
                     fl_err *err)
 {
-    const int n = r->any ? sides_for(0.5 * hypot(r->x1 - r->x0, r->y1 - r->y0) + margin, coarse) : 0;
+    const int n = r->any ? count_sides(0.5 * hypot(r->x1 - r->x0, r->y1 - r->y0) + margin, coarse) : 0;
     fl_polygon_side side[FL_WATERPLANE_MAX_SIDES + 4];
     fl_vec2 v[FL_WATERPLANE_MAX_SIDES + 4];
     int32_t m = 4;
     if (!r->any) return 0;
     if (margin == 0.0 && !(r->x1 > r->x0 && r->y1 > r->y0))
-        return fl_fail(err, FL_INPUT, "a part of the structure is a line in plan: a margin is wanted");
-    /* the four directions of the axes, which every polygon has, then the others */
+        return fl_fail(err, FL_INPUT, "a part of the structure is a line in plan: a margin is needed");
+    /* the four axis directions, which every polygon has, then the others */
     fl_polygon_rectangle((fl_vec2){r->x0 - margin, r->y0 - margin}, (fl_vec2){r->x1 + margin, r->y1 + margin},
                          v, side);
     for (int k = 0; k < n; k++) {
-        const fl_vec2 u = direction(k * (FL_WATERPLANE_MAX_SIDES / n));
+        const fl_vec2 u = direction_of(k * (FL_WATERPLANE_MAX_SIDES / n));
         if (4 * k % n == 0) continue;
         m = fl_polygon_cut(
             m, v, side, (fl_polygon_side){u.x, u.y, r->far[k * (FL_WATERPLANE_MAX_SIDES / n)] + margin, 0});
@@ -107,40 +108,40 @@ static int keep_out(fl_domain *d, const struct reach *r, double margin, double c
     return 0;
 }
 
-static int32_t root(int32_t *up, int32_t v)
+static int32_t root_of(int32_t *up, int32_t v)
 {
     while (up[v] != v) v = up[v] = up[up[v]];
     return v;
 }
 
-/* Triangles that hang together by their vertices are one group; the lowest vertex names it. */
-static int keep_out_part(fl_domain *d, const fl_part *p, double z0, double z1, double margin, double coarse,
-                         int32_t *kept, fl_err *err)
+/* Triangles that are connected by vertices form a group, named by its lowest vertex. */
+static int add_part_holes(fl_domain *d, const fl_part *p, double z0, double z1, double margin, double coarse,
+                          int32_t *kept, fl_err *err)
 {
     int32_t *up = fl_alloc(p->nv, sizeof *up, err), *place = fl_alloc(p->nv, sizeof *place, err), n = 0;
-    struct reach *r = NULL;
+    struct extent *r = NULL;
     int rc = -1;
     if (!up || !place) goto done;
     for (int32_t v = 0; v < p->nv; v++) up[v] = v;
     for (int32_t t = 0; t < p->nt; t++)
         for (int k = 1; k < 3; k++) {
-            const int32_t a = root(up, p->t[t].v[0]), b = root(up, p->t[t].v[k]);
+            const int32_t a = root_of(up, p->t[t].v[0]), b = root_of(up, p->t[t].v[k]);
             up[a > b ? a : b] = a < b ? a : b;
         }
-    for (int32_t v = 0; v < p->nv; v++) place[v] = root(up, v) == v ? n++ : -1;
+    for (int32_t v = 0; v < p->nv; v++) place[v] = root_of(up, v) == v ? n++ : -1;
     r = fl_alloc((int64_t)n + 1, sizeof *r, err);
     if (!r) goto done;
-    for (int32_t k = 0; k <= n; k++) reach_start(&r[k]);
+    for (int32_t k = 0; k <= n; k++) start_extent(&r[k]);
     for (int32_t t = 0; t < p->nt; t++)
         for (int k = 0; k < 3; k++)
-            reach_edge(&r[place[root(up, p->t[t].v[0])]], p->v[p->t[t].v[k]], p->v[p->t[t].v[(k + 1) % 3]],
-                       z0, z1);
+            add_edge(&r[place[root_of(up, p->t[t].v[0])]], p->v[p->t[t].v[k]], p->v[p->t[t].v[(k + 1) % 3]],
+                     z0, z1);
     for (int32_t k = 0; k < n; k++)
-        if (keep_out(d, &r[k], margin, coarse, kept, err)) goto done;
+        if (add_hole(d, &r[k], margin, coarse, kept, err)) goto done;
     for (int32_t k = 0; k < p->nc; k++) {
-        reach_start(&r[n]);
-        reach_cone(&r[n], &p->cone[k], z0, z1);
-        if (keep_out(d, &r[n], margin, coarse, kept, err)) goto done;
+        start_extent(&r[n]);
+        add_cone(&r[n], &p->cone[k], z0, z1);
+        if (add_hole(d, &r[n], margin, coarse, kept, err)) goto done;
     }
     rc = 0;
 done:
@@ -155,6 +156,6 @@ int fl_waterplane_keep_out(fl_domain *d, const fl_surface *s, double z0, double 
 {
     *kept = 0;
     for (int32_t k = 0; k < s->n; k++)
-        if (keep_out_part(d, &s->part[k], z0, z1, margin, coarse, kept, err)) return -1;
+        if (add_part_holes(d, &s->part[k], z0, z1, margin, coarse, kept, err)) return -1;
     return 0;
 }

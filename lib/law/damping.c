@@ -3,13 +3,13 @@
 #include "base/pi.h"
 #include "law/damping.h"
 
-/* Damping ratio of a contact at rest beyond which more of it changes nothing but the step. */
+/* Largest damping ratio of a contact at rest: a larger one would only shorten the step. */
 #define RATIO 2.5
 
-static double clamp(double e) { return e < FL_MIN_RESTITUTION ? FL_MIN_RESTITUTION : e; }
+static double clamp_restitution(double e) { return e < FL_MIN_RESTITUTION ? FL_MIN_RESTITUTION : e; }
 
-/* Root of f in (lo, hi) where f changes sign once from - to +; bisection to the last bit, it is set-up. */
-static double root(double (*f)(double, double), double e, double lo, double hi)
+/* Root of f in (lo, hi), where f changes sign once from - to +: bisection to the last bit. */
+static double find_root(double (*f)(double, double), double e, double lo, double hi)
 {
     for (int k = 0; k < 200; k++) {
         const double mid = 0.5 * (lo + hi);
@@ -20,16 +20,16 @@ static double root(double (*f)(double, double), double e, double lo, double hi)
     return 0.5 * (lo + hi);
 }
 
-static double crossley(double D, double e) { return log1p(D) - log1p(-e * D) - D * (1.0 + e); }
+static double impact_residual(double D, double e) { return log1p(D) - log1p(-e * D) - D * (1.0 + e); }
 
 double fl_damping_hunt_crossley(double e)
 {
-    e = clamp(e);
+    e = clamp_restitution(e);
     if (e >= 1.0) return 0.0;
     /* Near 0 the function is -(1 - e^2) D^2/2 + (1 + e^3) D^3/3: negative up to about D0, the root lies
      * beyond. */
     const double D0 = 1.5 * (1.0 - e * e) / (1.0 + e * e * e);
-    return root(crossley, e, 0.5 * D0, (1.0 - 1e-16) / e);
+    return find_root(impact_residual, e, 0.5 * D0, (1.0 - 1e-16) / e);
 }
 
 double fl_damping_stored_speed(double D)
@@ -49,11 +49,11 @@ double fl_damping_stable_share(double z) { return sqrt(1.0 + z * z) - z; }
 
 double fl_hunt_crossley_stable_share(double D, double times)
 {
-    enum { PLACES = 64 }; /* on the way, which is flat where it is least: a part in a thousand */
+    enum { SAMPLES = 64 }; /* of the impact; the minimum is flat: within 1e-3 */
     const double more = sqrt(times);
     double least = fl_damping_stable_share(0.5 * D / fl_damping_slow_factor(D) * more);
-    for (int k = 0; k <= PLACES && D > 0.0; k++) {
-        const double u = (double)k / PLACES, K = 1.0 + D * u;
+    for (int k = 0; k <= SAMPLES && D > 0.0; k++) {
+        const double u = (double)k / SAMPLES, K = 1.0 + D * u;
         const double s2 = 2.0 * ((1.0 - u) - log((1.0 + D) / K) / D) / D,
                      C = D * sqrt(s2 > 0.0 ? s2 : 0.0) * more;
         const double dt = 0.5 * (sqrt(C * C + 4.0 * K) - C) / K;
@@ -74,12 +74,12 @@ double fl_damping_linear_restitution(double zeta)
     return pow((zeta - q) / (zeta + q), zeta / q);
 }
 
-static double linear(double zeta, double e) { return e - fl_damping_linear_restitution(zeta); }
+static double linear_residual(double zeta, double e) { return e - fl_damping_linear_restitution(zeta); }
 
 double fl_damping_linear(double e)
 {
-    e = clamp(e);
-    return e >= 1.0 ? 0.0 : root(linear, e, 0.0, 100.0);
+    e = clamp_restitution(e);
+    return e >= 1.0 ? 0.0 : find_root(linear_residual, e, 0.0, 100.0);
 }
 
 double fl_damping_tsuji(double e)
@@ -87,7 +87,7 @@ double fl_damping_tsuji(double e)
     static const double h[10] = {-6.918798, -16.41105, 146.8049,  -796.4559, 2928.711,
                                  -7206.864, 11494.29,  -11342.18, 6276.757,  -1489.915};
     double p = 0.0;
-    e = clamp(e);
+    e = clamp_restitution(e);
     if (e >= 1.0) return 0.0;
     for (int k = 9; k >= 0; k--) p = e * (h[k] + p);
     const double g2 = 1.0 / (1.0 - (1.0 + e) * (1.0 + e) * exp(p)) - 1.0;

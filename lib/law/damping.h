@@ -1,98 +1,123 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* damping.h -- from a coefficient of restitution to the damping of a contact, for three laws.
- * Below FL_MIN_RESTITUTION the closures diverge; smaller values are taken as that. */
+/* damping.h -- damping of a contact from its coefficient of restitution, for three laws; the share of the
+ * stable step that damping leaves; and the approach speed at the end of a step, by which damping acts.
+ *
+ *     Hunt & Crossley   F = k s^n (1 + chi s'),  chi = D / v_impact
+ *     linear            F = k s + 2 zeta sqrt(M k) s'
+ *     Tsuji             F = k s^(3/2) + alpha sqrt(M k) s^(1/4) s'
+ *
+ * s overlap [m], s' approach speed [m/s], M reduced mass [kg], e restitution.  Restitutions below
+ * FL_MIN_RESTITUTION are taken as that value: the formulae diverge there. */
 #ifndef FL_LAW_DAMPING_H
 #define FL_LAW_DAMPING_H
 #include <math.h>
 
 #define FL_MIN_RESTITUTION 0.01
 
-/* Hunt-Crossley, F = k s^n (1 + chi s'): D = chi v_impact is the root of D (1 + e) = ln[(1 + D)/(1 - e D)],
- * for every exponent, stiffness, mass and number of places.  0 for e >= 1. */
+/* Damping number D = chi v_impact of Hunt and Crossley: the root of D (1 + e) = ln[(1 + D)/(1 - e D)].  It
+ * holds for every exponent, stiffness, mass and number of contact points.  0 for e >= 1. */
 double fl_damping_hunt_crossley(double e);
 
-/* The most that an impact of D stores, as the speed it amounts to over that of the impact: sqrt(2 W_max/M)/v.
- * From u du/(1 + chi u) = -dW/M: its square is 2 (1/D - ln(1 + D)/D^2), whatever the potential; 1 for D = 0.
- */
+/* Largest stored energy of an impact, as a speed over the impact speed: sqrt(2 W_max/M)/v.  From
+ * u du/(1 + chi u) = -dW/M its square is 2 (1/D - ln(1 + D)/D^2) for every potential; 1 for D = 0. */
 double fl_damping_stored_speed(double D);
 
-/* A contact that is pressed together slowly is no impact: with chi = D/max(v_touch, c sqrt(2 W/M)) its
- * damping ratio is D/(2 c), which the step must follow but under fl_damping_end_speed().  So c = 1 up to a
- * ratio of 2.5, that is down to e = 0.2; below the ratio stays there, or is that which the impact itself
- * reaches, D fl_damping_stored_speed(D)/2, where that is more.  c fl_damping_stored_speed(D) <= 1, so that in an impact
- * v_touch is the larger one, and e holds. */
+/* Factor c of the stored speed in chi = D/max(v_touch, c sqrt(2 W/M)), for contacts pressed together slowly.
+ *
+ * Such a contact has the damping ratio D/(2 c), which the time step has to resolve unless
+ * fl_damping_end_speed() is used.  c = 1 up to a ratio of 2.5, that is down to e = 0.2.  Below e = 0.2 the
+ * ratio stays at the larger of 2.5 and the ratio that the impact itself reaches, D
+ * fl_damping_stored_speed(D)/2. Since c fl_damping_stored_speed(D) <= 1, v_touch is the larger speed in an
+ * impact, and e holds. */
 double fl_damping_slow_factor(double D);
 
-/* chi of an impact that has approached by `touch` at the most, D and c of its law, W stored, M reduced. */
+/* chi [s/m] of a contact.
+ *   D, c    of its law
+ *   touch   largest approach speed since the contact began [m/s]
+ *   energy  stored energy W [J]
+ *   mass    reduced mass M [kg] */
 static inline double fl_damping_chi(double D, double c, double touch, double energy, double mass)
 {
     const double stored = c * sqrt(2.0 * energy / mass), speed = touch > stored ? touch : stored;
     return speed > 0.0 ? D / speed : 0.0;
 }
 
-/* What Hunt and Crossley leave of the largest step 2/omega where damping goes by fl_damping_end_speed(): as an
- * impact begins, the stiffness is 1 + D times that of the springs. */
+/* Share of the largest step 2/omega that Hunt and Crossley leave when damping uses fl_damping_end_speed(): at
+ * the start of an impact the stiffness is 1 + D times that of the springs. */
 static inline double fl_damping_impact_share(double D) { return 1.0 / sqrt(1.0 + D); }
 
-/* What damping leaves of the largest stable step 2/omega of a scheme that has the speed of half a step ago:
- * K dt^2 + 2 C dt <= 4.  Of a ratio z: sqrt(1 + z^2) - z.  Of Hunt and Crossley with c as above: the least of
- * that at rest, and of an impact, where with s and u in shares of v/omega and v the stiffness is 1 + D u, the
- * damping D s, and s^2 = 2 (1 - u)/D - 2 ln[(1 + D)/(1 + D u)]/D^2.  times: of what is so many times as stiff
- * and as damped, what that leaves of its own 2/omega. */
+/* Share of the largest stable step 2/omega that damping leaves in a scheme that uses the speed of half a step
+ * ago, K dt^2 + 2 C dt <= 4.  For a damping ratio z it is sqrt(1 + z^2) - z. */
 double fl_damping_stable_share(double z);
+
+/* The same for Hunt and Crossley with the factor c above, of a contact that is `times` as stiff and as
+ * damped. It is the smaller of the share at rest and the least share during an impact.  In the impact, with
+ * s and u in units of v/omega and v, the stiffness is 1 + D u, the damping D s, and s^2 = 2 (1 - u)/D - 2
+ * ln[(1 + D)/(1 + D u)]/D^2. */
 double fl_hunt_crossley_stable_share(double D, double times);
 
-/* How many contacts one stands for that is damped by y = h C, of n that damp one body: for itself where all
- * of them change little of a speed in a step, a = 2 n y of it; for `most` where they would shake. */
+/* Weight of the implicit treatment of one contact among n that damp the same body, y = h C.  It is 1 where
+ * all of them change a speed little in a step, a = 2 n y << 1, and tends to `most` where they would
+ * oscillate. */
 static inline double fl_damping_implicit_weight(double y, double n, double most)
 {
     const double a = 2.0 * n * y, much = a * a;
     return 1.0 + (most - 1.0) * (much / (1.0 + much));
 }
 
-/* Forces are found at the end of a step, where speeds are known of its middle.  What its first half has
- * changed foretells the end, c, but for what forces change by from the step before; of the contact itself
- * that is known, so with h = dt/2M its damping C d goes by
- *     d = c - h ((E - E_before) + (C d - D_before)),
- * the speed at the end of the step, to order 2.  For a contact by itself that is the trapezoidal rule,
- * stable for all damping.  Of n contacts that damp one body each knows its own part alone; and explicit as
- * they are among one another they would shake where n h C is not small.  There damping changes by no more
- * than if 2n - 1 did what this one does: stable, again for all damping of bodies that are free to yield as M
- * has it, up to 0.7 of what the springs alone would leave (verify_step).  Where n h C is small each stands
- * for itself; what the others bear on d by is of order 4 there.
+/* Approach speed at the end of a step, by which a contact is damped [m/s].
  *
- * What is held back lags behind the motion: rather than drive it, it forgets what was before.  As time begins
- * there is no step before: damping is taken to have been what it is, and held back where it would shake, and
- * nothing has grown.
+ * Forces are evaluated at the end of a step, but speeds are known in its middle.  The change of speed in the
+ * first half of the step predicts the speed c of the end, except for the change of forces since the step
+ * before.  For the contact itself that change is known.  With h = dt/2M its damping force is C d, where
+ *     d = c - h ((E - E_before) + (C d - D_before))
+ * is the speed at the end of the step to order 2.  For a single contact that is the trapezoidal rule, stable
+ * for all damping.
  *
- *   c        approach foreseen for the end [m/s]
- *   grew     E - E_before, elastic force   [N]
- *   damped   D_before, that of damping     [N]
- *   begins   1 as time begins, else 0 */
+ * Each of n contacts that damp one body knows only its own change.  Explicit among one another, they would
+ * oscillate where n h C is not small.  There the damping changes by no more than if 2n - 1 contacts changed
+ * like this one.  That is stable, again for all damping of bodies free to move as M says, up to 0.7 of the
+ * step that the springs alone allow (verify_step).  Where n h C is small each contact counts once; the
+ * effect of the others on d is of order 4 there.
+ *
+ * The held-back part lags behind the motion.  Where it would drive the motion, the previous step is
+ * ignored. At the start of a run there is no previous step: damping is taken as unchanged and is held back
+ * where it would oscillate, and the elastic force as unchanged.
+ *
+ *   c         predicted approach speed at the end [m/s]
+ *   C         damping coefficient [N s/m]
+ *   h         dt/2M [s/kg]
+ *   n         contacts that damp the body
+ *   grew      E - E_before, elastic force [N]
+ *   damped    D_before, damping force     [N]
+ *   at_start  1 at the start of a run, else 0 */
 static inline double fl_damping_end_speed(double c, double C, double h, double n, double grew, double damped,
-                                          double begins)
+                                          double at_start)
 {
-    const double holds = (fl_damping_implicit_weight(h * C, n, 2.0 * n - 1.0 + begins) - begins) * h;
-    const double d = (c - h * grew + holds * damped) / (1.0 + holds * C);
-    return n > 1.0 && c * d < 0.0 ? c / (1.0 + holds * C) : d;
+    const double weight = (fl_damping_implicit_weight(h * C, n, 2.0 * n - 1.0 + at_start) - at_start) * h;
+    const double d = (c - h * grew + weight * damped) / (1.0 + weight * C);
+    return n > 1.0 && c * d < 0.0 ? c / (1.0 + weight * C) : d;
 }
 
-/* Of one contact, of n_i on a body that yields by y_i and n_j on one by y_j, as many as would be on a body
- * that alone yields by what both do: what else presses on a body moves it no more than that yields.  p =
- * (n - 1) y of both; as the eigenvalues of how contacts yield to each other are bounded by Gershgorin. */
+/* Number of contacts in line to which the contacts of both bodies amount.  Body i has n_i contacts and the
+ * inverse mass y_i, body j n_j and y_j; the result is the number on one body of the inverse mass y = y_i +
+ * y_j. Another contact moves its body by that body's own inverse mass only.  Like Gershgorin's bound of the
+ * eigenvalues of the compliance matrix of the contacts.
+ *   pi, pj  (n - 1) times the inverse mass, of either body */
 static inline double fl_effective_contact_count(double pi, double pj, double y)
 {
     return y > 0.0 ? 1.0 + (pi + pj) / y : 1.0;
 }
 
-/* Linear, F = k s + 2 zeta sqrt(M k) s', the contact ending when F reaches 0: zeta of restitution e.
+/* zeta of the linear law for the restitution e; the contact ends when F reaches 0.
  * Source: Schwager & Poeschel, Granular Matter 9 (2007) 465. */
 double fl_damping_linear(double e);
-/* The restitution that zeta gives; the inverse of the above. */
+
+/* Restitution of the ratio zeta: the inverse of fl_damping_linear(). */
 double fl_damping_linear_restitution(double zeta);
 
-/* Tsuji, F = k s^(3/2) + alpha sqrt(M k) s^(1/4) s', never pulling: alpha of restitution e, by the fit of
- * Thornton, Cummins & Cleary, Powder Technology 233 (2013) 30; within 0.2 %. */
+/* alpha of Tsuji's law, which never pulls, for the restitution e: the fit of Thornton, Cummins & Cleary,
+ * Powder Technology 233 (2013) 30; within 0.2 %. */
 double fl_damping_tsuji(double e);
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include "law/manual.h"
 #include "base/pi.h"
+#include "law/manual.h"
 #include "law/material.h"
 
 double fl_manual_stiffness(const fl_manual_contact *c, double modulus, double overlap, int si, int literal18,
                            double *n)
 {
     const double both = fl_material_radius(c->r_low, c->r_high);
-    const double low = c->r_low > 0.0 ? c->r_low : both; /* a sharp feature meets the other's roundness */
+    const double low = c->r_low > 0.0 ? c->r_low : both; /* a sharp feature takes the radius of the other */
     double r = both;
     *n = 1.5;
     switch (c->kind) {

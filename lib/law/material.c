@@ -3,7 +3,7 @@
 #include "base/pi.h"
 #include "law/material.h"
 
-#define BETA 1.02 /* a polygon: circle 1.000, square 1.012, triangle 1.034 */
+#define BETA 1.02 /* of a polygon; circle 1.000, square 1.012, triangle 1.034 */
 
 double fl_material_modulus(fl_elastic_constants a, fl_elastic_constants b)
 {

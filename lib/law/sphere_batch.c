@@ -5,31 +5,31 @@
 #include "law/sphere_batch.h"
 #include "law/tangent.h"
 
-/* Registers are filled to the end: what stands behind the last contact is computed too, and not used. */
-enum { FULL = 8 };
-static int32_t filled(int32_t m) { return (m + FULL - 1) / FULL * FULL; }
+/* Registers are filled: contacts after the last one are computed as well and not used. */
+enum { REGISTER = 8 };
+static int32_t padded_count(int32_t m) { return (m + REGISTER - 1) / REGISTER * REGISTER; }
 
-/* No branches, so that the compiler puts several contacts side by side. */
-#define SIDE_BY_SIDE _Pragma("omp simd")
+/* The loops have no branches, so that the compiler vectorises them over contacts. */
+#define SIMD_LOOP _Pragma("omp simd")
 
-FL_SIMD_VERSIONS static void stand(fl_sphere_batch *restrict b, int32_t m)
+FL_SIMD_VERSIONS static void find_geometry(fl_sphere_batch *restrict b, int32_t m)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const double x = b->d[0][c], y = b->d[1][c], z = b->d[2][c];
-        const double d = sqrt(x * x + y * y + z * z), one = d > 0.0 ? 1.0 / d : 0.0;
+        const double d = sqrt(x * x + y * y + z * z), inverse = d > 0.0 ? 1.0 / d : 0.0;
         const double s = b->ri[c] + b->rj[c] - d, root = sqrt(s > 0.0 ? s : 0.0);
-        b->n[0][c] = one * x;
-        b->n[1][c] = one * y;
-        b->n[2][c] = d > 0.0 ? one * z : 1.0;
+        b->n[0][c] = inverse * x;
+        b->n[1][c] = inverse * y;
+        b->n[2][c] = d > 0.0 ? inverse * z : 1.0;
         b->overlap[c] = s;
         b->elastic[c] = b->k[c] * (s * root);
         b->slope[c] = b->k[c] * (1.5 * root);
     }
 }
 
-/* How the surfaces go by each other across n where centres do by u; turn: a_i w_i + a_j w_j. */
-FL_SIMD_INLINE fl_vec3 sliding(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
+/* Tangential velocity at the contact: u of the centres, turn = a_i w_i + a_j w_j. */
+FL_SIMD_INLINE fl_vec3 tangential_velocity(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
 {
     const fl_vec3 s = v3_sub(u, v3_cross(turn, n));
     return v3_madd(s, -v3_dot(s, n), n);
@@ -37,65 +37,67 @@ FL_SIMD_INLINE fl_vec3 sliding(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
 
 #define VECTOR(a) v3(b->a[0][c], b->a[1][c], b->a[2][c])
 
-FL_SIMD_VERSIONS static void press(fl_sphere_batch *restrict b, int32_t m, double dt, double h, double begins)
+FL_SIMD_VERSIONS static void find_normal_forces(fl_sphere_batch *restrict b, int32_t m, double dt, double h,
+                                                double at_start)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const fl_vec3 n = VECTOR(n), u = VECTOR(u);
         const double s = b->overlap[c], elastic = b->elastic[c], last = b->max_approach_speed[c];
-        const double came = -v3_dot(n, u), closing = came - v3_dot(n, VECTOR(du));
+        const double approach = -v3_dot(n, u), closing = approach - v3_dot(n, VECTOR(du));
         const double now = closing > last ? closing : last, touch = now > 0.0 ? now : 0.0;
         const double stored2 = 2.0 * (0.4 * s * elastic) * b->slow_inv_mass[c], touch2 = touch * touch;
         const double speed = sqrt(stored2 > touch2 ? stored2 : touch2);
         const double chi = speed > 0.0 ? b->impact_damping[c] / speed : 0.0;
-        const double from = s - dt * came, had = from > 0.0 ? from : 0.0;
-        const double goes =
-            fl_damping_end_speed(closing, chi * elastic, h * b->inv_mass[c], b->contact_count[c],
-                                 elastic - b->k[c] * (had * sqrt(had)), b->normal_damping[c], begins);
-        const double damping = elastic * (chi * goes);
+        const double from = s - dt * approach, previous = from > 0.0 ? from : 0.0;
+        const double end_speed = fl_damping_end_speed(
+            closing, chi * elastic, h * b->inv_mass[c], b->contact_count[c],
+            elastic - b->k[c] * (previous * sqrt(previous)), b->normal_damping[c], at_start);
+        const double damping = elastic * (chi * end_speed);
         b->max_approach_speed[c] = touch;
         b->damping_factor[c] = chi;
         b->normal_damping[c] = damping > -elastic ? damping : -elastic;
     }
 }
 
-FL_SIMD_VERSIONS static void rub(fl_sphere_batch *restrict b, int32_t m, double dt, double h, double begins)
+FL_SIMD_VERSIONS static void find_friction(fl_sphere_batch *restrict b, int32_t m, double dt, double h,
+                                           double at_start)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const fl_vec3 n = VECTOR(n), u = VECTOR(u), wi = VECTOR(wi), wj = VECTOR(wj);
         const double ri = b->ri[c], rj = b->rj[c], half = 0.5 * b->overlap[c], ai = ri - half, aj = rj - half,
                      part = (ai + aj) / (ri + rj);
-        const fl_vec3 v = sliding(u, v3_madd(v3_scale(ai, wi), aj, wj), n),
-                      next = v3_add(v, sliding(VECTOR(du), v3_scale(part, VECTOR(rdw)), n));
+        const fl_vec3 v = tangential_velocity(u, v3_madd(v3_scale(ai, wi), aj, wj), n),
+                      next = v3_add(v, tangential_velocity(VECTOR(du), v3_scale(part, VECTOR(rdw)), n));
         const double twist = dt * (0.5 * v3_dot(v3_add(wi, wj), n));
-        /* the remembered force turns about n, lies down in the tangent plane, and falls with the stiffness */
+        /* the remembered force rotates about n and is projected into the tangent plane */
         const fl_vec3 p = VECTOR(spring_force), t = v3_madd(p, twist, v3_cross(n, p)),
                       q = v3_madd(t, -v3_dot(t, n), n), r = v3_sub(VECTOR(friction_force), p),
-                      was = v3_madd(r, -v3_dot(r, n), n);
+                      previous_damping = v3_madd(r, -v3_dot(r, n), n);
         const fl_tangent_spring spring = {.k = b->tangential[c] * b->slope[c],
                                           .g = b->tangential[c] * (b->damping_factor[c] * b->elastic[c]),
                                           .limit = b->friction[c] * (b->elastic[c] + b->normal_damping[c]),
                                           .inv_mass =
                                               b->inv_mass_tangent[c] + part * part * b->inv_inertia[c],
                                           .contact_count = b->contact_count[c]};
-        const fl_friction_forces rubs =
-            fl_tangent_point_step(p, q, b->spring_stiffness[c], spring, v, next, was, dt, h, begins);
-        const fl_vec3 e = rubs.elastic.f, all = rubs.total.f;
+        const fl_friction_forces now = fl_tangent_point_step(p, q, b->spring_stiffness[c], spring, v, next,
+                                                             previous_damping, dt, h, at_start);
+        const fl_vec3 e = now.elastic.f, total = now.total.f;
         const int on = spring.limit > 0.0 && b->tangential[c] > 0.0;
         b->spring_force[0][c] = on ? e.x : 0.0;
         b->spring_force[1][c] = on ? e.y : 0.0;
         b->spring_force[2][c] = on ? e.z : 0.0;
         b->spring_stiffness[c] = on ? spring.k : 0.0;
-        b->friction_force[0][c] = on ? all.x : 0.0;
-        b->friction_force[1][c] = on ? all.y : 0.0;
-        b->friction_force[2][c] = on ? all.z : 0.0;
+        b->friction_force[0][c] = on ? total.x : 0.0;
+        b->friction_force[1][c] = on ? total.y : 0.0;
+        b->friction_force[2][c] = on ? total.z : 0.0;
     }
 }
 
-FL_SIMD_VERSIONS static void tell(fl_sphere_batch *restrict b, int32_t m)
+FL_SIMD_VERSIONS static void find_forces(fl_sphere_batch *restrict b, int32_t m)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const double nx = b->n[0][c], ny = b->n[1][c], nz = b->n[2][c];
         const double x = b->friction_force[0][c], y = b->friction_force[1][c], z = b->friction_force[2][c];
@@ -118,10 +120,11 @@ FL_SIMD_VERSIONS static void tell(fl_sphere_batch *restrict b, int32_t m)
     }
 }
 
-FL_SIMD_VERSIONS static void roll(const fl_sphere_batch *restrict b, fl_sphere_rolling_batch *restrict r,
-                                  int32_t m, double dt, double h, double begins)
+FL_SIMD_VERSIONS static void find_rolling(const fl_sphere_batch *restrict b,
+                                          fl_sphere_rolling_batch *restrict r, int32_t m, double dt, double h,
+                                          double at_start)
 {
-    SIDE_BY_SIDE for (int32_t c = 0; c < m; c++)
+    SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const fl_vec3 wi = VECTOR(wi), wj = VECTOR(wj);
         const double mu = r->rolling[c], part = fl_rolling_stiffness_ratio(mu), arm = r->arm[c];
@@ -130,13 +133,14 @@ FL_SIMD_VERSIONS static void roll(const fl_sphere_batch *restrict b, fl_sphere_r
                                           .limit = mu * (b->elastic[c] + b->normal_damping[c]),
                                           .inv_mass = r->inv_mass[c],
                                           .contact_count = b->contact_count[c]};
-        const fl_vec3 turns = v3_scale(arm, v3_sub(wi, wj));
-        const fl_rolling_motion by = {turns, v3_madd(turns, arm, v3(r->dw[0][c], r->dw[1][c], r->dw[2][c])),
+        const fl_vec3 arm_spin = v3_scale(arm, v3_sub(wi, wj));
+        const fl_rolling_motion by = {arm_spin,
+                                      v3_madd(arm_spin, arm, v3(r->dw[0][c], r->dw[1][c], r->dw[2][c])),
                                       v3_scale(0.5, v3_add(wi, wj))};
-        const fl_rolling_spring was = {v3(r->elastic[0][c], r->elastic[1][c], r->elastic[2][c]),
-                                       r->spring_stiffness[c],
-                                       v3(r->total[0][c], r->total[1][c], r->total[2][c]), arm};
-        const fl_rolling_spring now = fl_rolling_step(was, spring, by, dt, h, begins);
+        const fl_rolling_spring before = {v3(r->elastic[0][c], r->elastic[1][c], r->elastic[2][c]),
+                                          r->spring_stiffness[c],
+                                          v3(r->total[0][c], r->total[1][c], r->total[2][c]), arm};
+        const fl_rolling_spring now = fl_rolling_step(before, spring, by, dt, h, at_start);
         const int on = spring.limit > 0.0;
         r->elastic[0][c] = on ? now.elastic.x : 0.0;
         r->elastic[1][c] = on ? now.elastic.y : 0.0;
@@ -161,23 +165,23 @@ void fl_sphere_batch_add_rolling(fl_sphere_batch *b, const fl_sphere_rolling_bat
 void fl_sphere_batch_rolling(fl_sphere_batch *b, fl_sphere_rolling_batch *r, int32_t m, double dt,
                              double half)
 {
-    roll(b, r, filled(m), dt, half, dt > 0.0 ? 0.0 : 1.0);
+    find_rolling(b, r, padded_count(m), dt, half, dt > 0.0 ? 0.0 : 1.0);
     fl_sphere_batch_add_rolling(b, r, m);
 }
 
 void fl_sphere_batch_evaluate(fl_sphere_batch *b, int32_t m, double dt, double half)
 {
-    const int32_t full = filled(m);
-    const double begins = dt > 0.0 ? 0.0 : 1.0;
-    stand(b, full);
-    press(b, full, dt, half, begins);
-    rub(b, full, dt, half, begins);
-    tell(b, full);
+    const int32_t full = padded_count(m);
+    const double at_start = dt > 0.0 ? 0.0 : 1.0;
+    find_geometry(b, full);
+    find_normal_forces(b, full, dt, half, at_start);
+    find_friction(b, full, dt, half, at_start);
+    find_forces(b, full);
 }
 
 void fl_sphere_batch_restore(fl_sphere_batch *b, int32_t m)
 {
-    const int32_t full = filled(m);
-    stand(b, full);
-    tell(b, full);
+    const int32_t full = padded_count(m);
+    find_geometry(b, full);
+    find_forces(b, full);
 }

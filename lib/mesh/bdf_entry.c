@@ -29,7 +29,7 @@ int fl_bdf_fail(const fl_bdf_entry *r, fl_err *err, const char *fmt, ...)
 
 /* --- lines ---------------------------------------------------------------------------------------------- */
 
-static int includes(const char *line)
+static int is_include(const char *line)
 {
     const char *p = line;
     while (*p == ' ' || *p == '\t') p++;
@@ -37,7 +37,7 @@ static int includes(const char *line)
            (fl_bytes_blank(p[7]) || strchr("'\"=", p[7]));
 }
 
-/* The next line with something in it, cut at its comment: 1, 0 at the end, -1. */
+/* Advance to the next line that is not blank and cut off its comment.  Returns 1, 0 at the end, or -1. */
 static int next_line(fl_bdf_entry *r, fl_err *err)
 {
     for (;;) {
@@ -46,21 +46,21 @@ static int next_line(fl_bdf_entry *r, fl_err *err)
         if (more <= 0) return more;
         end = strchr(line, '$');
         if (end == line && r->comment && r->comment(r->context, line + 1, err)) return -1;
-        if (includes(line)) return 1; /* a $ may be of the name */
+        if (is_include(line)) return 1; /* a $ may be part of the file name */
         if (end) *end = '\0';
         while (*line && fl_bytes_blank(*line)) line++;
         if (*line) return 1;
     }
 }
 
-/* Does the line go on with the entry before it? */
-static int goes_on(const char *line)
+/* True if the line continues the entry before it. */
+static int is_continuation(const char *line)
 {
-    return (*line == '+' || *line == '*' || *line == ',' || fl_bytes_blank(*line)) && !includes(line);
+    return (*line == '+' || *line == '*' || *line == ',' || fl_bytes_blank(*line)) && !is_include(line);
 }
 
-/* INCLUDE 'file', quotes of either kind or none; a quoted name may go on in the next lines. */
-static int include(fl_bdf_entry *r, fl_err *err)
+/* INCLUDE 'file', with quotes of either kind or none; a quoted name may continue on the next lines. */
+static int follow_include(fl_bdf_entry *r, fl_err *err)
 {
     char *line = r->deck.line + strspn(r->deck.line, " \t") + 7;
     int32_t n = 0;
@@ -85,7 +85,7 @@ static int include(fl_bdf_entry *r, fl_err *err)
 /* --- fields --------------------------------------------------------------------------------------------- */
 
 /* Append s[0 .. n) as a field. */
-static int push(fl_bdf_entry *r, const char *s, size_t n, fl_err *err)
+static int add_field(fl_bdf_entry *r, const char *s, size_t n, fl_err *err)
 {
     if (r->fields == FL_BDF_FIELDS) return 0;
     while (n > 0 && fl_bytes_blank(*s)) {
@@ -101,35 +101,35 @@ static int push(fl_bdf_entry *r, const char *s, size_t n, fl_err *err)
     return 0;
 }
 
-static int fill(fl_bdf_entry *r, int fields, fl_err *err)
+static int fill_fields(fl_bdf_entry *r, int fields, fl_err *err)
 {
     while (r->fields < fields && r->fields < FL_BDF_FIELDS)
-        if (push(r, "", 0, err)) return -1;
+        if (add_field(r, "", 0, err)) return -1;
     return 0;
 }
 
-/* Between commas: the name, eight fields (four behind a star), and the mark of the next line. */
-static int free_fields(fl_bdf_entry *r, const char *line, fl_err *err)
+/* Free format: the name, eight fields (four behind a star) and the continuation mark, separated by commas. */
+static int split_free(fl_bdf_entry *r, const char *line, fl_err *err)
 {
     const char *p = line + strcspn(line, ",");
     const int star = memchr(line, '*', (size_t)(p - line)) != NULL, most = star ? ROW / 2 : ROW;
-    if (!star && fill(r, (r->fields + ROW - 1) / ROW * ROW, err)) return -1;
+    if (!star && fill_fields(r, (r->fields + ROW - 1) / ROW * ROW, err)) return -1;
     const int had = r->fields;
     for (int k = 0; *p; k++) {
         const char *const comma = strchr(++p, ',');
         const size_t n = comma ? (size_t)(comma - p) : strlen(p);
-        if (k < most && push(r, p, n, err)) return -1;
+        if (k < most && add_field(r, p, n, err)) return -1;
         if (k > most && strspn(p, " \t") < n)
             return fl_elements_fail(
                 r->deck.e, r->deck.e->file, r->deck.e->line, err,
                 "%d fields behind the name, %d and the mark of the next line are the most", k + 1, most);
         p += n;
     }
-    return fill(r, had + most, err);
+    return fill_fields(r, had + most, err);
 }
 
-/* In columns; tabs reach the next multiple of eight. */
-static int column_fields(fl_bdf_entry *r, const char *line, fl_err *err)
+/* Fixed columns; a tab reaches the next multiple of eight. */
+static int split_columns(fl_bdf_entry *r, const char *line, fl_err *err)
 {
     char text[COLUMNS + 8];
     int n = 0, width = SMALL;
@@ -139,20 +139,19 @@ static int column_fields(fl_bdf_entry *r, const char *line, fl_err *err)
     }
     while (n < COLUMNS) text[n++] = ' ';
     if (memchr(text, '*', SMALL)) width = LARGE;
-    if (width == SMALL && fill(r, (r->fields + ROW - 1) / ROW * ROW, err)) return -1;
+    if (width == SMALL && fill_fields(r, (r->fields + ROW - 1) / ROW * ROW, err)) return -1;
     for (int k = SMALL; k < COLUMNS; k += width)
-        if (push(r, text + k, (size_t)width, err)) return -1;
+        if (add_field(r, text + k, (size_t)width, err)) return -1;
     return 0;
 }
 
-static int add_line(fl_bdf_entry *r, fl_err *err)
+static int split_line(fl_bdf_entry *r, fl_err *err)
 {
-    return strchr(r->deck.line, ',') ? free_fields(r, r->deck.line, err)
-                                     : column_fields(r, r->deck.line, err);
+    return strchr(r->deck.line, ',') ? split_free(r, r->deck.line, err) : split_columns(r, r->deck.line, err);
 }
 
-/* Has the entry fields that anybody reads?  All others are not looked into, lines of loads least of all. */
-static int of_use(const char *name)
+/* True if a reader uses the fields of this entry.  Other entries, mostly loads, are not split. */
+static int is_used(const char *name)
 {
     return *name == 'C' || *name == 'G' || strncmp(name, "PB", 2) == 0 || strncmp(name, "PTUBE", 5) == 0 ||
            strncmp(name, "PROD", 4) == 0;
@@ -166,12 +165,12 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
         size_t n = 0;
         r->file = r->deck.e->file;
         r->line = r->deck.e->line;
-        if (includes(line)) {
-            if (include(r, err)) return -1;
+        if (is_include(line)) {
+            if (follow_include(r, err)) return -1;
             continue;
         }
         if ((*start | 32) == 'e' && strncasecmp(start, "ENDDATA", 7) == 0) return 0;
-        if (goes_on(line)) continue; /* of an entry that was passed over */
+        if (is_continuation(line)) continue; /* continues an entry that was skipped */
         while (line[n] && !fl_bytes_blank(line[n]) && line[n] != ',' && line[n] != '*' &&
                n < FL_BDF_NAME - 1) {
             r->name[n] = (char)toupper((unsigned char)line[n]);
@@ -179,10 +178,10 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
         }
         r->name[n] = '\0';
         r->fields = r->text_len = 0;
-        if (!of_use(r->name)) return 1;
-        if (add_line(r, err)) return -1;
-        while ((more = next_line(r, err)) > 0 && goes_on(r->deck.line))
-            if (add_line(r, err)) return -1;
+        if (!is_used(r->name)) return 1;
+        if (split_line(r, err)) return -1;
+        while ((more = next_line(r, err)) > 0 && is_continuation(r->deck.line))
+            if (split_line(r, err)) return -1;
         if (more < 0) return -1;
         if (more) fl_deck_unread(&r->deck);
         return 1;

@@ -9,16 +9,16 @@
 
 static const char BYTE_ORDER_MARK[] = "\xef\xbb\xbf";
 static int32_t window = FL_BYTES_HEAD;
-enum { LEAST = 1 << 17 }; /* bytes of memory: data may be handed on to fl_text, which reads as many at once */
+enum { MIN_CAPACITY = 1 << 17 }; /* bytes; data may be handed to fl_text, which reads as many at once */
 
 void fl_bytes_set_window(int32_t bytes) { window = bytes > 0 ? bytes : FL_BYTES_HEAD; }
 
-/* Length of the line end at p, 0 when there is none. */
+/* Length of the line end at p, 0 if there is none. */
 static int line_end(const char *p) { return *p == '\n' ? 1 : *p != '\r' ? 0 : p[1] == '\n' ? 2 : 1; }
 
-/* Behind the last line end that is known to be one: what comes after it is there, so that \r\n is not cut,
- * and no backslash before it joins the next line on. */
-static int32_t last_end(const fl_bytes *b)
+/* Index behind the last complete line end.  The byte behind it has been read, so \r\n is whole, and no
+ * backslash before it joins the next line. */
+static int32_t complete_until(const fl_bytes *b)
 {
     if (b->ended) return b->n;
     for (int32_t k = b->n - 1; k-- > b->pos;) {
@@ -29,11 +29,11 @@ static int32_t last_end(const fl_bytes *b)
     return b->pos;
 }
 
-/* Read on until n bytes are in data, or the file ends. */
-static int read_to(fl_bytes *b, int64_t n, fl_err *err)
+/* Read until data holds n bytes or the file ends. */
+static int fill_window(fl_bytes *b, int64_t n, fl_err *err)
 {
     if (n > INT32_MAX - 1) n = INT32_MAX - 1;
-    if (fl_grow(&b->data, &b->cap, n > LEAST ? n + 1 : LEAST, 1, err)) return -1;
+    if (fl_grow(&b->data, &b->cap, n > MIN_CAPACITY ? n + 1 : MIN_CAPACITY, 1, err)) return -1;
     while (!b->ended && b->n < n) {
         const int64_t k = fl_in_read(b->in, b->data + b->n, n - b->n, err);
         if (k < 0) return -1;
@@ -44,26 +44,26 @@ static int read_to(fl_bytes *b, int64_t n, fl_err *err)
     return 0;
 }
 
-/* Move the window on: at least n bytes from pos on, or all that there are. */
-static int move_on(fl_bytes *b, int64_t n, fl_err *err)
+/* Move the window: data then holds at least n bytes from pos on, or the rest of the file. */
+static int advance_window(fl_bytes *b, int64_t n, fl_err *err)
 {
     const int32_t left = b->n - b->pos;
     if (b->pos) memmove(b->data, b->data + b->pos, (size_t)left);
     b->offset += b->pos;
     b->pos = 0;
     b->n = left;
-    if (read_to(b, n > window ? n : window, err)) return -1;
-    b->complete = last_end(b);
+    if (fill_window(b, n > window ? n : window, err)) return -1;
+    b->complete = complete_until(b);
     return 0;
 }
 
-/* See that the line that begins at pos ends in data. */
-static int whole_line(fl_bytes *b, fl_err *err)
+/* Read until the line that begins at pos ends in data. */
+static int complete_line(fl_bytes *b, fl_err *err)
 {
     while (!b->ended && b->pos >= b->complete) {
         const int64_t left = b->n - b->pos;
         if (left >= INT32_MAX - 1) return fl_bytes_fail(b, err, "a line of more than 2 GiB");
-        if (move_on(b, 2 * left, err)) return -1;
+        if (advance_window(b, 2 * left, err)) return -1;
     }
     return 0;
 }
@@ -73,7 +73,7 @@ int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err)
     *b = (fl_bytes){0};
     b->in = fl_in_open(path, err);
     if (!b->in) return -1;
-    if (read_to(b, window, err)) {
+    if (fill_window(b, window, err)) {
         fl_bytes_free(b);
         return -1;
     }
@@ -81,9 +81,11 @@ int fl_bytes_open(fl_bytes *b, const char *path, fl_err *err)
         b->n -= 3;
         memmove(b->data, b->data + 3, (size_t)b->n + 1);
     }
-    b->complete = last_end(b);
+    b->complete = complete_until(b);
     return 0;
 }
+
+int fl_bytes_is_text(const fl_bytes *b) { return memchr(b->data, '\0', (size_t)b->n) == NULL; }
 
 int fl_bytes_read_all(fl_bytes *b, fl_err *err)
 {
@@ -91,7 +93,7 @@ int fl_bytes_read_all(fl_bytes *b, fl_err *err)
         if (b->n >= INT32_MAX - 1)
             return fl_fail(err, FL_INPUT, "%s: larger than 2 GiB, which is the most for a file of this kind",
                            fl_in_name(b->in));
-        if (read_to(b, 2 * (int64_t)b->n + window, err)) return -1;
+        if (fill_window(b, 2 * (int64_t)b->n + window, err)) return -1;
     }
     b->complete = b->n;
     return 0;
@@ -99,7 +101,7 @@ int fl_bytes_read_all(fl_bytes *b, fl_err *err)
 
 int fl_bytes_read(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err)
 {
-    if (b->n - b->pos < n && !b->ended && move_on(b, n, err)) return -1;
+    if (b->n - b->pos < n && !b->ended && advance_window(b, n, err)) return -1;
     if (b->n - b->pos < n) return 0;
     *p = (const unsigned char *)b->data + b->pos;
     b->pos += n;
@@ -108,7 +110,7 @@ int fl_bytes_read(fl_bytes *b, int32_t n, const unsigned char **p, fl_err *err)
 
 int32_t fl_bytes_peek(fl_bytes *b, int32_t n, const char **p, fl_err *err)
 {
-    if (b->n - b->pos < n && !b->ended && move_on(b, n, err)) return -1;
+    if (b->n - b->pos < n && !b->ended && advance_window(b, n, err)) return -1;
     *p = b->data + b->pos;
     return b->n - b->pos < n ? b->n - b->pos : n;
 }
@@ -121,19 +123,19 @@ int fl_bytes_skip(fl_bytes *b, int64_t n, fl_err *err)
         n -= k;
         if (n == 0) return 1;
         if (b->ended) return 0;
-        if (move_on(b, 1, err)) return -1;
+        if (advance_window(b, 1, err)) return -1;
     }
 }
 
-/* The first place from pos on where the mark stands as fl_bytes_seek() wants it, or from where on more of the
- * file has to be seen. */
+/* Index of the first match of mark from pos on, in the sense of fl_bytes_seek(); without a match, the index
+ * from which to search when more of the file has been read. */
 static int32_t find_mark(const fl_bytes *b, const char *mark, int32_t len, int *found)
 {
     const char *const end = b->data + b->n, *p = b->data + b->pos;
     *found = 0;
     while ((p = memchr(p, mark[0], (size_t)(end - p))) != NULL) {
         if (end - p <= len && !b->ended) return (int32_t)(p - b->data);
-        /* a zero byte before it is a line end that was cut */
+        /* a zero byte before it is a line end that was overwritten */
         *found = end - p >= len && memcmp(p, mark, (size_t)len) == 0 && strchr(" \t\r\n", p[len]) &&
                  (p == b->data ? b->offset == 0 : strchr("\r\n", p[-1]) != NULL);
         if (*found) return (int32_t)(p - b->data);
@@ -151,16 +153,16 @@ int fl_bytes_seek(fl_bytes *b, const char *mark, fl_err *err)
         const int32_t at = find_mark(b, mark, len, &found), keep = at > b->pos && !found;
         if (b->line)
             for (int32_t k = b->pos; k < at - keep; k++) b->line += b->data[k] == '\n';
-        b->pos = at - keep; /* the byte before the mark tells whether a line begins there */
+        b->pos = at - keep; /* keep the byte before the mark: it shows whether a line begins there */
         if (found) return 1;
         if (b->ended) return 0;
-        if (move_on(b, (int64_t)len + 2, err)) return -1;
+        if (advance_window(b, (int64_t)len + 2, err)) return -1;
     }
 }
 
 int fl_bytes_line(fl_bytes *b, char **start, int32_t *len, fl_err *err)
 {
-    if (whole_line(b, err)) return -1;
+    if (complete_line(b, err)) return -1;
     if (b->pos >= b->n) return 0;
     b->line++;
     *start = b->data + b->pos;
@@ -203,25 +205,25 @@ void fl_bytes_note(fl_bytes *b, const char *fmt, ...)
     if (have + strlen(what) + 2 <= sizeof b->note) sprintf(b->note + have, "%s\n", what);
 }
 
-/* What a word does not go on over, without a look at it. */
-static const unsigned char STOP[256] = {
+/* Characters that may end a word. */
+static const unsigned char ENDS_WORD[256] = {
     ['\0'] = 1, [' '] = 1, ['\t'] = 1, ['\f'] = 1, ['\v'] = 1, ['\r'] = 1, ['\n'] = 1, ['\\'] = 1};
 
-/* The end of the word that begins at p. */
+/* End of the word that begins at p. */
 static char *word_end(char *p)
 {
     for (;; p++) {
-        while (!STOP[(unsigned char)*p]) p++;
+        while (!ENDS_WORD[(unsigned char)*p]) p++;
         if (*p != '\\' || line_end(p + 1)) return p;
     }
 }
 
-/* Cut the line at pos into words; pos moves to the next line. */
-static int cut_line(fl_bytes *b, fl_err *err)
+/* Split the line at pos into words; pos moves to the next line. */
+static int split_row(fl_bytes *b, fl_err *err)
 {
     char *p, *end;
     b->words = b->next = 0;
-    if (whole_line(b, err)) return -1;
+    if (complete_line(b, err)) return -1;
     p = b->data + b->pos;
     end = b->data + b->n;
     b->line++;
@@ -263,7 +265,7 @@ static int cut_line(fl_bytes *b, fl_err *err)
     return 0;
 }
 
-/* Step over blanks and line ends. */
+/* Skip blanks and line ends. */
 static int skip_space(fl_bytes *b, fl_err *err)
 {
     for (;;) {
@@ -271,18 +273,18 @@ static int skip_space(fl_bytes *b, fl_err *err)
         for (; fl_bytes_blank(*p) || *p == '\r' || *p == '\n'; p++) b->line += *p == '\n';
         b->pos = (int32_t)(p - b->data);
         if (b->pos < b->n || b->ended) return 0;
-        if (move_on(b, 1, err)) return -1;
+        if (advance_window(b, 1, err)) return -1;
     }
 }
 
 int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
 {
     static const char ENDS[] = " \t\f\v\r\n";
-    enum { ENOUGH = 64, MOST = 1 << 20 }; /* bytes of most numbers, and of any word */
+    enum { TYPICAL = 64, LIMIT = 1 << 20 }; /* bytes of most numbers, and the limit for a word */
     const char *end;
     int32_t len;
     if (skip_space(b, err)) return -1;
-    if (b->n - b->pos >= ENOUGH && (end = fl_decimal_read(b->data + b->pos, x)) != NULL &&
+    if (b->n - b->pos >= TYPICAL && (end = fl_decimal_read(b->data + b->pos, x)) != NULL &&
         (fl_bytes_blank(*end) || *end == '\n' || *end == '\r')) {
         b->pos = (int32_t)(end - b->data);
         return 1;
@@ -290,8 +292,8 @@ int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
     for (;;) {
         len = (int32_t)strcspn(b->data + b->pos, ENDS);
         if (b->pos + len < b->n || b->ended) break;
-        if (len > MOST) return fl_bytes_fail(b, err, "a word of more than %d bytes", MOST);
-        if (move_on(b, 2 * (int64_t)len + ENOUGH, err)) return -1;
+        if (len > LIMIT) return fl_bytes_fail(b, err, "a word of more than %d bytes", LIMIT);
+        if (advance_window(b, 2 * (int64_t)len + TYPICAL, err)) return -1;
     }
     const char *p = b->data + b->pos;
     if (b->pos == b->n) return 0;
@@ -310,7 +312,7 @@ int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
 int fl_bytes_row(fl_bytes *b, fl_err *err)
 {
     while (b->pos < b->n || !b->ended) {
-        if (cut_line(b, err)) return -1;
+        if (split_row(b, err)) return -1;
         if (b->words) return 1;
     }
     b->words = b->next = 0;
@@ -327,7 +329,7 @@ int fl_bytes_word(fl_bytes *b, const char **word, fl_err *err)
     return 1;
 }
 
-static int number(const fl_bytes *b, const char *word, const char *what, double *x, fl_err *err)
+static int parse_finite(const fl_bytes *b, const char *word, const char *what, double *x, fl_err *err)
 {
     if (fl_number_f64(word, x))
         return fl_bytes_fail(b, err, "%s is \"%.40s\", a finite number is expected", what, word);
@@ -337,7 +339,7 @@ static int number(const fl_bytes *b, const char *word, const char *what, double 
 int fl_bytes_f64_at(const fl_bytes *b, int32_t k, const char *what, double *x, fl_err *err)
 {
     if (k >= b->words) return fl_bytes_fail(b, err, "%s is missing after %d words", what, b->words);
-    return number(b, b->field[k], what, x, err);
+    return parse_finite(b, b->field[k], what, x, err);
 }
 
 int fl_bytes_f64(fl_bytes *b, const char *what, double *x, fl_err *err)
@@ -346,5 +348,5 @@ int fl_bytes_f64(fl_bytes *b, const char *what, double *x, fl_err *err)
     const int more = fl_bytes_word(b, &word, err);
     if (more < 0) return -1;
     if (more == 0) return fl_bytes_fail(b, err, "the file ends where %s is expected", what);
-    return number(b, word, what, x, err);
+    return parse_finite(b, word, what, x, err);
 }

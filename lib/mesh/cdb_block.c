@@ -8,8 +8,8 @@
 #include "mesh/fixed_columns.h"
 
 enum {
-    BODY = 11, /* columns of a row of EBLOCK,,SOLID before the nodes */
-    BARE = 5   /* the same without SOLID */
+    SOLID_HEAD = 11, /* columns of a row of EBLOCK,,SOLID before the nodes */
+    BARE_HEAD = 5    /* the same without SOLID */
 };
 
 /* --- rows ----------------------------------------------------------------------------------------------- */
@@ -24,7 +24,7 @@ static int read_format(fl_cdb *c, fl_columns *f, fl_err *err)
                         c->d.line);
 }
 
-static int whole_at(fl_cdb *c, const fl_columns *f, int k, int64_t *x, fl_err *err)
+static int integer_at(fl_cdb *c, const fl_columns *f, int k, int64_t *x, fl_err *err)
 {
     char text[FL_COLUMN_WIDTH];
     if (fl_columns_integer(f, k, c->d.line, c->d.len, x) == 0) return 0;
@@ -40,15 +40,16 @@ static int real_at(fl_cdb *c, const fl_columns *f, int k, double *x, fl_err *err
                         fl_columns_text(f, k, c->d.line, c->d.len, text));
 }
 
-/* Is column k blank, or beyond the end of the row? */
+/* True if column k is blank or beyond the end of the row. */
 static int is_blank(const fl_cdb *c, const fl_columns *f, int k)
 {
     char text[FL_COLUMN_WIDTH];
     return *fl_columns_text(f, k, c->d.line, c->d.len, text) == '\0';
 }
 
-/* Next row of a block: 1, or 0 at its end, which is a row of -1 or any command; that is left for later unless
- * it is the N,R5.3,LOC,-1 that ends an NBLOCK.  A block that just stops was cut off. */
+/* Advance to the next row of a block.  Returns 1, or 0 at its end: a row of -1, or the next command, which is
+ * left for later unless it is the N,R5.3,LOC,-1 that ends an NBLOCK.  A block that ends with the file is
+ * truncated. */
 static int block_row(fl_cdb *c, const char *block, fl_err *err)
 {
     for (;;) {
@@ -65,8 +66,9 @@ static int block_row(fl_cdb *c, const char *block, fl_err *err)
     }
 }
 
-/* Rows of numbers without an end mark: 1, or 0 at the next command or the end of the file. */
-static int free_row(fl_cdb *c, fl_err *err)
+/* Advance to the next row of a block without an end mark: 1, or 0 at the next command or the end of the file.
+ */
+static int open_row(fl_cdb *c, fl_err *err)
 {
     for (;;) {
         const int more = fl_deck_line(&c->d, err);
@@ -117,13 +119,12 @@ int fl_cdb_add_element(fl_cdb *c, int64_t id, int64_t type, int64_t section, int
 
 /* --- blocks --------------------------------------------------------------------------------------------- */
 
-/* Say so when a block does not hold what its head promised. */
-static void compare(fl_cdb *c, const char *block, const char *promise, int64_t n)
+/* Add a remark if the block does not hold the number of entries announced. */
+static void check_count(fl_cdb *c, const char *block, const char *promise, int64_t n)
 {
     int64_t x;
     if (fl_deck_integer(promise, &x) == 0 && x > 0 && x != n)
-        fl_bytes_note(c->d.base, "%s is to hold %lld entries, and has %lld", block, (long long)x,
-                      (long long)n);
+        fl_bytes_note(c->d.base, "%s announces %lld entries and has %lld", block, (long long)x, (long long)n);
 }
 
 int fl_cdb_nblock(fl_cdb *c, fl_err *err)
@@ -138,7 +139,7 @@ int fl_cdb_nblock(fl_cdb *c, fl_err *err)
     while ((more = block_row(c, "NBLOCK", err)) > 0) {
         int64_t id;
         fl_vec3 x;
-        if (whole_at(c, &f, 0, &id, err) || real_at(c, &f, f.integers, &x.x, err) ||
+        if (integer_at(c, &f, 0, &id, err) || real_at(c, &f, f.integers, &x.x, err) ||
             real_at(c, &f, f.integers + 1, &x.y, err) || real_at(c, &f, f.integers + 2, &x.z, err))
             return -1;
         if (id == -1) break;
@@ -149,25 +150,26 @@ int fl_cdb_nblock(fl_cdb *c, fl_err *err)
         n++;
     }
     if (more < 0) return -1;
-    compare(c, "NBLOCK", promise, n);
+    check_count(c, "NBLOCK", promise, n);
     return 0;
 }
 
-/* The nodes of a row from column `from` on, as many as are wanted (as are there, when want < 0). */
-static int take_nodes(fl_cdb *c, const fl_columns *f, int from, int64_t want, fl_err *err)
+/* Read nodes from column `from` on, until the element has `want` of them, or up to the first blank column
+ * when want < 0. */
+static int read_nodes(fl_cdb *c, const fl_columns *f, int from, int64_t want, fl_err *err)
 {
     for (int k = from; k < f->n && (want < 0 || c->nodes < want); k++) {
         if (want < 0 && is_blank(c, f, k)) break;
         if (c->nodes == FL_CDB_NODES)
             return fl_deck_fail(&c->d, err, "more than %d nodes in an element", FL_CDB_NODES);
-        if (whole_at(c, f, k, &c->node[c->nodes], err)) return -1;
+        if (integer_at(c, f, k, &c->node[c->nodes], err)) return -1;
         c->nodes++;
     }
     return 0;
 }
 
-/* Go on with the nodes of an element in the rows that follow. */
-static int more_nodes(fl_cdb *c, const fl_columns *f, int64_t id, int64_t want, fl_err *err)
+/* Read the remaining nodes of an element from the rows that follow. */
+static int read_more_nodes(fl_cdb *c, const fl_columns *f, int64_t id, int64_t want, fl_err *err)
 {
     while (c->nodes < want) {
         const int more = fl_deck_line(&c->d, err);
@@ -176,43 +178,44 @@ static int more_nodes(fl_cdb *c, const fl_columns *f, int64_t id, int64_t want, 
         if (more == 0 || (*p && !strchr("0123456789+-", *p)))
             return fl_deck_fail(&c->d, err, "element %lld ends after %d of its %lld nodes", (long long)id,
                                 c->nodes, (long long)want);
-        if (take_nodes(c, f, 0, want, err)) return -1;
+        if (read_nodes(c, f, 0, want, err)) return -1;
     }
     return 0;
 }
 
 static int read_solid_row(fl_cdb *c, const fl_columns *f, fl_err *err)
 {
-    int64_t col[BODY];
+    int64_t col[SOLID_HEAD];
     int32_t line;
-    for (int k = 0; k < BODY; k++)
-        if (whole_at(c, f, k, &col[k], err)) return -1;
+    for (int k = 0; k < SOLID_HEAD; k++)
+        if (integer_at(c, f, k, &col[k], err)) return -1;
     if (col[8] < 1 || col[8] > FL_CDB_NODES || col[10] < 1)
         return fl_deck_fail(&c->d, err,
                             "element %lld of %lld nodes was found, a number of 1 or more and 1 to %d nodes "
                             "are expected",
                             (long long)col[10], (long long)col[8], FL_CDB_NODES);
     line = c->e.line;
-    if (take_nodes(c, f, BODY, col[8], err) || more_nodes(c, f, col[10], col[8], err)) return -1;
+    if (read_nodes(c, f, SOLID_HEAD, col[8], err) || read_more_nodes(c, f, col[10], col[8], err)) return -1;
     c->e.line = line;
     return fl_cdb_add_element(c, col[10], col[1], col[3], col[2], err);
 }
 
-/* Without the key SOLID nothing says how many nodes there are: those of a row, and of the next one for a
- * brick of 20. */
+/* Without the key SOLID no column holds the number of nodes: they are those of one row, for a brick of 20
+ * nodes also those of the next. */
 static int read_bare_row(fl_cdb *c, const fl_columns *f, fl_err *err)
 {
-    int64_t col[BARE];
+    int64_t col[BARE_HEAD];
     int32_t slot, line;
-    for (int k = 0; k < BARE; k++)
-        if (whole_at(c, f, k, &col[k], err)) return -1;
+    for (int k = 0; k < BARE_HEAD; k++)
+        if (integer_at(c, f, k, &col[k], err)) return -1;
     if (col[0] < 1)
         return fl_deck_fail(&c->d, err, "element %lld was found, a number of 1 or more is expected",
                             (long long)col[0]);
     line = c->e.line;
     slot = fl_id_map_find(&c->slot, 0, col[1]);
-    if (take_nodes(c, f, BARE, -1, err)) return -1;
-    if (slot >= 0 && c->type[slot].family == FL_CDB_BRICK && more_nodes(c, f, col[0], 20, err)) return -1;
+    if (read_nodes(c, f, BARE_HEAD, -1, err)) return -1;
+    if (slot >= 0 && c->type[slot].family == FL_CDB_BRICK && read_more_nodes(c, f, col[0], 20, err))
+        return -1;
     c->e.line = line;
     return fl_cdb_add_element(c, col[0], col[1], col[1], col[2], err);
 }
@@ -225,20 +228,20 @@ int fl_cdb_eblock(fl_cdb *c, fl_err *err)
     int64_t n = 0;
     int more;
     if (read_format(c, &f, err)) return -1;
-    if (f.integers != f.n || f.n <= (solid ? BODY : BARE))
+    if (f.integers != f.n || f.n <= (solid ? SOLID_HEAD : BARE_HEAD))
         return fl_deck_fail(&c->d, err, "a format of more than %d whole numbers is expected for elements",
-                            solid ? BODY : BARE);
+                            solid ? SOLID_HEAD : BARE_HEAD);
     while ((more = block_row(c, "EBLOCK", err)) > 0) {
         int64_t first;
-        if (whole_at(c, &f, 0, &first, err)) return -1;
+        if (integer_at(c, &f, 0, &first, err)) return -1;
         if (first == -1) break;
         c->nodes = 0;
         if (solid ? read_solid_row(c, &f, err) : read_bare_row(c, &f, err)) return -1;
         n++;
     }
     if (more < 0) return -1;
-    c->nodes = 0; /* no EMORE goes on with these */
-    compare(c, "EBLOCK", promise, n);
+    c->nodes = 0; /* no EMORE may continue this element */
+    check_count(c, "EBLOCK", promise, n);
     return 0;
 }
 
@@ -252,11 +255,11 @@ int fl_cdb_etblock(fl_cdb *c, fl_err *err)
     while ((more = block_row(c, "ETBLOCK", err)) > 0) {
         char text[FL_COLUMN_WIDTH];
         int64_t slot, routine, key = 0;
-        if (whole_at(c, &f, 0, &slot, err)) return -1;
+        if (integer_at(c, &f, 0, &slot, err)) return -1;
         if (slot == -1) break;
-        if (whole_at(c, &f, 1, &routine, err)) return -1;
+        if (integer_at(c, &f, 1, &routine, err)) return -1;
         if (f.n > 2 && fl_deck_integer(fl_columns_text(&f, 2, c->d.line, c->d.len, text), &key))
-            key = 0; /* text columns: it may be a word */
+            key = 0; /* a text column may hold a word */
         if (slot < 1 || routine < 0 || routine > INT16_MAX || key < 0 || key > INT16_MAX)
             return fl_deck_fail(&c->d, err, "type %lld of routine %lld was found", (long long)slot,
                                 (long long)routine);
@@ -265,7 +268,7 @@ int fl_cdb_etblock(fl_cdb *c, fl_err *err)
     return more < 0 ? -1 : 0;
 }
 
-/* Real constants: number, count and up to six values; seven in the rows that follow. */
+/* Real constants: number, count and up to six values per row, seven in continuation rows. */
 int fl_cdb_rlblock(fl_cdb *c, fl_err *err)
 {
     fl_columns head, tail;
@@ -274,14 +277,14 @@ int fl_cdb_rlblock(fl_cdb *c, fl_err *err)
     if (head.integers != 2 || head.n < 3)
         return fl_deck_fail(&c->d, err, "a format like (2i8,6g16.9) is expected for real constants");
     if (read_format(c, &tail, err)) return -1;
-    while ((more = free_row(c, err)) > 0) {
+    while ((more = open_row(c, err)) > 0) {
         int64_t id, n;
         double first;
-        if (whole_at(c, &head, 0, &id, err) || whole_at(c, &head, 1, &n, err) ||
+        if (integer_at(c, &head, 0, &id, err) || integer_at(c, &head, 1, &n, err) ||
             real_at(c, &head, 2, &first, err) || fl_cdb_section_real(&c->sections, id, first, err))
             return -1;
         for (n -= head.n - 2; n > 0; n -= tail.n) {
-            more = free_row(c, err);
+            more = open_row(c, err);
             if (more < 0) return -1;
             if (more == 0)
                 return fl_deck_fail(&c->d, err, "real constants %lld end with %lld values missing",
@@ -291,7 +294,6 @@ int fl_cdb_rlblock(fl_cdb *c, fl_err *err)
     return more;
 }
 
-/* A component: numbers, of which a negative one ends the range that the one before began. */
 int fl_cdb_cmblock(fl_cdb *c, fl_err *err)
 {
     const int elements = strncasecmp(c->word[2], "ELEM", 4) == 0;
@@ -309,10 +311,10 @@ int fl_cdb_cmblock(fl_cdb *c, fl_err *err)
     if (read_format(c, &f, err)) return -1;
     if (f.integers != f.n)
         return fl_deck_fail(&c->d, err, "a format of whole numbers is expected for a component");
-    while ((more = free_row(c, err)) > 0) {
+    while ((more = open_row(c, err)) > 0) {
         for (int k = 0; k < f.n; k++) {
             if (is_blank(c, &f, k)) break;
-            if (whole_at(c, &f, k, &x, err)) return -1;
+            if (integer_at(c, &f, k, &x, err)) return -1;
             if (x == 0 || (x < 0 && (last <= 0 || -x < last)))
                 return fl_deck_fail(&c->d, err,
                                     "%lld was found after %lld, a number above 0 or the end of a "
@@ -325,6 +327,6 @@ int fl_cdb_cmblock(fl_cdb *c, fl_err *err)
         }
     }
     if (more < 0) return -1;
-    compare(c, "CMBLOCK", promise, n);
+    check_count(c, "CMBLOCK", promise, n);
     return 0;
 }

@@ -27,16 +27,16 @@ static int by_set(const void *pa, const void *pb)
 typedef struct {
     int64_t id;
     int32_t element;
-} numbered;
+} numbered_element;
 
 static int by_id(const void *pa, const void *pb)
 {
-    const numbered *a = pa, *b = pb;
+    const numbered_element *a = pa, *b = pb;
     return a->id < b->id ? -1 : a->id > b->id;
 }
 
-/* Ranges of one component that overlap become one, so that it holds an element once. */
-static void merge(fl_cdb_components *c)
+/* Merge overlapping ranges of a component, so that it holds an element once. */
+static void merge_ranges(fl_cdb_components *c)
 {
     int32_t n = 0;
     qsort(c->range, (size_t)c->n, sizeof *c->range, by_set);
@@ -52,7 +52,7 @@ static void merge(fl_cdb_components *c)
 }
 
 /* First of the sorted numbers that is not below id. */
-static int32_t lower(const numbered *at, int32_t n, int64_t id)
+static int32_t lower_bound(const numbered_element *at, int32_t n, int64_t id)
 {
     int32_t lo = 0, hi = n;
     while (lo < hi) {
@@ -63,10 +63,10 @@ static int32_t lower(const numbered *at, int32_t n, int64_t id)
     return lo;
 }
 
-/* Give each element to the smallest component that holds it, the first of equals; with picks, let each
- * component be a set too. */
-static int share_out(const fl_cdb_components *c, fl_elements *e, const numbered *at, int32_t n, int picks,
-                     fl_err *err)
+/* Assign each element to the smallest component that holds it, the first of equals; with picks, also add it
+ * to the set of each component. */
+static int assign_elements(const fl_cdb_components *c, fl_elements *e, const numbered_element *at, int32_t n,
+                           int picks, fl_err *err)
 {
     const int32_t sets = e->sets.n;
     int64_t *size = fl_alloc(sets, sizeof *size, err);
@@ -76,7 +76,7 @@ static int share_out(const fl_cdb_components *c, fl_elements *e, const numbered 
     for (int pass = 0; pass < 2; pass++)
         for (int32_t i = 0; i < c->n; i++) {
             const fl_cdb_range *r = &c->range[i];
-            for (int32_t k = lower(at, n, r->lo); k < n && at[k].id <= r->hi; k++) {
+            for (int32_t k = lower_bound(at, n, r->lo); k < n && at[k].id <= r->hi; k++) {
                 int32_t *b = &best[at[k].element];
                 if (pass == 0) size[r->set]++;
                 else if (*b == 0 || size[r->set] < size[*b - 1]) *b = r->set + 1;
@@ -101,17 +101,17 @@ done:
 
 int fl_cdb_component_assign(fl_cdb_components *c, fl_elements *e, int picks, fl_err *err)
 {
-    numbered *at;
+    numbered_element *at;
     int32_t n = 0;
     int rc;
     if (c->n == 0) return 0;
     at = fl_alloc(e->element_id.n, sizeof *at, err);
     if (!at) return -1;
-    merge(c);
+    merge_ranges(c);
     for (int32_t i = 0; i < e->element_id.n; i++)
-        if (e->element_id.scope[i] == 0) at[n++] = (numbered){e->element_id.id[i], i};
+        if (e->element_id.scope[i] == 0) at[n++] = (numbered_element){e->element_id.id[i], i};
     qsort(at, (size_t)n, sizeof *at, by_id);
-    rc = share_out(c, e, at, n, picks, err);
+    rc = assign_elements(c, e, at, n, picks, err);
     free(at);
     return rc;
 }

@@ -25,11 +25,11 @@ static const struct {
     {279, BRICK}, {281, SHELL}, {285, SOLID}, {288, LINE},  {289, CURVE}, {290, CURVE}, {291, SOLID},
 };
 
-/* MESH200 is what its first key option says. */
+/* Family of MESH200 by its first key option. */
 static const uint8_t MESH200[] = {LINE,  CURVE, LINE,  CURVE, SHELL, SHELL,
                                   SHELL, SHELL, SOLID, SOLID, SOLID, SOLID};
 
-static int solid_of(int n)
+static int solid_shape(int n)
 {
     if (n == 4) return FL_TET4;
     if (n == 5) return FL_PYRAMID5;
@@ -41,7 +41,7 @@ static int solid_of(int n)
     return n > 8 ? FL_HEX20 : -1;
 }
 
-static int shell_of(int n)
+static int shell_shape(int n)
 {
     if (n == 3) return FL_TRI3;
     if (n == 4) return FL_QUAD4;
@@ -63,8 +63,8 @@ int fl_cdb_shape_of(fl_cdb_family family, int n)
 {
     switch (family) {
     case FL_CDB_SOLID:
-    case FL_CDB_BRICK: return solid_of(n);
-    case FL_CDB_SHELL: return shell_of(n);
+    case FL_CDB_BRICK: return solid_shape(n);
+    case FL_CDB_SHELL: return shell_shape(n);
     case FL_CDB_LINE: return n >= 2 ? FL_LINE2 : -1;
     case FL_CDB_CURVE: return n > 2 ? FL_LINE3 : n == 2 ? FL_LINE2 : -1;
     default: return -1;

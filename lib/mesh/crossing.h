@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* crossing.h -- pairs of triangles of a part that meet where they are not joined, over all threads. */
+/* crossing.h -- pairs of triangles of a part that intersect where they are not joined, on all threads. */
 #ifndef FL_MESH_CROSSING_H
 #define FL_MESH_CROSSING_H
 #include "geom/surface.h"
 #include "shim/cgal_crossing.h"
 
-/* Count the pairs as fl_cgal_crossings() does, and find the same.  Triangles are put in the order of a curve
- * that fills space and boxed by eights.  Of pairs whose boxes meet, those with a tame vertex in common
- * (vertex_fans.h) do not cross, which leaves few of a sound surface; of the others those that a plane parts for
- * certain in double precision (tri_separation.h) are passed over, and exact arithmetic decides on the rest.  The
- * numbers do not depend on the number of threads; beyond 2^31 - 1 they stay there.
- *   p   what is one point must be one vertex where it is to count as common: weld first
- * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM in err.
- * Source: Morton, IBM Ottawa (1966), the curve. */
+/* Count the pairs that cross and touch, with the same result as fl_cgal_crossings().
+ *   1. Triangles are sorted along a Morton curve and grouped into a tree of boxes, eight to a box.
+ *   2. Of two triangles whose boxes overlap, those with a common simple vertex (vertex_fans.h) do not cross.
+ *      In a sound surface this leaves few pairs.
+ *   3. Pairs that a plane certainly separates in double precision (tri_separation.h) are skipped.
+ *   4. Exact arithmetic decides the rest.
+ * The counts do not depend on the number of threads; they saturate at 2^31 - 1.
+ *   p   welded: coincident points must be one vertex to count as common
+ * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM in err.  Source of the curve: Morton, IBM Ottawa (1966). */
 int fl_part_crossings(const fl_part *p, fl_crossing *c, fl_err *err);
 
 #endif

@@ -89,16 +89,16 @@ int fl_deck_include(fl_deck *d, const char *path, fl_err *err)
             fl_deck_fail(d, err, "\"%.60s\" is included in itself", path);
             goto done;
         }
-    /* the names of files stay as long as the elements do */
+    /* names of files live as long as the elements */
     if (fl_elements_set_file(d->e, whole, err)) goto done;
     file = d->e->file;
     d->e->file = here;
     if (fl_bytes_open(&d->included[d->depth], d->e->files.name[file], err)) {
         if (err->code == FL_INPUT) {
-            /* what fails is the file, but the line that wants it is what has to be mended */
+            /* report the line that includes the file, which is where the user has to look */
             const fl_err why = *err;
             *err = (fl_err){0};
-            fl_deck_fail(d, err, "the included file is wanted here, but %.300s", why.text);
+            fl_deck_fail(d, err, "the file included here cannot be read: %.300s", why.text);
         }
         goto done;
     }
@@ -135,7 +135,7 @@ int fl_deck_integer(const char *s, int64_t *x)
     const char *p = s + (*s == '-' || *s == '+'), *first = p;
     int64_t n = 0;
     for (; *p >= '0' && *p <= '9' && p - first < 18; p++) n = 10 * n + (*p - '0');
-    if (p == first || *p != '\0') return -1; /* what goes on has more than 18 digits */
+    if (p == first || *p != '\0') return -1; /* more than 18 digits */
     *x = *s == '-' ? -n : n;
     return 0;
 }

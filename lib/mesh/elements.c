@@ -6,12 +6,11 @@
 #include <string.h>
 #include "base/array.h"
 #include "mesh/elements.h"
-#include "mesh/skin.h"
 
 static const struct {
     const char *name;
     int8_t corners, nodes, faces;
-    const char *face[6]; /* corners of each, as digits */
+    const char *face[6]; /* corners of each face, as digits */
 } SHAPE[FL_SHAPES] = {
     [FL_LINE2] = {"line2", 2, 2, 0, {0}},
     [FL_LINE3] = {"line3", 2, 3, 0, {0}},
@@ -30,6 +29,7 @@ static const struct {
     [FL_HEX20] = {"hex20", 8, 20, 6, {"0123", "4765", "0451", "1562", "2673", "3740"}},
 };
 
+const char *fl_shape_name(enum fl_shape shape) { return SHAPE[shape].name; }
 int fl_shape_nodes(enum fl_shape shape) { return SHAPE[shape].nodes; }
 int fl_shape_corners(enum fl_shape shape) { return SHAPE[shape].corners; }
 int fl_shape_faces(enum fl_shape shape) { return SHAPE[shape].faces; }
@@ -69,18 +69,18 @@ int fl_elements_fail(const fl_elements *e, int32_t file, int32_t line, fl_err *e
     return fl_fail(err, FL_INPUT, "%s: %s", e->files.name[file], what);
 }
 
-/* The index of a node that is spoken of. */
-static int32_t spoken(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
+/* Index of a node, which is added if new. */
+static int32_t add_node_id(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
 {
     const int32_t k = fl_id_map_add(&e->node_id, scope, id, err), had = k < 0 ? 0 : e->node_id.n;
     if (k < 0 || fl_grow(&e->x, &e->x_cap, had, sizeof *e->x, err)) return -1;
     return k;
 }
 
-/* A node that was just numbered has no place yet. */
-static int32_t mention(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
+/* Index of a node that an element uses; a new node has no position yet. */
+static int32_t refer_to_node(fl_elements *e, int32_t scope, int64_t id, fl_err *err)
 {
-    const int32_t before = e->node_id.n, k = spoken(e, scope, id, err);
+    const int32_t before = e->node_id.n, k = add_node_id(e, scope, id, err);
     if (k >= before) e->x[k] = v3(NAN, NAN, NAN);
     return k;
 }
@@ -93,7 +93,7 @@ int32_t fl_elements_add_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 
         return fl_elements_fail(e, e->file, e->line, err,
                                 "node %lld is at %g %g %g, finite coordinates are expected", (long long)id,
                                 x.x, x.y, x.z);
-    k = spoken(e, scope, id, err);
+    k = add_node_id(e, scope, id, err);
     if (k < 0) return -1;
     if (k < had && !isnan(e->x[k].x) && v3_norm2(v3_sub(e->x[k], x)) > 0.0) e->moved++;
     e->x[k] = x;
@@ -115,11 +115,11 @@ int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape
                 e, e->file, e->line, err,
                 "corner %d of the element is node %lld, a number of 1 or more is expected", i + 1,
                 (long long)node[i]);
-        k = node[i] < 1 ? -1 : mention(e, scope, node[i], err);
+        k = node[i] < 1 ? -1 : refer_to_node(e, scope, node[i], err);
         if (k < 0 && node[i] >= 1) return -1;
         e->connectivity[first + i] = k;
     }
-    /* Elements without a number get one that no file can ask for. */
+    /* an element without a number gets one that no file can refer to */
     k = id < 0 ? fl_id_map_add(&e->element_id, -1, e->element_id.n, err)
                : fl_id_map_add(&e->element_id, scope, id, err);
     if (k < 0) return -1;
@@ -132,7 +132,7 @@ int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape
 int fl_elements_set_radius(fl_elements *e, int32_t element, double r0, double r1, fl_err *err)
 {
     const int32_t k = e->sections;
-    /* the elements of a set come one after the other with the same radii */
+    /* the elements of a set follow one another with the same radii */
     if (k && e->section[k - 1][0] == r0 && e->section[k - 1][1] == r1) {
         e->element[element].section = k - 1;
         return 0;
@@ -177,98 +177,4 @@ void fl_elements_free(fl_elements *e)
     free(e->skip_count);
     free(e->section);
     *e = (fl_elements){0};
-}
-
-/* --- from elements to a surface ------------------------------------------------------------------------- */
-
-/* "hex8 4, tri3 2", what does not fit as dots. */
-typedef struct {
-    char text[300];
-    size_t len;
-} list;
-
-static void list_add(list *l, const char *name, int32_t n)
-{
-    char item[80];
-    const int k = snprintf(item, sizeof item, "%s%.40s %d", l->len ? ", " : "", name, n);
-    if (l->len + (size_t)k + 6 < sizeof l->text) memcpy(l->text + l->len, item, (size_t)k + 1);
-    else if (l->text[l->len] == '\0' && l->len + 6 < sizeof l->text) strcpy(l->text + l->len, ", ...");
-    else return;
-    l->len += strlen(l->text + l->len);
-}
-
-static void tell_counts(const fl_elements *e, fl_bytes *b)
-{
-    int32_t count[FL_SHAPES] = {0}, nodes = 0;
-    list in = {{0}, 0}, out = {{0}, 0};
-    for (int32_t k = 0; k < e->node_id.n; k++) nodes += !isnan(e->x[k].x);
-    for (int32_t k = 0; k < e->element_id.n; k++) count[e->element[k].shape]++;
-    for (int k = 0; k < FL_SHAPES; k++)
-        if (count[k]) list_add(&in, SHAPE[k].name, count[k]);
-    for (int32_t k = 0; k < e->skipped.n; k++) list_add(&out, e->skipped.name[k], e->skip_count[k]);
-    fl_bytes_note(b, "%d nodes; elements: %s", nodes, in.len ? in.text : "none");
-    if (e->moved) fl_bytes_note(b, "%d nodes were given another place by a later line", e->moved);
-    if (e->replaced)
-        fl_bytes_note(b, "%d elements were replaced by later ones of the same number", e->replaced);
-    if (out.len) fl_bytes_note(b, "elements without a surface, or not known, passed over: %s", out.text);
-}
-
-/* A set that has the name of a part which is wanted too goes on with it. */
-static int32_t namesake(const fl_elements *e, const char *want, int32_t target)
-{
-    const int32_t parts = e->parts.n;
-    const int32_t part = target < parts ? -1 : fl_string_table_find(&e->parts, e->sets.name[target - parts]);
-    return part >= 0 && want[part] ? part : target;
-}
-
-/* Where each element goes: its part, or a set that was asked for; sets are counted on behind the parts. */
-static int choose(fl_elements *e, fl_skin *k, fl_import_options *w, fl_err *err)
-{
-    const int32_t parts = e->parts.n, all = parts + e->sets.n;
-    int32_t *first = NULL, *order = NULL; /* picks by their sets */
-    char *want = fl_alloc(all, 1, err);
-    int yes, rc = -1;
-    if (!want || fl_group_by_target(e->picks, e->sets.n, e->picks ? &e->pick[0].set : NULL,
-                                    (int)(sizeof *e->pick / sizeof(int32_t)), &first, &order, err))
-        goto done;
-    for (int32_t t = 0; t < all; t++) {
-        yes = fl_import_selects(w, t < parts ? e->parts.name[t] : e->sets.name[t - parts], err);
-        if (yes < 0) goto done;
-        want[t] = (char)(yes && (t < parts || fl_import_by_name(w)));
-    }
-    for (int32_t i = 0; i < e->element_id.n; i++)
-        k->target[i] = want[e->element[i].part] ? e->element[i].part : -1;
-    for (int32_t i = 0; i < e->picks; i++) {
-        const fl_pick *p = &e->pick[i];
-        const int32_t t = parts + p->set, solid = SHAPE[e->element[p->element].shape].faces;
-        int32_t *target = &k->target[p->element];
-        if (!want[t] || (solid && p->face != FL_PICK_WHOLE)) continue;
-        if (*target >= parts && *target <= t) continue;
-        *target = t;
-        k->reversed[p->element] = p->reversed;
-    }
-    for (int32_t i = 0; i < e->element_id.n; i++) k->target[i] = namesake(e, want, k->target[i]);
-    for (int32_t i = 0; i < e->picks; i++) {
-        const fl_pick *p = &e->pick[order[i]];
-        if (want[parts + p->set] && p->face != FL_PICK_WHOLE &&
-            fl_skin_pick(k, p, namesake(e, want, parts + p->set), err))
-            goto done;
-    }
-    rc = 0;
-done:
-    free(first);
-    free(order);
-    free(want);
-    return rc;
-}
-
-int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err)
-{
-    fl_skin k = {0};
-    int rc = -1;
-    tell_counts(e, b);
-    if (fl_skin_start(&k, e, w, err) == 0 && choose(e, &k, w, err) == 0) rc = fl_skin_emit(&k, s, err);
-    if (rc == 0) fl_skin_report(&k, b);
-    fl_skin_free(&k);
-    return rc;
 }

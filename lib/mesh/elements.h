@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* elements.h -- a finite element mesh on its way to a surface: nodes and elements by their numbers, parts,
- * named sets, and the outer surface of it all.
+/* elements.h -- a finite element mesh: nodes and elements with their numbers, parts and named sets.
  *
- * A reader fills one of these row by row, in whatever order its file comes, and ends with
- * fl_elements_surface(). */
+ * A reader adds rows in the order of its file and ends with fl_elements_surface() (element_surface.h). */
 #ifndef FL_MESH_ELEMENTS_H
 #define FL_MESH_ELEMENTS_H
 #include <stdint.h>
@@ -13,7 +11,7 @@
 #include "mesh/id_map.h"
 #include "mesh/import_options.h"
 
-/* Corners first, then the nodes in the middle of the edges, as in Abaqus and VTK:
+/* Shapes of elements.  Corners come first, then the mid-side nodes, as in Abaqus and VTK:
  *     LINE3     0 1, mid 01
  *     TRI6      0 1 2, mids 01 12 20
  *     QUAD8     0 1 2 3, mids 01 12 23 30;  QUAD9 with the centre behind them
@@ -21,9 +19,8 @@
  *     PYRAMID13 base 0 1 2 3 and the apex 4, mids 01 12 23 30 04 14 24 34
  *     WEDGE15   0 1 2 under 3 4 5, mids 01 12 20 34 45 53 03 14 25
  *     HEX20     0 1 2 3 under 4 5 6 7, mids 01 12 23 30 45 56 67 74 04 15 26 37
- * (Nastran puts the last group of mids of WEDGE15 and HEX20 before the last but one.)  A solid may be
- * numbered right-handed or left-handed.  Nodes may repeat: a collapsed solid or quadrilateral is what is left
- * of it. */
+ * (Nastran swaps the last two groups of mids of WEDGE15 and HEX20.)  A solid may be right-handed or
+ * left-handed.  Nodes may repeat: the element then collapses to a simpler shape. */
 enum fl_shape {
     FL_LINE2,
     FL_LINE3,
@@ -44,15 +41,15 @@ enum fl_shape {
 };
 
 typedef struct {
-    int32_t first;   /* its nodes are corner[first ..  first + fl_shape_nodes(shape)) */
-    int32_t part;    /* of parts */
-    int32_t section; /* of section, -1 for none: lines only */
-    int32_t line;    /* where it stood, for complaints; 0 in binary data */
-    int32_t file;    /* of files */
+    int32_t first;   /* its nodes are connectivity[first .. first + fl_shape_nodes(shape)) */
+    int32_t part;    /* index in parts */
+    int32_t section; /* index in section, -1 for none; lines only */
+    int32_t line;    /* of its definition, for messages; 0 in binary data */
+    int32_t file;    /* index in files */
     uint8_t shape;
 } fl_element;
 
-/* An element of a set: the whole of it, or one of its faces, or those of its faces that no other solid of the
+/* An element of a set: the whole element, one of its faces, or its free faces, which no other solid of the
  * file has.  A shell or a line is always taken whole. */
 enum { FL_PICK_WHOLE = -1, FL_PICK_FREE = -2 };
 typedef struct {
@@ -63,87 +60,72 @@ typedef struct {
 
 typedef struct {
     fl_id_map node_id;     /* number of each node */
-    fl_vec3 *x;            /* [node.n] where it is; x.x is nan while it has only been spoken of */
+    fl_vec3 *x;            /* [node_id.n] position; x.x is nan for a node that is used but not yet defined */
     fl_id_map element_id;  /* number of each element */
-    fl_element *element;   /* [number.n] */
-    int32_t *connectivity; /* [corners] nodes of elements, -1 for a mid-side node that is left out */
+    fl_element *element;   /* [element_id.n] */
+    int32_t *connectivity; /* nodes of elements, -1 for an omitted mid-side node */
     int32_t connectivity_n;
     fl_string_table parts, sets, files, skipped;
     fl_pick *pick; /* [picks] */
     int32_t picks;
-    int32_t *skip_count;  /* [skipped.n] elements of that type */
+    int32_t *skip_count;  /* [skipped.n] number of elements of that type */
     double (*section)[2]; /* [sections] radius at either end */
     int32_t sections;
-    int32_t moved, replaced; /* nodes put elsewhere by a later line; elements a later one stood for */
-    int32_t file, line;      /* the reader's: where what is added next stands.  file 0 is the deck itself */
+    int32_t moved, replaced; /* nodes moved and elements replaced by a later definition */
+    int32_t file, line;      /* position of the next addition, set by the reader; file 0 is the deck itself */
     int32_t x_cap, element_cap, connectivity_cap, pick_cap, skip_cap, section_cap;
 } fl_elements;
 
-/* Nodes of a shape: 2 for FL_LINE2 ... 20 for FL_HEX20; its corners alone. */
+/* Name ("hex8") of a shape. */
+const char *fl_shape_name(enum fl_shape shape);
+
+/* Number of nodes of a shape: 2 for FL_LINE2 ... 20 for FL_HEX20; of its corners alone. */
 int fl_shape_nodes(enum fl_shape shape);
 int fl_shape_corners(enum fl_shape shape);
 
-/* Faces of a solid (0 for lines and shells), and the corners of one as places in the element, 3 or 4, which
- * is returned.  Faces are numbered as Abaqus does, S1 first:
+/* Number of faces of a solid (0 for lines and shells).  fl_shape_face() gives the corners of one as indices
+ * in the element and returns their number, 3 or 4.  Faces are numbered as in Abaqus, S1 first:
  *     tet      012 031 132 230            wedge  012 354 0341 1452 2530
  *     hex      0123 4765 0451 1562 2673 3740
  *     pyramid  0123 041 142 243 340
- * They wind inward in a right-handed element. */
+ * In a right-handed element they wind inward. */
 int fl_shape_faces(enum fl_shape shape);
 int fl_shape_face(enum fl_shape shape, int face, int corner[4]);
 
-/* Start: name is that of the file, for complaints.  -1 with FL_SYSTEM. */
+/* Initialise e; file names it in messages.  -1 with FL_SYSTEM. */
 int fl_elements_start(fl_elements *e, const char *file, fl_err *err);
 
-/* Set e->file to the file of that name (an include), which is added when new.  -1 with FL_SYSTEM. */
+/* Set e->file to the (included) file of that name, which is added if new.  -1 with FL_SYSTEM. */
 int fl_elements_set_file(fl_elements *e, const char *file, fl_err *err);
 
-/* Fail with "file:line: " before the sentence.  Returns -1. */
+/* Fail with "file:line: " before the message.  Returns -1. */
 int fl_elements_fail(const fl_elements *e, int32_t file, int32_t line, fl_err *err, const char *fmt, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* Put node (scope, id) at x; a node that has another place already is moved, and counted in moved.  Its
- * index, or -1 with FL_INPUT (x is not finite) or FL_SYSTEM. */
+/* Define node (scope, id) at x.  A second, different definition moves the node and is counted in moved.
+ * Returns its index, or -1 with FL_INPUT (x is not finite) or FL_SYSTEM. */
 int32_t fl_elements_add_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 x, fl_err *err);
 
-/* Add an element to a part; one of the same number is replaced, and
- * counted.  Nodes may be defined later.
- *   id     its number, or -1 for one that nobody will ask for by number
+/* Add an element to a part.  An element of the same number is replaced, and counted.  Its nodes may be
+ * defined later.
+ *   id     its number, or -1 if nothing refers to it by number
  *   part   index in e->parts: fl_string_table_add(&e->parts, "name", err)
- *   node   [fl_shape_nodes(shape)] numbers of nodes in that scope, >= 1; a mid-side node < 1 is left out
- * Its index, or -1 with FL_INPUT (a corner below 1) or FL_SYSTEM. */
+ *   node   [fl_shape_nodes(shape)] numbers of nodes in that scope, >= 1; < 1 omits a mid-side node
+ * Returns its index, or -1 with FL_INPUT (a corner below 1) or FL_SYSTEM. */
 int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape shape, int32_t part,
                         const int64_t *node, fl_err *err);
 
-/* Give a line element its section: a solid truncated cone of these radii, >= 0 [the file's length].  -1 with
- * FL_SYSTEM. */
+/* Set the section of a line element: a solid truncated cone of radii r0 and r1 >= 0, in the unit of the file.
+ * -1 with FL_SYSTEM. */
 int fl_elements_set_radius(fl_elements *e, int32_t element, double r0, double r1, fl_err *err);
 
-/* Put an element, or some of it, into a set: fl_string_table_add(&e->sets, "name", err).  A set is taken only
- * when the user asks for it by its name.  Elements may be in any number of sets; a face that the
- * element does not have is passed over.  -1 with FL_SYSTEM. */
+/* Add an element, or faces of it, to a set: fl_string_table_add(&e->sets, "name", err).  A set is used only
+ * if the user selects it by name.  An element may be in any number of sets; a face that it does not have is
+ * ignored.  -1 with FL_SYSTEM. */
 int fl_elements_pick(fl_elements *e, fl_pick pick, fl_err *err);
 
-/* Count an element of a type that has no surface, or is not known.  -1 with FL_SYSTEM. */
+/* Count an element of a type that is unknown or has no surface.  -1 with FL_SYSTEM. */
 int fl_elements_skip(fl_elements *e, const char *type, fl_err *err);
-
-/* Add the surface of the mesh to s, a part for each part (and each set) that is wanted and holds something:
- *   solids   their faces that no other solid among the wanted ones has (by their corner nodes), outward
- *            whatever way the element is numbered
- *   shells   as they are: the normal follows the order of the nodes
- *   lines    solid truncated cones with the radii of their section; without one they are counted in a remark
- * With wishes, a set that is like one takes its elements out of their parts, the first such set in the order
- * of the file; picked faces become triangles of the set and no longer of the solid's part.  A set that has
- * the name of a part goes on with it.
- * A face comes once, whatever lies on it: fl_resolve_shared_faces() says who brings it.
- * Quadrilaterals are split by fl_facet_polygon() with the numbers of the nodes deciding on ties.  Mid-side
- * nodes are dropped, and the largest sagitta (distance of the middle node from the chord) told in a remark;
- * or with w->subdivide a triangle becomes 4, a quadrilateral 6, one with a centre node 8.
- *   b   takes the remarks: what came in, what was passed over
- *   w   NULL wants everything
- * Returns 0, or -1 with FL_INPUT (a node that is nowhere defined, named with the line of the element) or
- * FL_SYSTEM. */
-int fl_elements_surface(fl_elements *e, fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err);
 
 void fl_elements_free(fl_elements *e); /* accepts a zeroed struct, leaves one */
 

@@ -44,8 +44,8 @@ int fl_columns_parse(fl_columns *f, const char *format)
     return f->n && *p == ')' ? 0 : -1;
 }
 
-/* Where column k begins and ends in a row; 0 when the row is too short for it. */
-static int find(const fl_columns *f, int k, int32_t len, int32_t *from, int32_t *to)
+/* Find the begin and end of column k in a row; returns 0 if the row is too short. */
+static int find_column(const fl_columns *f, int k, int32_t len, int32_t *from, int32_t *to)
 {
     if (k >= f->n || f->start[k] >= len) return 0;
     *from = f->start[k];
@@ -57,7 +57,7 @@ const char *fl_columns_text(const fl_columns *f, int k, const char *row, int32_t
                             char text[FL_COLUMN_WIDTH])
 {
     int32_t from, to;
-    if (!find(f, k, len, &from, &to)) return "";
+    if (!find_column(f, k, len, &from, &to)) return "";
     memcpy(text, row + from, (size_t)(to - from));
     text[to - from] = '\0';
     return fl_deck_trim(text);
@@ -71,7 +71,7 @@ int fl_columns_integer(const fl_columns *f, int k, const char *row, int32_t len,
     int minus;
     int64_t n = 0;
     *x = 0;
-    if (!find(f, k, len, &from, &to)) return 0;
+    if (!find_column(f, k, len, &from, &to)) return 0;
     p = row + from;
     end = row + to;
     while (p < end && fl_bytes_blank(*p)) p++;
@@ -92,11 +92,11 @@ int fl_columns_real(const fl_columns *f, int k, char *row, int32_t len, double *
     int32_t from, to;
     double y;
     *x = 0.0;
-    if (!find(f, k, len, &from, &to)) return 0;
+    if (!find_column(f, k, len, &from, &to)) return 0;
     while (from < to && fl_bytes_blank(row[from])) from++;
     if (from == to) return 0;
     const char next = row[to];
-    row[to] = '\0'; /* what touches it is another number */
+    row[to] = '\0'; /* the next column may follow without a blank */
     const char *end = fl_decimal_read(row + from, &y);
     row[to] = next;
     if (end == row + to && isfinite(y)) {

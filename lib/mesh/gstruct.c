@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include "base/number_text.h"
 #include "base/text.h"
 #include "mesh/gstruct.h"
@@ -42,7 +43,7 @@ static int read_triangle(fl_text *in, fl_part *p, fl_err *err)
     for (int k = 0; k < 3; k++) {
         if (fl_text_i32(in, "vertex index", 0, INT32_MAX, &v[k], err)) return -1;
         if (v[k] >= p->nv)
-            return fl_text_fail(in, err, "triangle %d wants vertex %d, but part \"%.60s\" has %d so far",
+            return fl_text_fail(in, err, "triangle %d refers to vertex %d, but part \"%.60s\" has %d so far",
                                 p->nt, v[k], p->name, p->nv);
     }
     if (fl_text_no_more(in, err)) return -1;
@@ -85,7 +86,7 @@ static int read_row(fl_text *in, fl_surface *s, fl_err *err)
                         fl_text_nearest(word, record, 4));
 }
 
-static int empty(const fl_part *p) { return p->nt == 0 && p->nc == 0; }
+static int is_empty(const fl_part *p) { return p->nt == 0 && p->nc == 0; }
 
 int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err)
 {
@@ -96,7 +97,7 @@ int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err)
     if (fl_text_magic(in, "g_struct", FL_GSTRUCT_VERSION, err)) goto done;
     while ((more = fl_text_row(in, err)) > 0) {
         if (strcmp(in->field[0], "part") == 0) {
-            if (got.n && empty(&got.part[got.n - 1])) break;
+            if (got.n && is_empty(&got.part[got.n - 1])) break;
             opened = (int32_t)in->line_number;
         }
         if (read_row(in, &got, err)) goto done;
@@ -107,7 +108,7 @@ int fl_gstruct_read_text(fl_surface *s, fl_text *in, fl_err *err)
                 fl_in_name(in->in));
         goto done;
     }
-    if (empty(&got.part[got.n - 1])) {
+    if (is_empty(&got.part[got.n - 1])) {
         fl_fail(err, FL_INPUT, "%s:%d: part \"%.60s\" has neither triangles nor cones", fl_in_name(in->in),
                 opened, got.part[got.n - 1].name);
         goto done;
@@ -129,7 +130,22 @@ int fl_gstruct_read(fl_surface *s, const char *path, fl_err *err)
     return fl_text_open(&in, path, err) ? -1 : fl_gstruct_read_text(s, &in, err);
 }
 
-static void put(FILE *f, const char *before, double x)
+int fl_gstruct_is(const fl_bytes *b)
+{
+    return strncasecmp(b->data + strspn(b->data, " \t\r\n"), "#g_struct", 9) == 0;
+}
+
+int fl_gstruct_read_bytes(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
+{
+    fl_text text = {.in = b->in, .chunk = b->data, .chunk_len = b->n};
+    (void)name;
+    (void)opt;
+    b->in = NULL;
+    b->data = NULL;
+    return fl_gstruct_read_text(s, &text, err);
+}
+
+static void put_number(FILE *f, const char *before, double x)
 {
     char text[FL_NUMBER_LEN];
     fprintf(f, "%s%s", before, fl_number_text(x, text));
@@ -137,14 +153,13 @@ static void put(FILE *f, const char *before, double x)
 
 static void put_disc(FILE *f, fl_vec3 p, double r)
 {
-    put(f, " ", p.x);
-    put(f, " ", p.y);
-    put(f, " ", p.z);
-    put(f, " ", r);
+    put_number(f, " ", p.x);
+    put_number(f, " ", p.y);
+    put_number(f, " ", p.z);
+    put_number(f, " ", r);
 }
 
-/* Vertices and triangles come in millions: their rows are put together by all threads in blocks, which go out
- * in order. */
+/* Vertices and triangles may be millions: all threads format blocks of rows, which are written in order. */
 enum { ROW = 2 + 3 * FL_NUMBER_LEN, ROWS = 512, BLOCKS = 64 };
 typedef char *put_row(char *to, const fl_part *p, int32_t k);
 
@@ -176,8 +191,8 @@ static char *put_triangle(char *to, const fl_part *p, int32_t k)
     return to;
 }
 
-/* Rows from .. to of a part into a block; its length. */
-static size_t fill(char *block, put_row *row, const fl_part *p, int32_t from, int32_t to)
+/* Format rows from .. to of a part into a block; returns its length. */
+static size_t format_rows(char *block, put_row *row, const fl_part *p, int32_t from, int32_t to)
 {
     char *end = block;
     for (int32_t k = from; k < to; k++) end = row(end, p, k);
@@ -187,7 +202,7 @@ static size_t fill(char *block, put_row *row, const fl_part *p, int32_t from, in
 static void put_rows(FILE *f, put_row *row, const fl_part *p, int32_t n)
 {
     char one[ROWS * ROW], *many = n > ROWS ? malloc((size_t)BLOCKS * ROWS * ROW) : NULL;
-    char *const block = many ? many : one; /* without memory there is one block at a time */
+    char *const block = many ? many : one; /* without memory, one block at a time */
     const int32_t blocks = many ? BLOCKS : 1;
     size_t length[BLOCKS];
     for (int64_t from = 0; from < n; from += (int64_t)blocks * ROWS) {
@@ -196,7 +211,7 @@ static void put_rows(FILE *f, put_row *row, const fl_part *p, int32_t n)
 #pragma omp parallel for schedule(static) if (now > 1)
         for (int32_t b = 0; b < now; b++) {
             const int64_t first = from + (int64_t)b * ROWS, last = first + ROWS < n ? first + ROWS : n;
-            length[b] = fill(block + (size_t)b * ROWS * ROW, row, p, (int32_t)first, (int32_t)last);
+            length[b] = format_rows(block + (size_t)b * ROWS * ROW, row, p, (int32_t)first, (int32_t)last);
         }
         for (int32_t b = 0; b < now; b++) fwrite(block + (size_t)b * ROWS * ROW, 1, length[b], f);
     }

@@ -2,27 +2,27 @@
 #include <stddef.h>
 #include "mesh/import_options.h"
 
-static int same(char p, char c)
+static int same_char(char p, char c)
 {
     if (p >= 'A' && p <= 'Z') p = (char)(p - 'A' + 'a');
     if (c >= 'A' && c <= 'Z') c = (char)(c - 'A' + 'a');
     return p == c || p == '?' || (p == '_' && (c == ' ' || c == '\t'));
 }
 
-/* Only the last star is ever taken up again: what an earlier one stands for can stay as short as it is.  So
- * the time is the product of the lengths at most. */
+/* Backtracking to the last star is enough: an earlier star can stay as short as it is.  The time is at most
+ * the product of the two lengths. */
 int fl_pattern_matches(const char *pattern, const char *name)
 {
-    const char *star = NULL, *from = NULL;
+    const char *last_star = NULL, *from = NULL;
     while (*name) {
         if (*pattern == '*') {
-            star = ++pattern;
+            last_star = ++pattern;
             from = name;
-        } else if (*pattern && same(*pattern, *name)) {
+        } else if (*pattern && same_char(*pattern, *name)) {
             pattern++;
             name++;
-        } else if (star) {
-            pattern = star;
+        } else if (last_star) {
+            pattern = last_star;
             name = ++from;
         } else {
             return 0;
@@ -32,15 +32,15 @@ int fl_pattern_matches(const char *pattern, const char *name)
     return *pattern == '\0';
 }
 
-int fl_import_selects(fl_import_options *w, const char *name, fl_err *err)
+int fl_import_selects(fl_import_options *opt, const char *name, fl_err *err)
 {
     int like = 0;
-    if (!w) return 1;
-    if (w->available && fl_string_table_add(w->available, name, err) < 0) return -1;
-    for (int32_t k = 0; k < w->patterns; k++)
-        if (fl_pattern_matches(w->pattern[k], name)) {
-            if (w->matched) w->matched[k] = 1;
+    if (!opt) return 1;
+    if (opt->available && fl_string_table_add(opt->available, name, err) < 0) return -1;
+    for (int32_t k = 0; k < opt->patterns; k++)
+        if (fl_pattern_matches(opt->pattern[k], name)) {
+            if (opt->matched) opt->matched[k] = 1;
             like = 1;
         }
-    return like || w->patterns == 0;
+    return like || opt->patterns == 0;
 }

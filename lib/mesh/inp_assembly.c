@@ -6,7 +6,7 @@
 #include "base/array.h"
 #include "mesh/inp_assembly.h"
 
-static int32_t part_called(const fl_inp_model *r, const char *name)
+static int32_t find_part(const fl_inp_model *r, const char *name)
 {
     for (int32_t k = 0; k < r->parts; k++)
         if (strcasecmp(r->sets.words.name[r->part[k].name], name) == 0) return k;
@@ -20,7 +20,7 @@ int fl_inp_begin_part(fl_inp_model *r, fl_err *err)
     if (!name) return -1;
     if (r->store == &r->part_defs || r->instance)
         return fl_inp_fail(&r->line, err, "*PART stands inside a part or an instance", "");
-    if (part_called(r, name) >= 0) return fl_inp_fail(&r->line, err, "there is another part ", name);
+    if (find_part(r, name) >= 0) return fl_inp_fail(&r->line, err, "there is another part ", name);
     if (fl_grow(&r->part, &r->part_cap, (int64_t)r->parts + 1, sizeof *r->part, err)) return -1;
     p = &r->part[r->parts];
     *p = (fl_inp_part){.name = fl_string_table_add(&r->sets.words, name, err), .scope = ++r->scopes};
@@ -34,7 +34,7 @@ int fl_inp_begin_part(fl_inp_model *r, fl_err *err)
     return 0;
 }
 
-static void part_ends(fl_inp_model *r)
+static void close_part(fl_inp_model *r)
 {
     if (r->store != &r->part_defs) return;
     r->part[r->parts - 1].node[1] = r->part_defs.node_id.n;
@@ -42,11 +42,11 @@ static void part_ends(fl_inp_model *r)
     fl_inp_leave_part(r);
 }
 
-/* Put a part where the instance at hand is. */
-static int copy(fl_inp_model *r, fl_inp_part *p, fl_err *err)
+/* Copy a part to the current instance. */
+static int copy_part(fl_inp_model *r, fl_inp_part *p, fl_err *err)
 {
     const fl_elements *d = &r->part_defs;
-    int32_t *part = fl_alloc(d->parts.n, sizeof *part, err); /* of e, plus one */
+    int32_t *part = fl_alloc(d->parts.n, sizeof *part, err); /* index in e, plus one */
     const int32_t file = r->e.file, line = r->e.line;
     const char *place = r->sets.words.name[r->sets.instance[r->instance].name];
     int rc = -1;
@@ -84,14 +84,14 @@ done:
     return rc;
 }
 
-/* Open an instance of a part (NULL for none) where r->moved says. */
-static int place_part(fl_inp_model *r, int32_t name, fl_inp_part *p, fl_err *err)
+/* Begin an instance of a part (NULL for none), placed by r->transform. */
+static int add_instance(fl_inp_model *r, int32_t name, fl_inp_part *p, fl_err *err)
 {
     const fl_instance at = {name, ++r->scopes, p ? p->scope : -1, p ? p->element[0] : 0, r->e.element_id.n};
     r->instance = fl_element_sets_add_instance(&r->sets, at, err);
     if (r->instance < 0) return -1;
     r->scope = at.scope;
-    return p ? copy(r, p, err) : 0;
+    return p ? copy_part(r, p, err) : 0;
 }
 
 int fl_inp_instance(fl_inp_model *r, fl_err *err)
@@ -111,7 +111,7 @@ int fl_inp_instance(fl_inp_model *r, fl_err *err)
                            "");
     if (fl_element_sets_find_instance(&r->sets, name) >= 0)
         return fl_inp_fail(&r->line, err, "there is another instance ", name);
-    if (part && *part && (k = part_called(r, part)) < 0)
+    if (part && *part && (k = find_part(r, part)) < 0)
         return fl_inp_fail(&r->line, err, "there is no part ", part);
     word = fl_string_table_add(&r->sets.words, name, err);
     if (word < 0) return -1;
@@ -130,14 +130,13 @@ int fl_inp_instance(fl_inp_model *r, fl_err *err)
             return fl_inp_fail(&r->line, err, "the axis of the instance has no length", "");
         r->transform.q = fl_affine_rotation(v3_sub(b, a), degrees);
         r->transform.t =
-            v3_add(a, m3_mul(r->transform.q, v3_sub(move, a))); /* moved first, then turned about a */
+            v3_add(a, m3_mul(r->transform.q, v3_sub(move, a))); /* translated first, then rotated about a */
         more = fl_inp_next_data(&r->line, err);
         if (more > 0) return fl_inp_fail(&r->line, err, "an instance has two lines of data at most", "");
     }
-    return more < 0 ? -1 : place_part(r, word, k >= 0 ? &r->part[k] : NULL, err);
+    return more < 0 ? -1 : add_instance(r, word, k >= 0 ? &r->part[k] : NULL, err);
 }
 
-/* Parts that nobody placed: all of them where they are when there is no assembly, none when there is. */
 int fl_inp_place_unused_parts(fl_inp_model *r, fl_err *err)
 {
     const int alone = r->sets.instances == 1;
@@ -145,12 +144,12 @@ int fl_inp_place_unused_parts(fl_inp_model *r, fl_err *err)
     for (int32_t k = 0; k < r->parts; k++) {
         if (r->part[k].used) continue;
         left += r->part[k].element[1] > r->part[k].element[0];
-        if (alone && place_part(r, r->part[k].name, &r->part[k], err)) return -1;
+        if (alone && add_instance(r, r->part[k].name, &r->part[k], err)) return -1;
     }
     fl_inp_leave_part(r);
     if (left && alone)
         fl_bytes_note(r->line.deck.base, "no *INSTANCE: %d parts were taken where they are defined", left);
-    else if (left) fl_bytes_note(r->line.deck.base, "%d parts have no *INSTANCE and were passed over", left);
+    else if (left) fl_bytes_note(r->line.deck.base, "%d parts have no *INSTANCE and were skipped", left);
     return 0;
 }
 
@@ -163,7 +162,7 @@ int fl_inp_assembly(fl_inp_model *r, fl_err *err)
 int fl_inp_end_part(fl_inp_model *r, fl_err *err)
 {
     if (r->store != &r->part_defs) return fl_inp_fail(&r->line, err, "*END PART without *PART", "");
-    part_ends(r);
+    close_part(r);
     return 0;
 }
 

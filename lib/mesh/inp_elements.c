@@ -5,12 +5,12 @@
 #include "mesh/inp_type.h"
 
 enum {
-    NODES = 64, /* of an element, and more than any has */
-    FULL = 16   /* numbers on a line */
+    NODES = 64, /* per element, more than any type has */
+    FULL = 16   /* numbers on a full line */
 };
 
-/* Put the element into the set that its own line names. */
-static int join_set(fl_inp_model *r, int32_t set, int32_t element, int implied, fl_err *err)
+/* Add the element to the set that its own line names. */
+static int add_to_set(fl_inp_model *r, int32_t set, int32_t element, int implied, fl_err *err)
 {
     const fl_set_entry run = {.first = element,
                               .last = element,
@@ -23,9 +23,9 @@ static int join_set(fl_inp_model *r, int32_t set, int32_t element, int implied, 
     return set < 0 ? 0 : fl_element_sets_add_entry(&r->sets, set, run, err);
 }
 
-/* The part of elements in this set (-1 for none) of the store at hand: in the store of parts the name of the
- * set alone, which may be "". */
-static int32_t part_of(fl_inp_model *r, int32_t set, fl_err *err)
+/* Part of the elements in this set (-1 for none) of the current store.  In the store of part definitions it
+ * is called like the set alone, which may be "". */
+static int32_t part_of_set(fl_inp_model *r, int32_t set, fl_err *err)
 {
     const char *own = set < 0 ? "" : r->sets.words.name[r->sets.set[set].name];
     const char *place = r->instance > 0 ? r->sets.words.name[r->sets.instance[r->instance].name] : "";
@@ -36,11 +36,11 @@ static int32_t part_of(fl_inp_model *r, int32_t set, fl_err *err)
     return fl_string_table_add(&r->e.parts, name, err);
 }
 
-/* The numbers of one element: at least `least` of them and its own, over as many lines as it takes; more
- * where the line says that more come, up to `most`.  What stands behind them in a line that has the whole
- * element is passed over, as CalculiX does, and told; in any other line it is an element of another type.
- * How many, 0 at the end of the data, -1. */
-static int element_row(fl_inp_model *r, int least, int most, int64_t *id, fl_err *err)
+/* Read the numbers of one element, over as many lines as needed: its own and at least `least` nodes, up to
+ * `most` where a line announces more.  Numbers behind these on a line that holds the whole element are
+ * ignored and counted, as in CalculiX; on any other line they show that the type is wrong.  Returns their
+ * count, 0 at the end of the data, or -1. */
+static int read_element_row(fl_inp_model *r, int least, int most, int64_t *id, fl_err *err)
 {
     int32_t line = 0;
     int n = 0;
@@ -63,16 +63,16 @@ static int element_row(fl_inp_model *r, int least, int most, int64_t *id, fl_err
             n++;
         }
         r->extra_nodes += wide;
-        /* a comma behind a full line says that more come; behind a complete element it says nothing */
+        /* a comma behind a full line announces more; behind a complete element it means nothing */
         if (n > least && !(r->line.more && r->line.fields == FULL && n <= most)) return n;
     }
     if (n == 0) return 0;
-    r->e.line = line; /* that of the element, not of what comes behind it */
+    r->e.line = line; /* report the line of the element */
     return fl_deck_fail(&r->line.deck, err, "element %lld has %d nodes, %d are expected", (long long)id[0],
                         n - 1, least);
 }
 
-/* Elements of a type without a surface: counted. */
+/* Count the elements of a type without a surface. */
 static int skip_elements(fl_inp_model *r, const char *type, fl_err *err)
 {
     int more, going = 0;
@@ -98,26 +98,26 @@ int fl_inp_element(fl_inp_model *r, fl_err *err)
     }
     if (fl_inp_follow_input(r, err)) return -1;
     if (!fl_inp_type_of(type_name, &t)) return skip_elements(r, type_name, err);
-    part = part_of(r, set, err);
+    part = part_of_set(r, set, err);
     if (part < 0) return -1;
     for (;;) {
         int64_t id[NODES];
         int32_t k;
-        n = element_row(r, t.nodes, t.nodes + t.optional, id, err);
+        n = read_element_row(r, t.nodes, t.nodes + t.optional, id, err);
         if (n <= 0) return n;
-        if (t.middle) { /* the second of three is that in the middle */
+        if (t.middle) { /* Abaqus puts the middle node second */
             const int64_t mid = id[2];
             id[2] = id[3];
             id[3] = mid;
         }
         if (fl_inp_set_location(r, err)) return -1;
         k = fl_elements_add(r->store, r->scope, id[0], t.shape, part, id + 1, err);
-        if (k < 0 || join_set(r, set, k, 1, err)) return -1;
+        if (k < 0 || add_to_set(r, set, k, 1, err)) return -1;
     }
 }
 
-/* One line of *ELGEN: a row of n[0] elements from the master on, n[1] such rows, n[2] layers of them. */
-static int elgen_line(fl_inp_model *r, int32_t set, fl_err *err)
+/* One line of *ELGEN: a row of n[0] elements from the master on, n[1] such rows, n[2] layers of rows. */
+static int generate_elements(fl_inp_model *r, int32_t set, fl_err *err)
 {
     int64_t id, n[3], node[3], step[3], total = 1, number_of[20];
     int32_t master;
@@ -133,16 +133,16 @@ static int elgen_line(fl_inp_model *r, int32_t set, fl_err *err)
             return fl_deck_fail(&r->line.deck, err,
                                 "counts of 1 or more and steps of up to 1e9 are expected");
         if (n[k] > FL_INP_GENERATED_MAX)
-            n[k] = FL_INP_GENERATED_MAX; /* fl_inp_count_generated() refuses it below */
+            n[k] = FL_INP_GENERATED_MAX; /* fl_inp_count_generated() rejects it below */
         total *= n[k];
         if (total > FL_INP_GENERATED_MAX) total = (int64_t)FL_INP_GENERATED_MAX + 1;
     }
     master = fl_id_map_find(&r->store->element_id, r->scope, id);
-    if (master < 0 && r->e.skipped.n) return 0; /* it may be one of those */
+    if (master < 0 && r->e.skipped.n) return 0; /* the master may be a skipped element */
     if (master < 0)
-        return fl_deck_fail(&r->line.deck, err, "*ELGEN wants element %lld, which is not defined yet",
+        return fl_deck_fail(&r->line.deck, err, "*ELGEN refers to element %lld, which is not defined yet",
                             (long long)id);
-    if (fl_inp_count_generated(r, total, err) || join_set(r, set, master, 0, err)) return -1;
+    if (fl_inp_count_generated(r, total, err) || add_to_set(r, set, master, 0, err)) return -1;
     el = r->store->element[master];
     for (int64_t k = 1; k < total; k++) {
         const int64_t i = k % n[0], j = k / n[0] % n[1], l = k / n[0] / n[1];
@@ -158,7 +158,7 @@ static int elgen_line(fl_inp_model *r, int32_t set, fl_err *err)
             number_of[c] = v < 0 ? 0 : r->store->node_id.id[v] + move;
         }
         new = fl_elements_add(r->store, r->scope, next, (enum fl_shape)el.shape, el.part, number_of, err);
-        if (new < 0 || join_set(r, set, new, 0, err)) return -1;
+        if (new < 0 || add_to_set(r, set, new, 0, err)) return -1;
     }
     return 0;
 }
@@ -173,6 +173,6 @@ int fl_inp_elgen(fl_inp_model *r, fl_err *err)
         if (set < 0) return -1;
     }
     while ((more = fl_inp_next_data(&r->line, err)) > 0)
-        if (elgen_line(r, set, err)) return -1;
+        if (generate_elements(r, set, err)) return -1;
     return more;
 }

@@ -32,8 +32,8 @@ static int is_comment(const char *line)
     return p[0] == '\0' || (p[0] == '*' && p[1] == '*');
 }
 
-/* Put a keyword line, and those that continue it, together in text. */
-static int gather(fl_inp_line *r, fl_err *err)
+/* Join a keyword line and its continuation lines in text. */
+static int join_lines(fl_inp_line *r, fl_err *err)
 {
     int32_t n = 0;
     for (;;) {
@@ -55,8 +55,8 @@ static int gather(fl_inp_line *r, fl_err *err)
     }
 }
 
-/* s in capitals and without blanks, in place. */
-static char *squeezed(char *s)
+/* Convert s to upper case without blanks, in place. */
+static char *to_upper_no_blanks(char *s)
 {
     char *to = s;
     for (const char *p = s; *p; p++)
@@ -65,7 +65,7 @@ static char *squeezed(char *s)
     return s;
 }
 
-static char *unquoted(char *s)
+static char *strip_quotes(char *s)
 {
     const size_t n = strlen(s);
     if (n < 2 || s[0] != '"' || s[n - 1] != '"') return s;
@@ -73,7 +73,7 @@ static char *unquoted(char *s)
     return s + 1;
 }
 
-/* The end of an item: the next comma (or other mark) outside quotes, or the end. */
+/* End of an item: the next comma (or other mark) outside quotes, or the end of p. */
 static char *item_end(char *p, char mark)
 {
     int quoted = 0;
@@ -81,15 +81,15 @@ static char *item_end(char *p, char mark)
     return p;
 }
 
-/* Cut text into word, keys and values. */
-static void parse(fl_inp_line *r)
+/* Split text into word, keys and values. */
+static void split_parameters(fl_inp_line *r)
 {
     char *p = r->text + strspn(r->text, " \t*"), *end = item_end(p, ',');
     int last = *end == '\0';
     *end = '\0';
-    squeezed(p);
+    to_upper_no_blanks(p);
     r->params = 0;
-    snprintf(r->word, sizeof r->word, "%.*s", FL_INP_WORD - 1, p); /* none that is read is as long */
+    snprintf(r->word, sizeof r->word, "%.*s", FL_INP_WORD - 1, p); /* no known keyword is as long */
     while (!last) {
         char *mid;
         p = end + 1;
@@ -97,18 +97,18 @@ static void parse(fl_inp_line *r)
         last = *end == '\0';
         *end = '\0';
         p = fl_deck_trim(p);
-        if (*p == '\0' || r->params == FL_INP_PARAMS) continue; /* no keyword that is read has so many */
+        if (*p == '\0' || r->params == FL_INP_PARAMS) continue; /* no known keyword has as many */
         mid = item_end(p, '=');
-        r->value[r->params] = *mid ? unquoted(fl_deck_trim(mid + 1)) : mid;
+        r->value[r->params] = *mid ? strip_quotes(fl_deck_trim(mid + 1)) : mid;
         *mid = '\0';
-        r->key[r->params++] = squeezed(p);
+        r->key[r->params++] = to_upper_no_blanks(p);
     }
 }
 
 int fl_inp_split_keyword(fl_inp_line *r, fl_err *err)
 {
-    if (gather(r, err)) return -1;
-    parse(r);
+    if (join_lines(r, err)) return -1;
+    split_parameters(r);
     return 0;
 }
 
@@ -135,7 +135,7 @@ const char *fl_inp_required(const fl_inp_line *r, const char *key, fl_err *err)
 {
     const char *s = fl_inp_param(r, key);
     if (s && *s) return s;
-    fl_deck_fail(&r->deck, err, "*%s wants %s=", r->word, key);
+    fl_deck_fail(&r->deck, err, "*%s needs %s=", r->word, key);
     return NULL;
 }
 
@@ -164,7 +164,7 @@ int fl_inp_next_data(fl_inp_line *r, fl_err *err)
         return 0;
     }
     r->fields = 0;
-    for (;;) { /* as item_end(), and without the blanks about it */
+    for (;;) { /* as item_end(), and without surrounding blanks */
         while (fl_bytes_blank(*p)) p++;
         char *const start = p, *end = p, *stop = p; /* stop: behind the last that is not blank */
         int quoted = 0;
@@ -177,7 +177,7 @@ int fl_inp_next_data(fl_inp_line *r, fl_err *err)
         r->more = last && stop == start && r->fields > 0;
         if (r->more) return 1;
         if (r->fields == FL_INP_FIELDS) return fl_inp_fail(r, err, "too many numbers on one line", "");
-        r->field[r->fields++] = *start == '"' ? unquoted(start) : start;
+        r->field[r->fields++] = *start == '"' ? strip_quotes(start) : start;
         if (last) return 1;
         p = end + 1;
     }

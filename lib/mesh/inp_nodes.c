@@ -29,7 +29,6 @@ int fl_inp_node(fl_inp_model *r, fl_err *err)
     return more;
 }
 
-/* One or two lines: the origin and a point on the first axis, a point beside it; nothing ends it. */
 int fl_inp_system(fl_inp_model *r, fl_err *err)
 {
     fl_vec3 a, b, c, x, z = v3(0, 0, 1);
@@ -46,7 +45,7 @@ int fl_inp_system(fl_inp_model *r, fl_err *err)
         if (fl_inp_point(&r->line, 0, &c, err)) return -1;
         z = v3_cross(x, v3_sub(c, a));
     } else {
-        x.z = 0.0; /* the third axis stays, the first one is projected */
+        x.z = 0.0; /* the third axis stays, the first is projected */
     }
     x = v3_unit(x);
     z = v3_unit(z);
@@ -57,11 +56,11 @@ int fl_inp_system(fl_inp_model *r, fl_err *err)
     return 0;
 }
 
-static int place_of(fl_inp_model *r, int64_t id, fl_vec3 *x, fl_err *err)
+static int position_of(fl_inp_model *r, int64_t id, fl_vec3 *x, fl_err *err)
 {
     const int32_t k = fl_id_map_find(&r->store->node_id, r->scope, id);
     if (k < 0 || isnan(r->store->x[k].x))
-        return fl_deck_fail(&r->line.deck, err, "*NGEN wants node %lld, which is not defined yet",
+        return fl_deck_fail(&r->line.deck, err, "*NGEN refers to node %lld, which is not defined yet",
                             (long long)id);
     *x = r->store->x[k];
     return 0;
@@ -88,7 +87,7 @@ int fl_inp_ngen(fl_inp_model *r, fl_err *err)
                                 "nodes %lld to %lld by %lld: steps that end there are expected",
                                 (long long)first, (long long)last, (long long)step);
         n = (last - first) / step;
-        if (fl_inp_set_location(r, err) || place_of(r, first, &a, err) || place_of(r, last, &b, err) ||
+        if (fl_inp_set_location(r, err) || position_of(r, first, &a, err) || position_of(r, last, &b, err) ||
             fl_inp_count_generated(r, n, err))
             return -1;
         for (int64_t k = 1; k < n; k++)

@@ -8,19 +8,20 @@
 #include "base/pi.h"
 #include "mesh/inp_sets.h"
 
-/* The place that INSTANCE= names, -1 for none. */
-static int instance_of(fl_inp_model *r, int32_t *place, fl_err *err)
+/* The instance that INSTANCE= names, -1 for none. */
+static int parse_instance(fl_inp_model *r, int32_t *instance, fl_err *err)
 {
     const char *name = fl_inp_param(&r->line, "INSTANCE");
-    *place = -1;
-    /* a deck that was flattened may still name instances which it has no more */
+    *instance = -1;
+    /* a flattened deck may still name instances that no longer exist */
     if (!name || r->sets.instances == 1) return 0;
-    *place = fl_element_sets_find_instance(&r->sets, name);
-    return *place >= 0 ? 0 : fl_inp_fail(&r->line, err, "there is no instance ", name);
+    *instance = fl_element_sets_find_instance(&r->sets, name);
+    return *instance >= 0 ? 0 : fl_inp_fail(&r->line, err, "there is no instance ", name);
 }
 
-/* A word of a data line as an entry: a number, or the name of a set; "instance.12" is number 12 of it. */
-static int entry_of(fl_inp_model *r, const char *word, fl_set_entry *n, fl_err *err)
+/* Parse a word of a data line as an entry: a number, "instance.12" for number 12 of an instance, or the name
+ * of a set. */
+static int parse_entry(fl_inp_model *r, const char *word, fl_set_entry *n, fl_err *err)
 {
     const char *dot = strrchr(word, '.');
     n->file = r->e.file;
@@ -32,9 +33,9 @@ static int entry_of(fl_inp_model *r, const char *word, fl_set_entry *n, fl_err *
         return 0;
     }
     if (dot && fl_deck_integer(dot + 1, &n->first) == 0 && n->instance < 0) {
-        char place[FL_SET_NAME_MAX];
-        snprintf(place, sizeof place, "%.*s", (int)(dot - word), word);
-        n->instance = fl_element_sets_find_instance(&r->sets, place);
+        char instance[FL_SET_NAME_MAX];
+        snprintf(instance, sizeof instance, "%.*s", (int)(dot - word), word);
+        n->instance = fl_element_sets_find_instance(&r->sets, instance);
         n->last = n->first;
         if (n->instance >= 0) return 0;
     }
@@ -47,21 +48,21 @@ int fl_inp_elset(fl_inp_model *r, fl_err *err)
     const char *name = fl_inp_required(&r->line, "ELSET", err);
     const int generate = fl_inp_param(&r->line, "GENERATE") != NULL;
     fl_set_entry n = {.kind = FL_SET_ELEMENTS, .face = FL_PICK_WHOLE};
-    int32_t set, place;
+    int32_t set, instance;
     int more;
-    if (!name || instance_of(r, &place, err)) return -1;
+    if (!name || parse_instance(r, &instance, err)) return -1;
     set = fl_element_sets_get(&r->sets, FL_SET_ELEMENTS, r->scope, name, err);
     if (set < 0) return -1;
     r->sets.set[set].is_explicit = 1;
     while ((more = fl_inp_next_data(&r->line, err)) > 0) {
         for (int k = 0; !generate && k < r->line.fields; k++) {
-            n.instance = place;
+            n.instance = instance;
             if (r->line.field[k][0] == '\0') continue;
-            if (entry_of(r, r->line.field[k], &n, err) || fl_element_sets_add_entry(&r->sets, set, n, err))
+            if (parse_entry(r, r->line.field[k], &n, err) || fl_element_sets_add_entry(&r->sets, set, n, err))
                 return -1;
         }
         if (!generate) continue;
-        n.instance = place;
+        n.instance = instance;
         n.set = -1;
         if (fl_inp_id(&r->line, 0, &n.first, err) || fl_inp_integer(&r->line, 1, n.first, &n.last, err) ||
             fl_inp_integer(&r->line, 2, 1, &n.step, err))
@@ -75,8 +76,8 @@ int fl_inp_elset(fl_inp_model *r, fl_err *err)
     return more;
 }
 
-/* The face that a word names: S1 .. S6, SPOS, SNEG, nothing.  0 when it has no triangles (edges, ends). */
-static int face_of(const char *word, fl_set_entry *n)
+/* Parse a face: S1 .. S6, SPOS, SNEG or nothing.  Returns 0 for one without triangles (edges, ends). */
+static int parse_face(const char *word, fl_set_entry *n)
 {
     n->face = FL_PICK_FREE;
     n->reversed = 0;
@@ -91,35 +92,34 @@ int fl_inp_surface(fl_inp_model *r, fl_err *err)
 {
     const char *name = fl_inp_required(&r->line, "NAME", err);
     const int union_of = fl_inp_param(&r->line, "COMBINE") != NULL;
-    int32_t set, place, edges = 0;
+    int32_t set, instance, edges = 0;
     int more;
-    if (!name || instance_of(r, &place, err)) return -1;
+    if (!name || parse_instance(r, &instance, err)) return -1;
     if (union_of && !fl_inp_param_is(&r->line, "COMBINE", "UNION")) {
         fl_bytes_note(r->line.deck.base,
-                      "surface \"%.60s\" is a difference or an intersection and was passed over", name);
+                      "surface \"%.60s\" is a difference or an intersection and was skipped", name);
         return fl_inp_skip_data(r, err);
     }
     if (fl_inp_param(&r->line, "TYPE") && !fl_inp_param_is(&r->line, "TYPE", "ELEMENT"))
-        return fl_inp_skip_data(r, err); /* nodes, analytical */
+        return fl_inp_skip_data(r, err); /* nodes, analytical surfaces */
     set = fl_element_sets_get(&r->sets, FL_SET_SURFACE, r->scope, name, err);
     if (set < 0) return -1;
     r->sets.set[set].is_explicit = 1;
     while ((more = fl_inp_next_data(&r->line, err)) > 0) {
-        fl_set_entry n = {.kind = union_of ? FL_SET_SURFACE : FL_SET_ELEMENTS, .instance = place};
-        if (r->line.field[0][0] == '\0') continue; /* all of the outside, for contact */
-        if (!face_of(r->line.fields > 1 && !union_of ? r->line.field[1] : "", &n)) {
+        fl_set_entry n = {.kind = union_of ? FL_SET_SURFACE : FL_SET_ELEMENTS, .instance = instance};
+        if (r->line.field[0][0] == '\0') continue; /* the whole outside, for contact */
+        if (!parse_face(r->line.fields > 1 && !union_of ? r->line.field[1] : "", &n)) {
             edges++;
             continue;
         }
-        if (entry_of(r, r->line.field[0], &n, err) || fl_element_sets_add_entry(&r->sets, set, n, err))
+        if (parse_entry(r, r->line.field[0], &n, err) || fl_element_sets_add_entry(&r->sets, set, n, err))
             return -1;
     }
-    if (edges)
-        fl_bytes_note(r->line.deck.base, "%d lines of surfaces name edges and were passed over", edges);
+    if (edges) fl_bytes_note(r->line.deck.base, "%d lines of surfaces name edges and were skipped", edges);
     return more;
 }
 
-/* The radius of round sections; others have none. */
+/* Radius of a round section; others have none. */
 int fl_inp_read_section(fl_inp_model *r, fl_err *err)
 {
     const int solid = strcmp(r->line.word, "SOLIDSECTION") == 0;
@@ -151,11 +151,11 @@ int fl_inp_read_section(fl_inp_model *r, fl_err *err)
 typedef struct {
     fl_elements *e;
     double radius;
-} radius_of;
+} radius_context;
 
 static int set_radius(void *context, fl_pick pick, fl_err *err)
 {
-    const radius_of *c = context;
+    const radius_context *c = context;
     const enum fl_shape shape = (enum fl_shape)c->e->element[pick.element].shape;
     if (shape != FL_LINE2 && shape != FL_LINE3) return 0;
     return fl_elements_set_radius(c->e, pick.element, c->radius, c->radius, err);
@@ -165,7 +165,7 @@ int fl_inp_apply_sections(fl_inp_model *r, fl_err *err)
 {
     for (int32_t k = 0; k < r->sections; k++) {
         const fl_inp_section *s = &r->section[k];
-        radius_of c = {&r->e, s->radius};
+        radius_context c = {&r->e, s->radius};
         for (int32_t p = 0; p < r->sets.instances; p++) {
             int32_t at = p, set;
             if (r->sets.instance[p].scope != s->scope && r->sets.instance[p].part_scope != s->scope) continue;

@@ -6,7 +6,7 @@
 
 enum { SOLID, FACE, LINE, MID_LINE };
 
-/* The longest family that fits counts: "STRI" before "S".  Lines are listed whole. */
+/* The longest matching family counts: "STRI" before "S".  Line types are listed in full. */
 static const struct {
     const char *family;
     int kind;
@@ -20,7 +20,7 @@ static const struct {
     {"PIPE22", MID_LINE}, {"PIPE32", MID_LINE}, {"ELBOW31", LINE}, {"FRAME2D", LINE}, {"ELBOW32", MID_LINE},
     {"FRAME3D", LINE},    {"RB3D2", LINE}};
 
-/* By kind and the digits behind the family; 65 is how STRI65 counts its six nodes and five rotations. */
+/* By kind and the digits behind the family; STRI65 counts its six nodes and five degrees of freedom. */
 static const struct {
     int kind, digits;
     fl_inp_type type;
@@ -55,10 +55,10 @@ int fl_inp_type_of(const char *name, fl_inp_type *type)
         digits = atoi(p);
         p += strspn(p, "0123456789");
         if (p[strspn(p, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789")] != '\0') return 0;
-        /* SC4 is no continuum shell */
+        /* SC4 is not a continuum shell */
         if (strncmp(s, "SC", 2) == 0 && digits != 6 && digits != 8) return 0;
     } else if (isdigit((unsigned char)s[best])) {
-        return 0; /* B310 is no B31 */
+        return 0; /* B310 is not B31 */
     }
     for (size_t k = 0; k < sizeof COUNT / sizeof *COUNT; k++)
         if (COUNT[k].kind == kind && COUNT[k].digits == digits) {

@@ -1,26 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* merge_cylinders.h -- cylinders and cones that go straight on become one. */
+/* merge_cylinders.h -- merges cylinders and cones that continue each other into one. */
 #ifndef FL_MESH_MERGE_CYLINDERS_H
 #define FL_MESH_MERGE_CYLINDERS_H
 #include "geom/surface.h"
 
 typedef struct {
-    int32_t merged;    /* cones that were joined to others */
+    int32_t merged;    /* cones that were merged */
     int32_t remaining; /* cones that they became */
-    double
-        max_error; /* [m] no end that is gone lies farther from the axis of its cone, nor is its radius more
-                      different from the radius there */
+    double max_error; /* [m] largest deviation of a removed end from its cone, across the axis or in radius */
 } fl_merged_cylinders;
 
-/* A leg of finite elements is many cylinders on one axis.  As one it is the same solid, without the discs
- * inside, and ice meets it far from its ends wherever it meets it.  Two cones go on from each other where an
- * end of one lies exactly in the place of an end of the other, with the same radius, direction and slope, and
- * no third one does; what other lines end there does not matter.  A run of them becomes one cone where no end
- * within strays more than 1e-6 of the diagonal of the box of all cones (the tolerance of welding) from it,
- * and is divided at the end that strays most where one does.
- *   p     its cones are replaced; a cone that nothing goes on from stays as it is
- *   did   counts are added to
- * Returns 0, or -1 with FL_SYSTEM and p as it was. */
+/* A leg of a finite element model is many cylinders on one axis.  One cylinder is the same solid without the
+ * discs inside, and it has ends only where the leg has them.  Two cones continue each other if an end of one
+ * coincides exactly with an end of the other, with the same radius, direction and slope, and no third cone
+ * does so there.  Other lines may end at that point.
+ * A run of such cones becomes one cone if no inner end deviates from it by more than 1e-6 of the diagonal of
+ * the box of all cones (the tolerance of welding).  Otherwise the run is split at the end that deviates most.
+ *   p     its cones are replaced; a cone without a continuation is unchanged
+ *   did   counts are added
+ * Returns 0, or -1 with FL_SYSTEM and p unchanged. */
 int fl_part_merge_cylinders(fl_part *p, fl_merged_cylinders *did, fl_err *err);
 
 #endif

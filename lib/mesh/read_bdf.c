@@ -8,50 +8,51 @@
 #include "base/array.h"
 #include "base/pi.h"
 #include "geom/affine.h"
+#include "mesh/element_surface.h"
 #include "mesh/bdf_entry.h"
 #include "mesh/read_bdf.h"
 
 enum {
-    DEEPEST = 1000,
-    NAME = 100, /* bytes of a name that count */
-    CONROD = -1 /* stands for the property of rods that have none */
+    MAX_DEPTH = 1000,
+    NAME_MAX = 100, /* significant bytes of a name */
+    CONROD = -1     /* property of rods that have none */
 };
 
-/* A coordinate system: as it is given, and once `state` is done its frame. */
+/* A coordinate system: its definition, and its frame once `state` is 2. */
 typedef struct {
     char kind; /* R C S */
-    int by;    /* 1: by grids, 2: by points in another system */
-    int state; /* 0 as it is given, 1 being worked out, 2 done */
+    int by;    /* 1: defined by grids, 2: by points in another system */
+    int state; /* 0 defined, 1 being resolved, 2 resolved */
     int32_t file, line;
     int64_t other, grid[3];
-    fl_vec3 point[3]; /* origin, on the third axis, in the half plane of the first */
+    fl_vec3 point[3]; /* origin, on the third axis, in the half plane of the first axis */
     fl_mat3 axes;     /* columns */
-} frame;
+} system_def;
 
-/* Where a grid is given, and its system: BASIC, DEFAULT, OPEN while it is worked out, or FIRST and a place.
- */
+/* Definition of a grid and its system: BASIC, DEFAULT (that of GRDSET), OPEN while it is resolved, or FIRST
+ * plus an index in frames. */
 typedef struct {
     int32_t cp, file, line;
-} grid_at;
+} grid_ref;
 
 typedef struct {
     fl_bdf_entry at;
     fl_elements e;
     fl_id_map frames; /* numbers of coordinate systems */
-    frame *frame;
-    grid_at *grid; /* [nodes] */
+    system_def *frame;
+    grid_ref *grid; /* [nodes] */
     int64_t grdset;
-    fl_id_map pids; /* numbers of properties; elements name their part by their place here until the end */
+    fl_id_map pids; /* numbers of properties; until the end, the part of an element is an index in these */
     char **name;    /* [pids] names from comments, NULL for none */
     double (*radius)[2]; /* [pids] nan for none */
     int32_t frame_cap, grid_cap, name_cap, radius_cap;
-} reader;
+} bdf_reader;
 
 enum { OPEN = -1, DEFAULT = 0, BASIC = 1, FIRST = 2 };
 
-/* --- is it one? ----------------------------------------------------------------------------------------- */
+/* --- recognition ---------------------------------------------------------------------------------------- */
 
-static int starts(const char *p, const char *word)
+static int starts_with(const char *p, const char *word)
 {
     const size_t n = strlen(word);
     return strncasecmp(p, word, n) == 0 && strchr(" \t,*'\"=\r\n", p[n]) != NULL;
@@ -59,13 +60,14 @@ static int starts(const char *p, const char *word)
 
 int fl_bdf_is(const fl_bytes *b)
 {
+    if (!fl_bytes_is_text(b)) return 0;
     for (const char *p = b->data; *p; p += strspn(p, "\r\n")) {
         const char *q = p + strspn(p, " \t");
-        /* lines of Nastran begin with a letter, with the mark of a continuation, or with a blank */
+        /* a line of Nastran begins with a letter, a continuation mark or a blank */
         if (*q && !isalpha((unsigned char)*q) && !strchr("$+*,\r\n", *q) && q == p) return 0;
-        if (starts(p, "GRID")) return 1;
-        if (starts(p, "BEGIN") && strncasecmp(p + 5 + strspn(p + 5, " \t,"), "BULK", 4) == 0) return 1;
-        if (starts(q, "INCLUDE") && strchr("'\"", q[7 + strspn(q + 7, " \t")])) return 1;
+        if (starts_with(p, "GRID")) return 1;
+        if (starts_with(p, "BEGIN") && strncasecmp(p + 5 + strspn(p + 5, " \t,"), "BULK", 4) == 0) return 1;
+        if (starts_with(q, "INCLUDE") && strchr("'\"", q[7 + strspn(q + 7, " \t")])) return 1;
         p += strcspn(p, "\r\n");
     }
     return 0;
@@ -73,13 +75,13 @@ int fl_bdf_is(const fl_bytes *b)
 
 /* --- properties ----------------------------------------------------------------------------------------- */
 
-static int32_t property(reader *r, int64_t pid, fl_err *err)
+static int32_t property_index(bdf_reader *r, int64_t pid, fl_err *err)
 {
     const int32_t had = r->pids.n, k = fl_id_map_add(&r->pids, 0, pid, err);
     if (k < had) return k;
     if (fl_grow(&r->name, &r->name_cap, (int64_t)k + 1, sizeof *r->name, err) ||
         fl_grow(&r->radius, &r->radius_cap, (int64_t)k + 1, sizeof *r->radius, err)) {
-        r->pids.n = had; /* there is no name to free */
+        r->pids.n = had; /* no name to free */
         return -1;
     }
     r->name[k] = NULL;
@@ -87,14 +89,14 @@ static int32_t property(reader *r, int64_t pid, fl_err *err)
     return k;
 }
 
-static int call(reader *r, int64_t pid, const char *name, size_t n, fl_err *err)
+static int name_property(bdf_reader *r, int64_t pid, const char *name, size_t n, fl_err *err)
 {
-    const int32_t k = property(r, pid, err);
+    const int32_t k = property_index(r, pid, err);
     char *copy;
     if (k < 0) return -1;
     while (n > 0 && isspace((unsigned char)name[n - 1])) n--;
     if (n == 0) return 0;
-    if (n > NAME) n = NAME;
+    if (n > NAME_MAX) n = NAME_MAX;
     copy = fl_alloc((int64_t)n + 1, 1, err);
     if (!copy) return -1;
     memcpy(copy, name, n);
@@ -103,42 +105,44 @@ static int call(reader *r, int64_t pid, const char *name, size_t n, fl_err *err)
     return 0;
 }
 
-/* The names that preprocessors leave behind the $:
+/* Names of properties that preprocessors leave behind $:
  *     HMNAME PROP              7"leg" 4
  *     ANSA_NAME_COMMENT;7;PSHELL;leg;...
- *      Femap Property 7 : leg                */
-static int comment(void *context, const char *text, fl_err *err)
+ *      Femap Property 7 : leg */
+static int read_name_comment(void *context, const char *text, fl_err *err)
 {
-    reader *r = context;
-    char word[16], *end;
+    bdf_reader *r = context;
+    char word[16], *free_reader;
     const char *p;
     int64_t pid;
     if (strncasecmp(text, "HMNAME PROP", 11) == 0) {
         p = text + 11 + strspn(text + 11, " \t");
-        pid = strtoll(p, &end, 10);
-        end += strspn(end, " \t");
-        if (pid < 1 || pid > INT32_MAX || *end != '"') return 0;
-        return call(r, pid, end + 1, strcspn(end + 1, "\""), err);
+        pid = strtoll(p, &free_reader, 10);
+        free_reader += strspn(free_reader, " \t");
+        if (pid < 1 || pid > INT32_MAX || *free_reader != '"') return 0;
+        return name_property(r, pid, free_reader + 1, strcspn(free_reader + 1, "\""), err);
     }
     if (strncasecmp(text, "ANSA_NAME_COMMENT;", 18) == 0) {
-        pid = strtoll(text + 18, &end, 10);
-        if (pid < 1 || pid > INT32_MAX || end[0] != ';' || toupper((unsigned char)end[1]) != 'P') return 0;
-        p = strchr(end + 1, ';');
-        return p ? call(r, pid, p + 1, strcspn(p + 1, ";"), err) : 0;
+        pid = strtoll(text + 18, &free_reader, 10);
+        if (pid < 1 || pid > INT32_MAX || free_reader[0] != ';' ||
+            toupper((unsigned char)free_reader[1]) != 'P')
+            return 0;
+        p = strchr(free_reader + 1, ';');
+        return p ? name_property(r, pid, p + 1, strcspn(p + 1, ";"), err) : 0;
     }
     if (sscanf(text, " %15s", word) == 1 && strcasecmp(word, "Femap") == 0 &&
         (p = strstr(text, "Property ")) != NULL) {
-        pid = strtoll(p + 9, &end, 10);
-        end += strspn(end, " \t");
-        if (pid < 1 || pid > INT32_MAX || *end != ':') return 0;
-        end += 1 + strspn(end + 1, " \t");
-        return call(r, pid, end, strlen(end), err);
+        pid = strtoll(p + 9, &free_reader, 10);
+        free_reader += strspn(free_reader, " \t");
+        if (pid < 1 || pid > INT32_MAX || *free_reader != ':') return 0;
+        free_reader += 1 + strspn(free_reader + 1, " \t");
+        return name_property(r, pid, free_reader, strlen(free_reader), err);
     }
     return 0;
 }
 
 /* Radii of round sections. */
-static int section(reader *r, fl_err *err)
+static int read_section(bdf_reader *r, fl_err *err)
 {
     const fl_bdf_entry *a = &r->at;
     const int listed = strcmp(a->name, "PBARL") == 0 || strcmp(a->name, "PBEAML") == 0;
@@ -147,7 +151,7 @@ static int section(reader *r, fl_err *err)
     double x[2] = {0};
     int32_t k;
     if (fl_bdf_id(a, 0, &pid, err)) return -1;
-    k = property(r, pid, err);
+    k = property_index(r, pid, err);
     if (k < 0) return -1;
     if (listed && strcasecmp(kind, "ROD") && strcasecmp(kind, "TUBE") && strcasecmp(kind, "TUBE2")) return 0;
     if (fl_bdf_real(a, listed ? 8 : 2, &x[0], err)) return -1;
@@ -155,7 +159,7 @@ static int section(reader *r, fl_err *err)
     if (x[0] < 0.0 || x[1] < 0.0)
         return fl_bdf_fail(a, err, "%s %lld is %g wide, 0 or more is expected", a->name, (long long)pid,
                            fmin(x[0], x[1]));
-    if (strcmp(a->name, "PTUBE") == 0) { /* outer diameters; blank for the far end as at the near one */
+    if (strcmp(a->name, "PTUBE") == 0) { /* outer diameters; a blank far end is as the near one */
         r->radius[k][0] = 0.5 * x[0];
         r->radius[k][1] = *fl_bdf_field(a, 5) ? 0.5 * x[1] : 0.5 * x[0];
     } else {
@@ -166,7 +170,7 @@ static int section(reader *r, fl_err *err)
 
 /* --- grids and coordinate systems ----------------------------------------------------------------------- */
 
-static int32_t frame_of(reader *r, int64_t id, fl_err *err)
+static int32_t system_index(bdf_reader *r, int64_t id, fl_err *err)
 {
     const int32_t k = fl_id_map_add(&r->frames, 0, id, err);
     const int32_t had = r->frame_cap;
@@ -175,7 +179,7 @@ static int32_t frame_of(reader *r, int64_t id, fl_err *err)
     return k;
 }
 
-static int grid(reader *r, fl_err *err)
+static int read_grid(bdf_reader *r, fl_err *err)
 {
     const fl_bdf_entry *a = &r->at;
     int64_t id, cp;
@@ -185,22 +189,22 @@ static int grid(reader *r, fl_err *err)
         return -1;
     if (cp < -1)
         return fl_bdf_fail(a, err, "field 3 of GRID is \"%.40s\", 0 or more is expected", fl_bdf_field(a, 1));
-    if (cp > 0 && (f = frame_of(r, cp, err)) < 0) return -1;
+    if (cp > 0 && (f = system_index(r, cp, err)) < 0) return -1;
     r->e.file = a->file;
     r->e.line = a->line;
     k = fl_elements_add_node(&r->e, 0, id, x, err);
     if (k < 0 || fl_grow(&r->grid, &r->grid_cap, (int64_t)r->e.node_id.n, sizeof *r->grid, err)) return -1;
-    r->grid[k] = (grid_at){cp < 0 ? DEFAULT : cp == 0 ? BASIC : FIRST + f, a->file, a->line};
+    r->grid[k] = (grid_ref){cp < 0 ? DEFAULT : cp == 0 ? BASIC : FIRST + f, a->file, a->line};
     return 0;
 }
 
-/* CORD1x CID G1 G2 G3, and a second one behind it; CORD2x CID RID A1 A2 A3 B1 B2 B3 C1 C2 C3. */
-static int cord(reader *r, fl_err *err)
+/* CORD1x CID G1 G2 G3, and a second system on the same line; CORD2x CID RID A1 A2 A3 B1 B2 B3 C1 C2 C3. */
+static int read_system(bdf_reader *r, fl_err *err)
 {
     const fl_bdf_entry *a = &r->at;
     const int by = a->name[4] - '0';
     for (int k = 0; k < (by == 1 ? 8 : 1); k += 4) {
-        frame f = {.kind = a->name[5], .by = by, .file = a->file, .line = a->line};
+        system_def f = {.kind = a->name[5], .by = by, .file = a->file, .line = a->line};
         int64_t id;
         int32_t at;
         if (k && *fl_bdf_field(a, k) == '\0') break;
@@ -210,28 +214,29 @@ static int cord(reader *r, fl_err *err)
                         : fl_bdf_point(a, 2 + 3 * i, &f.point[i], err))
                 return -1;
         if (by == 2 && fl_bdf_integer(a, 1, 0, &f.other, err)) return -1;
-        at = frame_of(r, id, err);
+        at = system_index(r, id, err);
         if (at < 0) return -1;
         r->frame[at] = f;
     }
     return 0;
 }
 
-/* Who wants a system: a line, or a grid. */
+/* The line, or the grid, that refers to a system; for messages. */
 typedef struct {
     int32_t file, line;
     int64_t grid;
-} asker;
+} referrer;
 
-static int solve(reader *r, int64_t id, int depth, frame **out, asker who, fl_err *err);
+static int resolve_system(bdf_reader *r, int64_t id, int depth, system_def **out, referrer referrer_of,
+                          fl_err *err);
 
-/* x of a system in the basic one. */
-static int from_system(reader *r, int64_t id, fl_vec3 *x, int depth, asker who, fl_err *err)
+/* Convert x from a system to the basic one. */
+static int to_basic(bdf_reader *r, int64_t id, fl_vec3 *x, int depth, referrer referrer_of, fl_err *err)
 {
-    frame *f = NULL;
+    system_def *f = NULL;
     fl_vec3 y = *x;
     if (id == 0) return 0;
-    if (solve(r, id, depth, &f, who, err)) return -1;
+    if (resolve_system(r, id, depth, &f, referrer_of, err)) return -1;
     if (f->kind != 'R') { /* quarter turns are exact */
         const fl_mat3 about = fl_affine_rotation(v3(0, 0, 1), f->kind == 'C' ? x->y : x->z);
         if (f->kind == 'C') y = v3_add(m3_mul(about, v3(x->x, 0, 0)), v3(0, 0, x->z));
@@ -239,14 +244,14 @@ static int from_system(reader *r, int64_t id, fl_vec3 *x, int depth, asker who, 
     }
     *x = v3_add(f->point[0], m3_mul(f->axes, y));
     if (isfinite(x->x) && isfinite(x->y) && isfinite(x->z)) return 0;
-    return fl_elements_fail(&r->e, who.file, who.line, err, "coordinate system %lld leads beyond all numbers",
-                            (long long)id);
+    return fl_elements_fail(&r->e, referrer_of.file, referrer_of.line, err,
+                            "coordinate system %lld leads beyond all numbers", (long long)id);
 }
 
-/* A grid in the basic system, once and for all. */
-static int settle(reader *r, int32_t k, int depth, fl_err *err)
+/* Convert a grid to the basic system, once. */
+static int resolve_grid(bdf_reader *r, int32_t k, int depth, fl_err *err)
 {
-    grid_at *g = &r->grid[k];
+    grid_ref *g = &r->grid[k];
     const int32_t cp = g->cp;
     if (cp == BASIC) return 0;
     if (cp == OPEN)
@@ -254,43 +259,44 @@ static int settle(reader *r, int32_t k, int depth, fl_err *err)
                                 "grid %lld stands in a coordinate system that it defines",
                                 (long long)r->e.node_id.id[k]);
     g->cp = OPEN;
-    if (from_system(r, cp == DEFAULT ? r->grdset : r->frames.id[cp - FIRST], &r->e.x[k], depth,
-                    (asker){g->file, g->line, r->e.node_id.id[k]}, err))
+    if (to_basic(r, cp == DEFAULT ? r->grdset : r->frames.id[cp - FIRST], &r->e.x[k], depth,
+                 (referrer){g->file, g->line, r->e.node_id.id[k]}, err))
         return -1;
     g->cp = BASIC;
     return 0;
 }
 
-/* Work out a system, after those that it is defined in. */
-static int solve(reader *r, int64_t id, int depth, frame **out, asker who, fl_err *err)
+/* Resolve a system, after those that define it. */
+static int resolve_system(bdf_reader *r, int64_t id, int depth, system_def **out, referrer referrer_of,
+                          fl_err *err)
 {
     const int32_t at = fl_id_map_find(&r->frames, 0, id);
-    frame *f = at < 0 ? NULL : &r->frame[at];
-    if ((!f || !f->by) && who.grid)
-        return fl_elements_fail(&r->e, who.file, who.line, err,
-                                "grid %lld wants coordinate system %lld, which is defined nowhere",
-                                (long long)who.grid, (long long)id);
+    system_def *f = at < 0 ? NULL : &r->frame[at];
+    if ((!f || !f->by) && referrer_of.grid)
+        return fl_elements_fail(&r->e, referrer_of.file, referrer_of.line, err,
+                                "grid %lld refers to coordinate system %lld, which is not defined",
+                                (long long)referrer_of.grid, (long long)id);
     if (!f || !f->by)
-        return fl_elements_fail(&r->e, who.file, who.line, err, "coordinate system %lld is defined nowhere",
-                                (long long)id);
+        return fl_elements_fail(&r->e, referrer_of.file, referrer_of.line, err,
+                                "coordinate system %lld is not defined", (long long)id);
     *out = f;
     if (f->state == 2) return 0;
     if (f->state == 1)
         return fl_elements_fail(&r->e, f->file, f->line, err, "coordinate system %lld is defined by itself",
                                 (long long)id);
-    if (depth == DEEPEST)
+    if (depth == MAX_DEPTH)
         return fl_elements_fail(&r->e, f->file, f->line, err,
-                                "coordinate systems are defined in one another more than %d deep", DEEPEST);
+                                "coordinate systems are defined in one another more than %d deep", MAX_DEPTH);
     f->state = 1;
     for (int i = 0; i < 3; i++) {
         if (f->by == 1) {
             const int32_t k = fl_id_map_find(&r->e.node_id, 0, f->grid[i]);
             if (k < 0 || isnan(r->e.x[k].x))
-                return fl_elements_fail(&r->e, f->file, f->line, err, "grid %lld is defined nowhere",
+                return fl_elements_fail(&r->e, f->file, f->line, err, "grid %lld is not defined",
                                         (long long)f->grid[i]);
-            if (settle(r, k, depth + 1, err)) return -1;
+            if (resolve_grid(r, k, depth + 1, err)) return -1;
             f->point[i] = r->e.x[k];
-        } else if (from_system(r, f->other, &f->point[i], depth + 1, (asker){f->file, f->line, 0}, err)) {
+        } else if (to_basic(r, f->other, &f->point[i], depth + 1, (referrer){f->file, f->line, 0}, err)) {
             return -1;
         }
     }
@@ -308,7 +314,7 @@ static int solve(reader *r, int64_t id, int depth, frame **out, asker who, fl_er
 
 static const struct {
     const char *name;
-    enum fl_shape linear, quadratic; /* the latter FL_SHAPES where there is none */
+    enum fl_shape linear, quadratic; /* quadratic: FL_SHAPES if there is none */
 } ELEMENT[] = {{"CTRIA3", FL_TRI3, FL_SHAPES},       {"CTRIAR", FL_TRI3, FL_SHAPES},
                {"CTRIA6", FL_TRI3, FL_TRI6},         {"CPLSTN3", FL_TRI3, FL_SHAPES},
                {"CPLSTS3", FL_TRI3, FL_SHAPES},      {"CQUAD4", FL_QUAD4, FL_SHAPES},
@@ -321,8 +327,8 @@ static const struct {
                {"CBEAM", FL_LINE2, FL_SHAPES},       {"CROD", FL_LINE2, FL_SHAPES},
                {"CTUBE", FL_LINE2, FL_SHAPES},       {"CONROD", FL_LINE2, FL_SHAPES}};
 
-/* The mids between bottom and top stand before those of the top here, and behind them in elements.h. */
-static void swap_mids(enum fl_shape shape, int64_t *node)
+/* Nastran lists the mid-side nodes between bottom and top before those of the top, elements.h behind them. */
+static void reorder_mids(enum fl_shape shape, int64_t *node)
 {
     const int n = shape == FL_HEX20 ? 4 : shape == FL_WEDGE15 ? 3 : 0;
     int64_t *upright = node + fl_shape_corners(shape) + n, *top = upright + n;
@@ -333,7 +339,7 @@ static void swap_mids(enum fl_shape shape, int64_t *node)
     }
 }
 
-static int element(reader *r, enum fl_shape linear, enum fl_shape quadratic, fl_err *err)
+static int read_element(bdf_reader *r, enum fl_shape linear, enum fl_shape quadratic, fl_err *err)
 {
     const fl_bdf_entry *a = &r->at;
     const int rod = strcmp(a->name, "CONROD") == 0, first = rod ? 1 : 2, corners = fl_shape_nodes(linear);
@@ -344,7 +350,7 @@ static int element(reader *r, enum fl_shape linear, enum fl_shape quadratic, fl_
     if (!rod && (fl_bdf_integer(a, 1, id, &pid, err) || pid < 1))
         return fl_bdf_fail(a, err, "field 3 of %s is \"%.40s\", a property is expected", a->name,
                            fl_bdf_field(a, 1));
-    p = property(r, pid, err);
+    p = property_index(r, pid, err);
     if (p < 0) return -1;
     for (int i = 0; i < corners; i++)
         if (fl_bdf_id(a, first + i, &node[i], err)) return -1;
@@ -352,7 +358,7 @@ static int element(reader *r, enum fl_shape linear, enum fl_shape quadratic, fl_
         if (fl_bdf_integer(a, first + i, 0, &node[i], err)) return -1;
         if (node[i]) shape = quadratic;
     }
-    swap_mids(shape, node);
+    reorder_mids(shape, node);
     r->e.file = a->file;
     r->e.line = a->line;
     k = fl_elements_add(&r->e, 0, id, shape, p, node, err);
@@ -366,8 +372,8 @@ static int element(reader *r, enum fl_shape linear, enum fl_shape quadratic, fl_
     return 0;
 }
 
-/* Elements that are no surface, by how they begin. */
-static int is_skipped(const char *name)
+/* Elements without a surface, by the beginning of their names. */
+static int has_no_surface(const char *name)
 {
     static const char *const family[] = {
         "CELAS",  "CDAMP",  "CMASS",  "CONM",    "CBUSH",  "CGAP",   "CVISC",  "CWELD",  "CFAST",
@@ -380,19 +386,19 @@ static int is_skipped(const char *name)
     return 0;
 }
 
-/* --- all of it ------------------------------------------------------------------------------------------ */
+/* --- the deck ------------------------------------------------------------------------------------------- */
 
-static int entry(reader *r, fl_err *err)
+static int read_entry(bdf_reader *r, fl_err *err)
 {
     const fl_bdf_entry *a = &r->at;
     const char *name = a->name;
     int64_t cp;
-    if (strcmp(name, "GRID") == 0) return grid(r, err);
+    if (strcmp(name, "GRID") == 0) return read_grid(r, err);
     for (size_t k = 0; k < sizeof ELEMENT / sizeof *ELEMENT; k++)
         if (strcmp(name, ELEMENT[k].name) == 0)
-            return element(r, ELEMENT[k].linear, ELEMENT[k].quadratic, err);
+            return read_element(r, ELEMENT[k].linear, ELEMENT[k].quadratic, err);
     if (strlen(name) == 6 && strncmp(name, "CORD", 4) == 0 && strchr("12", name[4]) && strchr("RCS", name[5]))
-        return cord(r, err);
+        return read_system(r, err);
     if (strcmp(name, "GRDSET") == 0) {
         if (fl_bdf_integer(a, 1, 0, &cp, err)) return -1;
         if (cp < 0) return fl_bdf_fail(a, err, "GRDSET names coordinate system %lld", (long long)cp);
@@ -401,29 +407,29 @@ static int entry(reader *r, fl_err *err)
     }
     if (strcmp(name, "PTUBE") == 0 || strcmp(name, "PBARL") == 0 || strcmp(name, "PBEAML") == 0 ||
         strcmp(name, "PROD") == 0)
-        return section(r, err);
+        return read_section(r, err);
     if (name[0] == '=')
         return fl_bdf_fail(a, err, "replication (=) is not read: export all grids and elements written out");
     if (strcmp(name, "BEGIN") == 0 &&
         strncasecmp(a->deck.line + 5 + strspn(a->deck.line + 5, " \t"), "SUPER", 5) == 0)
         return fl_bdf_fail(a, err, "BEGIN SUPER is not read: export the model without superelements");
-    if (is_skipped(name)) return fl_elements_skip(&r->e, name, err);
+    if (has_no_surface(name)) return fl_elements_skip(&r->e, name, err);
     return 0;
 }
 
-/* All grids in the basic system. */
-static int settle_all(reader *r, fl_err *err)
+/* Convert all grids to the basic system. */
+static int resolve_grids(bdf_reader *r, fl_err *err)
 {
     for (int32_t k = 0; k < r->e.node_id.n; k++) {
         if (isnan(r->e.x[k].x) || r->grid[k].cp == BASIC || (r->grid[k].cp == DEFAULT && r->grdset == 0))
             continue;
-        if (settle(r, k, 0, err)) return -1;
+        if (resolve_grid(r, k, 0, err)) return -1;
     }
     return 0;
 }
 
-/* Properties become parts; one whose name another one has gets its number behind it. */
-static int name_parts(reader *r, fl_err *err)
+/* Turn properties into parts; a repeated name gets the number of its property appended. */
+static int name_parts(bdf_reader *r, fl_err *err)
 {
     int32_t *part = fl_alloc(r->pids.n, sizeof *part, err);
     int rc = -1;
@@ -434,7 +440,7 @@ static int name_parts(reader *r, fl_err *err)
         const int32_t k = el->part;
         if (part[k] < 0) {
             const long long pid = r->pids.id[k];
-            char name[NAME + 40];
+            char name[NAME_MAX + 40];
             if (pid < 0) snprintf(name, sizeof name, "conrod");
             else if (!r->name[k]) snprintf(name, sizeof name, "property_%lld", pid);
             else if (fl_string_table_find(&r->e.parts, r->name[k]) < 0)
@@ -454,7 +460,7 @@ done:
     return rc;
 }
 
-static void end(reader *r)
+static void free_reader(bdf_reader *r)
 {
     for (int32_t k = 0; k < r->pids.n; k++) free(r->name[k]);
     fl_bdf_entry_free(&r->at);
@@ -467,23 +473,24 @@ static void end(reader *r)
     free(r->radius);
 }
 
-int fl_bdf_read(fl_surface *s, fl_bytes *b, fl_import_options *w, fl_err *err)
+int fl_bdf_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
-    reader r = {.at = {.comment = comment}};
+    bdf_reader r = {.at = {.comment = read_name_comment}};
     int rc = -1, more;
+    (void)name; /* every element has a property or is a CONROD */
     r.at.context = &r;
     if (fl_elements_start(&r.e, fl_in_name(b->in), err)) goto done;
     fl_deck_start(&r.at.deck, &r.e, b);
     while ((more = fl_bdf_next(&r.at, err)) > 0)
-        if (entry(&r, err)) goto done;
+        if (read_entry(&r, err)) goto done;
     if (more < 0) goto done;
-    fl_bdf_entry_free(&r.at); /* a large deck is not wanted twice over */
+    fl_bdf_entry_free(&r.at); /* saves the memory of a second copy of a large deck */
     free(b->data);
     b->data = NULL;
     b->n = b->cap = 0;
-    if (settle_all(&r, err) || name_parts(&r, err)) goto done;
-    rc = fl_elements_surface(&r.e, s, b, w, err);
+    if (resolve_grids(&r, err) || name_parts(&r, err)) goto done;
+    rc = fl_elements_surface(&r.e, s, b, opt, err);
 done:
-    end(&r);
+    free_reader(&r);
     return rc;
 }

@@ -4,18 +4,19 @@
 #include <strings.h>
 #include "base/array.h"
 #include "base/number_text.h"
+#include "mesh/element_surface.h"
 #include "mesh/cdb_block.h"
 #include "mesh/cdb_routine.h"
 #include "mesh/read_cdb.h"
 
 typedef struct {
-    fl_cdb k;                    /* what blocks share */
+    fl_cdb k;                    /* state shared with the blocks */
     fl_string_table parameter;   /* of *SET */
     int64_t *value;              /* [parameter.n] */
-    int64_t type, real, section; /* what TYPE, REAL and SECNUM said last */
-    int64_t made;                /* number of the element that EMORE would go on with */
+    int64_t type, real, section; /* current values of TYPE, REAL and SECNUM */
+    int64_t made;                /* number of the element that EMORE would continue */
     int32_t made_line, system, unread, value_cap;
-} reader;
+} cdb_reader;
 
 static int command_at(const char *p, const char *word)
 {
@@ -36,26 +37,25 @@ int fl_cdb_is(const fl_bytes *b)
 
 /* --- words ---------------------------------------------------------------------------------------------- */
 
-static int set_parameter(reader *c, const char *name, const char *text, fl_err *err)
+static int set_parameter(cdb_reader *c, const char *name, const char *text, fl_err *err)
 {
     int64_t x;
     int32_t k;
-    if (*name == '\0' || fl_deck_integer(text, &x))
-        return 0; /* not a number that could stand for another one */
+    if (*name == '\0' || fl_deck_integer(text, &x)) return 0; /* only integers can stand for a number */
     k = fl_string_table_add(&c->parameter, name, err);
     if (k < 0 || fl_grow(&c->value, &c->value_cap, c->parameter.n, sizeof *c->value, err)) return -1;
     c->value[k] = x;
     return 0;
 }
 
-/* A word as a number, or as the parameter of that name.  0, or -1. */
-static int number(const reader *c, const char *word, int64_t *x)
+/* A word as a number, or as the value of the parameter of that name.  0, or -1. */
+static int parse_number(const cdb_reader *c, const char *word, int64_t *x)
 {
     double y;
     int32_t k;
     if (fl_deck_integer(word, x) == 0) return 0;
     if (fl_deck_real(word, &y) == 0 && y >= 0.0 && y < 1e9 && (double)(int64_t)y == y) {
-        *x = (int64_t)y; /* "1.": a whole number all the same */
+        *x = (int64_t)y; /* "1." is an integer too */
         return 0;
     }
     k = fl_string_table_find(&c->parameter, word);
@@ -66,42 +66,43 @@ static int number(const reader *c, const char *word, int64_t *x)
 
 /* --- commands ------------------------------------------------------------------------------------------- */
 
-/* ET,slot,routine with the routine as a number or as a name that ends in it. */
-static int read_et(reader *c, fl_err *err)
+/* ET,slot,routine, with the routine as a number or as a name that ends in it. */
+static int read_et(cdb_reader *c, fl_err *err)
 {
     const char *r = c->k.word[2] + strcspn(c->k.word[2], "0123456789");
     int64_t slot;
     int32_t routine;
-    if (number(c, c->k.word[1], &slot) || slot < 1) {
+    if (parse_number(c, c->k.word[1], &slot) || slot < 1) {
         c->unread++;
         return 0;
     }
-    if (*c->k.word[2] == '\0' || strcmp(c->k.word[2], "0") == 0) return 0; /* the type is taken back */
+    if (*c->k.word[2] == '\0' || strcmp(c->k.word[2], "0") == 0) return 0; /* the type is deleted */
     if (fl_number_i32(r, 0, INT16_MAX, &routine))
         return fl_deck_fail(&c->k.d, err, "element type \"%.40s\" was found, a routine like 185 is expected",
                             c->k.word[2]);
     return fl_cdb_set_type(&c->k, slot, routine, 0, err);
 }
 
-static int read_keyopt(reader *c, fl_err *err)
+static int read_keyopt(cdb_reader *c, fl_err *err)
 {
     int64_t slot, which, value;
-    if (number(c, c->k.word[1], &slot) || number(c, c->k.word[2], &which) || number(c, c->k.word[3], &value))
+    if (parse_number(c, c->k.word[1], &slot) || parse_number(c, c->k.word[2], &which) ||
+        parse_number(c, c->k.word[3], &value))
         return 0;
     const int32_t k = fl_id_map_find(&c->k.slot, 0, slot);
     if (k < 0 || which != 1 || value < 0 || value >= INT16_MAX) return 0;
     return fl_cdb_set_type(&c->k, slot, c->k.type[k].routine, (int32_t)value, err);
 }
 
-static int read_sectype(reader *c)
+static int read_sectype(cdb_reader *c)
 {
     int64_t id;
-    if (number(c, c->k.word[1], &id)) id = 0;
+    if (parse_number(c, c->k.word[1], &id)) id = 0;
     fl_cdb_section_open(&c->k.sections, id, c->k.word[2], c->k.word[3]);
     return 0;
 }
 
-static int read_secdata(reader *c, fl_err *err)
+static int read_secdata(cdb_reader *c, fl_err *err)
 {
     double x[2] = {0.0, 0.0};
     for (int k = 0; k < 2; k++)
@@ -109,31 +110,31 @@ static int read_secdata(reader *c, fl_err *err)
     return fl_cdb_section_data(&c->k.sections, x, err);
 }
 
-static int read_r(reader *c, fl_err *err)
+static int read_r(cdb_reader *c, fl_err *err)
 {
     int64_t id;
     double x = 0.0;
-    if (number(c, c->k.word[1], &id) || (*c->k.word[2] && fl_deck_real(c->k.word[2], &x))) return 0;
+    if (parse_number(c, c->k.word[1], &id) || (*c->k.word[2] && fl_deck_real(c->k.word[2], &x))) return 0;
     return fl_cdb_section_real(&c->k.sections, id, x, err);
 }
 
-static int unblocked(reader *c, fl_err *err)
+static int reject_unblocked(cdb_reader *c, fl_err *err)
 {
     return fl_deck_fail(&c->k.d, err,
                         "%s,%.20s is of the unblocked format: write the archive with CDWRITE,DB,,,,,,BLOCKED",
                         c->k.word[0], c->k.word[1]);
 }
 
-static int read_n(reader *c, fl_err *err)
+static int read_n(cdb_reader *c, fl_err *err)
 {
     int64_t id;
     fl_vec3 x = {0};
     double *const at[3] = {&x.x, &x.y, &x.z};
     if (strncasecmp(c->k.word[1], "R5", 2) == 0) {
-        if (strcmp(c->k.word[3], "-1") == 0) return 0; /* it ends the NBLOCK before */
-        return unblocked(c, err);
+        if (strcmp(c->k.word[3], "-1") == 0) return 0; /* end of the preceding NBLOCK */
+        return reject_unblocked(c, err);
     }
-    if (number(c, c->k.word[1], &id) || id < 1) {
+    if (parse_number(c, c->k.word[1], &id) || id < 1) {
         c->unread++;
         return 0;
     }
@@ -148,8 +149,8 @@ static int read_n(reader *c, fl_err *err)
     return fl_elements_add_node(&c->k.e, 0, id, x, err) < 0 ? -1 : 0;
 }
 
-/* The element that E, EN and EMORE have been giving nodes to is complete. */
-static int finish(reader *c, fl_err *err)
+/* Add the element whose nodes E, EN and EMORE have collected. */
+static int finish_element(cdb_reader *c, fl_err *err)
 {
     const int32_t line = c->k.e.line;
     int rc;
@@ -161,17 +162,17 @@ static int finish(reader *c, fl_err *err)
     return rc;
 }
 
-static int read_e(reader *c, int numbered, fl_err *err)
+static int read_e(cdb_reader *c, int numbered, fl_err *err)
 {
     const int from = numbered ? 2 : 1;
     int64_t id = -1;
-    if (numbered && strncasecmp(c->k.word[1], "R5", 2) == 0) return unblocked(c, err);
-    if (numbered && (number(c, c->k.word[1], &id) || id < 1)) {
+    if (numbered && strncasecmp(c->k.word[1], "R5", 2) == 0) return reject_unblocked(c, err);
+    if (numbered && (parse_number(c, c->k.word[1], &id) || id < 1)) {
         c->unread++;
         return 0;
     }
     for (int k = from; k < from + 8 && *c->k.word[k]; k++)
-        if (number(c, c->k.word[k], &c->k.node[c->k.nodes++])) {
+        if (parse_number(c, c->k.word[k], &c->k.node[c->k.nodes++])) {
             c->k.nodes = 0;
             c->unread++;
             return 0;
@@ -181,21 +182,21 @@ static int read_e(reader *c, int numbered, fl_err *err)
     return 0;
 }
 
-static int read_emore(reader *c, fl_err *err)
+static int read_emore(cdb_reader *c, fl_err *err)
 {
-    if (c->k.nodes == 0) return 0; /* goes on with an element that was passed over */
+    if (c->k.nodes == 0) return 0; /* continues a skipped element */
     while (c->k.nodes % 8) c->k.node[c->k.nodes++] = 0;
     for (int k = 1; k <= 8 && *c->k.word[k]; k++) {
         if (c->k.nodes == FL_CDB_NODES)
             return fl_deck_fail(&c->k.d, err, "more than %d nodes in an element", FL_CDB_NODES);
-        if (number(c, c->k.word[k], &c->k.node[c->k.nodes++]))
+        if (parse_number(c, c->k.word[k], &c->k.node[c->k.nodes++]))
             return fl_deck_fail(&c->k.d, err, "node \"%.40s\" was found, a number is expected", c->k.word[k]);
     }
     return 0;
 }
 
-/* Cut the line at its commas; the words that are missing are empty. */
-static void cut(reader *c)
+/* Split the line at its commas; missing words are empty. */
+static void split_command(cdb_reader *c)
 {
     static char none[1];
     char *p = c->k.d.line, *end = strchr(p, '!');
@@ -209,47 +210,49 @@ static void cut(reader *c)
     while (n < FL_CDB_WORDS) c->k.word[n++] = none;
 }
 
-/* A command, in full or cut behind its fourth letter or later: CDWRITE itself writes KEYOP. */
-static int is(const reader *c, const char *word)
+/* True if the command is `word`, in full or abbreviated to four letters or more: CDWRITE itself writes KEYOP.
+ */
+static int is_command(const cdb_reader *c, const char *word)
 {
     const size_t n = strlen(c->k.word[0]), full = strlen(word);
     return (n == full || (n >= 4 && n < full)) && strncasecmp(c->k.word[0], word, n) == 0;
 }
 
-static int remember(reader *c, int64_t *x, int k)
+static int set_current(cdb_reader *c, int64_t *x, int k)
 {
-    if (number(c, c->k.word[k], x)) c->unread++;
+    if (parse_number(c, c->k.word[k], x)) c->unread++;
     return 0;
 }
 
-static int obey(reader *c, fl_err *err)
+static int run_command(cdb_reader *c, fl_err *err)
 {
     char *equals;
-    if (!is(c, "EMORE") && finish(c, err)) return -1;
-    if (is(c, "NBLOCK")) return fl_cdb_nblock(&c->k, err);
-    if (is(c, "EBLOCK")) return fl_cdb_eblock(&c->k, err);
-    if (is(c, "CMBLOCK")) return fl_cdb_cmblock(&c->k, err);
-    if (is(c, "ETBLOCK")) return fl_cdb_etblock(&c->k, err);
-    if (is(c, "RLBLOCK")) return fl_cdb_rlblock(&c->k, err);
-    if (is(c, "ET")) return read_et(c, err);
-    if (is(c, "KEYOPT")) return read_keyopt(c, err);
-    if (is(c, "R")) return read_r(c, err);
-    if (is(c, "SECTYPE")) return read_sectype(c);
-    if (is(c, "SECDATA")) return read_secdata(c, err);
-    if (is(c, "TYPE")) return remember(c, &c->type, 1);
-    if (is(c, "REAL")) return remember(c, &c->real, 1);
-    if (is(c, "SECNUM")) return remember(c, &c->section, 1);
-    if (is(c, "N")) return read_n(c, err);
-    if (is(c, "E")) return read_e(c, 0, err);
-    if (is(c, "EN")) return read_e(c, 1, err);
-    if (is(c, "EMORE")) return read_emore(c, err);
-    if (is(c, "*SET")) return set_parameter(c, c->k.word[1], c->k.word[2], err);
-    if (is(c, "/INPUT"))
+    if (!is_command(c, "EMORE") && finish_element(c, err)) return -1;
+    if (is_command(c, "NBLOCK")) return fl_cdb_nblock(&c->k, err);
+    if (is_command(c, "EBLOCK")) return fl_cdb_eblock(&c->k, err);
+    if (is_command(c, "CMBLOCK")) return fl_cdb_cmblock(&c->k, err);
+    if (is_command(c, "ETBLOCK")) return fl_cdb_etblock(&c->k, err);
+    if (is_command(c, "RLBLOCK")) return fl_cdb_rlblock(&c->k, err);
+    if (is_command(c, "ET")) return read_et(c, err);
+    if (is_command(c, "KEYOPT")) return read_keyopt(c, err);
+    if (is_command(c, "R")) return read_r(c, err);
+    if (is_command(c, "SECTYPE")) return read_sectype(c);
+    if (is_command(c, "SECDATA")) return read_secdata(c, err);
+    if (is_command(c, "TYPE")) return set_current(c, &c->type, 1);
+    if (is_command(c, "REAL")) return set_current(c, &c->real, 1);
+    if (is_command(c, "SECNUM")) return set_current(c, &c->section, 1);
+    if (is_command(c, "N")) return read_n(c, err);
+    if (is_command(c, "E")) return read_e(c, 0, err);
+    if (is_command(c, "EN")) return read_e(c, 1, err);
+    if (is_command(c, "EMORE")) return read_emore(c, err);
+    if (is_command(c, "*SET")) return set_parameter(c, c->k.word[1], c->k.word[2], err);
+    if (is_command(c, "/INPUT"))
         return fl_deck_fail(&c->k.d, err, "/INPUT is not followed: put \"%.60s\" into the archive",
                             c->k.word[1]);
-    if (is(c, "CSYS") || is(c, "LOCAL")) {
+    if (is_command(c, "CSYS") || is_command(c, "LOCAL")) {
         int64_t k = 1;
-        c->system = number(c, c->k.word[1], &k) || k != 0 ? (int32_t)(k > 0 && k < INT32_MAX ? k : 1) : 0;
+        c->system =
+            parse_number(c, c->k.word[1], &k) || k != 0 ? (int32_t)(k > 0 && k < INT32_MAX ? k : 1) : 0;
     }
     equals = strchr(c->k.word[0], '=');
     if (equals) {
@@ -259,34 +262,33 @@ static int obey(reader *c, fl_err *err)
     return 0;
 }
 
-/* --- all of it ------------------------------------------------------------------------------------------ */
+/* --- the archive ---------------------------------------------------------------------------------------- */
 
-static int read_all(reader *c, fl_err *err)
+static int read_commands(cdb_reader *c, fl_err *err)
 {
     int more;
     while ((more = fl_deck_line(&c->k.d, err)) > 0) {
-        cut(c);
+        split_command(c);
         if (c->k.word[0][0] == '\0') continue;
-        if (obey(c, err)) return -1;
+        if (run_command(c, err)) return -1;
     }
-    return more < 0 || finish(c, err) ? -1 : 0;
+    return more < 0 || finish_element(c, err) ? -1 : 0;
 }
 
-int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
-    reader c = {.type = 1, .real = 1, .section = 1};
+    cdb_reader c = {.type = 1, .real = 1, .section = 1};
     fl_cdb *k = &c.k;
     int rc = -1;
     if (fl_elements_start(&k->e, fl_in_name(b->in), err)) return -1;
     fl_deck_start(&k->d, &k->e, b);
     k->part = fl_string_table_add(&k->e.parts, name, err);
-    if (k->part < 0 || read_all(&c, err) || fl_cdb_section_apply(&k->sections, &k->e, err) ||
-        fl_cdb_component_assign(&k->components, &k->e, fl_import_by_name(w), err))
+    if (k->part < 0 || read_commands(&c, err) || fl_cdb_section_apply(&k->sections, &k->e, err) ||
+        fl_cdb_component_assign(&k->components, &k->e, fl_import_by_name(opt), err))
         goto done;
-    if (k->node_sets) fl_bytes_note(b, "%d components of nodes were passed over", k->node_sets);
-    if (c.unread)
-        fl_bytes_note(b, "%d commands with parameters that are not numbers were passed over", c.unread);
-    rc = fl_elements_surface(&k->e, s, b, w, err);
+    if (k->node_sets) fl_bytes_note(b, "%d components of nodes were skipped", k->node_sets);
+    if (c.unread) fl_bytes_note(b, "%d commands with parameters that are not numbers were skipped", c.unread);
+    rc = fl_elements_surface(&k->e, s, b, opt, err);
 done:
     fl_deck_free(&k->d);
     fl_elements_free(&k->e);

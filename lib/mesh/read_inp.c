@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include "mesh/element_surface.h"
 #include "mesh/inp_assembly.h"
 #include "mesh/inp_elements.h"
 #include "mesh/inp_nodes.h"
@@ -14,7 +15,7 @@ static int is_keyword(const char *p)
     return p[0] == '*' && isalpha((unsigned char)p[1 + strspn(p + 1, " \t")]);
 }
 
-/* Is the keyword at p one that decks begin with? */
+/* True if decks begin with the keyword at p. */
 static int begins_deck(const char *p)
 {
     static const char *const first[] = {"HEADING", "PREPRINT", "NODE",   "ELEMENT",
@@ -30,7 +31,7 @@ static int begins_deck(const char *p)
 int fl_inp_is(const fl_bytes *b)
 {
     const char *p = b->data;
-    int alone = 1; /* nothing but comments so far */
+    int alone = 1; /* only comments so far */
     for (; *p; p += strspn(p, "\r\n")) {
         p += strspn(p, " \t\r\n\f\v");
         if (is_keyword(p)) return alone || begins_deck(p);
@@ -40,14 +41,14 @@ int fl_inp_is(const fl_bytes *b)
     return 0;
 }
 
-static int refuse(fl_inp_model *r, fl_err *err)
+static int reject_keyword(fl_inp_model *r, fl_err *err)
 {
     return fl_deck_fail(&r->line.deck, err,
                         "*%s is not read: export the deck with all nodes and elements written out",
                         r->line.word);
 }
 
-static int ls_dyna(fl_inp_model *r, fl_err *err)
+static int reject_ls_dyna(fl_inp_model *r, fl_err *err)
 {
     return fl_inp_fail(&r->line, err,
                        "a deck of LS-DYNA is not read: export it as Abaqus, Nastran, Ansys or STL", "");
@@ -72,21 +73,21 @@ static const struct {
                {"ASSEMBLY", fl_inp_assembly},
                {"INSTANCE", fl_inp_instance},
                {"ENDINSTANCE", fl_inp_end_instance},
-               {"NCOPY", refuse},
-               {"ELCOPY", refuse},
-               {"NFILL", refuse},
-               {"NMAP", refuse},
-               {"PARAMETER", refuse},
-               {"SYMMETRICMODELGENERATION", refuse},
-               {"IMPORT", refuse},
-               {"KEYWORD", ls_dyna}};
+               {"NCOPY", reject_keyword},
+               {"ELCOPY", reject_keyword},
+               {"NFILL", reject_keyword},
+               {"NMAP", reject_keyword},
+               {"PARAMETER", reject_keyword},
+               {"SYMMETRICMODELGENERATION", reject_keyword},
+               {"IMPORT", reject_keyword},
+               {"KEYWORD", reject_ls_dyna}};
 
 static int read_keywords(fl_inp_model *r, fl_err *err)
 {
     int kind;
     while ((kind = fl_inp_next(&r->line, err)) > 0) {
         size_t k = 0;
-        if (kind == 2) continue; /* data of a keyword that was passed over */
+        if (kind == 2) continue; /* data of an ignored keyword */
         if (fl_inp_split_keyword(&r->line, err)) return -1;
         while (k < sizeof KEYWORD / sizeof *KEYWORD && strcmp(r->line.word, KEYWORD[k].word) != 0) k++;
         if (k < sizeof KEYWORD / sizeof *KEYWORD && KEYWORD[k].read(r, err)) return -1;
@@ -96,7 +97,7 @@ static int read_keywords(fl_inp_model *r, fl_err *err)
     return kind;
 }
 
-int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     fl_inp_model r = {.name = name};
     const char *path = fl_in_name(b->in);
@@ -108,14 +109,14 @@ int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     fl_deck_start(&r.line.deck, &r.e, b);
     if (read_keywords(&r, err) || fl_inp_place_unused_parts(&r, err)) goto done;
     if (r.extra_nodes)
-        fl_bytes_note(b, "%d elements list more nodes than their type has; those behind were passed over",
+        fl_bytes_note(b, "%d elements list more nodes than their type has; those behind were skipped",
                       r.extra_nodes);
-    fl_elements_free(&r.part_defs); /* a large deck is not wanted three times over */
+    fl_elements_free(&r.part_defs); /* saves the memory of two more copies of a large deck */
     free(b->data);
     b->data = NULL;
     b->n = b->cap = 0;
-    if (fl_inp_apply_sections(&r, err) || fl_element_sets_export(&r.sets, &r.e, w, err)) goto done;
-    rc = fl_elements_surface(&r.e, s, b, w, err);
+    if (fl_inp_apply_sections(&r, err) || fl_element_sets_export(&r.sets, &r.e, opt, err)) goto done;
+    rc = fl_elements_surface(&r.e, s, b, opt, err);
 done:
     fl_inp_model_free(&r);
     return rc;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include "base/array.h"
-#include "mesh/bytes.h"
 #include "mesh/rejected_formats.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_bdf.h"
@@ -18,10 +18,10 @@
 #include "mesh/read_vtk.h"
 #include "mesh/read_vtk_xml.h"
 
-enum { NAME = 128 };
+enum { NAME_MAX = 128 };
 
 /* "dir/tower.v2.stl" is called "tower.v2"; so is "tower.v2.stl.gz". */
-static void base_name(const char *path, char name[NAME])
+static void base_name(const char *path, char name[NAME_MAX])
 {
     const char *slash = strrchr(path, '/'), *start = slash ? slash + 1 : path;
     size_t len = strlen(start);
@@ -35,84 +35,80 @@ static void base_name(const char *path, char name[NAME])
             len = k;
             break;
         }
-    if (len > NAME - 1) len = NAME - 1;
+    if (len > NAME_MAX - 1) len = NAME_MAX - 1;
     memcpy(name, start, len);
     name[len] = '\0';
 }
 
-/* Hand the bytes on as the text they are: what is read so far, and the stream behind it. */
-static int read_own(fl_surface *s, fl_bytes *b, fl_err *err)
-{
-    fl_text text = {.in = b->in, .chunk = b->data, .chunk_len = b->n};
-    b->in = NULL;
-    b->data = NULL;
-    return fl_gstruct_read_text(s, &text, err);
-}
+/* Order of trust: a format whose files cannot be mistaken for another comes first. */
+const fl_mesh_format FL_MESH_FORMATS[] = {
+    {"Gmsh", "Gmsh", fl_msh_is, fl_msh_read, 0, 1},
+    /* arrays of an XML file lie anywhere behind the tags, and several may share the same bytes */
+    {"VTK", "VTK", fl_vtk_xml_is, fl_vtk_xml_read, 1, 1},
+    {"VTK", "VTK", fl_vtk_is, fl_vtk_read, 0, 1},
+    {"ANSYS", "ANSYS archive", fl_cdb_is, fl_cdb_read, 0, 1},
+    {"Abaqus", "Abaqus, CalculiX", fl_inp_is, fl_inp_read, 0, 1},
+    {"STL", "STL", fl_stl_is, fl_stl_read, 0, 0},
+    {"PLY", "PLY", fl_ply_is, fl_ply_read, 0, 0},
+    {"g_struct", "g_struct", fl_gstruct_is, fl_gstruct_read_bytes, 0, 0},
+    {"OFF", "OFF", fl_off_is, fl_off_read, 0, 0},
+    {"OBJ", "OBJ", fl_obj_is, fl_obj_read, 0, 0},
+    /* a Nastran deck has no first word of its own */
+    {"Nastran", "Nastran", fl_bdf_is, fl_bdf_read, 0, 1},
+    {0},
+};
 
-static int starts_with(const fl_bytes *b, const char *word)
-{
-    const char *p = b->data + strspn(b->data, " \t\r\n");
-    return strncasecmp(p, word, strlen(word)) == 0;
-}
-
-/* Drop the parts that nobody wishes for. */
-static int choose(fl_surface *s, fl_import_options *w, fl_err *err)
+/* Remove the parts that the options do not select. */
+static int select_parts(fl_surface *s, fl_import_options *opt, fl_err *err)
 {
     int32_t kept = 0;
     int failed = 0;
     for (int32_t i = 0; i < s->n; i++) {
-        const int takes = failed ? 0 : fl_import_selects(w, s->part[i].name, err);
-        failed |= takes < 0;
-        if (takes > 0) s->part[kept++] = s->part[i];
+        const int selected = failed ? 0 : fl_import_selects(opt, s->part[i].name, err);
+        failed |= selected < 0;
+        if (selected > 0) s->part[kept++] = s->part[i];
         else fl_part_free(&s->part[i]);
     }
     s->n = kept;
     return failed ? -1 : 0;
 }
 
-/* A mesh of triangles and polygons: chosen from once it is read. */
-static int read_faces(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+/* True if an earlier row of the table has the name of row k. */
+static int is_listed(int k)
 {
-    const int zero = memchr(b->data, '\0', (size_t)b->n) != NULL;
+    for (int j = 0; j < k; j++)
+        if (strcmp(FL_MESH_FORMATS[j].name, FL_MESH_FORMATS[k].name) == 0) return 1;
+    return 0;
+}
+
+/* Fail with the reason why no reader accepts the file. */
+static int refuse_file(const fl_bytes *b, fl_err *err)
+{
+    char list[200] = "";
+    size_t n = 0;
     if (b->n == 0) return fl_bytes_fail(b, err, "empty, a mesh is expected");
-    if (fl_stl_is_binary(b)) return fl_stl_read_binary(s, b, name, err);
-    if (fl_ply_is(b)) return fl_ply_read(s, b, name, err);
-    if (starts_with(b, "#g_struct")) return read_own(s, b, err);
-    if (!starts_with(b, "solid") && fl_rejected_format(b))
-        return fl_bytes_fail(b, err, "%s", fl_rejected_format(b));
-    if (zero)
+    if (fl_rejected_format(b)) return fl_bytes_fail(b, err, "%s", fl_rejected_format(b));
+    if (!fl_bytes_is_text(b))
         return fl_bytes_fail(
             b, err,
-            "%d bytes of binary data%s: not a whole binary STL (84 + 50 n bytes), and no other "
-            "kind that is known",
+            "%d bytes of binary data%s: not a whole binary STL (84 + 50 n bytes), and no other known format",
             b->n, b->ended ? "" : " and more");
-    if (starts_with(b, "solid")) return fl_stl_read_ascii(s, b, name, err);
-    if (fl_off_is(b)) return fl_off_read(s, b, name, err);
-    if (fl_obj_is(b)) return fl_obj_read(s, b, name, err);
-    return fl_bytes_fail(
-        b, err, "neither STL, OBJ, OFF, PLY, VTK, g_struct, nor a mesh of Abaqus, ANSYS, Gmsh or Nastran");
+    for (int k = 0; FL_MESH_FORMATS[k].name; k++)
+        if (!is_listed(k) && n < sizeof list)
+            n += (size_t)snprintf(list + n, sizeof list - n, "%s%s", n ? ", " : "", FL_MESH_FORMATS[k].name);
+    return fl_bytes_fail(b, err, "unknown format, expected a mesh in one of %s", list);
 }
 
-/* Is it a mesh of those above?  Decks of Nastran have no first word of their own and are looked for last. */
-static int is_faces(const fl_bytes *b)
+static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
-    return memchr(b->data, '\0', (size_t)b->n) || fl_stl_is_binary(b) || starts_with(b, "#g_struct") ||
-           starts_with(b, "solid") || fl_off_is(b) || fl_obj_is(b);
+    const fl_mesh_format *f = FL_MESH_FORMATS;
+    while (f->name && !f->is(b)) f++;
+    if (!f->name) return refuse_file(b, err);
+    if ((f->needs_all && fl_bytes_read_all(b, err)) || f->read(s, b, name, opt, err)) return -1;
+    return f->selects ? 0 : select_parts(s, opt, err);
 }
 
-static int read_any(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
-{
-    if (fl_msh_is(b)) return fl_msh_read(s, b, name, w, err);
-    /* arrays of an XML file may lie anywhere behind the tags, and several times in the same place */
-    if (fl_vtk_xml_is(b)) return fl_bytes_read_all(b, err) ? -1 : fl_vtk_xml_read(s, b, name, w, err);
-    if (fl_vtk_is(b)) return fl_vtk_read(s, b, name, w, err);
-    if (fl_cdb_is(b)) return fl_cdb_read(s, b, name, w, err);
-    if (fl_inp_is(b)) return fl_inp_read(s, b, name, w, err);
-    if (!is_faces(b) && fl_bdf_is(b)) return fl_bdf_read(s, b, w, err);
-    return read_faces(s, b, name, err) || choose(s, w, err) ? -1 : 0;
-}
-
-static void drop_empty(fl_surface *s, fl_bytes *b)
+static void drop_empty_parts(fl_surface *s, fl_bytes *b)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < s->n; i++) {
@@ -127,9 +123,9 @@ static void drop_empty(fl_surface *s, fl_bytes *b)
 }
 
 /* Move the parts of one surface to the end of another. */
-static int append(fl_surface *to, fl_surface *from, fl_err *err)
+static int append_surface(fl_surface *to, fl_surface *from, fl_err *err)
 {
-    const int32_t had = to->n;
+    const int32_t first = to->n;
     const size_t old = to->history ? strlen(to->history) : 0,
                  more = from->history ? strlen(from->history) : 0;
     char *history = NULL;
@@ -140,15 +136,15 @@ static int append(fl_surface *to, fl_surface *from, fl_err *err)
     for (int32_t i = 0; i < from->n; i++) {
         const int32_t k = fl_surface_add(to, from->part[i].name, strlen(from->part[i].name), err);
         if (k >= 0) {
-            if (had == 0) to->part[k].id = from->part[i].id; /* the first file keeps its numbers */
+            if (first == 0) to->part[k].id = from->part[i].id; /* the first file keeps the ids of its parts */
             continue;
         }
-        while (to->n > had) fl_part_free(&to->part[--to->n]);
+        while (to->n > first) fl_part_free(&to->part[--to->n]);
         free(history);
         return -1;
     }
     for (int32_t i = 0; i < from->n; i++) {
-        fl_part *p = &to->part[had + i], *q = &from->part[i];
+        fl_part *p = &to->part[first + i], *q = &from->part[i];
         char *name = p->name;
         const int32_t id = p->id;
         free(q->name);
@@ -166,22 +162,22 @@ static int append(fl_surface *to, fl_surface *from, fl_err *err)
     return 0;
 }
 
-int fl_mesh_read(fl_surface *s, const char *path, fl_import_options *w, char *note, fl_err *err)
+int fl_mesh_read(fl_surface *s, const char *path, fl_import_options *opt, char *note, fl_err *err)
 {
     fl_bytes b = {0};
     fl_surface got = {0};
-    char name[NAME];
+    char name[NAME_MAX];
     int rc = -1;
     note[0] = '\0';
     base_name(path, name);
-    if (fl_bytes_open(&b, path, err) || read_any(&got, &b, name, w, err)) goto done;
-    drop_empty(&got, &b);
+    if (fl_bytes_open(&b, path, err) || read_any(&got, &b, name, opt, err)) goto done;
+    drop_empty_parts(&got, &b);
     memcpy(note, b.note, FL_MESH_NOTE);
-    if (got.n == 0 && !fl_import_by_name(w)) {
+    if (got.n == 0 && !fl_import_by_name(opt)) {
         fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);
         goto done;
     }
-    if (append(s, &got, err)) goto done;
+    if (append_surface(s, &got, err)) goto done;
     rc = 0;
 done:
     fl_surface_free(&got);

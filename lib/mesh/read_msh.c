@@ -6,13 +6,13 @@
 #include "base/array.h"
 #include "base/number_text.h"
 #include "mesh/deck_lines.h"
-#include "mesh/elements.h"
+#include "mesh/element_surface.h"
 #include "mesh/read_msh.h"
 
 enum { NODES = 125, TYPES = 94, DIMS = 4 };
 
-/* What an element type of Gmsh is: its dimension, its nodes, what is made of it, and where the nodes of that
- * stand among its own; NULL where they come first. */
+/* Element types of Gmsh: dimension, shape, number of nodes, and the order of the nodes of that shape; NULL if
+ * they are the first ones in order. */
 static const struct {
     int8_t dim, shape;
     uint8_t nodes;
@@ -59,43 +59,44 @@ static const struct {
 #undef AT
 };
 
-/* A physical group of something, and the place of the next one plus one. */
+/* An entry of a list of physical groups, and the index of the next entry plus one. */
 typedef struct {
     int32_t group, next;
-} member;
+} group_entry;
 
 typedef struct {
     fl_bytes *b;
     fl_elements e;
-    int version, binary, swap, wide; /* wide: bytes of a size */
+    int version, binary, swap, wide; /* wide: bytes of a size_t */
     fl_id_map group;                 /* (dimension, physical tag) */
-    int32_t *name;                   /* [group.n] of names, -1 for none */
+    int32_t *name;                   /* [group.n] index in names, -1 for none */
     fl_string_table names;
     fl_id_map entity; /* (dimension, tag) */
-    int32_t *member;  /* [entity.n] the first of its groups, as a place plus one */
-    int32_t *single;  /* [group.n] the group alone, as a place plus one; 0 until it is needed */
-    member *in;       /* [members] */
-    int32_t *of;      /* [e.number.n] the first of the groups of an element; 0 for none */
+    int32_t *member;  /* [entity.n] index of its first group entry, plus one */
+    int32_t *single;  /* [group.n] list of this group alone, as an index plus one; 0 until needed */
+    group_entry *in;  /* [members] */
+    int32_t *of;      /* [e.element_id.n] list of the groups of an element; 0 for none */
     int64_t *tag;     /* of the nodes of a block */
     int32_t members, coarse;
     int32_t name_cap, member_cap, single_cap, in_cap, of_cap, tag_cap;
-} msh;
+} msh_reader;
 
-static const char *first_mark(const fl_bytes *b) { return b->data + strspn(b->data, " \t\r\n"); }
+static const char *skip_space(const fl_bytes *b) { return b->data + strspn(b->data, " \t\r\n"); }
 
 int fl_msh_is(const fl_bytes *b)
 {
     static const char *const section[] = {"$MeshFormat", "$Comments", "$NOD", "$PhysicalNames"};
     for (size_t k = 0; k < sizeof section / sizeof section[0]; k++)
-        if (strncmp(first_mark(b), section[k], strlen(section[k])) == 0) return 1;
+        if (strncmp(skip_space(b), section[k], strlen(section[k])) == 0) return 1;
     return 0;
 }
 
-/* --- numbers of either kind ----------------------------------------------------------------------------- */
+/* --- numbers, ASCII or binary --------------------------------------------------------------------------- */
 
-static int bad(const msh *m, fl_err *err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+static int fail_at_position(const msh_reader *m, fl_err *err, const char *fmt, ...)
+    __attribute__((format(printf, 3, 4)));
 
-static int bad(const msh *m, fl_err *err, const char *fmt, ...)
+static int fail_at_position(const msh_reader *m, fl_err *err, const char *fmt, ...)
 {
     char what[300];
     va_list ap;
@@ -106,8 +107,8 @@ static int bad(const msh *m, fl_err *err, const char *fmt, ...)
     return fl_bytes_fail(m->b, err, "byte %lld: %s", (long long)fl_bytes_offset(m->b), what);
 }
 
-/* The number of n bytes at p, the byte order being that of the file. */
-static uint64_t number_at(const msh *m, const unsigned char *p, int n)
+/* The number of n bytes at p, in the byte order of the file. */
+static uint64_t number_at(const msh_reader *m, const unsigned char *p, int n)
 {
     uint64_t eight = 0;
     uint32_t four = 0;
@@ -119,74 +120,81 @@ static uint64_t number_at(const msh *m, const unsigned char *p, int n)
     return m->swap ? __builtin_bswap32(four) : four;
 }
 
-static int cut_off(const msh *m, int more, fl_err *err)
+static int check_read(const msh_reader *m, int more, fl_err *err)
 {
-    return more > 0 ? 0 : more < 0 ? -1 : bad(m, err, "the file ends inside the data");
+    return more > 0 ? 0 : more < 0 ? -1 : fail_at_position(m, err, "the file ends inside the data");
 }
 
-static int raw(msh *m, int n, uint64_t *bits, fl_err *err)
+static int read_bits(msh_reader *m, int n, uint64_t *bits, fl_err *err)
 {
     const unsigned char *p = NULL;
-    if (cut_off(m, fl_bytes_read(m->b, n, &p, err), err)) return -1;
+    if (check_read(m, fl_bytes_read(m->b, n, &p, err), err)) return -1;
     *bits = number_at(m, p, n);
     return 0;
 }
 
-static int word(msh *m, const char *what, const char **w, fl_err *err)
+static int read_word(msh_reader *m, const char *what, const char **w, fl_err *err)
 {
     const int more = fl_bytes_word(m->b, w, err);
     if (more < 0) return -1;
-    return more ? 0 : bad(m, err, "the file ends where %s is expected", what);
+    return more ? 0 : fail_at_position(m, err, "the file ends where %s is expected", what);
 }
 
-/* A whole number: an int, or with size a size_t. */
-static int whole(msh *m, int size, const char *what, int64_t *x, fl_err *err)
+/* Read an integer: an int, or with size set a size_t. */
+static int read_integer(msh_reader *m, int size, const char *what, int64_t *x, fl_err *err)
 {
     const char *w = "";
     uint64_t bits = 0;
     if (m->binary) {
         const int n = size ? m->wide : 4;
-        if (raw(m, n, &bits, err)) return -1;
+        if (read_bits(m, n, &bits, err)) return -1;
         if (n == 4 && !size) *x = (int32_t)(uint32_t)bits;
-        else if (bits > INT64_MAX) return bad(m, err, "%s is %llu", what, (unsigned long long)bits);
+        else if (bits > INT64_MAX)
+            return fail_at_position(m, err, "%s is %llu", what, (unsigned long long)bits);
         else *x = (int64_t)bits;
         return 0;
     }
-    if (word(m, what, &w, err)) return -1;
+    if (read_word(m, what, &w, err)) return -1;
     if (fl_deck_integer(w, x) == 0) return 0;
-    return bad(m, err, "%s is \"%.40s\", a whole number is expected", what, w);
+    return fail_at_position(m, err, "%s is \"%.40s\", a whole number is expected", what, w);
 }
 
-static int an_int(msh *m, const char *what, int64_t *x, fl_err *err) { return whole(m, 0, what, x, err); }
-static int a_size(msh *m, const char *what, int64_t *x, fl_err *err) { return whole(m, 1, what, x, err); }
+static int read_int(msh_reader *m, const char *what, int64_t *x, fl_err *err)
+{
+    return read_integer(m, 0, what, x, err);
+}
+static int read_size(msh_reader *m, const char *what, int64_t *x, fl_err *err)
+{
+    return read_integer(m, 1, what, x, err);
+}
 
-static int real(msh *m, const char *what, double *x, fl_err *err)
+static int read_real(msh_reader *m, const char *what, double *x, fl_err *err)
 {
     uint64_t bits = 0;
     if (!m->binary) return fl_bytes_f64(m->b, what, x, err);
-    if (raw(m, 8, &bits, err)) return -1;
+    if (read_bits(m, 8, &bits, err)) return -1;
     memcpy(x, &bits, sizeof *x);
     return 0;
 }
 
-/* n numbers that nobody needs. */
-static int pass_over(msh *m, int is_real, int64_t n, fl_err *err)
+/* Skip n numbers. */
+static int skip_numbers(msh_reader *m, int is_real, int64_t n, fl_err *err)
 {
     int64_t i;
     const char *w = "";
     if (m->binary) {
         const int size = is_real ? 8 : 4;
-        if (n < 0 || n > INT64_MAX / size) return bad(m, err, "the file ends inside the data");
-        return cut_off(m, fl_bytes_skip(m->b, n * size, err), err);
+        if (n < 0 || n > INT64_MAX / size) return fail_at_position(m, err, "the file ends inside the data");
+        return check_read(m, fl_bytes_skip(m->b, n * size, err), err);
     }
     for (i = 0; i < n; i++)
-        if (word(m, "a number", &w, err)) return -1;
+        if (read_word(m, "a number", &w, err)) return -1;
     return 0;
 }
 
 /* --- groups --------------------------------------------------------------------------------------------- */
 
-static int32_t group_of(msh *m, int dim, int64_t tag, fl_err *err)
+static int32_t group_index(msh_reader *m, int dim, int64_t tag, fl_err *err)
 {
     const int32_t had = m->group.n, k = fl_id_map_add(&m->group, dim, tag, err);
     if (k < 0 || fl_grow(&m->name, &m->name_cap, m->group.n, sizeof *m->name, err) ||
@@ -197,8 +205,8 @@ static int32_t group_of(msh *m, int dim, int64_t tag, fl_err *err)
     return k;
 }
 
-/* Add a group to the end of a list, which begins at *first, unless it is there. */
-static int join(msh *m, int32_t *first, int32_t group, fl_err *err)
+/* Append a group to the list that begins at *first, unless it is in it. */
+static int append_group(msh_reader *m, int32_t *first, int32_t group, fl_err *err)
 {
     int32_t last = 0;
     if (fl_grow(&m->in, &m->in_cap, (int64_t)m->members + 1, sizeof *m->in, err)) return -1;
@@ -206,20 +214,20 @@ static int join(msh *m, int32_t *first, int32_t group, fl_err *err)
         if (m->in[k - 1].group == group) return 0;
         last = k;
     }
-    m->in[m->members++] = (member){group, 0};
+    m->in[m->members++] = (group_entry){group, 0};
     if (last) m->in[last - 1].next = m->members;
     else *first = m->members;
     return 0;
 }
 
-/* Rows: dimension tag "name", as text in a binary file too. */
-static int read_names(msh *m, fl_err *err)
+/* Rows: dimension tag "name", in a binary file too. */
+static int read_names(msh_reader *m, fl_err *err)
 {
     int64_t n = 0;
     const char *w = "";
-    if (word(m, "the number of names", &w, err)) return -1;
+    if (read_word(m, "the number of names", &w, err)) return -1;
     if (fl_deck_integer(w, &n) || n < 0)
-        return bad(m, err, "\"%.40s\" names were found, a whole number is expected", w);
+        return fail_at_position(m, err, "\"%.40s\" names were found, a whole number is expected", w);
     for (int64_t i = 0; i < n; i++) {
         char *p, *end;
         long dim, tag;
@@ -227,7 +235,7 @@ static int read_names(msh *m, fl_err *err)
         do {
             const int more = fl_bytes_line(m->b, &p, &len, err);
             if (more < 0) return -1;
-            if (more == 0) return bad(m, err, "the file ends after %lld names", (long long)i);
+            if (more == 0) return fail_at_position(m, err, "the file ends after %lld names", (long long)i);
             p = fl_deck_trim(p);
         } while (*p == '\0');
         dim = strtol(p, &end, 10);
@@ -237,56 +245,58 @@ static int read_names(msh *m, fl_err *err)
         p = fl_deck_trim(p);
         if (*p++ != '"' || !(end = strrchr(p, '"'))) goto wrong;
         *end = '\0';
-        k = group_of(m, (int)dim, tag, err);
+        k = group_index(m, (int)dim, tag, err);
         if (k < 0) return -1;
         m->name[k] = *p ? fl_string_table_add(&m->names, p, err) : -1;
         if (*p && m->name[k] < 0) return -1;
         continue;
 wrong:
-        return bad(m, err, "a physical name of \"%.40s\" was found, DIMENSION TAG \"NAME\" is expected", p);
+        return fail_at_position(
+            m, err, "a physical name of \"%.40s\" was found, DIMENSION TAG \"NAME\" is expected", p);
     }
     return 0;
 }
 
-static int add_member(msh *m, int dim, int64_t tag, int64_t physical, fl_err *err)
+static int add_member(msh_reader *m, int dim, int64_t tag, int64_t physical, fl_err *err)
 {
     const int32_t had = m->entity.n, k = fl_id_map_add(&m->entity, dim, tag, err);
-    /* an orientation may be given by the sign */
-    const int32_t g = group_of(m, dim, physical < 0 ? -physical : physical, err);
+    /* the sign may give the orientation */
+    const int32_t g = group_index(m, dim, physical < 0 ? -physical : physical, err);
     if (k < 0 || g < 0 || fl_grow(&m->member, &m->member_cap, m->entity.n, sizeof *m->member, err)) return -1;
     if (k >= had) m->member[k] = 0;
-    return join(m, &m->member[k], g, err);
+    return append_group(m, &m->member[k], g, err);
 }
 
-/* One point, curve, surface or volume. */
-static int read_entity(msh *m, int dim, int partitioned, fl_err *err)
+/* Read one point, curve, surface or volume. */
+static int read_entity(msh_reader *m, int dim, int partitioned, fl_err *err)
 {
     int64_t tag, n, x;
-    if (an_int(m, "the tag of an entity", &tag, err)) return -1;
+    if (read_int(m, "the tag of an entity", &tag, err)) return -1;
     if (partitioned) {
-        if (pass_over(m, 0, 2, err) || a_size(m, "the number of partitions", &n, err) ||
-            pass_over(m, 0, n, err))
+        if (skip_numbers(m, 0, 2, err) || read_size(m, "the number of partitions", &n, err) ||
+            skip_numbers(m, 0, n, err))
             return -1;
     }
-    if (pass_over(m, 1, dim ? 6 : 3, err) || a_size(m, "the number of physical tags", &n, err)) return -1;
+    if (skip_numbers(m, 1, dim ? 6 : 3, err) || read_size(m, "the number of physical tags", &n, err))
+        return -1;
     for (int64_t i = 0; i < n; i++)
-        if (an_int(m, "a physical tag", &x, err) || add_member(m, dim, tag, x, err)) return -1;
+        if (read_int(m, "a physical tag", &x, err) || add_member(m, dim, tag, x, err)) return -1;
     if (dim == 0) return 0;
-    if (a_size(m, "the number of bounding entities", &n, err)) return -1;
-    return pass_over(m, 0, n, err);
+    if (read_size(m, "the number of bounding entities", &n, err)) return -1;
+    return skip_numbers(m, 0, n, err);
 }
 
-static int read_entities(msh *m, int partitioned, fl_err *err)
+static int read_entities(msh_reader *m, int partitioned, fl_err *err)
 {
     int64_t n[DIMS], x;
-    if (m->version != 4) return bad(m, err, "$Entities belongs to version 4.1");
+    if (m->version != 4) return fail_at_position(m, err, "$Entities belongs to version 4.1");
     if (partitioned) {
-        if (a_size(m, "the number of partitions", &x, err) || a_size(m, "the number of ghosts", &x, err) ||
-            x > INT32_MAX || pass_over(m, 0, 2 * x, err))
-            return err->code ? -1 : bad(m, err, "%lld ghosts", (long long)x);
+        if (read_size(m, "the number of partitions", &x, err) ||
+            read_size(m, "the number of ghosts", &x, err) || x > INT32_MAX || skip_numbers(m, 0, 2 * x, err))
+            return err->code ? -1 : fail_at_position(m, err, "%lld ghosts", (long long)x);
     }
     for (int d = 0; d < DIMS; d++)
-        if (a_size(m, "the number of entities", &n[d], err)) return -1;
+        if (read_size(m, "the number of entities", &n[d], err)) return -1;
     for (int d = 0; d < DIMS; d++)
         for (int64_t i = 0; i < n[d]; i++)
             if (read_entity(m, d, partitioned, err)) return -1;
@@ -295,62 +305,67 @@ static int read_entities(msh *m, int partitioned, fl_err *err)
 
 /* --- nodes and elements --------------------------------------------------------------------------------- */
 
-static int read_node(msh *m, int64_t tag, fl_err *err)
+static int read_node(msh_reader *m, int64_t tag, fl_err *err)
 {
     fl_vec3 x;
-    if (real(m, "x", &x.x, err) || real(m, "y", &x.y, err) || real(m, "z", &x.z, err)) return -1;
-    if (tag < 1) return bad(m, err, "node %lld was found, a tag of 1 or more is expected", (long long)tag);
+    if (read_real(m, "x", &x.x, err) || read_real(m, "y", &x.y, err) || read_real(m, "z", &x.z, err))
+        return -1;
+    if (tag < 1)
+        return fail_at_position(m, err, "node %lld was found, a tag of 1 or more is expected",
+                                (long long)tag);
     if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
-        return bad(m, err, "node %lld is at %g %g %g, finite coordinates are expected", (long long)tag, x.x,
-                   x.y, x.z);
+        return fail_at_position(m, err, "node %lld is at %g %g %g, finite coordinates are expected",
+                                (long long)tag, x.x, x.y, x.z);
     return fl_elements_add_node(&m->e, 0, tag, x, err) < 0 ? -1 : 0;
 }
 
-/* All tags of a block of an entity, then all coordinates, with one more for each dimension when parametric.
- */
-static int read_node_block(msh *m, fl_err *err)
+/* A block of nodes of an entity: all tags, then all coordinates, followed by one parameter for each dimension
+ * if parametric. */
+static int read_node_block(msh_reader *m, fl_err *err)
 {
     int64_t dim, tag, parametric, n;
-    if (an_int(m, "a dimension", &dim, err) || an_int(m, "an entity", &tag, err) ||
-        an_int(m, "0 or 1", &parametric, err) || a_size(m, "the number of nodes", &n, err))
+    if (read_int(m, "a dimension", &dim, err) || read_int(m, "an entity", &tag, err) ||
+        read_int(m, "0 or 1", &parametric, err) || read_size(m, "the number of nodes", &n, err))
         return -1;
     if (dim < 0 || dim >= DIMS || parametric < 0 || parametric > 1)
-        return bad(m, err, "a block of dimension %lld, parametric %lld was found", (long long)dim,
-                   (long long)parametric);
+        return fail_at_position(m, err, "a block of dimension %lld, parametric %lld was found",
+                                (long long)dim, (long long)parametric);
     for (int64_t i = 0; i < n; i++)
         if (fl_grow(&m->tag, &m->tag_cap, i + 1, sizeof *m->tag, err) ||
-            a_size(m, "the tag of a node", &m->tag[i], err))
+            read_size(m, "the tag of a node", &m->tag[i], err))
             return -1;
     for (int64_t i = 0; i < n; i++)
-        if (read_node(m, m->tag[i], err) || pass_over(m, 1, parametric * dim, err)) return -1;
+        if (read_node(m, m->tag[i], err) || skip_numbers(m, 1, parametric * dim, err)) return -1;
     return 0;
 }
 
-static int read_nodes(msh *m, fl_err *err)
+static int read_nodes(msh_reader *m, fl_err *err)
 {
     int64_t blocks, n, x, tag;
     if (m->version == 4) {
-        if (a_size(m, "the number of blocks", &blocks, err) || a_size(m, "the number of nodes", &n, err) ||
-            a_size(m, "the lowest tag", &x, err) || a_size(m, "the highest tag", &x, err))
+        if (read_size(m, "the number of blocks", &blocks, err) ||
+            read_size(m, "the number of nodes", &n, err) || read_size(m, "the lowest tag", &x, err) ||
+            read_size(m, "the highest tag", &x, err))
             return -1;
         for (int64_t i = 0; i < blocks; i++)
             if (read_node_block(m, err)) return -1;
         return 0;
     }
     for (int64_t i = 0; i < m->tag[0]; i++)
-        if (an_int(m, "the number of a node", &tag, err) || read_node(m, tag, err)) return -1;
+        if (read_int(m, "the number of a node", &tag, err) || read_node(m, tag, err)) return -1;
     return 0;
 }
 
-static int known(const msh *m, int64_t type, fl_err *err)
+static int check_type(const msh_reader *m, int64_t type, fl_err *err)
 {
     if (type > 0 && type < TYPES && TYPE[type].nodes) return 0;
-    return bad(m, err, "element type %lld is not known: save the mesh with order 1 or 2", (long long)type);
+    return fail_at_position(m, err, "element type %lld is not known: save the mesh with order 1 or 2",
+                            (long long)type);
 }
 
-/* In version 2 an element in several groups comes once for each, one after the other, and each time by
- * another number: is it the one before? */
-static int again(const msh *m, int type, const int64_t *node)
+/* True if the element repeats the last one.  In version 2 an element in several groups is listed once for
+ * each, consecutively, each time with another number. */
+static int repeats_last(const msh_reader *m, int type, const int64_t *node)
 {
     const int32_t k = m->e.element_id.n - 1;
     const int n = fl_shape_nodes((enum fl_shape)TYPE[type].shape);
@@ -360,33 +375,33 @@ static int again(const msh *m, int type, const int64_t *node)
     return 1;
 }
 
-/* The last element is in the groups of another list too. */
-static int also(msh *m, int32_t of, fl_err *err)
+/* Add the groups of another list to those of the last element. */
+static int add_groups(msh_reader *m, int32_t of, fl_err *err)
 {
     int32_t *mine = &m->of[m->e.element_id.n - 1], copy = 0;
     for (int pass = 0; pass < 2; pass++)
         for (int32_t k = pass ? of : *mine; k; k = m->in[k - 1].next)
-            if (join(m, &copy, m->in[k - 1].group, err)) return -1;
+            if (append_group(m, &copy, m->in[k - 1].group, err)) return -1;
     *mine = copy;
     return 0;
 }
 
-/* The nodes of an element, and the element; of is the list of its groups. */
-static int read_element(msh *m, int type, int64_t id, int32_t of, fl_err *err)
+/* Read the nodes of an element and add it; `of` is the list of its groups. */
+static int read_element(msh_reader *m, int type, int64_t id, int32_t of, fl_err *err)
 {
     int64_t node[NODES], mine[20];
     int32_t k;
     for (int i = 0; i < TYPE[type].nodes; i++)
-        if (m->version == 4 ? a_size(m, "a node", &node[i], err) : an_int(m, "a node", &node[i], err))
+        if (m->version == 4 ? read_size(m, "a node", &node[i], err) : read_int(m, "a node", &node[i], err))
             return -1;
     if (type == 15) return fl_elements_skip(&m->e, "point", err);
     for (int i = 0; i < fl_shape_nodes((enum fl_shape)TYPE[type].shape); i++) {
         mine[i] = node[TYPE[type].at ? TYPE[type].at[i] : i];
         if (mine[i] < 1)
-            return bad(m, err, "element %lld has node %lld, a tag of 1 or more is expected", (long long)id,
-                       (long long)mine[i]);
+            return fail_at_position(m, err, "element %lld has node %lld, a tag of 1 or more is expected",
+                                    (long long)id, (long long)mine[i]);
     }
-    if (again(m, type, mine)) return also(m, of, err);
+    if (repeats_last(m, type, mine)) return add_groups(m, of, err);
     m->coarse += type >= 20;
     m->e.line = m->b->line;
     k = fl_elements_add(&m->e, 0, -1, (enum fl_shape)TYPE[type].shape, 0, mine, err);
@@ -395,48 +410,51 @@ static int read_element(msh *m, int type, int64_t id, int32_t of, fl_err *err)
     return 0;
 }
 
-static int read_element_block(msh *m, fl_err *err)
+static int read_element_block(msh_reader *m, fl_err *err)
 {
     int64_t dim, tag, type, n, id;
     int32_t entity, of = 0;
-    if (an_int(m, "a dimension", &dim, err) || an_int(m, "an entity", &tag, err) ||
-        an_int(m, "an element type", &type, err) || a_size(m, "the number of elements", &n, err) ||
-        known(m, type, err))
+    if (read_int(m, "a dimension", &dim, err) || read_int(m, "an entity", &tag, err) ||
+        read_int(m, "an element type", &type, err) || read_size(m, "the number of elements", &n, err) ||
+        check_type(m, type, err))
         return -1;
     if (dim != TYPE[type].dim)
-        return bad(m, err, "elements of type %lld are in an entity of dimension %lld", (long long)type,
-                   (long long)dim);
+        return fail_at_position(m, err, "elements of type %lld are in an entity of dimension %lld",
+                                (long long)type, (long long)dim);
     entity = fl_id_map_find(&m->entity, (int32_t)dim, tag);
     if (entity >= 0) of = m->member[entity];
     for (int64_t i = 0; i < n; i++)
-        if (a_size(m, "the tag of an element", &id, err) || read_element(m, (int)type, id, of, err))
+        if (read_size(m, "the tag of an element", &id, err) || read_element(m, (int)type, id, of, err))
             return -1;
     return 0;
 }
 
 /* Version 2: number, then tags of which the first is the physical group, then nodes. */
-static int read_tagged(msh *m, int64_t type, int64_t tags, int64_t id, fl_err *err)
+static int read_tagged(msh_reader *m, int64_t type, int64_t tags, int64_t id, fl_err *err)
 {
     int64_t physical = 0;
     int32_t group, none = 0, *of = &none;
-    if (tags < 0 || (tags > 0 && an_int(m, "a physical tag", &physical, err)) ||
-        pass_over(m, 0, tags - (tags > 0), err))
-        return err->code ? -1 : bad(m, err, "element %lld has %lld tags", (long long)id, (long long)tags);
+    if (tags < 0 || (tags > 0 && read_int(m, "a physical tag", &physical, err)) ||
+        skip_numbers(m, 0, tags - (tags > 0), err))
+        return err->code
+                   ? -1
+                   : fail_at_position(m, err, "element %lld has %lld tags", (long long)id, (long long)tags);
     if (physical) {
-        group = group_of(m, TYPE[type].dim, physical < 0 ? -physical : physical, err);
+        group = group_index(m, TYPE[type].dim, physical < 0 ? -physical : physical, err);
         if (group < 0) return -1;
         of = &m->single[group];
-        if (*of == 0 && join(m, of, group, err)) return -1;
+        if (*of == 0 && append_group(m, of, group, err)) return -1;
     }
     return read_element(m, (int)type, id, *of, err);
 }
 
-static int read_elements(msh *m, fl_err *err)
+static int read_elements(msh_reader *m, fl_err *err)
 {
     int64_t blocks, n, x, id, type, tags;
     if (m->version == 4) {
-        if (a_size(m, "the number of blocks", &blocks, err) || a_size(m, "the number of elements", &n, err) ||
-            a_size(m, "the lowest tag", &x, err) || a_size(m, "the highest tag", &x, err))
+        if (read_size(m, "the number of blocks", &blocks, err) ||
+            read_size(m, "the number of elements", &n, err) || read_size(m, "the lowest tag", &x, err) ||
+            read_size(m, "the highest tag", &x, err))
             return -1;
         for (int64_t i = 0; i < blocks; i++)
             if (read_element_block(m, err)) return -1;
@@ -444,123 +462,127 @@ static int read_elements(msh *m, fl_err *err)
     }
     for (int64_t i = 0; i < m->tag[0];) {
         if (!m->binary) {
-            if (an_int(m, "an element", &id, err) || an_int(m, "an element type", &type, err) ||
-                an_int(m, "the number of tags", &tags, err) || known(m, type, err) ||
+            if (read_int(m, "an element", &id, err) || read_int(m, "an element type", &type, err) ||
+                read_int(m, "the number of tags", &tags, err) || check_type(m, type, err) ||
                 read_tagged(m, type, tags, id, err))
                 return -1;
             i++;
             continue;
         }
-        if (an_int(m, "an element type", &type, err) || an_int(m, "the number of elements", &n, err) ||
-            an_int(m, "the number of tags", &tags, err) || known(m, type, err))
+        if (read_int(m, "an element type", &type, err) || read_int(m, "the number of elements", &n, err) ||
+            read_int(m, "the number of tags", &tags, err) || check_type(m, type, err))
             return -1;
-        if (n < 1) return bad(m, err, "%lld elements in a row were found", (long long)n);
+        if (n < 1) return fail_at_position(m, err, "%lld elements in a row were found", (long long)n);
         for (; n > 0; n--, i++)
-            if (an_int(m, "an element", &id, err) || read_tagged(m, type, tags, id, err)) return -1;
+            if (read_int(m, "an element", &id, err) || read_tagged(m, type, tags, id, err)) return -1;
     }
     return 0;
 }
 
 /* --- sections ------------------------------------------------------------------------------------------- */
 
-static int read_format(msh *m, fl_err *err)
+static int read_format(msh_reader *m, fl_err *err)
 {
     const fl_bytes *b = m->b;
     const int more = fl_bytes_row(m->b, err);
     const char *v = more > 0 ? b->field[0] : "";
     uint64_t one = 0;
     if (more < 0) return -1;
-    if (more == 0 || b->words < 3) return bad(m, err, "VERSION FILE-TYPE DATA-SIZE is expected");
+    if (more == 0 || b->words < 3) return fail_at_position(m, err, "VERSION FILE-TYPE DATA-SIZE is expected");
     if (strcmp(v, "4.1") == 0) m->version = 4;
     else if (v[0] == '2' && (v[1] == '.' || v[1] == '\0')) m->version = 2;
-    else return bad(m, err, "version %.20s of the format is not read: save as 2.2 or 4.1", v);
+    else return fail_at_position(m, err, "version %.20s of the format is not read: save as 2.2 or 4.1", v);
     if (strcmp(b->field[1], "0") != 0 && strcmp(b->field[1], "1") != 0)
-        return bad(m, err, "file type \"%.20s\" was found, 0 or 1 is expected", b->field[1]);
+        return fail_at_position(m, err, "file type \"%.20s\" was found, 0 or 1 is expected", b->field[1]);
     if (strcmp(b->field[2], "8") != 0 && strcmp(b->field[2], "4") != 0)
-        return bad(m, err, "data size \"%.20s\" was found, 8 or 4 is expected", b->field[2]);
+        return fail_at_position(m, err, "data size \"%.20s\" was found, 8 or 4 is expected", b->field[2]);
     m->wide = b->field[2][0] - '0';
     m->binary = b->field[1][0] == '1';
     m->b->next = m->b->words;
     if (!m->binary) return 0;
     m->b->line = 0;
-    if (raw(m, 4, &one, err)) return -1;
+    if (read_bits(m, 4, &one, err)) return -1;
     if (one == 1) return 0;
     m->swap = 1;
     if (one == 0x01000000) return 0;
-    return bad(m, err, "%llu was found where the number 1 tells the byte order", (unsigned long long)one);
+    return fail_at_position(m, err, "%llu was found, the number 1 in either byte order is expected",
+                            (unsigned long long)one);
 }
 
-/* Go on behind the line $End.. of a section. */
-static int leave(msh *m, const char *section, fl_err *err)
+/* Skip the rest of a section with its $End.. line. */
+static int skip_section(msh_reader *m, const char *section, fl_err *err)
 {
     char mark[64];
     snprintf(mark, sizeof mark, "$End%.50s", section + 1);
     const int more = fl_bytes_seek(m->b, mark, err);
     if (more < 0) return -1;
-    if (more == 0) return bad(m, err, "the file ends inside %.50s", section);
+    if (more == 0) return fail_at_position(m, err, "the file ends inside %.50s", section);
     if (fl_bytes_row(m->b, err) < 0) return -1;
     m->b->next = m->b->words;
     if (m->binary) m->b->line = 0;
     return 0;
 }
 
-/* What is known of a section is read; its end mark must follow. */
-static int end_of(msh *m, const char *section, fl_err *err)
+/* Read the $End.. line, which must follow. */
+static int read_section_end(msh_reader *m, const char *section, fl_err *err)
 {
     char mark[64];
     int more;
     snprintf(mark, sizeof mark, "$End%.50s", section + 1);
     if (m->b->next < m->b->words)
-        return bad(m, err, "\"%.40s\" was found, %s is expected", m->b->field[m->b->next], mark);
+        return fail_at_position(m, err, "\"%.40s\" was found, %s is expected", m->b->field[m->b->next], mark);
     more = fl_bytes_row(m->b, err);
     if (more < 0) return -1;
-    if (more == 0) return bad(m, err, "the file ends where %s is expected", mark);
+    if (more == 0) return fail_at_position(m, err, "the file ends where %s is expected", mark);
     if (strcmp(m->b->field[0], mark) != 0)
-        return bad(m, err, "\"%.40s\" was found, %s is expected", m->b->field[0], mark);
+        return fail_at_position(m, err, "\"%.40s\" was found, %s is expected", m->b->field[0], mark);
     m->b->next = m->b->words;
     if (m->binary) m->b->line = 0;
     return 0;
 }
 
-/* The count of nodes or elements in version 2 stands in a line of text. */
-static int count_line(msh *m, fl_err *err)
+/* Version 2 gives the number of nodes or elements in a line of text. */
+static int read_count(msh_reader *m, fl_err *err)
 {
     const char *w = "";
     if (m->version == 4) return 0;
-    if (fl_grow(&m->tag, &m->tag_cap, 1, sizeof *m->tag, err) || word(m, "a count", &w, err)) return -1;
+    if (fl_grow(&m->tag, &m->tag_cap, 1, sizeof *m->tag, err) || read_word(m, "a count", &w, err)) return -1;
     if (fl_deck_integer(w, &m->tag[0]) || m->tag[0] < 0)
-        return bad(m, err, "a count of \"%.40s\" was found", w);
+        return fail_at_position(m, err, "a count of \"%.40s\" was found", w);
     if (m->binary) m->b->line = 0;
     return 0;
 }
 
-static int read_section(msh *m, const char *section, fl_err *err)
+static int read_section(msh_reader *m, const char *section, fl_err *err)
 {
-    if (strcmp(section, "$MeshFormat") == 0) return read_format(m, err) || end_of(m, section, err) ? -1 : 0;
+    if (strcmp(section, "$MeshFormat") == 0)
+        return read_format(m, err) || read_section_end(m, section, err) ? -1 : 0;
     if (strcmp(section, "$NOD") == 0 || strcmp(section, "$ELM") == 0)
-        return bad(m, err, "version 1 of the format is not read: save as 2.2 or 4.1");
-    if (strcmp(section, "$PhysicalNames") == 0) return read_names(m, err) || end_of(m, section, err) ? -1 : 0;
+        return fail_at_position(m, err, "version 1 of the format is not read: save as 2.2 or 4.1");
+    if (strcmp(section, "$PhysicalNames") == 0)
+        return read_names(m, err) || read_section_end(m, section, err) ? -1 : 0;
     if (strcmp(section, "$Comments") != 0 && !m->version)
-        return bad(m, err, "%.40s stands before $MeshFormat", section);
+        return fail_at_position(m, err, "%.40s stands before $MeshFormat", section);
     if (strcmp(section, "$Entities") == 0)
-        return read_entities(m, 0, err) || end_of(m, section, err) ? -1 : 0;
+        return read_entities(m, 0, err) || read_section_end(m, section, err) ? -1 : 0;
     if (strcmp(section, "$PartitionedEntities") == 0)
-        return read_entities(m, 1, err) || end_of(m, section, err) ? -1 : 0;
+        return read_entities(m, 1, err) || read_section_end(m, section, err) ? -1 : 0;
     if (strcmp(section, "$Nodes") == 0)
-        return count_line(m, err) || read_nodes(m, err) || end_of(m, section, err) ? -1 : 0;
+        return read_count(m, err) || read_nodes(m, err) || read_section_end(m, section, err) ? -1 : 0;
     if (strcmp(section, "$Elements") == 0)
-        return count_line(m, err) || read_elements(m, err) || end_of(m, section, err) ? -1 : 0;
-    return leave(m, section, err);
+        return read_count(m, err) || read_elements(m, err) || read_section_end(m, section, err) ? -1 : 0;
+    return skip_section(m, section, err);
 }
 
-static int read_sections(msh *m, fl_err *err)
+static int read_sections(msh_reader *m, fl_err *err)
 {
     int more;
     while ((more = fl_bytes_row(m->b, err)) > 0) {
         char section[64];
         if (m->binary) m->b->line = 0;
         if (m->b->field[0][0] != '$' || strncmp(m->b->field[0], "$End", 4) == 0)
-            return bad(m, err, "\"%.40s\" was found, a section like $Nodes is expected", m->b->field[0]);
+            return fail_at_position(m, err, "\"%.40s\" was found, a section like $Nodes is expected",
+                                    m->b->field[0]);
         snprintf(section, sizeof section, "%s", m->b->field[0]);
         m->b->next = m->b->words;
         if (read_section(m, section, err)) return -1;
@@ -570,7 +592,7 @@ static int read_sections(msh *m, fl_err *err)
 
 /* --- parts ---------------------------------------------------------------------------------------------- */
 
-static int32_t name_in(const msh *m, int32_t group, fl_string_table *list, fl_err *err)
+static int32_t add_group_name(const msh_reader *m, int32_t group, fl_string_table *list, fl_err *err)
 {
     static const char *const kind[DIMS] = {"point", "curve", "surface", "volume"};
     char text[40];
@@ -579,13 +601,13 @@ static int32_t name_in(const msh *m, int32_t group, fl_string_table *list, fl_er
     return fl_string_table_add(list, text, err);
 }
 
-/* Parts in the order in which the elements come; further groups of an element are sets. */
-static int give_parts(msh *m, int picks, fl_err *err)
+/* Assign parts in the order of the elements; further groups of an element become sets. */
+static int assign_parts(msh_reader *m, int picks, fl_err *err)
 {
     for (int32_t i = 0; i < m->e.element_id.n; i++)
         for (int32_t k = m->of[i]; k; k = m->in[k - 1].next) {
             fl_string_table *list = k == m->of[i] ? &m->e.parts : &m->e.sets;
-            const int32_t at = name_in(m, m->in[k - 1].group, list, err);
+            const int32_t at = add_group_name(m, m->in[k - 1].group, list, err);
             if (at < 0) return -1;
             if (k == m->of[i]) m->e.element[i].part = at;
             else if (picks && fl_elements_pick(&m->e, (fl_pick){i, at, FL_PICK_WHOLE, 0}, err)) return -1;
@@ -593,21 +615,22 @@ static int give_parts(msh *m, int picks, fl_err *err)
     return 0;
 }
 
-int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_msh_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
-    msh m = {.b = b};
+    msh_reader m = {.b = b};
     int rc = -1;
     if (fl_elements_start(&m.e, fl_in_name(b->in), err)) return -1;
     if (fl_string_table_add(&m.e.parts, name, err) < 0 || read_sections(&m, err) ||
-        give_parts(&m, fl_import_by_name(w), err))
+        assign_parts(&m, fl_import_by_name(opt), err))
         goto done;
     if (m.e.element_id.n == 0) {
         b->line = 0;
-        fl_bytes_fail(b, err, "no elements: put what is wanted into a physical group, or save all elements");
+        fl_bytes_fail(b, err,
+                      "no elements: put the parts to import into a physical group, or save all elements");
         goto done;
     }
-    if (m.coarse) fl_bytes_note(b, "%d elements of order 3 or more were taken by their corners", m.coarse);
-    rc = fl_elements_surface(&m.e, s, b, w, err);
+    if (m.coarse) fl_bytes_note(b, "%d elements of order 3 or more were reduced to their corners", m.coarse);
+    rc = fl_elements_surface(&m.e, s, b, opt, err);
 done:
     fl_elements_free(&m.e);
     fl_id_map_free(&m.group);

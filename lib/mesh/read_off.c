@@ -6,7 +6,7 @@
 #include "geom/facet.h"
 #include "mesh/read_off.h"
 
-/* Does p hold a header word, [ST][C][N][4][n]OFF, before a blank or a line end?  Its length, or 0. */
+/* Length of a header word, [ST][C][N][4][n]OFF, before a blank or a line end; 0 if p holds none. */
 static size_t header_word(const char *p)
 {
     const char *q = p;
@@ -28,6 +28,7 @@ static const char *first_word(const char *p)
 int fl_off_is(const fl_bytes *b)
 {
     const char *p = first_word(b->data);
+    if (!fl_bytes_is_text(b)) return 0;
     if (header_word(p)) return 1;
     for (int k = 0; k < 3; k++) {
         const size_t digits = strspn(p, "0123456789");
@@ -81,7 +82,7 @@ static int read_face(fl_bytes *b, fl_part *p, int32_t **loop, int32_t *cap, fl_e
     return fl_facet_polygon(p, n, *loop, err);
 }
 
-/* The header word and the counts. */
+/* Read the header word and the counts. */
 static int read_head(fl_bytes *b, int *homogeneous, int32_t n[2], fl_err *err)
 {
     const char *word = "";
@@ -96,12 +97,12 @@ static int read_head(fl_bytes *b, int *homogeneous, int32_t n[2], fl_err *err)
     } else {
         b->next = 0; /* no header word: the row starts with the counts */
     }
-    /* the number of edges, which is sometimes left out and often wrong, is not needed */
+    /* the number of edges is not needed; it is sometimes absent and often wrong */
     return read_count(b, "vertices", &n[0], err) || read_count(b, "faces", &n[1], err) ? -1 : 0;
 }
 
-/* Next row, of `what` number k of n. */
-static int wanted_row(fl_bytes *b, const char *what, int32_t k, int32_t n, fl_err *err)
+/* Read the next row: `what` number k of n. */
+static int read_required_row(fl_bytes *b, const char *what, int32_t k, int32_t n, fl_err *err)
 {
     const int more = fl_bytes_row(b, err);
     if (more > 0) return 0;
@@ -109,20 +110,22 @@ static int wanted_row(fl_bytes *b, const char *what, int32_t k, int32_t n, fl_er
     return -1;
 }
 
-int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
     int32_t n[2] = {0}, *loop = NULL, cap = 0, i;
     int homogeneous = 0, rc = -1;
+    (void)opt; /* fl_mesh_read() selects parts */
     b->comment = '#';
     if (read_head(b, &homogeneous, n, err)) return -1;
     i = fl_surface_add(s, name, strlen(name), err);
     if (i < 0) return -1;
     for (int32_t v = 0; v < n[0]; v++)
-        if (wanted_row(b, "vertices", v, n[0], err) || read_vertex(b, &s->part[i], homogeneous, err))
+        if (read_required_row(b, "vertices", v, n[0], err) || read_vertex(b, &s->part[i], homogeneous, err))
             goto done;
     for (int32_t f = 0; f < n[1]; f++)
-        if (wanted_row(b, "faces", f, n[1], err) || read_face(b, &s->part[i], &loop, &cap, err)) goto done;
-    rc = fl_bytes_row(b, err); /* what a wrong count leaves over would be lost without a word */
+        if (read_required_row(b, "faces", f, n[1], err) || read_face(b, &s->part[i], &loop, &cap, err))
+            goto done;
+    rc = fl_bytes_row(b, err); /* rows left over by a wrong count must not be lost silently */
     if (rc > 0) rc = fl_bytes_fail(b, err, "a row follows the last of %d faces", n[1]);
 done:
     free(loop);

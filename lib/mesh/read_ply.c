@@ -8,43 +8,43 @@
 #include "geom/facet.h"
 #include "mesh/read_ply.h"
 
-typedef enum { I8, U8, I16, U16, I32, U32, F32, F64, TYPES } type;
+typedef enum { I8, U8, I16, U16, I32, U32, F32, F64, TYPES } ply_type;
 
-static const char *const type_name[TYPES][2] = {
+static const char *const TYPE_NAME[TYPES][2] = {
     {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
     {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
-static const int type_size[TYPES] = {1, 1, 2, 2, 4, 4, 4, 8};
+static const int TYPE_SIZE[TYPES] = {1, 1, 2, 2, 4, 4, 4, 8};
 
-/* What the numbers of a property are for. */
-typedef enum { NOTHING, X, Y, Z, PART, CORNERS } role;
+/* Use of a property. */
+typedef enum { UNUSED, X, Y, Z, PART, CORNERS } property_use;
 
 typedef struct {
-    type of, count; /* type of the value; of the length of a list */
+    ply_type of, count; /* type of the value; of the length of a list */
     int list;
-    role is;
-} property;
+    property_use is;
+} ply_property;
 
-typedef enum { OTHER, VERTEX, FACE } kind;
+typedef enum { OTHER, VERTEX, FACE } element_kind;
 
 typedef struct {
-    kind is;
+    element_kind is;
     int64_t n;
-    int32_t first, last; /* properties, first .. last - 1 */
-} element;
+    int32_t first, last; /* its properties are first .. last - 1 */
+} ply_element;
 
 typedef struct {
     fl_bytes *b;
-    int binary, swap; /* swap: bytes run the other way than here */
-    element *el;
-    property *pr;
+    int binary, swap; /* swap: the byte order is not that of this machine */
+    ply_element *el;
+    ply_property *pr;
     int32_t els, prs, el_cap, pr_cap;
     int32_t *loop, loop_cap, loop_n;
-    int64_t row;           /* element being read, for complaints about binary data */
-    fl_string_table names; /* of parts, as comments of the header give them */
+    int64_t row;           /* current row of an element, for messages on binary data */
+    fl_string_table names; /* of parts, from comments of the header */
     double *number;        /* [names.n] their numbers */
-    double *of;            /* [triangles] the part of each, where faces have that property */
+    double *of;            /* [triangles] part of each, if faces have that property */
     int32_t number_cap, of_cap;
-} ply;
+} ply_reader;
 
 int fl_ply_is(const fl_bytes *b)
 {
@@ -53,18 +53,18 @@ int fl_ply_is(const fl_bytes *b)
 
 /* --- header --------------------------------------------------------------------------------------------- */
 
-static int read_type(const fl_bytes *b, int32_t k, type *t, fl_err *err)
+static int read_type(const fl_bytes *b, int32_t k, ply_type *t, fl_err *err)
 {
     const char *word = k < b->words ? b->field[k] : "";
     for (int i = 0; i < TYPES; i++)
-        if (strcmp(word, type_name[i][0]) == 0 || strcmp(word, type_name[i][1]) == 0) {
-            *t = (type)i;
+        if (strcmp(word, TYPE_NAME[i][0]) == 0 || strcmp(word, TYPE_NAME[i][1]) == 0) {
+            *t = (ply_type)i;
             return 0;
         }
     return fl_bytes_fail(b, err, "\"%.40s\" is not a type of PLY 1.0", word);
 }
 
-static int read_format(ply *p, fl_err *err)
+static int read_format(ply_reader *p, fl_err *err)
 {
     const fl_bytes *b = p->b;
     const char *word = b->words > 1 ? b->field[1] : "";
@@ -78,11 +78,11 @@ static int read_format(ply *p, fl_err *err)
     return 0;
 }
 
-static int read_element(ply *p, fl_err *err)
+static int read_element(ply_reader *p, fl_err *err)
 {
     const fl_bytes *b = p->b;
     uint64_t n = 0;
-    element e = {OTHER, 0, p->prs, p->prs};
+    ply_element e = {OTHER, 0, p->prs, p->prs};
     if (b->words != 3 || fl_number_u64(b->field[2], &n) || n > INT64_MAX)
         return fl_bytes_fail(b, err, "\"element NAME COUNT\" is expected");
     e.n = (int64_t)n;
@@ -93,13 +93,13 @@ static int read_element(ply *p, fl_err *err)
     return 0;
 }
 
-static int read_property(ply *p, fl_err *err)
+static int read_property(ply_reader *p, fl_err *err)
 {
     const fl_bytes *b = p->b;
     const int list = b->words > 1 && strcmp(b->field[1], "list") == 0;
     const char *name = b->field[b->words - 1];
-    element *e = p->els ? &p->el[p->els - 1] : NULL;
-    property q = {.list = list};
+    ply_element *e = p->els ? &p->el[p->els - 1] : NULL;
+    ply_property q = {.list = list};
     if (!e) return fl_bytes_fail(b, err, "a property stands before the first element");
     if (b->words != (list ? 5 : 3))
         return fl_bytes_fail(b, err,
@@ -120,8 +120,8 @@ static int read_property(ply *p, fl_err *err)
     return 0;
 }
 
-/* Each role is played once, and vertices come before the faces that name them. */
-static int check_header(const ply *p, fl_err *err)
+/* Each property may be used once, and vertices must precede the faces that refer to them. */
+static int check_header(const ply_reader *p, fl_err *err)
 {
     int seen[CORNERS + 1] = {0}, elements[FACE + 1] = {0};
     for (int32_t k = 0; k < p->prs; k++) seen[p->pr[k].is]++;
@@ -138,8 +138,8 @@ static int check_header(const ply *p, fl_err *err)
     return 0;
 }
 
-/* "comment part NUMBER NAME", as fl_ply_write() leaves it; any other comment says nothing. */
-static int read_comment(ply *p, fl_err *err)
+/* "comment part NUMBER NAME", as fl_ply_write() writes it; other comments are ignored. */
+static int read_comment(ply_reader *p, fl_err *err)
 {
     const fl_bytes *b = p->b;
     const int32_t had = p->names.n;
@@ -152,7 +152,7 @@ static int read_comment(ply *p, fl_err *err)
     return 0;
 }
 
-static int read_header(ply *p, fl_err *err)
+static int read_header(ply_reader *p, fl_err *err)
 {
     fl_bytes *b = p->b;
     int formats = 0, more;
@@ -183,9 +183,9 @@ static int read_header(ply *p, fl_err *err)
 
 /* --- data ----------------------------------------------------------------------------------------------- */
 
-static int read_binary(ply *p, type t, double *x, fl_err *err)
+static int read_binary(ply_reader *p, ply_type t, double *x, fl_err *err)
 {
-    const int size = type_size[t];
+    const int size = TYPE_SIZE[t];
     const unsigned char *at;
     unsigned char raw[8];
     int more;
@@ -217,8 +217,8 @@ static int read_binary(ply *p, type t, double *x, fl_err *err)
     return 0;
 }
 
-/* A number in either kind of file; what is not used may be nan. */
-static int read_number(ply *p, type t, int used, double *x, fl_err *err)
+/* Read a number of either kind of file; an unused one may be nan. */
+static int read_number(ply_reader *p, ply_type t, int used, double *x, fl_err *err)
 {
     const char *word = "";
     int more;
@@ -230,7 +230,7 @@ static int read_number(ply *p, type t, int used, double *x, fl_err *err)
     return more > 0 ? 0 : -1;
 }
 
-static int read_list(ply *p, const property *q, const fl_part *part, fl_err *err)
+static int read_list(ply_reader *p, const ply_property *q, const fl_part *part, fl_err *err)
 {
     double n = 0.0, v = 0.0;
     if (read_number(p, q->count, 1, &n, err)) return -1;
@@ -242,7 +242,7 @@ static int read_list(ply *p, const property *q, const fl_part *part, fl_err *err
         if (read_number(p, q->of, q->is == CORNERS, &v, err)) return -1;
         if (q->is != CORNERS) continue;
         if (!(v >= 0.0 && v < part->nv) || v != floor(v))
-            return fl_bytes_fail(p->b, err, "face %lld wants vertex %g, 0 to %d is expected",
+            return fl_bytes_fail(p->b, err, "face %lld refers to vertex %g, 0 to %d is expected",
                                  (long long)p->row, v, part->nv - 1);
         p->loop[(int32_t)k] = (int32_t)v;
     }
@@ -250,17 +250,17 @@ static int read_list(ply *p, const property *q, const fl_part *part, fl_err *err
     return 0;
 }
 
-/* One vertex, face or other thing. */
-static int read_one(ply *p, const element *e, fl_part *part, fl_err *err)
+/* Read one row of an element. */
+static int read_one(ply_reader *p, const ply_element *e, fl_part *part, fl_err *err)
 {
     fl_vec3 x = {0};
     double of = 0.0;
     const int32_t had = part->nt;
     p->loop_n = 0;
     for (int32_t k = e->first; k < e->last; k++) {
-        const property *q = &p->pr[k];
+        const ply_property *q = &p->pr[k];
         double value = 0.0;
-        if (q->list ? read_list(p, q, part, err) : read_number(p, q->of, q->is != NOTHING, &value, err))
+        if (q->list ? read_list(p, q, part, err) : read_number(p, q->of, q->is != UNUSED, &value, err))
             return -1;
         if (q->is == X) x.x = value;
         if (q->is == Y) x.y = value;
@@ -282,16 +282,16 @@ static int read_one(ply *p, const element *e, fl_part *part, fl_err *err)
 
 /* --- parts ---------------------------------------------------------------------------------------------- */
 
-enum { MOST = 1000000000 }; /* more parts can be numbered behind it */
+enum { MOST = 1000000000 }; /* leaves room for ids of further parts */
 
 typedef struct {
     double of;
     int32_t t;
-} dealt;
+} part_triangle;
 
 static int by_part(const void *pa, const void *pb)
 {
-    const dealt *a = pa, *b = pb;
+    const part_triangle *a = pa, *b = pb;
     if (a->of != b->of) return a->of < b->of ? -1 : 1;
     return a->t < b->t ? -1 : a->t > b->t;
 }
@@ -302,8 +302,8 @@ static int by_index(const void *pa, const void *pb)
     return a < b ? -1 : a > b;
 }
 
-/* An empty part for the faces of that number. */
-static int32_t open_part(const ply *p, fl_surface *s, double of, int keep, fl_err *err)
+/* Add an empty part for the faces of that number. */
+static int32_t open_part(const ply_reader *p, fl_surface *s, double of, int keep, fl_err *err)
 {
     char text[40];
     const char *name = text;
@@ -319,8 +319,9 @@ static int32_t open_part(const ply *p, fl_surface *s, double of, int keep, fl_er
     return i;
 }
 
-/* Give to[] the triangles d[0 .. n) of all, and the vertices that they use, in the order these have. */
-static int fill_part(fl_part *to, const fl_part *all, const dealt *d, int32_t n, int32_t *local, fl_err *err)
+/* Fill a part with the triangles d[0 .. n) and the vertices they use, in their order in the file. */
+static int fill_part(fl_part *to, const fl_part *all, const part_triangle *d, int32_t n, int32_t *local,
+                     fl_err *err)
 {
     int32_t *used = fl_alloc(3 * (int64_t)n, sizeof *used, err);
     int rc = -1;
@@ -343,16 +344,16 @@ done:
     return rc;
 }
 
-/* Deal the one part out to those that its faces name. */
-static int split(const ply *p, fl_surface *s, fl_part *all, fl_err *err)
+/* Distribute the triangles to the parts that their faces name. */
+static int assign_parts(const ply_reader *p, fl_surface *s, fl_part *all, fl_err *err)
 {
-    dealt *d = fl_alloc(all->nt, sizeof *d, err);
+    part_triangle *d = fl_alloc(all->nt, sizeof *d, err);
     int32_t *local = fl_alloc(all->nv, sizeof *local, err), i;
     int rc = -1;
     if (!d || !local) goto done;
-    for (int32_t t = 0; t < all->nt; t++) d[t] = (dealt){p->of[t], t};
+    for (int32_t t = 0; t < all->nt; t++) d[t] = (part_triangle){p->of[t], t};
     qsort(d, (size_t)all->nt, sizeof *d, by_part);
-    /* the numbers differ from one another, and where all can be numbers of parts they are kept */
+    /* keep the numbers as ids of the parts if all are valid */
     const int keep = all->nt && d[0].of >= 0.0 && d[all->nt - 1].of < MOST;
     for (int32_t from = 0, to; from < all->nt; from = to) {
         for (to = from + 1; to < all->nt && d[to].of == d[from].of; to++) {}
@@ -366,29 +367,31 @@ done:
     return rc;
 }
 
-/* Do the faces say which part they are of? */
-static int has_parts(const ply *p)
+/* True if faces have a property with their part. */
+static int has_parts(const ply_reader *p)
 {
     for (int32_t k = 0; k < p->prs; k++)
         if (p->pr[k].is == PART) return 1;
     return 0;
 }
 
-int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+int fl_ply_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
-    ply p = {.b = b};
+    ply_reader p = {.b = b};
     fl_part all = {0};
     int32_t i;
     int rc = -1;
+    (void)opt; /* fl_mesh_read() selects parts */
     if (read_header(&p, err)) goto done;
     if (p.binary) b->line = 0;
     for (int32_t e = 0; e < p.els; e++) {
-        if (p.el[e].first == p.el[e].last) continue; /* nothing is stored of it, however many there are */
+        if (p.el[e].first == p.el[e].last)
+            continue; /* a row without properties has no data, however many rows there are */
         for (p.row = 0; p.row < p.el[e].n; p.row++)
             if (read_one(&p, &p.el[e], &all, err)) goto done;
     }
     if (has_parts(&p)) {
-        rc = split(&p, s, &all, err);
+        rc = assign_parts(&p, s, &all, err);
         goto done;
     }
     i = fl_surface_add(s, name, strlen(name), err);

@@ -5,7 +5,7 @@
 #include "geom/facet.h"
 #include "mesh/read_stl.h"
 
-enum { HEAD = 84, RECORD = 50 };
+enum { HEADER_BYTES = 84, RECORD_BYTES = 50 };
 
 /* --- binary --------------------------------------------------------------------------------------------- */
 
@@ -22,18 +22,20 @@ static double f32_at(const unsigned char *p)
     return (double)x;
 }
 
-/* How many triangles the head tells, -1 where there is none. */
-static int64_t told(const fl_bytes *b)
+/* Number of triangles in the header, -1 if there is no header. */
+static int64_t header_count(const fl_bytes *b)
 {
-    return b->n < HEAD ? -1 : (int64_t)u32_at((const unsigned char *)b->data + 80);
+    return b->n < HEADER_BYTES ? -1 : (int64_t)u32_at((const unsigned char *)b->data + 80);
 }
 
-int fl_stl_is_binary(const fl_bytes *b)
+static int is_binary(const fl_bytes *b)
 {
-    const int64_t n = told(b);
+    const int64_t n = header_count(b);
     if (n < 0) return 0;
-    if (!b->ended) return memchr(b->data, '\0', (size_t)b->n) && (n == 0 || HEAD + RECORD * n > b->n);
-    return b->n == HEAD + RECORD * n || (n == 0 && b->n > HEAD && (b->n - HEAD) % RECORD == 0);
+    if (!b->ended)
+        return memchr(b->data, '\0', (size_t)b->n) && (n == 0 || HEADER_BYTES + RECORD_BYTES * n > b->n);
+    return b->n == HEADER_BYTES + RECORD_BYTES * n ||
+           (n == 0 && b->n > HEADER_BYTES && (b->n - HEADER_BYTES) % RECORD_BYTES == 0);
 }
 
 static int read_record(fl_bytes *b, const unsigned char *at, int32_t t, fl_part *p, fl_err *err)
@@ -49,16 +51,16 @@ static int read_record(fl_bytes *b, const unsigned char *at, int32_t t, fl_part 
     return fl_surface_triangle(p, 3 * t, 3 * t + 1, 3 * t + 2, err);
 }
 
-int fl_stl_read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+static int read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
-    const int64_t want = told(b);
+    const int64_t want = header_count(b);
     const int32_t i = fl_surface_add(s, name, strlen(name), err);
     const unsigned char *at;
     int32_t n = 0;
     int more;
     if (i < 0) return -1;
-    b->pos = HEAD;
-    while ((more = fl_bytes_read(b, RECORD, &at, err)) > 0) {
+    b->pos = HEADER_BYTES;
+    while ((more = fl_bytes_read(b, RECORD_BYTES, &at, err)) > 0) {
         if (n == INT32_MAX / 3) return fl_bytes_fail(b, err, "more than %d triangles", n);
         if (read_record(b, at, n, &s->part[i], err)) return -1;
         n++;
@@ -71,14 +73,14 @@ int fl_stl_read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err
             "found",
             (long long)want, n, b->n - b->pos);
     if (n > 0 && want == 0)
-        fl_bytes_note(b, "the header says no triangles, the size says %d: these were read", n);
+        fl_bytes_note(b, "the header says 0 triangles, the size of the file %d: these were read", n);
     return 0;
 }
 
 /* --- ASCII ---------------------------------------------------------------------------------------------- */
 
-/* Take the next word, which must be `want`. */
-static int expect(fl_bytes *b, const char *want, fl_err *err)
+/* Read the next word, which must be `want`. */
+static int read_expected(fl_bytes *b, const char *want, fl_err *err)
 {
     const char *word = "";
     const int more = fl_bytes_word(b, &word, err);
@@ -89,16 +91,16 @@ static int expect(fl_bytes *b, const char *want, fl_err *err)
     return 0;
 }
 
-/* One facet, behind its first word. */
+/* Read one facet, behind its first word. */
 static int read_facet(fl_bytes *b, fl_part *p, int32_t **loop, int32_t *cap, fl_err *err)
 {
     const char *word = "";
     int32_t n = 0;
     int more = 1;
-    if (expect(b, "normal", err)) return -1;
+    if (read_expected(b, "normal", err)) return -1;
     for (int k = 0; k < 3 && more > 0; k++)
-        more = fl_bytes_word(b, &word, err); /* may be nan, may be wrong */
-    if (more < 0 || expect(b, "outer", err) || expect(b, "loop", err)) return -1;
+        more = fl_bytes_word(b, &word, err); /* ignored: it may be nan or wrong */
+    if (more < 0 || read_expected(b, "outer", err) || read_expected(b, "loop", err)) return -1;
     for (;;) {
         fl_vec3 x = {0};
         more = fl_bytes_word(b, &word, err);
@@ -116,12 +118,12 @@ static int read_facet(fl_bytes *b, fl_part *p, int32_t **loop, int32_t *cap, fl_
     if (strcasecmp(word, "endloop") != 0)
         return fl_bytes_fail(b, err, "\"%.40s\" was found, \"vertex\" or \"endloop\" is expected", word);
     if (n < 3) return fl_bytes_fail(b, err, "a loop of %d corners, at least 3 are expected", n);
-    if (expect(b, "endfacet", err)) return -1;
+    if (read_expected(b, "endfacet", err)) return -1;
     return fl_facet_polygon(p, n, *loop, err);
 }
 
-/* The part of a solid, whose name is the rest of the row.  Words lie one behind the other in the file, and
- * fl_surface_add() cleans what lies between them. */
+/* Add the part of a solid, whose name is the rest of the row.  Its words are adjacent in memory;
+ * fl_surface_add() replaces what separates them. */
 static int32_t open_solid(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
     const char *last = b->next < b->words ? b->field[b->words - 1] : NULL;
@@ -131,7 +133,7 @@ static int32_t open_solid(fl_surface *s, fl_bytes *b, const char *name, fl_err *
     return fl_surface_add(s, first, (size_t)(last - first) + strlen(last), err);
 }
 
-int fl_stl_read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
+static int read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 {
     const char *word = "";
     int32_t *loop = NULL, cap = 0, i = -1; /* i: part of the open solid */
@@ -143,7 +145,7 @@ int fl_stl_read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
         } else if (i >= 0 && strcasecmp(word, "facet") == 0) {
             if (read_facet(b, &s->part[i], &loop, &cap, err)) goto done;
         } else if (i >= 0 && strcasecmp(word, "endsolid") == 0) {
-            b->next = b->words; /* its name, again */
+            b->next = b->words; /* its name, repeated */
             i = -1;
         } else {
             fl_bytes_fail(b, err, "\"%.40s\" was found, %s is expected", word,
@@ -160,4 +162,20 @@ int fl_stl_read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err)
 done:
     free(loop);
     return rc;
+}
+
+/* --- either kind ---------------------------------------------------------------------------------------- */
+
+static int is_ascii(const fl_bytes *b)
+{
+    const char *p = b->data + strspn(b->data, " \t\r\n");
+    return fl_bytes_is_text(b) && strncasecmp(p, "solid", 5) == 0;
+}
+
+int fl_stl_is(const fl_bytes *b) { return is_binary(b) || is_ascii(b); }
+
+int fl_stl_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
+{
+    (void)opt; /* fl_mesh_read() selects parts */
+    return is_binary(b) ? read_binary(s, b, name, err) : read_ascii(s, b, name, err);
 }

@@ -4,17 +4,20 @@
 #define FL_MESH_READ_STL_H
 #include "geom/surface.h"
 #include "mesh/bytes.h"
+#include "mesh/import_options.h"
 
-/* Is this a binary STL?  80 bytes, a 32-bit count n, n records of 50 bytes: the size decides, not the first
- * word, which is "solid" in both kinds.  A file whose count was never filled in (0) is binary by its size
- * alone.  Of one that goes on behind the head of b zero bytes decide, and its size is looked at by the
- * reader. */
-int fl_stl_is_binary(const fl_bytes *b);
+/* True if b is an STL file.
+ *   binary   80 bytes, a 32-bit count n, then n records of 50 bytes.  The size decides, not the first word,
+ *            which is "solid" in both kinds.  A count of 0 that was never filled in is accepted if the size
+ *            fits.  Where the file goes on behind the head of b, a zero byte in the head decides; the reader
+ *            then checks the size.
+ *   ASCII    text that begins with "solid" */
+int fl_stl_is(const fl_bytes *b);
 
-/* Add the triangles of b to s: one part called `name` from a binary file, a part a solid from an ASCII one,
- * under the name of the solid or else `name`.  Stored normals are not looked at: the winding gives the side.
- * Each triangle brings its own three vertices: weld.  0, or -1 with FL_INPUT or FL_SYSTEM in err. */
-int fl_stl_read_binary(fl_surface *s, fl_bytes *b, const char *name, fl_err *err);
-int fl_stl_read_ascii(fl_surface *s, fl_bytes *b, const char *name, fl_err *err);
+/* Add the triangles of b to s: a binary file is one part called name; each solid of an ASCII file is a part
+ * with the name of the solid, or else name.  Stored normals are ignored: the winding gives the outer side.
+ * Each triangle has three vertices of its own; welding joins them.  opt is not used: the caller selects
+ * parts.  Returns 0, or -1 with FL_INPUT or FL_SYSTEM. */
+int fl_stl_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
 
 #endif

@@ -7,31 +7,32 @@
 #include <strings.h>
 #include "base/array.h"
 #include "base/number_text.h"
+#include "mesh/element_surface.h"
 #include "mesh/read_vtk.h"
 #include "mesh/vtk_cells.h"
 
-enum { WORDS = 8, WORD = 80 };
+enum { WORDS = 8, WORD_MAX = 80 };
 
 /* In the order in which cells of POLYDATA are numbered, then those of an UNSTRUCTURED_GRID. */
-enum list { VERTICES, LINES, POLYGONS, STRIPS, CELLS, LISTS };
-static const char *const LIST[LISTS] = {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS"};
-static const int CELL_OF[LISTS] = {2, 4, 7, 6, 0};
+enum list_index { VERTICES, LINES, POLYGONS, STRIPS, CELLS, LISTS };
+static const char *const LIST_NAME[LISTS] = {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS"};
+static const int CELL_TYPE_OF[LISTS] = {2, 4, 7, 6, 0};
 
 typedef struct {
     fl_vtk_array corner, offset;
-} cells;
+} cell_list;
 
 typedef struct {
     fl_bytes *b;
     int binary;
     int words;
-    char word[WORDS][WORD]; /* of the line at hand */
+    char word[WORDS][WORD_MAX]; /* words of the current line */
     fl_vtk_grid g;
-    cells list[LISTS];
+    cell_list list[LISTS];
     fl_vtk_array types;
-    int of_cells; /* is what follows data of cells? */
+    int of_cells; /* the following arrays are cell data */
     int rank;     /* of the part array that is kept */
-} vtk;
+} vtk_reader;
 
 typedef struct {
     const char *name;
@@ -52,9 +53,10 @@ static const number_type TYPE[] = {
 
 int fl_vtk_is(const fl_bytes *b) { return strncasecmp(b->data, "# vtk DataFile", 14) == 0; }
 
-static int bad(const vtk *v, fl_err *err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+static int fail_at_position(const vtk_reader *v, fl_err *err, const char *fmt, ...)
+    __attribute__((format(printf, 3, 4)));
 
-static int bad(const vtk *v, fl_err *err, const char *fmt, ...)
+static int fail_at_position(const vtk_reader *v, fl_err *err, const char *fmt, ...)
 {
     char what[300];
     va_list ap;
@@ -67,8 +69,8 @@ static int bad(const vtk *v, fl_err *err, const char *fmt, ...)
 
 /* --- lines and numbers ---------------------------------------------------------------------------------- */
 
-/* The next line that is not empty, cut into words; 1, 0 at the end, -1. */
-static int row(vtk *v, fl_err *err)
+/* Read the next line that is not empty and split it into words.  Returns 1, 0 at the end, -1. */
+static int read_line(vtk_reader *v, fl_err *err)
 {
     v->words = 0;
     while (v->words == 0) {
@@ -81,7 +83,7 @@ static int row(vtk *v, fl_err *err)
             while (*p == ' ' || *p == '\t') p++;
             if (*p == '\0') break;
             for (; *p && *p != ' ' && *p != '\t'; p++)
-                if (k < WORD - 1) v->word[v->words][k++] = *p;
+                if (k < WORD_MAX - 1) v->word[v->words][k++] = *p;
             v->word[v->words++][k] = '\0';
         }
     }
@@ -89,15 +91,15 @@ static int row(vtk *v, fl_err *err)
     return 1;
 }
 
-/* The next line that is not empty, which must be there. */
-static int wanted_row(vtk *v, const char *inside, fl_err *err)
+/* Read the next line that is not empty, which must be there. */
+static int read_required_line(vtk_reader *v, const char *inside, fl_err *err)
 {
-    const int more = row(v, err);
-    return more > 0 ? 0 : more < 0 ? -1 : bad(v, err, "the file ends inside %s", inside);
+    const int more = read_line(v, err);
+    return more > 0 ? 0 : more < 0 ? -1 : fail_at_position(v, err, "the file ends inside %s", inside);
 }
 
-/* Step over a line; an empty one is 0, as is the end of the file. */
-static int pass_line(vtk *v, fl_err *err)
+/* Skip a line.  Returns 0 if it is empty or at the end of the file. */
+static int skip_line(vtk_reader *v, fl_err *err)
 {
     char *p;
     int32_t n;
@@ -105,36 +107,37 @@ static int pass_line(vtk *v, fl_err *err)
     return more <= 0 ? more : n > 0;
 }
 
-/* METADATA goes on up to an empty line. */
-static int pass_metadata(vtk *v, fl_err *err)
+/* METADATA extends to an empty line. */
+static int skip_metadata(vtk_reader *v, fl_err *err)
 {
     int more;
-    while ((more = pass_line(v, err)) > 0) {}
+    while ((more = skip_line(v, err)) > 0) {}
     return more;
 }
 
-/* Does the next line that is not empty begin with this word?  What follows may be bytes: they are only looked
- * at. */
-static int comes(vtk *v, const char *word, fl_err *err)
+/* True if the next line that is not empty begins with this word.  Binary data may follow, so nothing is
+ * consumed. */
+static int next_line_is(vtk_reader *v, const char *word, fl_err *err)
 {
-    enum { FAR = 400 }; /* more blanks and empty lines nobody writes */
+    enum { LOOK_AHEAD = 400 }; /* blanks and empty lines before the word */
     const size_t len = strlen(word);
     const char *p;
-    const int32_t n = fl_bytes_peek(v->b, FAR, &p, err);
+    const int32_t n = fl_bytes_peek(v->b, LOOK_AHEAD, &p, err);
     if (n < 0) return -1;
     const char *const end = p + n;
     while (p < end && strchr(" \t\r\n", *p) && *p) p++;
     return (size_t)(end - p) >= len && strncasecmp(p, word, len) == 0;
 }
 
-static int is(const vtk *v, const char *word) { return strcasecmp(v->word[0], word) == 0; }
+static int is_keyword(const vtk_reader *v, const char *word) { return strcasecmp(v->word[0], word) == 0; }
 
-static int count(const vtk *v, int k, int64_t *n, fl_err *err)
+static int parse_count(const vtk_reader *v, int k, int64_t *n, fl_err *err)
 {
     uint64_t u = 0;
     *n = 0;
     if (fl_number_u64(v->word[k], &u) || u > INT32_MAX)
-        return bad(v, err, "\"%.40s\" was found behind %.40s, a count is expected", v->word[k], v->word[0]);
+        return fail_at_position(v, err, "\"%.40s\" was found behind %.40s, a count is expected", v->word[k],
+                                v->word[0]);
     *n = (int64_t)u;
     return 0;
 }
@@ -146,7 +149,7 @@ static const number_type *type_of(const char *word)
     return NULL;
 }
 
-/* One number of the highest byte first. */
+/* A big-endian number. */
 static double binary_number(const unsigned char *p, const number_type *t)
 {
     uint64_t u = 0;
@@ -168,127 +171,134 @@ static double binary_number(const unsigned char *p, const number_type *t)
     return x;
 }
 
-/* Room for n numbers behind those of a, which grow as they come. */
-static int room(fl_vtk_array *a, int64_t n, fl_err *err)
+/* Reserve memory for n more numbers. */
+static int reserve_numbers(fl_vtk_array *a, int64_t n, fl_err *err)
 {
     return fl_grow(&a->x, &a->cap, a->n + n, sizeof *a->x, err);
 }
 
-static int binary_numbers(vtk *v, const number_type *t, int64_t n, fl_vtk_array *a, fl_err *err)
+static int read_binary(vtk_reader *v, const number_type *t, int64_t n, fl_vtk_array *a, fl_err *err)
 {
     enum { AT_ONCE = 4096 };
     const unsigned char *p = NULL;
     int more = 1;
     if (!a || t->bytes == 0) {
         more = fl_bytes_skip(v->b, t->bytes ? n * t->bytes : (n + 7) / 8, err);
-        return more > 0 ? 0 : more < 0 ? -1 : bad(v, err, "the file ends inside the data");
+        return more > 0 ? 0 : more < 0 ? -1 : fail_at_position(v, err, "the file ends inside the data");
     }
     while (n > 0) {
         const int32_t k = n < AT_ONCE ? (int32_t)n : AT_ONCE;
         more = fl_bytes_read(v->b, k * t->bytes, &p, err);
         if (more < 0) return -1;
-        if (more == 0) return bad(v, err, "the file ends inside the data");
-        if (room(a, k, err)) return -1;
+        if (more == 0) return fail_at_position(v, err, "the file ends inside the data");
+        if (reserve_numbers(a, k, err)) return -1;
         for (int32_t i = 0; i < k; i++) a->x[a->n++] = binary_number(p + (ptrdiff_t)i * t->bytes, t);
         n -= k;
     }
     return 0;
 }
 
-/* n numbers into a (NULL: nobody wants them).  Of a file that has fewer, only so many come. */
-static int numbers(vtk *v, const number_type *t, int64_t n, fl_vtk_array *a, fl_err *err)
+/* Read n numbers into a (NULL: skip them).  Memory grows only as they are read. */
+static int read_numbers(vtk_reader *v, const number_type *t, int64_t n, fl_vtk_array *a, fl_err *err)
 {
-    if (v->binary) return binary_numbers(v, t, n, a, err);
+    if (v->binary) return read_binary(v, t, n, a, err);
     if (n == 0) return 0;
-    v->b->line++; /* the data begin in the next line */
+    v->b->line++; /* the data begin on the next line */
     for (int64_t k = 0; k < n; k++) {
         double x;
-        /* nan and the like may stand where nobody looks */
+        /* skipped values may be nan */
         const int more = fl_bytes_real(v->b, a == NULL, &x, err);
-        if (more < 0 || (a && more && a->n == a->cap && room(a, 1, err))) return -1;
-        if (more == 0) return bad(v, err, "the file ends inside the data");
+        if (more < 0 || (a && more && a->n == a->cap && reserve_numbers(a, 1, err))) return -1;
+        if (more == 0) return fail_at_position(v, err, "the file ends inside the data");
         if (a) a->x[a->n++] = x;
     }
-    if (pass_line(v, err) < 0) return -1; /* the rest of the last line, */
+    if (skip_line(v, err) < 0) return -1; /* the rest of the last line, */
     v->b->line--;                         /* which is counted */
     return 0;
 }
 
 /* --- data sets ------------------------------------------------------------------------------------------ */
 
-static int once(const vtk *v, const fl_vtk_array *a, fl_err *err)
+static int check_first(const vtk_reader *v, const fl_vtk_array *a, fl_err *err)
 {
-    return a->x ? bad(v, err, "%.40s comes twice", v->word[0]) : 0;
+    return a->x ? fail_at_position(v, err, "%.40s comes twice", v->word[0]) : 0;
 }
 
-static int read_points(vtk *v, fl_err *err)
+static int read_points(vtk_reader *v, fl_err *err)
 {
     const number_type *t = type_of(v->word[2]);
     int64_t n;
-    if (count(v, 1, &n, err) || once(v, &v->g.point, err)) return -1;
-    if (!t) return bad(v, err, "points of type \"%.40s\" were found", v->word[2]);
-    return numbers(v, t, 3 * n, &v->g.point, err);
+    if (parse_count(v, 1, &n, err) || check_first(v, &v->g.point, err)) return -1;
+    if (!t) return fail_at_position(v, err, "points of type \"%.40s\" were found", v->word[2]);
+    return read_numbers(v, t, 3 * n, &v->g.point, err);
 }
 
-/* "n c0 c1 ..." for each cell, in one array: the counts go, and the corners move up. */
-static int split(vtk *v, cells *c, int64_t n, fl_err *err)
+/* Convert "n c0 c1 ..." of each cell to offsets and corners, in place. */
+static int split_counts(vtk_reader *v, cell_list *c, int64_t n, fl_err *err)
 {
     double *x = c->corner.x;
     const int64_t all = c->corner.n;
     int64_t k = 0, to = 0;
-    if (n > all) return bad(v, err, "%lld cells do not fit into %lld numbers", (long long)n, (long long)all);
+    if (n > all)
+        return fail_at_position(v, err, "%lld cells do not fit into %lld numbers", (long long)n,
+                                (long long)all);
     c->offset.x = fl_alloc(n, sizeof *c->offset.x, err);
     if (!c->offset.x) return -1;
     for (int64_t i = 0; i < n; i++) {
         const double m = k < all ? x[k++] : -1.0;
         if (!(m >= 0.0 && m <= (double)(all - k)) || m != floor(m))
-            return bad(v, err, "cell %lld of %lld does not fit into the %lld numbers of all cells",
-                       (long long)i, (long long)n, (long long)all);
+            return fail_at_position(v, err,
+                                    "cell %lld of %lld does not fit into the %lld numbers of all cells",
+                                    (long long)i, (long long)n, (long long)all);
         for (int64_t j = 0; j < (int64_t)m; j++) x[to++] = x[k++];
         c->offset.x[i] = (double)to;
     }
-    if (k != all) return bad(v, err, "%lld numbers are left behind the last cell", (long long)(all - k));
+    if (k != all)
+        return fail_at_position(v, err, "%lld numbers are left behind the last cell", (long long)(all - k));
     c->offset.n = n;
     c->corner.n = to;
     return 0;
 }
 
 /* Since version 5.1: OFFSETS, of which the first is 0, and CONNECTIVITY. */
-static int read_offsets(vtk *v, cells *c, int64_t n, int64_t size, fl_err *err)
+static int read_offsets(vtk_reader *v, cell_list *c, int64_t n, int64_t size, fl_err *err)
 {
     const number_type *t = type_of(v->word[1]);
     if (!t || n < 1)
-        return bad(v, err, "%lld offsets of type \"%.40s\" were found", (long long)n, v->word[1]);
-    if (numbers(v, t, n, &c->offset, err)) return -1;
-    if (c->offset.x[0] != 0.0) return bad(v, err, "the first offset is %g, 0 is expected", c->offset.x[0]);
+        return fail_at_position(v, err, "%lld offsets of type \"%.40s\" were found", (long long)n,
+                                v->word[1]);
+    if (read_numbers(v, t, n, &c->offset, err)) return -1;
+    if (c->offset.x[0] != 0.0)
+        return fail_at_position(v, err, "the first offset is %g, 0 is expected", c->offset.x[0]);
     memmove(c->offset.x, c->offset.x + 1, (size_t)--c->offset.n * sizeof *c->offset.x);
-    if (row(v, err) <= 0 || !is(v, "CONNECTIVITY"))
-        return err->code ? -1 : bad(v, err, "CONNECTIVITY is expected behind OFFSETS");
+    if (read_line(v, err) <= 0 || !is_keyword(v, "CONNECTIVITY"))
+        return err->code ? -1 : fail_at_position(v, err, "CONNECTIVITY is expected behind OFFSETS");
     t = type_of(v->word[1]);
-    if (!t) return bad(v, err, "connectivity of type \"%.40s\" was found", v->word[1]);
-    return numbers(v, t, size, &c->corner, err);
+    if (!t) return fail_at_position(v, err, "connectivity of type \"%.40s\" was found", v->word[1]);
+    return read_numbers(v, t, size, &c->corner, err);
 }
 
-static int read_cells(vtk *v, cells *c, fl_err *err)
+static int read_cells(vtk_reader *v, cell_list *c, fl_err *err)
 {
     int64_t n, size;
-    int since;
-    if (count(v, 1, &n, err) || count(v, 2, &size, err) || once(v, &c->offset, err)) return -1;
-    since = comes(v, "OFFSETS", err);
-    if (since) return since < 0 || row(v, err) < 0 ? -1 : read_offsets(v, c, n, size, err);
-    return numbers(v, type_of("int"), size, &c->corner, err) || split(v, c, n, err) ? -1 : 0;
+    int has_offsets;
+    if (parse_count(v, 1, &n, err) || parse_count(v, 2, &size, err) || check_first(v, &c->offset, err))
+        return -1;
+    has_offsets = next_line_is(v, "OFFSETS", err);
+    if (has_offsets) return has_offsets < 0 || read_line(v, err) < 0 ? -1 : read_offsets(v, c, n, size, err);
+    return read_numbers(v, type_of("int"), size, &c->corner, err) || split_counts(v, c, n, err) ? -1 : 0;
 }
 
-static int read_types(vtk *v, fl_err *err)
+static int read_types(vtk_reader *v, fl_err *err)
 {
     int64_t n;
-    if (count(v, 1, &n, err) || once(v, &v->types, err)) return -1;
-    return numbers(v, type_of("int"), n, &v->types, err);
+    if (parse_count(v, 1, &n, err) || check_first(v, &v->types, err)) return -1;
+    return read_numbers(v, type_of("int"), n, &v->types, err);
 }
 
-/* Strings of a field: in binary data each behind its length, of which the two highest bits of the first byte
- * say how many bytes it has (3: one, 2: two, 1: four, 0: eight). */
-static int pass_strings(vtk *v, int64_t n, fl_err *err)
+/* Skip the strings of a field.  In binary data each follows its length; the two highest bits of the first
+ * byte give the number of its bytes (3: one, 2: two, 1: four, 0: eight). */
+static int skip_strings(vtk_reader *v, int64_t n, fl_err *err)
 {
     int more = 1;
     for (int64_t k = 0; more > 0 && k < n; k++) {
@@ -308,139 +318,142 @@ static int pass_strings(vtk *v, int64_t n, fl_err *err)
         for (int32_t i = 0; more > 0 && i < len; i++) length = length << 8 | p[i];
         if (more > 0) more = length > INT64_MAX ? 0 : fl_bytes_skip(v->b, (int64_t)length, err);
     }
-    return more > 0 ? 0 : more < 0 ? -1 : bad(v, err, "the file ends inside a string");
+    return more > 0 ? 0 : more < 0 ? -1 : fail_at_position(v, err, "the file ends inside a string");
 }
 
-/* An array of m columns of n values called name: kept when it says the parts of cells better than what was
- * there. */
-static int read_array(vtk *v, const char *name, const char *type, int64_t m, int64_t n, fl_err *err)
+/* Read an array of n rows of m columns.  It is kept if it identifies parts of cells and ranks before the one
+ * kept so far. */
+static int read_array(vtk_reader *v, const char *name, const char *type, int64_t m, int64_t n, fl_err *err)
 {
     const number_type *t = type_of(type);
     const int rank = v->of_cells && m == 1 ? fl_vtk_part_rank(name) : -1;
-    if (m > 0 && n > INT32_MAX / m) return bad(v, err, "%lld times %lld values", (long long)n, (long long)m);
-    if (strcasecmp(type, "string") == 0) return pass_strings(v, n * m, err);
-    if (!t) return bad(v, err, "\"%.40s\" is of type \"%.40s\"", name, type);
+    if (m > 0 && n > INT32_MAX / m)
+        return fail_at_position(v, err, "%lld times %lld values", (long long)n, (long long)m);
+    if (strcasecmp(type, "string") == 0) return skip_strings(v, n * m, err);
+    if (!t) return fail_at_position(v, err, "\"%.40s\" is of type \"%.40s\"", name, type);
     if (rank < 0 || t->kind == 'f' || (v->rank >= 0 && v->rank <= rank))
-        return numbers(v, t, n * m, NULL, err);
+        return read_numbers(v, t, n * m, NULL, err);
     free(v->g.part.x);
     v->g.part = (fl_vtk_array){0};
     v->rank = rank;
     snprintf(v->g.part_word, sizeof v->g.part_word, "%.39s", name);
-    return numbers(v, t, n, &v->g.part, err);
+    return read_numbers(v, t, n, &v->g.part, err);
 }
 
-static int read_field(vtk *v, fl_err *err)
+static int read_field(vtk_reader *v, fl_err *err)
 {
     int64_t arrays, m, n;
-    if (count(v, 2, &arrays, err)) return -1;
+    if (parse_count(v, 2, &arrays, err)) return -1;
     for (int64_t k = 0; k < arrays; k++) {
-        char name[WORD], type[WORD];
-        if (wanted_row(v, "a field", err)) return -1;
-        if (is(v, "METADATA")) {
-            if (pass_metadata(v, err)) return -1;
+        char name[WORD_MAX], type[WORD_MAX];
+        if (read_required_line(v, "a field", err)) return -1;
+        if (is_keyword(v, "METADATA")) {
+            if (skip_metadata(v, err)) return -1;
             k--;
             continue;
         }
         memcpy(name, v->word[0], sizeof name);
         memcpy(type, v->word[3], sizeof type);
-        if (count(v, 1, &m, err) || count(v, 2, &n, err) || read_array(v, name, type, m, n, err)) return -1;
+        if (parse_count(v, 1, &m, err) || parse_count(v, 2, &n, err) || read_array(v, name, type, m, n, err))
+            return -1;
     }
     return 0;
 }
 
-/* SCALARS, VECTORS and their like; n is the number of what they belong to. */
-static int read_attribute(vtk *v, int64_t n, fl_err *err)
+/* SCALARS, VECTORS and the like, for n points or cells. */
+static int read_attribute(vtk_reader *v, int64_t n, fl_err *err)
 {
     static const struct {
         const char *word;
         int columns;
     } plain[] = {{"VECTORS", 3},    {"NORMALS", 3},      {"TENSORS", 9},   {"TENSORS6", 6},
                  {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}, {"EDGE_FLAGS", 1}};
-    char name[WORD], type[WORD];
+    char name[WORD_MAX], type[WORD_MAX];
     int64_t m = 1;
     memcpy(name, v->word[1], sizeof name);
     memcpy(type, v->word[2], sizeof type);
-    if (is(v, "SCALARS")) {
-        if (v->words > 3 && count(v, 3, &m, err)) return -1;
-        const int table = comes(v, "LOOKUP_TABLE", err); /* it may be left out */
-        if (table && (table < 0 || row(v, err) < 0)) return -1;
+    if (is_keyword(v, "SCALARS")) {
+        if (v->words > 3 && parse_count(v, 3, &m, err)) return -1;
+        const int table = next_line_is(v, "LOOKUP_TABLE", err); /* it may be absent */
+        if (table && (table < 0 || read_line(v, err) < 0)) return -1;
         return read_array(v, name, type, m, n, err);
     }
-    if (is(v, "TEXTURE_COORDINATES")) {
-        if (count(v, 2, &m, err)) return -1;
+    if (is_keyword(v, "TEXTURE_COORDINATES")) {
+        if (parse_count(v, 2, &m, err)) return -1;
         memcpy(type, v->word[3], sizeof type);
         return read_array(v, name, type, m, n, err);
     }
-    if (is(v, "COLOR_SCALARS")) {
-        if (count(v, 2, &m, err)) return -1;
+    if (is_keyword(v, "COLOR_SCALARS")) {
+        if (parse_count(v, 2, &m, err)) return -1;
         return read_array(v, name, v->binary ? "unsigned_char" : "float", m, n, err);
     }
-    if (is(v, "LOOKUP_TABLE")) {
-        if (count(v, 2, &n, err)) return -1;
+    if (is_keyword(v, "LOOKUP_TABLE")) {
+        if (parse_count(v, 2, &n, err)) return -1;
         return read_array(v, name, v->binary ? "unsigned_char" : "float", 4, n, err);
     }
     for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
-        if (is(v, plain[k].word)) return read_array(v, name, type, plain[k].columns, n, err);
-    return bad(v, err, "\"%.40s\" has no place in a VTK file", v->word[0]);
+        if (is_keyword(v, plain[k].word)) return read_array(v, name, type, plain[k].columns, n, err);
+    return fail_at_position(v, err, "\"%.40s\" has no place in a VTK file", v->word[0]);
 }
 
-static int read_head(vtk *v, fl_err *err)
+static int read_head(vtk_reader *v, fl_err *err)
 {
-    if (pass_line(v, err) < 0 || pass_line(v, err) < 0 || wanted_row(v, "its head", err)) return -1;
-    if (is(v, "BINARY")) v->binary = 1;
-    else if (!is(v, "ASCII"))
-        return bad(v, err, "\"%.40s\" was found, ASCII or BINARY is expected", v->word[0]);
+    if (skip_line(v, err) < 0 || skip_line(v, err) < 0 || read_required_line(v, "its head", err)) return -1;
+    if (is_keyword(v, "BINARY")) v->binary = 1;
+    else if (!is_keyword(v, "ASCII"))
+        return fail_at_position(v, err, "\"%.40s\" was found, ASCII or BINARY is expected", v->word[0]);
     return 0;
 }
 
-static int read_set(vtk *v, int *grid, fl_err *err)
+static int read_set(vtk_reader *v, int *grid, fl_err *err)
 {
     *grid = strcasecmp(v->word[1], "UNSTRUCTURED_GRID") == 0;
     if (*grid || strcasecmp(v->word[1], "POLYDATA") == 0) return 0;
-    return bad(v, err, "a data set of kind \"%.40s\" has no surface of its own: save its surface as POLYDATA",
-               v->word[1]);
+    return fail_at_position(
+        v, err, "a data set of kind \"%.40s\" has no surface of its own: save its surface as POLYDATA",
+        v->word[1]);
 }
 
-static int read_all(vtk *v, fl_err *err)
+static int read_all(vtk_reader *v, fl_err *err)
 {
     int64_t n = 0;
     int grid = 0, sets = 0, more;
     if (read_head(v, err)) return -1;
-    while ((more = row(v, err)) > 0) {
+    while ((more = read_line(v, err)) > 0) {
         int k = 0;
-        if (is(v, "METADATA")) {
-            if (pass_metadata(v, err)) return -1;
+        if (is_keyword(v, "METADATA")) {
+            if (skip_metadata(v, err)) return -1;
             continue;
         }
-        while (k < LISTS && !is(v, LIST[k])) k++;
-        if (is(v, "DATASET")) {
+        while (k < LISTS && !is_keyword(v, LIST_NAME[k])) k++;
+        if (is_keyword(v, "DATASET")) {
             sets++;
             if (read_set(v, &grid, err)) return -1;
-        } else if (is(v, "FIELD")) {
+        } else if (is_keyword(v, "FIELD")) {
             if (read_field(v, err)) return -1;
         } else if (sets != 1) {
-            return bad(v, err, "\"%.40s\" was found, one DATASET is expected", v->word[0]);
-        } else if (is(v, "POINTS")) {
+            return fail_at_position(v, err, "\"%.40s\" was found, one DATASET is expected", v->word[0]);
+        } else if (is_keyword(v, "POINTS")) {
             if (read_points(v, err)) return -1;
-        } else if (is(v, "CELL_TYPES")) {
+        } else if (is_keyword(v, "CELL_TYPES")) {
             if (read_types(v, err)) return -1;
         } else if (k < LISTS) {
             if (grid != (k == CELLS))
-                return bad(v, err, "%s do not belong to a data set of this kind", LIST[k]);
+                return fail_at_position(v, err, "%s do not belong to a data set of this kind", LIST_NAME[k]);
             if (read_cells(v, &v->list[k], err)) return -1;
-        } else if (is(v, "CELL_DATA") || is(v, "POINT_DATA")) {
-            v->of_cells = is(v, "CELL_DATA");
-            if (count(v, 1, &n, err)) return -1;
+        } else if (is_keyword(v, "CELL_DATA") || is_keyword(v, "POINT_DATA")) {
+            v->of_cells = is_keyword(v, "CELL_DATA");
+            if (parse_count(v, 1, &n, err)) return -1;
         } else if (read_attribute(v, n, err)) {
             return -1;
         }
     }
     if (more < 0) return -1;
-    return v->g.point.x ? 0 : bad(v, err, "no POINTS");
+    return v->g.point.x ? 0 : fail_at_position(v, err, "no POINTS");
 }
 
-/* Put the lists one behind the other; one alone stays where it is. */
-static int join(vtk *v, fl_err *err)
+/* Concatenate the lists; a single one is moved. */
+static int join_lists(vtk_reader *v, fl_err *err)
 {
     int64_t n = 0, corners = 0;
     int some = 0;
@@ -457,8 +470,8 @@ static int join(vtk *v, fl_err *err)
         if (!v->g.corner.x || !v->g.offset.x) return -1;
     }
     for (int k = 0; k < LISTS; k++) {
-        cells *c = &v->list[k];
-        for (int64_t i = 0; i < c->offset.n; i++) v->g.type.x[v->g.type.n++] = (double)CELL_OF[k];
+        cell_list *c = &v->list[k];
+        for (int64_t i = 0; i < c->offset.n; i++) v->g.type.x[v->g.type.n++] = (double)CELL_TYPE_OF[k];
         if (c->offset.n == 0) continue;
         if (some == 1) {
             v->g.corner = c->corner;
@@ -474,13 +487,14 @@ static int join(vtk *v, fl_err *err)
     }
     if (v->list[CELLS].offset.n == 0) return 0;
     if (v->types.n != n)
-        return bad(v, err, "%lld cells have %lld types", (long long)n, (long long)v->types.n);
+        return fail_at_position(v, err, "%lld cells have %lld types", (long long)n, (long long)v->types.n);
     memcpy(v->g.type.x, v->types.x, (size_t)n * sizeof(double));
     return 0;
 }
 
-/* Polyhedra of a legacy file: the corners are the number of faces, then each face with its count. */
-static int faces(vtk *v, fl_err *err)
+/* Move the polyhedra of a legacy file to the face arrays.  Their corners are the number of faces, then each
+ * face with its number of corners. */
+static int extract_polyhedra(vtk_reader *v, fl_err *err)
 {
     fl_vtk_grid *g = &v->g;
     int64_t n = 0, from = 0;
@@ -494,7 +508,7 @@ static int faces(vtk *v, fl_err *err)
         const double last = g->offset.x[c];
         const int64_t begin = to;
         if (!(last >= (double)from && last <= (double)g->corner.n) || last != floor(last))
-            return bad(v, err, "cell %lld ends at place %g", (long long)c, last);
+            return fail_at_position(v, err, "cell %lld ends at place %g", (long long)c, last);
         g->face_last.x[c] = -1.0;
         for (int64_t k = from; k < (int64_t)last; k++) {
             if (g->type.x[c] == 42.0) g->face.x[g->face.n++] = g->corner.x[k];
@@ -507,20 +521,20 @@ static int faces(vtk *v, fl_err *err)
     return 0;
 }
 
-int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_vtk_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
-    vtk v = {.b = b, .rank = -1};
+    vtk_reader v = {.b = b, .rank = -1};
     fl_vtk_names names = {0};
     fl_elements e;
     int32_t coarse = 0;
     int rc = -1;
     if (fl_elements_start(&e, fl_in_name(b->in), err)) return -1;
-    if (read_all(&v, err) || join(&v, err) || faces(&v, err) ||
+    if (read_all(&v, err) || join_lists(&v, err) || extract_polyhedra(&v, err) ||
         fl_vtk_add_cells(&e, &v.g, 0, &names, name, &coarse, err))
         goto done;
-    if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
-    fl_vtk_grid_free(&v.g); /* its elements have all of it */
-    rc = fl_elements_surface(&e, s, b, w, err);
+    if (coarse) fl_bytes_note(b, "%d cells of higher order were reduced to their corners", coarse);
+    fl_vtk_grid_free(&v.g); /* the elements hold all of it */
+    rc = fl_elements_surface(&e, s, b, opt, err);
 done:
     for (int k = 0; k < LISTS; k++) {
         free(v.list[k].corner.x);

@@ -9,49 +9,50 @@
 #include "base/decimal.h"
 #include "base/array.h"
 #include "base/number_text.h"
+#include "mesh/element_surface.h"
 #include "mesh/read_vtk_xml.h"
 #include "mesh/vtk_cells.h"
 
-enum { WORD = 80, CHUNK = 1 << 16 };
+enum { WORD_MAX = 80, CHUNK = 1 << 16 };
 
-/* Where an array stands in its piece. */
-typedef enum { ELSEWHERE, FIELD_DATA, CELL_DATA, POINTS, VERTS, LINES, STRIPS, POLYS, CELLS } place;
+/* Section in which an array stands. */
+typedef enum { ELSEWHERE, FIELD_DATA, CELL_DATA, POINTS, VERTS, LINES, STRIPS, POLYS, CELLS } section_kind;
 
 static const struct {
     const char *tag;
-    place is;
+    section_kind is;
 } SECTION[] = {{"FieldData", FIELD_DATA}, {"CellData", CELL_DATA}, {"PointData", ELSEWHERE},
                {"Points", POINTS},        {"Verts", VERTS},        {"Lines", LINES},
                {"Strips", STRIPS},        {"Polys", POLYS},        {"Cells", CELLS}};
 
-/* An array as its tag describes it. */
+/* Attributes of an array. */
 typedef struct {
-    char name[WORD], type[WORD], format[WORD];
+    char name[WORD_MAX], type[WORD_MAX], format[WORD_MAX];
     int64_t offset;
-    int32_t from, to; /* its text */
-    int32_t tag;      /* where the tag is, for complaints */
-    place in;
+    int32_t from, to; /* its text, begin and end */
+    int32_t tag;      /* position of the tag, for messages */
+    section_kind in;
     int32_t piece;
-} array;
+} xml_array;
 
 typedef struct {
     fl_bytes *b;
-    int big, wide, packed; /* highest byte first; headers of 8 bytes; zlib */
+    int big, wide, packed; /* byte order big-endian; headers of 8 bytes; zlib */
     int poly;              /* PolyData */
-    array *a;
+    xml_array *a;
     int32_t arrays, cap, pieces;
-    int32_t appended; /* where the appended data begin, -1 for none */
-    int base64;       /* are they? */
-} vtx;
+    int32_t appended; /* begin of the appended data, -1 for none */
+    int base64;       /* the appended data are base64 */
+} vtk_xml_reader;
 
-/* Bytes as they come out of an array: raw, or decoded from base64. */
+/* Bytes of an array: raw, or decoded from base64. */
 typedef struct {
-    const vtx *v;
-    const array *a;
+    const vtk_xml_reader *v;
+    const xml_array *a;
     int32_t pos, end;
-    int base64, have, next; /* of out: what a group of four letters holds */
+    int base64, have, next; /* of out: the bytes of one group of four characters */
     unsigned char out[3];
-} source;
+} byte_source;
 
 int fl_vtk_xml_is(const fl_bytes *b)
 {
@@ -59,11 +60,11 @@ int fl_vtk_xml_is(const fl_bytes *b)
     return strncmp(p, "<?xml", 5) == 0 || strncmp(p, "<VTKFile", 8) == 0 || strncmp(p, "<!--", 4) == 0;
 }
 
-static int bad(const vtx *v, int32_t at, fl_err *err, const char *fmt, ...)
+static int fail_at(const vtk_xml_reader *v, int32_t at, fl_err *err, const char *fmt, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Fail at a place in the text, by its line. */
-static int bad(const vtx *v, int32_t at, fl_err *err, const char *fmt, ...)
+/* Fail with the line of a position in the text. */
+static int fail_at(const vtk_xml_reader *v, int32_t at, fl_err *err, const char *fmt, ...)
 {
     char what[300];
     va_list ap;
@@ -77,8 +78,8 @@ static int bad(const vtx *v, int32_t at, fl_err *err, const char *fmt, ...)
 
 /* --- tags ----------------------------------------------------------------------------------------------- */
 
-/* The value of an attribute of the tag at p[0 .. n), "" when it has none. */
-static void attribute(const char *p, size_t n, const char *key, char value[WORD])
+/* Copy the value of an attribute of the tag at p[0 .. n); "" if it has none. */
+static void get_attribute(const char *p, size_t n, const char *key, char value[WORD_MAX])
 {
     const size_t len = strlen(key);
     value[0] = '\0';
@@ -90,50 +91,51 @@ static void attribute(const char *p, size_t n, const char *key, char value[WORD]
         if (at >= n || p[at++] != '=') continue;
         while (at < n && strchr(" \t\r\n", p[at])) at++;
         if (at >= n || (p[at] != '"' && p[at] != '\'')) continue;
-        for (quote = p[at++]; at < n && p[at] != quote && to < WORD - 1; at++) value[to++] = p[at];
+        for (quote = p[at++]; at < n && p[at] != quote && to < WORD_MAX - 1; at++) value[to++] = p[at];
         value[to] = '\0';
         return;
     }
 }
 
-static int read_file_tag(vtx *v, int32_t at, const char *p, size_t n, fl_err *err)
+static int read_file_tag(vtk_xml_reader *v, int32_t at, const char *p, size_t n, fl_err *err)
 {
-    char type[WORD], order[WORD], header[WORD], packing[WORD];
-    attribute(p, n, "type", type);
-    attribute(p, n, "byte_order", order);
-    attribute(p, n, "header_type", header);
-    attribute(p, n, "compressor", packing);
+    char type[WORD_MAX], order[WORD_MAX], header[WORD_MAX], packing[WORD_MAX];
+    get_attribute(p, n, "type", type);
+    get_attribute(p, n, "byte_order", order);
+    get_attribute(p, n, "header_type", header);
+    get_attribute(p, n, "compressor", packing);
     v->poly = strcmp(type, "PolyData") == 0;
     if (!v->poly && strcmp(type, "UnstructuredGrid") != 0)
-        return bad(
+        return fail_at(
             v, at, err,
             "a VTK file of type \"%.40s\" was found: PolyData or UnstructuredGrid in one file is expected",
             type);
     if (*packing && strcmp(packing, "vtkZLibDataCompressor") != 0)
-        return bad(v, at, err, "packed by %.40s: write the file with zlib or not packed", packing);
+        return fail_at(v, at, err, "packed by %.40s: write the file with zlib or not packed", packing);
     v->packed = *packing != '\0';
     v->big = strcasecmp(order, "BigEndian") == 0;
     v->wide = strcasecmp(header, "UInt64") == 0;
     return 0;
 }
 
-static int add_array(vtx *v, int32_t at, const char *p, size_t n, int closed, place in, fl_err *err)
+static int add_array(vtk_xml_reader *v, int32_t at, const char *p, size_t n, int closed, section_kind in,
+                     fl_err *err)
 {
-    array a = {.in = in, .piece = v->pieces - 1, .tag = at, .from = at + (int32_t)n + 1};
-    char offset[WORD];
+    xml_array a = {.in = in, .piece = v->pieces - 1, .tag = at, .from = at + (int32_t)n + 1};
+    char offset[WORD_MAX];
     const char *end;
     uint64_t u = 0;
-    attribute(p, n, "Name", a.name);
-    attribute(p, n, "type", a.type);
-    attribute(p, n, "format", a.format);
-    attribute(p, n, "offset", offset);
+    get_attribute(p, n, "Name", a.name);
+    get_attribute(p, n, "type", a.type);
+    get_attribute(p, n, "format", a.format);
+    get_attribute(p, n, "offset", offset);
     if (*offset && (fl_number_u64(offset, &u) || u > INT32_MAX))
-        return bad(v, at, err, "an offset of \"%.40s\" was found", offset);
+        return fail_at(v, at, err, "an offset of \"%.40s\" was found", offset);
     a.offset = (int64_t)u;
     a.to = a.from;
     if (!closed) {
         end = strchr(v->b->data + a.from, '<');
-        if (!end) return bad(v, at, err, "the file ends inside the array \"%.40s\"", a.name);
+        if (!end) return fail_at(v, at, err, "the file ends inside the array \"%.40s\"", a.name);
         a.to = (int32_t)(end - v->b->data);
     }
     if (fl_grow(&v->a, &v->cap, (int64_t)v->arrays + 1, sizeof *v->a, err)) return -1;
@@ -141,8 +143,9 @@ static int add_array(vtx *v, int32_t at, const char *p, size_t n, int closed, pl
     return 0;
 }
 
-/* A tag: its name, and what it means for those that follow.  1 when the text ends with it. */
-static int obey(vtx *v, int32_t at, const char *p, size_t n, place *in, int *opened, fl_err *err)
+/* Process a tag.  Returns 1 at the tag behind which the appended data begin. */
+static int process_tag(vtk_xml_reader *v, int32_t at, const char *p, size_t n, section_kind *in, int *opened,
+                       fl_err *err)
 {
     const int closed = n > 0 && p[n - 1] == '/';
     const size_t word = strcspn(p, " \t\r\n/>");
@@ -158,66 +161,67 @@ static int obey(vtx *v, int32_t at, const char *p, size_t n, place *in, int *ope
         return read_file_tag(v, at, p, n, err);
     }
     if (!*opened)
-        return bad(v, at, err, "<%.*s> was found, <VTKFile> is expected", (int)(word < 40 ? word : 40), p);
+        return fail_at(v, at, err, "<%.*s> was found, <VTKFile> is expected", (int)(word < 40 ? word : 40),
+                       p);
     if (word == 5 && strncmp(p, "Piece", 5) == 0) v->pieces++;
     if ((word == 9 && strncmp(p, "DataArray", 9) == 0) || (word == 5 && strncmp(p, "Array", 5) == 0))
         return add_array(v, at, p, n, closed, *in, err);
     if (word == 12 && strncmp(p, "AppendedData", 12) == 0) {
-        char encoding[WORD];
+        char encoding[WORD_MAX];
         const char *mark = strchr(p + n, '_');
-        attribute(p, n, "encoding", encoding);
+        get_attribute(p, n, "encoding", encoding);
         v->base64 = strcmp(encoding, "base64") == 0;
         if (!v->base64 && strcmp(encoding, "raw") != 0)
-            return bad(v, at, err, "appended data are encoded as \"%.40s\", raw or base64 is expected",
-                       encoding);
-        if (!mark) return bad(v, at, err, "the file ends before the appended data");
+            return fail_at(v, at, err, "appended data are encoded as \"%.40s\", raw or base64 is expected",
+                           encoding);
+        if (!mark) return fail_at(v, at, err, "the file ends before the appended data");
         v->appended = (int32_t)(mark + 1 - v->b->data);
         return 1;
     }
     return 0;
 }
 
-/* Walk through the tags up to the appended data. */
-static int read_tags(vtx *v, fl_err *err)
+/* Process all tags up to the appended data. */
+static int read_tags(vtk_xml_reader *v, fl_err *err)
 {
     const char *data = v->b->data, *p = data;
-    place in = ELSEWHERE;
+    section_kind in = ELSEWHERE;
     int opened = 0, done = 0, closed = 0;
     while (!done && (p = strchr(p, '<')) != NULL) {
         const int32_t at = (int32_t)(p + 1 - data);
         const char *end;
         if (strncmp(p, "<!--", 4) == 0) {
             end = strstr(p, "-->");
-            if (!end) return bad(v, at, err, "the file ends inside a comment");
+            if (!end) return fail_at(v, at, err, "the file ends inside a comment");
             p = end + 3;
             continue;
         }
         end = strchr(p, '>');
-        if (!end) return bad(v, at, err, "the file ends inside a tag");
+        if (!end) return fail_at(v, at, err, "the file ends inside a tag");
         if (p[1] != '?' && p[1] != '!') {
-            done = obey(v, at, p + 1, (size_t)(end - p - 1), &in, &opened, err);
+            done = process_tag(v, at, p + 1, (size_t)(end - p - 1), &in, &opened, err);
             if (done < 0) return -1;
             closed |= strncmp(p, "</VTKFile", 9) == 0;
         }
         p = end + 1;
     }
-    if (!opened) return bad(v, 0, err, "XML without <VTKFile>");
-    if (!done && !closed) return bad(v, v->b->n, err, "the file ends before </VTKFile>");
+    if (!opened) return fail_at(v, 0, err, "XML without <VTKFile>");
+    if (!done && !closed) return fail_at(v, v->b->n, err, "the file ends before </VTKFile>");
     return 0;
 }
 
 /* --- bytes of an array ---------------------------------------------------------------------------------- */
 
-static int fail_in(const source *s, fl_err *err, const char *what)
+static int fail_in(const byte_source *s, fl_err *err, const char *what)
 {
     if (s->v->appended >= 0 && s->pos >= s->v->appended) {
         s->v->b->line = 0;
         return fl_bytes_fail(s->v->b, err, "byte %d, in the array \"%.40s\": %s", s->pos, s->a->name, what);
     }
-    return bad(s->v, s->a->tag, err, "in the array \"%.40s\": %s", s->a->name, what);
+    return fail_at(s->v, s->a->tag, err, "in the array \"%.40s\": %s", s->a->name, what);
 }
 
-static int letter(char c)
+static int base64_value(char c)
 {
     if (c >= 'A' && c <= 'Z') return c - 'A';
     if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -225,16 +229,16 @@ static int letter(char c)
     return c == '+' ? 62 : c == '/' ? 63 : c == '=' ? 64 : -1;
 }
 
-/* Four letters are up to three bytes.  Fewer bytes end one encoded text; another may follow, as a header and
- * what it is the header of. */
-static int group(source *s, fl_err *err)
+/* Decode four characters to up to three bytes.  Fewer than three end one encoded text; another may follow, as
+ * the data behind their header. */
+static int decode_group(byte_source *s, fl_err *err)
 {
     uint32_t bits = 0;
     int n = 0, pads = 0;
     while (n < 4) {
         int k;
         if (s->pos >= s->end) return fail_in(s, err, "the data end too early");
-        k = letter(s->v->b->data[s->pos]);
+        k = base64_value(s->v->b->data[s->pos]);
         if (k < 0 && !strchr(" \t\r\n", s->v->b->data[s->pos])) {
             return fail_in(s, err,
                            s->v->b->data[s->pos] == '<' ? "the data end too early"
@@ -254,7 +258,7 @@ static int group(source *s, fl_err *err)
     return 0;
 }
 
-static int take(source *s, unsigned char *to, int64_t n, fl_err *err)
+static int read_bytes(byte_source *s, unsigned char *to, int64_t n, fl_err *err)
 {
     if (!s->base64) {
         if (n > s->end - s->pos) return fail_in(s, err, "the data end too early");
@@ -263,24 +267,24 @@ static int take(source *s, unsigned char *to, int64_t n, fl_err *err)
         return 0;
     }
     for (int64_t k = 0; k < n; k++) {
-        if (s->next == s->have && group(s, err)) return -1;
+        if (s->next == s->have && decode_group(s, err)) return -1;
         to[k] = s->out[s->next++];
     }
     return 0;
 }
 
-static uint64_t bits_of(const vtx *v, const unsigned char *p, int n)
+static uint64_t bits_of(const vtk_xml_reader *v, const unsigned char *p, int n)
 {
     uint64_t u = 0;
     for (int k = 0; k < n; k++) u = u << 8 | p[v->big ? k : n - 1 - k];
     return u;
 }
 
-static int head(source *s, uint64_t *u, fl_err *err)
+static int read_header(byte_source *s, uint64_t *u, fl_err *err)
 {
     unsigned char byte[8];
     const int n = s->v->wide ? 8 : 4;
-    if (take(s, byte, n, err)) return -1;
+    if (read_bytes(s, byte, n, err)) return -1;
     *u = bits_of(s->v, byte, n);
     return 0;
 }
@@ -290,20 +294,21 @@ typedef struct {
     int32_t n, cap;
 } buffer;
 
-/* n bytes, which grow as they come. */
-static int plain(source *s, buffer *out, uint64_t n, fl_err *err)
+/* Read n bytes; memory grows only as they are read. */
+static int read_plain(byte_source *s, buffer *out, uint64_t n, fl_err *err)
 {
     if (n > INT32_MAX) return fail_in(s, err, "more than 2 GiB in one array");
     while ((uint64_t)out->n < n) {
         const int64_t left = (int64_t)n - out->n, part = left < CHUNK ? left : CHUNK;
-        if (fl_grow(&out->byte, &out->cap, out->n + part, 1, err) || take(s, out->byte + out->n, part, err))
+        if (fl_grow(&out->byte, &out->cap, out->n + part, 1, err) ||
+            read_bytes(s, out->byte + out->n, part, err))
             return -1;
         out->n += (int32_t)part;
     }
     return 0;
 }
 
-static int unpack(source *s, buffer *out, const buffer *in, uint64_t size, fl_err *err)
+static int inflate_block(byte_source *s, buffer *out, const buffer *in, uint64_t size, fl_err *err)
 {
     z_stream z = {0};
     const int32_t begin = out->n;
@@ -321,7 +326,7 @@ static int unpack(source *s, buffer *out, const buffer *in, uint64_t size, fl_er
         rc = inflate(&z, Z_NO_FLUSH);
         if (rc != Z_OK && rc != Z_STREAM_END) break;
         out->n += (int32_t)(CHUNK - z.avail_out);
-        if (rc == Z_OK && z.avail_out == CHUNK && z.avail_in == 0) break; /* it was cut off */
+        if (rc == Z_OK && z.avail_out == CHUNK && z.avail_in == 0) break; /* truncated */
     }
     inflateEnd(&z);
     if (rc == Z_MEM_ERROR) return fl_fail(err, FL_SYSTEM, "out of memory for zlib");
@@ -330,25 +335,26 @@ static int unpack(source *s, buffer *out, const buffer *in, uint64_t size, fl_er
     return 0;
 }
 
-/* Packed: the number of blocks, the size of each and of the last (0 when it is full), their packed sizes;
- * then the blocks. */
-static int packed(source *s, buffer *out, fl_err *err)
+/* Compressed data: the number of blocks, the size of each and of the last (0 if full), their compressed
+ * sizes; then the blocks. */
+static int read_compressed(byte_source *s, buffer *out, fl_err *err)
 {
     uint64_t blocks, size, last, u;
     buffer in = {0};
     uint64_t *length = NULL;
     int32_t cap = 0;
     int rc = -1;
-    if (head(s, &blocks, err) || head(s, &size, err) || head(s, &last, err)) return -1;
+    if (read_header(s, &blocks, err) || read_header(s, &size, err) || read_header(s, &last, err)) return -1;
     if (size > INT32_MAX || last > size) return fail_in(s, err, "blocks of a size that cannot be");
     for (uint64_t k = 0; k < blocks; k++) {
-        if (head(s, &u, err)) goto done;
+        if (read_header(s, &u, err)) goto done;
         if (k >= INT32_MAX || fl_grow(&length, &cap, (int64_t)k + 1, sizeof *length, err)) goto done;
         length[k] = u;
     }
     for (uint64_t k = 0; k < blocks; k++) {
         in.n = 0;
-        if (plain(s, &in, length[k], err) || unpack(s, out, &in, k + 1 == blocks && last ? last : size, err))
+        if (read_plain(s, &in, length[k], err) ||
+            inflate_block(s, out, &in, k + 1 == blocks && last ? last : size, err))
             goto done;
     }
     rc = 0;
@@ -358,26 +364,26 @@ done:
     return rc;
 }
 
-static int bytes_of(const vtx *v, const array *a, buffer *out, fl_err *err)
+static int array_bytes(const vtk_xml_reader *v, const xml_array *a, buffer *out, fl_err *err)
 {
-    source s = {.v = v, .a = a, .pos = a->from, .end = a->to, .base64 = 1};
+    byte_source s = {.v = v, .a = a, .pos = a->from, .end = a->to, .base64 = 1};
     uint64_t n;
     if (strcmp(a->format, "appended") == 0) {
         if (v->appended < 0 || a->offset > v->b->n - v->appended)
-            return bad(v, a->tag, err, "the array \"%.40s\" is appended at %lld, where nothing is", a->name,
-                       (long long)a->offset);
+            return fail_at(v, a->tag, err, "the array \"%.40s\" is appended at %lld, where nothing is",
+                           a->name, (long long)a->offset);
         s.pos = v->appended + (int32_t)a->offset;
         s.end = v->b->n;
         s.base64 = v->base64;
     }
-    if (v->packed) return packed(&s, out, err);
-    if (head(&s, &n, err)) return -1;
-    return plain(&s, out, n, err);
+    if (v->packed) return read_compressed(&s, out, err);
+    if (read_header(&s, &n, err)) return -1;
+    return read_plain(&s, out, n, err);
 }
 
 /* --- numbers -------------------------------------------------------------------------------------------- */
 
-static double number(const vtx *v, const unsigned char *p, int bytes, char kind)
+static double decode_number(const vtk_xml_reader *v, const unsigned char *p, int bytes, char kind)
 {
     uint64_t u = bits_of(v, p, bytes);
     float single;
@@ -397,8 +403,8 @@ static double number(const vtx *v, const unsigned char *p, int bytes, char kind)
     return x;
 }
 
-/* "Int32" is of 4 bytes and kind 'i'. */
-static int type_of(const vtx *v, const array *a, int *bytes, char *kind, fl_err *err)
+/* Size and kind of a type: "Int32" has 4 bytes and kind 'i'. */
+static int type_of(const vtk_xml_reader *v, const xml_array *a, int *bytes, char *kind, fl_err *err)
 {
     static const struct {
         const char *name;
@@ -413,10 +419,10 @@ static int type_of(const vtx *v, const array *a, int *bytes, char *kind, fl_err 
             *kind = type[k].kind;
             return 0;
         }
-    return bad(v, a->tag, err, "the array \"%.40s\" is of type \"%.40s\"", a->name, a->type);
+    return fail_at(v, a->tag, err, "the array \"%.40s\" is of type \"%.40s\"", a->name, a->type);
 }
 
-static int text_numbers(const vtx *v, const array *a, fl_vtk_array *out, fl_err *err)
+static int parse_text(const vtk_xml_reader *v, const xml_array *a, fl_vtk_array *out, fl_err *err)
 {
     const char *p = v->b->data + a->from, *const end = v->b->data + a->to;
     int32_t cap = 0, n = 0;
@@ -428,8 +434,8 @@ static int text_numbers(const vtx *v, const array *a, fl_vtk_array *out, fl_err 
         next = fl_decimal_read(p, &out->x[n]);
         if (!next || !strchr(" \t\r\n\f\v<", *next)) {
             const size_t k = strcspn(p, " \t\r\n\f\v<");
-            return bad(v, (int32_t)(p - v->b->data), err, "\"%.*s\" was found, a number is expected",
-                       (int)(k < 40 ? k : 40), p);
+            return fail_at(v, (int32_t)(p - v->b->data), err, "\"%.*s\" was found, a number is expected",
+                           (int)(k < 40 ? k : 40), p);
         }
         n++;
         p = next;
@@ -438,7 +444,7 @@ static int text_numbers(const vtx *v, const array *a, fl_vtk_array *out, fl_err 
     return 0;
 }
 
-static int values(const vtx *v, const array *a, fl_vtk_array *out, fl_err *err)
+static int read_values(const vtk_xml_reader *v, const xml_array *a, fl_vtk_array *out, fl_err *err)
 {
     buffer raw = {0};
     int bytes = 1, rc = -1;
@@ -446,19 +452,19 @@ static int values(const vtx *v, const array *a, fl_vtk_array *out, fl_err *err)
     free(out->x);
     *out = (fl_vtk_array){0};
     if (type_of(v, a, &bytes, &kind, err)) return -1;
-    if (strcmp(a->format, "ascii") == 0) return text_numbers(v, a, out, err);
+    if (strcmp(a->format, "ascii") == 0) return parse_text(v, a, out, err);
     if (strcmp(a->format, "binary") != 0 && strcmp(a->format, "appended") != 0)
-        return bad(v, a->tag, err, "the array \"%.40s\" has the format \"%.40s\"", a->name, a->format);
-    if (bytes_of(v, a, &raw, err)) goto done;
+        return fail_at(v, a->tag, err, "the array \"%.40s\" has the format \"%.40s\"", a->name, a->format);
+    if (array_bytes(v, a, &raw, err)) goto done;
     if (raw.n % bytes) {
-        bad(v, a->tag, err, "the array \"%.40s\" has %d bytes, which are no numbers of %d", a->name, raw.n,
-            bytes);
+        fail_at(v, a->tag, err, "the array \"%.40s\" has %d bytes, which are no numbers of %d", a->name,
+                raw.n, bytes);
         goto done;
     }
     out->x = fl_alloc(raw.n / bytes, sizeof *out->x, err);
     if (!out->x) goto done;
     for (; out->n < raw.n / bytes; out->n++)
-        out->x[out->n] = number(v, raw.byte + out->n * bytes, bytes, kind);
+        out->x[out->n] = decode_number(v, raw.byte + out->n * bytes, bytes, kind);
     rc = 0;
 done:
     free(raw.byte);
@@ -467,7 +473,7 @@ done:
 
 /* --- pieces --------------------------------------------------------------------------------------------- */
 
-static const array *find(const vtx *v, int32_t piece, place in, const char *name)
+static const xml_array *find_array(const vtk_xml_reader *v, int32_t piece, section_kind in, const char *name)
 {
     for (int32_t k = 0; k < v->arrays; k++)
         if (v->a[k].in == in && v->a[k].piece == piece && (!name || strcmp(v->a[k].name, name) == 0))
@@ -475,10 +481,10 @@ static const array *find(const vtx *v, int32_t piece, place in, const char *name
     return NULL;
 }
 
-/* Names of parts: text of bytes, each ended by a zero, and their numbers. */
-static int read_names(const vtx *v, fl_vtk_names *names, fl_err *err)
+/* Names of parts (bytes, each name ended by a zero) and their numbers. */
+static int read_names(const vtk_xml_reader *v, fl_vtk_names *names, fl_err *err)
 {
-    const array *text = NULL, *id = NULL;
+    const xml_array *text = NULL, *id = NULL;
     fl_vtk_array t = {0}, n = {0};
     char word[256];
     size_t len = 0;
@@ -490,7 +496,7 @@ static int read_names(const vtx *v, fl_vtk_names *names, fl_err *err)
         if (strcmp(v->a[i].name, "part_id") == 0) id = &v->a[i];
     }
     if (!text || !id) return 0;
-    if (values(v, text, &t, err) || values(v, id, &n, err)) goto done;
+    if (read_values(v, text, &t, err) || read_values(v, id, &n, err)) goto done;
     for (int64_t i = 0; i < t.n; i++) {
         const int c = t.x[i] > 0.0 && t.x[i] < 256.0 ? (int)t.x[i] : 0;
         if (c && len < sizeof word - 1) word[len++] = (char)c;
@@ -507,7 +513,7 @@ done:
     return rc;
 }
 
-static int append(fl_vtk_array *to, const fl_vtk_array *from, double add, fl_err *err)
+static int append_numbers(fl_vtk_array *to, const fl_vtk_array *from, double add, fl_err *err)
 {
     double *x = fl_alloc(to->n + from->n, sizeof *x, err);
     if (!x) return -1;
@@ -519,22 +525,24 @@ static int append(fl_vtk_array *to, const fl_vtk_array *from, double add, fl_err
     return 0;
 }
 
-/* Verts, Lines, Strips and Polys, in the order in which their cells are numbered: verts, lines, polys,
- * strips. */
-static int read_lists(const vtx *v, int32_t piece, fl_vtk_grid *g, fl_err *err)
+/* Verts, Lines, Strips and Polys, in the order in which VTK numbers their cells: verts, lines, polys, strips.
+ */
+static int read_lists(const vtk_xml_reader *v, int32_t piece, fl_vtk_grid *g, fl_err *err)
 {
-    static const place order[] = {VERTS, LINES, POLYS, STRIPS};
+    static const section_kind order[] = {VERTS, LINES, POLYS, STRIPS};
     static const int type[] = {2, 4, 7, 6};
     for (int k = 0; k < 4; k++) {
-        const array *c = find(v, piece, order[k], "connectivity"), *o = find(v, piece, order[k], "offsets");
+        const xml_array *c = find_array(v, piece, order[k], "connectivity"),
+                        *o = find_array(v, piece, order[k], "offsets");
         fl_vtk_array corner = {0}, offset = {0};
         int rc = 0;
         if (!c || !o) continue;
-        if (values(v, c, &corner, err) || values(v, o, &offset, err) ||
-            append(&g->offset, &offset, (double)g->corner.n, err) || append(&g->corner, &corner, 0.0, err))
+        if (read_values(v, c, &corner, err) || read_values(v, o, &offset, err) ||
+            append_numbers(&g->offset, &offset, (double)g->corner.n, err) ||
+            append_numbers(&g->corner, &corner, 0.0, err))
             rc = -1;
         for (int64_t i = 0; rc == 0 && i < offset.n; i++) offset.x[i] = type[k];
-        if (rc == 0) rc = append(&g->type, &offset, 0.0, err);
+        if (rc == 0) rc = append_numbers(&g->type, &offset, 0.0, err);
         free(corner.x);
         free(offset.x);
         if (rc) return -1;
@@ -542,36 +550,38 @@ static int read_lists(const vtx *v, int32_t piece, fl_vtk_grid *g, fl_err *err)
     return 0;
 }
 
-static int read_cells(const vtx *v, int32_t piece, fl_vtk_grid *g, fl_err *err)
+static int read_cells(const vtk_xml_reader *v, int32_t piece, fl_vtk_grid *g, fl_err *err)
 {
-    const array *c = find(v, piece, CELLS, "connectivity"), *o = find(v, piece, CELLS, "offsets");
-    const array *t = find(v, piece, CELLS, "types"), *f = find(v, piece, CELLS, "faces");
-    const array *l = find(v, piece, CELLS, "faceoffsets");
+    const xml_array *c = find_array(v, piece, CELLS, "connectivity"),
+                    *o = find_array(v, piece, CELLS, "offsets");
+    const xml_array *t = find_array(v, piece, CELLS, "types"), *f = find_array(v, piece, CELLS, "faces");
+    const xml_array *l = find_array(v, piece, CELLS, "faceoffsets");
     if (!c || !o || !t)
-        return bad(v, v->b->n, err, "piece %d lacks connectivity, offsets or types", piece + 1);
-    if (values(v, c, &g->corner, err) || values(v, o, &g->offset, err) || values(v, t, &g->type, err))
+        return fail_at(v, v->b->n, err, "piece %d lacks connectivity, offsets or types", piece + 1);
+    if (read_values(v, c, &g->corner, err) || read_values(v, o, &g->offset, err) ||
+        read_values(v, t, &g->type, err))
         return -1;
     if (!f || !l) return 0;
-    return values(v, f, &g->face, err) || values(v, l, &g->face_last, err) ? -1 : 0;
+    return read_values(v, f, &g->face, err) || read_values(v, l, &g->face_last, err) ? -1 : 0;
 }
 
-static int read_piece(const vtx *v, int32_t piece, fl_elements *e, const fl_vtk_names *names,
+static int read_piece(const vtk_xml_reader *v, int32_t piece, fl_elements *e, const fl_vtk_names *names,
                       const char *name, int32_t *coarse, fl_err *err)
 {
     fl_vtk_grid g = {0};
-    const array *x = find(v, piece, POINTS, NULL), *part = NULL;
+    const xml_array *x = find_array(v, piece, POINTS, NULL), *part = NULL;
     int best = -1, rc = -1;
     if (!x) return 0; /* an empty piece */
     for (int32_t k = 0; k < v->arrays; k++) {
-        const array *a = &v->a[k];
+        const xml_array *a = &v->a[k];
         const int rank = a->in == CELL_DATA && a->piece == piece ? fl_vtk_part_rank(a->name) : -1;
         if (rank < 0 || (best >= 0 && best <= rank) || strstr(a->type, "Float")) continue;
         best = rank;
         part = a;
     }
-    if (values(v, x, &g.point, err)) goto done;
+    if (read_values(v, x, &g.point, err)) goto done;
     if (v->poly ? read_lists(v, piece, &g, err) : read_cells(v, piece, &g, err)) goto done;
-    if (part && values(v, part, &g.part, err)) goto done;
+    if (part && read_values(v, part, &g.part, err)) goto done;
     if (part) snprintf(g.part_word, sizeof g.part_word, "%.39s", part->name);
     rc = fl_vtk_add_cells(e, &g, piece, names, name, coarse, err);
 done:
@@ -579,9 +589,9 @@ done:
     return rc;
 }
 
-int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *w, fl_err *err)
+int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
-    vtx v = {.b = b, .appended = -1};
+    vtk_xml_reader v = {.b = b, .appended = -1};
     fl_vtk_names names = {0};
     fl_elements e;
     int32_t coarse = 0;
@@ -591,8 +601,8 @@ int fl_vtk_xml_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_opti
     for (int32_t k = 0; k < v.pieces; k++)
         if (read_piece(&v, k, &e, &names, name, &coarse, err)) goto done;
     b->line = 0;
-    if (coarse) fl_bytes_note(b, "%d cells of higher order were taken by their corners", coarse);
-    rc = fl_elements_surface(&e, s, b, w, err);
+    if (coarse) fl_bytes_note(b, "%d cells of higher order were reduced to their corners", coarse);
+    rc = fl_elements_surface(&e, s, b, opt, err);
 done:
     free(v.a);
     fl_vtk_names_free(&names);

@@ -4,18 +4,18 @@
 #include <strings.h>
 #include "mesh/rejected_formats.h"
 
-enum { LINES = 40 }; /* in which a kind has to show */
+enum { SEARCHED_LINES = 40 }; /* searched for a line of the table */
 
 #define SOLIDS "geometry without a mesh: mesh it in its program or in Gmsh, and export STL or MSH"
 #define SURFACE "export the surface as STL, OBJ or PLY"
 #define DECK "export the mesh as Abaqus, Nastran, VTK or STL"
 
-/* How a file begins, behind blanks where it is text. */
+/* First bytes of a format, behind blanks in a text. */
 static const struct {
     const char *begins;
-    size_t n; /* bytes of it, 0 for all up to the zero byte */
+    size_t n; /* number of bytes, 0 for all up to the zero byte */
     const char *what;
-} KIND[] = {
+} FIRST_BYTES[] = {
     {"ISO-10303-21", 0, "a STEP file, which is " SOLIDS},
     {"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", 0, "a Parasolid file, which is " SOLIDS},
     {"glTF", 0, "a glTF scene: " SURFACE},
@@ -34,31 +34,31 @@ static const struct {
     {"%PDF", 0, "a PDF document, where a mesh is expected"},
 };
 
-/* And a line near the beginning. */
+/* A line near the beginning of a format. */
 static const struct {
     const char *line, *what;
-} LINE[] = {
+} FIRST_LINES[] = {
     {"*KEYWORD", "a deck of LS-DYNA: export it as Abaqus, Nastran, Ansys or STL"},
     {"/PREP7", "commands of ANSYS without NBLOCK or EBLOCK: write the mesh with CDWRITE,DB,,,,,,BLOCKED"},
 };
 
 static const char *skip_blanks(const char *p) { return p + strspn(p, " \t\r\n"); }
 
-/* The line after p, or the end. */
+/* Start of the line after p, or the end. */
 static const char *next_line(const char *p)
 {
     p += strcspn(p, "\n");
     return *p ? p + 1 : p;
 }
 
-/* Is the line at p this word alone? */
+/* True if the line at p is this word alone. */
 static int is_line(const char *p, const char *word)
 {
     p += strspn(p, " \t");
     return strncasecmp(p, word, strlen(word)) == 0 && strchr(" \t\r\n", p[strlen(word)]) != NULL;
 }
 
-/* Section letter S in column 73 of lines of eighty. */
+/* Section letter S in column 73 of lines of eighty characters. */
 static int is_iges(const char *p) { return strcspn(p, "\r\n") >= 80 && p[72] == 'S' && p[79] == '1'; }
 
 /* "(0 "comment")" or "(2 3)". */
@@ -70,17 +70,18 @@ static int is_fluent(const char *p)
 const char *fl_rejected_format(const fl_bytes *b)
 {
     const char *text = skip_blanks(b->data), *p = b->data;
-    for (size_t k = 0; k < sizeof KIND / sizeof *KIND; k++) {
-        const size_t n = KIND[k].n ? KIND[k].n : strlen(KIND[k].begins);
-        if ((size_t)(b->data + b->n - text) >= n && memcmp(text, KIND[k].begins, n) == 0) return KIND[k].what;
+    for (size_t k = 0; k < sizeof FIRST_BYTES / sizeof *FIRST_BYTES; k++) {
+        const size_t n = FIRST_BYTES[k].n ? FIRST_BYTES[k].n : strlen(FIRST_BYTES[k].begins);
+        if ((size_t)(b->data + b->n - text) >= n && memcmp(text, FIRST_BYTES[k].begins, n) == 0)
+            return FIRST_BYTES[k].what;
     }
     if (is_iges(b->data)) return "an IGES file, which is " SOLIDS;
     if (is_fluent(text)) return "a mesh of Fluent: " DECK;
     if (is_line(text, "0") && is_line(next_line(text), "SECTION")) return "a DXF drawing: " SURFACE;
     if (is_line(text, "-1")) return "a universal file of I-DEAS: " DECK;
     if (*text == '{' && strstr(text, "\"asset\"")) return "a glTF scene: " SURFACE;
-    for (int line = 0; line < LINES && *p; line++, p = next_line(p))
-        for (size_t k = 0; k < sizeof LINE / sizeof *LINE; k++)
-            if (is_line(p, LINE[k].line)) return LINE[k].what;
+    for (int line = 0; line < SEARCHED_LINES && *p; line++, p = next_line(p))
+        for (size_t k = 0; k < sizeof FIRST_LINES / sizeof *FIRST_LINES; k++)
+            if (is_line(p, FIRST_LINES[k].line)) return FIRST_LINES[k].what;
     return NULL;
 }

@@ -1,26 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* shared_faces.h -- whose a face is: each face of a mesh comes to the surface once, however many elements lie on it.
- */
+/* shared_faces.h -- decides to which part a face belongs that several elements share. */
 #ifndef FL_MESH_SHARED_FACES_H
 #define FL_MESH_SHARED_FACES_H
 #include "mesh/skin.h"
 
-/* Different corners of a face of a solid (of a shell or a line when face < 0) in ascending order, the rest
- * -1. How many. */
-int fl_face_corner_nodes(const fl_elements *e, int32_t element, int face, int32_t c[4]);
-
-/* free[element] gets a bit for each face of a solid that no other solid of e has.  -1 with FL_SYSTEM. */
-int fl_mark_free_faces(const fl_elements *e, uint8_t *free, fl_err *err);
-
-/* Settle who brings each face, by its corner nodes, from k->target and from what sets picked of single faces:
- *  - of elements of one kind on the same nodes (lines: of the same radii too) the first that is wanted stays;
- *  - a face of one wanted solid is brought by the set that picked it, or else, when parts were chosen by name
- *    (k->by_name), by the part of the first shell that lies on it, looking outward as the solid does, or else
- *    by the solid: k->outer;
- *  - a face of two wanted solids is brought by none, nor by shells on it;
- *  - of a face of no wanted solid the first shell stays, turned as the solid is that it lies on, if there is
- *    one alone and no set tells the side of the shell.
- * Elements that bring nothing get the target -1; counts are left in k.  -1 with FL_SYSTEM. */
+/* Assign each face, identified by its corner nodes, to one target, from k->target and the faces picked by
+ * sets:
+ *   - Of elements of one kind on the same nodes (lines: with the same radii too) the first selected one
+ *   stays.
+ *   - A face of one selected solid goes to the set that picked it.  Without one, and if parts are selected by
+ *      name (k->by_name), it goes to the part of the first shell on it, oriented as the face of the solid.
+ *      Otherwise it goes to the part of the solid (k->outer_faces).
+ *   - A face of two selected solids is interior: it is dropped, and so are shells on it.
+ *   - On a face of no selected solid the first shell stays.  It is oriented as the face of the solid it lies
+ *      on, if there is exactly one and no surface set gives the side of the shell.
+ * Elements that contribute nothing get the target -1; counts are kept in k.  -1 with FL_SYSTEM. */
 int fl_resolve_shared_faces(fl_skin *k, fl_err *err);
 
 #endif

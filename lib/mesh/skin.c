@@ -3,13 +3,13 @@
 #include <string.h>
 #include "base/array.h"
 #include "geom/facet.h"
-#include "mesh/shared_faces.h"
+#include "mesh/face_groups.h"
 #include "mesh/skin.h"
 
-int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_import_options *w, fl_err *err)
+int fl_skin_start(fl_skin *k, const fl_elements *e, const fl_import_options *opt, fl_err *err)
 {
     const int32_t n = e->element_id.n, targets = e->parts.n + e->sets.n;
-    *k = (fl_skin){.e = e, .subdivide = w && w->subdivide, .by_name = fl_import_by_name(w)};
+    *k = (fl_skin){.e = e, .subdivide = opt && opt->subdivide, .by_name = fl_import_by_name(opt)};
     if (!(k->target = fl_alloc(n, sizeof *k->target, err)) || !(k->reversed = fl_alloc(n, 1, err)) ||
         !(k->outer_faces = fl_alloc(n, 1, err)) || !(k->picked_faces = fl_alloc(n, 1, err)) ||
         !(k->duplicate_faces = fl_alloc(n, 1, err)) || !(k->dropped = fl_alloc(n, 1, err)) ||
@@ -75,8 +75,8 @@ int fl_skin_pick(fl_skin *k, const fl_pick *p, int32_t target, fl_err *err)
 
 /* --- faces to triangles --------------------------------------------------------------------------------- */
 
-/* Mids of each shape's edges stand behind the corners in this order; as pairs of digits. */
-static const char *edges(enum fl_shape shape)
+/* Edges of a shape as pairs of digits, in the order of its mid-side nodes. */
+static const char *mid_edges(enum fl_shape shape)
 {
     switch (shape) {
     case FL_TRI6: return "011220";
@@ -90,50 +90,50 @@ static const char *edges(enum fl_shape shape)
     }
 }
 
-/* The ring of a face: corner, and the node between it and the next one, -1 for none. */
+/* The boundary of a face: corners, and the node between each and the next, -1 for none. */
 typedef struct {
     int n;
     int32_t corner[4], mid[4], centre;
-} ring;
+} face_ring;
 
-static int32_t mid_of(const fl_elements *e, const fl_element *el, int a, int b)
+static int32_t mid_node(const fl_elements *e, const fl_element *el, int a, int b)
 {
-    const char *p = edges((enum fl_shape)el->shape);
+    const char *p = mid_edges((enum fl_shape)el->shape);
     for (int k = fl_shape_corners((enum fl_shape)el->shape); *p; p += 2, k++)
         if ((p[0] - '0' == a && p[1] - '0' == b) || (p[0] - '0' == b && p[1] - '0' == a))
             return e->connectivity[el->first + k];
     return -1;
 }
 
-/* The ring of a face of a solid, or of a shell (face < 0), in the order of the element.  Corners that repeat
+/* The boundary of a face of a solid, or of a shell (face < 0), in the order of the element.  Repeated corners
  * are dropped together with the edge between them. */
-static ring ring_of(const fl_elements *e, const fl_element *el, int face)
+static face_ring ring_of(const fl_elements *e, const fl_element *el, int face)
 {
     const enum fl_shape shape = (enum fl_shape)el->shape;
     int place[4] = {0, 1, 2, 3}, n = fl_shape_corners(shape);
-    ring r = {0, {0}, {0}, -1};
+    face_ring r = {0, {0}, {0}, -1};
     if (face >= 0) n = fl_shape_face(shape, face, place);
     for (int i = 0; i < n; i++) {
         const int a = place[i], b = place[(i + 1) % n];
         if (e->connectivity[el->first + a] == e->connectivity[el->first + b]) continue;
         r.corner[r.n] = e->connectivity[el->first + a];
-        r.mid[r.n++] = mid_of(e, el, a, b);
+        r.mid[r.n++] = mid_node(e, el, a, b);
     }
     if (shape == FL_QUAD9 && r.n == 4) r.centre = e->connectivity[el->first + 8];
     return r;
 }
 
-static void turn_over(ring *r)
+static void reverse_ring(face_ring *r)
 {
-    const ring old = *r;
+    const face_ring old = *r;
     for (int i = 0; i < r->n; i++) {
         r->corner[i] = old.corner[r->n - 1 - i];
         r->mid[i] = old.mid[(2 * r->n - 2 - i) % r->n];
     }
 }
 
-/* The vertex of a node in the part of this target. */
-static int bring(fl_skin *k, fl_part *p, int32_t target, int32_t node, int32_t *v, fl_err *err)
+/* Get the vertex of a node in the part of this target, which is added if new. */
+static int add_vertex(fl_skin *k, fl_part *p, int32_t target, int32_t node, int32_t *v, fl_err *err)
 {
     if (k->owner[node] != target + 1) {
         k->owner[node] = target + 1;
@@ -144,31 +144,31 @@ static int bring(fl_skin *k, fl_part *p, int32_t target, int32_t node, int32_t *
     return 0;
 }
 
-static int before(const fl_elements *e, int32_t a, int32_t b)
+static int node_precedes(const fl_elements *e, int32_t a, int32_t b)
 {
     if (e->node_id.scope[a] != e->node_id.scope[b]) return e->node_id.scope[a] < e->node_id.scope[b];
     return e->node_id.id[a] < e->node_id.id[b];
 }
 
-/* Add a polygon of up to 8 nodes.  It is cut up under the numbers that the nodes have in the file, which
- * decide on ties, from the lowest on: so it does not matter how the element lies in it. */
-static int polygon(fl_skin *k, fl_part *p, int32_t target, int n, const int32_t *node, fl_err *err)
+/* Add a polygon of up to 8 nodes.  Node numbers of the file decide ties of the triangulation, from the lowest
+ * on, so the result does not depend on the orientation of the element. */
+static int add_polygon(fl_skin *k, fl_part *p, int32_t target, int n, const int32_t *node, fl_err *err)
 {
     int32_t sorted[8], loop[8] = {0}, v[8];
     int low = 0;
-    if (n == 3) { /* nothing to cut */
+    if (n == 3) { /* no triangulation needed */
         if (node[0] == node[1] || node[1] == node[2] || node[2] == node[0]) return 0;
         for (int i = 1; i < 3; i++)
-            if (before(k->e, node[i], node[low])) low = i;
+            if (node_precedes(k->e, node[i], node[low])) low = i;
         for (int i = 0; i < 3; i++)
-            if (bring(k, p, target, node[(low + i) % 3], &v[i], err)) return -1;
+            if (add_vertex(k, p, target, node[(low + i) % 3], &v[i], err)) return -1;
         return fl_surface_triangle(p, v[0], v[1], v[2], err);
     }
     for (int i = 0; i < n; i++) {
         int at = i;
-        for (; at > 0 && before(k->e, node[i], sorted[at - 1]); at--) sorted[at] = sorted[at - 1];
+        for (; at > 0 && node_precedes(k->e, node[i], sorted[at - 1]); at--) sorted[at] = sorted[at - 1];
         sorted[at] = node[i];
-        if (before(k->e, node[i], node[low])) low = i;
+        if (node_precedes(k->e, node[i], node[low])) low = i;
     }
     k->pool.nv = k->pool.nt = 0;
     for (int i = 0; i < n; i++)
@@ -178,7 +178,7 @@ static int polygon(fl_skin *k, fl_part *p, int32_t target, int n, const int32_t 
             if (sorted[j] == node[(low + i) % n]) loop[i] = j;
     if (fl_facet_polygon(&k->pool, n, loop, err)) return -1;
     for (int i = 0; i < n; i++)
-        if (bring(k, p, target, node[(low + i) % n], &v[loop[i]], err)) return -1;
+        if (add_vertex(k, p, target, node[(low + i) % n], &v[loop[i]], err)) return -1;
     for (int32_t t = 0; t < k->pool.nt; t++) {
         const int32_t *c = k->pool.t[t].v;
         if (fl_surface_triangle(p, v[c[0]], v[c[1]], v[c[2]], err)) return -1;
@@ -186,9 +186,9 @@ static int polygon(fl_skin *k, fl_part *p, int32_t target, int n, const int32_t 
     return 0;
 }
 
-/* A quadratic face: a triangle at each corner and what is left in the middle, or quadrilaterals round the
- * centre.  Where a mid-side node is left out there is one polygon through those that are there. */
-static int pieces(fl_skin *k, fl_part *p, int32_t target, const ring *r, fl_err *err)
+/* Split a quadratic face: a triangle at each corner and the rest in the middle, or quadrilaterals around the
+ * centre.  If a mid-side node is omitted, the face is one polygon through the nodes it has. */
+static int add_quadratic(fl_skin *k, fl_part *p, int32_t target, const face_ring *r, fl_err *err)
 {
     int32_t loop[8];
     int n = 0, mids = 0;
@@ -198,61 +198,61 @@ static int pieces(fl_skin *k, fl_part *p, int32_t target, const ring *r, fl_err 
         loop[n++] = r->mid[i];
         mids++;
     }
-    if (mids < r->n) return polygon(k, p, target, n, loop, err);
+    if (mids < r->n) return add_polygon(k, p, target, n, loop, err);
     for (int i = 0; i < r->n; i++) {
         const int32_t last = r->mid[(i + r->n - 1) % r->n];
         const int32_t piece[4] = {r->corner[i], r->mid[i], r->centre >= 0 ? r->centre : last, last};
-        if (polygon(k, p, target, r->centre >= 0 ? 4 : 3, piece, err)) return -1;
+        if (add_polygon(k, p, target, r->centre >= 0 ? 4 : 3, piece, err)) return -1;
     }
-    return r->centre >= 0 ? 0 : polygon(k, p, target, r->n, r->mid, err);
+    return r->centre >= 0 ? 0 : add_polygon(k, p, target, r->n, r->mid, err);
 }
 
-static int placed(const fl_elements *e, const fl_element *el, int32_t node, fl_err *err)
+static int check_defined(const fl_elements *e, const fl_element *el, int32_t node, fl_err *err)
 {
     if (node < 0 || !isnan(e->x[node].x)) return 0;
     return fl_elements_fail(e, el->file, el->line, err,
-                            "the element wants node %lld, which is defined nowhere",
+                            "the element refers to node %lld, which is not defined",
                             (long long)e->node_id.id[node]);
 }
 
 /* Distance of x from the line through a and b. */
-static double from_chord(fl_vec3 a, fl_vec3 b, fl_vec3 x)
+static double chord_distance(fl_vec3 a, fl_vec3 b, fl_vec3 x)
 {
     const fl_vec3 d = v3_sub(x, a), along = v3_unit(v3_sub(b, a));
     return v3_norm(v3_madd(d, -v3_dot(d, along), along));
 }
 
-/* Add a face (of a shell when face < 0), turned over or not. */
+/* Add a face (of a shell if face < 0), reversed or not. */
 static int add_face(fl_skin *k, fl_part *p, int32_t target, int32_t element, int face, int turn, fl_err *err)
 {
     const fl_elements *e = k->e;
     const fl_element *el = &e->element[element];
-    ring r = ring_of(e, el, face);
+    face_ring r = ring_of(e, el, face);
     int mids = 0;
     if (r.n < 3) return 0;
-    if (turn) turn_over(&r);
+    if (turn) reverse_ring(&r);
     for (int i = 0; i < r.n; i++) {
-        if (placed(e, el, r.corner[i], err) || placed(e, el, r.mid[i], err)) return -1;
+        if (check_defined(e, el, r.corner[i], err) || check_defined(e, el, r.mid[i], err)) return -1;
         mids += r.mid[i] >= 0;
     }
-    if (placed(e, el, r.centre, err)) return -1;
-    if (mids && k->subdivide) return pieces(k, p, target, &r, err);
+    if (check_defined(e, el, r.centre, err)) return -1;
+    if (mids && k->subdivide) return add_quadratic(k, p, target, &r, err);
     for (int i = 0; i < r.n; i++)
         if (r.mid[i] >= 0)
-            k->sagitta = fmax(k->sagitta,
-                              from_chord(e->x[r.corner[i]], e->x[r.corner[(i + 1) % r.n]], e->x[r.mid[i]]));
+            k->sagitta = fmax(
+                k->sagitta, chord_distance(e->x[r.corner[i]], e->x[r.corner[(i + 1) % r.n]], e->x[r.mid[i]]));
     k->curved += mids > 0;
-    return polygon(k, p, target, r.n, r.corner, err);
+    return add_polygon(k, p, target, r.n, r.corner, err);
 }
 
-/* Six times the volume of a solid, by the faces as they are listed, about its first corner; negative when
- * these wind inward, as they do in a right-handed element. */
-static double volume(const fl_elements *e, const fl_element *el)
+/* Six times the volume of a solid, summed over its faces as listed, about its first corner.  Negative if the
+ * faces wind inward, as they do in a right-handed element. */
+static double signed_volume(const fl_elements *e, const fl_element *el)
 {
     const fl_vec3 o = e->x[e->connectivity[el->first]];
     double sum = 0.0;
     for (int f = 0; f < fl_shape_faces((enum fl_shape)el->shape); f++) {
-        const ring r = ring_of(e, el, f);
+        const face_ring r = ring_of(e, el, f);
         fl_vec3 area = {0}, mean = {0};
         fl_vec3 x[4];
         if (r.n < 3) continue;
@@ -267,15 +267,15 @@ static double volume(const fl_elements *e, const fl_element *el)
     return sum;
 }
 
-/* Should the faces of a solid be turned over? */
-static int inward(fl_skin *k, int32_t element, int *turn, fl_err *err)
+/* Set *turn to 1 if the faces of a solid must be reversed to point outward. */
+static int check_orientation(fl_skin *k, int32_t element, int *turn, fl_err *err)
 {
     const fl_element *el = &k->e->element[element];
     double v;
     for (int i = 0; i < fl_shape_corners((enum fl_shape)el->shape); i++)
-        if (placed(k->e, el, k->e->connectivity[el->first + i], err)) return -1;
-    v = volume(k->e, el);
-    *turn = !(v > 0.0); /* without volume: as if it were right-handed */
+        if (check_defined(k->e, el, k->e->connectivity[el->first + i], err)) return -1;
+    v = signed_volume(k->e, el);
+    *turn = !(v > 0.0); /* without volume, treated as right-handed */
     if (!(k->picked_faces[element] & FL_SKIN_COUNTED)) {
         k->zero_volume += !(v > 0.0) && !(v < 0.0);
         k->left_handed += v > 0.0;
@@ -287,7 +287,7 @@ static int inward(fl_skin *k, int32_t element, int *turn, fl_err *err)
 static int add_solid(fl_skin *k, fl_part *p, int32_t target, int32_t element, int faces, fl_err *err)
 {
     int turn = 0;
-    if (inward(k, element, &turn, err)) return -1;
+    if (check_orientation(k, element, &turn, err)) return -1;
     for (int f = 0; f < faces; f++)
         if (k->outer_faces[element] >> f & 1 && !(k->picked_faces[element] >> f & 1) &&
             add_face(k, p, target, element, f, turn, err))
@@ -295,7 +295,7 @@ static int add_solid(fl_skin *k, fl_part *p, int32_t target, int32_t element, in
     return 0;
 }
 
-/* A line with its radii; one of three nodes bends at the middle when it is subdivided. */
+/* Add a line with its radii; a line of three nodes becomes two cones when it is subdivided. */
 static int add_line(fl_skin *k, fl_part *p, int32_t element, fl_err *err)
 {
     const fl_elements *e = k->e;
@@ -305,7 +305,8 @@ static int add_line(fl_skin *k, fl_part *p, int32_t element, fl_err *err)
     const double *r = el->section >= 0 ? e->section[el->section] : NULL;
     fl_cone half[2];
     int n = 1;
-    if (placed(e, el, a, err) || placed(e, el, b, err) || placed(e, el, m, err)) return -1;
+    if (check_defined(e, el, a, err) || check_defined(e, el, b, err) || check_defined(e, el, m, err))
+        return -1;
     half[0] = (fl_cone){e->x[a], e->x[b], r ? r[0] : 0.0, r ? r[1] : 0.0};
     if (m >= 0 && k->subdivide) {
         half[1] = (fl_cone){e->x[m], e->x[b], 0.5 * (half[0].r0 + half[0].r1), half[0].r1};
@@ -313,7 +314,7 @@ static int add_line(fl_skin *k, fl_part *p, int32_t element, fl_err *err)
         half[0].r1 = half[1].r0;
         n = 2;
     } else if (m >= 0 && r) {
-        k->sagitta = fmax(k->sagitta, from_chord(e->x[a], e->x[b], e->x[m]));
+        k->sagitta = fmax(k->sagitta, chord_distance(e->x[a], e->x[b], e->x[m]));
         k->curved++;
     }
     for (int i = 0; i < n; i++) {
@@ -337,13 +338,13 @@ static int add_pick(fl_skin *k, fl_part *p, const fl_skin_face *f, fl_err *err)
 {
     int turn = 0;
     if (k->duplicate_faces[f->element] >> f->face & 1) return 0;
-    if (inward(k, f->element, &turn, err)) return -1;
+    if (check_orientation(k, f->element, &turn, err)) return -1;
     return add_face(k, p, f->target, f->element, f->face, turn, err);
 }
 
 /* --- parts ---------------------------------------------------------------------------------------------- */
 
-static const char *name_of(const fl_elements *e, int32_t target)
+static const char *target_name(const fl_elements *e, int32_t target)
 {
     return target < e->parts.n ? e->parts.name[target] : e->sets.name[target - e->parts.n];
 }
@@ -354,8 +355,7 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
     const int32_t targets = e->parts.n + e->sets.n;
     int32_t *first = NULL, *list = NULL, *pick_first = NULL, *pick_list = NULL;
     int rc = -1;
-    if (fl_resolve_shared_faces(k, err) ||
-        fl_group_by_target(e->element_id.n, targets, k->target, 1, &first, &list, err) ||
+    if (fl_group_by_target(e->element_id.n, targets, k->target, 1, &first, &list, err) ||
         fl_group_by_target(k->picks, targets, k->picks ? &k->pick[0].target : NULL,
                            (int)(sizeof *k->pick / sizeof(int32_t)), &pick_first, &pick_list, err))
         goto done;
@@ -367,7 +367,7 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
             bad = add_pick(k, &p, &k->pick[pick_list[i]], err);
         if (!bad) bad = fl_part_merge_cylinders(&p, &k->merged, err);
         if (!bad && (p.nt || p.nc)) {
-            const int32_t at = fl_surface_add(s, name_of(e, t), strlen(name_of(e, t)), err);
+            const int32_t at = fl_surface_add(s, target_name(e, t), strlen(target_name(e, t)), err);
             bad = at < 0;
             if (!bad) {
                 p.name = s->part[at].name;
@@ -391,9 +391,9 @@ done:
 
 void fl_skin_report(const fl_skin *k, fl_bytes *b)
 {
-    char aside[100] = "";
+    char accuracy[100] = "";
     if (k->merged.max_error > 0.0)
-        snprintf(aside, sizeof aside, ", at most %.3g from where they were, in the unit of the file",
+        snprintf(accuracy, sizeof accuracy, ", with a deviation of at most %.3g in the unit of the file",
                  k->merged.max_error);
     if (k->curved)
         fl_bytes_note(
@@ -402,27 +402,25 @@ void fl_skin_report(const fl_skin *k, fl_bytes *b)
             "unit of the file; --subdivide keeps them",
             k->curved, k->sagitta);
     if (k->lines_without_radius)
-        fl_bytes_note(b, "%d lines without a section radius or a length were passed over",
+        fl_bytes_note(b, "%d lines without a section radius or a length were skipped",
                       k->lines_without_radius);
     if (k->merged.merged)
-        fl_bytes_note(b, "%d lines that go straight on became %d%s", k->merged.merged, k->merged.remaining,
-                      aside);
+        fl_bytes_note(b, "%d lines that continue one another were merged into %d%s", k->merged.merged,
+                      k->merged.remaining, accuracy);
     if (k->left_handed)
-        fl_bytes_note(b, "%d solids are numbered left-handed; their faces were turned outward",
-                      k->left_handed);
+        fl_bytes_note(b, "%d solids are numbered left-handed; their faces were reversed", k->left_handed);
     if (k->zero_volume) fl_bytes_note(b, "%d solids have no volume", k->zero_volume);
     if (k->duplicates)
-        fl_bytes_note(b, "%d elements stand on the nodes of others of their kind and were left out",
-                      k->duplicates);
+        fl_bytes_note(b, "%d elements on the nodes of others of their kind were skipped", k->duplicates);
     if (k->covered_shells)
-        fl_bytes_note(b, "%d shells lie on faces of solids, which are there already, and were left out%s",
+        fl_bytes_note(b, "%d shells lie on faces of solids, which are there already, and were skipped%s",
                       k->covered_shells,
                       k->by_name ? "" : "; --part gives such faces to the parts of the shells");
     if (k->shell_faces)
         fl_bytes_note(b, "%d faces of solids went to the parts of the shells that lie on them",
                       k->shell_faces);
     if (k->interior_shells)
-        fl_bytes_note(b, "%d shells lie between two solids and were left out", k->interior_shells);
+        fl_bytes_note(b, "%d shells lie between two solids and were skipped", k->interior_shells);
     if (k->nonmanifold)
         fl_bytes_note(b, "%d faces belong to three or more solids and were taken as interior",
                       k->nonmanifold);

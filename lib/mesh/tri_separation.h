@@ -1,30 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tri_separation.h -- is there a plane between two triangles? */
+/* tri_separation.h -- tests for a separating plane between triangles, certified against rounding errors. */
 #ifndef FL_MESH_TRI_SEPARATION_H
 #define FL_MESH_TRI_SEPARATION_H
 #include "geom/surface.h"
 
-/* A triangle of a part, as the question wants it. */
+/* A triangle of a part. */
 typedef struct {
     int32_t t;
-    int has_normal;   /* n and size, when they are asked for */
-    const int32_t *v; /* its vertices, in the part */
+    int has_normal;   /* n and n_abs have been computed */
+    const int32_t *v; /* indices of its vertices in the part */
     fl_vec3 x[3];
-    fl_vec3 n, n_abs; /* (x1 - x0) x (x2 - x0), and the same of sizes, which bounds its rounding */
+    fl_vec3 n;     /* (x1 - x0) x (x2 - x0) */
+    fl_vec3 n_abs; /* the same with absolute values: bounds the rounding error of n */
 } fl_tri_data;
 
 void fl_tri_load(const fl_part *p, int32_t t, fl_tri_data *c);
 
-/* Are the two apart, but for the corners and edges they have in common, for certain?  Tried are the planes of
- * the two and those that stand upright on their edges, planes through a common corner, and at a common edge
- * whether they bend by less than a right angle; what rounding may decide is not certain.  Returns 1, or 0
- * for anything else.  Source: Shewchuk, Discrete & Comput. Geom. 18 (1997) 305, the bounds. */
+/* True if the two triangles are certainly disjoint but for the corners and edges they share.  Candidate
+ * planes:
+ *
+ *      no common corner    the planes of the two triangles, and planes through their edges normal to them
+ *      one common corner   planes through that corner, and the planes of the two triangles
+ *      a common edge       separated where the triangles bend at it by less than 90 degrees
+ *
+ * Returns 1, or 0 where rounding may decide.  Source: Shewchuk, Discrete & Comput. Geom. 18 (1997) 305, the
+ * error bounds. */
 int fl_tri_separated(fl_tri_data *a, fl_tri_data *b);
 
-/* Is there a plane between the triangles a[na] and b[nb] of p, so that no two have a point in common, for
- * certain?  Tried are those across the sum of the normals of either: of sectors of a cone or of a cylinder,
- * whose boxes are all in one another, these lie between any two that are no neighbours.  Returns 1, or 0 for
- * anything else. */
+/* True if a plane certainly separates the triangles a[0 .. na) from b[0 .. nb) of p, so that no two have a
+ * common point.  Candidates are the planes normal to the sum of the normals of either group.  They separate
+ * the sectors of a cone or cylinder, whose boxes all overlap, unless the groups are neighbours.  Returns 1,
+ * or 0 where rounding may decide. */
 int fl_tri_groups_separated(const fl_part *p, const int32_t *a, int na, const int32_t *b, int nb);
 
 #endif

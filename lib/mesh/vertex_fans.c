@@ -4,33 +4,33 @@
 #include "base/array.h"
 #include "mesh/vertex_fans.h"
 
-/* Of d . (x x y), x and y differences of coordinates of up to m in size and s the sum of the sizes of d: the
- * two differences, six products and five sums lose less than 14 s m^2 units of 2^-53; twice that, and more.
- */
-static const double BLUR = 0x1p-48;
-/* Below this, products may have lost digits for want of smaller numbers. */
-static const double TINY = 1e-280;
+/* Relative rounding error of d . (x x y).  With x and y differences of coordinates of size up to m, and s the
+ * sum of the absolute values of d, the two differences, six products and five sums lose less than 14 s m^2
+ * 2^-53.  This is more than twice that. */
+static const double ROUNDING = 0x1p-48;
+/* Below this, products may have lost digits to underflow. */
+static const double UNDERFLOW_LIMIT = 1e-280;
 
-/* The triangles at a vertex, each with the two vertices that follow. */
-enum { FEW = 64 }; /* of most vertices */
+/* Triangles of most vertices; their sectors are kept on the stack. */
+enum { SMALL_FAN = 64 };
 typedef struct {
     int32_t a, b;
-    fl_vec3 x, y; /* from the vertex to them */
+    fl_vec3 x, y; /* from the vertex to a and b */
     fl_vec3 up;   /* x cross y */
-} petal;
+} sector;
 
 static double larger(double a, double b) { return a > b ? a : b; }
 static double size_of(fl_vec3 x) { return larger(fabs(x.x), larger(fabs(x.y), fabs(x.z))); }
 
-/* 0 when a triangle has the vertex twice. */
-static int open_fan(const fl_part *p, int32_t v, const int32_t *t, int n, petal *f, double *most)
+/* Fill the sectors of vertex v.  Returns 0 if a triangle has the vertex twice. */
+static int fill_sectors(const fl_part *p, int32_t v, const int32_t *t, int n, sector *f, double *most)
 {
     const fl_vec3 o = p->v[v];
     *most = 0.0;
     for (int i = 0; i < n; i++) {
         const int32_t *c = p->t[t[i]].v;
         const int k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
-        petal *q = &f[i];
+        sector *q = &f[i];
         q->a = c[(k + 1) % 3];
         q->b = c[(k + 2) % 3];
         if (q->a == v || q->b == v) return 0;
@@ -42,21 +42,21 @@ static int open_fan(const fl_part *p, int32_t v, const int32_t *t, int n, petal 
     return 1;
 }
 
-/* The petals by the vertex in which they begin, where they are many. */
+/* A sector by its first vertex, for searching in large fans. */
 typedef struct {
     int32_t a;
     int at;
-} beginning;
+} sector_start;
 
 static int by_vertex(const void *pa, const void *pb)
 {
-    const beginning *x = pa, *y = pb;
+    const sector_start *x = pa, *y = pb;
     return x->a != y->a ? (x->a < y->a ? -1 : 1) : x->at - y->at;
 }
 
-/* A petal that begins where this one ends, -1 for none; the same one whenever it is asked for.  Of few the
- * search begins behind this one: many files go round, too. */
-static int next_of(const petal *f, int n, const beginning *sorted, int at)
+/* The sector that begins where sector `at` ends, -1 for none; always the same one.  In small fans the search
+ * starts behind `at`, since many files list triangles in cyclic order. */
+static int next_sector(const sector *f, int n, const sector_start *sorted, int at)
 {
     const int32_t v = f[at].b;
     int lo = 0, hi = n, left = n;
@@ -73,12 +73,12 @@ static int next_of(const petal *f, int n, const beginning *sorted, int at)
     return left > 0 ? at : -1;
 }
 
-/* A petal that begins where none ends, -1 for none; met[n] is scratch. */
-static int start_of(const petal *f, int n, const beginning *sorted, uint8_t *met)
+/* A sector that begins where none ends, -1 for none; met[n] is scratch. */
+static int chain_start(const sector *f, int n, const sector_start *sorted, uint8_t *met)
 {
     for (int i = 0; i < n; i++) met[i] = 0;
     for (int i = 0; i < n; i++) {
-        const int next = next_of(f, n, sorted, i);
+        const int next = next_sector(f, n, sorted, i);
         if (next >= 0) met[next] = 1;
     }
     for (int i = 0; i < n; i++)
@@ -86,76 +86,76 @@ static int start_of(const petal *f, int n, const beginning *sorted, uint8_t *met
     return -1;
 }
 
-/* Does each triangle end in the edge in which one begins, round to the first one, or on to an end?  Going
- * round in as many steps as there are triangles and not less meets every one of them, and so does a walk that
- * ends after that many: one that met a triangle twice would never end.  Returns the first one, -1 for no. */
-static int goes_round(const petal *f, int n, const beginning *sorted, uint8_t *met)
+/* True if the sectors form one ring or one chain.  A walk of exactly n steps that returns to its start, or
+ * ends, visits every sector: one that visited a sector twice would never end.  Returns the first sector of
+ * the walk, -1 if they form neither. */
+static int order_fan(const sector *f, int n, const sector_start *sorted, uint8_t *met)
 {
     int first = 0, at = 0, steps = 1;
     for (; steps <= n; steps++) {
-        at = next_of(f, n, sorted, at);
+        at = next_sector(f, n, sorted, at);
         if (at <= 0) break;
     }
     if (at == 0) return steps == n ? 0 : -1;
     if (at > 0) return -1;
-    first = at = start_of(f, n, sorted, met);
-    for (steps = 0; at >= 0 && steps <= n; steps++) at = next_of(f, n, sorted, at);
+    first = at = chain_start(f, n, sorted, met);
+    for (steps = 0; at >= 0 && steps <= n; steps++) at = next_sector(f, n, sorted, at);
     return steps == n ? first : -1;
 }
 
-static int lies_open(const petal *f, int n, int first, double most)
+static int is_covered_once(const sector *f, int n, int first, double most)
 {
     fl_vec3 d = {0};
     for (int i = 0; i < n; i++) d = v3_add(d, f[i].up);
-    const double blur = BLUR * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * most * most + TINY;
+    const double error = ROUNDING * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * most * most + UNDERFLOW_LIMIT;
     for (int i = 0; i < n; i++)
-        if (!(v3_dot(d, f[i].up) > blur)) return 0;
-    /* Next to its first side the first sector is there; one that ends in that side is not; no other may be.
-     */
+        if (!(v3_dot(d, f[i].up) > error)) return 0;
+    /* Next to its first side, the first sector covers the direction; a sector that ends in that side does
+     * not; no other sector may. */
     const fl_vec3 before = v3_cross(d, f[first].x); /* d . (x x x0) = -before . x */
     for (int i = 0; i < n; i++) {
         if (i == first || f[i].b == f[first].a) continue;
-        if (!(v3_dot(before, f[i].x) > blur || v3_dot(before, f[i].y) < -blur)) return 0;
+        if (!(v3_dot(before, f[i].x) > error || v3_dot(before, f[i].y) < -error)) return 0;
     }
     return 1;
 }
 
-/* A flower of many. */
+/* The arrays of a large fan. */
 typedef struct {
-    petal *f;
-    beginning *sorted;
+    sector *f;
+    sector_start *sorted;
     uint8_t *met;
-} garden;
+} fan_arrays;
 
-static int is_tame(const fl_part *p, int32_t v, const int32_t *t, int n)
+static int is_simple(const fl_part *p, int32_t v, const int32_t *t, int n)
 {
-    petal few[FEW];
-    uint8_t met[FEW];
-    garden g = {few, NULL, met};
+    sector small[SMALL_FAN];
+    uint8_t met[SMALL_FAN];
+    fan_arrays g = {small, NULL, met};
     double most;
-    int tame = 0, first;
+    int simple = 0, first;
     if (n < 1 || n > FL_VERTEX_FAN_MAX) return 0;
-    if (n > FEW) { /* without memory the answer is no, which is always right, and takes time */
+    if (n > SMALL_FAN) { /* without memory the answer is 0, which is always valid and only slower */
         g.f = malloc((size_t)n * sizeof *g.f);
         g.sorted = malloc((size_t)n * sizeof *g.sorted);
         g.met = malloc((size_t)n);
         if (!g.f || !g.sorted || !g.met) goto done;
     }
-    if (!open_fan(p, v, t, n, g.f, &most)) goto done;
-    for (int i = 0; i < n && g.sorted; i++) g.sorted[i] = (beginning){g.f[i].a, i};
+    if (!fill_sectors(p, v, t, n, g.f, &most)) goto done;
+    for (int i = 0; i < n && g.sorted; i++) g.sorted[i] = (sector_start){g.f[i].a, i};
     if (g.sorted) qsort(g.sorted, (size_t)n, sizeof *g.sorted, by_vertex);
-    first = goes_round(g.f, n, g.sorted, g.met);
-    tame = first >= 0 && lies_open(g.f, n, first, most);
+    first = order_fan(g.f, n, g.sorted, g.met);
+    simple = first >= 0 && is_covered_once(g.f, n, first, most);
 done:
-    if (n > FEW) {
+    if (n > SMALL_FAN) {
         free(g.f);
         free(g.sorted);
         free(g.met);
     }
-    return tame;
+    return simple;
 }
 
-int fl_vertex_fans_simple(const fl_part *p, uint8_t *tame, fl_err *err)
+int fl_vertex_fans_simple(const fl_part *p, uint8_t *simple, fl_err *err)
 {
     int64_t *first = fl_alloc((int64_t)p->nv + 1, sizeof *first, err);
     int32_t *list = first ? fl_alloc(3 * (int64_t)p->nt, sizeof *list, err) : NULL;
@@ -171,8 +171,8 @@ int fl_vertex_fans_simple(const fl_part *p, uint8_t *tame, fl_err *err)
 #pragma omp parallel for schedule(dynamic, 4096) if (p->nv > 4096)
     for (int32_t v = 0; v < p->nv; v++) {
         const int64_t n = first[v + 1] - first[v];
-        tame[v] =
-            (uint8_t)is_tame(p, v, list + first[v], n > FL_VERTEX_FAN_MAX ? FL_VERTEX_FAN_MAX + 1 : (int)n);
+        simple[v] =
+            (uint8_t)is_simple(p, v, list + first[v], n > FL_VERTEX_FAN_MAX ? FL_VERTEX_FAN_MAX + 1 : (int)n);
     }
     free(first);
     free(list);

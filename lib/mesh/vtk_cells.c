@@ -10,7 +10,8 @@
 
 enum { STRIP = 6, POLYGON = 7, POLYLINE = 4, QUADRATIC_POLYGON = 36, POLYHEDRON = 42, TYPES = 82 };
 
-/* Cells with a fixed number of nodes: the shape, how many at least, and their order where it is another. */
+/* Cells with a fixed number of nodes: shape, minimum number of nodes, and the order of the nodes if it
+ * differs. */
 static const struct {
     int8_t shape; /* plus one */
     uint8_t nodes;
@@ -77,52 +78,52 @@ void fl_vtk_names_free(fl_vtk_names *v)
     *v = (fl_vtk_names){0};
 }
 
-/* A face of a solid, to be compared with all others. */
+/* A face of a solid, for the comparison with all others. */
 typedef struct {
-    int32_t cell, first, n; /* corners: pool[first .. first + n), then the same sorted */
-} face;
+    int32_t cell, first, n; /* corners: corner[first .. first + n), then the same sorted */
+} solid_face;
 
 typedef struct {
     fl_elements *e;
     const fl_vtk_grid *g;
     int32_t scope, *coarse;
-    int32_t part;     /* of the cell at hand, -1 before the first */
+    int32_t part;     /* of the current cell, -1 before the first */
     double last_part; /* its number in the file */
-    int64_t *node;    /* numbers of the nodes of the cell at hand */
+    int64_t *node;    /* numbers of the nodes of the current cell */
     int32_t nodes, node_cap;
     fl_part pool; /* corners of a polygon */
     int32_t *loop, loop_cap;
-    face *face; /* of solids, where there are polyhedra */
+    solid_face *face; /* of solids, if there are polyhedra */
     int32_t faces, face_cap;
     int32_t *corner; /* of these */
     int32_t corners, corner_cap;
-} adder;
+} cell_adder;
 
-static int64_t points(const adder *a) { return a->g->point.n / 3; }
+static int64_t point_count(const cell_adder *a) { return a->g->point.n / 3; }
 
-static int bad(const adder *a, int64_t cell, fl_err *err, const char *what, double x)
+static int fail_cell(const cell_adder *a, int64_t cell, fl_err *err, const char *what, double x)
 {
     return fl_elements_fail(a->e, a->e->file, 0, err, "cell %lld has %s %.17g", (long long)cell, what, x);
 }
 
-/* A whole number in lo .. hi. */
-static int whole(double x, double lo, double hi) { return x >= lo && x <= hi && x == floor(x); }
+/* True for an integer in lo .. hi. */
+static int is_integer(double x, double lo, double hi) { return x >= lo && x <= hi && x == floor(x); }
 
-static int element(adder *a, enum fl_shape shape, const int64_t *node, fl_err *err)
+static int add_element(cell_adder *a, enum fl_shape shape, const int64_t *node, fl_err *err)
 {
     return fl_elements_add(a->e, a->scope, -1, shape, a->part, node, err) < 0 ? -1 : 0;
 }
 
-static fl_vec3 at(const adder *a, int64_t node)
+static fl_vec3 point_at(const cell_adder *a, int64_t node)
 {
     const double *x = a->g->point.x + 3 * (node - 1);
     return v3(x[0], x[1], x[2]);
 }
 
-/* A polygon of any number of corners. */
-static int polygon(adder *a, int32_t n, const int64_t *node, fl_err *err)
+/* Add a polygon of any number of corners. */
+static int add_polygon(cell_adder *a, int32_t n, const int64_t *node, fl_err *err)
 {
-    if (n == 3 || n == 4) return element(a, n == 3 ? FL_TRI3 : FL_QUAD4, node, err);
+    if (n == 3 || n == 4) return add_element(a, n == 3 ? FL_TRI3 : FL_QUAD4, node, err);
     if (n < 3) return 0;
     if (n > FL_FACET_CORNERS)
         return fl_elements_fail(a->e, a->e->file, 0, err, "a polygon has %d corners, at most %d are expected",
@@ -131,12 +132,12 @@ static int polygon(adder *a, int32_t n, const int64_t *node, fl_err *err)
     if (fl_grow(&a->loop, &a->loop_cap, n, sizeof *a->loop, err)) return -1;
     for (int32_t k = 0; k < n; k++) {
         a->loop[k] = k;
-        if (fl_surface_vertex(&a->pool, at(a, node[k]), err)) return -1;
+        if (fl_surface_vertex(&a->pool, point_at(a, node[k]), err)) return -1;
     }
     if (fl_facet_polygon(&a->pool, n, a->loop, err)) return -1;
     for (int32_t t = 0; t < a->pool.nt; t++) {
         const int32_t *v = a->pool.t[t].v;
-        if (element(a, FL_TRI3, (const int64_t[]){node[v[0]], node[v[1]], node[v[2]]}, err)) return -1;
+        if (add_element(a, FL_TRI3, (const int64_t[]){node[v[0]], node[v[1]], node[v[2]]}, err)) return -1;
     }
     return 0;
 }
@@ -149,15 +150,15 @@ static int by_number(const void *pa, const void *pb)
     return x < y ? -1 : x > y;
 }
 
-/* Keep the face of a solid. */
-static int keep(adder *a, int64_t cell, int32_t n, const int64_t *node, fl_err *err)
+/* Store the face of a solid. */
+static int store_face(cell_adder *a, int64_t cell, int32_t n, const int64_t *node, fl_err *err)
 {
     int32_t *c;
     if (n < 3) return 0;
     if (fl_grow(&a->face, &a->face_cap, (int64_t)a->faces + 1, sizeof *a->face, err) ||
         fl_grow(&a->corner, &a->corner_cap, (int64_t)a->corners + 2 * (int64_t)n, sizeof *a->corner, err))
         return -1;
-    a->face[a->faces++] = (face){(int32_t)cell, a->corners, n};
+    a->face[a->faces++] = (solid_face){(int32_t)cell, a->corners, n};
     c = a->corner + a->corners;
     for (int32_t k = 0; k < n; k++) c[k] = c[n + k] = (int32_t)node[k];
     qsort(c + n, (size_t)n, sizeof *c, by_number);
@@ -165,7 +166,7 @@ static int keep(adder *a, int64_t cell, int32_t n, const int64_t *node, fl_err *
     return 0;
 }
 
-static int keep_polyhedron(adder *a, int64_t cell, fl_err *err)
+static int store_polyhedron(cell_adder *a, int64_t cell, fl_err *err)
 {
     const fl_vtk_array *f = &a->g->face;
     const double last = cell < a->g->face_last.n ? a->g->face_last.x[cell] : -1.0;
@@ -176,60 +177,62 @@ static int keep_polyhedron(adder *a, int64_t cell, fl_err *err)
             from = a->g->face_last.x[k];
             break;
         }
-    if (!whole(last, from + 1.0, (double)f->n)) return bad(a, cell, err, "its faces end at place", last);
+    if (!is_integer(last, from + 1.0, (double)f->n))
+        return fail_cell(a, cell, err, "its faces end at place", last);
     k = (int64_t)from;
-    if (!whole(f->x[k], 0.0, last)) return bad(a, cell, err, "a number of faces of", f->x[k]);
+    if (!is_integer(f->x[k], 0.0, last)) return fail_cell(a, cell, err, "a number of faces of", f->x[k]);
     for (faces = (int64_t)f->x[k++]; faces > 0; faces--) {
         int32_t n;
-        if (k >= (int64_t)last) return bad(a, cell, err, "faces missing:", (double)faces);
-        if (!whole(f->x[k], 0.0, last - (double)k - 1.0) || f->x[k] > FL_FACET_CORNERS)
-            return bad(a, cell, err, "a number of corners of", f->x[k]);
+        if (k >= (int64_t)last) return fail_cell(a, cell, err, "faces missing:", (double)faces);
+        if (!is_integer(f->x[k], 0.0, last - (double)k - 1.0) || f->x[k] > FL_FACET_CORNERS)
+            return fail_cell(a, cell, err, "a number of corners of", f->x[k]);
         n = (int32_t)f->x[k++];
         a->nodes = 0;
         if (fl_grow(&a->node, &a->node_cap, n, sizeof *a->node, err)) return -1;
         for (; a->nodes < n; k++) {
-            if (!whole(f->x[k], 0.0, (double)points(a) - 1.0)) return bad(a, cell, err, "the point", f->x[k]);
+            if (!is_integer(f->x[k], 0.0, (double)point_count(a) - 1.0))
+                return fail_cell(a, cell, err, "the point", f->x[k]);
             a->node[a->nodes++] = (int64_t)f->x[k] + 1;
         }
-        if (keep(a, cell, n, a->node, err)) return -1;
+        if (store_face(a, cell, n, a->node, err)) return -1;
     }
     return 0;
 }
 
-static int keep_solid(adder *a, int64_t cell, enum fl_shape shape, const int64_t *node, fl_err *err)
+static int store_solid(cell_adder *a, int64_t cell, enum fl_shape shape, const int64_t *node, fl_err *err)
 {
     for (int f = 0; f < fl_shape_faces(shape); f++) {
         int place[4];
         int64_t corner[4];
         const int n = fl_shape_face(shape, f, place);
         for (int k = 0; k < n; k++) corner[k] = node[place[k]];
-        if (keep(a, cell, n, corner, err)) return -1;
+        if (store_face(a, cell, n, corner, err)) return -1;
     }
     return 0;
 }
 
-/* The faces are sorted by way of the corners that they point to. */
+/* A face as a sort key: its sorted corners. */
 typedef struct {
     const int32_t *key;
     int32_t n, face;
-} sortable;
+} face_key;
 
-static int by_key(const void *pa, const void *pb)
+static int compare_keys(const void *pa, const void *pb)
 {
-    const sortable *x = pa, *y = pb;
+    const face_key *x = pa, *y = pb;
     if (x->n != y->n) return x->n < y->n ? -1 : 1;
     for (int32_t k = 0; k < x->n; k++)
         if (x->key[k] != y->key[k]) return x->key[k] < y->key[k] ? -1 : 1;
     return x->face < y->face ? -1 : x->face > y->face;
 }
 
-static int same_key(const sortable *x, const sortable *y)
+static int same_key(const face_key *x, const face_key *y)
 {
     return x->n == y->n && memcmp(x->key, y->key, (size_t)x->n * sizeof *x->key) == 0;
 }
 
-/* The parts of cells by their numbers. */
-static int part_of(adder *a, int64_t cell, const fl_vtk_names *v, const char *name, fl_err *err)
+/* Set the part of a cell. */
+static int set_part(cell_adder *a, int64_t cell, const fl_vtk_names *v, const char *name, fl_err *err)
 {
     char text[80];
     double x;
@@ -240,7 +243,7 @@ static int part_of(adder *a, int64_t cell, const fl_vtk_names *v, const char *na
     }
     x = a->g->part.x[cell];
     if (x == a->last_part) return 0; /* the cells of a part mostly follow one another */
-    if (!whole(x, -1e15, 1e15)) return bad(a, cell, err, "the part", x);
+    if (!is_integer(x, -1e15, 1e15)) return fail_cell(a, cell, err, "the part", x);
     a->last_part = x;
     for (int32_t k = 0; k < v->name.n; k++)
         if (v->id[k] == (int64_t)x) {
@@ -252,14 +255,14 @@ static int part_of(adder *a, int64_t cell, const fl_vtk_names *v, const char *na
     return a->part < 0 ? -1 : 0;
 }
 
-/* The face looks away from the mean of the corners of its cell. */
-static void turn_outward(const adder *a, const fl_vec3 *mean, int32_t n, int64_t *node)
+/* Orient a face away from the mean of the corners of its cell. */
+static void turn_outward(const cell_adder *a, const fl_vec3 *mean, int32_t n, int64_t *node)
 {
     fl_vec3 area = {0};
     for (int32_t k = 1; k + 1 < n; k++)
-        area = v3_add(area, v3_cross(v3_sub(at(a, node[k]), at(a, node[0])),
-                                     v3_sub(at(a, node[k + 1]), at(a, node[0]))));
-    if (v3_dot(area, v3_sub(at(a, node[0]), *mean)) >= 0.0) return;
+        area = v3_add(area, v3_cross(v3_sub(point_at(a, node[k]), point_at(a, node[0])),
+                                     v3_sub(point_at(a, node[k + 1]), point_at(a, node[0]))));
+    if (v3_dot(area, v3_sub(point_at(a, node[0]), *mean)) >= 0.0) return;
     for (int32_t k = 0; k < n / 2; k++) {
         const int64_t other = node[k];
         node[k] = node[n - 1 - k];
@@ -267,95 +270,95 @@ static void turn_outward(const adder *a, const fl_vec3 *mean, int32_t n, int64_t
     }
 }
 
-static int emit_alone(adder *a, const fl_vtk_names *v, const char *name, fl_err *err)
+static int add_free_faces(cell_adder *a, const fl_vtk_names *v, const char *name, fl_err *err)
 {
-    sortable *s = fl_alloc(a->faces, sizeof *s, err);
-    char *alone = fl_alloc(a->faces, 1, err);
+    face_key *s = fl_alloc(a->faces, sizeof *s, err);
+    char *is_free = fl_alloc(a->faces, 1, err);
     fl_vec3 mean = {0};
     int rc = -1;
-    if (!s || !alone) goto done;
+    if (!s || !is_free) goto done;
     for (int32_t i = 0; i < a->faces; i++)
-        s[i] = (sortable){a->corner + a->face[i].first + a->face[i].n, a->face[i].n, i};
-    qsort(s, (size_t)a->faces, sizeof *s, by_key);
+        s[i] = (face_key){a->corner + a->face[i].first + a->face[i].n, a->face[i].n, i};
+    qsort(s, (size_t)a->faces, sizeof *s, compare_keys);
     for (int32_t i = 0, j; i < a->faces; i = j) {
         for (j = i + 1; j < a->faces && same_key(&s[i], &s[j]); j++) {}
-        alone[s[i].face] = j == i + 1;
+        is_free[s[i].face] = j == i + 1;
     }
     for (int32_t i = 0, end; i < a->faces; i = end) { /* the faces of a cell follow one another */
         double corners = 0.0;
         mean = v3(0.0, 0.0, 0.0);
         for (end = i; end < a->faces && a->face[end].cell == a->face[i].cell; end++)
             for (int32_t k = 0; k < a->face[end].n; k++, corners += 1.0)
-                mean = v3_add(mean, at(a, a->corner[a->face[end].first + k]));
+                mean = v3_add(mean, point_at(a, a->corner[a->face[end].first + k]));
         mean = v3_scale(1.0 / corners, mean);
-        if (part_of(a, a->face[i].cell, v, name, err)) goto done;
+        if (set_part(a, a->face[i].cell, v, name, err)) goto done;
         for (int32_t f = i; f < end; f++) {
-            if (!alone[f]) continue;
+            if (!is_free[f]) continue;
             if (fl_grow(&a->node, &a->node_cap, a->face[f].n, sizeof *a->node, err)) goto done;
             for (int32_t k = 0; k < a->face[f].n; k++) a->node[k] = a->corner[a->face[f].first + k];
             turn_outward(a, &mean, a->face[f].n, a->node);
-            if (polygon(a, a->face[f].n, a->node, err)) goto done;
+            if (add_polygon(a, a->face[f].n, a->node, err)) goto done;
         }
     }
     rc = 0;
 done:
     free(s);
-    free(alone);
+    free(is_free);
     return rc;
 }
 
 /* --- cells ---------------------------------------------------------------------------------------------- */
 
-/* The nodes of a cell; n of them. */
-static int take(adder *a, int64_t cell, fl_err *err)
+/* Read the nodes of a cell. */
+static int read_nodes(cell_adder *a, int64_t cell, fl_err *err)
 {
     const double from = cell ? a->g->offset.x[cell - 1] : 0.0, to = a->g->offset.x[cell];
-    if (!whole(to, from, (double)a->g->corner.n) || to - from > INT32_MAX / 2)
-        return bad(a, cell, err, "corners up to place", to);
+    if (!is_integer(to, from, (double)a->g->corner.n) || to - from > INT32_MAX / 2)
+        return fail_cell(a, cell, err, "corners up to place", to);
     a->nodes = 0;
     if (fl_grow(&a->node, &a->node_cap, (int64_t)(to - from), sizeof *a->node, err)) return -1;
     for (int64_t k = (int64_t)from; k < (int64_t)to; k++) {
         const double x = a->g->corner.x[k];
-        if (!whole(x, 0.0, (double)points(a) - 1.0))
+        if (!is_integer(x, 0.0, (double)point_count(a) - 1.0))
             return fl_elements_fail(a->e, a->e->file, 0, err,
-                                    "cell %lld wants point %.17g, 0 to %lld is expected", (long long)cell, x,
-                                    (long long)points(a) - 1);
+                                    "cell %lld refers to point %.17g, 0 to %lld is expected", (long long)cell,
+                                    x, (long long)point_count(a) - 1);
         a->node[a->nodes++] = (int64_t)x + 1;
     }
     return 0;
 }
 
-static int strip(adder *a, fl_err *err)
+static int add_strip(cell_adder *a, fl_err *err)
 {
     for (int32_t k = 0; k + 2 < a->nodes; k++) {
         const int64_t tri[3] = {a->node[k], a->node[k + 1 + k % 2], a->node[k + 2 - k % 2]};
-        if (element(a, FL_TRI3, tri, err)) return -1;
+        if (add_element(a, FL_TRI3, tri, err)) return -1;
     }
     return 0;
 }
 
-static int polyline(adder *a, fl_err *err)
+static int add_polyline(cell_adder *a, fl_err *err)
 {
     for (int32_t k = 0; k + 1 < a->nodes; k++)
-        if (element(a, FL_LINE2, a->node + k, err)) return -1;
+        if (add_element(a, FL_LINE2, a->node + k, err)) return -1;
     return 0;
 }
 
-static int add_cell(adder *a, int64_t cell, int polyhedra, fl_err *err)
+static int add_cell(cell_adder *a, int64_t cell, int polyhedra, fl_err *err)
 {
     const double t = a->g->type.x[cell];
-    const int type = whole(t, 0.0, TYPES - 1.0) ? (int)t : 0;
+    const int type = is_integer(t, 0.0, TYPES - 1.0) ? (int)t : 0;
     char text[40];
     int64_t node[20];
     enum fl_shape shape;
-    if (take(a, cell, err)) return -1;
-    if (type == POLYHEDRON) return keep_polyhedron(a, cell, err);
-    if (type == STRIP) return strip(a, err);
-    if (type == POLYGON) return polygon(a, a->nodes, a->node, err);
-    if (type == POLYLINE) return polyline(a, err);
+    if (read_nodes(a, cell, err)) return -1;
+    if (type == POLYHEDRON) return store_polyhedron(a, cell, err);
+    if (type == STRIP) return add_strip(a, err);
+    if (type == POLYGON) return add_polygon(a, a->nodes, a->node, err);
+    if (type == POLYLINE) return add_polyline(a, err);
     if (type == QUADRATIC_POLYGON) {
         ++*a->coarse;
-        return polygon(a, a->nodes / 2, a->node, err);
+        return add_polygon(a, a->nodes / 2, a->node, err);
     }
     if (CELL[type].shape == 0) {
         if (type == 1 || type == 2) snprintf(text, sizeof text, "vertex");
@@ -364,30 +367,30 @@ static int add_cell(adder *a, int64_t cell, int polyhedra, fl_err *err)
     }
     if (a->nodes < CELL[type].nodes || (a->nodes > CELL[type].nodes && type < 68)) {
         snprintf(text, sizeof text, "of type %d %d corners instead of", type, a->nodes);
-        return bad(a, cell, err, text, CELL[type].nodes);
+        return fail_cell(a, cell, err, text, CELL[type].nodes);
     }
     shape = (enum fl_shape)(CELL[type].shape - 1);
     *a->coarse += CELL[type].coarse;
     for (int k = 0; k < fl_shape_nodes(shape); k++)
         node[k] = a->node[CELL[type].order ? CELL[type].order[k] - '0' : k];
-    if (polyhedra && fl_shape_faces(shape)) return keep_solid(a, cell, shape, node, err);
-    return element(a, shape, node, err);
+    if (polyhedra && fl_shape_faces(shape)) return store_solid(a, cell, shape, node, err);
+    return add_element(a, shape, node, err);
 }
 
-static int add_points(adder *a, fl_err *err)
+static int add_points(cell_adder *a, fl_err *err)
 {
-    if (a->g->point.n % 3 || points(a) > INT32_MAX - 1)
+    if (a->g->point.n % 3 || point_count(a) > INT32_MAX - 1)
         return fl_elements_fail(a->e, a->e->file, 0, err, "%lld coordinates are not three for each point",
                                 (long long)a->g->point.n);
-    for (int64_t k = 1; k <= points(a); k++)
-        if (fl_elements_add_node(a->e, a->scope, k, at(a, k), err) < 0) return -1;
+    for (int64_t k = 1; k <= point_count(a); k++)
+        if (fl_elements_add_node(a->e, a->scope, k, point_at(a, k), err) < 0) return -1;
     return 0;
 }
 
 int fl_vtk_add_cells(fl_elements *e, const fl_vtk_grid *g, int32_t scope, const fl_vtk_names *v,
                      const char *name, int32_t *coarse, fl_err *err)
 {
-    adder a = {.e = e, .g = g, .scope = scope, .coarse = coarse, .part = -1, .last_part = NAN};
+    cell_adder a = {.e = e, .g = g, .scope = scope, .coarse = coarse, .part = -1, .last_part = NAN};
     int polyhedra = 0, rc = -1;
     e->line = 0;
     if (g->type.n != g->offset.n || (g->part.n && g->part.n != g->type.n))
@@ -399,8 +402,8 @@ int fl_vtk_add_cells(fl_elements *e, const fl_vtk_grid *g, int32_t scope, const 
         return fl_elements_fail(e, e->file, 0, err, "%lld of %lld cells have a place for their faces",
                                 (long long)g->face_last.n, (long long)g->type.n);
     for (int64_t c = 0; c < g->type.n; c++)
-        if (part_of(&a, c, v, name, err) || add_cell(&a, c, polyhedra, err)) goto done;
-    rc = polyhedra ? emit_alone(&a, v, name, err) : 0;
+        if (set_part(&a, c, v, name, err) || add_cell(&a, c, polyhedra, err)) goto done;
+    rc = polyhedra ? add_free_faces(&a, v, name, err) : 0;
 done:
     free(a.node);
     free(a.loop);

@@ -5,7 +5,7 @@
 
 void fl_obj_write(FILE *f, const fl_surface *s)
 {
-    int64_t first = 1; /* number of the part's vertex 0 */
+    int64_t first = 1; /* number of vertex 0 of the part */
     for (int32_t i = 0; i < s->n; i++) {
         const fl_part *p = &s->part[i];
         fprintf(f, "o %s\n", p->name);

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include "geom/surface.h"
 
-/* An object (o) a part, under its name; vertices with all digits, numbered from 1 through all parts.  Cones
- * are not written: give them facets first.  Write errors show in fl_out_close(). */
+/* Each part is an object (o) with its name.  Vertices have all digits and are numbered from 1 through all
+ * parts.  Cones are not written: convert them to triangles first.  Write errors show in fl_out_close(). */
 void fl_obj_write(FILE *f, const fl_surface *s);
 
 #endif

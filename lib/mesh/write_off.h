@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include "geom/surface.h"
 
-/* One mesh of all parts, one behind the other: OFF knows neither parts nor names.  Vertices have all digits.
- * Cones are not written: give them facets first.  Write errors show in fl_out_close(). */
+/* All parts follow one another in one mesh: OFF has neither parts nor names.  Vertices have all digits.
+ * Cones are not written: convert them to triangles first.  Write errors show in fl_out_close(). */
 void fl_off_write(FILE *f, const fl_surface *s);
 
 #endif

@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include "geom/surface.h"
 
-/* Binary, the lowest byte first, coordinates as doubles: nothing is rounded.  All parts one behind the other;
- * each face carries the id of its part as property "part" (int), and a comment "part ID NAME" a part tells
- * the names.  Cones are not written: give them facets first. Returns 0, or -1 with FL_INPUT when the vertices
- * are more than an int can number; write errors show in fl_out_close(). */
+/* Binary, little-endian, coordinates as doubles: nothing is rounded.  All parts follow one another.  Each
+ * face has the id of its part as property "part" (int); a comment "part ID NAME" gives the name of each part.
+ * Cones are not written: convert them to triangles first.  Returns 0, or -1 with FL_INPUT if there are more
+ * vertices than an int can number; write errors show in fl_out_close(). */
 int fl_ply_write(FILE *f, const fl_surface *s, fl_err *err);
 
 #endif

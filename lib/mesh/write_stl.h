@@ -5,10 +5,9 @@
 #include <stdio.h>
 #include "geom/surface.h"
 
-/* ASCII: a solid a part, under its name, and all digits of each coordinate.  Binary: all parts as one,
- * coordinates rounded to float32 (6e-8 of their size).  Normals are those of the winding, 0 0 0 for a
- * triangle without area. Cones are not written: give them facets first.  Write errors show in fl_out_close().
- * */
+/* ASCII: each part is a solid with its name; coordinates have all digits.  Binary: all parts as one solid,
+ * coordinates rounded to float32 (6e-8 relative).  Normals follow the winding, 0 0 0 for a triangle without
+ * area.  Cones are not written: convert them to triangles first.  Write errors show in fl_out_close(). */
 void fl_stl_write_ascii(FILE *f, const fl_surface *s);
 void fl_stl_write_binary(FILE *f, const fl_surface *s);
 

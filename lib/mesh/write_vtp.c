@@ -4,7 +4,7 @@
 #include "mesh/byte_order.h"
 #include "mesh/write_vtp.h"
 
-/* Names as VTK keeps them: the bytes of each and a zero, as decimal numbers. */
+/* Names as VTK stores them: the bytes of each and a zero, as decimal numbers. */
 static void put_names(FILE *f, const fl_surface *s)
 {
     fprintf(f, "<Array type=\"String\" Name=\"part_name\" NumberOfTuples=\"%d\" format=\"ascii\">\n", s->n);
@@ -18,7 +18,7 @@ static void put_names(FILE *f, const fl_surface *s)
     fputs("</DataArray>\n", f);
 }
 
-/* An array among the appended data, and where the next one starts. */
+/* An array of the appended data; *offset becomes that of the next one. */
 static void put_array(FILE *f, const char *head, int64_t *offset, int64_t bytes)
 {
     fprintf(f, "<DataArray %s format=\"appended\" offset=\"%" PRId64 "\"/>\n", head, *offset);

@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include "geom/surface.h"
 
-/* Version 1.0, arrays appended raw and uncompressed, the lowest byte first, lengths of 64 bits; coordinates
- * as doubles.  Points are shared inside a part.  Cell data "part" (Int32) is the id of the part; the field
- * data "part_id" (Int32) and "part_name" (String) list ids and names.  Cones are not written: give them
- * facets first.
- * Returns 0, or -1 with FL_INPUT when the corners are more than 32 bits can number; write errors show in
+/* Version 1.0, arrays appended raw and uncompressed, little-endian, lengths of 64 bits, coordinates as
+ * doubles. Points are shared within a part.  Cell data "part" (Int32) is the id of the part; the field data
+ * "part_id" (Int32) and "part_name" (String) list ids and names.  Cones are not written: convert them to
+ * triangles first.
+ * Returns 0, or -1 with FL_INPUT if there are more corners than 32 bits can number; write errors show in
  * fl_out_close().
  * Source: VTK File Formats, in The VTK User's Guide, Kitware (2010), section 19.3. */
 int fl_vtp_write(FILE *f, const fl_surface *s, fl_err *err);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "out/restart.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,13 +7,12 @@
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/stream.h"
-#include "out/restart.h"
 
-enum { QUICK = 2 }; /* a checkpoint is written many times and read seldom: pack it fast */
+enum { FAST_GZIP = 2 }; /* level: a checkpoint is written often and read seldom */
 
-/* fl_hash() takes words of eight bytes and fills the last one up, so what is hashed piece by piece must come
- * in whole words: the pieces are put together first. */
-static int compose(char **text, size_t *n, const char *history, const fl_restart_part *part, int parts)
+/* The whole file as one text.  fl_hash() reads words of eight bytes and pads the last one, so the file is
+ * hashed in one piece. */
+static int compose_text(char **text, size_t *n, const char *history, const fl_restart_part *part, int parts)
 {
     FILE *f = open_memstream(text, n);
     if (!f) return -1;
@@ -32,8 +32,8 @@ int fl_restart_write(const char *path, const char *history, const fl_restart_par
     char *text = NULL;
     size_t n = 0;
     int rc = -1;
-    if (compose(&text, &n, history, part, parts)) fl_fail(err, FL_SYSTEM, "out of memory for %s", path);
-    else if (fl_out_open(&out, path, QUICK, err) == 0) {
+    if (compose_text(&text, &n, history, part, parts)) fl_fail(err, FL_SYSTEM, "out of memory for %s", path);
+    else if (fl_out_open(&out, path, FAST_GZIP, err) == 0) {
         fwrite(text, 1, n, out.f);
         fprintf(out.f, "end %016" PRIx64 "\n", fl_hash(FL_HASH_START, text, (int64_t)n));
         rc = fl_out_close(&out, err);
@@ -44,7 +44,7 @@ int fl_restart_write(const char *path, const char *history, const fl_restart_par
 
 /* --- read -------------------------------------------------------------------------------------- */
 
-static int slurp(fl_restart *r, int64_t *n, fl_err *err)
+static int read_bytes(fl_restart *r, int64_t *n, fl_err *err)
 {
     fl_in *in = fl_in_open(r->path, err);
     int64_t k = 1;
@@ -60,12 +60,12 @@ static int slurp(fl_restart *r, int64_t *n, fl_err *err)
     return 0;
 }
 
-static int refuse(const fl_restart *r, fl_err *err, const char *what)
+static int fail_file(const fl_restart *r, fl_err *err, const char *what)
 {
     return fl_fail(err, FL_INPUT, "%s: %s", r->path, what);
 }
 
-/* Magic and history, by the reader of all other files. */
+/* First line and history, by the reader of all other files. */
 static int read_head(fl_restart *r, int64_t n, int64_t *at, fl_err *err)
 {
     fl_text head = {0};
@@ -74,7 +74,7 @@ static int read_head(fl_restart *r, int64_t n, int64_t *at, fl_err *err)
     if (fl_text_magic(&head, "checkpoint", FL_RESTART_VERSION, err) == 0) {
         p = memchr(p, '\n', (size_t)n);
         while (p && strncmp(p + 1, "#by ", 4) == 0) p = strchr(p + 1, '\n');
-        if (!p) refuse(r, err, "the checkpoint is cut short");
+        if (!p) fail_file(r, err, "the checkpoint is cut short");
     }
     r->version = head.version;
     fl_text_close(&head);
@@ -91,13 +91,13 @@ static int read_head(fl_restart *r, int64_t n, int64_t *at, fl_err *err)
 static int check_end(const fl_restart *r, int64_t *n, fl_err *err)
 {
     enum { END = 4 + 16 + 1 };
-    char wanted[END + 1];
+    char expected[END + 1];
     if (*n < END || r->data[*n - END - 1] != '\n' || strncmp(r->data + *n - END, "end ", 4) != 0)
-        return refuse(r, err, "the checkpoint is cut short: its last line is not \"end HASH\"");
+        return fail_file(r, err, "the checkpoint is cut short: its last line is not \"end HASH\"");
     *n -= END;
-    snprintf(wanted, sizeof wanted, "end %016" PRIx64 "\n", fl_hash(FL_HASH_START, r->data, *n));
-    if (memcmp(wanted, r->data + *n, END) != 0)
-        return refuse(r, err, "the checkpoint is damaged: its hash is not that of its content");
+    snprintf(expected, sizeof expected, "end %016" PRIx64 "\n", fl_hash(FL_HASH_START, r->data, *n));
+    if (memcmp(expected, r->data + *n, END) != 0)
+        return fail_file(r, err, "the checkpoint is damaged: its hash does not match its content");
     return 0;
 }
 
@@ -111,11 +111,10 @@ static int read_parts(fl_restart *r, int64_t at, int64_t n, fl_err *err)
         if (r->parts == FL_RESTART_PARTS ||
             sscanf(r->data + at, "part %15s %23[0-9]%n", part->name, number, &used) != 2 ||
             r->data[at + used] != '\n' || fl_number_u64(number, &bytes))
-            return refuse(r, err,
-                          "a line \"part NAME BYTES\" is expected between the parts of the checkpoint");
+            return fail_file(r, err, "line \"part NAME BYTES\" expected between the parts of the checkpoint");
         at += used + 1;
         if (at > n || bytes > (uint64_t)(n - at))
-            return refuse(r, err, "a part of the checkpoint is cut short");
+            return fail_file(r, err, "a part of the checkpoint is cut short");
         part->text = r->data + at;
         part->n = (int64_t)bytes;
         at += part->n;
@@ -128,7 +127,7 @@ int fl_restart_read(fl_restart *r, const char *path, fl_err *err)
 {
     fl_restart got = {.path = path};
     int64_t n, at;
-    if (slurp(&got, &n, err) || read_head(&got, n, &at, err) || check_end(&got, &n, err) ||
+    if (read_bytes(&got, &n, err) || read_head(&got, n, &at, err) || check_end(&got, &n, err) ||
         read_parts(&got, at, n, err)) {
         fl_restart_free(&got);
         return -1;
@@ -142,8 +141,8 @@ int fl_restart_current(const fl_restart *r, fl_err *err)
     if (r->version == FL_RESTART_VERSION) return 0;
     return fl_fail(
         err, FL_INPUT,
-        "%s:1: checkpoint version %d is older than this program, which goes on from version %d: the "
-        "program that wrote it, or a run from the start, is expected",
+        "%s:1: checkpoint version %d is older than this program, which reads version %d: resume with the "
+        "program that wrote it, or run from the start",
         r->path, r->version, FL_RESTART_VERSION);
 }
 

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* state_io.h -- rows of a state on their way out or in: one list of members serves both, so that they cannot
- * differ.
+/* state_io.h -- write or read the rows of a state, from one list of members.
  *
- * Every function writes a member to f where that is set, and reads it from `in` otherwise; after the first
- * failure, which is in err, nothing is read.  Doubles are the hexadecimal digits of their bits, leading zeros
- * left out. */
+ * Every function writes a member to f if f is set, and reads it from `in` otherwise.  One list of calls
+ * serves both ways, so that writer and reader cannot differ.  After the first failure, kept in err,
+ * nothing is read. A double is written as the hexadecimal digits of its bits, without leading zeros. */
 #ifndef FL_OUT_STATE_IO_H
 #define FL_OUT_STATE_IO_H
 #include <stdio.h>
@@ -18,24 +17,24 @@ typedef struct {
     fl_err *err;
 } fl_state_io;
 
-/* A row begins with its name, and ends. */
+/* Begin a row with its name; end it. */
 void fl_state_io_open(fl_state_io *t, const char *name);
 void fl_state_io_close(fl_state_io *t);
 
-/* A double that is a number; a whole number within bounds; a byte from 0 to hi; a count from -1 on. */
+/* A double other than NaN; an integer in [lo, hi]; a byte in [0, hi]; a count >= -1. */
 void fl_state_io_real(fl_state_io *t, double *x);
 void fl_state_io_int(fl_state_io *t, int32_t lo, int32_t hi, int32_t *x);
 void fl_state_io_byte(fl_state_io *t, uint8_t hi, uint8_t *x);
 void fl_state_io_count(fl_state_io *t, int64_t *x);
 
-/* Numbers in a row. */
+/* The components one by one. */
 void fl_state_io_vec3(fl_state_io *t, fl_vec3 *x);
 void fl_state_io_quat(fl_state_io *t, fl_quat *q);
 
-/* Where something stands: finite, and turned by a unit quaternion. */
+/* A pose: a finite position and a unit quaternion. */
 void fl_state_io_pose(fl_state_io *t, fl_vec3 *x, fl_quat *q);
 
-/* The hash of what is not kept but must be the same: 1 where another one was read. */
+/* The hash of data that is not stored but must be the same.  Returns 1 if another hash was read. */
 int fl_state_io_hash(fl_state_io *t, uint64_t hash);
 
 #endif

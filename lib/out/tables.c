@@ -1,162 +1,158 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "out/tables.h"
 #include <inttypes.h>
 #include "base/number_text.h"
 #include "base/pi.h"
-#include "out/tables.h"
 
-static void put(FILE *f, double x)
+enum { TRANSLATES = 1, ROTATES = 2 }; /* bits of enum fl_loads_motion_kind */
+
+static const fl_column LOADS[] = {
+    {"part", "", FL_COLUMN_TEXT, 0, offsetof(fl_loads_row, part)},
+    {"f", "N", FL_COLUMN_VEC3, 0, offsetof(fl_loads_row, force)},
+    {"m", "N.m", FL_COLUMN_VEC3, 0, offsetof(fl_loads_row, moment)},
+    {"fpeak", "N", FL_COLUMN_REAL, 0, offsetof(fl_loads_row, peak)},
+    {"contacts", "", FL_COLUMN_INT, 0, offsetof(fl_loads_row, contacts)},
+    {"u", "m", FL_COLUMN_VEC3, TRANSLATES, offsetof(fl_loads_row, motion.u)},
+    {"v", "m/s", FL_COLUMN_VEC3, TRANSLATES, offsetof(fl_loads_row, motion.v)},
+    {"a", "m/s2", FL_COLUMN_VEC3, TRANSLATES, offsetof(fl_loads_row, motion.a)},
+    {"r", "deg", FL_COLUMN_VEC3_DEGREES, ROTATES, offsetof(fl_loads_row, motion.r)},
+    {"w", "rad/s", FL_COLUMN_VEC3, ROTATES, offsetof(fl_loads_row, motion.w)},
+    {"e", "rad/s2", FL_COLUMN_VEC3, ROTATES, offsetof(fl_loads_row, motion.e)},
+};
+const fl_table_format fl_loads_table = {"loads", FL_TABLE_COLUMNS(LOADS)};
+
+static const fl_column STATE[] = {
+    {"body", "", FL_COLUMN_INT, 0, offsetof(fl_state_row, body)},
+    {"", "m", FL_COLUMN_VEC3, 0, offsetof(fl_state_row, x)},
+    {"q", "", FL_COLUMN_QUAT, 0, offsetof(fl_state_row, q)},
+    {"v", "m/s", FL_COLUMN_VEC3, 0, offsetof(fl_state_row, v)},
+    {"w", "rad/s", FL_COLUMN_VEC3, 0, offsetof(fl_state_row, w)},
+};
+const fl_table_format fl_state_table = {"state", FL_TABLE_COLUMNS(STATE)};
+
+static const fl_column CONTACTS[] = {
+    {"i", "", FL_COLUMN_INT, 0, offsetof(fl_contacts_row, i)},
+    {"j", "", FL_COLUMN_INT, 0, offsetof(fl_contacts_row, j)},
+    {"mode", "", FL_COLUMN_TEXT, 0, offsetof(fl_contacts_row, mode)},
+    {"gap", "m", FL_COLUMN_REAL, 0, offsetof(fl_contacts_row, gap)},
+    {"n", "", FL_COLUMN_VEC3, 0, offsetof(fl_contacts_row, n)},
+    {"p", "m", FL_COLUMN_VEC3, 0, offsetof(fl_contacts_row, p)},
+    {"length", "m", FL_COLUMN_REAL, 0, offsetof(fl_contacts_row, length)},
+    {"area", "m2", FL_COLUMN_REAL, 0, offsetof(fl_contacts_row, area)},
+    {"fn", "N", FL_COLUMN_REAL, 0, offsetof(fl_contacts_row, normal)},
+    {"fs", "N", FL_COLUMN_VEC3, 0, offsetof(fl_contacts_row, tangential)},
+};
+const fl_table_format fl_contacts_table = {"contacts", FL_TABLE_COLUMNS(CONTACTS)};
+
+static const fl_column BONDS[] = {
+    {"i", "", FL_COLUMN_INT, 0, offsetof(fl_bonds_row, i)},
+    {"j", "", FL_COLUMN_INT, 0, offsetof(fl_bonds_row, j)},
+    {"state", "", FL_COLUMN_TEXT, 0, offsetof(fl_bonds_row, state)},
+    {"damage", "", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, damage)},
+    {"fn", "N", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, tension)},
+    {"fs", "N", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, shear)},
+    {"m", "N.m", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, moment)},
+    {"area", "m2", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, area)},
+    {"", "m", FL_COLUMN_VEC3, 0, offsetof(fl_bonds_row, x)},
+};
+const fl_table_format fl_bonds_table = {"bonds", FL_TABLE_COLUMNS(BONDS)};
+
+static const fl_column PANELS[] = {
+    {"panel", "", FL_COLUMN_NAME, 0, offsetof(fl_panels_row, panel)},
+    {"", "m", FL_COLUMN_VEC3, 0, offsetof(fl_panels_row, centroid)},
+    {"area", "m2", FL_COLUMN_REAL, 0, offsetof(fl_panels_row, area)},
+    {"f", "N", FL_COLUMN_VEC3, 0, offsetof(fl_panels_row, force)},
+};
+const fl_table_format fl_panels_table = {"panels", FL_TABLE_COLUMNS(PANELS)};
+
+static const fl_column HASH[] = {{"hash", "", FL_COLUMN_HASH, 0, offsetof(fl_hash_row, hash)}};
+const fl_table_format fl_hash_table = {"hash", FL_TABLE_COLUMNS(HASH)};
+
+static int is_present(const fl_column *c, unsigned options) { return c->when == 0 || c->when & options; }
+
+/* The suffixes of the columns of a type. */
+static const char *suffixes_of(enum fl_column_type type)
+{
+    if (type == FL_COLUMN_VEC3 || type == FL_COLUMN_VEC3_DEGREES) return "xyz";
+    return type == FL_COLUMN_QUAT ? "wxyz" : "";
+}
+
+static void write_name(FILE *f, const fl_column *c)
+{
+    const char *suffix = suffixes_of(c->type);
+    do {
+        fprintf(f, "\t%s", c->name);
+        if (*suffix) putc(*suffix++, f);
+        if (c->unit[0]) fprintf(f, "[%s]", c->unit);
+    } while (*suffix);
+}
+
+void fl_table_write_header(FILE *f, const fl_table_format *table, unsigned options, const char *history,
+                           const fl_history_line *by, double start)
+{
+    char text[FL_NUMBER_LEN];
+    fl_write_file_header(f, table->kind, 1, history, by);
+    if (start > 0.0) fprintf(f, "#start %s\n", fl_number_text(start, text));
+    fputs("t[s]", f);
+    for (int k = 0; k < table->columns; k++)
+        if (is_present(&table->column[k], options)) write_name(f, &table->column[k]);
+    putc('\n', f);
+}
+
+static void put_real(FILE *f, double x)
 {
     char text[FL_NUMBER_LEN];
     putc('\t', f);
     fputs(fl_number_text(x, text), f);
 }
 
-static void put3(FILE *f, fl_vec3 a)
+static void put_vec3(FILE *f, fl_vec3 a)
 {
-    put(f, a.x);
-    put(f, a.y);
-    put(f, a.z);
+    put_real(f, a.x);
+    put_real(f, a.y);
+    put_real(f, a.z);
 }
 
-void fl_values_header(FILE *f, const char *kind, const char *history, const fl_history_line *by,
-                      const char *columns)
+static void write_value(FILE *f, enum fl_column_type type, const void *value)
 {
-    fl_write_file_header(f, kind, 1, history, by);
-    fprintf(f, "%s\n", columns);
-}
-
-void fl_values_row(FILE *f, int n, const double *x)
-{
-    char text[FL_NUMBER_LEN];
-    fputs(fl_number_text(x[0], text), f);
-    for (int k = 1; k < n; k++) put(f, x[k]);
-    putc('\n', f);
-}
-
-void fl_loads_header(FILE *f, const char *history, const fl_history_line *by, double start,
-                     enum fl_loads_motion_kind moving)
-{
-    char text[FL_NUMBER_LEN];
-    fl_write_file_header(f, "loads", 1, history, by);
-    if (start > 0.0) fprintf(f, "#start %s\n", fl_number_text(start, text));
-    fputs("t[s]\tpart\tfx[N]\tfy[N]\tfz[N]\tmx[N.m]\tmy[N.m]\tmz[N.m]\tfpeak[N]\tcontacts", f);
-    if (moving) fputs("\tux[m]\tuy[m]\tuz[m]\tvx[m/s]\tvy[m/s]\tvz[m/s]\tax[m/s2]\tay[m/s2]\taz[m/s2]", f);
-    if (moving == FL_LOADS_ROTATION)
-        fputs("\trx[deg]\try[deg]\trz[deg]\twx[rad/s]\twy[rad/s]\twz[rad/s]\tex[rad/s2]\tey[rad/s2]\tez[rad/"
-              "s2]",
-              f);
-    putc('\n', f);
-}
-
-void fl_hash_header(FILE *f, const char *history, const fl_history_line *by)
-{
-    fl_values_header(f, "hash", history, by, "t[s]\thash");
-}
-
-void fl_hash_row(FILE *f, double t, uint64_t hash)
-{
-    char text[FL_NUMBER_LEN];
-    fprintf(f, "%s\t%016" PRIx64 "\n", fl_number_text(t, text), hash);
-}
-
-void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
-                  int32_t contacts, enum fl_loads_motion_kind moving, const fl_loads_motion *motion)
-{
-    char text[FL_NUMBER_LEN];
-    fprintf(f, "%s\t%s", fl_number_text(t, text), part);
-    put3(f, force);
-    put3(f, moment);
-    put(f, peak);
-    fprintf(f, "\t%d", contacts);
-    if (moving) put3(f, motion->u), put3(f, motion->v), put3(f, motion->a);
-    if (moving == FL_LOADS_ROTATION)
-        put3(f, v3_scale(180.0 / PI, motion->r)), put3(f, motion->w), put3(f, motion->e);
-    putc('\n', f);
-}
-
-void fl_state_header(FILE *f, const char *history, const fl_history_line *by)
-{
-    fl_values_header(
-        f, "state", history, by,
-        "t[s]\tbody\tx[m]\ty[m]\tz[m]\tqw\tqx\tqy\tqz\tvx[m/s]\tvy[m/s]\tvz[m/s]\twx[rad/s]\twy[rad/s]\t"
-        "wz[rad/s]");
-}
-
-void fl_state_rows(FILE *f, double t, const fl_poses *p)
-{
-    char text[FL_NUMBER_LEN];
-    fl_number_text(t, text);
-    for (int32_t k = 0; k < p->b->n; k++) {
-        const int32_t i = fl_poses_body(p, k);
-        if (i < 0) continue;
-        const fl_quat q = q_mul(p->b->q[i], q_conj(p->q0[i]));
-        fprintf(f, "%s\t%d", text, p->id[i]);
-        put3(f, fl_poses_position(p, i));
-        put(f, q.w);
-        put3(f, v3(q.x, q.y, q.z));
-        put3(f, p->b->v[i]);
-        put3(f, p->b->w[i]);
-        putc('\n', f);
+    const fl_numbered_name *name = value;
+    const fl_quat *q = value;
+    switch (type) {
+    case FL_COLUMN_REAL: put_real(f, *(const double *)value); break;
+    case FL_COLUMN_VEC3: put_vec3(f, *(const fl_vec3 *)value); break;
+    case FL_COLUMN_VEC3_DEGREES: put_vec3(f, v3_scale(180.0 / PI, *(const fl_vec3 *)value)); break;
+    case FL_COLUMN_QUAT:
+        put_real(f, q->w);
+        put_vec3(f, v3(q->x, q->y, q->z));
+        break;
+    case FL_COLUMN_INT: fprintf(f, "\t%" PRId32, *(const int32_t *)value); break;
+    case FL_COLUMN_TEXT: fprintf(f, "\t%s", *(const char *const *)value); break;
+    case FL_COLUMN_NAME: fprintf(f, "\t%s.%" PRId32, name->name, name->number); break;
+    case FL_COLUMN_HASH: fprintf(f, "\t%016" PRIx64, *(const uint64_t *)value); break;
     }
 }
 
-void fl_contacts_header(FILE *f, const char *history, const fl_history_line *by)
-{
-    fl_values_header(
-        f, "contacts", history, by,
-        "t[s]\ti\tj\tmode\tgap[m]\tnx\tny\tnz\tpx[m]\tpy[m]\tpz[m]\tlength[m]\tarea[m2]\tfn[N]\tfsx[N]\t"
-        "fsy[N]\tfsz[N]");
-}
-
-void fl_contacts_row(FILE *f, double t, int32_t i, int32_t j, const fl_contact *c, double normal,
-                     fl_vec3 slide)
+void fl_table_write_row(FILE *f, const fl_table_format *table, unsigned options, double t, const void *row)
 {
     char text[FL_NUMBER_LEN];
-    fprintf(f, "%s\t%d\t%d\t%s", fl_number_text(t, text), i, j, fl_mode_name(c->mode));
-    put(f, c->gap);
-    put3(f, c->n);
-    put3(f, c->p);
-    put(f, c->length);
-    put(f, c->area);
-    put(f, normal);
-    put3(f, slide);
+    fputs(fl_number_text(t, text), f);
+    for (int k = 0; k < table->columns; k++) {
+        const fl_column *c = &table->column[k];
+        if (is_present(c, options)) write_value(f, c->type, (const char *)row + c->offset);
+    }
     putc('\n', f);
 }
 
-void fl_bonds_header(FILE *f, const char *history, const fl_history_line *by)
+void fl_state_write_rows(FILE *f, double t, const fl_poses *p)
 {
-    fl_values_header(f, "bonds", history, by,
-                     "t[s]\ti\tj\tstate\tdamage\tfn[N]\tfs[N]\tm[N.m]\tarea[m2]\tx[m]\ty[m]\tz[m]");
-}
-
-void fl_bonds_row(FILE *f, double t, const fl_bonds_record *b)
-{
-    char text[FL_NUMBER_LEN];
-    fprintf(f, "%s\t%d\t%d\t%s", fl_number_text(t, text), b->i, b->j, b->state);
-    put(f, b->damage);
-    put(f, b->tension);
-    put(f, b->shear);
-    put(f, b->moment);
-    put(f, b->area);
-    put3(f, b->x);
-    putc('\n', f);
-}
-
-void fl_panels_header(FILE *f, const char *history, const fl_history_line *by, double start)
-{
-    char text[FL_NUMBER_LEN];
-    fl_write_file_header(f, "panels", 1, history, by);
-    if (start > 0.0) fprintf(f, "#start %s\n", fl_number_text(start, text));
-    fputs("t[s]\tpanel\tx[m]\ty[m]\tz[m]\tarea[m2]\tfx[N]\tfy[N]\tfz[N]\n", f);
-}
-
-void fl_panels_row(FILE *f, double t, const char *part, const char *name, fl_vec3 middle, double area,
-                   fl_vec3 force)
-{
-    char text[FL_NUMBER_LEN];
-    fprintf(f, "%s\t%s%s", fl_number_text(t, text), part, name);
-    put3(f, middle);
-    put(f, area);
-    put3(f, force);
-    putc('\n', f);
+    for (int32_t k = 0; k < p->b->n; k++) {
+        const int32_t i = fl_poses_body(p, k);
+        if (i < 0) continue;
+        const fl_state_row row = {.body = p->id[i],
+                                  .x = fl_poses_position(p, i),
+                                  .q = q_mul(p->b->q[i], q_conj(p->q0[i])),
+                                  .v = p->b->v[i],
+                                  .w = p->b->w[i]};
+        fl_table_write_row(f, &fl_state_table, 0, t, &row);
+    }
 }

@@ -1,74 +1,133 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tables.h -- the tables a run leaves: loads, state, energy, contacts, hash.  Each header function writes
- * kind, version, history and column names; each row function one line, tab-separated, numbers that read back
- * to the same double. Write errors stay in the stream.  Formats: loads(5), state(5), energy(5), contacts(5),
- * hash(5). */
+/* tables.h -- the tables that a run writes: loads(5), state(5), contacts(5), bonds(5), panels(5),
+ * hash(5).
+ *
+ * A table is a list of columns.  A column is one row of that list: its name, its unit, when the table has
+ * it, and the member of the row struct that it prints.  Header and rows are written from the list, and
+ * test_tables.c checks the manual page against it.  The table energy(5) has its columns in
+ * sim/energy_balance.c, beside the ledger that it prints.
+ *
+ * A header has kind, version, history and column names.  A row is one line, tab-separated, with numbers
+ * that read back to the same double.  Every table begins with the column t[s].  Write errors stay in the
+ * stream. */
 #ifndef FL_OUT_TABLES_H
 #define FL_OUT_TABLES_H
+#include <stddef.h>
 #include <stdio.h>
 #include "base/tool.h"
-#include "narrow/contact.h"
+#include "geom/vec3.h"
 #include "out/poses.h"
 
-/* Motion of a part at the end of an interval: of its reference point, displacement [m], velocity and
- * acceleration, and of its turn, rotation vector [rad] (told in degrees), angular velocity and acceleration.
- */
+enum fl_column_type {
+    FL_COLUMN_REAL,         /* double */
+    FL_COLUMN_VEC3,         /* fl_vec3: three columns NAMEx NAMEy NAMEz */
+    FL_COLUMN_VEC3_DEGREES, /* the same, in radians, written in degrees */
+    FL_COLUMN_QUAT,         /* fl_quat: four columns NAMEw NAMEx NAMEy NAMEz */
+    FL_COLUMN_INT,          /* int32_t */
+    FL_COLUMN_TEXT,         /* const char * */
+    FL_COLUMN_NAME,         /* fl_numbered_name */
+    FL_COLUMN_HASH          /* uint64_t, 16 hexadecimal digits */
+};
+
+/* A name with a number behind it, written as NAME.NUMBER. */
+typedef struct {
+    const char *name;
+    int32_t number;
+} fl_numbered_name;
+
+typedef struct {
+    const char *name, *unit; /* unit "": none */
+    enum fl_column_type type;
+    unsigned when; /* 0: always; else a bit of `options`: the table has the column if that bit is set */
+    size_t offset; /* of the value in the row struct */
+} fl_column;
+
+typedef struct {
+    const char *kind;
+    const fl_column *column;
+    int columns;
+} fl_table_format;
+
+#define FL_TABLE_COLUMNS(list) list, (int)(sizeof(list) / sizeof *(list))
+
+/* start: when the first interval begins [s]; a line "#start T" if above 0, as in a run that was resumed. */
+void fl_table_write_header(FILE *f, const fl_table_format *table, unsigned options, const char *history,
+                           const fl_history_line *by, double start);
+
+/* row: the row struct of the table; t [s]. */
+void fl_table_write_row(FILE *f, const fl_table_format *table, unsigned options, double t, const void *row);
+
+/* --- loads(5) ----------------------------------------------------------------------------------- */
+
+/* Motion of a part at the end of an interval: its reference point has displacement u, velocity v and
+ * acceleration a; the part has rotation vector r [rad], angular velocity w and acceleration e. */
 typedef struct {
     fl_vec3 u, v, a, r, w, e;
 } fl_loads_motion;
 
-/* Which columns of motion a table of loads has. */
-enum fl_loads_motion_kind { FL_LOADS_FIXED, FL_LOADS_TRANSLATION, FL_LOADS_ROTATION };
+/* The columns of motion that a table of loads has: the `options` of fl_loads_table. */
+enum fl_loads_motion_kind { FL_LOADS_FIXED = 0, FL_LOADS_TRANSLATION = 1, FL_LOADS_ROTATION = 3 };
 
-/* start: when the first interval begins [s]; above 0 where a run is gone on with. */
-void fl_loads_header(FILE *f, const char *history, const fl_history_line *by, double start,
-                     enum fl_loads_motion_kind moving);
-/* force, moment: mean over the interval that ends at t, the moment about the reference point; peak: largest
- * |force| of any step in it; contacts: bodies that touch the part at t; motion: NULL where FL_LOADS_FIXED. */
-void fl_loads_row(FILE *f, double t, const char *part, fl_vec3 force, fl_vec3 moment, double peak,
-                  int32_t contacts, enum fl_loads_motion_kind moving, const fl_loads_motion *motion);
+typedef struct {
+    const char *part;
+    fl_vec3 force, moment;  /* means over the interval that ends at t; moment about the reference point */
+    double peak;            /* largest |force| of any step in it [N] */
+    int32_t contacts;       /* bodies that touch the part at t */
+    fl_loads_motion motion; /* not read with FL_LOADS_FIXED */
+} fl_loads_row;
+extern const fl_table_format fl_loads_table;
 
-void fl_state_header(FILE *f, const char *history, const fl_history_line *by);
-/* The bodies that are there: position of the centre of mass; orientation against the pose at the start, q
- * q0^-1. */
-void fl_state_rows(FILE *f, double t, const fl_poses *p);
+/* --- state(5) ----------------------------------------------------------------------------------- */
 
-/* A row of any table of doubles. */
-void fl_values_header(FILE *f, const char *kind, const char *history, const fl_history_line *by,
-                      const char *columns);
-void fl_values_row(FILE *f, int n, const double *x);
+typedef struct {
+    int32_t body;
+    fl_vec3 x; /* centre of mass [m] */
+    fl_quat q; /* rotation since the start */
+    fl_vec3 v, w;
+} fl_state_row;
+extern const fl_table_format fl_state_table;
 
-void fl_hash_header(FILE *f, const char *history, const fl_history_line *by);
-void fl_hash_row(FILE *f, double t, uint64_t hash);
+/* The rows of all bodies in the domain. */
+void fl_state_write_rows(FILE *f, double t, const fl_poses *p);
 
-#define FL_ENERGY_COLUMNS                                                                                    \
-    "t[s]\tkinetic[J]\tgravity[J]\telastic[J]\thydrostatic[J]\tfriction[J]\tdamping[J]\tdrag[J]\twind[J]"    \
-    "\tdrive[J]\tcarried[J]\t"                                                                               \
-    "residual[J]"
-/* and behind it, of a structure that moves by itself */
-#define FL_ENERGY_WAVES "\twaves[J]"
-#define FL_ENERGY_MOVING "\tstructure[J]\tspring[J]\tdamper[J]"
-/* and behind all that, where floes are frozen together */
-#define FL_ENERGY_BONDS "\tbond[J]\tfracture[J]"
+/* --- contacts(5): output.contacts, output.events, --probe --------------------------------------- */
 
-/* Frozen faces: bonds(5).  state: whole, damaged, broken or ended. */
 typedef struct {
     int32_t i, j;
-    const char *state;
+    const char *mode;
+    double gap;
+    fl_vec3 n, p; /* normal; point [m] */
+    double length, area;
+    double normal;      /* component of the force on i along n [N] */
+    fl_vec3 tangential; /* the rest of that force [N] */
+} fl_contacts_row;
+extern const fl_table_format fl_contacts_table;
+
+/* --- bonds(5) ----------------------------------------------------------------------------------- */
+
+typedef struct {
+    int32_t i, j;
+    const char *state; /* whole, damaged, broken or ended */
     double damage, tension, shear, moment, area;
     fl_vec3 x;
-} fl_bonds_record;
-void fl_bonds_header(FILE *f, const char *history, const fl_history_line *by);
-void fl_bonds_row(FILE *f, double t, const fl_bonds_record *b);
+} fl_bonds_row;
+extern const fl_table_format fl_bonds_table;
 
-/* Loads on panels: panels(5).  name: of the part, then what tells its panels apart. */
-void fl_panels_header(FILE *f, const char *history, const fl_history_line *by, double start);
-void fl_panels_row(FILE *f, double t, const char *part, const char *name, fl_vec3 middle, double area,
-                   fl_vec3 force);
+/* --- panels(5) ---------------------------------------------------------------------------------- */
 
-void fl_contacts_header(FILE *f, const char *history, const fl_history_line *by);
-/* normal: component of the force on i along n, slide: the rest of it [N]. */
-void fl_contacts_row(FILE *f, double t, int32_t i, int32_t j, const fl_contact *c, double normal,
-                     fl_vec3 slide);
+typedef struct {
+    fl_numbered_name panel; /* name of the part, number of the panel in it */
+    fl_vec3 centroid;
+    double area;
+    fl_vec3 force; /* mean over the interval that ends at t */
+} fl_panels_row;
+extern const fl_table_format fl_panels_table;
+
+/* --- hash(5) ------------------------------------------------------------------------------------ */
+
+typedef struct {
+    uint64_t hash;
+} fl_hash_row;
+extern const fl_table_format fl_hash_table;
 
 #endif

@@ -7,8 +7,8 @@
 #include "base/text.h"
 #include "scene/ice_field.h"
 
-/* Make room for one more body in every array; cap moves only when all have it. */
-static int grow(fl_ice_field *a, fl_err *err)
+/* Make room for one more body in every array; cap changes only if all have it. */
+static int grow_arrays(fl_ice_field *a, fl_err *err)
 {
     const int64_t want = (int64_t)a->n + 1;
     int32_t cap[8];
@@ -32,7 +32,7 @@ int fl_ice_field_add(fl_ice_field *a, int32_t id, double radius, fl_poly *core, 
 {
     const int32_t i = a->n;
     int32_t m = -1, g = -1;
-    if (grow(a, err)) return -1;
+    if (grow_arrays(a, err)) return -1;
     if (material && (m = fl_string_table_add(&a->materials, material, err)) < 0) return -1;
     if (group && (g = fl_string_table_add(&a->groups, group, err)) < 0) return -1;
     a->id[i] = id;
@@ -76,10 +76,10 @@ void fl_ice_field_free(fl_ice_field *a)
 
 /* --- read ----------------------------------------------------------------------------------------------- */
 
-/* The record under way. */
+/* The current record. */
 struct body {
-    int32_t line, id, nv, nf;                  /* as the poly row announced them */
-    int32_t has_v, has_f, v_cap, f_cap, l_cap; /* as they arrive */
+    int32_t line, id, nv, nf;                  /* as announced by the poly row */
+    int32_t has_v, has_f, v_cap, f_cap, l_cap; /* as read so far */
     int open, has_vel, material_given, group_given;
     int32_t material, group;
     double radius;
@@ -100,34 +100,34 @@ static int fail_at(const fl_text *in, int32_t line, fl_err *err, const char *sen
 typedef struct {
     fl_vec3 x;
     int32_t k;
-} spot;
+} indexed_point;
 
-static int by_place(const void *a, const void *b)
+static int by_position(const void *a, const void *b)
 {
-    const spot *s = a, *t = b;
+    const indexed_point *s = a, *t = b;
     if (s->x.x < t->x.x || s->x.x > t->x.x) return s->x.x < t->x.x ? -1 : 1;
     if (s->x.y < t->x.y || s->x.y > t->x.y) return s->x.y < t->x.y ? -1 : 1;
     if (s->x.z < t->x.z || s->x.z > t->x.z) return s->x.z < t->x.z ? -1 : 1;
     return (s->k > t->k) - (s->k < t->k);
 }
 
-/* Corners of a solid that were written twice become one, at the first of its places; what is left of a face
- * with fewer than three is left out. */
+/* Merge corners of a solid that coincide, at the first of them; drop faces with fewer than three corners
+ * left. */
 static int merge_corners(struct body *b, fl_err *err)
 {
     int32_t corners = 0, faces = 0, sides = 0;
-    spot *s = fl_alloc(b->nv, sizeof *s, err);
+    indexed_point *s = fl_alloc(b->nv, sizeof *s, err);
     int32_t *to = fl_alloc(b->nv, sizeof *to, err);
     if (!s || !to) {
         free(s), free(to);
         return -1;
     }
-    for (int32_t k = 0; k < b->nv; k++) s[k] = (spot){b->v[k], k};
-    qsort(s, (size_t)b->nv, sizeof *s, by_place);
+    for (int32_t k = 0; k < b->nv; k++) s[k] = (indexed_point){b->v[k], k};
+    qsort(s, (size_t)b->nv, sizeof *s, by_position);
     for (int32_t k = 0, first = 0; k < b->nv; k++) {
         const fl_vec3 p = s[k].x, q = s[first].x;
         if (p.x != q.x || p.y != q.y || p.z != q.z) first = k;
-        to[s[k].k] = s[first].k; /* never a later one */
+        to[s[k].k] = s[first].k; /* never a later index */
     }
     for (int32_t k = 0; k < b->nv; k++) {
         if (to[k] == k) b->v[corners] = b->v[k], to[k] = corners++;
@@ -149,8 +149,8 @@ static int merge_corners(struct body *b, fl_err *err)
     return 0;
 }
 
-/* The record is complete when its vertices and faces are there; then it becomes a body. */
-static int close_body(fl_ice_field *a, struct body *b, const fl_text *in, fl_err *err)
+/* Append the complete record as a body. */
+static int finish_body(fl_ice_field *a, struct body *b, const fl_text *in, fl_err *err)
 {
     fl_poly core = {0};
     fl_err why = {0};
@@ -204,7 +204,7 @@ static int read_key(fl_ice_field *a, struct body *b, fl_text *in, fl_err *err)
 static int read_poly(fl_ice_field *a, struct body *b, fl_text *in, fl_err *err)
 {
     const int32_t most = INT32_MAX - 1;
-    if (close_body(a, b, in, err)) return -1;
+    if (finish_body(a, b, in, err)) return -1;
     b->line = (int32_t)in->line_number;
     b->has_v = b->has_f = b->has_vel = b->material_given = b->group_given = 0;
     b->material = b->group = -1;
@@ -289,13 +289,13 @@ static int read_vel(struct body *b, fl_text *in, fl_err *err)
     return fl_text_no_more(in, err);
 }
 
-/* i and j hold ids until all bodies are known. */
+/* Read a bond; i and j are ids until all bodies are known. */
 static int read_bond(fl_ice_field *a, struct body *b, fl_text *in, fl_err *err)
 {
     fl_ice_field_bond d = {0};
     if (in->version < 2)
         return fl_text_fail(in, err, "a bond is of g-polys 2, the file says g-polys %d", in->version);
-    if (close_body(a, b, in, err)) return -1;
+    if (finish_body(a, b, in, err)) return -1;
     if (fl_text_i32(in, "id", 0, INT32_MAX, &d.i, err) || fl_text_i32(in, "id", 0, INT32_MAX, &d.j, err) ||
         fl_text_f64(in, "area", &d.area, err) || fl_text_f64(in, "length", &d.length, err) ||
         fl_text_f64(in, "x", &d.x.x, err) || fl_text_f64(in, "y", &d.x.y, err) ||
@@ -344,8 +344,8 @@ static int by_id(const void *a, const void *b)
 
 /* --- bonds, when all bodies are known ------------------------------------------------------------------- */
 
-/* Place of the body with that id among the sorted ones, -1 when there is none. */
-static int32_t place_of(const struct id_line *s, int32_t n, int32_t id)
+/* Position of the body with that id in the sorted list, -1 if there is none. */
+static int32_t find_id(const struct id_line *s, int32_t n, int32_t id)
 {
     int32_t lo = 0, hi = n;
     while (lo < hi) {
@@ -369,7 +369,7 @@ static int by_pair(const void *a, const void *b)
     return (p->line > q->line) - (p->line < q->line);
 }
 
-/* Turn ids into places, then sort; s has the ids in order. */
+/* Replace ids by indices, then sort; s has the ids ascending. */
 static int resolve_bonds(fl_ice_field *a, const struct id_line *s, const int32_t *line, const fl_text *in,
                          fl_err *err)
 {
@@ -381,7 +381,7 @@ static int resolve_bonds(fl_ice_field *a, const struct id_line *s, const int32_t
         const int32_t id[2] = {a->bond[k].i, a->bond[k].j};
         int32_t at[2];
         for (int e = 0; e < 2; e++) {
-            const int32_t p = place_of(s, a->n, id[e]);
+            const int32_t p = find_id(s, a->n, id[e]);
             if (p < 0) {
                 snprintf(what, sizeof what, "the bond names body %d, which is not in the file", id[e]);
                 free(t);
@@ -410,7 +410,7 @@ static int resolve_bonds(fl_ice_field *a, const struct id_line *s, const int32_t
     return twice >= 0 ? -1 : 0;
 }
 
-/* Sorted once at the end: one id that comes twice is found in n log n, whatever the order of the file. */
+/* Check that ids differ, by one sort at the end: n log n for any order of the file. */
 static int check_ids(fl_ice_field *a, const int32_t *bond_line, const fl_text *in, fl_err *err)
 {
     struct id_line *s = fl_alloc(a->n, sizeof *s, err);
@@ -440,7 +440,7 @@ int fl_ice_field_read_text(fl_ice_field *out, fl_text *in, fl_err *err)
     if (fl_text_magic(in, "g-polys", FL_ICE_FIELD_VERSION, err)) goto done;
     while ((more = fl_text_row(in, err)) > 0)
         if (read_record(&a, &b, in, err)) goto done;
-    if (more < 0 || close_body(&a, &b, in, err)) goto done;
+    if (more < 0 || finish_body(&a, &b, in, err)) goto done;
     if (a.n == 0) {
         fl_text_fail(in, err, "the file ends without a body, a poly record is expected");
         goto done;
@@ -469,26 +469,26 @@ int fl_ice_field_read(fl_ice_field *out, const char *path, fl_err *err)
 
 /* --- write ---------------------------------------------------------------------------------------------- */
 
-/* A buffer of its own: a call of the C library for each number takes as long as its digits do. */
+/* Own output buffer: a call of the C library for each number would cost as much as its conversion. */
 enum { BUFFER = 1 << 16 };
 
-struct put {
+struct writer {
     FILE *f;
     int n, z_len;
-    double z; /* the number that z_text prints: prisms have two heights for all their corners */
+    double z; /* the number in z_text: a prism has two heights for all its corners */
     char z_text[FL_NUMBER_LEN];
     char text[BUFFER];
 };
 
-static void flush(struct put *o)
+static void flush_buffer(struct writer *o)
 {
     fwrite(o->text, 1, (size_t)o->n, o->f);
     o->n = 0;
 }
 
-static void put_text(struct put *o, const char *text, int len)
+static void put_text(struct writer *o, const char *text, int len)
 {
-    if (o->n + len > BUFFER) flush(o);
+    if (o->n + len > BUFFER) flush_buffer(o);
     if (len > BUFFER) {
         fwrite(text, 1, (size_t)len, o->f);
         return;
@@ -497,9 +497,9 @@ static void put_text(struct put *o, const char *text, int len)
     o->n += len;
 }
 
-static void put_char(struct put *o, char c) { put_text(o, &c, 1); }
+static void put_char(struct writer *o, char c) { put_text(o, &c, 1); }
 
-static void put_int(struct put *o, int32_t x)
+static void put_int(struct writer *o, int32_t x)
 {
     char text[12];
     int at = 12;
@@ -508,14 +508,14 @@ static void put_int(struct put *o, int32_t x)
     put_text(o, text + at, 12 - at);
 }
 
-static void put_f64(struct put *o, double x)
+static void put_f64(struct writer *o, double x)
 {
     char text[FL_NUMBER_LEN];
     fl_number_text(x, text);
     put_text(o, text, (int)strlen(text));
 }
 
-static void put_vec3(struct put *o, fl_vec3 x)
+static void put_vec3(struct writer *o, fl_vec3 x)
 {
     put_char(o, ' ');
     put_f64(o, x.x);
@@ -529,13 +529,13 @@ static void put_vec3(struct put *o, fl_vec3 x)
     put_text(o, o->z_text, o->z_len);
 }
 
-static void put_name(struct put *o, const char *key, const char *name)
+static void put_name(struct writer *o, const char *key, const char *name)
 {
     put_text(o, key, (int)strlen(key));
     put_text(o, name, (int)strlen(name));
 }
 
-static void put_body(struct put *o, const fl_ice_field *a, int32_t i)
+static void put_body(struct writer *o, const fl_ice_field *a, int32_t i)
 {
     const fl_poly *p = &a->core[i];
     put_text(o, "poly ", 5);
@@ -573,7 +573,7 @@ static void put_body(struct put *o, const fl_ice_field *a, int32_t i)
 
 void fl_ice_field_write(FILE *f, const fl_ice_field *a, const fl_history_line *by)
 {
-    struct put o;
+    struct writer o;
     o.f = f;
     o.n = o.z_len = 0;
     fl_write_file_header(f, "g-polys", a->bonds ? 2 : 1, a->history, by);
@@ -591,7 +591,7 @@ void fl_ice_field_write(FILE *f, const fl_ice_field *a, const fl_history_line *b
         put_vec3(&o, d->x);
         put_char(&o, '\n');
     }
-    flush(&o);
+    flush_buffer(&o);
 }
 
 uint64_t fl_ice_field_hash(const fl_ice_field *a)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ice_field.h -- a field of ice: the bodies of a g-polys file, g-polys(5). */
+/* ice_field.h -- an ice field: the bodies and bonds of a g-polys file, g-polys(5). */
 #ifndef FL_SCENE_ICE_FIELD_H
 #define FL_SCENE_ICE_FIELD_H
 #include <stdint.h>
@@ -13,65 +13,65 @@
 /* Version 2 has bond records; a field without them is written as version 1. */
 enum { FL_ICE_FIELD_VERSION = 2 };
 
-/* The farthest coordinate and the largest radius a file may hold [m]: squares and cubes stay finite, and one
- * ulp of it is a tenth of a micrometre. */
+/* Largest coordinate and radius in a file [m]: squares and cubes are finite, and one ulp is a tenth of a
+ * micrometre. */
 #define FL_ICE_FIELD_MAX_COORD 1e9
 
-/* Where two bodies touch and may be frozen together: a candidate, which acts only through the scene's [bond]
- * section.  i < j are places in the field, not ids. */
+/* A bond candidate: two bodies that touch and may be bonded by the [bond] section of a scene. i < j are
+ * indices in the field, not ids. */
 typedef struct {
     int32_t i, j;
-    double area;   /* of the common face; of touching spheres that of the smaller's great circle [m2] */
-    double length; /* its horizontal length; of touching spheres the smaller diameter             [m] */
-    fl_vec3 x;     /* its centroid                                                                [m] */
+    double area;   /* of the common face; of touching spheres the area of the smaller great circle [m2] */
+    double length; /* horizontal length of the face; of touching spheres the smaller diameter [m] */
+    fl_vec3 x;     /* centroid of the face [m] */
 } fl_ice_field_bond;
 
-/* Body i is the Minkowski sum of core[i] and a ball of radius[i].  core[i].nv is 1 for a sphere, 2 for a
- * capsule.  Order is that of the file; memory grows with the rows that are there, whatever the counts say. */
+/* Body i is the Minkowski sum of core[i] and a ball of radius[i]. core[i].nv is 1 for a sphere, 2 for a
+ * capsule.  The order is that of the file; memory grows with the rows read, independent of announced
+ * counts. */
 typedef struct {
     int32_t n, cap;
-    int32_t *id;          /* [n] names of the bodies, >= 0, all different                  */
-    int32_t *record_line; /* [n] line of the poly record, 0 for a body that was not read   */
-    int32_t *material;    /* [n] number in materials, -1 when none is given                */
-    int32_t *group;       /* [n] number in groups, -1 when none is given                   */
-    double *radius;       /* [n] dilation radius, >= 0; > 0 where the core has no volume [m] */
+    int32_t *id;          /* [n] ids of the bodies, >= 0, all different */
+    int32_t *record_line; /* [n] line of the poly record, 0 if the body was not read */
+    int32_t *material;    /* [n] index in materials, -1: none */
+    int32_t *group;       /* [n] index in groups, -1: none */
+    double *radius;       /* [n] dilation radius, >= 0; > 0 if the core has no volume [m] */
     fl_poly *core;        /* [n] core, vertices in world coordinates                   [m] */
-    fl_vec3 *velocity;    /* [n] velocity at the start                               [m/s] */
-    fl_vec3 *spin;        /* [n] angular velocity at the start, world axes         [rad/s] */
+    fl_vec3 *velocity;    /* [n] initial velocity [m/s] */
+    fl_vec3 *spin;        /* [n] initial angular velocity, world axes [rad/s] */
     fl_string_table materials, groups;
     int32_t bonds, bond_cap;
     fl_ice_field_bond *bond; /* [bonds] sorted by (i, j), no pair twice */
-    char *history;           /* "#by ..." lines of the file it came from, NULL for none; owned */
+    char *history;           /* "#by ..." lines of the file that was read, NULL for none; owned */
 } fl_ice_field;
 
-/* Append a body; the core moves into the field and *core is left zeroed.  material and group may be NULL.
- * Returns 0, or -1 with FL_SYSTEM in err, field and core as they were. */
+/* Append a body; the core moves into the field and *core is left zeroed. material and group may be NULL.
+ * Returns 0, or -1 with FL_SYSTEM; field and core are unchanged then. */
 int fl_ice_field_add(fl_ice_field *a, int32_t id, double radius, fl_poly *core, const char *material,
                      const char *group, fl_vec3 vel, fl_vec3 spin, fl_err *err);
 
-/* Append a bond of the bodies i != j; bonds are sorted when they are read, and written in the order of their
- * adding.  Returns 0, or -1 with FL_SYSTEM in err. */
+/* Append a bond of the bodies i != j.  Reading sorts bonds; writing keeps the order of addition.  Returns
+ * 0, or -1 with FL_SYSTEM. */
 int fl_ice_field_add_bond(fl_ice_field *a, int32_t i, int32_t j, double area, double length, fl_vec3 x,
                           fl_err *err);
 
-/* Read a file ("-" is standard input, gzip is unpacked).  Checks the syntax, that ids differ, indices and
- * radii, that a bond names two bodies of the file, a pair once and with an area and a length, and through
- * fl_poly_make() that every core is closed, convex and the right way out; corners of a core that coincide are
- * one.
- * Returns 0, or -1 with FL_INPUT ("file:line: ...", for a core the line of its poly record and its id) or
- * FL_SYSTEM; out is untouched then. */
+/* Read a file ("-" is standard input, gzip is unpacked).  Checks syntax, unique ids, indices and radii;
+ * bonds (two bodies of the file, a pair once, area and length above 0); and with fl_poly_make() that every
+ * core is closed, convex and oriented outward.  Coincident corners of a core are merged.  Returns 0, or -1
+ * with FL_INPUT ("file:line: ...", for a core the line of its poly record and its id) or FL_SYSTEM; out is
+ * unchanged then. */
 int fl_ice_field_read(fl_ice_field *out, const char *path, fl_err *err);
 
-/* The same from a text that was opened already, which it closes. */
+/* The same from an open text, which is closed. */
 int fl_ice_field_read_text(fl_ice_field *out, fl_text *in, fl_err *err);
 
-/* Write the whole file: kind and version, the history of the field and this run's line, the bodies.  Numbers
- * read back to the same doubles.  Write errors stay in f, for fl_out_close(). */
+/* Write the file: kind and version, the history of the field and the line of this run, the bodies.
+ * Numbers read back to the same doubles.  Write errors stay in f, for fl_out_close(). */
 void fl_ice_field_write(FILE *f, const fl_ice_field *a, const fl_history_line *by);
 
-/* A number that tells fields apart: of ids, radii, corners, faces, velocities and bonds, bit for bit. */
+/* Hash of ids, radii, corners, faces, velocities and bonds, bit for bit. */
 uint64_t fl_ice_field_hash(const fl_ice_field *a);
 
-void fl_ice_field_free(fl_ice_field *a); /* accepts a zeroed struct, leaves one */
+void fl_ice_field_free(fl_ice_field *a); /* accepts a zeroed struct, leaves a zeroed one */
 
 #endif

@@ -6,7 +6,7 @@
 #include "geom/hilbert_order.h"
 #include "scene/ice_field_order.h"
 
-struct place {
+struct sort_key {
     fl_vec3 mean;
     const fl_poly *core;
     double radius;
@@ -14,7 +14,7 @@ struct place {
     int32_t id, from;
 };
 
-/* A field of this size fits the caches however it is ordered; a larger one is worth a curve. */
+/* A smaller field fits the caches in any order. */
 enum { LARGE = 4096 };
 
 static int by_number(double a, double b) { return (a > b) - (a < b); }
@@ -26,9 +26,9 @@ static int by_point(fl_vec3 a, fl_vec3 b)
     return c ? c : by_number(a.z, b.z);
 }
 
-static int by_place(const void *x, const void *y)
+static int by_position(const void *x, const void *y)
 {
-    const struct place *a = x, *b = y;
+    const struct sort_key *a = x, *b = y;
     int c = (a->curve > b->curve) - (a->curve < b->curve);
     if (c == 0) c = by_point(a->mean, b->mean);
     if (c == 0) c = by_number(a->radius, b->radius);
@@ -37,7 +37,7 @@ static int by_place(const void *x, const void *y)
     return c ? c : (a->id > b->id) - (a->id < b->id);
 }
 
-static int by_bodies(const void *x, const void *y)
+static int by_pair(const void *x, const void *y)
 {
     const fl_ice_field_bond *a = x, *b = y;
     if (a->i != b->i) return (a->i > b->i) - (a->i < b->i);
@@ -45,20 +45,20 @@ static int by_bodies(const void *x, const void *y)
 }
 
 /* array[k] = array[from of s[k]]; spare has room for one array. */
-static void move(void *array, size_t size, const struct place *s, int32_t n, void *spare)
+static void permute(void *array, size_t size, const struct sort_key *s, int32_t n, void *spare)
 {
     memcpy(spare, array, (size_t)n * size);
     for (int32_t k = 0; k < n; k++)
         memcpy((char *)array + (size_t)k * size, (char *)spare + (size_t)s[k].from * size, size);
 }
 
-/* Where the means lie on Hilbert's curve over the plane. */
-static void follow_curve(struct place *s, int32_t n)
+/* Positions of the means on a Hilbert curve over the plane. */
+static void set_curve_positions(struct sort_key *s, int32_t n)
 {
     fl_aabb all = aabb_empty();
     for (int32_t i = 0; i < n; i++) all = aabb_add(all, s[i].mean);
     const double wide = fmax(all.hi.x - all.lo.x, all.hi.y - all.lo.y);
-    const double scale = wide > 0.0 ? 65535.5 / wide : 0.0; /* just short of 2^16 squares */
+    const double scale = wide > 0.0 ? 65535.5 / wide : 0.0; /* just below 2^16 squares */
     for (int32_t i = 0; i < n; i++)
         s[i].curve = fl_hilbert_index((uint32_t)(scale * (s[i].mean.x - all.lo.x)),
                                       (uint32_t)(scale * (s[i].mean.y - all.lo.y)));
@@ -66,7 +66,7 @@ static void follow_curve(struct place *s, int32_t n)
 
 int fl_ice_field_order(fl_ice_field *a, int32_t *at, fl_err *err)
 {
-    struct place *s = fl_alloc(a->n, sizeof *s, err);
+    struct sort_key *s = fl_alloc(a->n, sizeof *s, err);
     void *spare = fl_alloc(a->n, sizeof(fl_poly) > sizeof(fl_vec3) ? sizeof(fl_poly) : sizeof(fl_vec3), err);
     if (!s || !spare) {
         free(s);
@@ -77,25 +77,25 @@ int fl_ice_field_order(fl_ice_field *a, int32_t *at, fl_err *err)
         const fl_poly *p = &a->core[i];
         fl_vec3 sum = v3(0, 0, 0);
         for (int32_t v = 0; v < p->nv; v++) sum = v3_add(sum, p->v[v]);
-        s[i] = (struct place){v3_scale(1.0 / p->nv, sum), p, a->radius[i], 0, a->id[i], i};
+        s[i] = (struct sort_key){v3_scale(1.0 / p->nv, sum), p, a->radius[i], 0, a->id[i], i};
     }
-    if (a->n > LARGE) follow_curve(s, a->n);
-    qsort(s, (size_t)a->n, sizeof *s, by_place);
+    if (a->n > LARGE) set_curve_positions(s, a->n);
+    qsort(s, (size_t)a->n, sizeof *s, by_position);
     for (int32_t k = 0; k < a->n; k++) at[s[k].from] = k;
-    move(a->id, sizeof *a->id, s, a->n, spare);
-    move(a->record_line, sizeof *a->record_line, s, a->n, spare);
-    move(a->material, sizeof *a->material, s, a->n, spare);
-    move(a->group, sizeof *a->group, s, a->n, spare);
-    move(a->radius, sizeof *a->radius, s, a->n, spare);
-    move(a->core, sizeof *a->core, s, a->n, spare);
-    move(a->velocity, sizeof *a->velocity, s, a->n, spare);
-    move(a->spin, sizeof *a->spin, s, a->n, spare);
+    permute(a->id, sizeof *a->id, s, a->n, spare);
+    permute(a->record_line, sizeof *a->record_line, s, a->n, spare);
+    permute(a->material, sizeof *a->material, s, a->n, spare);
+    permute(a->group, sizeof *a->group, s, a->n, spare);
+    permute(a->radius, sizeof *a->radius, s, a->n, spare);
+    permute(a->core, sizeof *a->core, s, a->n, spare);
+    permute(a->velocity, sizeof *a->velocity, s, a->n, spare);
+    permute(a->spin, sizeof *a->spin, s, a->n, spare);
     for (int32_t k = 0; k < a->bonds; k++) {
         const int32_t i = at[a->bond[k].i], j = at[a->bond[k].j];
         a->bond[k].i = i < j ? i : j;
         a->bond[k].j = i < j ? j : i;
     }
-    if (a->bonds) qsort(a->bond, (size_t)a->bonds, sizeof *a->bond, by_bodies);
+    if (a->bonds) qsort(a->bond, (size_t)a->bonds, sizeof *a->bond, by_pair);
     free(s);
     free(spare);
     return 0;

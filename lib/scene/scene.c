@@ -28,27 +28,21 @@ void fl_scene_free(fl_scene *scene)
 
 int32_t fl_scene_find_material(const fl_scene *scene, const char *name)
 {
-    for (int32_t i = 0; i < scene->n_material; i++)
-        if (strcmp(scene->material[i].name, name) == 0) return i;
-    return -1;
+    return fl_section_named(scene, FL_SEC_MATERIAL, name, "");
 }
 
 int32_t fl_scene_find_group(const fl_scene *scene, const char *name)
 {
-    for (int32_t i = 0; i < scene->n_group; i++)
-        if (strcmp(scene->group[i].name, name) == 0) return i;
-    return -1;
+    return fl_section_named(scene, FL_SEC_GROUP, name, "");
 }
 
 int32_t fl_scene_find_part(const fl_scene *scene, const char *name)
 {
-    for (int32_t i = 0; i < scene->n_part; i++)
-        if (strcmp(scene->part[i].name, name) == 0) return i;
-    return -1;
+    return fl_section_named(scene, FL_SEC_PART, name, "");
 }
 
-/* What [contact A B] gives over what out holds; "auto" gives nothing. */
-static void lay_over(fl_scene_contact *out, const fl_scene *scene, const char *a, const char *b)
+/* Copy the keys that [contact A B] gives, but those given as "auto", to out. */
+static void apply_contact_section(fl_scene_contact *out, const fl_scene *scene, const char *a, const char *b)
 {
     const int32_t i = fl_section_named(scene, FL_SEC_CONTACT, a, b);
     const int first = fl_key_first(FL_SEC_CONTACT);
@@ -63,18 +57,18 @@ fl_scene_contact fl_scene_pair(const fl_scene *scene, int32_t a, int32_t b)
     const fl_scene_material *p = &scene->material[a], *q = b >= 0 ? &scene->material[b] : NULL;
     fl_scene_contact out;
     fl_section_defaults(FL_SEC_CONTACT, "", &out);
-    lay_over(&out, scene, "", "");
+    apply_contact_section(&out, scene, "", "");
     if (b == FL_SCENE_STRUCTURE) {
         const int32_t m = fl_scene_find_material(scene, scene->structure.material);
         if (m >= 0) q = &scene->material[m];
         if (scene->structure.friction >= 0.0) out.friction = scene->structure.friction;
-        lay_over(&out, scene, p->name, scene->structure.material);
-        lay_over(&out, scene, p->name, "structure");
+        apply_contact_section(&out, scene, p->name, scene->structure.material);
+        apply_contact_section(&out, scene, p->name, "structure");
     } else if (b == FL_SCENE_BOUNDARY) {
         if (scene->boundary.stiffness > 0.0) out.stiffness = scene->boundary.stiffness;
-        lay_over(&out, scene, p->name, "boundary");
+        apply_contact_section(&out, scene, p->name, "boundary");
     } else {
-        lay_over(&out, scene, p->name, q->name);
+        apply_contact_section(&out, scene, p->name, q->name);
     }
     if (!q) q = p;
     if (out.friction < 0.0) out.friction = fmin(p->friction, q->friction);

@@ -1,282 +1,48 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene.h -- what the user asked for: one case, every key with its value, read from a scene file.
+/* scene.h -- one case: every key of a scene file with its value.
  *
- * The life of a scene:
- *     fl_scene_init()   every key at its default                          (scene.h)
- *     fl_scene_read()    the file over it                                  (scene_read.h)
- *     fl_scene_set()     --set section.key=value over that, any number     (scene_read.h)
- *     fl_scene_check()   "auto" filled in, the parts held against another  (scene_check.h)
+ * Life of a scene:
+ *     fl_scene_init()    every key at its default                          (scene.h)
+ *     fl_scene_read()    values of the file replace defaults               (scene_read.h)
+ *     fl_scene_set()     --set section.key=value, any number of times      (scene_read.h)
+ *     fl_scene_check()   "auto" filled in, keys checked against each other (scene_check.h)
  *     fl_scene_write(), fl_scene_explain()                                 (scene_print.h)
  *     fl_scene_free()                                                      (scene.h)
- * All keys, their types, units, defaults, ranges and sources are rows of one table, scene_key.h; the
- * specification for the user is scene(5).  Values are SI. */
+ * Keys with types, units, defaults, ranges and sources are rows of one table, scene_key.h.  The
+ * specification for the user is scene(5). */
 #ifndef FL_SCENE_SCENE_H
 #define FL_SCENE_SCENE_H
 #include <stdint.h>
 #include "base/err.h"
-#include "geom/vec3.h"
+#include "scene/scene_types.h"
 
-enum { FL_SCENE_NAME = 48, FL_SCENE_PATH = 1024, FL_SCENE_KEYS = 32 };
-
-/* Where a value was given: line 0 says nowhere, the default stands; file is an index into scene.file,
- * or FL_SCENE_ARGUMENT for --set. */
-enum { FL_SCENE_ARGUMENT = -1 };
-typedef struct {
-    int32_t file, line;
-    uint32_t components; /* bit c: component c of a vector; all bits for a whole value */
-    int32_t is_auto;     /* the word given was "auto" or the like, which leaves the value to something else */
-} fl_scene_mark;
-
-/* First member of every section. */
-typedef struct {
-    int present;                      /* the section stands in the file, or one of its keys was set */
-    fl_scene_mark heading;            /* the line of its heading */
-    fl_scene_mark key[FL_SCENE_KEYS]; /* one per key, in the order of the table */
-} fl_scene_head;
-
-enum fl_law { FL_LAW_PATCH, FL_LAW_MANUAL, FL_LAW_MANUAL_SI, FL_LAW_CORE };
-enum fl_shape { FL_SHAPE_SHARP, FL_SHAPE_ROUND };
-enum fl_boundary_type {
-    FL_BOUNDARY_RIGID,
-    FL_BOUNDARY_ELASTIC,
-    FL_BOUNDARY_PERIODIC,
-    FL_BOUNDARY_FREE
-}; /* manual's word - 1 */
-enum fl_error_of {
-    FL_ERROR_OF_IMPULSE,
-    FL_ERROR_OF_PEAK,
-    FL_ERROR_OF_FX,
-    FL_ERROR_OF_FY,
-    FL_ERROR_OF_FZ,
-    FL_ERROR_OF_MX,
-    FL_ERROR_OF_MY,
-    FL_ERROR_OF_MZ
-};
-enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
-enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
-enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, FL_FIX_RZ = 32 };
-
-typedef struct {
-    fl_scene_head head;
-    double duration;  /* [s] */
-    double dt;        /* [s]; 0: auto */
-    double safety;    /* fraction of the critical step, for dt = auto */
-    double error;     /* budget that chooses the step in place of safety; 0: none */
-    int32_t error_of; /* enum fl_error_of */
-    fl_vec3 gravity;  /* [m/s2] as a vector; the file's one number g is (0, 0, -g) */
-    int32_t threads;  /* 0: auto, as many as OpenMP offers */
-    double sleep; /* largest error of a step of a floe that touches nothing, over its radius; 0: none does */
-    int32_t search_every; /* steps between neighbour searches; 0: auto, when the skin is used up */
-} fl_scene_run;
-
-typedef struct {
-    fl_scene_head head;
-    /* Intervals [s].  Those that follow another are 0 until fl_scene_check() fills them in. */
-    double loads_every;
-    double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
-    int32_t files;                         /* number of files the frames are split over */
-    double state_every, energy_every, contacts_every, hash_every, bonds_every;
-    double checkpoint_every;
-    char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
-        hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        checkpoint[FL_SCENE_PATH]; /* "": none */
-} fl_scene_output;
-
-typedef struct {
-    fl_scene_head head;
-    char name[FL_SCENE_NAME];
-    double density; /* [kg/m3] */
-    double young;   /* [Pa] */
-    double poisson;
-    double restitution; /* of the material against itself */
-    double friction;
-} fl_scene_material;
-
-/* How two things touch.  In scene.contact a member counts where its key was given; fl_scene_pair() answers
- * with every member set. */
-typedef struct {
-    fl_scene_head head;
-    char a[FL_SCENE_NAME], b[FL_SCENE_NAME]; /* both empty: the defaults of all pairs */
-    int32_t law;                             /* enum fl_law */
-    double exponent;                         /* n of F = kappa delta^n: 1 or 1.5 */
-    double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli, notation(7) */
-    double stiffness_factor;                 /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
-    double tangential_ratio;                 /* kt / kn */
-    double rolling;                          /* mu_r of spheres; 0: they roll freely */
-    double friction, restitution;            /* negative in scene.contact: auto, from the materials */
-    double surrogate; /* tolerance of the force between looks, over the force; 0: a look in every step */
-    double damping;   /* overrides what restitution asks for: chi v_impact of `patch`
-                                                and `core`, zeta of `manual`; negative: auto */
-    int32_t manual_eq2, manual_eq18; /* equations (2), (18) of the manual as printed */
-} fl_scene_contact;
-
-typedef struct {
-    fl_scene_head head;
-    char file[FL_SCENE_PATH];     /* g-polys; "-" is standard input, "" not given */
-    char material[FL_SCENE_NAME]; /* of bodies whose record names none */
-    int32_t shape;                /* enum fl_shape */
-} fl_scene_ice;
-
-/* How the structure, or a part of it by itself, moves: as it is told in the directions that are not free, by
- * forces in those that are.  World axes; turns are about the reference point. */
-enum fl_interpolation { FL_INTERPOLATION_CUBIC, FL_INTERPOLATION_LINEAR };
-typedef struct {
-    fl_vec3 reference; /* point that turns and moments are about, the centre of mass of what is free [m] */
-    fl_vec3 velocity;  /* [m/s] */
-    fl_vec3 spin;      /* [rad/s] */
-    char track[FL_SCENE_PATH]; /* "": none */
-    int32_t interpolation;     /* enum fl_interpolation: rows of the track */
-    uint32_t free;             /* FL_FIX_X | ...: directions left to forces */
-    double mass;               /* [kg]; 0: not given */
-    fl_vec3 inertia;           /* [kg m2] */
-    fl_vec3 stiffness;         /* [N/m] */
-    fl_vec3 turn_stiffness;    /* [N m/rad] */
-    fl_vec3 coupling;          /* C34, C35 [N], C45 [N m] */
-    fl_vec3 period;            /* in place of stiffness [s]; 0: no spring */
-    fl_vec3 damping;           /* [N s/m] */
-    fl_vec3 turn_damping;      /* [N m s] */
-    fl_vec3 damping_ratio;     /* in place of damping, of the critical */
-    int32_t hydrostatic;       /* 1: the stiffness that the sea gives to the mesh */
-} fl_scene_motion;
-
-typedef struct {
-    fl_scene_head head;
-    char file[FL_SCENE_PATH]; /* g_struct */
-    char material[FL_SCENE_NAME];
-    double friction; /* against everything; negative: auto */
-    fl_scene_motion motion;
-} fl_scene_structure;
-
-/* A part that does not move as [structure] says. */
-typedef struct {
-    fl_scene_head head;
-    char name[FL_SCENE_NAME];
-    fl_scene_motion motion;
-} fl_scene_part;
-
-typedef struct {
-    fl_scene_head head;
-    int32_t type[3];  /* enum fl_boundary_type of x, y, z; an absent section is FL_BOUNDARY_FREE */
-    fl_vec3 min, max; /* [m]; a side that is not bounded is -INFINITY, +INFINITY */
-    double stiffness; /* of the springs against the boundary [N/m^n]; 0: auto */
-    int32_t inflow;   /* enum fl_inflow */
-    char inflow_file[FL_SCENE_PATH]; /* g-polys; "" not given */
-    int32_t inflow_from;             /* 0 -x, 1 x, 2 -y, 3 y: the bound */
-    double inflow_speed;             /* [m/s]; 0: auto, that of the current */
-    double inflow_pitch;             /* [m]; 0: auto, the length of the field */
-    int32_t room;                    /* floes there is room for besides those of the start; 0: auto */
-    fl_vec3 drive;                   /* velocity of an edge row of ice [m/s] */
-    char drive_group[FL_SCENE_NAME]; /* the floes that are driven; "": by drive_width */
-    double drive_width;              /* [m]; 0: none */
-    int32_t drive_edge;              /* 0 auto, else 1 + that of inflow_from */
-    uint32_t drive_fixed;            /* FL_FIX_X | ... */
-    double drive_spring;             /* [N/m] */
-    double drive_foundation;         /* [N/m3] */
-    double foundation, damping;      /* of an elastic wall, per area [N/m3], [N s/m3] */
-} fl_scene_boundary;
-
-typedef struct {
-    fl_scene_head head;
-    double level;                     /* z of the still water [m] */
-    double depth;                     /* [m]; INFINITY: deep.  Bears on waves and sheared currents alone */
-    double density;                   /* [kg/m3] */
-    fl_vec3 current;                  /* at the surface [m/s] */
-    int32_t profile;                  /* uniform, power, linear, table: enum fl_profile of water/current.h */
-    double profile_exponent;          /* of power */
-    double profile_depth;             /* [m]; 0: auto, the depth */
-    char profile_file[FL_SCENE_PATH]; /* of table; "": none */
-    int32_t wave;                     /* enum fl_wave_kind */
-    double height, period, direction, gamma; /* [m], [s], [deg]; height and period 0: not given */
-    int32_t seed, components;
-    double drag_force_coef;      /* C of equation (8) */
-    fl_vec3 added_mass;          /* over the displaced mass, per body axis; -1: auto */
-    fl_vec3 added_inertia;       /* over the own moments of inertia; -1: auto */
-    int32_t drag;                /* manual, facet: enum fl_drag_law of water/environment.h */
-    double skin_coef, form_coef; /* C_s and C_f of facet */
-    double drag_moment_coef;     /* C of equation (9) */
-    int32_t every;               /* steps between two looks at the water */
-} fl_scene_water;
-
-typedef struct {
-    fl_scene_head head;
-    fl_vec3 velocity; /* at 10 m [m/s] */
-    double beaufort;  /* -1: none; then velocity counts */
-    double direction; /* that it blows to, from x towards y [deg]; with beaufort alone */
-    double density;   /* of the air [kg/m3] */
-    int32_t drag;     /* as of water */
-    double drag_coef, form_coef;
-} fl_scene_wind;
-
-/* What becomes of a bond that is too long for its fracture energy, bond/bond.h. */
-enum fl_softening { FL_SOFTENING_KEEP, FL_SOFTENING_STRETCH, FL_SOFTENING_WEAKEN };
-
-typedef struct {
-    fl_scene_head head;
-    int32_t on;
-    double young;                           /* [Pa]; 0: auto, of the materials */
-    double poisson;                         /* negative: auto, of the materials */
-    double normal_strength, shear_strength; /* [Pa]; INFINITY: never */
-    double friction;
-    double energy, shear_energy; /* [J/m2]; 0: breaks at once; shear_energy negative: auto, as energy */
-    int32_t mixing;
-    int32_t softening; /* enum fl_softening */
-    double stretch;    /* separation at the end over that at the peak, at least, of stretch */
-    double damping;    /* of the critical, of the two bodies on their bond */
-} fl_scene_bond;
-
-typedef struct {
-    fl_scene_head head;
-    char name[FL_SCENE_NAME];
-    uint32_t fixed;   /* FL_FIX_X | ...: directions (world axes) and turns that forces do not change */
-    fl_vec3 velocity; /* [m/s] of the fixed directions */
-} fl_scene_group;
-
-typedef struct {
-    fl_scene_run run;
-    fl_scene_output output;
-    fl_scene_ice ice;
-    fl_scene_structure structure;
-    fl_scene_boundary boundary;
-    fl_scene_water water;
-    fl_scene_wind wind;
-    fl_scene_bond bond;
-    fl_scene_material *material; /* "ice" and "steel" are always there after fl_scene_check() */
-    fl_scene_contact *contact;
-    fl_scene_group *group;
-    fl_scene_part *part;
-    int32_t n_material, n_contact, n_group, n_part;
-    int32_t cap_material, cap_contact, cap_group, cap_part;
-    char **file; /* names of the files read, the scene first, then what it includes */
-    int32_t n_file, cap_file;
-} fl_scene;
-
-/* Every key at its default, no section present.  Cannot fail.  scene may be uninitialised. */
+/* Set every key to its default, no section present.  Cannot fail.  scene may be uninitialised. */
 void fl_scene_init(fl_scene *scene);
 
-/* Accepts a zeroed scene and leaves one. */
+/* Accepts a zeroed scene and leaves a zeroed one. */
 void fl_scene_free(fl_scene *scene);
 
-/* Index of the material, the group or the [part] of that name, -1 when there is none. */
+/* Index of the material, the group or the part of that name, -1 when there is none. */
 int32_t fl_scene_find_material(const fl_scene *scene, const char *name);
 int32_t fl_scene_find_group(const fl_scene *scene, const char *name);
 int32_t fl_scene_find_part(const fl_scene *scene, const char *name);
 
-/* How a body of material a (an index) meets b: an index as well, or the structure, or the boundary.
- * Each member comes from the first of these places where it was given:
- *     [contact A B], names in either order, where the structure is called "structure" or by its material,
- *                    and the boundary "boundary"
+/* Contact parameters of a body of material a (an index) with b: a material, the structure or the boundary.
+ * A member takes the first of these values that was given:
+ *     [contact A B], names in either order; the structure is named "structure" or by its material, the
+ *                    boundary "boundary"
  *     [structure] friction, [boundary] stiffness        where b is the structure, the boundary
  *     [contact]      without names
- *     friction, restitution: the smaller of the two materials' (the boundary has none: material a alone);
- *     the others: the default of the key.
- * Only after fl_scene_check().  Cannot fail. */
+ *     friction, restitution: the smaller value of the two materials (of material a at the boundary);
+ *     other keys: the default.
+ * Call fl_scene_check() before.  Cannot fail. */
 enum { FL_SCENE_STRUCTURE = -1, FL_SCENE_BOUNDARY = -2 };
 fl_scene_contact fl_scene_pair(const fl_scene *scene, int32_t a, int32_t b);
 
-/* Complain about a key, "FILE:LINE: sentence": the line where it was given, or else its section's heading,
- * or else the file alone; "--set: sentence" for a value from the command line.
+/* Record an error about a key, "FILE:LINE: sentence": the line where the key was given, else the heading
+ * of its section, else the file alone; "--set: sentence" for a value from the command line.
  *   key  "section.key", "material ice.young", "contact ice steel.law"
- * Records FL_INPUT (FL_USAGE for --set).  Returns -1. */
+ * The code is FL_INPUT (FL_USAGE for --set).  Returns -1. */
 int fl_scene_fail(const fl_scene *scene, const char *key, fl_err *err, const char *fmt, ...)
     __attribute__((format(printf, 4, 5)));
 

@@ -4,36 +4,39 @@
 #include <string.h>
 #include "scene/scene_check.h"
 #include "base/pi.h"
+#include "law/contact_law.h"
 #include "scene/unused_keys.h"
 #include "scene/scene_section.h"
 
-static int ensure_material(fl_scene *s, const char *name, fl_err *err)
+static int add_missing_material(fl_scene *s, const char *name, fl_err *err)
 {
     if (fl_scene_find_material(s, name) >= 0) return 0;
     return fl_section_add(s, FL_SEC_MATERIAL, name, "", err) < 0 ? -1 : 0;
 }
 
-/* What follows another key until it is given.  A second call must follow it anew, hence the marks. */
-static void follow(const fl_scene_output *o, const char *key, double *value, double leader)
+/* Set a value to that of another key until it is given itself.  A second call sets it again: the mark
+ * decides. */
+static void copy_unless_given(const fl_scene_output *o, const char *key, double *value, double other)
 {
     const int slot = fl_key_find(FL_SEC_OUTPUT, key) - fl_key_first(FL_SEC_OUTPUT);
-    if (o->head.key[slot].line == 0 || o->head.key[slot].is_auto) *value = leader;
+    if (o->head.key[slot].line == 0 || o->head.key[slot].is_auto) *value = other;
 }
 
-static void fill_in(fl_scene *s)
+static void set_default_intervals(fl_scene *s)
 {
     fl_scene_output *o = &s->output;
-    follow(o, "ice_every", &o->ice_every, o->frames_every);
-    follow(o, "until", &o->until, s->run.duration);
-    follow(o, "state_every", &o->state_every, o->loads_every);
-    follow(o, "energy_every", &o->energy_every, o->loads_every);
-    follow(o, "contacts_every", &o->contacts_every, o->loads_every);
-    follow(o, "hash_every", &o->hash_every, o->loads_every);
-    follow(o, "bonds_every", &o->bonds_every, o->loads_every);
+    copy_unless_given(o, "ice_every", &o->ice_every, o->frames_every);
+    copy_unless_given(o, "until", &o->until, s->run.duration);
+    copy_unless_given(o, "state_every", &o->state_every, o->loads_every);
+    copy_unless_given(o, "energy_every", &o->energy_every, o->loads_every);
+    copy_unless_given(o, "contacts_every", &o->contacts_every, o->loads_every);
+    copy_unless_given(o, "hash_every", &o->hash_every, o->loads_every);
+    copy_unless_given(o, "bonds_every", &o->bonds_every, o->loads_every);
 }
 
-/* A material that a key names.  key is the whole address, for the line to tell. */
-static int known_material(const fl_scene *s, const char *key, const char *name, int place, fl_err *err)
+/* Check that a material exists; place: "structure" and "boundary" are accepted too.  key is the whole
+ * address, for the line of the message. */
+static int check_material(const fl_scene *s, const char *key, const char *name, int place, fl_err *err)
 {
     if (fl_scene_find_material(s, name) >= 0) return 0;
     if (place && (strcmp(name, "structure") == 0 || strcmp(name, "boundary") == 0)) return 0;
@@ -54,8 +57,8 @@ static int check_inputs(const fl_scene *s, fl_err *err)
     if (std_scene + std_ice + std_structure > 1)
         return fl_scene_fail(s, std_ice ? "ice.file" : "structure.file", err,
                              "standard input can be only one of scene, ice and structure");
-    if (known_material(s, "ice.material", s->ice.material, 0, err)) return -1;
-    if (s->structure.head.present && known_material(s, "structure.material", s->structure.material, 0, err))
+    if (check_material(s, "ice.material", s->ice.material, 0, err)) return -1;
+    if (s->structure.head.present && check_material(s, "structure.material", s->structure.material, 0, err))
         return -1;
     return 0;
 }
@@ -83,19 +86,35 @@ static int check_outputs(const fl_scene *s, fl_err *err)
     return 0;
 }
 
-/* The law of section i: its own, or that of all contacts. */
+/* The law of section i: its own, or that of [contact] without names. */
 static int32_t law_of(const fl_scene *s, int32_t i, int32_t all)
 {
     const int law = fl_key_find(FL_SEC_CONTACT, "law") - fl_key_first(FL_SEC_CONTACT);
     return s->contact[i].head.key[law].line || all < 0 ? s->contact[i].law : s->contact[all].law;
 }
 
-/* Some contact that the section speaks of has that law. */
-static int has_law(const fl_scene *s, int32_t i, int32_t all, int32_t law)
+/* True if a contact that section i covers has a law that uses the key. */
+static int law_uses_key(const fl_scene *s, int32_t i, int32_t all, const char *key)
 {
-    int has = law_of(s, i, all) == law;
-    for (int32_t k = 0; k < s->n_contact && i == all; k++) has |= law_of(s, k, all) == law;
-    return has;
+    int uses = fl_contact_law_uses(&fl_contact_laws[law_of(s, i, all)], key);
+    for (int32_t k = 0; k < s->n_contact && i == all; k++)
+        uses |= fl_contact_law_uses(&fl_contact_laws[law_of(s, k, all)], key);
+    return uses;
+}
+
+/* Refuses a key of section i, called `at`, that is given and that none of its laws uses. */
+static int check_law_key(const fl_scene *s, int32_t i, int32_t all, const char *at, const char *key,
+                         int given, fl_err *err)
+{
+    char full[4 * FL_SCENE_NAME], laws[160] = "";
+    size_t n = 0;
+    if (!given || law_uses_key(s, i, all, key)) return 0;
+    for (int32_t k = 0; k < fl_contact_law_count; k++)
+        if (fl_contact_law_uses(&fl_contact_laws[k], key) && n < sizeof laws)
+            n += (size_t)snprintf(laws + n, sizeof laws - n, "%s%s", n ? " and " : "",
+                                  fl_contact_laws[k].name);
+    snprintf(full, sizeof full, "%s.%s", at, key);
+    return fl_scene_fail(s, full, err, "%s applies to law = %s only", key, laws);
 }
 
 static int check_contacts(const fl_scene *s, fl_err *err)
@@ -103,29 +122,23 @@ static int check_contacts(const fl_scene *s, fl_err *err)
     const int32_t all = fl_section_named(s, FL_SEC_CONTACT, "", "");
     for (int32_t i = 0; i < s->n_contact; i++) {
         const fl_scene_contact *c = &s->contact[i];
-        const int32_t in_force = law_of(s, i, all);
         char at[3 * FL_SCENE_NAME], key[4 * FL_SCENE_NAME];
         snprintf(at, sizeof at, "contact%s%s%s%s", c->a[0] ? " " : "", c->a, c->b[0] ? " " : "", c->b);
-        snprintf(key, sizeof key, "%s.literal%d", at, c->manual_eq2 ? 2 : 18);
-        if ((c->manual_eq2 || c->manual_eq18) && in_force != FL_LAW_MANUAL && in_force != FL_LAW_MANUAL_SI)
-            return fl_scene_fail(s, key, err, "literal%d bears on law = manual and manual-si alone",
-                                 c->manual_eq2 ? 2 : 18);
+        if (check_law_key(s, i, all, at, "manual_eq2", c->manual_eq2, err) ||
+            check_law_key(s, i, all, at, "manual_eq18", c->manual_eq18, err))
+            return -1;
         snprintf(key, sizeof key, "%s.surrogate", at);
         if (s->run.error > 0.0 && c->surrogate > 0.0)
             return fl_scene_fail(s, key, err,
-                                 "run.error tells the error of the step by steps of other sizes, which a "
-                                 "surrogate would blur: one of run.error and surrogate in [%s] is expected",
+                                 "run.error compares steps of different sizes, which a surrogate would "
+                                 "disturb: either run.error or surrogate in [%s] is expected",
                                  at);
-        if (c->surrogate > 0.0 && !has_law(s, i, all, FL_LAW_PATCH))
-            return fl_scene_fail(s, key, err, "surrogate bears on law = patch alone");
-        snprintf(key, sizeof key, "%s.rolling", at);
-        if (c->rolling > 0.0 && !has_law(s, i, all, FL_LAW_PATCH) && !has_law(s, i, all, FL_LAW_CORE))
-            return fl_scene_fail(s, key, err, "rolling bears on law = patch and core alone");
-        snprintf(key, sizeof key, "%s.exponent", at);
-        if (c->exponent != 1.0 && !has_law(s, i, all, FL_LAW_CORE))
-            return fl_scene_fail(s, key, err, "exponent bears on law = core alone");
+        if (check_law_key(s, i, all, at, "surrogate", c->surrogate > 0.0, err) ||
+            check_law_key(s, i, all, at, "rolling", c->rolling > 0.0, err) ||
+            check_law_key(s, i, all, at, "exponent", c->exponent != 1.0, err))
+            return -1;
         if (i == all) continue;
-        if (known_material(s, at, c->a, 1, err) || known_material(s, at, c->b, 1, err)) return -1;
+        if (check_material(s, at, c->a, 1, err) || check_material(s, at, c->b, 1, err)) return -1;
         if (fl_scene_find_material(s, c->a) < 0 && fl_scene_find_material(s, c->b) < 0)
             return fl_scene_fail(s, at, err, "[%s] names no material: structure and boundary never touch",
                                  at);
@@ -162,14 +175,14 @@ static int check_inflow(const fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "boundary.inflow", err,
                              "boundary.inflow is file: inflow_file = FILE is expected");
     if (b->type[axis] != FL_BOUNDARY_FREE || !isfinite(lo) || !isfinite(hi))
-        return fl_scene_fail(s, "boundary.inflow", err,
-                             "floes come in along %c, and leave: boundary.type of %c free, and its "
-                             "boundary.min and boundary.max, are expected",
-                             'x' + axis, 'x' + axis);
+        return fl_scene_fail(
+            s, "boundary.inflow", err,
+            "inflow along %c needs boundary.type = free in %c, and boundary.min and boundary.max of it",
+            'x' + axis, 'x' + axis);
     if (b->inflow_speed <= 0.0 && !((b->inflow_from % 2 ? -current : current) > 0.0))
         return fl_scene_fail(s, "boundary.inflow", err,
-                             "water.current does not go in there: boundary.inflow_speed, or another "
-                             "inflow_from, is expected");
+                             "water.current does not point into the domain there: boundary.inflow_speed, or "
+                             "another inflow_from, is expected");
     return 0;
 }
 
@@ -202,8 +215,7 @@ static int check_boundary(const fl_scene *s, fl_err *err)
                                  'x' + c, 'x' + c);
     if (s->boundary.type[2] == FL_BOUNDARY_PERIODIC && isfinite(lo[2]) && s->water.head.present)
         return fl_scene_fail(s, "boundary.type", err,
-                             "z is periodic, and there is [water], which has one surface: one of the two was "
-                             "wanted");
+                             "z is periodic, but [water] has one surface: only one of the two is expected");
     if (check_drive(s, err)) return -1;
     return s->boundary.inflow == FL_INFLOW_NONE ? 0 : check_inflow(s, err);
 }
@@ -216,14 +228,13 @@ static int check_current(const fl_scene *s, fl_err *err)
     if (sheared && w->profile_depth == 0.0 && !isfinite(w->depth))
         return fl_scene_fail(
             s, "water.profile", err,
-            "a current that changes with depth needs one: water.profile_depth or water.depth "
-            "is expected");
+            "a current profile needs a depth: water.profile_depth or water.depth is expected");
     if (table && w->profile_file[0] == '\0')
         return fl_scene_fail(s, "water.profile", err,
                              "water.profile = table has no rows: water.profile_file is expected");
     if (!table && w->profile_file[0])
         return fl_scene_fail(s, "water.profile_file", err,
-                             "water.profile_file bears on water.profile = table alone");
+                             "water.profile_file applies to water.profile = table only");
     if (table && v3_norm(w->current) > 0.0)
         return fl_scene_fail(s, "water.current", err,
                              "the current is given twice: by water.current and by water.profile_file");
@@ -234,11 +245,12 @@ static int check_weight(const fl_scene *s, fl_err *err)
 {
     const fl_vec3 g = s->run.gravity;
     if (s->water.head.present && (g.x != 0.0 || g.y != 0.0 || g.z > 0.0))
-        return fl_scene_fail(s, "run.gravity", err, "water lies level: a run.gravity along -z is expected");
+        return fl_scene_fail(s, "run.gravity", err,
+                             "the water surface is level: a run.gravity along -z is expected");
     return 0;
 }
 
-/* What holds for either kind of wave is said here; whether it would break, by the program. */
+/* Checks common to all kinds of waves; the program checks whether a wave would break. */
 static int check_waves(const fl_scene *s, fl_err *err)
 {
     const fl_scene_water *w = &s->water;
@@ -249,7 +261,7 @@ static int check_waves(const fl_scene *s, fl_err *err)
     if (w->period == 0.0)
         return fl_scene_fail(s, "water.wave", err, "the waves have no period: water.period is expected");
     if (!(g.z < 0.0))
-        return fl_scene_fail(s, "run.gravity", err, "waves need weight: a run.gravity along -z is expected");
+        return fl_scene_fail(s, "run.gravity", err, "waves need gravity: a run.gravity along -z is expected");
     if (!(0.5 * w->height < w->depth))
         return fl_scene_fail(s, "water.height", err,
                              "waves of %g m on water of %g m: less than twice the depth is expected",
@@ -272,8 +284,8 @@ static int check_wind(const fl_scene *s, fl_err *err)
     return 0;
 }
 
-/* Shares of what a body has: none is negative, but the -1 that stands for auto. */
-static int check_shares(const fl_scene *s, const char *key, fl_vec3 x, fl_err *err)
+/* Ratios to a property of the body: none is negative, except -1 for auto. */
+static int check_ratios(const fl_scene *s, const char *key, fl_vec3 x, fl_err *err)
 {
     const double all[] = {x.x, x.y, x.z};
     for (int c = 0; c < 3; c++)
@@ -288,26 +300,21 @@ static int check_bonds(const fl_scene *s, fl_err *err)
     const fl_scene_bond *b = &s->bond;
     const int on = b->head.present && b->on;
     if (!on && s->output.bonds[0])
-        return fl_scene_fail(s, "output.bonds", err,
-                             "nothing is frozen together: bond.on = true is expected");
+        return fl_scene_fail(s, "output.bonds", err, "there are no bonds: bond.on = true is expected");
     if (!on) return 0;
     if (s->run.sleep > 0.0)
-        return fl_scene_fail(
-            s, "run.sleep", err,
-            "floes that are frozen together do not sleep: one of run.sleep and bond.on is expected");
+        return fl_scene_fail(s, "run.sleep", err,
+                             "bonded floes do not sleep: either run.sleep or bond.on is expected");
     if (s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
-        return fl_scene_fail(
-            s, "boundary.inflow", err,
-            "floes that come in are frozen to nothing: one of boundary.inflow and bond.on was "
-            "wanted");
+        return fl_scene_fail(s, "boundary.inflow", err,
+                             "inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
     if (b->softening != FL_SOFTENING_KEEP && b->energy == 0.0)
-        return fl_scene_fail(
-            s, "bond.softening", err,
-            "softening bears on a fracture energy, and there is none: bond.energy is expected");
+        return fl_scene_fail(s, "bond.softening", err,
+                             "softening needs a fracture energy: bond.energy is expected");
     if (b->softening == FL_SOFTENING_WEAKEN && (isinf(b->normal_strength) || isinf(b->shear_strength)))
         return fl_scene_fail(
             s, "bond.softening", err,
-            "softening = weaken lowers both strengths, and one is none: a number is expected");
+            "softening = weaken lowers both strengths, but one is none: a number is expected");
     return 0;
 }
 
@@ -328,7 +335,7 @@ static int check_groups(const fl_scene *s, fl_err *err)
     return 0;
 }
 
-/* "structure" or "part NAME", a dot and a key, for a complaint. */
+/* Where a message about motion is written; of: "structure" or "part NAME". */
 typedef struct {
     const fl_scene *s;
     const char *of;
@@ -342,8 +349,8 @@ static int motion_fail(const motion_check *c, const char *name, const char *what
     return fl_scene_fail(c->s, key, c->err, "%s: %s", key, what);
 }
 
-/* Values that bear on free directions: none below 0, none where a direction is not free. */
-static int free_only(const motion_check *c, const char *name, fl_vec3 x, uint32_t free)
+/* Check values of free directions: none below 0, none in a direction that is not free. */
+static int check_free_values(const motion_check *c, const char *name, fl_vec3 x, uint32_t free)
 {
     const double v[] = {x.x, x.y, x.z};
     for (int k = 0; k < 3; k++) {
@@ -360,36 +367,41 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
     const double I[] = {m->inertia.x, m->inertia.y, m->inertia.z},
                  D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z},
                  spring[] = {m->stiffness.x + m->period.x, m->stiffness.y + m->period.y,
-                             m->stiffness.z + m->period.z}; /* which of them have one */
+                             m->stiffness.z + m->period.z}; /* which directions have a spring */
     if (m->track[0] && (v3_nonzero(m->velocity) || v3_nonzero(m->spin)))
         return motion_fail(c, "track", "velocity and spin are given as well, one of the two is expected");
     if (m->free && v3_nonzero(m->spin))
-        return motion_fail(c, "spin", "what is free is not spun, a structure without free is expected");
-    if (free_only(c, "stiffness", m->stiffness, m->free) || free_only(c, "period", m->period, m->free) ||
-        free_only(c, "damping", m->damping, m->free) ||
-        free_only(c, "damping_ratio", m->damping_ratio, m->free) ||
-        free_only(c, "turn_stiffness", m->turn_stiffness, turns) ||
-        free_only(c, "turn_damping", m->turn_damping, turns) || free_only(c, "inertia", m->inertia, turns))
+        return motion_fail(
+            c, "spin",
+            "a body with free directions has no prescribed spin: spin or free is expected, not both");
+    if (check_free_values(c, "stiffness", m->stiffness, m->free) ||
+        check_free_values(c, "period", m->period, m->free) ||
+        check_free_values(c, "damping", m->damping, m->free) ||
+        check_free_values(c, "damping_ratio", m->damping_ratio, m->free) ||
+        check_free_values(c, "turn_stiffness", m->turn_stiffness, turns) ||
+        check_free_values(c, "turn_damping", m->turn_damping, turns) ||
+        check_free_values(c, "inertia", m->inertia, turns))
         return -1;
     if (v3_nonzero(m->period) && v3_nonzero(m->stiffness))
         return motion_fail(c, "period", "stiffness is given as well, one of the two is expected");
     if (v3_nonzero(m->damping) && v3_nonzero(m->damping_ratio))
         return motion_fail(c, "damping_ratio", "damping is given as well, one of the two is expected");
     if (m->hydrostatic && m->period.z > 0.0)
-        return motion_fail(c, "period", "the sea draws it back along z as well, a stiffness is expected");
+        return motion_fail(c, "period",
+                           "hydrostatic stiffness acts along z as well: a stiffness is expected");
     for (int k = 0; k < 3; k++)
         if (D[k] > 0.0 && !(spring[k] > 0.0 || (k == 2 && m->hydrostatic)))
             return motion_fail(c, "damping_ratio", "a direction without a spring has no critical damping");
     if ((m->free & 7u) && m->mass == 0.0)
-        return motion_fail(c, "mass", "free directions have a mass, and none is given");
+        return motion_fail(c, "mass", "free directions need a mass, and none is given");
     if (!(m->free & 7u) && m->mass != 0.0)
-        return motion_fail(c, "mass", "a mass bears on free directions, and none of x y z is free");
+        return motion_fail(c, "mass", "a mass applies to free directions, and none of x y z is free");
     for (int k = 0; k < 3; k++)
         if (turns >> k & 1u && !(I[k] > 0.0))
-            return motion_fail(c, "inertia", "every free turn has an inertia, above 0 is expected");
+            return motion_fail(c, "inertia", "every free rotation needs an inertia above 0");
     if ((v3_nonzero(m->coupling) || m->hydrostatic) && !(m->free & (FL_FIX_Z | FL_FIX_RX | FL_FIX_RY)))
         return motion_fail(c, m->hydrostatic ? "hydrostatic" : "coupling",
-                           "it bears on z, rx and ry, and none of them is free");
+                           "it applies to z, rx and ry, and none of them is free");
     if (m->hydrostatic && !c->s->water.head.present)
         return motion_fail(c, "hydrostatic", "there is no water: [water] is expected");
     return 0;
@@ -404,7 +416,7 @@ static int check_motions(const fl_scene *s, fl_err *err)
         snprintf(of, sizeof of, "part %s", s->part[i].name);
         c.of = of;
         if (!s->structure.head.present)
-            return fl_scene_fail(s, of, err, "[%s] is a part of no structure: [structure] is expected", of);
+            return fl_scene_fail(s, of, err, "[%s] needs a structure: [structure] is expected", of);
         if (check_motion(&c, &s->part[i].motion)) return -1;
     }
     return 0;
@@ -412,31 +424,29 @@ static int check_motions(const fl_scene *s, fl_err *err)
 
 int fl_scene_check(fl_scene *s, fl_err *err)
 {
-    if (ensure_material(s, "ice", err) || ensure_material(s, "steel", err)) return -1;
-    fill_in(s);
+    if (add_missing_material(s, "ice", err) || add_missing_material(s, "steel", err)) return -1;
+    set_default_intervals(s);
     if (s->run.dt > s->run.duration)
         return fl_scene_fail(s, "run.dt", err, "run.dt is %g s, at most the duration, %g s, is expected",
                              s->run.dt, s->run.duration);
     if (s->run.error > 0.0 && s->run.sleep > 0.0)
-        return fl_scene_fail(
-            s, "run.sleep", err,
-            "run.error repeats windows with other steps, in which nobody sleeps: one of run.error "
-            "and run.sleep is expected");
+        return fl_scene_fail(s, "run.sleep", err,
+                             "run.error repeats windows with other steps, in which no floe can sleep: either "
+                             "run.error or run.sleep is expected");
     if (s->water.head.present && s->water.every > 1 && s->run.sleep > 0.0)
         return fl_scene_fail(
             s, "water.every", err,
-            "floes that sleep under run.sleep meet the water when they wake: water.every = 1 "
-            "is expected");
+            "sleeping floes (run.sleep) evaluate the water when they wake: water.every = 1 is expected");
     if (s->run.error > 0.0 && s->run.dt > 0.0)
         return fl_scene_fail(s, "run.error", err,
-                             "run.error is to choose the step, and run.dt gives it: one of them is expected");
+                             "run.error chooses the step and run.dt sets it: only one of them is expected");
     if (fl_scene_check_unused(s, err) || check_inputs(s, err) || check_outputs(s, err) ||
         check_contacts(s, err))
         return -1;
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
                    check_wind(s, err) || check_bonds(s, err) ||
-                   check_shares(s, "water.added_mass", s->water.added_mass, err) ||
-                   check_shares(s, "water.added_inertia", s->water.added_inertia, err) ||
+                   check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
+                   check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)
                ? -1
                : 0;

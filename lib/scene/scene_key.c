@@ -1,64 +1,65 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
+#include "law/contact_law.h"
 #include "scene/scene_key.h"
 
 const fl_section fl_section_table[FL_SECTIONS] = {
-    {"run", "[run]", 0, offsetof(fl_scene, run), sizeof(fl_scene_run), "how long and in what steps"},
+    {"run", "[run]", 0, offsetof(fl_scene, run), sizeof(fl_scene_run), "duration and time step"},
     {"output", "[output]", 0, offsetof(fl_scene, output), sizeof(fl_scene_output),
-     "what is written besides the loads, and how often"},
+     "tables and files besides the loads, and their intervals"},
     {"material", "[material NAME]", 1, offsetof(fl_scene, material), sizeof(fl_scene_material),
-     "what bodies and structure are made of; ice and steel are known without one"},
+     "material of bodies and structure; ice and steel are predefined"},
     {"contact", "[contact A B]", 2, offsetof(fl_scene, contact), sizeof(fl_scene_contact),
-     "how two materials touch; A or B may be \"structure\" or \"boundary\"; without names, all pairs"},
-    {"ice", "[ice]", 0, offsetof(fl_scene, ice), sizeof(fl_scene_ice), "the bodies; a scene needs them"},
+     "contact of two materials; A or B may be \"structure\" or \"boundary\"; without names, all pairs"},
+    {"ice", "[ice]", 0, offsetof(fl_scene, ice), sizeof(fl_scene_ice), "the ice field; required"},
     {"structure", "[structure]", 0, offsetof(fl_scene, structure), sizeof(fl_scene_structure),
-     "what the ice loads; absent, there is none and the load table stays empty"},
+     "the loaded structure; absent, there is none and the load table stays empty"},
     {"boundary", "[boundary]", 0, offsetof(fl_scene, boundary), sizeof(fl_scene_boundary),
-     "the walls of the domain; absent, the ice is free to leave"},
+     "the bounds of the domain; absent, the ice is free to leave"},
     {"water", "[water]", 0, offsetof(fl_scene, water), sizeof(fl_scene_water),
-     "buoyancy and drag of the sea; absent, the bodies are dry"},
+     "buoyancy, drag and waves; absent, the bodies are dry"},
     {"wind", "[wind]", 0, offsetof(fl_scene, wind), sizeof(fl_scene_wind),
      "drag of the air; absent, it is calm"},
     {"bond", "[bond]", 0, offsetof(fl_scene, bond), sizeof(fl_scene_bond),
-     "frozen faces between neighbours; absent, nothing is frozen together"},
+     "bonds between neighbouring floes; absent, there are none"},
     {"group", "[group NAME]", 1, offsetof(fl_scene, group), sizeof(fl_scene_group),
-     "bodies of the ice file with that group, held or driven"},
+     "bodies of the ice file with that group, fixed or driven"},
     {"part", "[part NAME]", 1, offsetof(fl_scene, part), sizeof(fl_scene_part),
-     "a part of the structure that moves by its own; the others move as [structure] says"},
+     "a part of the structure with a motion of its own; the others move with [structure]"},
 };
 
-#define AT(section, member) offsetof(fl_scene_##section, member)
+#define OFFSET(section, member) offsetof(fl_scene_##section, member)
 
-/* What [structure] and [part NAME] have in common: how a thing moves. */
+/* Keys of motion, common to [structure] and [part NAME]. */
 #define MOTION_KEYS(SECTION, OWNER)                                                                          \
     {.section = SECTION,                                                                                     \
      .key = "reference",                                                                                     \
      .type = FL_VALUE_VEC3,                                                                                  \
      .unit = FL_UNIT_LENGTH,                                                                                 \
-     .at = AT(OWNER, motion.reference),                                                                      \
-     .fallback = "0 0 0 m",                                                                                  \
-     .meaning =                                                                                              \
-         "point that turns and moments are about, the centre of mass of what is free; it moves along"},      \
+     .offset = OFFSET(OWNER, motion.reference),                                                              \
+     .default_text = "0 0 0 m",                                                                              \
+     .meaning = "centre of rotations and moments, and centre of mass of a free body; it "                    \
+                "moves with the structure"},                                                                 \
         {.section = SECTION,                                                                                 \
          .key = "velocity",                                                                                  \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_SPEED,                                                                              \
-         .at = AT(OWNER, motion.velocity),                                                                   \
-         .fallback = "0 0 0 m/s",                                                                            \
+         .offset = OFFSET(OWNER, motion.velocity),                                                           \
+         .default_text = "0 0 0 m/s",                                                                        \
          .meaning = "constant velocity of the reference point"},                                             \
         {.section = SECTION,                                                                                 \
          .key = "spin",                                                                                      \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_ANGULAR_VELOCITY,                                                                   \
-         .at = AT(OWNER, motion.spin),                                                                       \
-         .fallback = "0 0 0 rad/s",                                                                          \
+         .offset = OFFSET(OWNER, motion.spin),                                                               \
+         .default_text = "0 0 0 rad/s",                                                                      \
          .meaning = "constant angular velocity about the reference point"},                                  \
         {.section = SECTION,                                                                                 \
          .key = "track",                                                                                     \
          .type = FL_VALUE_PATH,                                                                              \
-         .at = AT(OWNER, motion.track),                                                                      \
-         .fallback = "none",                                                                                 \
+         .offset = OFFSET(OWNER, motion.track),                                                              \
+         .default_text = "none",                                                                             \
          .special = "none",                                                                                  \
          .meaning = "file of the displacement and turn of the reference point against time, in place of "    \
                     "velocity and spin",                                                                     \
@@ -66,26 +67,27 @@ const fl_section fl_section_table[FL_SECTIONS] = {
         {.section = SECTION,                                                                                 \
          .key = "interpolation",                                                                             \
          .type = FL_VALUE_WORD,                                                                              \
-         .at = AT(OWNER, motion.interpolation),                                                              \
-         .fallback = "cubic",                                                                                \
+         .offset = OFFSET(OWNER, motion.interpolation),                                                      \
+         .default_text = "cubic",                                                                            \
          .choices = "cubic|linear",                                                                          \
+         .needs = {"track"},                                                                                 \
          .meaning =                                                                                          \
              "between the rows of the track: cubic, with continuous velocity and acceleration, or linear",   \
          .source = "cubic spline, de Boor (1978), ch. 4"},                                                   \
         {.section = SECTION,                                                                                 \
          .key = "free",                                                                                      \
          .type = FL_VALUE_FIXED,                                                                             \
-         .at = AT(OWNER, motion.free),                                                                       \
-         .fallback = "none",                                                                                 \
+         .offset = OFFSET(OWNER, motion.free),                                                               \
+         .default_text = "none",                                                                             \
          .special = "none",                                                                                  \
-         .meaning = "directions x y z and turns rx ry rz, world axes, in which forces move it; weight and "  \
-                    "buoyancy at rest are in balance"},                                                      \
+         .meaning = "free directions x y z and rotations rx ry rz, world axes, in which forces "             \
+                    "move the structure; weight and buoyancy at rest are balanced"},                         \
         {.section = SECTION,                                                                                 \
          .key = "mass",                                                                                      \
          .type = FL_VALUE_F64,                                                                               \
          .unit = FL_UNIT_MASS,                                                                               \
-         .at = AT(OWNER, motion.mass),                                                                       \
-         .fallback = "none",                                                                                 \
+         .offset = OFFSET(OWNER, motion.mass),                                                               \
+         .default_text = "none",                                                                             \
          .special = "none",                                                                                  \
          .range = "(0,inf)",                                                                                 \
          .meaning = "mass, for free directions"},                                                            \
@@ -93,74 +95,75 @@ const fl_section fl_section_table[FL_SECTIONS] = {
          .key = "inertia",                                                                                   \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_INERTIA,                                                                            \
-         .at = AT(OWNER, motion.inertia),                                                                    \
-         .fallback = "0 0 0 kg.m2",                                                                          \
-         .meaning = "moments of inertia about axes through the reference point, for free turns"},            \
+         .offset = OFFSET(OWNER, motion.inertia),                                                            \
+         .default_text = "0 0 0 kg.m2",                                                                      \
+         .meaning = "moments of inertia about axes through the reference point, for free "                   \
+                    "rotations"},                                                                            \
         {.section = SECTION,                                                                                 \
          .key = "stiffness",                                                                                 \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_STIFFNESS,                                                                          \
-         .at = AT(OWNER, motion.stiffness),                                                                  \
-         .fallback = "0 0 0 N/m",                                                                            \
+         .offset = OFFSET(OWNER, motion.stiffness),                                                          \
+         .default_text = "0 0 0 N/m",                                                                        \
          .meaning = "springs that hold the free directions x y z to the given motion"},                      \
         {.section = SECTION,                                                                                 \
          .key = "turn_stiffness",                                                                            \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_ROTATIONAL_STIFFNESS,                                                               \
-         .at = AT(OWNER, motion.turn_stiffness),                                                             \
-         .fallback = "0 0 0 N.m/rad",                                                                        \
-         .meaning = "springs that hold the free turns rx ry rz"},                                            \
+         .offset = OFFSET(OWNER, motion.turn_stiffness),                                                     \
+         .default_text = "0 0 0 N.m/rad",                                                                    \
+         .meaning = "springs of the free rotations rx ry rz"},                                               \
         {.section = SECTION,                                                                                 \
          .key = "coupling",                                                                                  \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_ONE,                                                                                \
-         .at = AT(OWNER, motion.coupling),                                                                   \
-         .fallback = "0 0 0",                                                                                \
-         .meaning = "of the stiffness matrix C34 and C35 [N] between heave and roll, pitch, and C45 [N.m] "  \
-                    "between those"},                                                                        \
+         .offset = OFFSET(OWNER, motion.coupling),                                                           \
+         .default_text = "0 0 0",                                                                            \
+         .meaning = "terms of the stiffness matrix: C34 and C35 [N] between heave and roll, "                \
+                    "pitch; C45 [N.m] between roll and pitch"},                                              \
         {.section = SECTION,                                                                                 \
          .key = "period",                                                                                    \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_TIME,                                                                               \
-         .at = AT(OWNER, motion.period),                                                                     \
-         .fallback = "0 0 0 s",                                                                              \
+         .offset = OFFSET(OWNER, motion.period),                                                             \
+         .default_text = "0 0 0 s",                                                                          \
          .meaning = "natural periods without ice, in place of stiffness, k = m (2 pi/T)^2; 0 is no spring"}, \
         {.section = SECTION,                                                                                 \
          .key = "damping",                                                                                   \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_DAMPING,                                                                            \
-         .at = AT(OWNER, motion.damping),                                                                    \
-         .fallback = "0 0 0 N.s/m",                                                                          \
+         .offset = OFFSET(OWNER, motion.damping),                                                            \
+         .default_text = "0 0 0 N.s/m",                                                                      \
          .meaning = "dashpots along the free directions x y z, against the given motion"},                   \
         {.section = SECTION,                                                                                 \
          .key = "turn_damping",                                                                              \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_ROTATIONAL_DAMPING,                                                                 \
-         .at = AT(OWNER, motion.turn_damping),                                                               \
-         .fallback = "0 0 0 N.m.s",                                                                          \
-         .meaning = "dashpots of the free turns, about axes that turn with the structure"},                  \
+         .offset = OFFSET(OWNER, motion.turn_damping),                                                       \
+         .default_text = "0 0 0 N.m.s",                                                                      \
+         .meaning = "dashpots of the free rotations, about axes that rotate with the structure"},            \
         {.section = SECTION,                                                                                 \
          .key = "damping_ratio",                                                                             \
          .type = FL_VALUE_VEC3,                                                                              \
          .unit = FL_UNIT_ONE,                                                                                \
-         .at = AT(OWNER, motion.damping_ratio),                                                              \
-         .fallback = "0 0 0",                                                                                \
-         .meaning = "of the critical damping, in place of damping, c = 2 D sqrt(k m)"},                      \
+         .offset = OFFSET(OWNER, motion.damping_ratio),                                                      \
+         .default_text = "0 0 0",                                                                            \
+         .meaning = "fraction of critical damping, in place of damping, c = 2 D sqrt(k m)"},                 \
     {                                                                                                        \
         .section = SECTION, .key = "hydrostatic", .type = FL_VALUE_WORD,                                     \
-        .at = AT(OWNER, motion.hydrostatic), .fallback = "none", .choices = "none|mesh",                     \
-        .meaning = "mesh adds the stiffness in z, rx, ry that the sea gives to the closed mesh at rest",     \
+        .offset = OFFSET(OWNER, motion.hydrostatic), .default_text = "none", .choices = "none|mesh",         \
+        .meaning = "mesh adds the hydrostatic stiffness of the closed mesh at rest in z, rx, ry",            \
         .source = "Faltinsen, Sea Loads (1990), ch. 3"                                                       \
     }
 
-/* A field that is left out is 0: any range, no choices, no special word. */
+/* An omitted column is 0: any range, no choices, no special word, no old name, nothing needed. */
 const fl_key fl_key_table[] = {
     {.section = FL_SEC_RUN,
      .key = "duration",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(run, duration),
-     .fallback = "60 s",
+     .offset = OFFSET(run, duration),
+     .default_text = "60 s",
      .range = "(0,inf)",
      .meaning = "simulated time",
      .source = "a demonstration's length: choose it for the case"},
@@ -168,8 +171,8 @@ const fl_key fl_key_table[] = {
      .key = "dt",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(run, dt),
-     .fallback = "auto",
+     .offset = OFFSET(run, dt),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "time step; auto takes safety times the critical step of the stiffest contact, 2/omega_max",
@@ -177,80 +180,79 @@ const fl_key fl_key_table[] = {
     {.section = FL_SEC_RUN,
      .key = "safety",
      .type = FL_VALUE_F64,
-     .at = AT(run, safety),
-     .fallback = "0.2",
+     .offset = OFFSET(run, safety),
+     .default_text = "0.2",
      .range = "(0,1]",
      .meaning = "automatic step over the critical one; 0.2 is an eighth of the shortest contact",
      .source = "errors of impulses and peaks against the step in twelve scenes, bench/README.md"},
     {.section = FL_SEC_RUN,
      .key = "error",
      .type = FL_VALUE_F64,
-     .at = AT(run, error),
-     .fallback = "none",
+     .offset = OFFSET(run, error),
+     .default_text = "none",
      .special = "none",
      .range = "(0,1)",
-     .meaning =
-         "error that the load on the structure may have by the time step, over its size: the step is the "
-         "largest that keeps it, found by repeating short windows of the run with finer steps",
+     .meaning = "allowed relative error of the load on the structure by the time step; the "
+                "step is the largest that keeps it, found by repeating short windows of the "
+                "run with smaller steps",
      .source = "Richardson, Phil. Trans. A 226 (1927) 299"},
     {.section = FL_SEC_RUN,
      .key = "error_of",
      .type = FL_VALUE_WORD,
-     .at = AT(run, error_of),
-     .fallback = "impulse",
+     .offset = OFFSET(run, error_of),
+     .default_text = "impulse",
      .choices = "impulse|peak|fx|fy|fz|mx|my|mz",
-     .meaning =
-         "what run.error is of: the impulse of all the run, the largest force of a step, or the impulse of "
-         "one column of the loads; parts count by their sizes"},
+     .needs = {"error"},
+     .meaning = "load that run.error refers to: impulse of the whole run, largest force of a "
+                "step, or impulse of one column of the loads; parts are weighted by their "
+                "sizes"},
     {.section = FL_SEC_RUN,
      .key = "gravity",
      .type = FL_VALUE_VEC3,
      .unit = FL_UNIT_ACCELERATION,
-     .at = AT(run, gravity),
-     .fallback = "9.81 m/s2",
-     .lone = FL_SINGLE_DOWN,
-     .meaning = "acceleration of gravity; one number acts along -z, three are a vector, which is along -z "
-                "where there is water",
+     .offset = OFFSET(run, gravity),
+     .default_text = "9.81 m/s2",
+     .single = FL_SINGLE_DOWN,
+     .meaning = "acceleration of gravity; one number acts along -z, three are a vector, "
+                "which is along -z if there is water",
      .source = "the value of the verification cases"},
     {.section = FL_SEC_RUN,
      .key = "threads",
      .type = FL_VALUE_I32,
-     .at = AT(run, threads),
-     .fallback = "auto",
+     .offset = OFFSET(run, threads),
+     .default_text = "auto",
      .special = "auto",
      .range = "[1,1024]",
-     .meaning = "number of threads; auto takes as many as OpenMP offers, one for 32 bodies at the most, and "
-                "of these as many as are the fastest as it goes; the results are the same bytes for any "
+     .meaning = "number of threads; auto uses at most those of OpenMP, one for 32 bodies, "
+                "and adjusts the number to the fastest; results are the same bytes for any "
                 "number"},
     {.section = FL_SEC_RUN,
      .key = "sleep",
      .type = FL_VALUE_F64,
-     .at = AT(run, sleep),
-     .fallback = "none",
+     .offset = OFFSET(run, sleep),
+     .default_text = "none",
      .special = "none",
      .range = "(0,0.01]",
-     .meaning =
-         "floes to which nothing happens take many steps at once: those that touch nothing, with an "
-         "error of each of at most this fraction of their radius, and those that lie still against each "
-         "other; none sleeps by default; 1e-5 leaves the loads of a field as they are to a millionth, or, "
-         "after many impacts, to what a change of the last bit would make of them, and saves the more the "
-         "fewer floes touch at a time",
+     .meaning = "skip steps of inactive floes: a floe without contacts is advanced over many "
+                "steps at once, a floe at rest against its neighbours not at all; the value "
+                "is the allowed position error of a skip as a fraction of the dilation "
+                "radius; with 1e-5 loads change by less than 1e-6 until chaos sets in",
      .source = "local error of the step"},
     {.section = FL_SEC_RUN,
      .key = "search_every",
      .type = FL_VALUE_I32,
-     .at = AT(run, search_every),
-     .fallback = "auto",
+     .offset = OFFSET(run, search_every),
+     .default_text = "auto",
      .special = "auto",
      .range = "[1,1000000]",
-     .meaning = "steps between two searches for neighbours; auto searches when the fastest body may have "
-                "used up the skin"},
+     .meaning = "steps between two neighbour searches; auto searches when the fastest body "
+                "may have used up the skin"},
     {.section = FL_SEC_OUTPUT,
      .key = "loads_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, loads_every),
-     .fallback = "0.02 s",
+     .offset = OFFSET(output, loads_every),
+     .default_text = "0.02 s",
      .range = "(0,inf)",
      .meaning = "interval of the load table; each row is the impulse of its interval over its length",
      .source = "resolves structures up to 25 Hz"},
@@ -258,16 +260,16 @@ const fl_key fl_key_table[] = {
      .key = "frames_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, frames_every),
-     .fallback = "1 s",
+     .offset = OFFSET(output, frames_every),
+     .default_text = "1 s",
      .range = "(0,inf)",
      .meaning = "interval of the frames"},
     {.section = FL_SEC_OUTPUT,
      .key = "ice_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, ice_every),
-     .fallback = "auto",
+     .offset = OFFSET(output, ice_every),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "interval of the ice in the frames; auto is that of the frames"},
@@ -275,52 +277,52 @@ const fl_key fl_key_table[] = {
      .key = "until",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, until),
-     .fallback = "auto",
+     .offset = OFFSET(output, until),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "time of the last frame; auto is the end of the run"},
     {.section = FL_SEC_OUTPUT,
      .key = "files",
      .type = FL_VALUE_I32,
-     .at = AT(output, files),
-     .fallback = "1",
+     .offset = OFFSET(output, files),
+     .default_text = "1",
      .range = "[1,1000000]",
      .meaning = "number of files over which the frames are split"},
     {.section = FL_SEC_OUTPUT,
      .key = "frames",
      .type = FL_VALUE_PATH,
-     .at = AT(output, frames),
-     .fallback = "none",
+     .offset = OFFSET(output, frames),
+     .default_text = "none",
      .special = "none",
      .meaning = "file of the frames, in the format of ANIMATION_3D.DAT"},
     {.section = FL_SEC_OUTPUT,
      .key = "state",
      .type = FL_VALUE_PATH,
-     .at = AT(output, state),
-     .fallback = "none",
+     .offset = OFFSET(output, state),
+     .default_text = "none",
      .special = "none",
      .meaning = "file of positions, attitudes and velocities of all bodies"},
     {.section = FL_SEC_OUTPUT,
      .key = "energy",
      .type = FL_VALUE_PATH,
-     .at = AT(output, energy),
-     .fallback = "none",
+     .offset = OFFSET(output, energy),
+     .default_text = "none",
      .special = "none",
      .meaning = "file of the energy balance, a column per store and sink, and its residual"},
     {.section = FL_SEC_OUTPUT,
      .key = "contacts",
      .type = FL_VALUE_PATH,
-     .at = AT(output, contacts),
-     .fallback = "none",
+     .offset = OFFSET(output, contacts),
+     .default_text = "none",
      .special = "none",
      .meaning = "file of the contacts, a row per contact with its mode, gap, point and force"},
     {.section = FL_SEC_OUTPUT,
      .key = "state_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, state_every),
-     .fallback = "auto",
+     .offset = OFFSET(output, state_every),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "interval of the state table; auto is loads_every"},
@@ -328,8 +330,8 @@ const fl_key fl_key_table[] = {
      .key = "energy_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, energy_every),
-     .fallback = "auto",
+     .offset = OFFSET(output, energy_every),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "interval of the energy table; auto is loads_every"},
@@ -337,85 +339,85 @@ const fl_key fl_key_table[] = {
      .key = "contacts_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, contacts_every),
-     .fallback = "auto",
+     .offset = OFFSET(output, contacts_every),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "interval of the contacts table; auto is loads_every"},
     {.section = FL_SEC_OUTPUT,
      .key = "panels",
      .type = FL_VALUE_PATH,
-     .at = AT(output, panels),
-     .fallback = "none",
+     .offset = OFFSET(output, panels),
+     .default_text = "none",
      .special = "none",
      .meaning = "file of the load on each triangle of the structure, with the intervals of the load table",
      .source = "panels(5)"},
     {.section = FL_SEC_OUTPUT,
      .key = "events",
      .type = FL_VALUE_PATH,
-     .at = AT(output, events),
-     .fallback = "none",
+     .offset = OFFSET(output, events),
+     .default_text = "none",
      .special = "none",
-     .meaning =
-         "file of the floes that touch the structure, each with its mean over the interval of the load "
-         "table: time, place, area, force",
+     .meaning = "file of the floes in contact with the structure, with means over the "
+                "interval of the load table: time, place, area, force",
      .source = "contacts(5)"},
     {.section = FL_SEC_OUTPUT,
      .key = "bonds",
      .type = FL_VALUE_PATH,
-     .at = AT(output, bonds),
-     .fallback = "none",
+     .offset = OFFSET(output, bonds),
+     .default_text = "none",
      .special = "none",
-     .meaning = "file of the faces that are frozen together, and of the cracks: state, damage, forces",
+     .meaning = "file of the bonded faces and of the cracks: state, damage, forces",
      .source = "bonds(5)"},
     {.section = FL_SEC_OUTPUT,
      .key = "bonds_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, bonds_every),
-     .fallback = "auto",
+     .offset = OFFSET(output, bonds_every),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "interval of the bonds table; auto is loads_every"},
     {.section = FL_SEC_OUTPUT,
      .key = "hash",
      .type = FL_VALUE_PATH,
-     .at = AT(output, hash),
-     .fallback = "none",
+     .offset = OFFSET(output, hash),
+     .default_text = "none",
      .special = "none",
-     .meaning = "file of the hash of the state: equal where two runs are equal to the last bit"},
+     .meaning = "file of the hash of the state, equal for two runs that are equal to the "
+                "last bit"},
     {.section = FL_SEC_OUTPUT,
      .key = "hash_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, hash_every),
-     .fallback = "auto",
+     .offset = OFFSET(output, hash_every),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "interval of the hash table; auto is loads_every"},
     {.section = FL_SEC_OUTPUT,
      .key = "checkpoint",
      .type = FL_VALUE_PATH,
-     .at = AT(output, checkpoint),
-     .fallback = "none",
+     .offset = OFFSET(output, checkpoint),
+     .default_text = "none",
      .special = "none",
      .meaning = "file from which dem-solve --resume goes on with the run"},
     {.section = FL_SEC_OUTPUT,
      .key = "checkpoint_every",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(output, checkpoint_every),
-     .fallback = "10 s",
+     .offset = OFFSET(output, checkpoint_every),
+     .default_text = "10 s",
      .range = "(0,inf)",
-     .meaning =
-         "simulated time between two checkpoints; one more is written at the end, and when a signal asks"},
+     .meaning = "simulated time between two checkpoints; another one is written at the end, "
+                "and at a signal"},
     {.section = FL_SEC_MATERIAL,
      .key = "density",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_DENSITY,
-     .at = AT(material, density),
-     .fallback = "900 kg/m3",
-     .steel = "7850 kg/m3",
+     .offset = OFFSET(material, density),
+     .default_text = "900 kg/m3",
+     .default_steel = "7850 kg/m3",
      .range = "(0,inf)",
      .meaning = "mass per volume",
      .source = "sea ice 850 to 920; steel: EN 1991-1-1, annex A"},
@@ -423,155 +425,155 @@ const fl_key fl_key_table[] = {
      .key = "young",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_STRESS,
-     .at = AT(material, young),
-     .fallback = "1 GPa",
-     .steel = "210 GPa",
+     .offset = OFFSET(material, young),
+     .default_text = "1 GPa",
+     .default_steel = "210 GPa",
      .range = "(0,inf)",
      .meaning = "modulus of elasticity",
      .source = "effective modulus of Bohai ice, 0.5 to 5 GPa; steel: EN 1993-1-1, 3.2.6"},
     {.section = FL_SEC_MATERIAL,
      .key = "poisson",
      .type = FL_VALUE_F64,
-     .at = AT(material, poisson),
-     .fallback = "0.3",
-     .steel = "0.3",
+     .offset = OFFSET(material, poisson),
+     .default_text = "0.3",
+     .default_steel = "0.3",
      .range = "[0,0.5)",
      .meaning = "Poisson's ratio",
      .source = "sea ice 0.28 to 0.35; steel: EN 1993-1-1, 3.2.6"},
     {.section = FL_SEC_MATERIAL,
      .key = "restitution",
      .type = FL_VALUE_F64,
-     .at = AT(material, restitution),
-     .fallback = "0.3",
-     .steel = "0.3",
+     .offset = OFFSET(material, restitution),
+     .default_text = "0.3",
+     .default_steel = "0.3",
      .range = "[0,1]",
-     .meaning =
-         "rebound speed over impact speed; a pair takes the smaller of its two, and below 0.01 that: no "
-         "damping is large enough for 0",
+     .meaning = "rebound speed over impact speed; a pair takes the smaller value of its "
+                "materials; values below 0.01 count as 0.01, since no damping is large "
+                "enough for 0",
      .source = "ice on ice 0.2 to 0.5; the pair with steel is taken alike"},
     {.section = FL_SEC_MATERIAL,
      .key = "friction",
      .type = FL_VALUE_F64,
-     .at = AT(material, friction),
-     .fallback = "0.3",
-     .steel = "0.15",
+     .offset = OFFSET(material, friction),
+     .default_text = "0.3",
+     .default_steel = "0.15",
      .range = "[0,1e6]",
      .meaning = "coefficient of friction; a pair takes the smaller of its two",
      .source = "ice on ice 0.1 to 0.5; ice on steel 0.05 to 0.3"},
     {.section = FL_SEC_CONTACT,
      .key = "friction",
      .type = FL_VALUE_F64,
-     .at = AT(contact, friction),
-     .fallback = "auto",
+     .offset = OFFSET(contact, friction),
+     .default_text = "auto",
      .special = "auto",
-     .value = -1,
+     .special_value = -1,
      .range = "[0,1e6]",
-     .meaning = "coefficient of friction of the pair; auto is the smaller of the two materials'"},
+     .meaning = "coefficient of friction of the pair; auto is the smaller value of the two "
+                "materials"},
     {.section = FL_SEC_CONTACT,
      .key = "restitution",
      .type = FL_VALUE_F64,
-     .at = AT(contact, restitution),
-     .fallback = "auto",
+     .offset = OFFSET(contact, restitution),
+     .default_text = "auto",
      .special = "auto",
-     .value = -1,
+     .special_value = -1,
      .range = "[0,1]",
-     .meaning =
-         "rebound speed over impact speed of the pair, below 0.01 that; auto is the smaller of the two "
-         "materials'"},
+     .meaning = "rebound speed over impact speed of the pair, at least 0.01; auto is the "
+                "smaller value of the two materials"},
     {.section = FL_SEC_CONTACT,
      .key = "law",
      .type = FL_VALUE_WORD,
-     .at = AT(contact, law),
-     .fallback = "patch",
-     .choices = "patch|manual|manual-si|core",
-     .meaning = "patch: a root of the sum over the faces, edges and vertices that touch, with one potential; "
-                "core: the nearest pair of features alone; manual: the "
-                "DilatedDEM manual's table of modes with its lengths as numbers; manual-si: the same with "
-                "consistent units; for parts that are not convex patch stands in for all",
+     .offset = OFFSET(contact, law),
+     .default_text = "patch",
+     .choices = fl_contact_law_choices,
+     .meaning = fl_contact_law_meaning,
      .source = "DilatedDEM manual (2016), equations (1) to (25), corrected"},
     {.section = FL_SEC_CONTACT,
      .key = "exponent",
      .type = FL_VALUE_F64,
-     .at = AT(contact, exponent),
-     .fallback = "1",
+     .offset = OFFSET(contact, exponent),
+     .default_text = "1",
      .choices = "1|1.5",
-     .meaning = "the n of F = kappa delta^n in the law core; what is round has 1.5 always, patch and "
-                "the laws of the manual their own",
+     .meaning = "n of F = kappa delta^n in the law core; spheres and ends of capsules always "
+                "have 1.5, patch and the laws of the manual their own",
      .source = "1 linear; 1.5 Hertz"},
     {.section = FL_SEC_CONTACT,
      .key = "stiffness",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_CONTACT_STIFFNESS,
-     .at = AT(contact, stiffness),
-     .fallback = "auto",
+     .offset = OFFSET(contact, stiffness),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "the kappa of a whole face in the law patch, of the one place in the law core, of Hertz' law "
-                "[N/m^1.5] for spheres and for the ends of capsules; auto takes it from the moduli",
-     .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for what is round"},
+     .meaning = "kappa of a whole face in the law patch, of the contact point in the law "
+                "core, of Hertz' law [N/m^1.5] for spheres and ends of capsules; auto "
+                "follows from the moduli",
+     .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for spheres"},
     {.section = FL_SEC_CONTACT,
-     .key = "softening",
+     .key = "stiffness_factor",
+     .old_name = "softening",
      .type = FL_VALUE_F64,
-     .at = AT(contact, stiffness_factor),
-     .fallback = "1",
+     .offset = OFFSET(contact, stiffness_factor),
+     .default_text = "1",
      .range = "(0,1]",
-     .meaning =
-         "the factor s_k of the automatic stiffness, so that steps may be longer; the report tells the "
-         "overlap it costs",
+     .meaning = "factor s_k of the automatic stiffness; below 1 contacts are softer and "
+                "steps longer; the report gives the overlap",
      .source = "allowed while the overlap stays below 0.3 of the dilation radius"},
     {.section = FL_SEC_CONTACT,
-     .key = "tangential",
+     .key = "tangential_ratio",
+     .old_name = "tangential",
      .type = FL_VALUE_F64,
-     .at = AT(contact, tangential_ratio),
-     .fallback = "0.824",
+     .offset = OFFSET(contact, tangential_ratio),
+     .default_text = "0.824",
      .range = "(0,2]",
-     .meaning = "stiffness along the face over stiffness across it, kt/kn",
+     .meaning = "tangential stiffness over normal stiffness, kt/kn",
      .source = "Mindlin, 2(1-nu)/(2-nu) at nu = 0.3"},
     {.section = FL_SEC_CONTACT,
      .key = "rolling",
      .type = FL_VALUE_F64,
-     .at = AT(contact, rolling),
-     .fallback = "0",
+     .offset = OFFSET(contact, rolling),
+     .default_text = "0",
      .range = "[0,2]",
-     .meaning = "mu_r, what keeps spheres from rolling and spinning on what they touch: an elastic moment "
-                "that gives way at mu_r R* F_n, R* being r_i r_j/(r_i + r_j) of two spheres and else the "
-                "radius; of the laws patch and core, and of nothing but spheres",
+     .meaning = "mu_r, resistance of spheres to rolling and spinning: an elastic moment that "
+                "yields at mu_r R* F_n, with R* = r_i r_j/(r_i + r_j) of two spheres, else "
+                "the radius; laws patch and core, spheres only",
      .source = "Ai, Chen, Rotter & Ooi, Powder Technology 206 (2011) 269"},
     {.section = FL_SEC_CONTACT,
      .key = "damping",
      .type = FL_VALUE_F64,
-     .at = AT(contact, damping),
-     .fallback = "auto",
+     .offset = OFFSET(contact, damping),
+     .default_text = "auto",
      .special = "auto",
-     .value = -1,
+     .special_value = -1,
      .range = "[0,1000]",
-     .meaning = "damping in place of what restitution asks for: D = chi v_impact of patch and core; zeta of "
-                "the linear and alpha of the 3/2 modes of the manual's laws",
+     .meaning = "damping in place of that of restitution: D = chi v_impact of patch and "
+                "core; zeta of the linear and alpha of the 3/2 modes of the manual's laws",
      .source = "Hunt & Crossley 1975; DilatedDEM manual (2016), equation (2)"},
     {.section = FL_SEC_CONTACT,
      .key = "surrogate",
      .type = FL_VALUE_F64,
-     .at = AT(contact, surrogate),
-     .fallback = "0",
+     .offset = OFFSET(contact, surrogate),
+     .default_text = "0",
      .range = "[0,0.1]",
-     .meaning =
-         "a contact of the law patch that has moved little is carried by an expansion of its energy, "
-         "whose force is to be off by no more than this part of it, which is aimed at and no bound: the "
-         "report tells by how much looks found it off; 0 looks at it in every step",
+     .meaning = "target relative force error of the surrogate, an expansion of the energy of "
+                "a patch contact that has moved little; not a guaranteed bound, the report "
+                "lists the errors found; 0 evaluates every contact exactly in every step",
      .source = "share/doc/contact.md"},
     {.section = FL_SEC_CONTACT,
-     .key = "literal2",
+     .key = "manual_eq2",
+     .old_name = "literal2",
      .type = FL_VALUE_WORD,
-     .at = AT(contact, manual_eq2),
-     .fallback = "false",
+     .offset = OFFSET(contact, manual_eq2),
+     .default_text = "false",
      .choices = "false|true",
      .meaning = "true takes m1 + m2 for the effective mass in the manual's laws, as equation (2) is printed",
      .source = "DilatedDEM manual (2016), equation (2)"},
     {.section = FL_SEC_CONTACT,
-     .key = "literal18",
+     .key = "manual_eq18",
+     .old_name = "literal18",
      .type = FL_VALUE_WORD,
-     .at = AT(contact, manual_eq18),
-     .fallback = "false",
+     .offset = OFFSET(contact, manual_eq18),
+     .default_text = "false",
      .choices = "false|true",
      .meaning =
          "true takes R' = 1/lambda for crossed edges in the manual's laws, as equation (18) is printed",
@@ -579,49 +581,49 @@ const fl_key fl_key_table[] = {
     {.section = FL_SEC_ICE,
      .key = "file",
      .type = FL_VALUE_PATH,
-     .at = AT(ice, file),
-     .fallback = "none",
+     .offset = OFFSET(ice, file),
+     .default_text = "none",
      .special = "none",
-     .meaning = "the ice, a g-polys file; \"-\" is standard input; it must be given, here or by --ice",
+     .meaning = "ice field, a g-polys file; \"-\" is standard input; required, here or by "
+                "--ice",
      .source = "g-polys(5)"},
     {.section = FL_SEC_ICE,
      .key = "material",
      .type = FL_VALUE_NAME,
-     .at = AT(ice, material),
-     .fallback = "ice",
+     .offset = OFFSET(ice, material),
+     .default_text = "ice",
      .meaning = "material of the bodies whose record names none"},
     {.section = FL_SEC_ICE,
      .key = "shape",
      .type = FL_VALUE_WORD,
-     .at = AT(ice, shape),
-     .fallback = "sharp",
+     .offset = OFFSET(ice, shape),
+     .default_text = "sharp",
      .choices = "sharp|round",
-     .meaning = "the shape that mass, inertia and buoyancy see: the faces moved outward by the radius and "
-                "meeting in sharp edges, "
-                "or the Minkowski sum itself",
+     .meaning = "shape for mass, inertia and buoyancy: faces moved outward by the radius "
+                "with sharp edges, or the Minkowski sum itself",
      .source = "Steiner's formula, Schneider, Convex Bodies (2014), ch. 4"},
     {.section = FL_SEC_STRUCTURE,
      .key = "file",
      .type = FL_VALUE_PATH,
-     .at = AT(structure, file),
-     .fallback = "none",
+     .offset = OFFSET(structure, file),
+     .default_text = "none",
      .special = "none",
-     .meaning =
-         "the structure, a g_struct file; \"-\" is standard input; it must be given, here or by --structure",
+     .meaning = "structure, a g_struct file; \"-\" is standard input; required, here or by "
+                "--structure",
      .source = "g_struct(5)"},
     {.section = FL_SEC_STRUCTURE,
      .key = "material",
      .type = FL_VALUE_NAME,
-     .at = AT(structure, material),
-     .fallback = "steel",
+     .offset = OFFSET(structure, material),
+     .default_text = "steel",
      .meaning = "material of the structure"},
     {.section = FL_SEC_STRUCTURE,
      .key = "friction",
      .type = FL_VALUE_F64,
-     .at = AT(structure, friction),
-     .fallback = "auto",
+     .offset = OFFSET(structure, friction),
+     .default_text = "auto",
      .special = "auto",
-     .value = -1,
+     .special_value = -1,
      .range = "[0,1e6]",
      .meaning = "coefficient of friction against everything that touches the structure; auto is that of the "
                 "contact"},
@@ -629,202 +631,212 @@ const fl_key fl_key_table[] = {
     {.section = FL_SEC_BOUNDARY,
      .key = "type",
      .type = FL_VALUE_WORDS,
-     .at = AT(boundary, type),
-     .fallback = "rigid",
+     .offset = OFFSET(boundary, type),
+     .default_text = "rigid",
      .choices = "rigid|elastic|periodic|free",
-     .meaning =
-         "what stands at the bounds, one word for all directions or one for each of x, y and z; rigid: "
-         "walls; elastic: walls on springs and dashpots; periodic: what leaves at one bound comes in at the "
-         "other; free: nothing, floes that are wholly beyond a bound are taken out",
+     .meaning = "boundary at the bounds, one word for all directions or one for each of x, y "
+                "and z; rigid: walls; elastic: walls on springs and dashpots; periodic: what "
+                "leaves at one bound enters at the other; free: no wall, floes entirely "
+                "beyond a bound are removed",
      .source = "DilatedDEM manual (2016), bound_type"},
     {.section = FL_SEC_BOUNDARY,
      .key = "min",
      .type = FL_VALUE_VEC3,
      .unit = FL_UNIT_LENGTH,
-     .at = AT(boundary, min),
-     .fallback = "none none none",
+     .offset = OFFSET(boundary, min),
+     .default_text = "none none none",
      .special = "none",
-     .value = -INFINITY,
+     .special_value = -INFINITY,
      .meaning = "lower bounds of x, y and z; none leaves a side open"},
     {.section = FL_SEC_BOUNDARY,
      .key = "max",
      .type = FL_VALUE_VEC3,
      .unit = FL_UNIT_LENGTH,
-     .at = AT(boundary, max),
-     .fallback = "none none none",
+     .offset = OFFSET(boundary, max),
+     .default_text = "none none none",
      .special = "none",
-     .value = INFINITY,
+     .special_value = INFINITY,
      .meaning = "upper bounds of x, y and z; none leaves a side open"},
     {.section = FL_SEC_BOUNDARY,
      .key = "stiffness",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_CONTACT_STIFFNESS,
-     .at = AT(boundary, stiffness),
-     .fallback = "auto",
+     .offset = OFFSET(boundary, stiffness),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning =
-         "the kappa of the springs against the walls, in place of contact.stiffness; auto is that of the "
-         "contact"},
+     .meaning = "kappa of the springs against the walls, in place of contact.stiffness; auto "
+                "is that of the contact"},
     {.section = FL_SEC_BOUNDARY,
      .key = "foundation",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_FOUNDATION,
-     .at = AT(boundary, foundation),
-     .fallback = "10 MN/m3",
+     .offset = OFFSET(boundary, foundation),
+     .default_text = "10 MN/m3",
      .range = "(0,inf)",
-     .meaning = "stiffness of an elastic wall per area that presses into it; the force is this times the "
-                "volume behind the wall, of the shape that mass sees",
+     .needs = {"type"},
+     .meaning = "stiffness of an elastic wall per contact area; the force is this times the "
+                "volume behind the wall, of the shape for mass",
      .source = "a sheet of 1 GPa that goes on for 100 m behind the wall, E/L"},
     {.section = FL_SEC_BOUNDARY,
      .key = "damping",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_AREA_DAMPING,
-     .at = AT(boundary, damping),
-     .fallback = "0 N.s/m3",
+     .offset = OFFSET(boundary, damping),
+     .default_text = "0 N.s/m3",
      .range = "[0,inf)",
-     .meaning = "dashpots of an elastic wall per area that presses into it; sqrt(density young) of the ice "
-                "takes a wave up without reflection",
+     .needs = {"type"},
+     .meaning = "dashpots of an elastic wall per contact area; sqrt(density young) of the "
+                "ice absorbs a wave without reflection",
      .source = "Lysmer & Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow",
      .type = FL_VALUE_WORD,
-     .at = AT(boundary, inflow),
-     .fallback = "none",
+     .offset = OFFSET(boundary, inflow),
+     .default_text = "none",
      .choices = "none|ice|file",
-     .meaning =
-         "whether new floes come in, and which; ice: copies of the field of ice.file, again and again; "
-         "file: of that of inflow_file"},
+     .meaning = "source of new floes; ice: repeated copies of the field of ice.file; file: "
+                "of that of inflow_file"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow_file",
      .type = FL_VALUE_PATH,
-     .at = AT(boundary, inflow_file),
-     .fallback = "none",
+     .offset = OFFSET(boundary, inflow_file),
+     .default_text = "none",
      .special = "none",
-     .meaning = "the field of what comes in, a g-polys file, for inflow = file",
+     .needs = {"inflow"},
+     .meaning = "field of the inflow, a g-polys file, for inflow = file",
      .source = "g-polys(5)"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow_from",
      .type = FL_VALUE_WORD,
-     .at = AT(boundary, inflow_from),
-     .fallback = "-x",
+     .offset = OFFSET(boundary, inflow_from),
+     .default_text = "-x",
      .choices = "-x|x|-y|y",
-     .meaning = "the bound the new floes come in through: the lower or the upper one of x or y; floes leave "
-                "through both"},
+     .needs = {"inflow"},
+     .meaning = "bound of the inflow: the lower or upper one of x or y; floes leave through "
+                "both"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow_speed",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_SPEED,
-     .at = AT(boundary, inflow_speed),
-     .fallback = "auto",
+     .offset = OFFSET(boundary, inflow_speed),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "speed of the ice that comes in, straight from its bound, whatever is in its way; auto is "
-                "that of water.current"},
+     .needs = {"inflow"},
+     .meaning = "speed of the entering ice, normal to its bound, independent of obstacles; "
+                "auto is that of water.current"},
     {.section = FL_SEC_BOUNDARY,
      .key = "inflow_pitch",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_LENGTH,
-     .at = AT(boundary, inflow_pitch),
-     .fallback = "auto",
+     .offset = OFFSET(boundary, inflow_pitch),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "distance of one copy of the field from the next, along the drift; auto is the length that "
-                "the floes take up; the length of the domain they were made for keeps their concentration"},
+     .needs = {"inflow"},
+     .meaning = "distance between copies of the field along the drift; auto is the length of "
+                "the floes; the length of the domain they were made for keeps their "
+                "concentration"},
     {.section = FL_SEC_BOUNDARY,
      .key = "room",
      .type = FL_VALUE_I32,
-     .at = AT(boundary, room),
-     .fallback = "auto",
+     .offset = OFFSET(boundary, room),
+     .default_text = "auto",
      .special = "auto",
      .range = "[1,100000000]",
-     .meaning =
-         "how many floes there may be at a time besides those of the start; a floe for which there is "
-         "no room waits; auto is one and a quarter of what comes in over the length of the domain, and "
-         "a field besides"},
+     .needs = {"inflow"},
+     .meaning = "largest number of floes at a time besides the initial ones; further floes "
+                "wait; auto is 1.25 times the inflow over the length of the domain plus one "
+                "field"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive",
      .type = FL_VALUE_VEC3,
      .unit = FL_UNIT_SPEED,
-     .at = AT(boundary, drive),
-     .fallback = "0 m/s",
-     .lone = FL_SINGLE_X,
-     .meaning =
-         "velocity at which an edge row of the ice is moved, whatever it takes; one number is along x; "
-         "drive_width or drive_group says which floes"},
+     .offset = OFFSET(boundary, drive),
+     .default_text = "0 m/s",
+     .single = FL_SINGLE_X,
+     .needs = {"drive_width", "drive_group"},
+     .meaning = "prescribed velocity of an edge row of the ice; one number is along x; "
+                "drive_width or drive_group selects the floes"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_width",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_LENGTH,
-     .at = AT(boundary, drive_width),
-     .fallback = "none",
+     .offset = OFFSET(boundary, drive_width),
+     .default_text = "none",
      .special = "none",
      .range = "(0,inf)",
-     .meaning =
-         "floes whose middle is within this distance of the edge of the field at the start are driven"},
+     .meaning = "floes whose centre is within this distance of the edge of the field at the "
+                "start are driven"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_edge",
      .type = FL_VALUE_WORD,
-     .at = AT(boundary, drive_edge),
-     .fallback = "auto",
+     .offset = OFFSET(boundary, drive_edge),
+     .default_text = "auto",
      .choices = "auto|-x|x|-y|y",
-     .meaning =
-         "the edge of the field that drive_width counts from: least or greatest x or y; auto is the one "
-         "behind the drive"},
+     .needs = {"drive_width"},
+     .meaning = "edge of the field for drive_width: least or greatest x or y; auto is the "
+                "one at the rear of the drive"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_group",
      .type = FL_VALUE_NAME,
-     .at = AT(boundary, drive_group),
-     .fallback = "none",
+     .offset = OFFSET(boundary, drive_group),
+     .default_text = "none",
      .special = "none",
      .meaning = "the floes of the ice file with this group are driven"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_fixed",
      .type = FL_VALUE_FIXED,
-     .at = AT(boundary, drive_fixed),
-     .fallback = "x y rz",
+     .offset = OFFSET(boundary, drive_fixed),
+     .default_text = "x y rz",
      .special = "none",
-     .meaning = "directions of driven floes that follow the drive, and turns that are held; without z they "
-                "heave, without rx and ry they roll and pitch"},
+     .needs = {"drive_width", "drive_group"},
+     .meaning = "directions of driven floes that follow the drive, and fixed rotations; "
+                "without z they heave, without rx and ry they roll and pitch"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_spring",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_CONTACT_STIFFNESS,
-     .at = AT(boundary, drive_spring),
-     .fallback = "0 N/m",
+     .offset = OFFSET(boundary, drive_spring),
+     .default_text = "0 N/m",
      .range = "[0,inf)",
-     .meaning = "spring that pulls each driven floe back to the height it had at the start"},
+     .needs = {"drive_width", "drive_group"},
+     .meaning = "spring that pulls each driven floe back to its initial height"},
     {.section = FL_SEC_BOUNDARY,
      .key = "drive_foundation",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_FOUNDATION,
-     .at = AT(boundary, drive_foundation),
-     .fallback = "0 N/m3",
+     .offset = OFFSET(boundary, drive_foundation),
+     .default_text = "0 N/m3",
      .range = "[0,inf)",
-     .meaning = "the same per area of the floe's largest face, besides; rho g of the water is 10 kN/m3"},
+     .needs = {"drive_width", "drive_group"},
+     .meaning = "additional spring per area of the largest face of the floe; rho g of the "
+                "water is 10 kN/m3"},
     {.section = FL_SEC_WATER,
      .key = "level",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_LENGTH,
-     .at = AT(water, level),
-     .fallback = "0 m",
+     .offset = OFFSET(water, level),
+     .default_text = "0 m",
      .meaning = "height z of the still water"},
     {.section = FL_SEC_WATER,
      .key = "depth",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_LENGTH,
-     .at = AT(water, depth),
-     .fallback = "none",
+     .offset = OFFSET(water, depth),
+     .default_text = "none",
      .special = "none",
-     .value = INFINITY,
+     .special_value = INFINITY,
      .range = "(0,inf)",
-     .meaning = "depth of the water; it bears on waves and sheared currents alone; none is deep water"},
+     .meaning = "depth of the water, used by waves and sheared currents only; none is deep "
+                "water"},
     {.section = FL_SEC_WATER,
      .key = "density",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_DENSITY,
-     .at = AT(water, density),
-     .fallback = "1025 kg/m3",
+     .offset = OFFSET(water, density),
+     .default_text = "1025 kg/m3",
      .range = "(0,inf)",
      .meaning = "mass per volume of the water",
      .source = "sea water 1005 to 1035"},
@@ -832,194 +844,206 @@ const fl_key fl_key_table[] = {
      .key = "current",
      .type = FL_VALUE_VEC3,
      .unit = FL_UNIT_SPEED,
-     .at = AT(water, current),
-     .fallback = "0 m/s",
-     .lone = FL_SINGLE_X,
+     .offset = OFFSET(water, current),
+     .default_text = "0 m/s",
+     .single = FL_SINGLE_X,
      .meaning = "velocity of the water, at the surface; one number is along x"},
     {.section = FL_SEC_WATER,
      .key = "profile",
      .type = FL_VALUE_WORD,
-     .at = AT(water, profile),
-     .fallback = "uniform",
+     .offset = OFFSET(water, profile),
+     .default_text = "uniform",
      .choices = "uniform|power|linear|table",
-     .meaning = "how the current U changes with the height z over still water: not at all, as "
-                "U0 (1 + z/d)^a, as U0 (1 + z/d), or by the rows of a file; above still water it is that of "
-                "the surface",
+     .meaning = "current U against the height z above still water: uniform, U0 (1 + z/d)^a, "
+                "U0 (1 + z/d), or rows of a file; above still water it is that of the "
+                "surface",
      .source = "DNV-RP-C205 (2010), 4.1.4"},
     {.section = FL_SEC_WATER,
      .key = "profile_exponent",
      .type = FL_VALUE_F64,
-     .at = AT(water, profile_exponent),
-     .fallback = "0.14285714285714285",
+     .offset = OFFSET(water, profile_exponent),
+     .default_text = "0.14285714285714285",
      .range = "(0,10]",
-     .meaning = "the a of the profile power",
+     .needs = {"profile"},
+     .meaning = "exponent a of the profile power",
      .source = "1/7, turbulent flow over a bottom of sand"},
     {.section = FL_SEC_WATER,
      .key = "profile_depth",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_LENGTH,
-     .at = AT(water, profile_depth),
-     .fallback = "auto",
+     .offset = OFFSET(water, profile_depth),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "the d of the profiles power and linear, below which there is no current; auto is the depth "
-                "of the water",
+     .needs = {"profile"},
+     .meaning = "depth d of the profiles power and linear, below which there is no current; "
+                "auto is the depth of the water",
      .source = "currents of the wind reach 20 to 50 m down"},
     {.section = FL_SEC_WATER,
      .key = "profile_file",
      .type = FL_VALUE_PATH,
-     .at = AT(water, profile_file),
-     .fallback = "none",
+     .offset = OFFSET(water, profile_file),
+     .default_text = "none",
      .special = "none",
-     .meaning = "file of the profile table, heights and velocities, see current(5); it takes the place of "
-                "current",
+     .meaning = "file of the profile table, heights and velocities, see current(5); it "
+                "replaces current",
      .source = "measurements of the site"},
     {.section = FL_SEC_WATER,
      .key = "drag_force_coef",
      .type = FL_VALUE_F64,
-     .at = AT(water, drag_force_coef),
-     .fallback = "0.005",
+     .offset = OFFSET(water, drag_force_coef),
+     .default_text = "0.005",
      .range = "[0,inf)",
-     .meaning = "the C of the drag force, on the wetted area",
+     .meaning = "coefficient C of the drag force, on the wetted area",
      .source = "DilatedDEM manual (2016), equation (8); skin friction of ice, 0.001 to 0.035"},
     {.section = FL_SEC_WATER,
      .key = "drag_moment_coef",
      .type = FL_VALUE_F64,
-     .at = AT(water, drag_moment_coef),
-     .fallback = "0.002",
+     .offset = OFFSET(water, drag_moment_coef),
+     .default_text = "0.002",
      .range = "[0,inf)",
-     .meaning = "the C of the drag moment, on the wetted area",
+     .meaning = "coefficient C of the drag moment, on the wetted area",
      .source = "DilatedDEM manual (2016), equation (9); 2/5 of the skin coefficient for a disc"},
     {.section = FL_SEC_WATER,
      .key = "drag",
      .type = FL_VALUE_WORD,
-     .at = AT(water, drag),
-     .fallback = "manual",
+     .offset = OFFSET(water, drag),
+     .default_text = "manual",
      .choices = "manual|facet",
-     .meaning =
-         "manual takes force and moment of the manual's equations, on the whole wetted area; facet adds "
-         "up skin and form drag over the wetted part of each face; what is round has manual always",
+     .meaning = "manual: force and moment of the manual's equations on the whole wetted "
+                "area; facet: skin and form drag summed over the wetted part of each face; "
+                "spheres and capsules always have manual",
      .source = "DilatedDEM manual (2016), equations (8) and (9); Hoerner, Fluid-Dynamic Drag (1965)"},
     {.section = FL_SEC_WATER,
      .key = "skin_coef",
      .type = FL_VALUE_F64,
-     .at = AT(water, skin_coef),
-     .fallback = "0.005",
+     .offset = OFFSET(water, skin_coef),
+     .default_text = "0.005",
      .range = "[0,inf)",
-     .meaning = "C of the drag along each wetted face, of drag = facet",
+     .needs = {"drag"},
+     .meaning = "C of the drag along each wetted face, for drag = facet",
      .source = "0.001 to 0.035 under ice (Steiner 2001)"},
     {.section = FL_SEC_WATER,
      .key = "form_coef",
      .type = FL_VALUE_F64,
-     .at = AT(water, form_coef),
-     .fallback = "0.5",
+     .offset = OFFSET(water, form_coef),
+     .default_text = "0.5",
      .range = "[0,inf)",
-     .meaning = "C of the drag on each wetted face that goes ahead, of drag = facet",
+     .needs = {"drag"},
+     .meaning = "C of the drag on each wetted face that moves forward, for drag = facet",
      .source = "edges of floes 0.3 to 1"},
     {.section = FL_SEC_WATER,
      .key = "added_mass",
      .type = FL_VALUE_VEC3,
-     .at = AT(water, added_mass),
-     .fallback = "0 0 0",
+     .offset = OFFSET(water, added_mass),
+     .default_text = "0 0 0",
      .special = "auto",
-     .value = -1.0,
-     .lone = FL_SINGLE_ALL,
-     .meaning = "mass of water that moves with a body, over the displaced, along its axes: two in the plane "
-                "of a floe, the third across it, which is the axis nearest to the vertical where it starts; "
-                "auto is 0.1 in the plane and 4/3 rho a^3, a disc of its area "
-                "with one side wet, across; 1/2 of what is round",
+     .special_value = -1.0,
+     .single = FL_SINGLE_ALL,
+     .meaning = "added mass over displaced mass along the body axes: two in the plane of a "
+                "floe, the third normal to it, the axis nearest to the vertical at the "
+                "start; auto is 0.1 in the plane and 4/3 rho a^3, a disc of its area with "
+                "one wet side, normal to it; 1/2 for spheres and capsules",
      .source = "Lamb, Hydrodynamics (1932), art. 92, 102; surge 0.1 to 0.15"},
     {.section = FL_SEC_WATER,
      .key = "added_inertia",
      .type = FL_VALUE_VEC3,
-     .at = AT(water, added_inertia),
-     .fallback = "0 0 0",
+     .offset = OFFSET(water, added_inertia),
+     .default_text = "0 0 0",
      .special = "auto",
-     .value = -1.0,
-     .lone = FL_SINGLE_ALL,
-     .meaning = "moment of inertia of water that turns with a body, over its own, about its axes; auto is "
-                "8/45 rho a^5, a disc with one side wet, about those in the plane of a floe, and 0 else",
+     .special_value = -1.0,
+     .single = FL_SINGLE_ALL,
+     .meaning = "added moment of inertia over that of the body about its axes; auto is 8/45 "
+                "rho a^5, a disc with one wet side, about axes in the plane of a floe, 0 "
+                "about others",
      .source = "Lamb, Hydrodynamics (1932), art. 102"},
     {.section = FL_SEC_WATER,
      .key = "every",
      .type = FL_VALUE_I32,
-     .at = AT(water, every),
-     .fallback = "1",
+     .offset = OFFSET(water, every),
+     .default_text = "1",
      .range = "[1,1000]",
-     .meaning = "steps between two looks at what waves do to a floe, 20 at least in the shortest period; in "
-                "between it floats on a plane that goes on as it moved, and the rest in a straight line"},
+     .meaning = "steps between two evaluations of the wave load on a floe, at least 20 in "
+                "the shortest period; in between the floe floats on a moving plane and other "
+                "loads are extrapolated linearly"},
     {.section = FL_SEC_WATER,
      .key = "wave",
      .type = FL_VALUE_WORD,
-     .at = AT(water, wave),
-     .fallback = "none",
+     .offset = OFFSET(water, wave),
+     .default_text = "none",
      .choices = "none|airy|jonswap",
-     .meaning = "waves, all running one way: none; airy, one regular train with its crest at the origin at "
-                "the start; jonswap, a sea by chance",
+     .meaning = "waves, all in one direction; airy: one regular train with its crest at the "
+                "origin at the start; jonswap: a random sea",
      .source = "Airy 1845; Hasselmann et al. 1973; DNV-RP-C205 (2010), 3.3 and 3.5"},
     {.section = FL_SEC_WATER,
      .key = "height",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_LENGTH,
-     .at = AT(water, height),
-     .fallback = "none",
+     .offset = OFFSET(water, height),
+     .default_text = "none",
      .special = "none",
      .range = "(0,inf)",
-     .meaning = "height of the wave from trough to crest; of a sea the significant one, four standard "
-                "deviations of the elevation"},
+     .needs = {"wave"},
+     .meaning = "wave height from trough to crest; of a sea the significant height, four "
+                "standard deviations of the elevation"},
     {.section = FL_SEC_WATER,
      .key = "period",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_TIME,
-     .at = AT(water, period),
-     .fallback = "none",
+     .offset = OFFSET(water, period),
+     .default_text = "none",
      .special = "none",
      .range = "(0,inf)",
-     .meaning = "period of the wave; of a sea that of the peak of its spectrum"},
+     .needs = {"wave"},
+     .meaning = "wave period; of a sea that of the spectral peak"},
     {.section = FL_SEC_WATER,
      .key = "direction",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_ANGLE,
-     .at = AT(water, direction),
-     .fallback = "0 deg",
+     .offset = OFFSET(water, direction),
+     .default_text = "0 deg",
+     .needs = {"wave"},
      .meaning = "direction the waves run to, from x towards y"},
     {.section = FL_SEC_WATER,
      .key = "gamma",
      .type = FL_VALUE_F64,
-     .at = AT(water, gamma),
-     .fallback = "3.3",
+     .offset = OFFSET(water, gamma),
+     .default_text = "3.3",
      .range = "[1,20]",
-     .meaning = "how much the peak of the spectrum of a sea is raised; 1 is a fully developed one",
+     .needs = {"wave"},
+     .meaning = "peak enhancement factor of the spectrum; 1 is a fully developed sea",
      .source = "mean of the North Sea, Hasselmann et al. 1973; 1 to 7"},
     {.section = FL_SEC_WATER,
      .key = "components",
      .type = FL_VALUE_I32,
-     .at = AT(water, components),
-     .fallback = "100",
+     .offset = OFFSET(water, components),
+     .default_text = "100",
      .range = "[1,10000]",
-     .meaning = "number of trains that a sea is made of, all of the same energy"},
+     .needs = {"wave"},
+     .meaning = "number of wave trains of a sea, all of equal energy"},
     {.section = FL_SEC_WATER,
      .key = "seed",
      .type = FL_VALUE_I32,
-     .at = AT(water, seed),
-     .fallback = "1",
+     .offset = OFFSET(water, seed),
+     .default_text = "1",
      .range = "[0,2147483647]",
+     .needs = {"wave"},
      .meaning = "seed of the phases and frequencies of a sea"},
     {.section = FL_SEC_WIND,
      .key = "velocity",
      .type = FL_VALUE_VEC3,
      .unit = FL_UNIT_SPEED,
-     .at = AT(wind, velocity),
-     .fallback = "0 m/s",
-     .lone = FL_SINGLE_X,
+     .offset = OFFSET(wind, velocity),
+     .default_text = "0 m/s",
+     .single = FL_SINGLE_X,
      .meaning = "velocity of the wind 10 m above the water; one number is along x"},
     {.section = FL_SEC_WIND,
      .key = "beaufort",
      .type = FL_VALUE_F64,
-     .at = AT(wind, beaufort),
-     .fallback = "none",
+     .offset = OFFSET(wind, beaufort),
+     .default_text = "none",
      .special = "none",
-     .value = -1.0,
+     .special_value = -1.0,
      .range = "[0,17]",
      .meaning = "force of the wind on Beaufort's scale, in place of velocity: 0.836 B^(3/2) m/s",
      .source = "WMO, Manual on Codes, No. 306; DilatedDEM manual (2016), windvel"},
@@ -1027,174 +1051,189 @@ const fl_key fl_key_table[] = {
      .key = "direction",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_ANGLE,
-     .at = AT(wind, direction),
-     .fallback = "0 deg",
+     .offset = OFFSET(wind, direction),
+     .default_text = "0 deg",
+     .needs = {"beaufort"},
      .meaning = "direction that the wind of beaufort blows to, from x towards y"},
     {.section = FL_SEC_WIND,
      .key = "density",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_DENSITY,
-     .at = AT(wind, density),
-     .fallback = "1.293 kg/m3",
+     .offset = OFFSET(wind, density),
+     .default_text = "1.293 kg/m3",
      .range = "(0,inf)",
      .meaning = "mass per volume of the air",
      .source = "dry air at 0 degrees Celsius"},
     {.section = FL_SEC_WIND,
      .key = "drag",
      .type = FL_VALUE_WORD,
-     .at = AT(wind, drag),
-     .fallback = "manual",
+     .offset = OFFSET(wind, drag),
+     .default_text = "manual",
      .choices = "manual|facet",
-     .meaning = "manual takes one force on the whole dry area; facet adds up skin and form drag over the dry "
-                "part of each face; what is round has manual always",
+     .meaning = "manual: one force on the whole dry area; facet: skin and form drag summed "
+                "over the dry part of each face; spheres and capsules always have manual",
      .source = "as water.drag"},
     {.section = FL_SEC_WIND,
      .key = "drag_coef",
      .type = FL_VALUE_F64,
-     .at = AT(wind, drag_coef),
-     .fallback = "0.0015",
+     .offset = OFFSET(wind, drag_coef),
+     .default_text = "0.0015",
      .range = "[0,inf)",
-     .meaning = "drag coefficient, on the dry area; of drag = facet, that along each dry face",
+     .meaning = "drag coefficient, on the dry area; for drag = facet that along each dry "
+                "face",
      .source = "ice in air 0.001 to 0.009 (Steiner 2001)"},
     {.section = FL_SEC_WIND,
      .key = "form_coef",
      .type = FL_VALUE_F64,
-     .at = AT(wind, form_coef),
-     .fallback = "0.5",
+     .offset = OFFSET(wind, form_coef),
+     .default_text = "0.5",
      .range = "[0,inf)",
-     .meaning = "C of the drag on each dry face that faces the wind, of drag = facet",
+     .needs = {"drag"},
+     .meaning = "C of the drag on each dry face that faces the wind, for drag = facet",
      .source = "as water.form_coef"},
     {.section = FL_SEC_BOND,
      .key = "on",
      .type = FL_VALUE_WORD,
-     .at = AT(bond, on),
-     .fallback = "false",
+     .offset = OFFSET(bond, on),
+     .default_text = "false",
      .choices = "false|true",
-     .meaning = "whether neighbours start frozen together, where the ice file has a bond record for them",
+     .meaning = "whether neighbours start bonded, if the ice file has a bond record for them",
      .source = "DilatedDEM manual (2016), isbonding"},
     {.section = FL_SEC_BOND,
      .key = "normal_strength",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_STRESS,
-     .at = AT(bond, normal_strength),
-     .fallback = "0.7 MPa",
+     .offset = OFFSET(bond, normal_strength),
+     .default_text = "0.7 MPa",
      .special = "none",
-     .value = INFINITY,
+     .special_value = INFINITY,
      .range = "(0,inf)",
-     .meaning = "tensile strength of a frozen face; none: it never breaks so",
+     .needs = {"on"},
+     .meaning = "tensile strength of a bonded face; none: no tensile failure",
      .source = "0.69 to 0.95 MPa in bonded-sphere models (2014)"},
     {.section = FL_SEC_BOND,
      .key = "shear_strength",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_STRESS,
-     .at = AT(bond, shear_strength),
-     .fallback = "0.7 MPa",
+     .offset = OFFSET(bond, shear_strength),
+     .default_text = "0.7 MPa",
      .special = "none",
-     .value = INFINITY,
+     .special_value = INFINITY,
      .range = "(0,inf)",
-     .meaning = "shear strength of a frozen face without pressure on it; none: it never breaks so",
+     .needs = {"on"},
+     .meaning = "shear strength of a bonded face without pressure; none: no shear failure",
      .source = "taken alike"},
     {.section = FL_SEC_BOND,
      .key = "friction",
      .type = FL_VALUE_F64,
-     .at = AT(bond, friction),
-     .fallback = "0.3",
+     .offset = OFFSET(bond, friction),
+     .default_text = "0.3",
      .range = "[0,inf)",
-     .meaning = "share of the pressure on a face by which it resists more shear, and by which what of it is "
-                "broken rubs",
+     .needs = {"on"},
+     .meaning = "friction coefficient of a face: increase of the shear strength with "
+                "pressure, and friction of the broken part",
      .source = "ice on ice 0.1 to 0.5"},
     {.section = FL_SEC_BOND,
      .key = "young",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_STRESS,
-     .at = AT(bond, young),
-     .fallback = "auto",
+     .offset = OFFSET(bond, young),
+     .default_text = "auto",
      .special = "auto",
      .range = "(0,inf)",
-     .meaning = "E of the ice between two centres at a distance l: a face is a spring of E/l per area; auto: "
-                "of the materials",
+     .needs = {"on"},
+     .meaning = "E of the ice between two centres at a distance l: a face is a spring of E/l "
+                "per area; auto: of the materials",
      .source = "series of two half bodies"},
     {.section = FL_SEC_BOND,
      .key = "poisson",
      .type = FL_VALUE_F64,
-     .at = AT(bond, poisson),
-     .fallback = "auto",
+     .offset = OFFSET(bond, poisson),
+     .default_text = "auto",
      .special = "auto",
-     .value = -1.0,
+     .special_value = -1.0,
      .range = "[0,0.5]",
+     .needs = {"on"},
      .meaning = "Poisson's ratio of it, for G = E/2(1 + nu) across; auto: of the materials"},
     {.section = FL_SEC_BOND,
      .key = "energy",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_SURFACE_ENERGY,
-     .at = AT(bond, energy),
-     .fallback = "none",
+     .offset = OFFSET(bond, energy),
+     .default_text = "none",
      .special = "none",
      .range = "(0,inf)",
-     .meaning = "fracture energy in tension, by which stress falls along a line; none: a point breaks at its "
-                "strength at once",
+     .needs = {"on"},
+     .meaning = "fracture energy in tension, with linear softening; none: a point breaks at "
+                "its strength at once",
      .source = "sea ice 1 to 15 J/m2"},
     {.section = FL_SEC_BOND,
      .key = "shear_energy",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_SURFACE_ENERGY,
-     .at = AT(bond, shear_energy),
-     .fallback = "auto",
+     .offset = OFFSET(bond, shear_energy),
+     .default_text = "auto",
      .special = "auto",
-     .value = -1.0,
+     .special_value = -1.0,
      .range = "(0,inf)",
-     .meaning = "the same in shear; auto: as energy"},
+     .needs = {"energy"},
+     .meaning = "fracture energy in shear; auto: as energy"},
     {.section = FL_SEC_BOND,
      .key = "mixing",
      .type = FL_VALUE_I32,
-     .at = AT(bond, mixing),
-     .fallback = "2",
+     .offset = OFFSET(bond, mixing),
+     .default_text = "2",
      .range = "[1,1000]",
-     .meaning = "exponent by which the fracture energy goes from that of tension to that of shear, after the "
-                "share of shear in the energy",
+     .needs = {"energy"},
+     .meaning = "exponent of the mixed-mode fracture energy in the share of shear in the "
+                "energy",
      .source = "Benzeggagh & Kenane, Compos. Sci. Technol. 56 (1996) 439"},
     {.section = FL_SEC_BOND,
      .key = "softening",
      .type = FL_VALUE_WORD,
-     .at = AT(bond, softening),
-     .fallback = "keep",
+     .offset = OFFSET(bond, softening),
+     .default_text = "keep",
      .choices = "keep|stretch|weaken",
-     .meaning =
-         "what becomes of a bond longer than 2 E G/strength^2, which stores more than its fracture "
-         "energy: keep its strength, and it takes what it has stored; stretch its softening; or weaken "
-         "it by the root of the ratio, which keeps the energy",
+     .needs = {"on"},
+     .meaning = "treatment of a bond longer than 2 E G/strength^2, which stores more than "
+                "its fracture energy; keep: it keeps its strength and dissipates the stored "
+                "energy; stretch: longer softening; weaken: strengths reduced by the root of "
+                "the ratio, which keeps the fracture energy",
      .source = "Bazant & Oh, Mater. Struct. 16 (1983) 155"},
     {.section = FL_SEC_BOND,
      .key = "stretch",
      .type = FL_VALUE_F64,
-     .at = AT(bond, stretch),
-     .fallback = "1.5",
+     .offset = OFFSET(bond, stretch),
+     .default_text = "1.5",
      .range = "(1,inf)",
-     .meaning = "separation at failure over that at the peak, at least, of softening = stretch",
+     .needs = {"softening"},
+     .meaning = "least ratio of the separation at failure to that at the peak, for softening "
+                "= stretch",
      .source = "bonded spheres against a jack-up, 1.5"},
     {.section = FL_SEC_BOND,
      .key = "damping",
      .type = FL_VALUE_F64,
-     .at = AT(bond, damping),
-     .fallback = "0",
+     .offset = OFFSET(bond, damping),
+     .default_text = "0",
      .range = "[0,1]",
-     .meaning = "dashpots beside the springs, as a share of the critical damping of the two bodies on their "
-                "face",
-     .source = "none: what is frozen has no damping of its own here"},
+     .needs = {"on"},
+     .meaning = "dashpots parallel to the springs, as a fraction of the critical damping of "
+                "the two bodies on their face",
+     .source = "none: bonds have no damping of their own here"},
     {.section = FL_SEC_GROUP,
      .key = "fixed",
      .type = FL_VALUE_FIXED,
-     .at = AT(group, fixed),
-     .fallback = "none",
+     .offset = OFFSET(group, fixed),
+     .default_text = "none",
      .special = "none",
-     .meaning = "directions x y z and turns rx ry rz, world axes, in which forces do not move the bodies of "
-                "the group"},
+     .meaning = "directions x y z and rotations rx ry rz, world axes, in which forces do not "
+                "move the bodies of the group"},
     {.section = FL_SEC_GROUP,
      .key = "velocity",
      .type = FL_VALUE_VEC3,
      .unit = FL_UNIT_SPEED,
-     .at = AT(group, velocity),
-     .fallback = "0 0 0 m/s",
+     .offset = OFFSET(group, velocity),
+     .default_text = "0 0 0 m/s",
      .meaning = "velocity in the fixed directions"},
     MOTION_KEYS(FL_SEC_PART, part),
 };
@@ -1243,6 +1282,8 @@ int fl_section_find(const char *name)
 int fl_key_find(int section, const char *key)
 {
     for (int k = fl_key_first(section); k < fl_key_first(section + 1); k++)
-        if (strcmp(fl_key_table[k].key, key) == 0) return k;
+        if (strcmp(fl_key_table[k].key, key) == 0 ||
+            (fl_key_table[k].old_name && strcmp(fl_key_table[k].old_name, key) == 0))
+            return k;
     return -1;
 }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene_key.h -- the table of the scene's sections and keys, from which reading, defaults, --set,
- * --explain, the echo, ranges and complaints are all made, and the words of the manual that map to them. */
+/* scene_key.h -- the tables of sections and keys of a scene, and of the bare words of the DilatedDEM manual.
+ *
+ * Reading, defaults, --set, --explain, printing, ranges and error messages use these tables.  A new key is
+ * a member in scene_types.h and a row of fl_key_table. */
 #ifndef FL_SCENE_SCENE_KEY_H
 #define FL_SCENE_SCENE_KEY_H
 #include <stddef.h>
-#include "scene/scene.h"
+#include "scene/scene_types.h"
 #include "scene/scene_unit.h"
 
 /* In the order of fl_section_table. */
@@ -35,38 +37,40 @@ enum fl_value_type {
     FL_VALUE_PATH   /* char[FL_SCENE_PATH] */
 };
 
-/* What one number stands for in a vector of three. */
+/* Meaning of a single number given for a vector of three: not allowed, along x, along -z, all components. */
 enum fl_single_number { FL_SINGLE_NOT, FL_SINGLE_X, FL_SINGLE_DOWN, FL_SINGLE_ALL };
 
 typedef struct {
     enum fl_section_id section;
     const char *key;
+    const char *old_name; /* former name of the key, still read; NULL: none */
     enum fl_value_type type;
     enum fl_unit_kind unit;
-    size_t at;            /* offset of the value in the struct of its section */
-    const char *fallback; /* the default, as one would write it */
-    const char *steel;    /* the default in [material steel]; NULL: the same */
-    const char *special;  /* a word that stands for `value`: auto, none; NULL: none */
-    double value;
-    const char *range;   /* interval, "(0,1]", of a number; NULL: any */
-    const char *choices; /* "patch|manual", for a number its values */
-    enum fl_single_number lone;
-    const char *meaning, *source; /* source: NULL for a choice that is the user's */
+    size_t offset;             /* of the value in the struct of its section */
+    const char *default_text;  /* as a user would write it */
+    const char *default_steel; /* default in [material steel]; NULL: default_text */
+    const char *special;       /* word that stands for special_value: auto, none; NULL: none */
+    double special_value;
+    const char *range;   /* interval of a number, "(0,1]"; NULL: any */
+    const char *choices; /* "patch|manual"; of a number its values */
+    enum fl_single_number single;
+    const char *needs[2];         /* keys of the section, one of which must be given too (unused_keys.h) */
+    const char *meaning, *source; /* source: NULL for a free choice of the user */
 } fl_key;
 
 typedef struct {
     const char *name, *form; /* form: "[material NAME]" */
-    int names;               /* how many names follow: 0, 1, or 2, which may be left out */
-    size_t at;               /* the section in fl_scene, or the pointer to the array of them */
+    int names;               /* number of names in the heading: 0, 1, or 2, which may be omitted */
+    size_t offset;           /* of the section in fl_scene, or of the pointer to the array of them */
     size_t size;             /* of one section */
-    const char *meaning;     /* and what it means when it is absent */
+    const char *meaning;     /* and what the absence of the section means */
 } fl_section;
 
 extern const fl_key fl_key_table[];
 extern const int fl_key_count;
 extern const fl_section fl_section_table[FL_SECTIONS];
 
-/* The words that stand bare, before any section, in files of the DilatedDEM manual. */
+/* Bare words before any section, in files of the DilatedDEM manual. */
 enum fl_word_map {
     FL_MAP_SAME, /* value as of the key */
     FL_MAP_X,    /* component of the vector */
@@ -85,10 +89,10 @@ typedef struct {
 extern const fl_manual_word fl_manual_table[];
 extern const int fl_manual_count;
 
-/* First key of a section in the table; fl_key_first(FL_SECTIONS) is the end. */
+/* Index of the first key of a section in the table; fl_key_first(FL_SECTIONS) is the end. */
 int fl_key_first(int section);
 
-/* Number of the section, and number of the key in the table; -1 when there is none. */
+/* Index of a section, and of a key by its name or its old name; -1 if there is none. */
 int fl_section_find(const char *name);
 int fl_key_find(int section, const char *key);
 

@@ -5,7 +5,7 @@
 #include "scene/scene_print.h"
 #include "scene/scene_value.h"
 
-/* Of [contact A B] only what was given is written: a default in it would overrule [contact]. */
+/* Of [contact A B] only given keys are written: a default would override [contact]. */
 static void write_section(FILE *f, int section, const char *names, const void *at, int given_only)
 {
     const fl_scene_head *head = at;
@@ -23,7 +23,7 @@ void fl_scene_write(FILE *f, const fl_scene *scene)
     fl_scene_contact all;
     fprintf(f, "#scene 1\n");
     for (int s = 0; s < FL_SECTIONS; s++) {
-        /* [contact] without names holds for what is below it, so it comes first, and always */
+        /* [contact] without names applies to the pairs below, so it is always written, and first */
         if (s == FL_SEC_CONTACT) {
             const int32_t i = fl_section_named(scene, s, "", "");
             fl_section_defaults(s, "", &all);
@@ -44,7 +44,7 @@ void fl_scene_write(FILE *f, const fl_scene *scene)
     }
 }
 
-/* "a|b|c" */
+/* Print the words of "a|b|c". */
 static void explain_choices(FILE *f, const char *choices)
 {
     while (*choices) {
@@ -60,7 +60,7 @@ static void explain_type(FILE *f, const fl_key *k)
     char units[100], range[100];
     switch (k->type) {
     case FL_VALUE_F64: fprintf(f, "a number"); break;
-    case FL_VALUE_VEC3: fprintf(f, k->lone ? "one number or three" : "three numbers"); break;
+    case FL_VALUE_VEC3: fprintf(f, k->single ? "one number or three" : "three numbers"); break;
     case FL_VALUE_I32: fprintf(f, "a whole number"); break;
     case FL_VALUE_WORD: fprintf(f, "one of"); break;
     case FL_VALUE_WORDS: fprintf(f, "one, or one for each of x, y, z, of"); break;
@@ -83,16 +83,17 @@ static void explain_key(FILE *f, const fl_key *k)
     fprintf(f, "  value    ");
     explain_type(f, k);
     fprintf(f, "\n");
-    fprintf(f, "  default  %s%s%s%s\n", k->fallback, k->steel ? " (steel: " : "", k->steel ? k->steel : "",
-            k->steel ? ")" : "");
+    fprintf(f, "  default  %s%s%s%s\n", k->default_text, k->default_steel ? " (steel: " : "",
+            k->default_steel ? k->default_steel : "", k->default_steel ? ")" : "");
+    if (k->old_name) fprintf(f, "  was      %s.%s, which is still read\n", section, k->old_name);
     for (int w = 0; w < fl_manual_count; w++)
         if (fl_manual_table[w].section == k->section && strcmp(fl_manual_table[w].key, k->key) == 0)
             fprintf(f, "  manual   %s\n", fl_manual_table[w].word);
     if (k->source) fprintf(f, "  source   %s\n", k->source);
 }
 
-/* A word alone may be a section or a key of any: the nearest of all. */
-static int no_word(const char *word, fl_err *err)
+/* A single word may be a section or a key of any section: suggest the nearest name of all. */
+static int fail_unknown_word(const char *word, fl_err *err)
 {
     const char *near[2 * FL_SECTIONS], *list[FL_SCENE_KEYS];
     for (int s = 0; s < FL_SECTIONS; s++) {
@@ -122,7 +123,7 @@ int fl_scene_explain(FILE *f, const char *key, fl_err *err)
             fprintf(f, "%-16s  %s\n", fl_section_table[s].form, fl_section_table[s].meaning);
         return 0;
     }
-    /* "material.young" as well as "material ice.young": the bare section has no names to check */
+    /* "material.young" as well as "material ice.young": a bare section has no names to check */
     snprintf(text, sizeof text, "%.*s", (int)(dot ? dot - key : (long)strlen(key)), key);
     section = fl_section_find(text);
     if (section >= 0) {
@@ -130,7 +131,7 @@ int fl_scene_explain(FILE *f, const char *key, fl_err *err)
         if (dot && (at.key = fl_address_key(section, dot + 1, why, sizeof why)) < 0)
             return fl_fail(err, FL_USAGE, "%s", why);
     } else if (!strpbrk(key, ". ")) {
-        return no_word(key, err);
+        return fail_unknown_word(key, err);
     } else if (fl_address_read(key, &at, why, sizeof why)) {
         return fl_fail(err, FL_USAGE, "%s", why);
     }

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene_print.h -- a scene as text, and the table of keys as help. */
+/* scene_print.h -- print a scene as text, and explain the keys. */
 #ifndef FL_SCENE_SCENE_PRINT_H
 #define FL_SCENE_SCENE_PRINT_H
 #include <stdio.h>
 #include "scene/scene.h"
 
-/* The complete scene, every key of every section that is present with its value in SI units; reading it from
- * standard input (or, paths apart, from anywhere) gives the same scene and the same text again.  Cannot fail
- * but by the stream, whose error flag tells. */
+/* Print the scene: every key of every present section with its value in SI units, under its current name.
+ * Reading the text from standard input gives the same scene and the same text.  The only failure is that
+ * of the stream, see ferror(). */
 void fl_scene_write(FILE *f, const fl_scene *scene);
 
-/* Meaning, unit, range, default, manual's word and source of one key ("water.density"), of every key of a
- * section ("water"), or, for "", of the sections.
- * 0, or -1 with FL_USAGE in err for a key that is not known; the nearest one is named. */
+/* Print meaning, unit, range, default, old name, word of the manual and source of one key
+ * ("water.density", also by its old name), of every key of a section ("water"), or, for "", of the
+ * sections. Returns 0, or -1 with FL_USAGE and the nearest name for an unknown key. */
 int fl_scene_explain(FILE *f, const char *key, fl_err *err);
 
 #endif

@@ -2,6 +2,7 @@
 #include <ini.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,22 +15,22 @@
 
 enum { SCENE_VERSION = 1, BEAUFORT_MAX = 17, WHY = 400 };
 
-/* One file on its way in, or one --set (then text is not open and file is FL_SCENE_ARGUMENT). */
+/* A file being read, or one --set (text is not open then, and file is FL_SCENE_ARGUMENT). */
 typedef struct {
     fl_scene *scene;
     fl_err *err;
     fl_text text;
     int32_t file;
     char folder[FL_SCENE_PATH]; /* of the file, with its slash; "" for the working folder */
-    fl_address section;         /* the section that keys now belong to */
+    fl_address section;         /* the current section */
     int in_section;
-    char *value; /* the value of the line, where it is too long for the parser's buffer; borrowed from text */
+    char *value; /* value of the line if it is too long for the parser's buffer; borrowed from text */
 } source;
 
 static int read_file(fl_scene *scene, const char *path, fl_err *err);
 
-static int complain(const source *in, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
-static int complain(const source *in, const char *fmt, ...)
+static int fail_line(const source *in, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+static int fail_line(const source *in, const char *fmt, ...)
 {
     char what[WHY + 100];
     va_list ap;
@@ -47,7 +48,7 @@ static fl_scene_mark mark_of(const source *in, uint32_t parts)
                            .components = parts};
 }
 
-/* The section of an address, made if it is not there; NULL without memory. */
+/* The section of an address, appended if absent; NULL if memory is exhausted. */
 static fl_scene_head *open_section(const source *in, const fl_address *at)
 {
     fl_scene_head *head;
@@ -60,30 +61,32 @@ static fl_scene_head *open_section(const source *in, const fl_address *at)
     return head;
 }
 
-/* May this line give the key?  1 yes; 0 no, the scene itself gave it and overrules what it includes; -1 given
- * twice. */
-static int may_give(const source *in, const fl_address *at, uint32_t parts)
+/* Check whether this line may set the key.  Returns 1; 0 if the scene itself has set it, which overrides
+ * included files; -1 if the key is given twice. */
+static int check_key_is_new(const source *in, const fl_address *at, uint32_t parts)
 {
     const int32_t i = fl_section_named(in->scene, at->section, at->a, at->b);
     const fl_scene_head *head = fl_section_at(in->scene, at->section, i);
     const fl_scene_mark *old;
-    const char *key = fl_key_table[at->key].key;
-    char section[4 * FL_SCENE_NAME];
+    const fl_key *row = &fl_key_table[at->key];
+    char section[4 * FL_SCENE_NAME], key[100];
     if (!head || in->file == FL_SCENE_ARGUMENT) return 1;
     old = &head->key[at->key - fl_key_first(at->section)];
     if (old->line == 0 || !(old->components & parts)) return 1;
     snprintf(section, sizeof section, "%s%s%s%s%s", fl_section_table[at->section].name, at->a[0] ? " " : "",
              at->a, at->b[0] ? " " : "", at->b);
+    snprintf(key, sizeof key, "%s%s%s%s", row->key, row->old_name ? " (old name " : "",
+             row->old_name ? row->old_name : "", row->old_name ? ")" : "");
     if (old->file == in->file)
-        return complain(in, "%s.%s was given on line %d already", section, key, old->line);
+        return fail_line(in, "%s.%s was given on line %d already", section, key, old->line);
     if (in->file == 0) return 1;
     if (old->file == 0) return 0;
-    return complain(in, "%s.%s was given on line %d of %s already", section, key, old->line,
-                    in->scene->file[old->file]);
+    return fail_line(in, "%s.%s was given on line %d of %s already", section, key, old->line,
+                     in->scene->file[old->file]);
 }
 
-/* The value of a word of the manual as the text of its key.  text stays where it means the same. */
-static int map_word(enum fl_word_map map, const char **text, char buf[FL_NUMBER_LEN], char *why)
+/* Convert the value of a word of the manual to the text of its key; unchanged if both mean the same. */
+static int convert_manual_value(enum fl_word_map map, const char **text, char buf[FL_NUMBER_LEN], char *why)
 {
     static const char *const bound[] = {"rigid", "elastic", "periodic", "free"};
     double force;
@@ -108,45 +111,48 @@ static int map_word(enum fl_word_map map, const char **text, char buf[FL_NUMBER_
     return 0;
 }
 
-/* Give a key its value.  Nothing of the scene changes on failure. */
-static int give(const source *in, const fl_address *at, enum fl_word_map map, const char *text)
+/* Room for one section of any kind. */
+enum { SECTION_MAX = 10240 };
+_Static_assert(sizeof(fl_scene_run) <= SECTION_MAX, "[run]");
+_Static_assert(sizeof(fl_scene_output) <= SECTION_MAX, "[output]");
+_Static_assert(sizeof(fl_scene_material) <= SECTION_MAX, "[material]");
+_Static_assert(sizeof(fl_scene_contact) <= SECTION_MAX, "[contact]");
+_Static_assert(sizeof(fl_scene_ice) <= SECTION_MAX, "[ice]");
+_Static_assert(sizeof(fl_scene_structure) <= SECTION_MAX, "[structure]");
+_Static_assert(sizeof(fl_scene_boundary) <= SECTION_MAX, "[boundary]");
+_Static_assert(sizeof(fl_scene_water) <= SECTION_MAX, "[water]");
+_Static_assert(sizeof(fl_scene_wind) <= SECTION_MAX, "[wind]");
+_Static_assert(sizeof(fl_scene_bond) <= SECTION_MAX, "[bond]");
+_Static_assert(sizeof(fl_scene_group) <= SECTION_MAX, "[group]");
+_Static_assert(sizeof(fl_scene_part) <= SECTION_MAX, "[part]");
+
+/* Set a key to the value of the text.  The scene is unchanged on failure. */
+static int set_key(const source *in, const fl_address *at, enum fl_word_map map, const char *text)
 {
-    union {
-        fl_scene_run run;
-        fl_scene_output output;
-        fl_scene_material material;
-        fl_scene_contact contact;
-        fl_scene_ice ice;
-        fl_scene_structure structure;
-        fl_scene_boundary boundary;
-        fl_scene_water water;
-        fl_scene_wind wind;
-        fl_scene_bond bond;
-        fl_scene_group group;
-    } scratch;
+    _Alignas(max_align_t) char scratch[SECTION_MAX];
     const int slot = at->key - fl_key_first(at->section);
     fl_key key = fl_key_table[at->key];
     fl_scene_head *head;
     uint32_t parts = ~0u;
     char why[WHY], buf[FL_NUMBER_LEN];
-    int may;
-    memset(&scratch, 0, sizeof scratch);
+    int is_new;
+    memset(scratch, 0, sizeof scratch);
     if (map == FL_MAP_X || map == FL_MAP_Y || map == FL_MAP_Z) { /* one component, read as a plain number */
         const int c = (int)map - FL_MAP_X;
         key.type = FL_VALUE_F64;
-        key.at += (size_t)c * sizeof(double);
+        key.offset += (size_t)c * sizeof(double);
         parts = 1u << c;
     }
-    if (map_word(map, &text, buf, why)) return complain(in, "%s", why);
-    if (fl_value_read(&key, text, in->folder, &scratch, why, sizeof why)) return complain(in, "%s", why);
-    may = may_give(in, at, parts);
-    if (may <= 0) return may;
+    if (convert_manual_value(map, &text, buf, why)) return fail_line(in, "%s", why);
+    if (fl_value_read(&key, text, in->folder, scratch, why, sizeof why)) return fail_line(in, "%s", why);
+    is_new = check_key_is_new(in, at, parts);
+    if (is_new <= 0) return is_new;
     head = open_section(in, at);
     if (!head) return -1;
-    fl_value_copy(&key, head, &scratch);
+    fl_value_copy(&key, head, scratch);
     if (head->key[slot].line && head->key[slot].file == in->file) parts |= head->key[slot].components;
     head->key[slot] = mark_of(in, parts);
-    head->key[slot].is_auto = fl_value_is_special(&key, &scratch);
+    head->key[slot].is_auto = fl_value_is_special(&key, scratch);
     return 0;
 }
 
@@ -162,8 +168,8 @@ static char *trim(char *s)
     return s;
 }
 
-/* End the line where a comment starts: # or ; at the start of the line or behind a blank. */
-static void cut_comment(char *s)
+/* Cut the line at a comment: # or ; at the start of the line or after a blank. */
+static void strip_comment(char *s)
 {
     for (char *p = s; *p; p++)
         if ((*p == '#' || *p == ';') && (p == s || p[-1] == ' ' || p[-1] == '\t')) {
@@ -172,7 +178,7 @@ static void cut_comment(char *s)
         }
 }
 
-/* The bare word that a line starts with; NULL for none. */
+/* The bare word at the start of a line, or NULL. */
 static const char *bare_word(const char *line)
 {
     const char *best = NULL;
@@ -181,14 +187,14 @@ static const char *bare_word(const char *line)
         const char *word = k < 0 ? "include" : fl_manual_table[k].word;
         const size_t len = strlen(word);
         if (len > longest && strncmp(line, word, len) == 0 && strchr(" \t=", line[len])) {
-            best = word; /* strchr also finds the end of the line */
+            best = word; /* strchr also finds the terminating zero */
             longest = len;
         }
     }
     return best;
 }
 
-static int unknown_word(const source *in, const char *line)
+static int fail_unknown_word(const source *in, const char *line)
 {
     const char *list[40];
     int n = 0;
@@ -199,45 +205,45 @@ static int unknown_word(const source *in, const char *line)
     for (int k = 0; k < fl_manual_count; k++) list[n++] = fl_manual_table[k].word;
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)(len < 60 ? len : 60), line);
-    return complain(in, "\"%s\" before the first section is not a word of the manual, nearest is \"%s\"",
-                    word, fl_text_nearest(word, list, n));
+    return fail_line(in, "\"%s\" before the first section is not a word of the manual, nearest is \"%s\"",
+                     word, fl_text_nearest(word, list, n));
 }
 
-/* Open the section of a heading; heading points behind its bracket. */
-static int heading(source *in, char *line)
+/* Open the section of a heading; line points after its bracket. */
+static int read_heading(source *in, char *line)
 {
     char why[WHY], *end = strchr(line, ']');
-    if (!end) return complain(in, "\"%.40s\" lacks the ] of a section", line - 1);
-    if (end[1]) return complain(in, "\"%.40s\" behind a section was not expected", end + 1);
+    if (!end) return fail_line(in, "\"%.40s\" lacks the ] of a section", line - 1);
+    if (end[1]) return fail_line(in, "\"%.40s\" after a section is not expected", end + 1);
     *end = '\0';
-    if (fl_address_heading(trim(line), &in->section, why, sizeof why)) return complain(in, "%s", why);
+    if (fl_address_heading(trim(line), &in->section, why, sizeof why)) return fail_line(in, "%s", why);
     in->in_section = 1;
     return open_section(in, &in->section) ? 0 : -1;
 }
 
-/* Cut a line into key and value, at "=", or behind a bare word where there may be none. */
-static int cut_line(const source *in, char *line, char **key, char **value)
+/* Split a line into key and value at "=", which may be absent after a bare word. */
+static int split_line(const source *in, char *line, char **key, char **value)
 {
     char *equals = strchr(line, '=');
     if (!in->in_section) {
         const char *word = bare_word(line);
-        if (!word) return unknown_word(in, line);
+        if (!word) return fail_unknown_word(in, line);
         *key = line;
         *value = trim(line + strlen(word));
         if (**value == '=') *value = trim(*value + 1);
         line[strlen(word)] = '\0';
         return 0;
     }
-    if (!equals) return complain(in, "\"%.40s\" is no section and no key = value", line);
-    if (equals == line) return complain(in, "no key stands before =");
+    if (!equals) return fail_line(in, "\"%.40s\" is no section and no key = value", line);
+    if (equals == line) return fail_line(in, "no key stands before =");
     *equals = '\0';
     *key = trim(line);
     *value = trim(equals + 1);
     return 0;
 }
 
-/* The parser's line source: each call is the next line that says something, as "key = value" or "[section]".
- * The packaged parser cuts lines to 200 bytes without a word, so a longer value waits in in->value. */
+/* Line source of the parser: each call returns the next "key = value" line; headings are handled here.
+ * The packaged parser silently truncates lines to 200 bytes, so a longer value is kept in in->value. */
 static char *next_line(char *buf, int size, void *stream)
 {
     source *in = stream;
@@ -248,22 +254,22 @@ static char *next_line(char *buf, int size, void *stream)
         line = in->text.line;
         if (in->text.line_number == 1 && sscanf(line, "#scene %d", &version) == 1 &&
             version > SCENE_VERSION) {
-            complain(in, "scene version %d is newer than this program, which reads up to %d", version,
-                     SCENE_VERSION);
+            fail_line(in, "scene version %d is newer than this program, which reads up to %d", version,
+                      SCENE_VERSION);
             return NULL;
         }
         line = trim(line);
-        cut_comment(line);
+        strip_comment(line);
         line = trim(line);
         if (*line == '[') {
-            if (heading(in, line + 1)) return NULL;
+            if (read_heading(in, line + 1)) return NULL;
         } else if (*line) {
             break;
         }
     }
-    if (cut_line(in, line, &key, &value)) return NULL;
+    if (split_line(in, line, &key, &value)) return NULL;
     if (strlen(key) + 8 > (size_t)size) {
-        complain(in, "\"%.40s...\" is too long for a key", key);
+        fail_line(in, "\"%.40s...\" is too long for a key", key);
         return NULL;
     }
     in->value = value;
@@ -273,48 +279,47 @@ static char *next_line(char *buf, int size, void *stream)
     return buf;
 }
 
-static int include(source *in, const char *value)
+static int read_include(source *in, const char *value)
 {
     char path[FL_SCENE_PATH];
     const char *folder = value[0] == '/' ? "" : in->folder;
-    if (in->file != 0)
-        return complain(in, "include stands in a file that is itself included, one level is expected");
-    if (value[0] == '\0' || strcmp(value, "-") == 0) return complain(in, "include wants the name of a file");
+    if (in->file != 0) return fail_line(in, "include in an included file, one level is expected");
+    if (value[0] == '\0' || strcmp(value, "-") == 0) return fail_line(in, "include needs the name of a file");
     const int n = snprintf(path, sizeof path, "%s%s", folder, value);
     if (n >= FL_SCENE_PATH)
-        return complain(in, "include is a path of %d characters, at most %d are expected", n,
-                        FL_SCENE_PATH - 1);
+        return fail_line(in, "include is a path of %d characters, at most %d are expected", n,
+                         FL_SCENE_PATH - 1);
     return read_file(in->scene, path, in->err);
 }
 
-static int take(void *user, const char *section, const char *name, const char *value)
+static int handle_key(void *user, const char *section, const char *name, const char *value)
 {
     source *in = user;
     fl_address at = in->section;
     char why[WHY];
-    (void)section; /* next_line() keeps it, with its names */
+    (void)section; /* next_line() keeps the section with its names */
     if (in->err->code) return 0;
     if (in->value) value = in->value;
     if (in->in_section) {
         at.key = fl_address_key(at.section, name, why, sizeof why);
-        if (at.key < 0) complain(in, "%s", why);
-        else give(in, &at, FL_MAP_SAME, value);
+        if (at.key < 0) fail_line(in, "%s", why);
+        else set_key(in, &at, FL_MAP_SAME, value);
     } else if (strcmp(name, "include") == 0) {
-        include(in, value);
+        read_include(in, value);
     } else {
         for (int k = 0; k < fl_manual_count; k++) {
             const fl_manual_word *w = &fl_manual_table[k];
             if (strcmp(w->word, name) != 0) continue;
             at = (fl_address){.section = (int)w->section, .key = fl_key_find((int)w->section, w->key)};
             if (w->name) memcpy(at.a, w->name, strlen(w->name) + 1);
-            give(in, &at, w->map, value);
+            set_key(in, &at, w->map, value);
         }
     }
     return in->err->code == 0;
 }
 
-/* Note the name of a file; its number, or -1. */
-static int32_t keep_name(fl_scene *scene, const char *name, fl_err *err)
+/* Store the name of a file.  Returns its index, or -1. */
+static int32_t add_file_name(fl_scene *scene, const char *name, fl_err *err)
 {
     char *copy = NULL;
     if (fl_grow(&scene->file, &scene->cap_file, scene->n_file + 1, sizeof *scene->file, err)) return -1;
@@ -324,7 +329,7 @@ static int32_t keep_name(fl_scene *scene, const char *name, fl_err *err)
     return scene->n_file++;
 }
 
-/* Everything in a text that is open already, which it closes.  in is fresh but for its folder. */
+/* Read an open text and close it.  in is zeroed except for its folder. */
 static int read_source(source *in, fl_scene *scene, fl_text *text, fl_err *err)
 {
     int bad, rc = -1;
@@ -332,13 +337,13 @@ static int read_source(source *in, fl_scene *scene, fl_text *text, fl_err *err)
     in->err = err;
     in->text = *text;
     *text = (fl_text){0};
-    in->file = keep_name(scene, fl_in_name(in->text.in), err);
+    in->file = add_file_name(scene, fl_in_name(in->text.in), err);
     if (in->file < 0) goto done;
-    bad = ini_parse_stream(next_line, in, take, in);
+    bad = ini_parse_stream(next_line, in, handle_key, in);
     if (err->code) goto done;
     if (bad < 0) fl_fail(err, FL_SYSTEM, "out of memory: %s", scene->file[in->file]);
     else if (bad > 0)
-        complain(in, "the line is no section and no key = value"); /* next_line() lets none pass */
+        fail_line(in, "the line is no section and no key = value"); /* next_line() passes no such line */
     else rc = 0;
 done:
     fl_text_close(&in->text);
@@ -395,13 +400,13 @@ int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err)
     char why[WHY], name[200], value[FL_VALUE_TEXT];
     const char *equals = strchr(assignment, '=');
     if (!equals || equals == assignment)
-        return complain(&in, "\"%.60s\" is not section.key=value", assignment);
+        return fail_line(&in, "\"%.60s\" is not section.key=value", assignment);
     if ((size_t)(equals - assignment) >= sizeof name || strlen(equals + 1) >= sizeof value)
-        return complain(&in, "\"%.60s...\" is too long", assignment);
+        return fail_line(&in, "\"%.60s...\" is too long", assignment);
     memcpy(name, assignment, (size_t)(equals - assignment));
     name[equals - assignment] = '\0';
     memcpy(value, equals + 1, strlen(equals + 1) + 1);
-    if (fl_address_read(trim(name), &at, why, sizeof why)) return complain(&in, "%s", why);
-    if (at.key < 0) return complain(&in, "\"%.60s\" is a section, section.key=value is expected", name);
-    return give(&in, &at, FL_MAP_SAME, trim(value));
+    if (fl_address_read(trim(name), &at, why, sizeof why)) return fail_line(&in, "%s", why);
+    if (at.key < 0) return fail_line(&in, "\"%.60s\" is a section, section.key=value is expected", name);
+    return set_key(&in, &at, FL_MAP_SAME, trim(value));
 }

@@ -1,24 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene_read.h -- a scene file, and the command line's changes to it.  Grammar and keys: scene(5). */
+/* scene_read.h -- reading of a scene file, and changes by the command line.  Grammar and keys: scene(5). */
 #ifndef FL_SCENE_SCENE_READ_H
 #define FL_SCENE_SCENE_READ_H
 #include "base/text.h"
 #include "scene/scene.h"
 
-/* Read a scene over its defaults (fl_scene_init() is called here); "-" is standard input.  Paths of files in
- * it are taken from the folder of the file they stand in, for standard input from the working folder.
- * scene is untouched on failure.
- * 0, or -1 with FL_INPUT (grammar, unknown or repeated or unsupported key, unit, range; file and line are
- * told) or FL_SYSTEM in err. */
+/* Read a scene into its defaults (calls fl_scene_init()); "-" is standard input.  A path in a file is
+ * relative to the folder of that file; on standard input it is relative to the working folder. Returns 0,
+ * or -1 with FL_INPUT (grammar, unknown or repeated key, unit, range; with file and line) or FL_SYSTEM;
+ * scene is unchanged then. */
 int fl_scene_read(fl_scene *scene, const char *path, fl_err *err);
 
-/* The same from a text that was opened already, which it closes; paths are taken from the working folder. */
+/* The same from an open text, which is closed; paths are relative to the working folder. */
 int fl_scene_read_text(fl_scene *scene, fl_text *text, fl_err *err);
 
 /* Change one key: "section.key=value", for named sections "material.ice.young=2 GPa" or
- * "contact.ice.steel.friction=0.1"; blanks may stand for the dots of the section.  What the file said is
- * overruled, a section that was absent becomes present; paths are taken from the working folder.
- * 0, or -1 with FL_USAGE or FL_SYSTEM in err; then scene keeps its values. */
+ * "contact.ice.steel.friction=0.1"; blanks may replace the dots of the section.  The value overrides that
+ * of the file, and an absent section becomes present.  Paths are relative to the working folder. Returns
+ * 0, or -1 with FL_USAGE or FL_SYSTEM; the scene keeps its values then. */
 int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err);
 
 #endif

@@ -7,21 +7,25 @@
 #include "scene/scene_section.h"
 #include "scene/scene_value.h"
 
-/* Array, length and capacity of a kind of section that has names. */
-static void array_of(const fl_scene *scene, int section, void **array, int32_t *n)
-{
-    memcpy(array, (const char *)scene + fl_section_table[section].at, sizeof *array);
-    *n = section == FL_SEC_MATERIAL  ? scene->n_material
-         : section == FL_SEC_CONTACT ? scene->n_contact
-         : section == FL_SEC_PART    ? scene->n_part
-                                     : scene->n_group;
-}
+/* A kind of section that has names: offsets of length and capacity in fl_scene, and of the first name in a
+ * section. */
+typedef struct {
+    size_t n, cap, name;
+} named_kind;
+
+#define NAMED(kind, first_name)                                                                              \
+    {                                                                                                        \
+        offsetof(fl_scene, n_##kind), offsetof(fl_scene, cap_##kind), offsetof(fl_scene_##kind, first_name)  \
+    }
+static const named_kind NAMED_KINDS[FL_SECTIONS] = {[FL_SEC_MATERIAL] = NAMED(material, name),
+                                                    [FL_SEC_CONTACT] = NAMED(contact, a),
+                                                    [FL_SEC_GROUP] = NAMED(group, name),
+                                                    [FL_SEC_PART] = NAMED(part, name)};
 
 int32_t fl_section_count(const fl_scene *scene, int section)
 {
-    void *array;
     int32_t n = 1;
-    if (fl_section_table[section].names) array_of(scene, section, &array, &n);
+    if (fl_section_table[section].names) memcpy(&n, (const char *)scene + NAMED_KINDS[section].n, sizeof n);
     return n;
 }
 
@@ -29,22 +33,20 @@ void *fl_section_at(const fl_scene *scene, int section, int32_t i)
 {
     const fl_section *t = &fl_section_table[section];
     void *array;
-    int32_t n;
-    if (!t->names) return i == 0 ? (char *)(uintptr_t)scene + t->at : NULL; /* the caller's own object */
-    array_of(scene, section, &array, &n);
-    return i >= 0 && i < n ? (char *)array + (size_t)i * t->size : NULL;
+    if (!t->names) return i == 0 ? (char *)(uintptr_t)scene + t->offset : NULL; /* the caller's own object */
+    memcpy(&array, (const char *)scene + t->offset, sizeof array);
+    return i >= 0 && i < fl_section_count(scene, section) ? (char *)array + (size_t)i * t->size : NULL;
 }
 
 int32_t fl_section_named(const fl_scene *scene, int section, const char *a, const char *b)
 {
-    if (section == FL_SEC_MATERIAL) return fl_scene_find_material(scene, a);
-    if (section == FL_SEC_GROUP) return fl_scene_find_group(scene, a);
-    if (section == FL_SEC_PART) return fl_scene_find_part(scene, a);
-    if (section != FL_SEC_CONTACT) return 0;
-    for (int32_t i = 0; i < scene->n_contact; i++) {
-        const fl_scene_contact *c = &scene->contact[i];
-        if (strcmp(c->a, a) == 0 && strcmp(c->b, b) == 0) return i;
-        if (strcmp(c->a, b) == 0 && strcmp(c->b, a) == 0) return i;
+    const int32_t n = fl_section_count(scene, section);
+    if (!fl_section_table[section].names) return 0;
+    for (int32_t i = 0; i < n; i++) {
+        const char *first = (const char *)fl_section_at(scene, section, i) + NAMED_KINDS[section].name;
+        const char *second = section == FL_SEC_CONTACT ? scene->contact[i].b : b;
+        if (strcmp(first, a) == 0 && strcmp(second, b) == 0) return i;
+        if (section == FL_SEC_CONTACT && strcmp(first, b) == 0 && strcmp(second, a) == 0) return i;
     }
     return -1;
 }
@@ -52,27 +54,16 @@ int32_t fl_section_named(const fl_scene *scene, int section, const char *a, cons
 int32_t fl_section_add(fl_scene *scene, int section, const char *a, const char *b, fl_err *err)
 {
     const fl_section *t = &fl_section_table[section];
-    void *field = (char *)scene + t->at;
-    int32_t *n = section == FL_SEC_MATERIAL  ? &scene->n_material
-                 : section == FL_SEC_CONTACT ? &scene->n_contact
-                 : section == FL_SEC_PART    ? &scene->n_part
-                                             : &scene->n_group;
-    int32_t *cap = section == FL_SEC_MATERIAL  ? &scene->cap_material
-                   : section == FL_SEC_CONTACT ? &scene->cap_contact
-                   : section == FL_SEC_PART    ? &scene->cap_part
-                                               : &scene->cap_group;
-    void *fresh;
-    if (fl_grow(field, cap, *n + 1, t->size, err)) return -1;
+    const named_kind *kind = &NAMED_KINDS[section];
+    int32_t *n = (int32_t *)(void *)((char *)scene + kind->n);
+    int32_t *cap = (int32_t *)(void *)((char *)scene + kind->cap);
+    char *fresh;
+    if (fl_grow((char *)scene + t->offset, cap, *n + 1, t->size, err)) return -1;
     ++*n;
     fresh = fl_section_at(scene, section, *n - 1);
     fl_section_defaults(section, a, fresh);
-    if (section == FL_SEC_MATERIAL) strncpy(scene->material[*n - 1].name, a, FL_SCENE_NAME - 1);
-    if (section == FL_SEC_GROUP) strncpy(scene->group[*n - 1].name, a, FL_SCENE_NAME - 1);
-    if (section == FL_SEC_PART) strncpy(scene->part[*n - 1].name, a, FL_SCENE_NAME - 1);
-    if (section == FL_SEC_CONTACT) {
-        strncpy(scene->contact[*n - 1].a, a, FL_SCENE_NAME - 1);
-        strncpy(scene->contact[*n - 1].b, b, FL_SCENE_NAME - 1);
-    }
+    strncpy(fresh + kind->name, a, FL_SCENE_NAME - 1);
+    if (section == FL_SEC_CONTACT) strncpy(scene->contact[*n - 1].b, b, FL_SCENE_NAME - 1);
     return *n - 1;
 }
 
@@ -81,11 +72,11 @@ void fl_section_defaults(int section, const char *name, void *fresh)
     memset(fresh, 0, fl_section_table[section].size);
     for (int k = fl_key_first(section); k < fl_key_first(section + 1); k++) {
         const fl_key *key = &fl_key_table[k];
-        const int steel = key->steel && strcmp(name, "steel") == 0;
+        const int steel = key->default_steel && strcmp(name, "steel") == 0;
         char why[200];
         int rc;
-        rc = fl_value_read(key, steel ? key->steel : key->fallback, "", fresh, why, sizeof why);
-        assert(rc == 0); /* the table is ours; test_scene reads every default */
+        rc = fl_value_read(key, steel ? key->default_steel : key->default_text, "", fresh, why, sizeof why);
+        assert(rc == 0); /* test_scene reads every default */
         (void)rc;
     }
 }

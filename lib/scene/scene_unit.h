@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* scene_unit.h -- the units a value of a scene may carry, and their factor to SI. */
+/* scene_unit.h -- units of the values of a scene, and their conversion to SI. */
 #ifndef FL_SCENE_SCENE_UNIT_H
 #define FL_SCENE_SCENE_UNIT_H
 #include <stddef.h>
 
-/* What is measured.  The first unit of each is the one values are kept and written in: SI, and degrees. */
+/* Kinds of quantities.  Values are stored and written in the first unit of each kind: SI, and degrees. */
 enum fl_unit_kind {
-    FL_UNIT_ONE,          /* a pure number; % */
-    FL_UNIT_TIME,         /* s ms us min h */
-    FL_UNIT_LENGTH,       /* m mm cm dm km um */
-    FL_UNIT_SPEED,        /* m/s mm/s cm/s km/h kn */
-    FL_UNIT_ACCELERATION, /* m/s2 m/s^2 */
-    FL_UNIT_STRESS,       /* Pa kPa MPa GPa N/m2 N/m^2 kN/m2 kN/m^2 N/mm2 N/mm^2 */
-    FL_UNIT_DENSITY,      /* kg/m3 kg/m^3 t/m3 t/m^3 g/cm3 g/cm^3 */
-    FL_UNIT_CONTACT_STIFFNESS, /* N/m^n, n the exponent of the law: also N/m kN/m MN/m GN/m N/mm for n = 1, N/m^1.5 */
+    FL_UNIT_ONE,                  /* a pure number; % */
+    FL_UNIT_TIME,                 /* s ms us min h */
+    FL_UNIT_LENGTH,               /* m mm cm dm km um */
+    FL_UNIT_SPEED,                /* m/s mm/s cm/s km/h kn */
+    FL_UNIT_ACCELERATION,         /* m/s2 m/s^2 */
+    FL_UNIT_STRESS,               /* Pa kPa MPa GPa N/m2 N/m^2 kN/m2 kN/m^2 N/mm2 N/mm^2 */
+    FL_UNIT_DENSITY,              /* kg/m3 kg/m^3 t/m3 t/m^3 g/cm3 g/cm^3 */
+    FL_UNIT_CONTACT_STIFFNESS,    /* N/m^n, n: exponent of the law; N/m kN/m MN/m GN/m N/mm; N/m^1.5 */
     FL_UNIT_FOUNDATION,           /* N/m3 N/m^3 kN/m3 MN/m3 GN/m3 Pa/m kPa/m MPa/m GPa/m */
     FL_UNIT_AREA_DAMPING,         /* N.s/m3 N.s/m^3 kN.s/m3 MN.s/m3 */
     FL_UNIT_MASS,                 /* kg g t */
@@ -22,19 +22,20 @@ enum fl_unit_kind {
     FL_UNIT_INERTIA,              /* kg.m2 t.m2, also with ^2 */
     FL_UNIT_STIFFNESS,            /* N/m kN/m MN/m GN/m */
     FL_UNIT_DAMPING,              /* N.s/m kN.s/m MN.s/m, or kg/s */
-    FL_UNIT_ROTATIONAL_STIFFNESS, /* N.m/rad kN.m/rad MN.m/rad GN.m/rad, or N.m: what a turn is held by */
-    FL_UNIT_ROTATIONAL_DAMPING,   /* N.m.s kN.m.s MN.m.s GN.m.s: what a turn is damped by */
-    FL_UNIT_SURFACE_ENERGY        /* J/m2 J/m^2 kJ/m2 kJ/m^2 N/m: what it takes to make a surface */
+    FL_UNIT_ROTATIONAL_STIFFNESS, /* N.m/rad kN.m/rad MN.m/rad GN.m/rad, or N.m */
+    FL_UNIT_ROTATIONAL_DAMPING,   /* N.m.s kN.m.s MN.m.s GN.m.s */
+    FL_UNIT_SURFACE_ENERGY        /* J/m2 J/m^2 kJ/m2 kJ/m^2 N/m */
 };
 
-/* Convert *x from the unit `word` to that of the kind, *x * mul / div with one rounding where either is 1, so
- * that "50 mm" is the double 0.05.  0, or -1 when the kind has no such unit. */
+/* Convert *x from the unit `word` to the first unit of the kind: *x * mul / div, where mul or div is 1 in
+ * most rows, so that "50 mm" is the double 0.05 after one rounding.  Returns 0, or -1 if the kind has no
+ * such unit. */
 int fl_unit_convert(enum fl_unit_kind kind, const char *word, double *x);
 
 /* The first unit of the kind, "" for a pure number. */
 const char *fl_unit_si(enum fl_unit_kind kind);
 
-/* All units of the kind with blanks between, into buf.  Returns buf. */
+/* Write all units of the kind, separated by blanks, to buf.  Returns buf. */
 char *fl_unit_list(enum fl_unit_kind kind, char *buf, size_t size);
 
 #endif

@@ -12,15 +12,15 @@
 static const char *const fix_word[] = {"x", "y", "z", "rx", "ry", "rz"};
 enum { N_FIX = 6, N_CHOICE = 8, LINE_COPY = 256 };
 
-/* What failed, told once: the key before the sentence. */
+/* Where an error message about a key is written; the key stands before the sentence. */
 typedef struct {
     const fl_key *key;
     char *why;
     size_t size;
-} complaint;
+} message;
 
-static int wrong(const complaint *c, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
-static int wrong(const complaint *c, const char *fmt, ...)
+static int fail_key(const message *c, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+static int fail_key(const message *c, const char *fmt, ...)
 {
     const char *section = fl_section_table[c->key->section].name;
     const int k = snprintf(c->why, c->size, "%s.%s ", section, c->key->key);
@@ -31,8 +31,8 @@ static int wrong(const complaint *c, const char *fmt, ...)
     return -1;
 }
 
-/* Ends of an interval "(0,1]", and whether they belong to it. */
-static void interval(const char *range, double *lo, double *hi, int *lo_in, int *hi_in)
+/* Parse an interval "(0,1]": its ends, and whether they belong to it. */
+static void parse_interval(const char *range, double *lo, double *hi, int *lo_in, int *hi_in)
 {
     char *end;
     *lo_in = range[0] == '[';
@@ -48,7 +48,7 @@ char *fl_value_range(const fl_key *key, char *buf, size_t size)
     int lo_in, hi_in;
     buf[0] = '\0';
     if (!key->range) return buf;
-    interval(key->range, &lo, &hi, &lo_in, &hi_in);
+    parse_interval(key->range, &lo, &hi, &lo_in, &hi_in);
     fl_number_text(lo, low);
     fl_number_text(hi, high);
     if (isinf(hi)) snprintf(buf, size, "%s %s", lo_in ? "at least" : "above", low);
@@ -58,25 +58,25 @@ char *fl_value_range(const fl_key *key, char *buf, size_t size)
     return buf;
 }
 
-static int in_range(const fl_key *key, double x)
+static int is_in_range(const fl_key *key, double x)
 {
     double lo, hi;
     int lo_in, hi_in;
     if (!key->range) return 1;
-    interval(key->range, &lo, &hi, &lo_in, &hi_in);
+    parse_interval(key->range, &lo, &hi, &lo_in, &hi_in);
     return (lo_in ? x >= lo : x > lo) && (hi_in ? x <= hi : x < hi);
 }
 
-static int out_of_range(const complaint *c, const char *text)
+static int fail_range(const message *c, const char *text)
 {
     char range[100];
     const char *si = fl_unit_si(c->key->unit);
-    return wrong(c, "is %.60s, a value %s%s%s is expected", text, fl_value_range(c->key, range, sizeof range),
-                 si[0] ? " " : "", si);
+    return fail_key(c, "is %.60s, a value %s%s%s is expected", text,
+                    fl_value_range(c->key, range, sizeof range), si[0] ? " " : "", si);
 }
 
-/* Cut "a|b|c" apart.  Returns their number. */
-static int cut_choices(const char *choices, char word[N_CHOICE][16])
+/* Split "a|b|c" into words.  Returns their number. */
+static int split_choices(const char *choices, char word[N_CHOICE][16])
 {
     int n = 0;
     while (*choices && n < N_CHOICE) {
@@ -87,7 +87,7 @@ static int cut_choices(const char *choices, char word[N_CHOICE][16])
     return n;
 }
 
-static int wrong_choice(const complaint *c, const char *text, char word[N_CHOICE][16], int n)
+static int fail_choice(const message *c, const char *text, char word[N_CHOICE][16], int n)
 {
     char all[160];
     const char *list[N_CHOICE];
@@ -96,15 +96,15 @@ static int wrong_choice(const complaint *c, const char *text, char word[N_CHOICE
         len += (size_t)snprintf(all + len, sizeof all - len, " %s", word[k]);
         list[k] = word[k];
     }
-    return wrong(c, "is \"%.60s\", one of%s is expected, nearest is %s", text, all,
-                 fl_text_nearest(text, list, n));
+    return fail_key(c, "is \"%.60s\", one of%s is expected, nearest is %s", text, all,
+                    fl_text_nearest(text, list, n));
 }
 
-static int read_word(const complaint *c, const char *text, int32_t *out)
+static int read_word(const message *c, const char *text, int32_t *out)
 {
     char word[N_CHOICE][16];
-    const int n = cut_choices(c->key->choices, word);
-    if (strcmp(word[0], "false") == 0) { /* a switch: the manual writes 0 and 1 */
+    const int n = split_choices(c->key->choices, word);
+    if (strcmp(word[0], "false") == 0) { /* a switch; the manual writes 0 and 1 */
         if (!strcmp(text, "0") || !strcmp(text, "no") || !strcmp(text, "off")) text = "false";
         if (!strcmp(text, "1") || !strcmp(text, "yes") || !strcmp(text, "on")) text = "true";
     }
@@ -113,11 +113,11 @@ static int read_word(const complaint *c, const char *text, int32_t *out)
             *out = k;
             return 0;
         }
-    return wrong_choice(c, text, word, n);
+    return fail_choice(c, text, word, n);
 }
 
-/* One word for all three, or three. */
-static int read_words(const complaint *c, const char *text, int32_t out[3])
+/* One word for x, y and z, or three words. */
+static int read_words(const message *c, const char *text, int32_t out[3])
 {
     char copy[LINE_COPY], *save = NULL;
     int32_t got[3] = {0};
@@ -129,12 +129,12 @@ static int read_words(const complaint *c, const char *text, int32_t out[3])
         if (read_word(c, t, &got[n++])) return -1;
     }
     if (n != 1 && n != 3)
-        return wrong(c, "is \"%.60s\", one word or three, for x, y and z, are expected", text);
+        return fail_key(c, "is \"%.60s\", one word or three, for x, y and z, are expected", text);
     for (int k = 0; k < 3; k++) out[k] = got[n == 1 ? 0 : k];
     return 0;
 }
 
-/* Length of the number at the start of s, 0 when there is none. */
+/* Length of the number at the start of s, 0 if there is none. */
 static size_t number_length(const char *s)
 {
     size_t k = s[0] == '+' || s[0] == '-', digits, tail;
@@ -154,119 +154,120 @@ static size_t number_length(const char *s)
     return k;
 }
 
-static int wrong_number(const complaint *c, const char *text)
+static int fail_number(const message *c, const char *text)
 {
     const fl_key *key = c->key;
     const char *count = key->type == FL_VALUE_F64 ? "a number"
-                        : key->lone               ? "one number or three"
+                        : key->single             ? "one number or three"
                                                   : "three numbers";
-    const char *were = key->type == FL_VALUE_F64 ? "was" : "were";
+    const char *are = key->type == FL_VALUE_F64 ? "is" : "are";
     char list[100];
     if (strchr(text, ','))
-        return wrong(c, "is \"%.60s\", a decimal point and blanks are expected, not a comma", text);
-    if (key->unit == FL_UNIT_ONE) return wrong(c, "is \"%.60s\", %s %s wanted", text, count, were);
-    return wrong(c, "is \"%.60s\", %s in %s %s wanted (units: %s)", text, count, fl_unit_si(key->unit), were,
-                 fl_unit_list(key->unit, list, sizeof list));
+        return fail_key(c, "is \"%.60s\", a decimal point and blanks are expected, not a comma", text);
+    if (key->unit == FL_UNIT_ONE) return fail_key(c, "is \"%.60s\", %s %s expected", text, count, are);
+    return fail_key(c, "is \"%.60s\", %s in %s %s expected (units: %s)", text, count, fl_unit_si(key->unit),
+                    are, fl_unit_list(key->unit, list, sizeof list));
 }
 
-/* Give the numbers x[from .. n) the unit they wait for. */
-static int apply_unit(const complaint *c, const char *unit, double *x, const int *special, int from, int n)
+/* Convert the numbers x[from .. n) from the unit to SI. */
+static int apply_unit(const message *c, const char *unit, double *x, const int *special, int from, int n)
 {
     const enum fl_unit_kind kind = c->key->unit;
     char list[100];
     for (int k = from; k < n; k++)
         if (!special[k] && fl_unit_convert(kind, unit, &x[k]))
-            return wrong(c, "has the unit \"%.20s\", %s%s is expected", unit,
-                         kind == FL_UNIT_ONE ? "none or " : "one of ", fl_unit_list(kind, list, sizeof list));
+            return fail_key(c, "has the unit \"%.20s\", %s%s is expected", unit,
+                            kind == FL_UNIT_ONE ? "none or " : "one of ",
+                            fl_unit_list(kind, list, sizeof list));
     return 0;
 }
 
-/* Numbers with units: a unit holds for the numbers before it that have none yet, "1 2 3 mm", "-5m 0 2 km".
- * Returns how many numbers, or -1. */
-static int read_numbers(const complaint *c, const char *text, double *x)
+/* Parse numbers with units.  A unit applies to the preceding numbers without a unit: "1 2 3 mm", "-5m 0 2
+ * km". Returns the count of numbers, or -1. */
+static int read_numbers(const message *c, const char *text, double *x)
 {
     const fl_key *key = c->key;
     const int want = key->type == FL_VALUE_F64 ? 1 : 3;
     char copy[LINE_COPY], *save = NULL;
-    int n = 0, bare = 0, special[3] = {0}; /* bare: first number that has no unit yet */
-    if (strlen(text) >= sizeof copy || strchr(text, ',')) return wrong_number(c, text);
+    int n = 0, bare = 0, special[3] = {0}; /* bare: first number without a unit */
+    if (strlen(text) >= sizeof copy || strchr(text, ',')) return fail_number(c, text);
     memcpy(copy, text, strlen(text) + 1);
     for (char *t = strtok_r(copy, " \t", &save); t; t = strtok_r(NULL, " \t", &save)) {
         const size_t len = number_length(t);
         char unit[LINE_COPY], *end;
         if (len == 0 && key->special && strcmp(t, key->special) == 0) {
-            if (n == want) return wrong_number(c, text);
+            if (n == want) return fail_number(c, text);
             special[n] = 1;
-            x[n++] = key->value;
+            x[n++] = key->special_value;
             continue;
         }
         snprintf(unit, sizeof unit, "%s", t + len);
         if (len) {
-            if (n == want) return wrong_number(c, text);
+            if (n == want) return fail_number(c, text);
             x[n] = strtod(t, &end) + 0.0; /* -0 becomes 0, as it prints */
-            if (end < t + len || !isfinite(x[n])) return wrong_number(c, text);
+            if (end < t + len || !isfinite(x[n])) return fail_number(c, text);
             n++;
-        } else if (bare == n) { /* no number waits for this word */
-            return wrong_number(c, text);
+        } else if (bare == n) { /* there is no number for this unit */
+            return fail_number(c, text);
         }
         if (unit[0]) {
             if (apply_unit(c, unit, x, special, bare, n)) return -1;
             bare = n;
         }
     }
-    if (n != want && !(n == 1 && key->lone)) return wrong_number(c, text);
+    if (n != want && !(n == 1 && key->single)) return fail_number(c, text);
     for (int k = 0; k < n; k++) {
         if (special[k]) continue;
-        if (!isfinite(x[k])) return wrong_number(c, text);
-        if (want == 1 && !in_range(key, x[k])) return out_of_range(c, text);
+        if (!isfinite(x[k])) return fail_number(c, text);
+        if (want == 1 && !is_in_range(key, x[k])) return fail_range(c, text);
     }
     return n;
 }
 
-static int read_f64(const complaint *c, const char *text, double *out)
+static int read_f64(const message *c, const char *text, double *out)
 {
     double x[3];
     if (read_numbers(c, text, x) < 0) return -1;
     if (c->key->choices) {
         char word[N_CHOICE][16];
-        int hit = 0;
-        const int n = cut_choices(c->key->choices, word);
-        for (int k = 0; k < n; k++) hit |= strtod(word[k], NULL) == x[0];
-        if (!hit) return wrong_choice(c, text, word, n);
+        int found = 0;
+        const int n = split_choices(c->key->choices, word);
+        for (int k = 0; k < n; k++) found |= strtod(word[k], NULL) == x[0];
+        if (!found) return fail_choice(c, text, word, n);
     }
     *out = x[0];
     return 0;
 }
 
-static int read_vec3(const complaint *c, const char *text, fl_vec3 *out)
+static int read_vec3(const message *c, const char *text, fl_vec3 *out)
 {
     double x[3];
     const int n = read_numbers(c, text, x);
     if (n < 0) return -1;
     if (n == 3) *out = v3(x[0], x[1], x[2]);
-    else if (c->key->lone == FL_SINGLE_X) *out = v3(x[0], 0, 0);
-    else if (c->key->lone == FL_SINGLE_ALL) *out = v3(x[0], x[0], x[0]);
+    else if (c->key->single == FL_SINGLE_X) *out = v3(x[0], 0, 0);
+    else if (c->key->single == FL_SINGLE_ALL) *out = v3(x[0], x[0], x[0]);
     else if (x[0] >= 0.0) *out = v3(0, 0, 0.0 - x[0]); /* 0 of 0 */
     else
-        return wrong(c,
-                     "is %.60s: one number is the size of a downward vector and cannot be negative, three "
-                     "give another direction",
-                     text);
+        return fail_key(c,
+                        "is %.60s: one number is the size of a downward vector and cannot be negative, three "
+                        "give another direction",
+                        text);
     return 0;
 }
 
-static int read_i32(const complaint *c, const char *text, int32_t *out)
+static int read_i32(const message *c, const char *text, int32_t *out)
 {
     double lo, hi;
     int lo_in, hi_in;
-    interval(c->key->range, &lo, &hi, &lo_in, &hi_in);
-    if (c->key->special && strcmp(text, c->key->special) == 0) *out = (int32_t)c->key->value;
+    parse_interval(c->key->range, &lo, &hi, &lo_in, &hi_in);
+    if (c->key->special && strcmp(text, c->key->special) == 0) *out = (int32_t)c->key->special_value;
     else if (fl_number_i32(text, (int32_t)lo, (int32_t)hi, out))
-        return wrong(c, "is \"%.60s\", a whole number from %d to %d is expected", text, (int)lo, (int)hi);
+        return fail_key(c, "is \"%.60s\", a whole number from %d to %d is expected", text, (int)lo, (int)hi);
     return 0;
 }
 
-static int read_fixed(const complaint *c, const char *text, uint32_t *out)
+static int read_fixed(const message *c, const char *text, uint32_t *out)
 {
     char copy[LINE_COPY], *save = NULL;
     uint32_t bits = 0;
@@ -282,26 +283,26 @@ static int read_fixed(const complaint *c, const char *text, uint32_t *out)
         bad = k == N_FIX || (bits >> k & 1u);
         if (!bad) bits |= 1u << k;
     }
-    if (bad) return wrong(c, "is \"%.60s\", none or some of x y z rx ry rz, each once, is expected", text);
+    if (bad) return fail_key(c, "is \"%.60s\", none or some of x y z rx ry rz, each once, is expected", text);
     *out = bits;
     return 0;
 }
 
-static int read_name(const complaint *c, const char *text, char *out)
+static int read_name(const message *c, const char *text, char *out)
 {
     if (c->key->special && strcmp(text, c->key->special) == 0) {
         out[0] = '\0';
         return 0;
     }
     if (!fl_value_is_name(text))
-        return wrong(c,
-                     "is \"%.60s\", a name of letters, digits, _ + - and at most %d characters is expected",
-                     text, FL_SCENE_NAME - 1);
+        return fail_key(
+            c, "is \"%.60s\", a name of letters, digits, _ + - and at most %d characters is expected", text,
+            FL_SCENE_NAME - 1);
     memcpy(out, text, strlen(text) + 1);
     return 0;
 }
 
-static int read_path(const complaint *c, const char *text, const char *folder, char *out)
+static int read_path(const message *c, const char *text, const char *folder, char *out)
 {
     const char *joint = "";
     if (strcmp(text, c->key->special) == 0) {
@@ -310,13 +311,14 @@ static int read_path(const complaint *c, const char *text, const char *folder, c
     }
     for (const char *p = text; *p; p++)
         if (iscntrl((unsigned char)*p) || ((*p == '#' || *p == ';') && (p == text || p[-1] == ' ')))
-            return wrong(c, "is \"%.60s\", a path without control characters and comments is expected", text);
+            return fail_key(c, "is \"%.60s\", a path without control characters and comments is expected",
+                            text);
     if (text[0] == '/' || strcmp(text, "-") == 0) folder = "";
     else if (folder[0] && folder[strlen(folder) - 1] != '/') joint = "/";
     char path[FL_SCENE_PATH];
     const int n = snprintf(path, sizeof path, "%s%s%s", folder, joint, text);
     if (n >= FL_SCENE_PATH)
-        return wrong(c, "is a path of %d characters, at most %d are expected", n, FL_SCENE_PATH - 1);
+        return fail_key(c, "is a path of %d characters, at most %d are expected", n, FL_SCENE_PATH - 1);
     memcpy(out, path, (size_t)n + 1);
     return 0;
 }
@@ -331,9 +333,9 @@ int fl_value_is_name(const char *s)
 int fl_value_read(const fl_key *key, const char *text, const char *folder, void *section, char *why,
                   size_t why_size)
 {
-    const complaint c = {key, why, why_size};
-    void *at = (char *)section + key->at;
-    if (text[0] == '\0') return wrong(&c, "has no value");
+    const message c = {key, why, why_size};
+    void *at = (char *)section + key->offset;
+    if (text[0] == '\0') return fail_key(&c, "has no value");
     switch (key->type) {
     case FL_VALUE_F64: return read_f64(&c, text, at);
     case FL_VALUE_VEC3: return read_vec3(&c, text, at);
@@ -350,13 +352,13 @@ int fl_value_read(const fl_key *key, const char *text, const char *folder, void 
 static int number_text(const fl_key *key, double x, char *buf, size_t size)
 {
     char num[FL_NUMBER_LEN];
-    if (key->special && x == key->value) return snprintf(buf, size, "%s", key->special);
+    if (key->special && x == key->special_value) return snprintf(buf, size, "%s", key->special);
     return snprintf(buf, size, "%s", fl_number_text(x, num));
 }
 
 char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TEXT])
 {
-    const void *at = (const char *)section + key->at;
+    const void *at = (const char *)section + key->offset;
     const char *si = fl_unit_si(key->unit);
     char word[N_CHOICE][16];
     int len = 0, all_special = 0;
@@ -372,22 +374,23 @@ char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TE
         for (int k = 0; k < (key->type == FL_VALUE_F64 ? 1 : 3); k++) {
             if (k) buf[len++] = ' ';
             len += number_text(key, x[k], buf + len, FL_VALUE_TEXT - (size_t)len);
-            all_special = all_special && x[k] == key->value;
+            all_special = all_special && x[k] == key->special_value;
         }
         if (si[0] && !all_special) snprintf(buf + len, FL_VALUE_TEXT - (size_t)len, " %s", si);
         break;
     case FL_VALUE_I32:
         memcpy(&i, at, sizeof i);
-        if (key->special && i == (int32_t)key->value) snprintf(buf, FL_VALUE_TEXT, "%s", key->special);
+        if (key->special && i == (int32_t)key->special_value)
+            snprintf(buf, FL_VALUE_TEXT, "%s", key->special);
         else snprintf(buf, FL_VALUE_TEXT, "%d", i);
         break;
     case FL_VALUE_WORD:
         memcpy(&i, at, sizeof i);
-        if (i >= 0 && i < cut_choices(key->choices, word)) snprintf(buf, FL_VALUE_TEXT, "%s", word[i]);
+        if (i >= 0 && i < split_choices(key->choices, word)) snprintf(buf, FL_VALUE_TEXT, "%s", word[i]);
         break;
     case FL_VALUE_WORDS:
         memcpy(three, at, sizeof three);
-        cut_choices(key->choices, word);
+        split_choices(key->choices, word);
         for (int k = 0; k < (three[0] == three[1] && three[1] == three[2] ? 1 : 3); k++)
             len += snprintf(buf + len, FL_VALUE_TEXT - (size_t)len, "%s%s", k ? " " : "", word[three[k]]);
         break;
@@ -414,13 +417,13 @@ void fl_value_copy(const fl_key *key, void *to, const void *from)
                                   [FL_VALUE_I32] = sizeof(int32_t),       [FL_VALUE_WORD] = sizeof(int32_t),
                                   [FL_VALUE_WORDS] = 3 * sizeof(int32_t), [FL_VALUE_FIXED] = sizeof(uint32_t),
                                   [FL_VALUE_NAME] = FL_SCENE_NAME,        [FL_VALUE_PATH] = FL_SCENE_PATH};
-    memmove((char *)to + key->at, (const char *)from + key->at, size[key->type]);
+    memmove((char *)to + key->offset, (const char *)from + key->offset, size[key->type]);
 }
 
 int fl_value_is_special(const fl_key *key, const void *section)
 {
     double x;
     if (key->type != FL_VALUE_F64 || !key->special) return 0;
-    memcpy(&x, (const char *)section + key->at, sizeof x);
-    return x == key->value;
+    memcpy(&x, (const char *)section + key->offset, sizeof x);
+    return x == key->special_value;
 }

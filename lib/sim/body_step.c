@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "body/integrate.h"
 #include "sim/body_step.h"
+#include "body/integrate.h"
+#include "contact/bond_list.h"
 #include "sphere/contact_force.h"
 #include "sphere/contact_list.h"
-#include "contact/bond_list.h"
 #include "sphere/wall_contact.h"
 #include "world/access.h"
 
-/* What the spring of a driven floe pulls it down with [N]. */
+/* Downward force of the heave spring of driven floe i [N]. */
 static double spring_force(const fl_world *w, int32_t i)
 {
     double drawn = 0.0;
@@ -15,7 +15,6 @@ static double spring_force(const fl_world *w, int32_t i)
     return k * drawn;
 }
 
-/* In waves the work of the water is booked with the kick that it gives. */
 void fl_body_kick(fl_world *w, int32_t k, double h)
 {
     const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
@@ -42,8 +41,8 @@ void fl_body_external_force(fl_world *w, int32_t k)
 int fl_body_contact_force(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
-    fl_contact_sum *sink = fl_sums_now(w, k);
-    if (sink->contacts) *sink = (fl_contact_sum){0};
+    fl_contact_sum *sum = fl_sums_now(w, k);
+    if (sum->contacts) *sum = (fl_contact_sum){0};
     if (w->spheres.bodies && k < w->n) fl_sphere_add_forces(w, k, &b->f[k], &b->t[k]);
     if (w->spheres.walls && k >= w->n + w->pieces) fl_wall_add_forces(w, k, &b->f[k], &b->t[k]);
     for (int64_t c = w->first_pair_of_body[k]; c < w->first_pair_of_body[k + 1]; c++) {
@@ -51,10 +50,10 @@ int fl_body_contact_force(fl_world *w, int32_t k)
         const fl_pair *p = w->pair[w->pairs_of_body[c]].contact;
         b->f[k] = v3_madd(b->f[k], p->i == k ? 1.0 : -1.0, p->force);
         b->t[k] = v3_add(b->t[k], p->i == k ? p->torque_i : p->torque_j);
-        fl_contact_sum_add(sink, p, p->i == k);
+        fl_contact_sum_add(sum, p, p->i == k);
     }
-    if (fl_body_has_bonds(w, k)) fl_bond_list_add_forces(w, k, &b->f[k], &b->t[k], sink);
-    return sink->contacts != 0;
+    if (fl_body_has_bonds(w, k)) fl_bond_list_add_forces(w, k, &b->f[k], &b->t[k], sum);
+    return sum->contacts != 0;
 }
 
 void fl_body_sum_forces(fl_world *w, int32_t k)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sim/setup.h"
 #include "sim/companion_run.h"
-#include "base/fast_math.h"
 #include "base/array.h"
-#include "out/state_io.h"
+#include "base/fast_math.h"
 #include "contact/panel_load.h"
+#include "out/state_io.h"
+#include "sim/setup.h"
 #include "sim/step.h"
 #include "world/access.h"
 
@@ -27,8 +27,8 @@ void fl_companion_free(fl_companion *s)
     *s = (fl_companion){0};
 }
 
-/* What the parts of w have borne in a row comes to what they had. */
-static void bear(fl_total_load *all, const fl_world *w)
+/* Add the loads of a row on the parts of w. */
+static void add_loads(fl_total_load *all, const fl_world *w)
 {
     for (int32_t p = 0; p < w->parts; p++) {
         all[p].impulse = v3_add(all[p].impulse, w->part_impulse[p]);
@@ -37,36 +37,37 @@ static void bear(fl_total_load *all, const fl_world *w)
     }
 }
 
-/* What r tells: |r^p - 1|. */
-static double telling(double ratio, double p) { return fabs(fl_pow(ratio, p) - 1.0); }
+/* |r^p - 1| */
+static double error_factor(double ratio, double p) { return fabs(fl_pow(ratio, p) - 1.0); }
 
 double fl_companion_difference(const fl_companion *s, int32_t of)
 {
-    double apart = 0.0, size = 0.0;
+    double difference = 0.0, size = 0.0;
     for (int32_t p = 0; p < s->world.parts; p++) {
         const fl_vec3 a = fl_load_component(of, s->run_load[p]);
-        apart += v3_norm(v3_sub(fl_load_component(of, s->own_load[p]), a));
+        difference += v3_norm(v3_sub(fl_load_component(of, s->own_load[p]), a));
         size += v3_norm(a);
     }
-    return size > 0.0 ? apart / size : 0.0;
+    return size > 0.0 ? difference / size : 0.0;
 }
 
-double fl_companion_error(const fl_companion *s, double apart, double p)
+double fl_companion_error(const fl_companion *s, double difference, double p)
 {
-    return s->step_ratio > 0.0 ? apart / telling(s->step_ratio, p) : 0.0;
+    return s->step_ratio > 0.0 ? difference / error_factor(s->step_ratio, p) : 0.0;
 }
 
-/* A row has ended, with r = ratio. */
-static void compare(fl_companion *s, const fl_world *w, double ratio, int32_t of, double goal, double p)
+/* Compare the loads at the end of a row with r = ratio. */
+static void compare_row(fl_companion *s, const fl_world *w, double ratio, int32_t of, double goal, double p)
 {
     fl_world *o = &s->world;
-    bear(s->run_load, w), bear(s->own_load, o);
+    add_loads(s->run_load, w), add_loads(s->own_load, o);
     for (int32_t k = 0; k < o->parts; k++) {
         o->part_impulse[k] = o->part_moment[k] = v3(0, 0, 0);
         o->part_peak[k] = 0.0;
     }
-    if (o->panel_load.panels) fl_panels_end_interval(o), fl_events_end_interval(o); /* nobody writes them */
-    if (!(s->step_ratio > 0.0) || telling(ratio, p) < telling(s->step_ratio, p)) s->step_ratio = ratio;
+    if (o->panel_load.panels) fl_panels_end_interval(o), fl_events_end_interval(o); /* not written */
+    if (!(s->step_ratio > 0.0) || error_factor(ratio, p) < error_factor(s->step_ratio, p))
+        s->step_ratio = ratio;
     s->last_row_time = fl_world_time(w);
     if (fl_companion_error(s, fl_companion_difference(s, of), p) <= FL_COMPANION_TOLERANCE * goal)
         s->exceeded_since = -1.0;
@@ -93,7 +94,7 @@ int fl_companion_follow(fl_companion *s, const fl_world *w, double every, int32_
         return -1;
     }
     if (why.code) s->ended = 1;
-    else if (done == m) compare(s, w, (double)m / (double)n, of, goal, p);
+    else if (done == m) compare_row(s, w, (double)m / (double)n, of, goal, p);
     return 0;
 }
 

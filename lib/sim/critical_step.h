@@ -1,71 +1,83 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* critical_step.h -- how long a step may be: bounds of the critical one before anything touches, and what a step
- * costs in accuracy without a look at any other. */
+/* critical_step.h -- bounds of the stable step before anything touches, the automatic step, and estimates
+ * of the error of a step without another run.
+ *
+ * Symbols: 2/omega critical step of an undamped contact; D = chi v_impact damping of a contact; a contact
+ * is "late" if its damping uses the velocity of half a step ago: laws other than `patch`, spheres in
+ * concave edges, contacts with movers that have free directions.  Numbers S.. and E.. are rows of the
+ * verify programs. */
 #ifndef FL_SIM_CRITICAL_STEP_H
 #define FL_SIM_CRITICAL_STEP_H
 #include "world/world.h"
 
-/* The automatic step [s], and the body that sets it: safety * 2/omega, omega^2 bounded per body by the
- * stiffest face it can meet, at its most compliant vertex, lowered for damping: to half of what that of one
- * contact leaves, or 0.8 of it where an impact is all that it leaves less for, or to what it leaves where
- * bodies are held between many (S20 to S25 of verify_stable_step_packed, _step).  Under run.error the longest that windows
- * can be trusted at: half of 2/omega, and of what an impact leaves a quarter, or up to 0.8 of it where that
- * is below 0.12 of 2/omega or little is damped.
+/* The automatic step [s]; *body: the body that sets it.
  *
- * All that is of contacts.  Bonds, of which omega^2 has all that a body ever has, keep to safety, to half of
- * what their own dashpots leave, and by run.error to 0.8 of that, half of 2/omega at the most; with c and b
- * the shares that contacts and bonds so keep to and C, B their omega^2,
- *     dt = 2/sqrt(C/c^2 + B/b^2)                                              (S34, S35 of verify_stable_step_packed).
- * So what has broken to rubble takes no longer step than if it had never been frozen together. */
+ * omega^2 of a body is bounded by the stiffest face that it can meet, at its most compliant vertex.  The
+ * step is run.safety times 2/omega, lowered for damping to
+ *     half of the share that damping of one late contact leaves,
+ *     0.8 of the share that an impact leaves (law `patch`),
+ *     the share that damping leaves among many contacts (S20 to S25 of verify_stable_step_packed,
+ *     verify_step).
+ * With run.error it is the longest step at which windows can be trusted: half of 2/omega, and a quarter
+ * of the share that an impact leaves, or up to 0.8 of it where that is below 0.12 of 2/omega or damping
+ * is weak.
+ *
+ * Bonds, whose omega^2 has all bonds that a body ever has, use run.safety and half of the share that
+ * their dashpots leave; with run.error 0.8 of it, at most half of 2/omega.  With c and b the shares of
+ * contacts and bonds and C, B their omega^2,
+ *     dt = 2/sqrt(C/c^2 + B/b^2)                                  (S34, S35 of verify_stable_step_packed).
+ * So rubble needs no shorter step than if it had never been bonded. */
 double fl_automatic_step(const fl_world *w, int32_t *body);
 
-/* What is foreseen: 2/omega [s], c, and by how much 1/dt^2 of fl_automatic_step() is less than if bonds kept to c
- * as well [1/s2], 0 where there are none. */
+/* The predicted limits of the step. */
 typedef struct {
-    double critical, contact_share, bond_relief;
+    double critical;      /* 2/omega [s] */
+    double contact_share; /* c */
+    double
+        bond_relief; /* 1/dt^2 if bonds used c, less 1/dt^2 of fl_automatic_step() [1/s2]; 0 without bonds */
 } fl_predicted_limit;
 fl_predicted_limit fl_predict_step_limit(const fl_world *w);
 
-/* The longest step where 2/omega is seen to be that, what is stiffer than foreseen being contacts: without
- * bonds c times as much.  INFINITY: nothing is, and it is fl_automatic_step() that bounds the step. */
+/* The longest step if the smallest 2/omega seen in a run is `seen` [s]: contacts are stiffer than
+ * predicted; c times that without bonds.  INFINITY if it is not below the prediction: fl_automatic_step()
+ * limits then. */
 double fl_longest_step(const fl_predicted_limit *f, double seen);
 
-/* What it is a part of: 2/omega, without damping [s]. */
+/* 2/omega by prediction, without damping [s]. */
 double fl_critical_step(const fl_world *w);
 
-/* The share of that which the most damping that a contact can have leaves: fl_damping_impact_share(); of what goes
- * by the speed half a step ago sqrt(1 + z^2) - z of its ratio z, what is round and rough across, too. */
+/* The share of 2/omega that the strongest damping of one contact leaves: fl_damping_impact_share(); for late
+ * contacts with damping ratio z it is sqrt(1 + z^2) - z, also tangentially for rough spheres. */
 double fl_damped_share(const fl_world *w);
 
-/* What damping by fl_damping_end_speed() leaves of 2/omega of what does not run into each other, at least, of
- * one contact or many, whatever their damping: 0.70 was found (S08 to S24 of verify_step, _heaps). */
+/* The smallest share of 2/omega that damping by fl_damping_end_speed() leaves to bodies in lasting
+ * contact, one contact or many, for any damping: 0.70 was found (S08 to S24 of verify_step,
+ * verify_stable_step_packed). */
 #define FL_DAMPED_SHARE_MIN 0.7
 
-/* What is left of that where all that is rough is shaken across, standing on its end or an edge, and balls
- * are held between others: of `core`, if damping is strong, 0.55 for boxes and 0.7 for balls; 1 for `patch`,
- * but for balls in grooves and with parts of a structure that move by themselves.  Automatic steps are below
- * it. */
+/* The share of fl_damped_share() that remains for tangential vibration of rough bodies that stand on an
+ * end or an edge, and of spheres between others.  `core` with strong damping: 0.55 for boxes, 0.7 for
+ * spheres.  `patch`: 1, but not for spheres in concave edges or with parts that move freely.  Automatic
+ * steps are below it. */
 double fl_lateral_share(const fl_world *w);
 
-/* Whether the looks that water.every leaves of the waves are enough: a twentieth apart of the shortest period
- * of any body in heave, roll and pitch, and of the waves that 95 % of the energy is in, which w->dt has to be
- * known for.  What is carried on between looks (environment.h) then is off by 0.04 of itself, and grows by 0.005 e
- * omega.  0, or -1 with FL_INPUT. */
+/* Check that water.every samples the waves often enough: 20 times in the shortest period of any body in
+ * heave, roll and pitch, and of the waves with 95 % of the energy.  Needs w->dt.  The extrapolation
+ * between samples (environment.h) then is off by 0.04 of itself, and grows by 0.005 e omega.  0, or -1
+ * with FL_INPUT. */
 int fl_check_wave_sampling(const fl_world *w, fl_err *err);
 
-/* What steps of dt are off by, without a look at any other step; 0 before the first contact.  With r = dt
- * over the smallest critical step of contacts alone that was seen
- *     peak of a hit   0.35 D r/(1 + D/2) + min(0.15 + 0.2 D'^2, 0.95) r^2,
- *     impulse         1.5 r^2 at the most, and no more than 0.3 r; where D > 0 that.
- * A half-wave seen at intervals of dt is low by up to (omega dt/2)^2/2, and damping and friction are of order
- * 2 as well; D' = chi v_impact is that of the most damped contacts.  D is that of those for which they are
- * not: balls in grooves and other laws go by the speed half a step ago, and in a spring that is struck this
- * differs by up to omega v dt/2 = r v, a share D r of the force where D is small.  So do bonds, but what they
- * are stiffer than contacts moves along with the blow: of their D the part that r is of dt over the critical
- * step of all counts.  When bonds end is not in it.  The numbers are fitted to the 20 scenes of
- * verify_budget.  Of the impulse it is a bound: it was off by 0.6 r^2 where friction decided on the way, and
- * by 1e-7 r^2 where all came to rest.
- */
+/* Estimated relative error of steps of w->dt, without another run; 0 before the first contact.  With r =
+ * dt over the smallest critical step of contacts alone seen so far
+ *     peak of an impact   0.35 D r/(1 + D/2) + min(0.15 + 0.2 D'^2, 0.95) r^2,
+ *     impulse             at most min(1.5 r^2, 0.3 r); 0.3 r if D > 0.
+ * A half wave sampled at intervals dt is low by up to (omega dt/2)^2/2; damping and friction are of order
+ * 2, too. D' is that of the most damped contacts.  D is that of the most damped late contacts, of order
+ * 1: half a step changes the velocity by up to omega v dt/2 = r v, a share D r of the force for small D.
+ * Bonds are late, too; of their D the fraction r/(dt over the critical step of all) counts, as what bonds
+ * are stiffer than contacts moves with the impact.  The error of the time at which bonds fail is not
+ * included. The numbers are fitted to the 20 scenes of verify_budget.  The impulse is a bound: errors
+ * were 0.6 r^2 where friction decided, 1e-7 r^2 where all came to rest. */
 double fl_peak_error(const fl_world *w);
 double fl_impulse_error(const fl_world *w);
 

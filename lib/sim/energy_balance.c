@@ -1,17 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/energy_balance.h"
 #include <math.h>
 #include "base/parallel.h"
 #include "body/integrate.h"
-#include "sim/energy_balance.h"
-#include "sphere/contact_list.h"
 #include "contact/bond_list.h"
-#include "sim/moving_structure.h"
 #include "sim/energy_ledger.h"
+#include "sim/moving_structure.h"
+#include "sphere/contact_list.h"
+#include "water/force_table.h"
 #include "world/access.h"
 
-/* A residual of no more than this of what is stored may be rounding: that of sums over thousands of floes and
- * steps, each 1e-16 of them. */
+/* A residual up to this share of the stored energy may be rounding: sums over thousands of floes and steps,
+ * each off by 1e-16. */
 #define ROUNDING 1e-12
+
+enum { MOVING = 1, WAVES = 2, BONDS = 4 };
+
+static const fl_column COLUMNS[] = {
+    {"kinetic", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, kinetic)},
+    {"gravity", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, gravity)},
+    {"elastic", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, elastic)},
+    {"hydrostatic", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, hydrostatic)},
+    {"friction", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, friction_now)},
+    {"damping", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, damping_now)},
+    {"drag", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, drag)},
+    {"wind", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, wind)},
+    {"drive", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, drive_now)},
+    {"carried", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, carried)},
+    {"residual", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, residual)},
+    {"structure", "J", FL_COLUMN_REAL, MOVING, offsetof(fl_ledger, structure)},
+    {"spring", "J", FL_COLUMN_REAL, MOVING, offsetof(fl_ledger, spring)},
+    {"damper", "J", FL_COLUMN_REAL, MOVING, offsetof(fl_ledger, damper)},
+    {"waves", "J", FL_COLUMN_REAL, WAVES, offsetof(fl_ledger, waves)},
+    {"bond", "J", FL_COLUMN_REAL, BONDS, offsetof(fl_ledger, bond)},
+    {"fracture", "J", FL_COLUMN_REAL, BONDS, offsetof(fl_ledger, fracture)},
+};
+const fl_table_format fl_energy_table = {"energy", FL_TABLE_COLUMNS(COLUMNS)};
+
+unsigned fl_energy_table_options(const fl_world *w)
+{
+    return (fl_structure_moves_freely(w) ? MOVING : 0u) | (w->sea.waves ? WAVES : 0u) |
+           (w->bonds.n ? BONDS : 0u);
+}
 
 double fl_energy_stored(const fl_world *w)
 {
@@ -22,8 +52,8 @@ double fl_energy_stored(const fl_world *w)
 
 double fl_energy_error(const fl_world *w)
 {
-    const double off = fabs(w->ledger.residual), share = off / w->ledger.throughput;
-    return !(share <= FL_ENERGY_ERROR_USABLE) && off <= ROUNDING * fl_energy_stored(w) ? 0.0 : share;
+    const double residual = fabs(w->ledger.residual), share = residual / w->ledger.throughput;
+    return !(share <= FL_ENERGY_ERROR_USABLE) && residual <= ROUNDING * fl_energy_stored(w) ? 0.0 : share;
 }
 
 int fl_energy_unbalanced(const fl_world *w)
@@ -33,9 +63,8 @@ int fl_energy_unbalanced(const fl_world *w)
     return fl_energy_error(w) > FL_ENERGY_ERROR_USABLE && fabs(g->residual) > FL_ENERGY_ERROR_USABLE * scale;
 }
 
-/* Overlaps past half the radii are deeper than any law is meant for, but as long as the books balance the run
- * may go on: bodies that were put into one another come apart so.  It ends when the residual says that
- * energy is being made. */
+/* No law is meant for overlaps above half of the radii.  The run continues as long as the energy balances:
+ * bodies that overlap at the start separate in this way. */
 int fl_energy_check(fl_world *w, fl_err *err)
 {
     const fl_ledger *g = &w->ledger;
@@ -47,8 +76,8 @@ int fl_energy_check(fl_world *w, fl_err *err)
     if (!w->deep_overlap_steps || !(g->residual > FL_ENERGY_ERROR_USABLE * scale)) return 0;
     return fl_fail(
         err, FL_NUMERIC,
-        "body %d and %d: they overlapped by more than half of their radii at t = %g s, and energy is "
-        "being made, %.3g J of %.3g J, in step %lld (t = %g s); set a smaller run.dt or stiffer contacts",
+        "body %d and %d: they overlapped by more than half of their radii at t = %g s, and the contacts "
+        "create energy, %.3g J of %.3g J, in step %lld (t = %g s); set a smaller run.dt or stiffer contacts",
         w->deep_overlap_i, w->deep_overlap_j, w->deep_overlap_time, g->residual, scale, (long long)w->step,
         fl_world_time(w));
 }
@@ -57,44 +86,39 @@ void fl_energy_update(fl_world *w)
 {
     const fl_bodies *b = &w->b;
     fl_ledger *g = &w->ledger;
-    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, hydro = 0.0, drag = 0.0, wind = 0.0,
-           held = 0.0, waves = 0.0;
-    const fl_work lies_ahead = fl_work_ahead(w);
+    double kinetic = 0.0, gravity = 0.0, elastic = 0.0, spring = 0.0, constraint = 0.0,
+           water[FL_FORCE_LEDGERS] = {0.0};
+    const fl_work ahead = fl_work_ahead(w);
     for (int32_t i = 0; i < w->n; i++) {
-        const int there = !fl_body_absent(w, i);
-        if (there) kinetic += fl_body_kinetic_energy(b, i);
-        if (there) gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
-        held += b->work_of_constraints[i];
-        if (w->driven_floes.n && there) {
-            double drawn = 0.0;
-            const double k = fl_driven_floe_spring(w, i, &drawn);
-            elastic += 0.5 * k * drawn * drawn;
+        const int present = !fl_body_absent(w, i);
+        if (present) kinetic += fl_body_kinetic_energy(b, i);
+        if (present) gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
+        constraint += b->work_of_constraints[i];
+        if (w->driven_floes.n && present) {
+            double extension = 0.0;
+            const double k = fl_driven_floe_spring(w, i, &extension);
+            elastic += 0.5 * k * extension * extension;
         }
-        if (b->added_mass) drag -= b->flow_work[i];
-        if (w->sea.n) {
-            if (w->sea.water && !w->sea.waves && there) hydro += fl_environment_energy(&w->sea, b, i);
-            drag += w->sea.drag_loss[i];
-            if (w->sea.wind_work) wind += w->sea.wind_work[i];
-            if (w->sea.waves) waves += w->sea.water_work[i];
-        }
+        if (w->sea.n) fl_environment_add_energy(&w->sea, b, i, present, water);
     }
+    const double hydro = water[FL_FORCE_HYDROSTATIC], drag = water[FL_FORCE_DRAG],
+                 wind = water[FL_FORCE_WIND], waves = water[FL_FORCE_WAVES];
     for (int32_t c = 0; c < w->n_touching; c++) {
         const fl_pair *p = w->pair[w->touching_pairs[c]].contact;
         elastic += p->energy;
         spring += p->spring_energy;
     }
     if (w->spheres.bodies) fl_contact_list_energy(w, &elastic, &spring);
-    const fl_bond_energies frozen = fl_bond_list_energies(w);
-    g->bond = frozen.store;
-    g->fracture = frozen.spent;
-    spring += frozen.spring - frozen.transferred;
+    const fl_bond_energies bonds = fl_bond_list_energies(w);
+    g->bond = bonds.store;
+    g->fracture = bonds.spent;
+    spring += bonds.spring - bonds.transferred;
     g->kinetic = kinetic;
     g->gravity = gravity;
     g->elastic = elastic;
     g->hydrostatic = hydro;
-    g->damping_now = g->damping - lies_ahead.damping;
-    g->friction_now =
-        g->friction - lies_ahead.friction - spring; /* what the springs hold can still come back */
+    g->damping_now = g->damping - ahead.damping;
+    g->friction_now = g->friction - ahead.friction - spring; /* the friction springs can give it back */
     g->drag = drag;
     g->wind = wind;
     g->waves = waves;
@@ -103,16 +127,17 @@ void fl_energy_update(fl_world *w)
         g->structure = r.kinetic;
         g->spring = r.spring;
         g->damper = r.damper_work;
-        held += r.drive_work;
+        constraint += r.drive_work;
     }
-    const double drive = g->drive - lies_ahead.drive + held;
+    const double drive = g->drive - ahead.drive + constraint;
     g->drive_now = drive;
     g->residual = kinetic + gravity + elastic + hydro + g->structure + g->spring + g->bond + g->fracture -
                   g->start + g->damping_now + g->friction_now + drag + g->damper - wind - waves - drive -
                   g->carried;
-    const double through = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
-                           fabs(waves) + fabs(drive) + kinetic + g->damper + g->structure + fabs(g->fracture);
-    if (through > g->throughput) g->throughput = through;
+    const double throughput = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
+                              fabs(waves) + fabs(drive) + kinetic + g->damper + g->structure +
+                              fabs(g->fracture);
+    if (throughput > g->throughput) g->throughput = throughput;
 }
 
 uint64_t fl_state_hash(const fl_world *w)

@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/energy_ledger.h"
 #include <string.h>
 #include "base/array.h"
 #include "body/integrate.h"
 #include "contact/bond_list.h"
-#include "sim/energy_ledger.h"
 
-static double power(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
+static double power_of(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
 
-/* Zeroed room for `want` elements where there is none for n; what is there stays.  -1 when memory runs out.
- */
-static int room(void *array, int32_t *cap, int32_t n, int32_t want, size_t size)
+/* Grow an array to `want` elements if it has fewer than n; the new ones are 0.  -1 if memory runs out. */
+static int grow_zeroed(void *array, int32_t *cap, int32_t n, int32_t want, size_t size)
 {
-    fl_err lost = {0};
+    fl_err unused = {0};
     void *old;
     if (n <= *cap) return 0;
-    void *const fresh = fl_alloc(want, size, &lost);
+    void *const fresh = fl_alloc(want, size, &unused);
     if (!fresh) return -1;
     memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T */
     if (old) memcpy(fresh, old, (size_t)*cap * size);
@@ -24,20 +23,21 @@ static int room(void *array, int32_t *cap, int32_t n, int32_t want, size_t size)
     return 0;
 }
 
-static int grow_gains(fl_world *w, int32_t n, int32_t want)
+static int grow_changes(fl_world *w, int32_t n, int32_t want)
 {
     int32_t had = w->change_cap;
-    return room(&w->predicted_change, &had, n, want, sizeof *w->predicted_change) ||
-                   room(&w->kick_change, &w->change_cap, n, want, sizeof *w->kick_change)
+    return grow_zeroed(&w->predicted_change, &had, n, want, sizeof *w->predicted_change) ||
+                   grow_zeroed(&w->kick_change, &w->change_cap, n, want, sizeof *w->kick_change)
                ? -1
                : 0;
 }
 
-/* Sinks 0 to n, and gains; of some an eighth more, as they come and go. */
-static int more(fl_world *w, fl_contact_sums *s, int32_t n)
+/* Room for the sums 0 to n and the velocity changes; an eighth more where not all bodies have one. */
+static int grow_sums(fl_world *w, fl_contact_sums *s, int32_t n)
 {
     const int32_t want = n < w->b.total ? 1 + n + n / 8 : 1 + n;
-    return room(&s->sum, &s->cap, n + 1, want, sizeof *s->sum) || grow_gains(w, n + 1, want) ? -1 : 0;
+    return grow_zeroed(&s->sum, &s->cap, n + 1, want, sizeof *s->sum) || grow_changes(w, n + 1, want) ? -1
+                                                                                                      : 0;
 }
 
 int fl_contact_sums_make(fl_world *w, fl_err *err)
@@ -46,7 +46,7 @@ int fl_contact_sums_make(fl_world *w, fl_err *err)
     w->contact_sums.slot = fl_alloc(total, sizeof *w->contact_sums.slot, err);
     w->previous_sums.slot = fl_alloc(total, sizeof *w->previous_sums.slot, err);
     if (!w->contact_sums.slot || !w->previous_sums.slot) return -1;
-    return more(w, &w->contact_sums, 0) || more(w, &w->previous_sums, 0)
+    return grow_sums(w, &w->contact_sums, 0) || grow_sums(w, &w->previous_sums, 0)
                ? fl_fail(err, FL_SYSTEM, "out of memory")
                : 0;
 }
@@ -58,36 +58,36 @@ void fl_contact_sums_free(fl_world *w)
     free(w->kick_change), free(w->predicted_change);
 }
 
-/* Those that touch, in their order; not by their pairs, which are far apart in memory.  Few do: eight that do
- * not are passed over at a time. */
-static int32_t place_some(const fl_world *w, int32_t *place)
+/* Number the bodies that touch from 1 on, 0 for all others; returns how many touch.  Few do, so eight that do
+ * not are skipped at a time.  Reading the pairs instead is slower: they are far apart in memory. */
+static int32_t number_touching(const fl_world *w, int32_t *slot)
 {
-    const uint8_t *const met = w->body_touches;
+    const uint8_t *const touches = w->body_touches;
     const int32_t total = w->b.total;
     int32_t n = 0;
     for (int32_t k = 0; k < total;) {
         const int32_t end = k + 8 < total ? k + 8 : total;
         uint64_t eight = 1;
-        if (end == k + 8) memcpy(&eight, &met[k], sizeof eight);
-        if (eight == 0) memset(&place[k], 0, 8 * sizeof *place);
+        if (end == k + 8) memcpy(&eight, &touches[k], sizeof eight);
+        if (eight == 0) memset(&slot[k], 0, 8 * sizeof *slot);
         for (; k < end && eight; k++) {
-            n += met[k];
-            place[k] = met[k] ? n : 0;
+            n += touches[k];
+            slot[k] = touches[k] ? n : 0;
         }
         k = end;
     }
     return n;
 }
 
-static int all_have_one(const fl_world *w) { return w->bonds.n || w->sleep.n_resting; }
+static int needs_all_slots(const fl_world *w) { return w->bonds.n || w->sleep.n_resting; }
 
 void fl_contact_sums_assign(fl_world *w)
 {
     fl_contact_sums *s = &w->contact_sums;
-    const int all = all_have_one(w);
+    const int all = needs_all_slots(w);
     const int32_t total = w->b.total;
     if (all && s->one_each) return;
-    if (more(w, s, all ? total : place_some(w, s->slot))) {
+    if (grow_sums(w, s, all ? total : number_touching(w, s->slot))) {
         memset(s->slot, 0, (size_t)total * sizeof *s->slot);
         w->failed = 1;
         return;
@@ -110,19 +110,18 @@ void fl_contact_sums_recompute(fl_world *w, int32_t k)
     else fl_sums_clear(w, k);
 }
 
-/* The works above of spheres, those of damping and of friction; nothing presses on them but what they meet.
- */
-static void take_balls(const fl_world *w, int32_t k, const fl_velocity_change *first,
-                       const fl_velocity_change *back, fl_work *q)
+/* Add the works on sphere k by its sphere and wall contacts. */
+static void add_sphere_works(const fl_world *w, int32_t k, const fl_velocity_change *first,
+                             const fl_velocity_change *back, fl_work *q)
 {
     const fl_sphere_sum *f0 = &w->spheres.previous_sum[k], *f1 = &w->spheres.sum[k];
     const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
     const double sixth = w->dt / 6.0;
     q->damping -= w->dt * v3_dot(f1->damping, v) +
                   sixth * (v3_dot(f1->damping, first->v) - v3_dot(f0->damping, back->v));
-    q->friction -= w->dt * power(f1->friction, f1->torque, v, spin) +
-                   sixth * (power(f1->friction, f1->torque, first->v, first->w) -
-                            power(f0->friction, f0->torque, back->v, back->w));
+    q->friction -= w->dt * power_of(f1->friction, f1->torque, v, spin) +
+                   sixth * (power_of(f1->friction, f1->torque, first->v, first->w) -
+                            power_of(f0->friction, f0->torque, back->v, back->w));
 }
 
 fl_work fl_work_of_step(const fl_world *w, int32_t k, const fl_velocity_change *first,
@@ -134,23 +133,23 @@ fl_work fl_work_of_step(const fl_world *w, int32_t k, const fl_velocity_change *
     if (!first) first = &none;
     if (f1->contacts) {
         const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-        q.damping -= w->dt * power(f1->damping, f1->damping_torque, v, spin);
-        q.friction -= w->dt * power(f1->friction, f1->friction_torque, v, spin);
+        q.damping -= w->dt * power_of(f1->damping, f1->damping_torque, v, spin);
+        q.friction -= w->dt * power_of(f1->friction, f1->friction_torque, v, spin);
     }
-    /* Where nothing pressed at the begin of the step F0 is 0, and a0 small against what F1 gives. */
+    /* Without contacts at the begin of the step F0 is 0, and a0 is small against the acceleration by F1. */
     if (f0->contacts) {
-        const double sixth = w->dt / 6.0; /* dt^2/12 over the dt/2 in which a kick gains */
-        q.damping -= sixth * (power(f1->damping, f1->damping_torque, first->v, first->w) -
-                              power(f0->damping, f0->damping_torque, back->v, back->w));
-        q.friction -= sixth * (power(f1->friction, f1->friction_torque, first->v, first->w) -
-                               power(f0->friction, f0->friction_torque, back->v, back->w));
+        const double sixth = w->dt / 6.0; /* dt^2/12 over the dt/2 of a kick */
+        q.damping -= sixth * (power_of(f1->damping, f1->damping_torque, first->v, first->w) -
+                              power_of(f0->damping, f0->damping_torque, back->v, back->w));
+        q.friction -= sixth * (power_of(f1->friction, f1->friction_torque, first->v, first->w) -
+                               power_of(f0->friction, f0->friction_torque, back->v, back->w));
     }
-    if (w->spheres.bodies && k < w->n) take_balls(w, k, first, back, &q);
+    if (w->spheres.bodies && k < w->n) add_sphere_works(w, k, first, back, &q);
     return q;
 }
 
-/* Accelerations by the forces of now.  What is told to move has none that would follow a contact. */
-static fl_velocity_change rate_of(const fl_world *w, int32_t k)
+/* Accelerations by the forces of now; 0 for a prescribed motion, which no contact changes. */
+static fl_velocity_change acceleration_of(const fl_world *w, int32_t k)
 {
     fl_velocity_change g = {0};
     if (k < w->n) {
@@ -165,28 +164,28 @@ static fl_velocity_change rate_of(const fl_world *w, int32_t k)
     return g;
 }
 
-static fl_velocity_change gain_of(const fl_world *w, int32_t k)
+static fl_velocity_change change_of(const fl_world *w, int32_t k)
 {
-    const fl_velocity_change g = rate_of(w, k);
+    const fl_velocity_change g = acceleration_of(w, k);
     return (fl_velocity_change){v3_scale(0.5 * w->dt, g.v), v3_scale(0.5 * w->dt, g.w)};
 }
 
 void fl_ledger_begin_step(fl_world *w)
 {
-    const fl_contact_sums was = w->previous_sums;
+    const fl_contact_sums previous = w->previous_sums;
     w->previous_sums = w->contact_sums;
-    w->contact_sums = was;
+    w->contact_sums = previous;
     fl_sphere_sum *sum = w->spheres.previous_sum;
     w->spheres.previous_sum = w->spheres.sum;
     w->spheres.sum = sum;
     memset(w->predicted_change, 0, (size_t)w->change_cap * sizeof *w->predicted_change);
     for (int32_t k = w->n; k < w->b.total && w->moving.movers.n; k++) {
-        fl_velocity_change *const gain = fl_kick_change(w, k);
-        if (gain) *gain = gain_of(w, k);
+        fl_velocity_change *const change = fl_kick_change(w, k);
+        if (change) *change = change_of(w, k);
     }
 }
 
-/* Of what is told to move; what moves by itself has its own books, moving_structure.h. */
+/* Power of the prescribed motions; free motions have their own energies, moving_structure.h. */
 static double drive_power(const fl_world *w)
 {
     double sum = 0.0;
@@ -194,7 +193,7 @@ static double drive_power(const fl_world *w)
     for (int32_t k = 0; k < w->pieces; k++) {
         const int32_t j = w->n + k, m = w->moving.mover_of_piece[k];
         if (m < 0 || w->moving.movers.motion[m].free_dof) continue;
-        sum -= power(w->b.f[j], w->b.t[j], w->b.v[j], w->b.w[j]);
+        sum -= power_of(w->b.f[j], w->b.t[j], w->b.v[j], w->b.w[j]);
     }
     return sum;
 }
@@ -206,7 +205,7 @@ void fl_ledger_book_step(fl_world *w)
     for (int32_t k = 0; k < fl_block_count(w); k++)
         sum.damping += w->blocks[k].damping_work, sum.friction += w->blocks[k].friction_work;
     for (int32_t k = w->n; k < w->b.total && w->moving.movers.n; k++) {
-        const fl_velocity_change back = gain_of(w, k);
+        const fl_velocity_change back = change_of(w, k);
         const fl_work q = fl_work_of_step(w, k, fl_kick_change(w, k), &back);
         sum.damping += q.damping, sum.friction += q.friction;
     }
@@ -221,21 +220,21 @@ fl_work fl_work_ahead(const fl_world *w)
     fl_work sum = {.drive = h * drive_power(w)};
     for (int32_t k = 0; k < w->b.total; k++) {
         const fl_contact_sum *s = fl_sums_now(w, k);
-        const int meets = w->spheres.bodies && k < w->n;
-        if (s->contacts == 0 && !meets) continue;
+        const int has_sphere_sum = w->spheres.bodies && k < w->n;
+        if (s->contacts == 0 && !has_sphere_sum) continue;
         const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-        const fl_velocity_change a = rate_of(w, k);
-        if (meets) {
+        const fl_velocity_change a = acceleration_of(w, k);
+        if (has_sphere_sum) {
             const fl_sphere_sum *q = &w->spheres.sum[k];
             sum.damping -= h * v3_dot(q->damping, v) + sixth * v3_dot(q->damping, a.v);
-            sum.friction -=
-                h * power(q->friction, q->torque, v, spin) + sixth * power(q->friction, q->torque, a.v, a.w);
+            sum.friction -= h * power_of(q->friction, q->torque, v, spin) +
+                            sixth * power_of(q->friction, q->torque, a.v, a.w);
         }
         if (s->contacts == 0) continue;
-        sum.damping -= h * power(s->damping, s->damping_torque, v, spin) +
-                       sixth * power(s->damping, s->damping_torque, a.v, a.w);
-        sum.friction -= h * power(s->friction, s->friction_torque, v, spin) +
-                        sixth * power(s->friction, s->friction_torque, a.v, a.w);
+        sum.damping -= h * power_of(s->damping, s->damping_torque, v, spin) +
+                       sixth * power_of(s->damping, s->damping_torque, a.v, a.w);
+        sum.friction -= h * power_of(s->friction, s->friction_torque, v, spin) +
+                        sixth * power_of(s->friction, s->friction_torque, a.v, a.w);
     }
     return sum;
 }

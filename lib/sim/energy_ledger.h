@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* energy_ledger.h -- what damping and friction take out, and what moves as it is told puts in.
+/* energy_ledger.h -- the works of a step: damping, friction, prescribed motions.
  *
- * With v = (x1 - x-1)/2dt, as kick, drift, kick has it at the ends of steps, x' = v - dt^2 x'''/6, and the
- * sum of dt F.v misses the work of a force F that follows the motion by (omega dt)^2/6 of it, always to the
- * same side.  From the accelerations a at both ends of a step (0, 1), which are known, the work of it is
+ * Kick, drift, kick has the velocity v = (x1 - x-1)/2dt at the ends of steps, which is x' + dt^2 x'''/6.
+ * So the sum of dt F.v misses the work of a force F that follows the motion by (omega dt)^2/6 of it,
+ * always with the same sign.  With the accelerations a at both ends (0, 1) of a step, which are known,
+ * the work is
  *     W = dt/2 (F0.v0 + F1.v1) + dt^2/12 (F1.a0 - F0.a1) - dt^2/6 (F1.a1 - F0.a0),
- * and the same of torques: of order 4 from the begin of a contact to its end.  In between a term
- * -dt^2/12 (F1'.v1 - F0'.v0) is left out, which is gone when the contact is.  Derived from Euler and
- * Maclaurin's sum of F.x' and, by parts, of F.x'''. */
+ * and the same for torques: of order 4 from the begin of a contact to its end.  During a contact a term
+ * -dt^2/12 (F1'.v1 - F0'.v0) is missing, which vanishes when the contact ends. Source: Euler-Maclaurin
+ * sum of F.x' and, by parts, of F.x'''. */
 #ifndef FL_SIM_ENERGY_LEDGER_H
 #define FL_SIM_ENERGY_LEDGER_H
 #include "world/access.h"
@@ -16,33 +17,34 @@ typedef struct {
     double damping, friction, drive; /* [J] */
 } fl_work;
 
-/* Arrays for total things, with nothing in them.  -1 with FL_SYSTEM. */
+/* Allocate the contact sums of all things, empty.  -1 with FL_SYSTEM. */
 int fl_contact_sums_make(fl_world *w, fl_err *err);
 void fl_contact_sums_free(fl_world *w);
 
-/* A sink for each that is of a pair that touches now, w->live; w->failed when memory runs out.  What was in
- * those of now has lost all sense where not all have one. */
+/* Give a slot of w->contact_sums to every thing that touches, by w->body_touches, or to all.  The sums
+ * are then undefined until they are computed, unless all have a slot.  w->failed if memory runs out. */
 void fl_contact_sums_assign(fl_world *w);
 
-/* Sum up what damping and friction do to thing k, over its touching pairs in their order, into its sink. */
+/* Compute the contact sum of thing k over its touching pairs, in their order, and its bonds. */
 void fl_contact_sums_recompute(fl_world *w, int32_t k);
 
-/* Before a step: sink becomes was, so it is with the sums of spheres, and the gains of pieces of a structure
- * that moves by itself are what the first kick will give them. */
+/* Before a step: the sums become those of the step before, also for spheres.  For pieces that move freely the
+ * velocity change of the first kick is stored. */
 void fl_ledger_begin_step(fl_world *w);
 
-/* The works of the step that has ended in thing k: sink acts now and was at its begin, `first` is what its
- * first kick changed, `back` its last, velocities are those of now.  Where nothing pressed at the begin
- * neither is read, and `first` may be NULL; but of spheres both always are, for the sums of their rows. */
+/* Works of damping and friction on thing k in the step that has ended.
+ *   first, back  velocity changes by the first and by the last kick of the step
+ * Without contacts at its begin neither is read, and `first` may be NULL; of a sphere both are always
+ * read. */
 fl_work fl_work_of_step(const fl_world *w, int32_t k, const fl_velocity_change *first,
                         const fl_velocity_change *back);
 
-/* Those of all groups and of what of the structure moves into the ledger, with the half kick that lies ahead.
- */
+/* Add the works of all blocks and of the moving structure to the ledger, with those of the half kick to
+ * come. */
 void fl_ledger_book_step(fl_world *w);
 
-/* What of the booked lies ahead: dt/2 F1.v1, and the last term above for what comes after [J].  Booked less
- * this is what has been done. */
+/* The part of the booked works that is still to come: dt/2 F1.v1 and the last term above.  Booked works less
+ * these are the works done until now. */
 fl_work fl_work_ahead(const fl_world *w);
 
 #endif

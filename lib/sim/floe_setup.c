@@ -1,31 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/floe_setup.h"
 #include <math.h>
 #include <stdio.h>
 #include "geom/clip.h"
 #include "geom/mass.h"
-#include "sim/floe_setup.h"
 #include "water/added_mass.h"
 #include "world/access.h"
 
-/* What the scene says of the body's group: directions it holds, and the velocity it holds them at.  A turn
- * that is held is held at no spin. */
-static void hold_body(fl_world *w, int32_t i, const char *group, fl_vec3 spin)
+/* Fix the degrees of freedom of the body's group, translations at its velocity, rotations at 0. */
+static void fix_body(fl_world *w, int32_t i, const char *group, fl_vec3 spin)
 {
     fl_bodies *b = &w->b;
     const int32_t g = fl_scene_find_group(w->scene, group);
     if (g < 0) return;
     const unsigned fixed = w->scene->group[g].fixed;
-    const fl_vec3 given = w->scene->group[g].velocity;
+    const fl_vec3 velocity = w->scene->group[g].velocity;
     b->fixed_dof[i] = (uint8_t)fixed;
-    if (fixed & FL_DOF_X) b->v[i].x = given.x;
-    if (fixed & FL_DOF_Y) b->v[i].y = given.y;
-    if (fixed & FL_DOF_Z) b->v[i].z = given.z;
+    if (fixed & FL_DOF_X) b->v[i].x = velocity.x;
+    if (fixed & FL_DOF_Y) b->v[i].y = velocity.y;
+    if (fixed & FL_DOF_Z) b->v[i].z = velocity.z;
     fl_body_set_spin(b, i,
                      v3(fixed & FL_DOF_RX ? 0.0 : spin.x, fixed & FL_DOF_RY ? 0.0 : spin.y,
                         fixed & FL_DOF_RZ ? 0.0 : spin.z));
 }
 
-/* Something is wrong with the k-th body of the field: its file, the line of its record, its id. */
 int fl_fail_floe(const fl_world *w, const fl_ice_field *field, int32_t k, fl_err *err, const char *what)
 {
     char line[16] = "";
@@ -33,10 +31,10 @@ int fl_fail_floe(const fl_world *w, const fl_ice_field *field, int32_t k, fl_err
     return fl_fail(err, FL_INPUT, "%s%s: body %d: %s", w->scene->ice.file, line, field->id[k], what);
 }
 
-/* An edge without a radius has no stiffness: what is sharp is dilated by so much of its size. */
+/* Dilation of a core of radius 0, over its size: an edge without a radius has no stiffness. */
 #define SHARP 1e-6
 
-/* Body i from the k-th of the field: outer shape, mass, frame, start. */
+/* Build body i from record k of the field: outer shape, mass, frame, start. */
 static int make_body(fl_world *w, int32_t i, const fl_ice_field *field, int32_t k, fl_poly *outer,
                      fl_err *err)
 {
@@ -77,7 +75,7 @@ static int make_body(fl_world *w, int32_t i, const fl_ice_field *field, int32_t 
     w->q0[i] = b->q[i];
     fl_body_update_spin(b, i);
     fl_body_set_spin(b, i, field->spin[k]);
-    if (field->group[k] >= 0) hold_body(w, i, field->groups.name[field->group[k]], field->spin[k]);
+    if (field->group[k] >= 0) fix_body(w, i, field->groups.name[field->group[k]], field->spin[k]);
     return fl_topologies_share(&w->topologies, &b->core[i],
                                w->has_points ? FL_KEEP_ANGLES | FL_KEEP_OFFSETS : FL_KEEP_ANGLES, err);
 bad:
@@ -88,8 +86,8 @@ bad:
     return fl_fail_floe(w, field, k, err, why.text);
 }
 
-/* The water that body i, of shape p, moves along. */
-static void add_water(fl_world *w, int32_t i, const fl_poly *p)
+/* Set added mass and inertia of body i, of shape p. */
+static void set_added_mass(fl_world *w, int32_t i, const fl_poly *p)
 {
     const fl_scene_water *s = &w->scene->water;
     fl_bodies *b = &w->b;
@@ -102,7 +100,7 @@ static void add_water(fl_world *w, int32_t i, const fl_poly *p)
     fl_body_set_spin(b, i, spin);
 }
 
-/* The sea's view of body i: what floats, and how far out it drags. */
+/* Set up body i for water and wind: hull and drag. */
 static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
 {
     const fl_poly *core = &w->b.core[i];
@@ -115,16 +113,16 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
     if (!round && fl_topologies_share(&w->topologies, outer, FL_KEEP_OFFSETS, err)) return -1;
     if (fl_environment_set_hull(&w->sea, i, round ? NULL : outer, core, w->b.radius[i], err)) return -1;
     if (w->b.added_mass || v3_nonzero(w->scene->water.added_inertia))
-        add_water(w, i,
-                  round                              ? core
-                  : fl_environment_outer(&w->sea, i) ? fl_environment_outer(&w->sea, i)
-                                                     : outer);
+        set_added_mass(w, i,
+                       round                              ? core
+                       : fl_environment_outer(&w->sea, i) ? fl_environment_outer(&w->sea, i)
+                                                          : outer);
     return fl_environment_fit_hull(&w->sea, i, err);
 }
 
-/* The elastic walls' view of body i: what presses.  Its corners stand out farther than the dilated core, and
- * move farther as it turns. */
-static int make_bed(fl_world *w, int32_t i, const fl_poly *outer, fl_err *err)
+/* Set up body i for elastic walls.  Its sharp corners are outside the dilated core, which enlarges the
+ * bounding radius. */
+static int make_wall_hull(fl_world *w, int32_t i, const fl_poly *outer, fl_err *err)
 {
     const fl_poly *core = &w->b.core[i];
     const int round = core->nv <= 2;
@@ -139,46 +137,46 @@ static int make_bed(fl_world *w, int32_t i, const fl_poly *outer, fl_err *err)
     return fl_hull_make(&w->elastic_walls.hull[i], round ? core : p, round ? w->b.radius[i] : 0.0, err);
 }
 
-#define MOST_CELLS 1e6 /* a body may have gone through so many */
+#define MAX_CELLS 1e6 /* largest distance of a body from the origin, in cells */
 
-/* A body that spans half the cell could meet two images of another at once, or its own. */
-static int fits_cell(const fl_world *w, int32_t i, fl_err *err)
+/* A body larger than half the cell could touch two images of another body at once, or its own. */
+static int check_size(const fl_world *w, int32_t i, fl_err *err)
 {
     const double length[3] = {w->cell.length.x, w->cell.length.y, w->cell.length.z};
     const fl_poly *p = &w->b.core[i];
-    double across = 0.0;
+    double size = 0.0;
     for (int32_t a = 0; a < p->nv; a++)
-        for (int32_t b = 0; b < a; b++) across = fmax(across, v3_norm2(v3_sub(p->v[a], p->v[b])));
-    across = sqrt(across) + 2.0 * w->b.radius[i];
+        for (int32_t b = 0; b < a; b++) size = fmax(size, v3_norm2(v3_sub(p->v[a], p->v[b])));
+    size = sqrt(size) + 2.0 * w->b.radius[i];
     const fl_vec3 at = w->b.x[i];
     const double x[3] = {at.x, at.y, at.z};
     for (int c = 0; c < 3; c++)
-        if (length[c] > 0.0 && !(fabs(x[c]) < MOST_CELLS * length[c] && isfinite(length[c])))
+        if (length[c] > 0.0 && !(fabs(x[c]) < MAX_CELLS * length[c] && isfinite(length[c])))
             return fl_fail(
                 err, FL_INPUT,
                 "%s: body %d at %c = %.4g m, and the periodic %c repeats every %.4g m: within %.3g of "
-                "those is expected",
-                w->scene->ice.file, w->id[i], 'x' + c, x[c], 'x' + c, length[c], MOST_CELLS);
+                "these expected",
+                w->scene->ice.file, w->id[i], 'x' + c, x[c], 'x' + c, length[c], MAX_CELLS);
     for (int c = 0; c < 3; c++)
-        if (length[c] > 0.0 && across > 0.5 * length[c])
+        if (length[c] > 0.0 && size > 0.5 * length[c])
             return fl_fail(err, FL_INPUT,
                            "%s: body %d is %.4g m across, more than half of the %.4g m of the periodic %c; a "
-                           "wider cell is expected",
-                           w->scene->ice.file, w->id[i], across, length[c], 'x' + c);
+                           "wider cell expected",
+                           w->scene->ice.file, w->id[i], size, length[c], 'x' + c);
     return 0;
 }
 
-/* Drive the floe in place i; what its group holds besides stays held. */
+/* Drive the floe in place i; degrees of freedom fixed by its group stay fixed. */
 static void drive_body(fl_world *w, int32_t i)
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_bodies *b = &w->b;
     const fl_vec3 spin = b->w[i];
-    const unsigned told = s->drive_fixed, fixed = told | b->fixed_dof[i];
+    const unsigned driven = s->drive_fixed, fixed = driven | b->fixed_dof[i];
     b->fixed_dof[i] = (uint8_t)fixed;
-    if (told & FL_DOF_X) b->v[i].x = s->drive.x;
-    if (told & FL_DOF_Y) b->v[i].y = s->drive.y;
-    if (told & FL_DOF_Z) b->v[i].z = s->drive.z;
+    if (driven & FL_DOF_X) b->v[i].x = s->drive.x;
+    if (driven & FL_DOF_Y) b->v[i].y = s->drive.y;
+    if (driven & FL_DOF_Z) b->v[i].z = s->drive.z;
     fl_body_set_spin(b, i,
                      v3(fixed & FL_DOF_RX ? 0.0 : spin.x, fixed & FL_DOF_RY ? 0.0 : spin.y,
                         fixed & FL_DOF_RZ ? 0.0 : spin.z));
@@ -197,8 +195,8 @@ int fl_world_place_floe(fl_world *w, int32_t i, const fl_ice_field *field, int32
     if (w->elastic_walls.hull)
         fl_hull_free(&w->elastic_walls.hull[i]), fl_poly_free(&w->elastic_walls.outer[i]);
     if (w->sea.n) fl_environment_clear_hull(&w->sea, i);
-    const int bad = make_body(w, i, field, k, &outer, err) || (w->cell.periodic && fits_cell(w, i, err)) ||
-                    (w->elastic_walls.hull && make_bed(w, i, &outer, err)) ||
+    const int bad = make_body(w, i, field, k, &outer, err) || (w->cell.periodic && check_size(w, i, err)) ||
+                    (w->elastic_walls.hull && make_wall_hull(w, i, &outer, err)) ||
                     (w->sea.n && make_hull(w, i, &outer, err));
     fl_poly_free(&outer);
     if (bad) return -1;

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* half_kicks.h -- the two halves of a step for bodies by groups, FL_BODY_BLOCK in a row, each in the hands of one
- * thread.  What of a group goes alike goes several at a time (body_batch.h, still_water_batch.h, free_batch.h), with the bits that it
- * gets one by one. */
+/* half_kicks.h -- the two halves of a step for blocks of FL_BODY_BLOCK consecutive floes.
+ *
+ * One thread works on a block.  Bodies that need the same operations run several at a time (body_batch.h,
+ * still_water_batch.h, free_batch.h), with the same bits as one by one (body_step.h). */
 #ifndef FL_SIM_HALF_KICKS_H
 #define FL_SIM_HALF_KICKS_H
 #include "world/access.h"
 
-/* Drag and kick of h and drift of 2 h of those of groups [g, last) that move in this step; gain[] of those
- * that something presses is what the kick changes, and moved of w->group[] how far they have come. */
+/* First half of a step of 2 h for blocks [g, last): drag h, kick h, drift 2 h of all floes that are awake.
+ * Stores their velocity changes where contacts or works need them, and the largest paths of w->blocks[]. */
 void fl_blocks_first_half(fl_world *w, int32_t g, int32_t last, double h);
 
-/* The same of those that are FL_WAKING, each with the step that its sleep was (sleep.h). */
+/* The same for the floes that are FL_WAKING, each with the length of its own skip (sleep.h). */
 void fl_blocks_wake(fl_world *w, int32_t g, int32_t last);
 
-/* Forces on the bodies of these groups, their kick of h (0 at the start: there is none), what the water
- * takes, and what the books want of them: w->group[]. */
+/* Second half for blocks [g, last): external and contact forces, kick h, drag h, works into w->blocks[].
+ * h = 0 computes the forces only, at the start of a run. */
 void fl_blocks_second_half(fl_world *w, int32_t g, int32_t last, double h);
 
 #endif

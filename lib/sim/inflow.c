@@ -1,55 +1,55 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/inflow.h"
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
-#include "narrow/gjk.h"
-#include "sim/body_step.h"
-#include "sim/energy_balance.h"
-#include "sim/floe_setup.h"
-#include "sphere/contact_list.h"
 #include "contact/bond_list.h"
-#include "sim/neighbour_list.h"
-#include "sim/sleep.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "sim/inflow.h"
+#include "narrow/gjk.h"
+#include "sim/body_step.h"
+#include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
+#include "sim/floe_setup.h"
+#include "sim/neighbour_list.h"
+#include "sim/sleep.h"
+#include "sphere/contact_list.h"
 
-/* Copies stand where rounding puts them: neighbours that touch in the field may overlap by this fraction of
- * a floe's size, a million times the rounding of coordinates of a kilometre, and no contact feels it. */
-#define TOUCH 1e-7
+/* Copies of floes that touch in the field may overlap by rounding.  This fraction of the size of a floe
+ * is a million times the rounding of coordinates of a kilometre, and too small to load a contact. */
+#define TOLERANCE 1e-7
 
-/* A floe that waits asks for its place once in so many steps. */
-enum { PATIENCE = 16 };
+/* Steps between two attempts to place a floe that waits. */
+enum { RETRY_INTERVAL = 16 };
 
-/* --- the plan ---------------------------------------------------------------------------------- */
+/* --- set-up ------------------------------------------------------------------------------------ */
 
-#define MOST_ROOM 1e8 /* floes */
+#define MAX_PLACES 1e8 /* floes */
 
-/* Places for those that come: what comes in over the length of the domain, a quarter more where it is held
- * up, and a field besides; -1: more than anybody means. */
-static int32_t room(const fl_scene_boundary *s, const fl_ice_field *feed, double pitch)
+/* Number of places for floes that come in: those of the length of the domain, a quarter more for
+ * congestion, and one field.  -1: too many. */
+static int32_t places_needed(const fl_scene_boundary *s, const fl_ice_field *feed, double pitch)
 {
     const double length = s->inflow_from / 2 ? s->max.y - s->min.y : s->max.x - s->min.x;
-    const double most = (double)feed->n * (1.25 * length / pitch + 1.0);
+    const double largest = (double)feed->n * (1.25 * length / pitch + 1.0);
     if (s->room > 0) return s->room > feed->n ? s->room : feed->n;
-    return most < MOST_ROOM ? (int32_t)ceil(most) : -1;
+    return largest < MAX_PLACES ? (int32_t)ceil(largest) : -1;
 }
 
 double fl_inflow_extent(const fl_inflow_state *t, const fl_ice_field *field, int32_t k, double end)
 {
-    double most = -INFINITY;
+    double largest = -INFINITY;
     for (int32_t v = 0; v < field->core[k].nv; v++) {
         const fl_vec3 x = field->core[k].v[v];
-        most = fmax(most, end * t->sign * (t->axis ? x.y : x.x));
+        largest = fmax(largest, end * t->sign * (t->axis ? x.y : x.x));
     }
-    return end * (most + field->radius[k]);
+    return end * (largest + field->radius[k]);
 }
 
-/* Whether floe k of the feed comes in: not where its group holds it along the drift, unless it goes
- * as the sheet does. */
-static int comes(const fl_world *w, const fl_ice_field *feed, int32_t k)
+/* 1 if floe k of the feed comes in: not if its group fixes it along the drift at another velocity than
+ * that of the sheet. */
+static int comes_in(const fl_world *w, const fl_ice_field *feed, int32_t k)
 {
     const fl_inflow_state *t = &w->inflow;
     const int32_t g =
@@ -60,8 +60,8 @@ static int comes(const fl_world *w, const fl_ice_field *feed, int32_t k)
            (t->axis ? s->velocity.y : s->velocity.x) == t->sign * t->speed;
 }
 
-/* What leaves and what comes, but for the arrays of all places. */
-static int plan_traffic(fl_world *w, const fl_ice_field *field, const fl_ice_field *feed, fl_err *err)
+/* Set up what comes in, except the arrays of all places. */
+static int plan_inflow(fl_world *w, const fl_ice_field *field, const fl_ice_field *feed, fl_err *err)
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_inflow_state *t = &w->inflow;
@@ -75,20 +75,20 @@ static int plan_traffic(fl_world *w, const fl_ice_field *field, const fl_ice_fie
                    ? s->inflow_speed
                    : t->sign * (t->axis ? w->scene->water.current.y : w->scene->water.current.x);
     for (int32_t k = 0; k < feed->n; k++) {
-        if (!comes(w, feed, k)) continue;
+        if (!comes_in(w, feed, k)) continue;
         front = fmax(front, fl_inflow_extent(t, feed, k, 1.0));
         back = fmin(back, fl_inflow_extent(t, feed, k, -1.0));
     }
     if (!(front >= back))
         return fl_scene_fail(w->scene, "boundary.inflow", err,
-                             "every floe of %s is held by its group along the drift: none comes in",
+                             "every floe of %s is fixed by its group along the drift: none comes in",
                              s->inflow == FL_INFLOW_FILE ? s->inflow_file : w->scene->ice.file);
     t->pitch = s->inflow_pitch > 0.0 ? s->inflow_pitch : front - back;
     t->lag = fl_alloc(feed->n, sizeof *t->lag, err);
     t->next_copy = fl_alloc(feed->n, sizeof *t->next_copy, err);
     if (!t->lag || !t->next_copy) return -1;
     for (int32_t k = 0; k < feed->n; k++)
-        t->lag[k] = comes(w, feed, k) ? front - fl_inflow_extent(t, feed, k, 1.0) : INFINITY;
+        t->lag[k] = comes_in(w, feed, k) ? front - fl_inflow_extent(t, feed, k, 1.0) : INFINITY;
     return 0;
 }
 
@@ -96,29 +96,28 @@ int fl_inflow_make(fl_world *w, const fl_ice_field *field, const fl_ice_field *f
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_inflow_state *t = &w->inflow;
-    const double far = INFINITY;
+    const double none = INFINITY;
     if (!s->head.present) return 0;
-    t->lo =
-        v3(s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -far, s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -far,
-           s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -far);
+    t->lo = v3(s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -none,
+               s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -none,
+               s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -none);
     t->hi =
-        v3(s->type[0] == FL_BOUNDARY_FREE ? s->max.x : far, s->type[1] == FL_BOUNDARY_FREE ? s->max.y : far,
-           s->type[2] == FL_BOUNDARY_FREE ? s->max.z : far);
-    const int leave =
-        t->lo.x > -far || t->lo.y > -far || t->lo.z > -far || t->hi.x < far || t->hi.y < far || t->hi.z < far;
+        v3(s->type[0] == FL_BOUNDARY_FREE ? s->max.x : none, s->type[1] == FL_BOUNDARY_FREE ? s->max.y : none,
+           s->type[2] == FL_BOUNDARY_FREE ? s->max.z : none);
+    const int leave = t->lo.x > -none || t->lo.y > -none || t->lo.z > -none || t->hi.x < none ||
+                      t->hi.y < none || t->hi.z < none;
     if (!leave) return 0;
     if (s->inflow != FL_INFLOW_NONE) {
         if (feed->n == 0)
-            return fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice is expected", s->inflow_file);
-        if (plan_traffic(w, field, feed, err)) return -1;
-        const int32_t more = room(s, feed, t->pitch);
+            return fl_fail(err, FL_INPUT, "%s: the file has no body; an ice field expected", s->inflow_file);
+        if (plan_inflow(w, field, feed, err)) return -1;
+        const int32_t more = places_needed(s, feed, t->pitch);
         if (more < 0)
             return fl_fail(err, FL_INPUT,
                            "%s: fields %.3g m apart, boundary.inflow_pitch, would be more than %.3g floes in "
-                           "the domain; "
-                           "boundary.room or a wider pitch is expected",
+                           "the domain; boundary.room or a wider pitch expected",
                            s->inflow == FL_INFLOW_FILE ? s->inflow_file : w->scene->ice.file, t->pitch,
-                           MOST_ROOM);
+                           MAX_PLACES);
         w->n += more;
     }
     t->absent = fl_alloc(w->n, sizeof *t->absent, err);
@@ -140,8 +139,6 @@ void fl_inflow_free(fl_inflow_state *t)
     *t = (fl_inflow_state){0};
 }
 
-/* --- who is there ------------------------------------------------------------------------------ */
-
 int32_t fl_floes_in_domain(const fl_world *w)
 {
     int32_t n = 0;
@@ -149,11 +146,14 @@ int32_t fl_floes_in_domain(const fl_world *w)
     return n;
 }
 
-static double along(const fl_inflow_state *t, fl_vec3 x) { return t->sign * (t->axis ? x.y : x.x); }
+static double coordinate_along(const fl_inflow_state *t, fl_vec3 x)
+{
+    return t->sign * (t->axis ? x.y : x.x);
+}
 
-/* --- who leaves -------------------------------------------------------------------------------- */
+/* --- outflow ----------------------------------------------------------------------------------- */
 
-static int beyond(const fl_world *w, int32_t i)
+static int is_outside(const fl_world *w, int32_t i)
 {
     const fl_inflow_state *t = &w->inflow;
     const fl_vec3 x = w->b.x[i];
@@ -162,12 +162,12 @@ static int beyond(const fl_world *w, int32_t i)
            x.z + r < t->lo.z || x.z - r > t->hi.z;
 }
 
-static void take_out(fl_world *w, int32_t i)
+static void remove_floe(fl_world *w, int32_t i)
 {
     fl_inflow_state *t = &w->inflow;
     fl_bodies *b = &w->b;
     t->absent[i] = 1;
-    if (w->critical_body == i) w->critical_body = -1; /* its name goes with it */
+    if (w->critical_body == i) w->critical_body = -1; /* its id is free again */
     t->n_left++;
     t->mass_left += b->m[i];
     t->momentum_left = v3_madd(t->momentum_left, b->m[i], b->v[i]);
@@ -175,7 +175,7 @@ static void take_out(fl_world *w, int32_t i)
     fl_sums_clear(w, i);
 }
 
-/* End the pairs of those that are away, and let their partners feel it. */
+/* End the pairs of absent floes, and update the forces on their partners. */
 static int drop_pairs(fl_world *w, fl_err *err)
 {
     int32_t kept = 0;
@@ -202,10 +202,11 @@ static int drop_pairs(fl_world *w, fl_err *err)
     return 0;
 }
 
-/* --- who comes --------------------------------------------------------------------------------- */
+/* --- inflow ------------------------------------------------------------------------------------ */
 
-/* The vertices of the core of thing k about `origin`, in world axes. */
-static int around(const fl_world *w, int32_t k, fl_vec3 origin, fl_vec3 **v, int32_t *cap, fl_err *err)
+/* Vertices of the core of thing k relative to `origin`, world axes. */
+static int vertices_about(const fl_world *w, int32_t k, fl_vec3 origin, fl_vec3 **v, int32_t *cap,
+                          fl_err *err)
 {
     const fl_poly *p = &w->b.core[k];
     const fl_vec3 x = v3_sub(w->b.x[k], origin);
@@ -215,10 +216,10 @@ static int around(const fl_world *w, int32_t k, fl_vec3 origin, fl_vec3 **v, int
     return 0;
 }
 
-/* The number of lengths between two coordinates, to the nearest image. */
-static double nearest(double apart, double length) { return length > 0.0 ? round(apart / length) : 0.0; }
+/* Number of cell lengths between two coordinates, to the nearest image. */
+static double image_shift(double apart, double length) { return length > 0.0 ? round(apart / length) : 0.0; }
 
-/* 1 when nothing that is there overlaps floe i, 0 when something does. */
+/* 1 if nothing overlaps floe i, 0 if something does, -1 if memory runs out. */
 static int is_free(const fl_world *w, int32_t i, fl_err *err)
 {
     const fl_bodies *b = &w->b;
@@ -226,33 +227,34 @@ static int is_free(const fl_world *w, int32_t i, fl_err *err)
     const double size = b->bounding_radius[i] + b->radius[i];
     fl_vec3 *va = NULL, *vb = NULL;
     int32_t cap_a = 0, cap_b = 0;
-    int is = around(w, i, b->x[i], &va, &cap_a, err) ? -1 : 1;
-    for (int32_t k = 0; k < b->total - w->walls && is == 1; k++) {
+    int fits = vertices_about(w, i, b->x[i], &va, &cap_a, err) ? -1 : 1;
+    for (int32_t k = 0; k < b->total - w->walls && fits == 1; k++) {
         if (k == i || (k < w->n && fl_body_absent(w, k))) continue;
-        fl_vec3 off = v3_sub(b->x[k], b->x[i]), origin = b->x[i];
+        fl_vec3 offset = v3_sub(b->x[k], b->x[i]), origin = b->x[i];
         if (w->cell.periodic) {
-            const fl_vec3 way = fl_periodic_cell_offset(
-                &w->cell, v3(nearest(off.x, L.x), nearest(off.y, L.y), nearest(off.z, L.z)));
-            off = v3_sub(off, way);
-            origin = v3_add(origin, way);
+            const fl_vec3 shift =
+                fl_periodic_cell_offset(&w->cell, v3(image_shift(offset.x, L.x), image_shift(offset.y, L.y),
+                                                     image_shift(offset.z, L.z)));
+            offset = v3_sub(offset, shift);
+            origin = v3_add(origin, shift);
         }
         const double R = b->radius[i] + b->radius[k];
-        if (v3_norm(off) > size + b->bounding_radius[k] + b->radius[k]) continue;
+        if (v3_norm(offset) > size + b->bounding_radius[k] + b->radius[k]) continue;
         fl_gap gap;
-        if (around(w, k, origin, &vb, &cap_b, err)) {
-            is = -1;
+        if (vertices_about(w, k, origin, &vb, &cap_b, err)) {
+            fits = -1;
             break;
         }
         fl_gjk((fl_core){va, b->core[i].nv, &b->core[i]}, (fl_core){vb, b->core[k].nv, &b->core[k]}, NULL,
                &gap);
-        if (gap.overlap || gap.d < R - TOUCH * size) is = 0;
+        if (gap.overlap || gap.d < R - TOLERANCE * size) fits = 0;
     }
     free(va), free(vb);
-    return is;
+    return fits;
 }
 
 /* Put the next copy of floe k into place i, its foremost point `in` beyond the bound. */
-static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
+static int place_copy(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
     fl_bodies *b = &w->b;
@@ -261,14 +263,14 @@ static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
     if (fl_world_place_floe(w, i, t->feed, k, err)) return -1;
     const fl_mat3 R = fl_body_axes(b, i);
     for (int32_t v = 0; v < b->core[i].nv; v++)
-        front = fmax(front, along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
-    const double way = t->sign * (t->entry + in - front - b->radius[i]);
+        front = fmax(front, coordinate_along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
+    const double shift = t->sign * (t->entry + in - front - b->radius[i]);
     const double drift = t->sign * t->speed;
-    const fl_vec3 held =
+    const fl_vec3 prescribed =
         v3(b->fixed_dof[i] & FL_DOF_X ? b->v[i].x : 0.0, b->fixed_dof[i] & FL_DOF_Y ? b->v[i].y : 0.0,
-           b->fixed_dof[i] & FL_DOF_Z ? b->v[i].z : 0.0); /* at which its group wants it */
-    b->x[i] = v3_add(b->x[i], v3(t->axis ? 0.0 : way, t->axis ? way : 0.0, 0.0));
-    b->v[i] = v3(t->axis ? held.x : drift, t->axis ? drift : held.y, held.z);
+           b->fixed_dof[i] & FL_DOF_Z ? b->v[i].z : 0.0); /* prescribed by its group */
+    b->x[i] = v3_add(b->x[i], v3(t->axis ? 0.0 : shift, t->axis ? shift : 0.0, 0.0));
+    b->v[i] = v3(t->axis ? prescribed.x : drift, t->axis ? drift : prescribed.y, prescribed.z);
     fl_body_set_spin(b, i, v3(0, 0, 0));
     return 0;
 }
@@ -276,14 +278,14 @@ static int stand(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
 void fl_inflow_set_guided(fl_world *w, int32_t i, int guided)
 {
     fl_inflow_state *t = &w->inflow;
-    uint8_t *const hold = &w->b.fixed_dof[i];
+    uint8_t *const fixed = &w->b.fixed_dof[i];
     if (guided == t->guided[i]) return;
-    if (guided) t->own_fixed_dof[i] = *hold, *hold |= FL_DOF_X | FL_DOF_Y | FL_DOF_RZ;
-    else *hold = t->own_fixed_dof[i];
+    if (guided) t->own_fixed_dof[i] = *fixed, *fixed |= FL_DOF_X | FL_DOF_Y | FL_DOF_RZ;
+    else *fixed = t->own_fixed_dof[i];
     t->guided[i] = (uint8_t)guided;
 }
 
-static void take_in(fl_world *w, int32_t i)
+static void admit_floe(fl_world *w, int32_t i)
 {
     fl_inflow_state *t = &w->inflow;
     fl_bodies *b = &w->b;
@@ -299,48 +301,48 @@ static void take_in(fl_world *w, int32_t i)
     w->last_search_step = -1;
 }
 
-/* Fields that do not come in because nobody looked: more in one step are a scene gone wrong. */
-#define MOST_BEHIND 1e9
+/* Largest number of fields that may be missed in one step: more is an error of the scene. */
+#define MAX_MISSED 1e9
 
-/* The copies of floe k that are due.  Returns 0 or -1; *came counts who comes in. */
-static int let_in(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *err)
+/* Place the copies of floe k that are due; *came counts them.  0 or -1. */
+static int place_due(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
-    const double way = t->speed * fl_world_time(w), step = t->speed * w->dt;
+    const double shift = t->speed * fl_world_time(w), step = t->speed * w->dt;
     for (;;) {
-        const double late = way - t->lag[k] - (double)t->next_copy[k] * t->pitch;
-        if (late < 0.0) return 0;
-        if (late >= t->pitch) {
-            const double behind = floor(late / t->pitch);
-            if (!(behind < MOST_BEHIND))
+        const double delay = shift - t->lag[k] - (double)t->next_copy[k] * t->pitch;
+        if (delay < 0.0) return 0;
+        if (delay >= t->pitch) {
+            const double behind = floor(delay / t->pitch);
+            if (!(behind < MAX_MISSED))
                 return fl_fail(err, FL_NUMERIC, "inflow is %.3g fields behind in step %lld (t = %g s)",
                                behind, (long long)w->step, fl_world_time(w));
             t->next_copy[k] += (int64_t)behind;
             t->n_dropped += (int64_t)behind;
             continue;
         }
-        const int first = late < step * (1.0 + 1e-9); /* also what is due at the start */
-        if (!first && w->step % PATIENCE) return 0;
+        const int first = delay < step * (1.0 + 1e-9); /* includes copies that are due at the start */
+        if (!first && w->step % RETRY_INTERVAL) return 0;
         while (*place < w->n && !t->absent[*place]) ++*place;
-        int is = 0;
+        int fits = 0;
         if (*place < w->n) {
-            if (stand(w, *place, k, first ? late : 0.0, err)) return -1;
-            is = is_free(w, *place, err);
-            if (is < 0) return -1;
+            if (place_copy(w, *place, k, first ? delay : 0.0, err)) return -1;
+            fits = is_free(w, *place, err);
+            if (fits < 0) return -1;
         }
-        if (!is) {
+        if (!fits) {
             t->n_blocked += first;
             return 0;
         }
-        if (t->next_id == INT32_MAX) return fl_fail(err, FL_NUMERIC, "there is no number left for a floe");
-        take_in(w, *place);
+        if (t->next_id == INT32_MAX) return fl_fail(err, FL_NUMERIC, "no id is left for a floe");
+        admit_floe(w, *place);
         t->next_copy[k]++;
         ++*came;
     }
 }
 
-/* Floes whose last point has passed the bound go on by themselves. */
-static void let_go(fl_world *w)
+/* Release the guided floes whose last point has passed the bound. */
+static void release_guided(fl_world *w)
 {
     fl_inflow_state *t = &w->inflow;
     const fl_bodies *b = &w->b;
@@ -349,20 +351,20 @@ static void let_go(fl_world *w)
         double last = INFINITY;
         const fl_mat3 R = fl_body_axes(b, i);
         for (int32_t v = 0; v < b->core[i].nv; v++)
-            last = fmin(last, along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
+            last = fmin(last, coordinate_along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
         if (last - b->radius[i] < t->entry) continue;
         fl_inflow_set_guided(w, i, 0);
     }
 }
 
-/* --- both -------------------------------------------------------------------------------------- */
+/* --- between two steps -------------------------------------------------------------------------- */
 
-static int due(const fl_world *w)
+static int is_due(const fl_world *w)
 {
     const fl_inflow_state *t = &w->inflow;
-    const double way = t->speed * fl_world_time(w);
+    const double shift = t->speed * fl_world_time(w);
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)
-        if (way >= t->lag[k] + (double)t->next_copy[k] * t->pitch) return 1;
+        if (shift >= t->lag[k] + (double)t->next_copy[k] * t->pitch) return 1;
     return 0;
 }
 
@@ -371,19 +373,20 @@ int fl_inflow_step(fl_world *w, fl_err *err)
     fl_inflow_state *t = &w->inflow;
     fl_ledger *g = &w->ledger;
     fl_work before, after;
-    int out = 0, came = 0;
+    int leaving = 0, came = 0;
     int32_t place = 0;
-    if (t->feed) let_go(w);
-    for (int32_t i = 0; i < w->n && !out; i++) out = !t->absent[i] && !t->guided[i] && beyond(w, i);
-    if (!out && !due(w)) return 0;
+    if (t->feed) release_guided(w);
+    for (int32_t i = 0; i < w->n && !leaving; i++)
+        leaving = !t->absent[i] && !t->guided[i] && is_outside(w, i);
+    if (!leaving && !is_due(w)) return 0;
     fl_sleep_advance_to_now(w);
     fl_energy_update(w);
     const double residual = g->residual, throughput = g->throughput;
-    if (out) {
-        /* What lies ahead is booked, and will not be given by the contacts that end. */
+    if (leaving) {
+        /* The works of the half kick to come are booked already; contacts that end will not do them. */
         before = fl_work_ahead(w);
         for (int32_t i = 0; i < w->n; i++)
-            if (!t->absent[i] && !t->guided[i] && beyond(w, i)) take_out(w, i);
+            if (!t->absent[i] && !t->guided[i] && is_outside(w, i)) remove_floe(w, i);
         if (drop_pairs(w, err)) return -1;
         fl_sleep_wake_resting(w);
         after = fl_work_ahead(w);
@@ -392,7 +395,7 @@ int fl_inflow_step(fl_world *w, fl_err *err)
         g->drive -= before.drive - after.drive;
     }
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)
-        if (let_in(w, k, &place, &came, err)) return -1;
+        if (place_due(w, k, &place, &came, err)) return -1;
     fl_energy_update(w);
     g->carried += g->residual - residual;
     g->throughput = throughput;

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sphere/contact_list.h"
 #include "sim/memory_use.h"
 #include "sim/sleep.h"
+#include "sphere/contact_list.h"
 
 #define ARRAY(p, n) ((p) ? (double)(n) * (double)sizeof *(p) : 0.0)
 
-static double tree(const fl_bvh *t) { return ARRAY(t->node, t->node_cap) + ARRAY(t->order, t->order_cap); }
+static double tree_bytes(const fl_bvh *t)
+{
+    return ARRAY(t->node, t->node_cap) + ARRAY(t->order, t->order_cap);
+}
 
-static double hull(const fl_hull *h) { return h->shape ? ARRAY(h->face_area, 4 * h->shape->nf) : 0.0; }
+static double hull_bytes(const fl_hull *h) { return h->shape ? ARRAY(h->face_area, 4 * h->shape->nf) : 0.0; }
 
-static double scratch(const fl_patch_points *s)
+static double scratch_bytes(const fl_patch_points *s)
 {
     return ARRAY(s->va, s->va_cap) + ARRAY(s->na, s->na_cap) + ARRAY(s->point, s->point_cap) +
            ARRAY(s->polygon, s->polygon_cap) + ARRAY(s->feature, s->feature_cap) +
@@ -17,7 +20,7 @@ static double scratch(const fl_patch_points *s)
            ARRAY(s->distances[1].h, s->distances[1].h_cap) + ARRAY(s->distances[1].x, s->distances[1].x_cap);
 }
 
-static double bodies(const fl_world *w)
+static double body_bytes(const fl_world *w)
 {
     const fl_bodies *b = &w->b;
     const int32_t n = w->n, total = b->total;
@@ -34,7 +37,7 @@ static double bodies(const fl_world *w)
            ARRAY(w->predicted_change, w->change_cap);
 }
 
-static double water(const fl_environment *s)
+static double water_bytes(const fl_environment *s)
 {
     double sum = ARRAY(s->hull, s->n) + ARRAY(s->drag_radius, s->n) + ARRAY(s->wetted_area, s->n) +
                  ARRAY(s->buoyancy, s->n) + ARRAY(s->flow_velocity, s->n) + ARRAY(s->drag_loss, s->n) +
@@ -42,7 +45,7 @@ static double water(const fl_environment *s)
                  ARRAY(s->cells, (double)s->threads * s->cells_per_thread) + ARRAY(s->water_force, s->n) +
                  ARRAY(s->water_moment, s->n) + ARRAY(s->water_work, s->n) + ARRAY(s->sample, s->n);
     for (int32_t i = 0; i < s->n; i++) {
-        sum += hull(&s->hull[i]);
+        sum += hull_bytes(&s->hull[i]);
         const fl_poly *const outer = fl_environment_outer(s, i);
         if (outer) sum += (double)sizeof *outer + fl_poly_bytes(outer);
         if (s->drag_surface)
@@ -54,7 +57,7 @@ static double water(const fl_environment *s)
     return sum;
 }
 
-static double search(const fl_world *w)
+static double search_bytes_of(const fl_world *w)
 {
     const int32_t total = w->b.total;
     return ARRAY(w->odometer_at_search, total) + ARRAY(w->first_pair_of_body, w->first_pair_of_body_cap) +
@@ -63,12 +66,12 @@ static double search(const fl_world *w)
            ARRAY(w->body_touches, total);
 }
 
-static double others(const fl_world *w)
+static double other_bytes(const fl_world *w)
 {
     const fl_inflow_state *t = &w->inflow;
     const fl_bond_list *z = &w->bonds;
     const fl_panel_loads *q = &w->panel_load;
-    const int32_t n = w->n, held = w->b.total - n;
+    const int32_t n = w->n, fixed = w->b.total - n;
     double sum = ARRAY(t->absent, n) + ARRAY(t->entry_step, n) + ARRAY(t->source_floe, n) +
                  ARRAY(t->guided, n) + ARRAY(t->own_fixed_dof, n);
     if (t->feed) sum += ARRAY(t->lag, t->feed->n) + ARRAY(t->next_copy, t->feed->n);
@@ -80,30 +83,30 @@ static double others(const fl_world *w)
            ARRAY(z->max_omega2, w->b.total) + ARRAY(z->first, w->b.total + 1);
     sum += ARRAY(q->panel, q->panels) + ARRAY(q->box, q->panels) + ARRAY(q->impulse, q->panels) +
            ARRAY(q->point, q->point_cap);
-    for (int32_t k = 0; k < q->trees && q->tree; k++) sum += tree(&q->tree[k]);
+    for (int32_t k = 0; k < q->trees && q->tree; k++) sum += tree_bytes(&q->tree[k]);
     sum += ARRAY(w->elastic_walls.outer, n) + ARRAY(w->elastic_walls.hull, n);
     for (int32_t i = 0; i < n && w->elastic_walls.hull; i++)
-        sum += fl_poly_bytes(&w->elastic_walls.outer[i]) + hull(&w->elastic_walls.hull[i]);
+        sum += fl_poly_bytes(&w->elastic_walls.outer[i]) + hull_bytes(&w->elastic_walls.hull[i]);
     sum += ARRAY(w->structure.piece, w->structure.cap);
-    for (int32_t k = 0; k < held; k++) {
+    for (int32_t k = 0; k < fixed; k++) {
         const fl_piece_mesh *h = &w->structure.piece[k].mesh;
         const fl_poly *p = &w->structure.piece[k].core;
         sum += ARRAY(h->seams.seam, h->seams.cap) + ARRAY(h->seams.begin, p->nf + 1) +
                ARRAY(h->seams.rim, p->nf ? p->first[p->nf] : 0);
-        sum += fl_poly_bytes(p) + tree(&h->tree) + tree(&h->edge_tree) + ARRAY(h->corner, h->corners) +
-               ARRAY(h->box, p->nf) + ARRAY(h->edge_box, p->ne);
+        sum += fl_poly_bytes(p) + tree_bytes(&h->tree) + tree_bytes(&h->edge_tree) +
+               ARRAY(h->corner, h->corners) + ARRAY(h->box, p->nf) + ARRAY(h->edge_box, p->ne);
     }
-    for (int32_t k = 0; k < w->threads; k++) sum += scratch(&w->scratch[k]);
+    for (int32_t k = 0; k < w->threads; k++) sum += scratch_bytes(&w->scratch[k]);
     return sum;
 }
 
 fl_memory_use fl_memory_use_of(const fl_world *w)
 {
-    fl_memory_use b = {.bodies = bodies(w),
-                       .water = w->sea.n ? water(&w->sea) : 0.0,
-                       .search = search(w),
+    fl_memory_use b = {.bodies = body_bytes(w),
+                       .water = w->sea.n ? water_bytes(&w->sea) : 0.0,
+                       .search = search_bytes_of(w),
                        .sphere_contacts = fl_contact_list_bytes(w),
-                       .others = others(w),
+                       .others = other_bytes(w),
                        .search_peak = w->search_bytes};
     b.shapes = ARRAY(w->b.core, w->b.total) + fl_topologies_bytes(&w->topologies);
     for (int32_t k = 0; k < w->b.total; k++) b.shapes += fl_poly_bytes(&w->b.core[k]);

@@ -1,26 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* memory_use.h -- what a world takes of memory, by kind: arrays and blocks as long as they were asked for,
- * without what the allocator adds and without what was read (fields, scene). */
+/* memory_use.h -- the memory of a world by kind of data [B]: arrays with their requested length, without the
+ * overhead of the allocator and without the inputs (fields, scene). */
 #ifndef FL_SIM_MEMORY_USE_H
 #define FL_SIM_MEMORY_USE_H
 #include "world/world.h"
 
 typedef struct {
-    double bodies;        /* state, forces, works and books of bodies                                   [B] */
-    double shapes;        /* cores                                                                         */
-    double water;         /* outer shapes and hulls, what water and wind keep                              */
-    double search;        /* lists of who is near and who touches                                          */
-    double pairs;         /* near pairs, but for                                                           */
-    double feature_pairs; /* which of their features may touch                                             */
-    double
-        sphere_contacts; /* pairs of spheres                                                              */
-    double others;       /* structure, bonds, sleep, panels, traffic, scratch of the threads              */
-    double search_peak;  /* while neighbours are searched: boxes and their tree; in no sum                */
+    double bodies;          /* state, forces and works of bodies */
+    double shapes;          /* cores */
+    double water;           /* outer shapes and hulls, data of water and wind */
+    double search;          /* lists of near pairs per body and of touching pairs */
+    double pairs;           /* near pairs and contacts, without: */
+    double feature_pairs;   /* their lists of features that may touch */
+    double sphere_contacts; /* pairs of spheres */
+    double others;          /* structure, bonds, sleep, panels, inflow, scratch of the threads */
+    double search_peak;     /* during a neighbour search, boxes and their tree; in no sum */
 } fl_memory_use;
 
 fl_memory_use fl_memory_use_of(const fl_world *w);
 
-/* Of all that lasts. */
+/* Sum of all but search_peak. */
 double fl_memory_use_sum(const fl_memory_use *b);
 
 #endif

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/moving_structure.h"
 #include <string.h>
 #include "base/array.h"
 #include "base/pi.h"
-#include "sim/moving_structure.h"
 #include "sim/energy_ledger.h"
 
-static int moves(const fl_scene_motion *m)
+static int has_motion(const fl_scene_motion *m)
 {
     return v3_nonzero(m->velocity) || v3_nonzero(m->spin) || m->track[0] || m->free;
 }
 
-/* Springs of a scene's motion. */
-static void hang(fl_rigid_motion *out, const fl_scene_motion *m)
+/* Set the stiffness matrix from periods, stiffnesses and couplings of the scene. */
+static void set_springs(fl_rigid_motion *out, const fl_scene_motion *m)
 {
     const double T[] = {m->period.x, m->period.y, m->period.z},
                  k[] = {m->stiffness.x, m->stiffness.y, m->stiffness.z},
@@ -26,8 +26,8 @@ static void hang(fl_rigid_motion *out, const fl_scene_motion *m)
     out->K[3][4] = out->K[4][3] = m->coupling.z;
 }
 
-/* Dashpots beside all springs there are, those of the sea with them: c = 2 D sqrt(k m) along x y z. */
-static void damp(fl_rigid_motion *out, const fl_scene_motion *m)
+/* Set the damping: c = 2 D sqrt(k m) along x y z, with k of all springs and of the water. */
+static void set_dampers(fl_rigid_motion *out, const fl_scene_motion *m)
 {
     const double D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z};
     double c[3] = {m->damping.x, m->damping.y, m->damping.z};
@@ -37,9 +37,9 @@ static void damp(fl_rigid_motion *out, const fl_scene_motion *m)
     out->ct = m->turn_damping;
 }
 
-/* The sea's stiffness for the parts of mover k. */
-static int float_it(fl_world *w, int32_t k, fl_rigid_motion *out, const fl_surface *surface, const char *of,
-                    fl_err *err)
+/* Add the hydrostatic stiffness of the parts of mover k. */
+static int add_hydrostatics(fl_world *w, int32_t k, fl_rigid_motion *out, const fl_surface *surface,
+                            const char *section, fl_err *err)
 {
     const fl_scene *s = w->scene;
     fl_hydrostatics *f = &w->moving.hydrostatics[k];
@@ -54,15 +54,15 @@ static int float_it(fl_world *w, int32_t k, fl_rigid_motion *out, const fl_surfa
             *err = why;
             return -1;
         }
-        snprintf(key, sizeof key, "%s.hydrostatic", of);
+        snprintf(key, sizeof key, "%s.hydrostatic", section);
         return fl_scene_fail(s, key, err, "%s: %s", key, why.text);
     }
     fl_hydrostatics_stiffness(f, s->water.density * v3_norm(s->run.gravity), out->K);
     return 0;
 }
 
-/* A mover of scene motion m, called `of` in the scene, whose parts are marked with its number already. */
-static int add_mover(fl_world *w, const fl_scene_motion *m, const char *of, const fl_surface *surface,
+/* Add the mover of scene motion m, of a section; mover_of_part is set already. */
+static int add_mover(fl_world *w, const fl_scene_motion *m, const char *section, const fl_surface *surface,
                      fl_err *err)
 {
     fl_rigid_motion out = {.reference = m->reference,
@@ -71,10 +71,10 @@ static int add_mover(fl_world *w, const fl_scene_motion *m, const char *of, cons
                            .free_dof = m->free,
                            .mass = m->mass,
                            .inertia = m->inertia};
-    hang(&out, m);
+    set_springs(&out, m);
     char key[3 * FL_SCENE_NAME];
-    if (m->hydrostatic && float_it(w, w->moving.movers.n, &out, surface, of, err)) return -1;
-    damp(&out, m);
+    if (m->hydrostatic && add_hydrostatics(w, w->moving.movers.n, &out, surface, section, err)) return -1;
+    set_dampers(&out, m);
     if ((m->track[0] &&
          fl_track_read(&out.track, m->track, m->interpolation == FL_INTERPOLATION_CUBIC, err)) ||
         fl_rigid_motions_add(&w->moving.movers, &out, err) < 0) {
@@ -82,56 +82,59 @@ static int add_mover(fl_world *w, const fl_scene_motion *m, const char *of, cons
         return -1;
     }
     const fl_track *tr = &w->moving.movers.motion[w->moving.movers.n - 1].track;
-    snprintf(key, sizeof key, "%s.track", of);
+    snprintf(key, sizeof key, "%s.track", section);
     for (int32_t i = 0; m->free && i < tr->n; i++)
         if (v3_nonzero(tr->value[i].r))
-            return fl_scene_fail(w->scene, key, err,
-                                 "%s: the track turns at %g s, and a structure with free directions turns by "
-                                 "itself or not at all",
-                                 key, tr->t[i]);
+            return fl_scene_fail(
+                w->scene, key, err,
+                "%s: the track rotates at %g s; a structure with free directions cannot have a "
+                "prescribed rotation",
+                key, tr->t[i]);
     return 0;
 }
 
-/* Movers of [structure] and of each [part NAME], and which part rides on which. */
+/* Movers of [structure] and of each [part NAME], and the mover of each part. */
 static int make_movers(fl_world *w, const fl_surface *surface, fl_err *err)
 {
     const fl_scene *s = w->scene;
     fl_moving_structure *r = &w->moving;
-    int32_t next = moves(&s->structure.motion) ? 1 : 0;
+    int32_t next = has_motion(&s->structure.motion) ? 1 : 0;
     for (int32_t p = 0; p < surface->n; p++) r->mover_of_part[p] = next - 1;
     for (int32_t i = 0; i < s->n_part; i++) {
         const char *name = s->part[i].name;
         const int32_t p = fl_surface_find(surface, name, strlen(name));
-        char of[FL_SCENE_NAME + 8];
-        snprintf(of, sizeof of, "part %s", name);
-        if (p < 0) return fl_scene_fail(s, of, err, "there is no part %s in %s", name, s->structure.file);
-        r->mover_of_part[p] = moves(&s->part[i].motion) ? next++ : -1;
+        char section[FL_SCENE_NAME + 8];
+        snprintf(section, sizeof section, "part %s", name);
+        if (p < 0)
+            return fl_scene_fail(s, section, err, "there is no part %s in %s", name, s->structure.file);
+        r->mover_of_part[p] = has_motion(&s->part[i].motion) ? next++ : -1;
         w->part_reference[p] = s->part[i].motion.reference;
     }
-    if (moves(&s->structure.motion) && add_mover(w, &s->structure.motion, "structure", surface, err))
+    if (has_motion(&s->structure.motion) && add_mover(w, &s->structure.motion, "structure", surface, err))
         return -1;
     for (int32_t i = 0; i < s->n_part; i++) {
-        char of[FL_SCENE_NAME + 8];
-        snprintf(of, sizeof of, "part %s", s->part[i].name);
-        if (moves(&s->part[i].motion) && add_mover(w, &s->part[i].motion, of, surface, err)) return -1;
+        char section[FL_SCENE_NAME + 8];
+        snprintf(section, sizeof section, "part %s", s->part[i].name);
+        if (has_motion(&s->part[i].motion) && add_mover(w, &s->part[i].motion, section, surface, err))
+            return -1;
     }
     return 0;
 }
 
-/* How fast a told motion gets at most, by its rows [m/s]. */
-static double fastest(const fl_rigid_motion *m, double arm)
+/* Bound of the speed of a prescribed motion at distance arm, by the rows of its track [m/s]. */
+static double max_speed_of(const fl_rigid_motion *m, double arm)
 {
-    double most = v3_norm(m->velocity) + arm * v3_norm(m->spin);
+    double largest = v3_norm(m->velocity) + arm * v3_norm(m->spin);
     for (int32_t i = 0; i < m->track.n; i++) {
         fl_pose6 x, rate, second;
         fl_track_evaluate(&m->track, m->track.t[i], &x, &rate, &second);
-        most = fmax(most, v3_norm(rate.x) + arm * v3_norm(rate.r));
+        largest = fmax(largest, v3_norm(rate.x) + arm * v3_norm(rate.r));
     }
-    return most;
+    return largest;
 }
 
-/* Piece k where its mover has it, at the mean velocity of the last dt. */
-static void place(fl_world *w, int32_t k, double dt)
+/* Move piece k with its mover; its velocity is the mean of the last dt. */
+static void place_piece(fl_world *w, int32_t k, double dt)
 {
     fl_moving_structure *r = &w->moving;
     const int32_t m = r->mover_of_piece[k], j = w->n + k;
@@ -144,7 +147,7 @@ static void place(fl_world *w, int32_t k, double dt)
     b->w[j] = mb->w[m];
 }
 
-static void speed(fl_world *w, int32_t k)
+static void set_piece_velocity(fl_world *w, int32_t k)
 {
     const fl_bodies *mb = &w->moving.movers.b;
     const int32_t m = w->moving.mover_of_piece[k], j = w->n + k;
@@ -155,9 +158,9 @@ static void speed(fl_world *w, int32_t k)
 int fl_moving_structure_make(fl_world *w, const fl_surface *surface, fl_err *err)
 {
     fl_moving_structure *r = &w->moving;
-    const int32_t pieces = w->structure.n; /* walls have none, and an entry */
+    const int32_t pieces = w->structure.n; /* walls have an entry, too */
     for (int32_t p = 0; p < w->parts; p++) w->part_reference[p] = w->scene->structure.motion.reference;
-    if (!surface || (!moves(&w->scene->structure.motion) && w->scene->n_part == 0)) return 0;
+    if (!surface || (!has_motion(&w->scene->structure.motion) && w->scene->n_part == 0)) return 0;
     r->mover_of_part = fl_alloc(w->parts, sizeof *r->mover_of_part, err);
     r->mover_of_piece = fl_alloc(pieces, sizeof *r->mover_of_piece, err);
     r->arm = fl_alloc(pieces, sizeof *r->arm, err);
@@ -172,14 +175,13 @@ int fl_moving_structure_make(fl_world *w, const fl_surface *surface, fl_err *err
         const fl_rigid_motion *motion = &r->movers.motion[m];
         r->arm[k] = v3_sub(w->b.x[j], motion->reference);
         r->rotation[k] = w->b.q[j];
-        if (motion
-                ->free_dof) { /* compliance of a place but for turns, see the survey; 1 where none is free */
+        if (motion->free_dof) { /* mobility without rotations; fl_moving_structure_limit() adds these */
             w->b.m[j] = motion->free_dof & 7u ? r->movers.b.m[m] : 0.0;
             w->b.invm[j] = r->movers.b.invm[m];
             fl_body_set_inertia(&w->b, j, v3(INFINITY, INFINITY, INFINITY));
         }
-        r->max_speed = fmax(r->max_speed, fastest(motion, v3_norm(r->arm[k]) + w->b.bounding_radius[j]));
-        place(w, k, 0.0);
+        r->max_speed = fmax(r->max_speed, max_speed_of(motion, v3_norm(r->arm[k]) + w->b.bounding_radius[j]));
+        place_piece(w, k, 0.0);
     }
     return 0;
 }
@@ -192,7 +194,7 @@ void fl_moving_structure_free(fl_moving_structure *r)
     *r = (fl_moving_structure){0};
 }
 
-static void tell_points(fl_world *w)
+static void move_reference_points(fl_world *w)
 {
     const fl_moving_structure *r = &w->moving;
     for (int32_t p = 0; p < w->parts; p++)
@@ -202,7 +204,7 @@ static void tell_points(fl_world *w)
 void fl_moving_structure_set_step(fl_world *w)
 {
     fl_rigid_motions_set_step(&w->moving.movers, w->dt);
-    tell_points(w);
+    move_reference_points(w);
 }
 
 void fl_moving_structure_first_half(fl_world *w, double t)
@@ -215,13 +217,13 @@ void fl_moving_structure_first_half(fl_world *w, double t)
         const fl_vec3 x = w->b.x[j];
         const fl_quat q = w->b.q[j];
         const fl_velocity_change before = {w->b.v[j], w->b.w[j]};
-        place(w, k, w->dt);
+        place_piece(w, k, w->dt);
         fl_set_predicted_change(w, j, v3_sub(w->b.v[j], before.v), v3_sub(w->b.w[j], before.w));
-        const fl_quat d = q_mul(w->b.q[j], q_conj(q)); /* its chord, as in integrate.c */
+        const fl_quat d = q_mul(w->b.q[j], q_conj(q)); /* chord of the rotation, as in integrate.c */
         w->b.odometer[j] += v3_norm(v3_sub(w->b.x[j], x)) +
                             2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z) * w->b.bounding_radius[j];
     }
-    tell_points(w);
+    move_reference_points(w);
 }
 
 void fl_moving_structure_second_half(fl_world *w, double t, double h)
@@ -243,11 +245,11 @@ void fl_moving_structure_second_half(fl_world *w, double t, double h)
         }
     }
     for (int32_t k = 0; k < w->structure.n; k++)
-        if (r->mover_of_piece[k] >= 0) speed(w, k);
+        if (r->mover_of_piece[k] >= 0) set_piece_velocity(w, k);
 }
 
-/* What a step must bear: springs, and places of this much stiffness over its mass, on pieces so far out. */
-static double arm_of(const fl_world *w, int32_t k)
+/* Largest distance of a point of piece k from the reference point of its mover. */
+static double max_arm_of(const fl_world *w, int32_t k)
 {
     return v3_norm(w->moving.arm[k]) + w->b.bounding_radius[w->n + k];
 }
@@ -259,13 +261,13 @@ void fl_moving_structure_limit(fl_world *w)
     for (int32_t k = 0; k < w->pieces; k++) {
         const int32_t m = r->mover_of_piece[k], j = w->n + k;
         if (m < 0 || !r->movers.motion[m].free_dof) continue;
-        double sum = 0.0; /* of slope times invm */
+        double sum = 0.0; /* of stiffness times invm */
         for (int64_t c = w->first_pair_of_body[j]; c < w->first_pair_of_body[j + 1]; c++) {
             const fl_neighbour_pair *p = &w->pair[w->pairs_of_body[c]];
             if (p->touching) sum += p->contact->omega2_j;
         }
         r->contact_omega2[m] +=
-            sum / w->b.invm[j] * fl_rigid_motion_compliance(&r->movers.motion[m], arm_of(w, k));
+            sum / w->b.invm[j] * fl_rigid_motion_compliance(&r->movers.motion[m], max_arm_of(w, k));
     }
     for (int32_t m = 0; m < r->movers.n; m++) {
         const double sum = 2.0 * r->contact_omega2[m] + fl_rigid_motion_max_omega2(&r->movers.motion[m]);
@@ -285,7 +287,7 @@ double fl_mover_omega2(const fl_world *w, int32_t k, double stiffest)
     double arm = 0.0;
     if (!m->free_dof) return 0.0;
     for (int32_t c = 0; c < w->pieces; c++)
-        if (w->moving.mover_of_piece[c] == k) arm = fmax(arm, arm_of(w, c));
+        if (w->moving.mover_of_piece[c] == k) arm = fmax(arm, max_arm_of(w, c));
     return 2.0 * stiffest * fl_rigid_motion_compliance(m, arm) + fl_rigid_motion_max_omega2(m);
 }
 
@@ -304,14 +306,14 @@ fl_moving_energy fl_moving_structure_energy(const fl_world *w)
 
 enum fl_loads_motion_kind fl_motion_columns(const fl_world *w)
 {
-    enum fl_loads_motion_kind most = w->moving.movers.n ? FL_LOADS_TRANSLATION : FL_LOADS_FIXED;
+    enum fl_loads_motion_kind kind = w->moving.movers.n ? FL_LOADS_TRANSLATION : FL_LOADS_FIXED;
     for (int32_t m = 0; m < w->moving.movers.n; m++) {
         const fl_rigid_motion *motion = &w->moving.movers.motion[m];
-        if (motion->free_dof >> 3 || v3_nonzero(motion->spin)) most = FL_LOADS_ROTATION;
+        if (motion->free_dof >> 3 || v3_nonzero(motion->spin)) kind = FL_LOADS_ROTATION;
         for (int32_t i = 0; i < motion->track.n; i++)
-            if (v3_nonzero(motion->track.value[i].r)) most = FL_LOADS_ROTATION;
+            if (v3_nonzero(motion->track.value[i].r)) kind = FL_LOADS_ROTATION;
     }
-    return most;
+    return kind;
 }
 
 fl_vec3 fl_part_point(const fl_world *w, int32_t part, fl_vec3 x)
@@ -328,7 +330,7 @@ int fl_structure_moves_freely(const fl_world *w)
     return 0;
 }
 
-/* Of q, by an angle of at most pi. */
+/* Rotation vector of q, of length at most pi. */
 static fl_vec3 rotation_vector(fl_quat q)
 {
     const double s = sqrt(q.x * q.x + q.y * q.y + q.z * q.z), sign = q.w < 0.0 ? -1.0 : 1.0;
@@ -352,9 +354,9 @@ void fl_part_motion(const fl_world *w, int32_t part, double t, fl_loads_motion *
 const char *fl_mover_name(const fl_world *w, int32_t k)
 {
     const fl_scene *s = w->scene;
-    int32_t next = moves(&s->structure.motion) ? 1 : 0;
+    int32_t next = has_motion(&s->structure.motion) ? 1 : 0;
     if (k < next) return "structure";
     for (int32_t i = 0; i < s->n_part; i++)
-        if (moves(&s->part[i].motion) && next++ == k) return s->part[i].name;
+        if (has_motion(&s->part[i].motion) && next++ == k) return s->part[i].name;
     return "structure";
 }

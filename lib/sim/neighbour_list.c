@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/neighbour_list.h"
 #include <math.h>
 #include <string.h>
 #include "base/array.h"
 #include "contact/active_pairs.h"
-#include "sphere/sphere_pair.h"
-#include "sphere/contact_list.h"
 #include "contact/bond_list.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
-#include "sim/neighbour_list.h"
-#include "sim/sleep.h"
 #include "sim/energy_ledger.h"
+#include "sim/sleep.h"
+#include "sphere/contact_list.h"
+#include "sphere/sphere_pair.h"
 
-/* The round ends of a cone, which stand out from the sides of its polygon. */
-static fl_aabb add_ends(fl_aabb box, const fl_piece *p, fl_vec3 x, const fl_mat3 *R)
+/* Extend a box by the circular ends of a cone, which its polygon does not cover. */
+static fl_aabb add_cone_ends(fl_aabb box, const fl_piece *p, fl_vec3 x, const fl_mat3 *R)
 {
     const fl_vec3 a = m3_col(*R, 2),
                   e = v3(sqrt(fmax(0.0, 1.0 - a.x * a.x)), sqrt(fmax(0.0, 1.0 - a.y * a.y)),
@@ -27,7 +27,7 @@ static fl_aabb add_ends(fl_aabb box, const fl_piece *p, fl_vec3 x, const fl_mat3
     return box;
 }
 
-/* The box of body k: of its core in the world, dilated. */
+/* Box of the dilated core of body k, world axes. */
 static fl_aabb box_of(const fl_world *w, int32_t k)
 {
     const fl_bodies *b = &w->b;
@@ -46,31 +46,30 @@ static fl_aabb box_of(const fl_world *w, int32_t k)
         if (n.z < -0.5) box.lo.z = x.z;
         return box;
     }
-    if (k < w->n && w->elastic_walls.hull &&
-        core->nv > 2) { /* sharp corners stand out from the dilated core */
+    if (k < w->n && w->elastic_walls.hull && core->nv > 2) { /* sharp corners are outside the dilated core */
         const fl_poly *outer = &w->elastic_walls.outer[k];
         for (int32_t v = 0; v < outer->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(R, outer->v[v])));
         return box;
     }
     for (int32_t v = 0; v < core->nv; v++) box = aabb_add(box, v3_add(b->x[k], m3_mul(R, core->v[v])));
     if (k >= w->n && w->structure.piece[k - w->n].kind == FL_PIECE_CONE)
-        box = add_ends(box, &w->structure.piece[k - w->n], b->x[k], &R);
+        box = add_cone_ends(box, &w->structure.piece[k - w->n], b->x[k], &R);
     return aabb_grow(box, b->radius[k]);
 }
 
-/* Bring the boxes into the cell; each by the cell that its body's centre is in, walls as they are. */
+/* Move the boxes into the periodic cell, each by the cell of its body's centre; walls stay. */
 static void wrap_boxes(fl_world *w)
 {
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < w->b.total - w->walls; k++) {
         w->cell_of_body[k] = fl_periodic_cell_of(&w->cell, w->b.x[k]);
-        const fl_vec3 way = fl_periodic_cell_offset(&w->cell, w->cell_of_body[k]);
-        w->box[k] = (fl_aabb){v3_sub(w->box[k].lo, way), v3_sub(w->box[k].hi, way)};
+        const fl_vec3 margin = fl_periodic_cell_offset(&w->cell, w->cell_of_body[k]);
+        w->box[k] = (fl_aabb){v3_sub(w->box[k].lo, margin), v3_sub(w->box[k].hi, margin)};
     }
     w->candidates.period = w->cell.length;
 }
 
-/* The image of pair k of the search: boxes met after each had been moved by its own cell. */
+/* Image of candidate k: the boxes met after each had been moved by its own cell. */
 static void image_of(const fl_world *w, int64_t k, int32_t i, int32_t j, int32_t image[3])
 {
     image[0] = image[1] = image[2] = 0;
@@ -81,8 +80,8 @@ static void image_of(const fl_world *w, int64_t k, int32_t i, int32_t j, int32_t
         image[axis] = fl_pairs_image_shift(w->candidates.image[k], axis) + (int32_t)own[axis];
 }
 
-/* -1, 0, 1: pair p comes before (i, j, image), is it, or comes after it. */
-static int order(const fl_neighbour_pair *p, int32_t i, int32_t j, const int32_t image[3])
+/* -1, 0, 1: pair p is before, equal to or after (i, j, image) in the order of the list. */
+static int compare_pair(const fl_neighbour_pair *p, int32_t i, int32_t j, const int32_t image[3])
 {
     if (p->i != i) return p->i < i ? -1 : 1;
     if (p->j != j) return p->j < j ? -1 : 1;
@@ -91,33 +90,33 @@ static int order(const fl_neighbour_pair *p, int32_t i, int32_t j, const int32_t
     return 0;
 }
 
-/* told: by the groups, of the floes. */
-static int stale(const fl_world *w, int told)
+/* 1 if the list may be incomplete.  by_block: w->blocks has the paths of the floes. */
+static int is_due(const fl_world *w, int by_block)
 {
     double first[2] = {0.0, 0.0};
     if (w->last_search_step < 0) return 1;
     if (w->scene->run.search_every > 0 && w->step - w->last_search_step >= w->scene->run.search_every)
         return 1;
-    for (int32_t g = 0; g < fl_block_count(w) && told; g++)
+    for (int32_t g = 0; g < fl_block_count(w) && by_block; g++)
         fl_update_two_largest(first, w->blocks[g].largest_moves[0]),
             fl_update_two_largest(first, w->blocks[g].largest_moves[1]);
-    for (int32_t k = told ? w->n : 0; k < w->b.total; k++)
+    for (int32_t k = by_block ? w->n : 0; k < w->b.total; k++)
         fl_update_two_largest(first, w->b.odometer[k] - w->odometer_at_search[k]);
     return first[0] + first[1] >= w->skin * (1.0 - 1e-6);
 }
 
-/* Room for n elements of an array that is filled anew: as much as there is, where that is neither too little
- * nor a quarter too much. */
-static int fit(void *array, int32_t *cap, int64_t n, size_t size, fl_err *err)
+/* Size an array for n new elements; it is kept if it is large enough and not more than a quarter too
+ * large. */
+static int fit_array(void *array, int32_t *cap, int64_t n, size_t size, fl_err *err)
 {
     void *old;
     if (n <= *cap && *cap - n <= n / 4) return 0;
     memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T */
     free(old);
-    void *const fresh = fl_alloc(n + n / 8, size, err);
-    memcpy(array, &fresh, sizeof fresh);
-    *cap = fresh ? (int32_t)(n + n / 8) : 0;
-    return fresh ? 0 : -1;
+    void *const list = fl_alloc(n + n / 8, size, err);
+    memcpy(array, &list, sizeof list);
+    *cap = list ? (int32_t)(n + n / 8) : 0;
+    return list ? 0 : -1;
 }
 
 int fl_neighbour_list_index(fl_world *w, fl_err *err)
@@ -125,10 +124,11 @@ int fl_neighbour_list_index(fl_world *w, fl_err *err)
     const int32_t total = w->b.total;
     if (w->n_pair > INT32_MAX / 4)
         return fl_fail(err, FL_SYSTEM, "out of memory: %d pairs are near each other", w->n_pair);
-    if (fit(&w->first_pair_of_body, &w->first_pair_of_body_cap, (int64_t)total + 1,
-            sizeof *w->first_pair_of_body, err))
+    if (fit_array(&w->first_pair_of_body, &w->first_pair_of_body_cap, (int64_t)total + 1,
+                  sizeof *w->first_pair_of_body, err))
         return -1;
-    if (fit(&w->pairs_of_body, &w->pairs_of_body_cap, 2 * (int64_t)w->n_pair, sizeof *w->pairs_of_body, err))
+    if (fit_array(&w->pairs_of_body, &w->pairs_of_body_cap, 2 * (int64_t)w->n_pair, sizeof *w->pairs_of_body,
+                  err))
         return -1;
     for (int32_t k = 0; k <= total; k++) w->first_pair_of_body[k] = 0;
     for (int32_t c = 0; c < w->n_pair; c++) {
@@ -143,10 +143,10 @@ int fl_neighbour_list_index(fl_world *w, fl_err *err)
         w->pairs_of_body[w->first_pair_of_body[w->pair[c].j + 1]++] = c;
     }
     w->first_pair_of_body[0] = 0;
-    if (fit(&w->pair_touches, &w->pair_touches_cap, w->n_pair, sizeof *w->pair_touches, err)) return -1;
-    if (fit(&w->next_check, &w->next_check_cap, w->n_pair, sizeof *w->next_check, err)) return -1;
+    if (fit_array(&w->pair_touches, &w->pair_touches_cap, w->n_pair, sizeof *w->pair_touches, err)) return -1;
+    if (fit_array(&w->next_check, &w->next_check_cap, w->n_pair, sizeof *w->next_check, err)) return -1;
     if (w->sleep.state &&
-        fit(&w->sleep.pair_due, &w->sleep.pair_due_cap, w->n_pair, sizeof *w->sleep.pair_due, err))
+        fit_array(&w->sleep.pair_due, &w->sleep.pair_due_cap, w->n_pair, sizeof *w->sleep.pair_due, err))
         return -1;
     if (w->sleep.state && w->n_pair) memset(w->sleep.pair_due, 0, (size_t)w->n_pair);
     for (int32_t c = 0; c < w->n_pair; c++)
@@ -166,8 +166,8 @@ void fl_update_touching_pairs(fl_world *w)
     fl_contact_sums_assign(w);
 }
 
-/* Where a bond has ended the pair remembers it. */
-static int left_by_bond(fl_world *w, fl_neighbour_pair *q)
+/* A new pair whose bond has ended takes over the state of that bond. */
+static int init_after_bond(fl_world *w, fl_neighbour_pair *q)
 {
     fl_pair p;
     fl_neighbour_pair_expand(w, q, &p);
@@ -175,8 +175,8 @@ static int left_by_bond(fl_world *w, fl_neighbour_pair *q)
     return fl_neighbour_pair_store(w, q, &p);
 }
 
-/* What near pairs are found by goes when they are: the boxes and their tree, */
-static void drop_boxes(fl_world *w)
+/* Free the boxes and their tree after the search. */
+static void free_boxes(fl_world *w)
 {
     const fl_bvh *t = &w->candidates.tree;
     w->search_bytes = (double)((size_t)w->b.total * sizeof *w->box + (size_t)t->node_cap * sizeof *t->node +
@@ -186,22 +186,22 @@ static void drop_boxes(fl_world *w)
     fl_bvh_free(&w->candidates.tree);
 }
 
-/* and the lists, which lie beside the boxes first and beside the pairs that there were then. */
-static void drop_lists(fl_world *w, int32_t pairs)
+/* Free the candidates.  search_bytes: they exist beside the boxes first, then beside the old pairs. */
+static void free_candidates(fl_world *w, int32_t pairs)
 {
     const fl_pairs *p = &w->candidates;
-    const double were = (double)((size_t)pairs * sizeof *w->pair);
+    const double old_pairs = (double)((size_t)pairs * sizeof *w->pair);
     const size_t lists = (size_t)p->first_cap * sizeof *p->first +
                          (size_t)p->partner_cap * sizeof *p->partner +
                          (size_t)p->image_cap * sizeof *p->image +
                          (w->cell_of_body ? (size_t)w->b.total * sizeof *w->cell_of_body : 0);
-    w->search_bytes = fmax(w->search_bytes, were) + (double)lists;
+    w->search_bytes = fmax(w->search_bytes, old_pairs) + (double)lists;
     free(w->cell_of_body);
     w->cell_of_body = NULL;
     fl_pairs_clear(&w->candidates);
 }
 
-static int find(fl_world *w, fl_err *err)
+static int find_pairs(fl_world *w, fl_err *err)
 {
     const int32_t total = w->b.total;
     fl_neighbour_pair *old = w->pair;
@@ -211,17 +211,17 @@ static int find(fl_world *w, fl_err *err)
     if (!w->box || (w->cell.periodic && !w->cell_of_body)) return -1;
 #pragma omp parallel for schedule(static)
     for (int32_t k = 0; k < total; k++) {
-        const double way = fl_sleep_phase_of(w, k) == FL_BALLISTIC ? w->sleep.state[k].path_bound : 0.0;
-        w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin + way);
+        const double margin = fl_sleep_phase_of(w, k) == FL_BALLISTIC ? w->sleep.state[k].path_bound : 0.0;
+        w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin + margin);
     }
     if (w->cell.periodic) wrap_boxes(w);
     if (fl_pairs_find(&w->candidates, w->box, w->n, total, w->walls, err)) return -1;
     int64_t n, to = 0;
-    drop_boxes(w);
+    free_boxes(w);
     if (fl_contact_list_build(w, image_of, &n, err)) return -1;
-    fl_neighbour_pair *fresh = fl_alloc(n, sizeof *fresh, err);
-    if (!fresh) return -1;
-    int32_t at = 0;
+    fl_neighbour_pair *list = fl_alloc(n, sizeof *list, err);
+    if (!list) return -1;
+    int32_t next = 0;
     for (int32_t i = 0; i < w->n && n > 0; i++) {
         for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++) {
             const int32_t j = w->candidates.partner[k];
@@ -229,30 +229,31 @@ static int find(fl_world *w, fl_err *err)
             if (fl_sphere_pair_kind(w, i, j)) continue;
             image_of(w, k, i, j, image);
             if (fl_bond_list_is_bonded(w, i, j, image)) continue;
-            while (at < n_old && order(&old[at], i, j, image) < 0) fl_neighbour_pair_free(w, &old[at++]);
-            if (at < n_old && order(&old[at], i, j, image) == 0) {
-                fresh[to] = old[at++];
+            while (next < n_old && compare_pair(&old[next], i, j, image) < 0)
+                fl_neighbour_pair_free(w, &old[next++]);
+            if (next < n_old && compare_pair(&old[next], i, j, image) == 0) {
+                list[to] = old[next++];
             } else {
-                fl_neighbour_pair_init(&fresh[to], i, j, image);
-                if (w->bonds.n && left_by_bond(w, &fresh[to])) w->failed = 1;
+                fl_neighbour_pair_init(&list[to], i, j, image);
+                if (w->bonds.n && init_after_bond(w, &list[to])) w->failed = 1;
             }
             to++;
         }
     }
-    while (at < n_old) fl_neighbour_pair_free(w, &old[at++]);
+    while (next < n_old) fl_neighbour_pair_free(w, &old[next++]);
     free(old);
-    w->pair = fresh;
+    w->pair = list;
     w->n_pair = (int32_t)to;
     return 0;
 }
 
-static int renew(fl_world *w, fl_err *err)
+static int rebuild_list(fl_world *w, fl_err *err)
 {
     const int32_t total = w->b.total;
     const int32_t pairs = w->n_pair;
-    const int rc = find(w, err);
-    if (w->box) drop_boxes(w);
-    drop_lists(w, pairs);
+    const int rc = find_pairs(w, err);
+    if (w->box) free_boxes(w);
+    free_candidates(w, pairs);
     if (rc) return -1;
     for (int32_t k = 0; k < total; k++) w->odometer_at_search[k] = w->b.odometer[k];
     w->last_search_step = w->step;
@@ -260,8 +261,11 @@ static int renew(fl_world *w, fl_err *err)
     return fl_neighbour_list_index(w, err);
 }
 
-int fl_neighbour_list_update(fl_world *w, fl_err *err) { return stale(w, 0) ? renew(w, err) : 0; }
+int fl_neighbour_list_update(fl_world *w, fl_err *err) { return is_due(w, 0) ? rebuild_list(w, err) : 0; }
 
-int fl_neighbour_list_from_blocks(fl_world *w, fl_err *err) { return stale(w, 1) ? renew(w, err) : 0; }
+int fl_neighbour_list_from_blocks(fl_world *w, fl_err *err)
+{
+    return is_due(w, 1) ? rebuild_list(w, err) : 0;
+}
 
-int fl_neighbour_list_due(const fl_world *w) { return stale(w, 1); }
+int fl_neighbour_list_due(const fl_world *w) { return is_due(w, 1); }

@@ -1,35 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/setup.h"
 #include <omp.h>
 #include <string.h>
 #include "base/array.h"
 #include "base/pi.h"
-#include "sim/floe_setup.h"
-#include "structure/mesh_contact.h"
-#include "geom/clip.h"
-#include "geom/mass.h"
-#include "sphere/contact_list.h"
 #include "contact/bond_list.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "contact/panel_load.h"
+#include "geom/clip.h"
+#include "geom/mass.h"
+#include "sim/energy_ledger.h"
+#include "sim/floe_setup.h"
+#include "sim/inflow.h"
 #include "sim/moving_structure.h"
 #include "sim/sleep.h"
-#include "sim/inflow.h"
-#include "sim/energy_ledger.h"
-#include "sim/setup.h"
+#include "sphere/contact_list.h"
+#include "structure/mesh_contact.h"
 #include "water/added_mass.h"
+#include "water/force_table.h"
 #include "world/access.h"
 
-/* Fewer bodies than this are not worth a thread: its share of a step would be shorter than the wait at its
- * end. */
-enum { BODIES_A_THREAD = 32 };
+/* Smallest number of bodies per thread: with fewer the work of a thread is shorter than the wait for the
+ * others. */
+enum { BODIES_PER_THREAD = 32 };
 
-#define PI 3.14159265358979323846
+/* --- surroundings ------------------------------------------------------------------------------ */
 
-/* --- bodies ------------------------------------------------------------------------------------ */
-
-static int make_beds(fl_world *w, fl_err *err)
+static int make_elastic_walls(fl_world *w, fl_err *err)
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     int elastic = 0;
@@ -42,54 +41,7 @@ static int make_beds(fl_world *w, fl_err *err)
     return w->elastic_walls.outer && w->elastic_walls.hull ? 0 : -1;
 }
 
-static int make_waves(fl_world *w, fl_err *err)
-{
-    const fl_scene_water *s = &w->scene->water;
-    const double g = v3_norm(w->scene->run.gravity);
-    if (!s->head.present || s->wave == FL_WAVE_NONE) return 0;
-    if (s->wave == FL_WAVE_AIRY
-            ? fl_waves_airy(&w->sea.wave, s->height, s->period, s->direction, s->depth, g, err)
-            : fl_waves_jonswap(&w->sea.wave, s->height, s->period, s->gamma, s->components, (uint64_t)s->seed,
-                               s->direction, s->depth, g, err))
-        return -1;
-    w->sea.waves = 1;
-    return 0;
-}
-
-static int make_sea(fl_world *w, fl_err *err)
-{
-    const fl_scene *s = w->scene;
-    fl_environment *sea = &w->sea;
-    if (!s->water.head.present && !s->wind.head.present) return 0;
-    sea->water = s->water.head.present;
-    sea->sample_every = s->water.every;
-    sea->wind = s->wind.head.present;
-    sea->level = s->water.level;
-    sea->specific_weight = s->water.density * v3_norm(s->run.gravity);
-    sea->seawater = (fl_fluid){s->water.density, s->water.drag_force_coef, s->water.drag_moment_coef};
-    sea->air = (fl_fluid){s->wind.density, s->wind.drag_coef, 0.0};
-    sea->current =
-        (fl_current){.velocity = s->water.current,
-                     .kind = s->water.profile,
-                     .depth = s->water.profile_depth > 0.0 ? s->water.profile_depth : s->water.depth,
-                     .exponent = s->water.profile_exponent};
-    if (s->water.profile == FL_PROFILE_TABLE && fl_current_read(&sea->current, s->water.profile_file, err))
-        return -1;
-    sea->water_drag_law = s->water.drag;
-    sea->water_skin = s->water.skin_coef;
-    sea->water_form = s->water.form_coef;
-    sea->wind_drag_law = s->wind.drag;
-    sea->wind_form = s->wind.form_coef;
-    sea->wind_velocity = s->wind.velocity;
-    if (s->wind.beaufort >= 0.0) { /* Beaufort's scale, as words of the manual have it */
-        const double U = 0.836 * s->wind.beaufort * sqrt(s->wind.beaufort), a = fl_radians(s->wind.direction);
-        sea->wind_velocity = v3(U * cos(a), U * sin(a), 0);
-    }
-    if (sea->water && v3_nonzero(s->water.added_mass) && fl_bodies_alloc_added_mass(&w->b, err)) return -1;
-    return make_waves(w, err) || fl_environment_alloc(sea, w->n, w->threads, err) ? -1 : 0;
-}
-
-/* --- what is held ------------------------------------------------------------------------------ */
+/* --- walls and pieces -------------------------------------------------------------------------- */
 
 static int add_wall(fl_structure *s, int elastic, fl_vec3 x, fl_vec3 normal, fl_err *err)
 {
@@ -110,7 +62,7 @@ static int make_walls(fl_world *w, fl_err *err)
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_structure *st = &w->structure;
     const double lo[3] = {s->min.x, s->min.y, s->min.z}, hi[3] = {s->max.x, s->max.y, s->max.z};
-    const int32_t before = st->n;
+    const int32_t distance = st->n;
     if (!s->head.present) return 0;
     for (int c = 0; c < 3; c++) {
         const fl_vec3 e = v3(c == 0, c == 1, c == 2);
@@ -119,7 +71,7 @@ static int make_walls(fl_world *w, fl_err *err)
         if (isfinite(lo[c]) && add_wall(st, elastic, v3_scale(lo[c], e), e, err)) return -1;
         if (isfinite(hi[c]) && add_wall(st, elastic, v3_scale(hi[c], e), v3_neg(e), err)) return -1;
     }
-    w->walls = st->n - before;
+    w->walls = st->n - distance;
     return 0;
 }
 
@@ -141,18 +93,18 @@ static void make_cell(fl_world *w)
 
 static fl_vec3 normal_of(const fl_piece *wall) { return q_rotate(wall->q, v3(0, 0, 1)); }
 
-static int before_walls(const fl_world *w, int32_t i, fl_err *err)
+static int check_behind_walls(const fl_world *w, int32_t i, fl_err *err)
 {
     char name[64];
     if (fl_body_fixed_translations(&w->b, i) == (FL_DOF_X | FL_DOF_Y | FL_DOF_Z)) return 0;
     for (int32_t k = 0; k < w->walls && w->b.invm[i] > 0.0; k++) {
         const fl_piece *wall = &w->structure.piece[w->pieces + k];
-        const double before = v3_dot(normal_of(wall), v3_sub(w->b.x[i], wall->x));
-        if (!wall->elastic && before < 0.0)
+        const double distance = v3_dot(normal_of(wall), v3_sub(w->b.x[i], wall->x));
+        if (!wall->elastic && distance < 0.0)
             return fl_fail(err, FL_INPUT,
-                           "%s: body %d stands behind %s, its centre by %.4g m: a place between boundary.min "
-                           "and boundary.max is expected",
-                           w->scene->ice.file, w->id[i], fl_wall_name(w, k, name), -before);
+                           "%s: body %d is behind %s, its centre by %.4g m: a position between boundary.min "
+                           "and boundary.max expected",
+                           w->scene->ice.file, w->id[i], fl_wall_name(w, k, name), -distance);
     }
     return 0;
 }
@@ -160,12 +112,12 @@ static int before_walls(const fl_world *w, int32_t i, fl_err *err)
 int fl_world_check_walls(const fl_world *w, fl_err *err)
 {
     for (int32_t i = 0; i < w->n; i++)
-        if (!fl_body_absent(w, i) && before_walls(w, i, err)) return -1;
+        if (!fl_body_absent(w, i) && check_behind_walls(w, i, err)) return -1;
     return 0;
 }
 
-/* A body could meet a piece longer than the cell in two images at once. */
-static int piece_fits(const fl_world *w, int32_t k, const fl_surface *surface, fl_err *err)
+/* A body could touch a piece longer than the cell in two images at once. */
+static int check_piece_length(const fl_world *w, int32_t k, const fl_surface *surface, fl_err *err)
 {
     const double length[3] = {w->cell.length.x, w->cell.length.y, w->cell.length.z};
     const fl_piece *p = &w->structure.piece[k];
@@ -176,8 +128,8 @@ static int piece_fits(const fl_world *w, int32_t k, const fl_surface *surface, f
         if (length[c] > 0.0 && size[c] > length[c] * (1.0 + 1e-9))
             return fl_fail(
                 err, FL_INPUT,
-                "%s: a piece of part %s is %.4g m long, and the periodic %c repeats every %.4g m: it would "
-                "be met more than once",
+                "%s: a piece of part %s is %.4g m long, and the periodic %c repeats every %.4g m: bodies "
+                "would touch more than one image of it",
                 w->scene->structure.file, surface->part[p->part].name, size[c], 'x' + c, length[c]);
     return 0;
 }
@@ -191,8 +143,9 @@ static int place_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
         w->b.q[j] = piece->q;
         w->material[j] = piece->kind == FL_PIECE_PLANE ? FL_SCENE_BOUNDARY : FL_SCENE_STRUCTURE;
         if (piece->kind == FL_PIECE_PLANE) continue;
-        if (w->cell.periodic && piece_fits(w, k, surface, err)) return -1;
-        if (piece->kind == FL_PIECE_MESH) { /* only its box is looked at, through the corners */
+        if (w->cell.periodic && check_piece_length(w, k, surface, err)) return -1;
+        if (piece->kind ==
+            FL_PIECE_MESH) { /* its core has the corners of its box, for the neighbour search */
             fl_vec3 corner[8];
             const fl_aabb box = piece->mesh.tree.node[0].box;
             for (int c = 0; c < 8; c++)
@@ -214,7 +167,7 @@ static int place_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
     return 0;
 }
 
-/* --- all of it --------------------------------------------------------------------------------- */
+/* --- the world --------------------------------------------------------------------------------- */
 
 static int make_arrays(fl_world *w, fl_err *err)
 {
@@ -239,7 +192,7 @@ static int make_arrays(fl_world *w, fl_err *err)
     return err->code ? -1 : 0;
 }
 
-/* A group of the scene that no record has is a name mistyped: its bodies would be free. */
+/* A group of the scene without a record in the fields is a mistyped name: its bodies would be free. */
 static int check_groups(const fl_world *w, const fl_ice_field *field, const fl_ice_field *feed, fl_err *err)
 {
     for (int32_t g = 0; g < w->scene->n_group; g++) {
@@ -253,13 +206,13 @@ static int check_groups(const fl_world *w, const fl_ice_field *field, const fl_i
     return 0;
 }
 
-/* Which floes of the ice are driven. */
-static int make_row(fl_world *w, const fl_ice_field *field, fl_err *err)
+/* Mark the floes of the ice that are driven. */
+static int make_driven_floes(fl_world *w, const fl_ice_field *field, fl_err *err)
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     const double v = fabs(s->drive.x) >= fabs(s->drive.y) ? s->drive.x : s->drive.y;
     const int auto_axis = fabs(s->drive.x) < fabs(s->drive.y);
-    /* the edge is where `sign` times the coordinate is least */
+    /* the edge is at the smallest `sign` times coordinate */
     const fl_inflow_state edge = {.axis = s->drive_edge ? (s->drive_edge - 1) / 2 : auto_axis,
                                   .sign = s->drive_edge ? (s->drive_edge % 2 ? 1.0 : -1.0)
                                                         : (v > 0.0 ? 1.0 : -1.0)};
@@ -282,7 +235,7 @@ static int make_row(fl_world *w, const fl_ice_field *field, fl_err *err)
         const int32_t g = w->driven_floes.is_driven[k] ? fl_scene_find_group(w->scene, group) : -1;
         if (g >= 0 && w->scene->group[g].fixed & s->drive_fixed & (FL_DOF_X | FL_DOF_Y | FL_DOF_Z)) {
             char what[2 * FL_SCENE_NAME];
-            snprintf(what, sizeof what, "[group %s] and boundary.drive both say how it moves", group);
+            snprintf(what, sizeof what, "both [group %s] and boundary.drive prescribe its motion", group);
             return fl_fail_floe(w, field, k, err, what);
         }
     }
@@ -301,8 +254,8 @@ static int has_points(const fl_ice_field *f)
     return 0;
 }
 
-/* How often a surface goes round x: once where x lies within what looks outward, and not in its cavities. */
-static double turns_about(const fl_part *p, fl_vec3 x)
+/* Winding number of a surface about x: 1 inside a surface with outward normals, 0 in its cavities. */
+static double winding_number(const fl_part *p, fl_vec3 x)
 {
     double angle = 0.0;
     for (int32_t t = 0; t < p->nt; t++) {
@@ -315,9 +268,9 @@ static double turns_about(const fl_part *p, fl_vec3 x)
     return angle / (2.0 * PI);
 }
 
-/* Of a closed part that looks inward what is outside is solid: a tank holds its floes, and of a post that is
- * inside out the floes about it would be in its ice.  Who stands in what is solid between an outside and its
- * cavities is another matter. */
+/* A closed part with inward normals is solid outside: a tank holds its floes, but of a post that is
+ * inside out the floes around it would be in the solid.  Floes in the solid between a surface and its
+ * cavities are not checked here. */
 static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *err)
 {
     for (int32_t k = 0; k < w->structure.n; k++) {
@@ -326,13 +279,14 @@ static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *er
             if (fl_body_absent(w, i)) continue;
             const fl_vec3 x = q_rotate(q_conj(piece->q), v3_sub(w->b.x[i], piece->x));
             const fl_part *p = &surface->part[piece->part];
-            if (!fl_mesh_contact_contains(piece, x) || turns_about(p, w->b.x[i]) > 0.5) continue;
-            const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one behind the other */
-            return fl_fail(err, FL_INPUT,
-                           "%s: part %s: its triangles, from line %d on, look inward, and body %d stands "
-                           "outside, where all is solid then: struct-import turns them",
-                           w->scene->structure.file, p->name,
-                           p->line + (rows ? piece->inward_triangle - 1 : 0), w->id[i]);
+            if (!fl_mesh_contact_contains(piece, x) || winding_number(p, w->b.x[i]) > 0.5) continue;
+            const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one triangle a line */
+            return fl_fail(
+                err, FL_INPUT,
+                "%s: part %s: its triangles, from line %d on, have inward normals, so all outside is "
+                "solid, and body %d is there: struct-import turns them",
+                w->scene->structure.file, p->name, p->line + (rows ? piece->inward_triangle - 1 : 0),
+                w->id[i]);
         }
     }
     return 0;
@@ -352,7 +306,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     *w = (fl_world){.scene = scene, .n = field->n, .last_search_step = -1, .gravity = scene->run.gravity};
     fl_barrier_make(&w->barrier);
     w->threads = scene->run.threads > 0 ? scene->run.threads : omp_get_max_threads();
-    if (w->threads > 1 + field->n / BODIES_A_THREAD) w->threads = 1 + field->n / BODIES_A_THREAD;
+    if (w->threads > 1 + field->n / BODIES_PER_THREAD) w->threads = 1 + field->n / BODIES_PER_THREAD;
     omp_set_num_threads(w->threads);
     fl_thread_count_make(&w->team, w->threads, scene->run.threads == 0);
     w->dt_critical = w->dt_critical_contacts = INFINITY;
@@ -365,11 +319,13 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     }
     if (make_walls(w, err)) goto fail;
     make_cell(w);
-    if (check_groups(w, field, feed, err) || fl_inflow_make(w, field, feed, err) || make_row(w, field, err))
+    if (check_groups(w, field, feed, err) || fl_inflow_make(w, field, feed, err) ||
+        make_driven_floes(w, field, err))
         goto fail;
     w->pieces = w->structure.n - w->walls;
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
-        fl_contact_sums_make(w, err) || make_beds(w, err) || make_sea(w, err))
+        fl_contact_sums_make(w, err) || make_elastic_walls(w, err) ||
+        fl_environment_set_up(&w->sea, &w->b, w->scene, w->n, w->threads, err))
         goto fail;
     w->has_points = has_points(field) || has_points(feed);
     if (w->has_points && fl_structure_prepare_spheres(&w->structure, err)) goto fail;
@@ -379,7 +335,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         if (fl_world_place_floe(w, i, field, i, err)) goto fail;
         bound += w->b.bounding_radius[i] + w->b.radius[i];
     }
-    /* The places to come hold what can come, so that the step is chosen for that as well. */
+    /* Places for floes to come are filled with such floes, so that the step is chosen for them, too. */
     for (int32_t i = field->n; i < w->n; i++) {
         w->inflow.source_floe[i] = (i - field->n) % feed->n;
         w->inflow.absent[i] = 1;
@@ -390,7 +346,8 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         fl_bond_list_make(w, field, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
-    /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs in vain. */
+    /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
+     * touch. */
     w->skin = field->n ? 0.1 * bound / field->n : 0.0;
     w->candidates.absent = w->inflow.absent;
     return 0;

@@ -1,117 +1,120 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sleep.h -- bodies to which nothing happens, taken over many steps at once: run.sleep = tol.
+/* sleep.h -- skip steps of inactive floes: run.sleep = tol.
  *
- * A floe that touches nothing COASTS: what acts on it is smooth, and it takes one step of the same integrator
- * over the time s since it fell asleep.  Nothing is foreseen but a bound of its path until then,
- *     way = s (|v| + r w) + s^2 (|a| + r e)/2 + s^2 d,     w = |L|/I_min,  e = |T|/I_min,
- * with r the reach of its core, a and T of the forces that the whole of that step begins with, and d the rate
- * at which drag changed the speed of its points last: drag slows down, so twice that bounds it.  The way goes
- * to the odometer at once; so a pair sleeps on only as long as the two cannot touch wherever in that time
- * they are (fl_pair.asleep), and where that ends, or the time does, the floe is brought to the time of now
- * before the pair is looked at.  A contact that begins then gives the impulse of one ordinary step.  What the
- * longer step is off by is told by what acts at its end,
- *     off = s^2/12 (|a1 - a0| + r |e1 - e0| + |d1 - d0|) + r (w s)^3/12,
- * and s is chosen so that it stays below tol times the radius of the floe: at most doubled, and no longer
- * than that or the next neighbour allows.  Who could coast for a few steps only stays awake, and is asked
+ * Ballistic floes.  A floe without contacts feels smooth forces only.  It takes one long step of the same
+ * integrator over the time s since it fell asleep.  Its path until then is bounded by
+ *     path = s (|v| + r w) + s^2 (|a| + r e)/2 + s^2 d,     w = |L|/I_min,  e = |T|/I_min,
+ * with r the radius of its core, a and T by the forces at the begin of that step, and d the rate at which
+ * drag changed the speed of its points last.  Drag slows down, so twice that is a bound.  The path is
+ * added to the odometer at once: a pair is skipped only while the two cannot touch anywhere on their
+ * paths (fl_pair.free_travel).  Where that ends, or the time does, the floe is advanced to the time of
+ * now before the pair is evaluated.  A contact that begins then gives the impulse of one ordinary step.
+ * The error of the long step is estimated from what acts at its end,
+ *     error = s^2/12 (|a1 - a0| + r |e1 - e0| + |d1 - d0|) + r (w s)^3/12.
+ * s is chosen to keep it below tol times the radius of the floe.  s at most doubles, and ends when the
+ * next neighbour may be reached.  A floe that could skip a few steps only stays awake, and is tested
  * again after as many.
  *
- * Floes that touch each other REST when all of them went a path p, in the last WINDOW steps, of no more than
- * a quarter of tol R, and together go no faster at the end than in the mean of these, as what begins to fall
- * off an edge does: they are left where they are for WINDOW sqrt(tol R/p) steps, in which they would go tol
- * R at the acceleration that explains p.  All that touch rest together, or none does; what comes to touch one
- * of them wakes them all.  Nothing of their pairs is computed, and the forces of those stay.
+ * Resting floes.  Floes that touch each other rest if each of them moved by a path p of at most tol R/4
+ * in the last 64 steps, and together they are no faster at the end than in the mean of these steps.
+ * (What begins to fall off an edge is faster.)  They stay where they are for 64 sqrt(tol R/p) steps, in
+ * which the acceleration that explains p would move them by tol R.  All floes of such an island rest
+ * together, or none does.  A new contact with one of them wakes all.  Their pairs are not evaluated; the
+ * forces stay.
  *
- * Awake stay: spheres, guided floes, floes of radius 0, and those that touch what moves, or a structure whose
- * panels are told; who lies still where waves reach it, or is held at a speed, does not rest.  Threads, stops
- * and tables change no bit; the skin does, as it decides when a pair is looked at. */
+ * Always awake: spheres, guided floes, floes of radius 0, and floes that touch what moves, or a structure
+ * whose panel loads are written.  Floes that waves reach, or that are held at a speed, do not rest.
+ * Threads, stops and tables change no bit; the skin does, as it decides when a pair is evaluated. */
 #ifndef FL_SIM_SLEEP_H
 #define FL_SIM_SLEEP_H
 #include <string.h>
 #include "world/access.h"
 
-/* -1 with FL_SYSTEM. */
+/* Build w->sleep, empty without run.sleep.  -1 with FL_SYSTEM. */
 int fl_sleep_make(fl_world *w, fl_err *err);
-/* What it takes of memory. */
+
+/* Its memory [B]. */
 double fl_sleep_bytes(const fl_world *w);
 void fl_sleep_free(fl_sleep *s);
 
-/* Whether k takes no part in this step. */
+/* 1 if body k is skipped in this step. */
 static inline int fl_is_asleep(const fl_world *w, int32_t k)
 {
-    const enum fl_sleep_phase kind = fl_sleep_phase_of(w, k);
-    return kind == FL_BALLISTIC || kind == FL_RESTING;
+    const enum fl_sleep_phase phase = fl_sleep_phase_of(w, k);
+    return phase == FL_BALLISTIC || phase == FL_RESTING;
 }
 
-/* Those of [from, to) that do not coast, to up[]; how many.  Eight that do are passed over at a time; who of
- * others does looks random, and to ask one after the other costs more than to write all down. */
-static inline int32_t fl_sleep_list_active(const fl_world *w, int32_t from, int32_t to, int32_t *up)
+/* List the bodies of [from, to) that are not ballistic in active[]; returns their number.  Eight
+ * ballistic ones are skipped at a time; the rest is listed without branches, which would be mispredicted. */
+static inline int32_t fl_sleep_list_active(const fl_world *w, int32_t from, int32_t to, int32_t *active)
 {
-    const uint8_t *kind = w->sleep.phase;
+    const uint8_t *phase = w->sleep.phase;
     int32_t n = 0;
     for (int32_t k = from, end; k < to; k = end) {
         uint64_t eight = 0;
         end = k + 8 < to ? k + 8 : to;
-        if (end == k + 8) memcpy(&eight, &kind[k], sizeof eight);
+        if (end == k + 8) memcpy(&eight, &phase[k], sizeof eight);
         if (eight == UINT64_C(0x0101010101010101) * FL_BALLISTIC) continue;
         for (int32_t i = k; i < end; i++) {
-            up[n] = i;
-            n += kind[i] != FL_BALLISTIC;
+            active[n] = i;
+            n += phase[i] != FL_BALLISTIC;
         }
     }
     return n;
 }
 
-/* When k fell asleep [s]. */
+/* Time at which body k fell asleep [s]. */
 static inline double fl_sleep_start_time(const fl_world *w, int32_t k)
 {
     return w->t0 + (double)(w->sleep.state[k].since_step - w->step0) * w->dt;
 }
 
-/* How long k has slept [s]. */
+/* Time since then [s]. */
 static inline double fl_sleep_duration(const fl_world *w, int32_t k)
 {
     return (double)(w->step - w->sleep.state[k].since_step) * w->dt;
 }
 
-/* By every thread of a team, of which this is one: who of those that coast are FL_WAKING in this step, because
- * their time has come, a neighbour has, or they may have left; and which near pairs are to be looked at,
- * sleep.due.  All of it is known when all are back. */
+/* Find the ballistic bodies that wake in this step (FL_WAKING): their time has come, a neighbour has come
+ * near, or they may have left the domain.  Marks the near pairs to evaluate, sleep.pair_due.  Called by
+ * every thread of the team; complete after a barrier. */
 void fl_sleep_find_waking(fl_world *w, int thread, int threads);
 
-/* k, which is FL_WAKING, is about to make the first half of its step. */
+/* Store what the error estimate needs, before the first half of the long step of body k, which is
+ * FL_WAKING. */
 void fl_sleep_first_half(fl_world *w, int32_t k);
 
-/* The second half of the step of k, which is FL_WAKING, by itself; */
+/* Second half of that step, and the error estimate. */
 void fl_sleep_second_half(fl_world *w, int32_t k);
 
-/* or what is to be kept of it when others have made it, nothing pressing on k: its speeds were v and spin
- * before the drag; */
+/* The error estimate alone, after another function has made the second half of body k, which has no
+ * contact.  v, spin: its velocities before the last drag. */
 void fl_sleep_finish_skip(fl_world *w, int32_t k, fl_vec3 v, fl_vec3 spin);
 
-/* and that it is awake then. */
+/* Body k is awake after that. */
 static inline void fl_sleep_set_awake(fl_world *w, int32_t k) { w->sleep.phase[k] = FL_AWAKE; }
 
-/* After the contacts: who rests and is touched by one who does not is awake, and all that touch him. */
+/* After the contacts: wake the islands of resting bodies that touch a body which does not rest. */
 void fl_sleep_wake_touched(fl_world *w);
 
-/* At the end of a step: who wakes, and who falls asleep. */
+/* At the end of a step: wake bodies whose time has come, and let bodies fall asleep. */
 void fl_sleep_update(fl_world *w);
 
-/* After a state has been read, which may be of a program that told of neighbours who slept later. */
+/* After a state has been read: an older program may have let two neighbours sleep longer. */
 void fl_sleep_after_read(fl_world *w);
 
-/* All who rest are awake: something has left. */
+/* Wake all resting bodies, as when a floe has left. */
 void fl_sleep_wake_resting(fl_world *w);
 
-/* Place i has another floe, awake. */
+/* Place i has a new floe, which is awake. */
 void fl_sleep_reset_body(fl_world *w, int32_t i);
 
-/* Bring those who coast to the time of now to be looked at, and back to where they fell asleep. */
+/* Advance all ballistic bodies to the time of now, for output; and take that back. */
 void fl_sleep_advance_to_now(fl_world *w);
 void fl_sleep_restore(fl_world *w);
 
-/* What it came to so far: steps of bodies that coasted and rested, how often one has coasted; over the
- * radius, the largest error of one coasting, and the largest sum of those of a floe. */
+/* Totals so far: steps skipped by ballistic and by resting bodies, number of ballistic skips; as
+ * fractions of the radius the largest error of one skip, and the largest sum of errors of one floe. */
 typedef struct {
     int64_t ballistic_steps, resting_steps, n_skips;
     double max_error, max_error_sum;

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/snapshot.h"
 #include "base/array.h"
 #include "base/parallel.h"
-#include "out/state_io.h"
-#include "sim/floe_setup.h"
-#include "sim/setup.h"
-#include "sphere/contact_list.h"
 #include "contact/bond_list.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "contact/panel_load.h"
+#include "out/state_io.h"
+#include "sim/energy_ledger.h"
+#include "sim/floe_setup.h"
+#include "sim/inflow.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
+#include "sim/setup.h"
 #include "sim/sleep.h"
-#include "sim/snapshot.h"
 #include "sim/snapshot_pair.h"
-#include "sim/inflow.h"
-#include "sim/energy_ledger.h"
+#include "sphere/contact_list.h"
 
-static void books(fl_state_io *t, fl_world *w)
+static void exchange_ledger(fl_state_io *t, fl_world *w)
 {
     fl_ledger *g = &w->ledger;
     fl_state_io_open(t, "books");
@@ -49,7 +49,7 @@ static void books(fl_state_io *t, fl_world *w)
     fl_state_io_close(t);
 }
 
-static void told(fl_state_io *t, fl_world *w)
+static void exchange_surrogate_counts(fl_state_io *t, fl_world *w)
 {
     fl_surrogate_count all = fl_surrogate_count_sum(w->surrogate_counts, w->threads);
     fl_state_io_open(t, "told");
@@ -63,9 +63,9 @@ static void told(fl_state_io *t, fl_world *w)
     w->surrogate_counts[0] = all;
 }
 
-/* Who has come and gone, and who stands in which place: a floe that came in is made again before its body is
- * read. */
-static void coming(fl_state_io *t, fl_world *w)
+/* Counts of outflow and inflow, and the floe in each place.  A floe that came in is built again before
+ * its body is read. */
+static void exchange_inflow(fl_state_io *t, fl_world *w)
 {
     fl_inflow_state *c = &w->inflow;
     const int32_t feed = c->feed ? c->feed->n : 0;
@@ -97,11 +97,11 @@ static void coming(fl_state_io *t, fl_world *w)
         fl_state_io_close(t);
         if (t->f || t->err->code) continue;
         if (floe != c->source_floe[i] && (!c->feed || (floe < 0 && i >= c->ice->n))) {
-            fl_text_fail(t->in, t->err, "place %d has no floe of its own", i);
+            fl_text_fail(t->in, t->err, "place %d has no floe of the ice file", i);
             continue;
         }
         const int other = floe != c->source_floe[i];
-        fl_inflow_set_guided(w, i, 0); /* who was in a state before */
+        fl_inflow_set_guided(w, i, 0); /* release the floe of a state read before */
         c->source_floe[i] = floe;
         if (other && fl_world_place_floe(w, i, floe < 0 ? c->ice : c->feed, floe < 0 ? i : floe, t->err))
             continue;
@@ -110,8 +110,8 @@ static void coming(fl_state_io *t, fl_world *w)
     }
 }
 
-/* What moves it, to the last bit: the spin is not always what L and q give. */
-static void motion(fl_state_io *t, fl_bodies *b, int32_t k)
+/* The motion of a body, to the last bit: w does not always follow from L and q. */
+static void exchange_motion(fl_state_io *t, fl_bodies *b, int32_t k)
 {
     fl_state_io_vec3(t, &b->x[k]);
     fl_state_io_vec3(t, &b->v[k]);
@@ -123,29 +123,28 @@ static void motion(fl_state_io *t, fl_bodies *b, int32_t k)
     fl_state_io_real(t, &b->work_of_constraints[k]);
 }
 
-static void body(fl_state_io *t, fl_world *w, int32_t k)
+static void exchange_body(fl_state_io *t, fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
     fl_state_io_open(t, "body");
-    motion(t, b, k);
+    exchange_motion(t, b, k);
     if (b->added_mass) fl_state_io_real(t, &b->flow_work[k]);
     fl_state_io_real(t, &b->odometer[k]);
     fl_state_io_real(t, &w->odometer_at_search[k]);
     fl_state_io_close(t);
 }
 
-/* The table of the current is not kept, but it must be the one that the run had. */
-static void table_of(fl_state_io *t, const fl_current *c)
+/* The table of the current is not stored, but must be the same. */
+static void exchange_current_hash(fl_state_io *t, const fl_current *c)
 {
     const uint64_t bits = fl_hash(FL_HASH_START, c->z, c->n * (int64_t)sizeof *c->z);
     fl_state_io_open(t, "current");
     if (fl_state_io_hash(t, fl_hash(bits, c->u, c->n * (int64_t)sizeof *c->u)))
-        fl_text_fail(t->in, t->err, "the rows of water.profile_file are not those that the run had");
+        fl_text_fail(t->in, t->err, "the rows of water.profile_file have changed since the checkpoint");
     fl_state_io_close(t);
 }
 
-/* Who sleeps, and since when. */
-static void nap(fl_state_io *t, fl_world *w, int32_t k)
+static void exchange_sleep(fl_state_io *t, fl_world *w, int32_t k)
 {
     fl_sleep_state *n = &w->sleep.state[k];
     fl_state_io_open(t, "nap");
@@ -167,16 +166,16 @@ static void nap(fl_state_io *t, fl_world *w, int32_t k)
                      (double)w->step);
 }
 
-static void sea(fl_state_io *t, fl_environment *s, const fl_bodies *b, int32_t i)
+static void exchange_water(fl_state_io *t, fl_environment *s, const fl_bodies *b, int32_t i)
 {
     double energy = s->water && !s->waves ? fl_environment_energy(s, b, i) : 0.0,
-           none = 0.0; /* told, and not needed */
+           unused = 0.0; /* written, but not needed */
     fl_state_io_open(t, "sea");
     fl_state_io_real(t, &s->wetted_area[i]);
     fl_state_io_real(t, &s->buoyancy[i]);
     fl_state_io_real(t, &energy);
     fl_state_io_real(t, &s->drag_loss[i]);
-    fl_state_io_real(t, s->wind_work ? &s->wind_work[i] : &none);
+    fl_state_io_real(t, s->wind_work ? &s->wind_work[i] : &unused);
     if (s->waves) fl_state_io_real(t, &s->water_work[i]);
     if (s->sample) {
         fl_wave_sample *h = &s->sample[i];
@@ -188,8 +187,8 @@ static void sea(fl_state_io *t, fl_environment *s, const fl_bodies *b, int32_t i
     fl_state_io_close(t);
 }
 
-/* The track is read again from its file, so its hash stands for it. */
-static void mover(fl_state_io *t, fl_world *w, int32_t k)
+/* The track is read again from its file; its hash must be the same. */
+static void exchange_mover(fl_state_io *t, fl_world *w, int32_t k)
 {
     fl_rigid_motions *m = &w->moving.movers;
     fl_bodies *b = &m->b;
@@ -200,9 +199,9 @@ static void mover(fl_state_io *t, fl_world *w, int32_t k)
                        tr->n * (int64_t)sizeof *tr->value);
     fl_state_io_open(t, "mover");
     if (fl_state_io_hash(t, bits))
-        fl_text_fail(t->in, t->err, "the rows of the track of %s are not those that the run had",
+        fl_text_fail(t->in, t->err, "the rows of the track of %s have changed since the checkpoint",
                      fl_mover_name(w, k));
-    motion(t, b, k);
+    exchange_motion(t, b, k);
     fl_state_io_vec3(t, &m->prescribed[k]);
     fl_state_io_vec3(t, &m->prescribed_velocity[k]);
     fl_state_io_vec3(t, &m->spring_force[k]);
@@ -213,8 +212,8 @@ static void mover(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_close(t);
 }
 
-/* Where the ice pressed last, and what the panels and events of the interval have so far. */
-static void mark(fl_state_io *t, fl_world *w, fl_panel_point *m)
+/* A contact point on the structure, of the last step. */
+static void exchange_point(fl_state_io *t, fl_world *w, fl_panel_point *m)
 {
     fl_state_io_open(t, "mark");
     fl_state_io_int(t, 0, w->n - 1, &m->i);
@@ -229,7 +228,7 @@ static void mark(fl_state_io *t, fl_world *w, fl_panel_point *m)
     fl_state_io_close(t);
 }
 
-static void event(fl_state_io *t, fl_world *w, fl_load_event *e)
+static void exchange_event(fl_state_io *t, fl_world *w, fl_load_event *e)
 {
     fl_state_io_open(t, "event");
     fl_state_io_int(t, INT32_MIN, INT32_MAX, &e->id);
@@ -243,7 +242,8 @@ static void event(fl_state_io *t, fl_world *w, fl_load_event *e)
     fl_state_io_close(t);
 }
 
-static void pressed(fl_state_io *t, fl_world *w)
+/* The contact points of the last step, and the loads of panels and events in the interval so far. */
+static void exchange_panel_loads(fl_state_io *t, fl_world *w)
 {
     fl_panel_loads *s = &w->panel_load;
     int32_t panels = s->panels, loaded = 0;
@@ -254,7 +254,7 @@ static void pressed(fl_state_io *t, fl_world *w)
     fl_state_io_int(t, 0, INT32_MAX, &s->points);
     fl_state_io_int(t, 0, INT32_MAX, &s->events);
     fl_state_io_close(t);
-    const int32_t marks = s->points, events = s->events;
+    const int32_t points = s->points, events = s->events;
     if (t->in) s->points = s->events = 0;
     if (t->in && !t->err->code) fl_panels_end_interval(w);
     for (int32_t c = 0, k = -1; c < loaded && !t->err->code; c++) {
@@ -266,23 +266,24 @@ static void pressed(fl_state_io *t, fl_world *w)
         if (!t->err->code) fl_state_io_vec3(t, &s->impulse[k]);
         fl_state_io_close(t);
     }
-    for (int32_t k = 0; k < marks && !t->err->code; k++) { /* the numbers are hints: room comes as rows do */
+    for (int32_t k = 0; k < points && !t->err->code;
+         k++) { /* the numbers are hints: the arrays grow with the rows */
         if (t->in && fl_grow(&s->point, &s->point_cap, (int64_t)k + 1, sizeof *s->point, t->err)) return;
         if (t->in) s->point[k] = (fl_panel_point){0};
-        mark(t, w, &s->point[k]);
+        exchange_point(t, w, &s->point[k]);
         s->points = k + 1;
     }
     for (int32_t k = 0; k < events && !t->err->code; k++) {
         if (t->in && fl_grow(&s->event, &s->event_cap, (int64_t)k + 1, sizeof *s->event, t->err)) return;
         if (t->in) s->event[k] = (fl_load_event){0};
-        event(t, w, &s->event[k]);
+        exchange_event(t, w, &s->event[k]);
         s->events = k + 1;
     }
 }
 
-/* A bond: its past, and what acts of it.  Separations follow from where the bodies are; the face and its law
- * from the scene. */
-static void bond(fl_state_io *t, fl_world *w, int32_t k)
+/* A bond: its memory and its forces.  Separations follow from the poses of the bodies, face and law from the
+ * scene. */
+static void exchange_bond(fl_state_io *t, fl_world *w, int32_t k)
 {
     fl_bond *c = &w->bonds.bond[k];
     fl_vec3 *const all[] = {&c->force,          &c->torque_i,          &c->torque_j,
@@ -309,17 +310,17 @@ static void bond(fl_state_io *t, fl_world *w, int32_t k)
         fl_state_io_real(t, &p->slip[1]);
         if (t->in && !t->err->code &&
             !(p->d >= 0.0 && p->d <= 1.0 && p->lambda_c >= 0.0 && p->lambda_f >= p->lambda_c))
-            fl_text_fail(t->in, t->err, "damage %g between %g and %g is none of a bond", p->d, p->lambda_c,
-                         p->lambda_f);
+            fl_text_fail(t->in, t->err, "damage %g between %g and %g is not possible in a bond", p->d,
+                         p->lambda_c, p->lambda_f);
     }
     fl_state_io_close(t);
 }
 
-/* Everything but the pairs, whose number the first row tells. */
-static int32_t all_but_pairs(fl_state_io *t, fl_world *w, int32_t *balls)
+/* Everything but the pairs; returns their number. */
+static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *spheres)
 {
     int32_t parts = w->parts, total = w->b.total, n_sea = w->sea.n, pairs = w->n_pair;
-    *balls = fl_contact_list_size(w);
+    *spheres = fl_contact_list_size(w);
     fl_state_io_open(t, "world");
     fl_state_io_count(t, &w->step);
     fl_state_io_count(t, &w->last_search_step);
@@ -336,15 +337,15 @@ static int32_t all_but_pairs(fl_state_io *t, fl_world *w, int32_t *balls)
     fl_state_io_int(t, w->b.total, w->b.total, &total);
     fl_state_io_int(t, w->sea.n, w->sea.n, &n_sea);
     fl_state_io_int(t, 0, INT32_MAX, &pairs);
-    fl_state_io_int(t, 0, INT32_MAX, balls);
+    fl_state_io_int(t, 0, INT32_MAX, spheres);
     fl_state_io_close(t);
     if (t->in && !t->err->code &&
         !(w->step >= 0 && w->dt > 0.0 && isfinite(w->dt) && w->skin >= 0.0 && w->t0 >= 0.0 &&
           isfinite(w->t0) && w->step0 >= 0 && w->step0 <= w->step &&
-          fabs(w->sea.time - fl_world_time(w)) < 0.5 * w->dt)) /* a new step may begin a rounding before */
-        fl_text_fail(t->in, t->err, "step %g of %g s is no state of a run", (double)w->step, w->dt);
-    books(t, w);
-    if (w->surrogate_counts) told(t, w);
+          fabs(w->sea.time - fl_world_time(w)) < 0.5 * w->dt)) /* but for rounding after a change of step */
+        fl_text_fail(t->in, t->err, "step %g of %g s is not a valid state of a run", (double)w->step, w->dt);
+    exchange_ledger(t, w);
+    if (w->surrogate_counts) exchange_surrogate_counts(t, w);
     for (int32_t p = 0; p < w->parts && !t->err->code; p++) {
         fl_state_io_open(t, "part");
         fl_state_io_vec3(t, &w->part_impulse[p]);
@@ -352,52 +353,53 @@ static int32_t all_but_pairs(fl_state_io *t, fl_world *w, int32_t *balls)
         fl_state_io_real(t, &w->part_peak[p]);
         fl_state_io_close(t);
     }
-    if (w->inflow.absent && !t->err->code) coming(t, w);
-    for (int32_t k = 0; k < w->b.total && !t->err->code; k++) body(t, w, k);
+    if (w->inflow.absent && !t->err->code) exchange_inflow(t, w);
+    for (int32_t k = 0; k < w->b.total && !t->err->code; k++) exchange_body(t, w, k);
     if (t->in) w->sleep.n_resting = 0;
     for (int32_t k = 0; k < w->n && w->sleep.state && !t->err->code; k++) {
-        nap(t, w, k);
+        exchange_sleep(t, w, k);
         if (t->in) w->sleep.n_resting += w->sleep.phase[k] == FL_RESTING;
     }
-    for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) mover(t, w, k);
-    for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) bond(t, w, k);
+    for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) exchange_mover(t, w, k);
+    for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
-    if (w->panel_load.panels && !t->err->code) pressed(t, w);
-    const double seen = w->sea.time;
-    if (w->sea.current.n) table_of(t, &w->sea.current);
+    if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
+    const double now = w->sea.time;
+    if (w->sea.current.n) exchange_current_hash(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
-        sea(t, &w->sea, &w->b, i);
+        exchange_water(t, &w->sea, &w->b, i);
         if (t->in && !t->err->code && w->sea.sample && !fl_body_absent(w, i) &&
-            !(w->sea.sample[i].when <= seen))
-            fl_text_fail(t->in, t->err, "a look at the water at %g s is none that has been",
+            !(w->sea.sample[i].when <= now))
+            fl_text_fail(t->in, t->err, "a sample of the water at %g s is not in the past",
                          w->sea.sample[i].when);
         if (!t->in || t->err->code || fl_body_absent(w, i)) continue;
-        if (fl_sleep_phase_of(w, i) != FL_AWAKE) /* what it meets is of then */
+        if (fl_sleep_phase_of(w, i) != FL_AWAKE) /* it feels the water of that time */
             w->sea.time = fl_sleep_start_time(w, i);
         fl_environment_refresh(&w->sea, &w->b, i);
-        w->sea.time = seen;
+        w->sea.time = now;
     }
     return pairs;
 }
 
 void fl_snapshot_write(FILE *f, fl_world *w)
 {
-    fl_err none = {0};
-    fl_state_io t = {.f = f, .err = &none};
-    int32_t balls;
-    all_but_pairs(&t, w, &balls);
+    fl_err unused = {0};
+    fl_state_io t = {.f = f, .err = &unused};
+    int32_t spheres;
+    exchange_all_but_pairs(&t, w, &spheres);
     for (int32_t c = 0; c < w->n_pair; c++) fl_snapshot_pair(&t, w, c);
     fl_contact_iterator at = {0};
-    for (int32_t c = 0; c < balls; c++) fl_snapshot_sphere_contact(&t, w, fl_contact_list_next(w, &at), NULL);
+    for (int32_t c = 0; c < spheres; c++)
+        fl_snapshot_sphere_contact(&t, w, fl_contact_list_next(w, &at), NULL);
 }
 
 int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
 {
     fl_state_io t = {.in = in, .err = err};
-    int32_t cap = 0, balls, last[2] = {-1, -1};
-    const int32_t pairs = all_but_pairs(&t, w, &balls);
+    int32_t cap = 0, spheres, last[2] = {-1, -1};
+    const int32_t pairs = exchange_all_but_pairs(&t, w, &spheres);
     fl_neighbour_pairs_free(w);
-    /* The number is a hint: room comes as rows do. */
+    /* The number is a hint: the array grows with the rows. */
     for (int32_t c = 0; c < pairs && !err->code; c++) {
         if (fl_grow(&w->pair, &cap, (int64_t)c + 1, sizeof *w->pair, err)) return -1;
         w->pair[c] = (fl_neighbour_pair){0};
@@ -405,10 +407,10 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
         w->n_pair = c + 1;
     }
     w->spheres.n = w->spheres.walls = 0;
-    for (int32_t c = 0; c < balls && !err->code; c++) fl_snapshot_sphere_contact(&t, w, c, last);
+    for (int32_t c = 0; c < spheres && !err->code; c++) fl_snapshot_sphere_contact(&t, w, c, last);
     if (err->code) return -1;
     const int more = fl_text_row(in, err);
-    if (more > 0) fl_text_fail(in, err, "\"%.40s\" behind the last pair was not expected", in->field[0]);
+    if (more > 0) fl_text_fail(in, err, "unexpected \"%.40s\" after the last pair", in->field[0]);
     if (more) return -1;
     if (w->moving.movers.n) fl_moving_structure_set_step(w);
     if ((fl_contact_list_size(w) || w->spheres.bodies) && fl_contact_list_index(w, err)) return -1;

@@ -2,17 +2,17 @@
 #include "sim/snapshot_pair.h"
 #include <string.h>
 #include "base/array.h"
-#include "sphere/sphere_pair.h"
-#include "sphere/contact_list.h"
 #include "contact/bond_list.h"
-#include "contact/pair_force.h"
+#include "contact/pair_surrogate.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "contact/rolling_pair.h"
+#include "sphere/contact_list.h"
+#include "sphere/sphere_pair.h"
 
-/* Rows at right angles, of length 1. */
-static int turns(const fl_mat3 *M)
+/* 1 if M is orthogonal. */
+static int is_orthogonal(const fl_mat3 *M)
 {
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++) {
@@ -23,8 +23,8 @@ static int turns(const fl_mat3 *M)
     return 1;
 }
 
-/* What a pair remembers of its past. */
-static void memory(fl_state_io *t, fl_pair *p)
+/* Memory of a pair. */
+static void exchange_memory(fl_state_io *t, fl_pair *p)
 {
     int32_t mode = (int32_t)p->mode;
     fl_state_io_int(t, FL_MODE_NONE, FL_FF, &mode);
@@ -45,7 +45,7 @@ static void memory(fl_state_io *t, fl_pair *p)
     fl_state_io_real(t, &p->springs.k_turn);
 }
 
-static void rolling(fl_state_io *t, fl_rolling_spring *r)
+static void exchange_rolling(fl_state_io *t, fl_rolling_spring *r)
 {
     fl_state_io_vec3(t, &r->elastic);
     fl_state_io_real(t, &r->k);
@@ -53,16 +53,16 @@ static void rolling(fl_state_io *t, fl_rolling_spring *r)
     fl_state_io_real(t, &r->arm);
 }
 
-/* What keeps a sphere from rolling, where anything does and it touches. */
-static void roll_of(fl_state_io *t, const fl_world *w, fl_pair *p)
+/* Rolling springs of a touching pair, where its law has rolling resistance. */
+static void exchange_pair_rolling(fl_state_io *t, const fl_world *w, fl_pair *p)
 {
     if (!p->touching || !fl_pair_has_rolling(w, p)) return;
     if (!p->rolling && !(p->rolling = fl_alloc(1, sizeof *p->rolling, t->err))) return;
-    rolling(t, p->rolling);
+    exchange_rolling(t, p->rolling);
 }
 
-/* What its last evaluation found. */
-static void forces(fl_state_io *t, fl_pair *p)
+/* Results of the last evaluation. */
+static void exchange_forces(fl_state_io *t, fl_pair *p)
 {
     fl_vec3 *const all[] = {&p->force,          &p->torque_i,          &p->torque_j,
                             &p->force_damping,  &p->torque_i_damping,  &p->torque_j_damping,
@@ -75,29 +75,30 @@ static void forces(fl_state_io *t, fl_pair *p)
     fl_state_io_real(t, &p->omega2_j);
 }
 
-/* Unit or nothing. */
-static int points(const double e[6])
+/* 1 if e is a unit vector or 0. */
+static int is_unit_or_zero(const double e[6])
 {
     double sum = 0.0;
     for (int k = 0; k < 6; k++) sum += e[k] * e[k];
     return sum == 0.0 || fabs(sum - 1.0) < 1e-9;
 }
 
-/* What was learnt of the way can be. */
-static int learnt(const fl_surrogate *s)
+/* 1 if the learnt values are possible. */
+static int is_possible(const fl_surrogate *s)
 {
     double zero = 0.0 * (s->previous.energy + s->slope_trend + s->defect_return + s->energy_defect +
                          s->half_width + s->skewness);
     for (int k = 0; k < 6; k++)
         zero += 0.0 * (s->third_order[k] + s->previous.slope[k] + s->previous.path[k]);
-    return zero == 0.0 && points(s->path) && s->previous.energy >= 0.0 && s->half_width >= 0.0 &&
+    return zero == 0.0 && is_unit_or_zero(s->path) && s->previous.energy >= 0.0 && s->half_width >= 0.0 &&
            s->skewness >= 0.0;
 }
 
-/* What a contact remembers of its last look; all else follows from how the two stood then. */
-static void look(fl_state_io *t, const fl_pair *p, fl_surrogate *s)
+/* Memory of the surrogate of its last exact evaluation; the rest follows from the relative pose of that
+ * time. */
+static void exchange_surrogate(fl_state_io *t, const fl_pair *p, fl_surrogate *s)
 {
-    fl_state_io_int(t, 0, p->exponent == 0.0, &s->valid);
+    fl_state_io_int(t, 0, p->points == FL_POINTS_PATCH, &s->valid);
     if (!s->valid) return;
     fl_state_io_int(t, 0, 1, &s->used);
     for (int k = 0; k < 9; k++) fl_state_io_real(t, &s->M.m[k / 3][k % 3]);
@@ -125,29 +126,29 @@ static void look(fl_state_io *t, const fl_pair *p, fl_surrogate *s)
     fl_state_io_real(t, &s->half_width);
     fl_state_io_real(t, &s->skewness);
     if (t->in && !t->err->code &&
-        !(turns(&s->M) && s->length > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MAX_REACH &&
-          learnt(s)))
-        fl_text_fail(t->in, t->err, "a look at a contact that is none");
+        !(is_orthogonal(&s->M) && s->length > 0.0 && s->reach > 0.0 && s->reach <= FL_SURROGATE_MAX_REACH &&
+          is_possible(s)))
+        fl_text_fail(t->in, t->err, "the surrogate of a contact has impossible values");
 }
 
-/* The surrogate that was read gets what it looked at. */
-static void look_again(fl_world *w, fl_pair *p, const fl_surrogate *seen, fl_err *err)
+/* Rebuild the surrogate that was read, by an exact evaluation at its pose. */
+static void rebuild_surrogate(fl_world *w, fl_pair *p, const fl_surrogate *surrogate, fl_err *err)
 {
     p->surrogate = fl_alloc(1, sizeof *p->surrogate, err);
     if (!p->surrogate) return;
-    *p->surrogate = *seen;
+    *p->surrogate = *surrogate;
     p->surrogate->valid = 0;
     p->surrogate->max_change = fl_surrogate_max_change(p->law->surrogate_tolerance);
-    if (fl_pair_rebuild_surrogate(w, p, &seen->M, seen->o))
+    if (fl_pair_rebuild_surrogate(w, p, &surrogate->M, surrogate->o))
         fl_fail(err, FL_SYSTEM, "out of memory for pair %d and %d", p->i, p->j);
-    p->surrogate->used = seen->used;
+    p->surrogate->used = surrogate->used;
 }
 
 void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
 {
     fl_neighbour_pair *near = &w->pair[c];
-    fl_pair made = {0}, *p = near->contact ? near->contact : &made;
-    if (t->f && p == &made) fl_neighbour_pair_expand(w, near, p);
+    fl_pair expanded = {0}, *p = near->contact ? near->contact : &expanded;
+    if (t->f && p == &expanded) fl_neighbour_pair_expand(w, near, p);
     int32_t i = p->i, j = p->j;
     fl_state_io_open(t, "pair");
     fl_state_io_int(t, 0, w->n - 1, &i);
@@ -156,11 +157,11 @@ void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
         const fl_neighbour_pair *q = c > 0 ? near - 1 : NULL;
         if (t->err->code) return;
         if (i >= j || (q && (q->i > i || (q->i == i && (w->cell.periodic ? q->j > j : q->j >= j))))) {
-            fl_text_fail(t->in, t->err, "pair %d and %d found, pairs in rising order are expected", i, j);
+            fl_text_fail(t->in, t->err, "pair %d and %d found, pairs in ascending order expected", i, j);
             return;
         }
         if (fl_sphere_pair_kind(w, i, j)) {
-            fl_text_fail(t->in, t->err, "pair %d and %d is of spheres, a row \"ball\" is expected", i, j);
+            fl_text_fail(t->in, t->err, "pair %d and %d is of spheres, a row \"ball\" expected", i, j);
             return;
         }
         fl_pair_init(w, p, i, j);
@@ -168,21 +169,21 @@ void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
     for (int axis = 0; w->cell.periodic && axis < 3; axis++)
         fl_state_io_int(t, -INT32_MAX, INT32_MAX, &p->image[axis]);
     if (t->in && !t->err->code && fl_bond_list_is_bonded(w, i, j, p->image))
-        fl_text_fail(t->in, t->err, "pair %d and %d found, and their bond stands", i, j);
+        fl_text_fail(t->in, t->err, "pair %d and %d found, but their bond is not ended", i, j);
     if (t->in && !t->err->code) fl_bond_list_init_pair(w, p);
     fl_state_io_int(t, 0, 1, &p->touching);
-    memory(t, p);
-    if (p->touching) forces(t, p);
-    roll_of(t, w, p);
-    fl_surrogate seen = {0};
-    if (t->f && p->surrogate) seen = *p->surrogate;
-    if (p->touching && p->law->surrogate_tolerance > 0.0) look(t, p, &seen);
+    exchange_memory(t, p);
+    if (p->touching) exchange_forces(t, p);
+    exchange_pair_rolling(t, w, p);
+    fl_surrogate surrogate = {0};
+    if (t->f && p->surrogate) surrogate = *p->surrogate;
+    if (p->touching && p->law->surrogate_tolerance > 0.0) exchange_surrogate(t, p, &surrogate);
     fl_state_io_close(t);
     if (!t->in || t->err->code) return;
     fl_neighbour_pair_init(near, i, j, p->image);
     if (fl_neighbour_pair_store(w, near, p))
         fl_fail(t->err, FL_SYSTEM, "out of memory for pair %d and %d", i, j);
-    else if (seen.valid) look_again(w, near->contact, &seen, t->err);
+    else if (surrogate.valid) rebuild_surrogate(w, near->contact, &surrogate, t->err);
 }
 
 void fl_snapshot_sphere_contact(fl_state_io *t, fl_world *w, int32_t c, int32_t last[2])
@@ -190,14 +191,13 @@ void fl_snapshot_sphere_contact(fl_state_io *t, fl_world *w, int32_t c, int32_t 
     const fl_sphere_contacts *s = &w->spheres;
     fl_sphere_contact r = {0};
     fl_rolling_spring roll = {.k = 0.0};
-    int32_t i = 0, j = 0, hit = 0, image[3] = {0};
-    double n;
+    int32_t i = 0, j = 0, touches = 0, image[3] = {0};
     if (t->f && c < 0) {
         const fl_wall_contact *const l = &s->wall[~c];
-        i = l->i, j = l->j, hit = l->touches, r = l->contact;
+        i = l->i, j = l->j, touches = l->touches, r = l->contact;
         if (w->has_rolling) roll = s->wall_rolling[~c];
     } else if (t->f) {
-        i = s->i[c], j = s->j[c], hit = s->touches[c], r = s->contact[c];
+        i = s->i[c], j = s->j[c], touches = s->touches[c], r = s->contact[c];
         if (w->has_rolling) roll = s->rolling[c];
         if (s->image) memcpy(image, &s->image[3 * c], sizeof image);
     }
@@ -206,22 +206,22 @@ void fl_snapshot_sphere_contact(fl_state_io *t, fl_world *w, int32_t c, int32_t 
     fl_state_io_int(t, 0, w->b.total - 1, &j);
     for (int axis = 0; w->cell.periodic && axis < 3; axis++)
         fl_state_io_int(t, -INT32_MAX, INT32_MAX, &image[axis]);
-    fl_state_io_int(t, 0, 1, &hit);
+    fl_state_io_int(t, 0, 1, &touches);
     fl_state_io_real(t, &r.max_approach_speed);
     fl_state_io_vec3(t, &r.spring_force);
     fl_state_io_real(t, &r.spring_stiffness);
     fl_state_io_vec3(t, &r.friction_force);
     fl_state_io_real(t, &r.normal_damping);
-    if (w->has_rolling) rolling(t, &roll);
+    if (w->has_rolling) exchange_rolling(t, &roll);
     fl_state_io_close(t);
     if (t->f || t->err->code) return;
     if (i >= j || i < last[0] || (i == last[0] && (w->cell.periodic ? j < last[1] : j <= last[1])) ||
         !fl_sphere_pair_kind(w, i, j)) {
-        fl_text_fail(t->in, t->err, "spheres %d and %d found, pairs of spheres in rising order are expected",
+        fl_text_fail(t->in, t->err, "spheres %d and %d found, pairs of spheres in ascending order expected",
                      i, j);
         return;
     }
     last[0] = i, last[1] = j;
-    r.k = fl_pair_stiffness(w, i, j, &n);
-    fl_contact_list_append(w, i, j, image, hit, &r, &roll, t->err);
+    r.k = fl_pair_stiffness(w, i, j).k;
+    fl_contact_list_append(w, i, j, image, touches, &r, &roll, t->err);
 }

@@ -7,41 +7,38 @@
 #include "base/array.h"
 #include "base/simd.h"
 #include "body/integrate.h"
+#include "contact/rolling_pair.h"
+#include "contact/velocity_predictor.h"
 #include "law/damping.h"
 #include "law/sphere_batch.h"
+#include "patch/stiffness_bound.h"
 #include "sphere/contact_force.h"
 #include "sphere/sphere_pair.h"
-#include "contact/velocity_predictor.h"
 #include "sphere/wall_contact.h"
-#include "contact/rolling_pair.h"
-#include "patch/stiffness_bound.h"
 #include "world/access.h"
 
-enum {
-    AHEAD = 64,   /* rows whose bodies j are on their way */
-    ON_WAY = 24,  /* rows that are so themselves */
-    PASSED_ON = 8 /* slots */
-};
+/* Distances of prefetching: contacts to the body j, to the contact record, and slots. */
+enum { PREFETCH_BODY = 64, PREFETCH_CONTACT = 24, PREFETCH_SLOT = 8 };
 
-/* Touching rows are worked on when there are so many. */
+/* Touching contacts are evaluated in blocks of this size. */
 enum { BLOCK = 16 };
-static_assert(BLOCK + FL_SIMD_WIDTH <= FL_SPHERE_BATCH,
-              "what four rows add has room behind what is not a block yet");
+static_assert(BLOCK + FL_SIMD_WIDTH <= FL_SPHERE_BATCH, "four contacts fit behind an incomplete block");
 
 typedef struct {
     fl_sphere_batch at;
-    double d[FL_SPHERE_BATCH][FL_SIMD_WIDTH]; /* D and something, as they are found */
-    int32_t row[FL_SPHERE_BATCH];             /* filled to the end of a register */
-    int32_t law[FL_SPHERE_BATCH];             /* whose numbers stand there */
-    double rest2[FL_SPHERE_BATCH];
+    double d[FL_SPHERE_BATCH][FL_SIMD_WIDTH]; /* D, and a number that is not used */
+    int32_t contact[FL_SPHERE_BATCH];         /* in the list; filled to the end of a register */
+    int32_t law[FL_SPHERE_BATCH];             /* whose parameters are loaded */
+    double slow_factor2[FL_SPHERE_BATCH];     /* c^2 of fl_damping_slow_factor() */
     int32_t m;
 } batch;
 
-/* Those of the rows from c on that have begun to touch or ended it, bit by bit: one that ends forgets. */
-static void turn_over(fl_sphere_contacts *s, int32_t c, uint32_t turned)
+/* Updates the contacts from c on whose bit is set in `changed`: they begin or cease to touch.  One that
+ * ceases loses its memory. */
+static void toggle_contacts(fl_sphere_contacts *s, int32_t c, uint32_t changed)
 {
-    for (; turned; turned >>= 1, c++) {
-        if (!(turned & 1)) continue;
+    for (; changed; changed >>= 1, c++) {
+        if (!(changed & 1)) continue;
         if (s->touches[c]) s->contact[c] = (fl_sphere_contact){.k = s->contact[c].k};
         if (s->touches[c] && s->rolling) s->rolling[c] = (fl_rolling_spring){.k = 0.0};
         s->touches[c] ^= 1;
@@ -50,25 +47,25 @@ static void turn_over(fl_sphere_contacts *s, int32_t c, uint32_t turned)
     }
 }
 
-/* Row c by itself: whether |D|^2 < (r_i + r_j)^2, and D to the end of the batch. */
-static int look_one(const fl_world *w, batch *t, int32_t c)
+/* Tests contact c alone: true if |D|^2 < (r_i + r_j)^2; writes D behind the batch. */
+static int test_contact(const fl_world *w, batch *t, int32_t c)
 {
     const fl_vec3 d = fl_sphere_separation(w, c);
     const double R = w->b.radius[w->spheres.i[c]] + w->b.radius[w->spheres.j[c]];
-    t->row[t->m] = c;
+    t->contact[t->m] = c;
     t->d[t->m][0] = d.x, t->d[t->m][1] = d.y, t->d[t->m][2] = d.z;
     return v3_norm2(d) - R * R < 0.0;
 }
 
-/* What adds to 1/M of contacts of body k in whatever direction; NAN where they differ. */
-static double plainly(const fl_bodies *b, int32_t k)
+/* Inverse mass of body k if it is the same in all directions, else NAN. */
+static double isotropic_inverse_mass(const fl_bodies *b, int32_t k)
 {
     if (fl_body_fixed_translations(b, k)) return NAN;
     return b->added_mass ? 1.0 / (b->m[k] + b->added_mass[k].x) : b->invm[k];
 }
 
-/* What the second half of a step changes of the speeds of body k, as far as it does what the first did. */
-static fl_velocity_change lead_of(const fl_world *w, int32_t k, double h)
+/* Predicted change of the velocities of body k in the second half of a step: that of the first. */
+static fl_velocity_change predict_change(const fl_world *w, int32_t k, double h)
 {
     const fl_bodies *b = &w->b;
     fl_vec3 a, turn;
@@ -81,98 +78,102 @@ static fl_velocity_change lead_of(const fl_world *w, int32_t k, double h)
                           : kick;
 }
 
-/* Of one velocity of the rim for an impulse there, r^2/I, where anything lets it turn. */
-static double turns_of(const fl_bodies *b, int32_t k)
+/* Velocity of the surface per impulse there by rotation, r^2/I; 0 if body k cannot rotate. */
+static double surface_compliance(const fl_bodies *b, int32_t k)
 {
     const int held = FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ;
     return (b->fixed_dof[k] & held) == held ? 0.0 : b->radius[k] * b->radius[k] * b->invI[k].x;
 }
 
-/* So many contacts in one line damp a motion as n all round a sphere do, of which two are in line: 3.4 for
- * six, 5.5 for twelve, or less (crowd() of critical_step.c). */
-static double all_round(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
+/* Number of contacts in one line that damp a motion like n contacts around a sphere, of which two are in
+ * line: 3.4 for six, 5.5 for twelve, or less (see critical_step.c). */
+static double contacts_in_line(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
 
 void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h)
 {
     const fl_bodies *b = &w->b;
-    fl_sphere_state *const seen = w->spheres.state;
+    fl_sphere_state *const state = w->spheres.state;
     for (int32_t k = from; k < to; k++) {
-        const fl_velocity_change lead = lead_of(w, k, h);
+        const fl_velocity_change lead = predict_change(w, k, h);
         const int32_t rows = w->spheres.previous_contact_count[k] = w->spheres.contact_count[k];
-        const double n = all_round(rows + fl_sums_before(w, k)->contacts), r = b->radius[k],
+        const double n = contacts_in_line(rows + fl_sums_before(w, k)->contacts), r = b->radius[k],
                      crowd = n > 1.0 ? (n - 1.0) * fl_body_inverse_mass(b, k) : 0.0;
-        seen[k] = (fl_sphere_state){b->x[k], r,      b->v[k], plainly(b, k),       b->w[k],
-                                    r,       lead.v, crowd,   v3_scale(r, lead.w), turns_of(b, k)};
+        state[k] = (fl_sphere_state){
+            b->x[k], r,      b->v[k], isotropic_inverse_mass(b, k), b->w[k],
+            r,       lead.v, crowd,   v3_scale(r, lead.w),          surface_compliance(b, k)};
     }
 }
 
-/* The difference a - b of vectors, and the sum of the numbers behind them. */
-FL_SIMD_INLINE void compare_two(fl_simd *d, const void *a, const void *b)
+/* The difference a - b of two vectors, and the sum of the numbers after them. */
+FL_SIMD_INLINE void difference_and_sum(fl_simd *d, const void *a, const void *b)
 {
     *d = __builtin_shufflevector(FL_SIMD_LOAD(a) - FL_SIMD_LOAD(b), FL_SIMD_LOAD(a) + FL_SIMD_LOAD(b), 0, 1,
                                  2, 7);
 }
 
-/* What the loop below reads and writes. */
+/* Arrays of the loop below. */
 typedef struct {
     fl_world *w;
     const int32_t *i, *j;
-    const fl_image_shift *way;
-    const uint8_t *by, *hit;
-    const fl_sphere_state *seen;
-    const fl_sphere_contact *row;
-    int32_t n; /* rows there are */
-} seeker;
+    const fl_image_shift *shift;
+    const uint8_t *by, *touches;
+    const fl_sphere_state *state;
+    const fl_sphere_contact *contact;
+    int32_t n; /* contacts in the list */
+} search_arrays;
 
-/* Rows [c, to), four at a time, until the batch is a block or less than four are left: behind the last.
- * Whether a row touches is nothing that could be foreseen, so nothing here branches on it: it is written down
- * behind the last that does, and counts or does not.  That it begins to, or ends, is rare.  What comes is
- * sent for: with 100 000 spheres all that is not is waited for. */
-FL_SIMD4_VERSIONS static int32_t look(const seeker *restrict s, batch *restrict t, int32_t c, int32_t to)
+/* Finds the touching contacts in [c, to), four at a time, until the batch has a block or less than four are
+ * left.  Returns the next contact to test.
+ *
+ * Whether a contact touches cannot be predicted, so no branch depends on it: each is written behind the
+ * last touching one, and the count advances or not.  Beginning and ceasing to touch is rare.  Later bodies
+ * and contacts are prefetched, since with 100 000 spheres each access would else wait for memory. */
+FL_SIMD4_VERSIONS static int32_t find_touching(const search_arrays *restrict s, batch *restrict t, int32_t c,
+                                               int32_t to)
 {
     const int32_t *bi = s->i, *bj = s->j;
-    const fl_sphere_state *seen = s->seen;
-    const uint8_t *hit = s->hit, *by = s->by;
-    const fl_image_shift *way = s->way;
+    const fl_sphere_state *state = s->state;
+    const uint8_t *touches = s->touches, *by = s->by;
+    const fl_image_shift *shift = s->shift;
     int32_t m = t->m;
     for (; c + FL_SIMD_WIDTH <= to && m < BLOCK; c += FL_SIMD_WIDTH) {
         fl_simd v[FL_SIMD_WIDTH];
-        uint32_t turned = 0;
-        const int32_t *far = &bj[c + AHEAD + FL_SIMD_WIDTH <= s->n ? c + AHEAD : c];
-        fl_prefetch(&s->row[c + ON_WAY + FL_SIMD_WIDTH <= s->n ? c + ON_WAY : c],
-                    FL_SIMD_WIDTH * sizeof *s->row);
+        uint32_t changed = 0;
+        const int32_t *far = &bj[c + PREFETCH_BODY + FL_SIMD_WIDTH <= s->n ? c + PREFETCH_BODY : c];
+        fl_prefetch(&s->contact[c + PREFETCH_CONTACT + FL_SIMD_WIDTH <= s->n ? c + PREFETCH_CONTACT : c],
+                    FL_SIMD_WIDTH * sizeof *s->contact);
         FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
         {
             const int32_t i = bi[c + l], j = bj[c + l];
-            compare_two(&v[l], &seen[i].x, &seen[j].x);
-            v[l] -= FL_SIMD_LOAD(&way[by[c + l]]);
-            fl_prefetch(&seen[far[l]], sizeof *seen);
+            difference_and_sum(&v[l], &state[i].x, &state[j].x);
+            v[l] -= FL_SIMD_LOAD(&shift[by[c + l]]);
+            fl_prefetch(&state[far[l]], sizeof *state);
         }
         fl_simd d[] = {v[0], v[1], v[2], v[3]};
         fl_simd_transpose(d);
         const fl_simd gap = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - d[3] * d[3];
-        const fl_simd_mask touches = gap < 0.0;
+        const fl_simd_mask inside = gap < 0.0;
         FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
         {
-            const uint32_t one = (uint32_t)touches[l] & 1;
-            t->row[m] = c + l;
+            const uint32_t one = (uint32_t)inside[l] & 1;
+            t->contact[m] = c + l;
             FL_SIMD_STORE(t->d[m]) = v[l];
             m += (int32_t)one;
-            turned |= (one ^ hit[c + l]) << l;
+            changed |= (one ^ touches[c + l]) << l;
         }
-        if (turned) turn_over(&s->w->spheres, c, turned);
+        if (changed) toggle_contacts(&s->w->spheres, c, changed);
     }
     t->m = m;
     return c;
 }
 
-/* What the batch needs to be placed again, */
+/* Loads what fl_sphere_batch_restore() needs. */
 static void load_forces(const fl_world *w, batch *t)
 {
     const fl_sphere_contacts *s = &w->spheres;
     fl_sphere_batch *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m];
+        const int32_t c = t->contact[m];
         const fl_sphere_contact *r = &s->contact[c];
         for (int axis = 0; axis < 3; axis++) a->d[axis][m] = t->d[m][axis];
         a->ri[m] = w->b.radius[s->i[c]];
@@ -185,28 +186,29 @@ static void load_forces(const fl_world *w, batch *t)
     }
 }
 
-/* and to be evaluated. */
+/* Arrays that fl_sphere_batch_evaluate() is loaded from. */
 typedef struct {
     const int32_t *i, *j;
-    const fl_sphere_contact *row;
-    const fl_sphere_state *seen;
-} source;
+    const fl_sphere_contact *contact;
+    const fl_sphere_state *state;
+} load_arrays;
 
-FL_SIMD4_VERSIONS static int load(const source *restrict s, batch *restrict t)
+/* Loads the batch; false if an inverse mass depends on the direction. */
+FL_SIMD4_VERSIONS static int load_contacts(const load_arrays *restrict s, batch *restrict t)
 {
     static_assert(offsetof(fl_sphere_contact, spring_stiffness) == sizeof(fl_vec3),
-                  "a spring is a register of four");
+                  "a spring fills a register");
     static_assert(offsetof(fl_sphere_contact, k) ==
                       offsetof(fl_sphere_contact, max_approach_speed) + sizeof(double),
-                  "one of two");
+                  "the two are consecutive");
     const int32_t *bi = s->i, *bj = s->j;
-    const fl_sphere_contact *row = s->row;
-    const fl_sphere_state *seen = s->seen;
+    const fl_sphere_contact *contact = s->contact;
+    const fl_sphere_state *state = s->state;
     const int32_t n = t->m;
     fl_sphere_batch *a = &t->at;
     const fl_simd zero = {0.0, 0.0, 0.0, 0.0};
     fl_simd all = zero;
-    for (int32_t k = n; k % FL_SIMD_WIDTH; k++) t->row[k] = t->row[n - 1];
+    for (int32_t k = n; k % FL_SIMD_WIDTH; k++) t->contact[k] = t->contact[n - 1];
     for (int32_t m = 0; m < n; m += FL_SIMD_WIDTH) {
         fl_simd d[] = {FL_SIMD_LOAD(t->d[m]), FL_SIMD_LOAD(t->d[m + 1]), FL_SIMD_LOAD(t->d[m + 2]),
                        FL_SIMD_LOAD(t->d[m + 3])};
@@ -215,15 +217,15 @@ FL_SIMD4_VERSIONS static int load(const source *restrict s, batch *restrict t)
         fl_simd2 last[FL_SIMD_WIDTH];
         FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
         {
-            const int32_t c = t->row[m + l], i = bi[c], j = bj[c];
-            const fl_sphere_contact *r = &row[c];
-            compare_two(&u[l], &seen[i].v, &seen[j].v);
-            p[l] = FL_SIMD_LOAD(&seen[i].w);
-            q[l] = FL_SIMD_LOAD(&seen[j].w);
+            const int32_t c = t->contact[m + l], i = bi[c], j = bj[c];
+            const fl_sphere_contact *r = &contact[c];
+            difference_and_sum(&u[l], &state[i].v, &state[j].v);
+            p[l] = FL_SIMD_LOAD(&state[i].w);
+            q[l] = FL_SIMD_LOAD(&state[j].w);
             h[l] = FL_SIMD_LOAD(&r->spring_force);
             f[l] = FL_SIMD_LOAD(&r->friction_force);
-            compare_two(&du[l], &seen[i].dv, &seen[j].dv);
-            dw[l] = FL_SIMD_LOAD(&seen[i].rdw) + FL_SIMD_LOAD(&seen[j].rdw);
+            difference_and_sum(&du[l], &state[i].dv, &state[j].dv);
+            dw[l] = FL_SIMD_LOAD(&state[i].rdw) + FL_SIMD_LOAD(&state[j].rdw);
             last[l] = *(const fl_simd2 *)(const void *)&r->max_approach_speed;
         }
         const fl_simd even = __builtin_shufflevector(last[0], last[2], 0, 1, 2, 3),
@@ -256,7 +258,7 @@ FL_SIMD4_VERSIONS static int load(const source *restrict s, batch *restrict t)
         FL_SIMD_STORE(&a->inv_mass[m]) = u[3];
         FL_SIMD_STORE(&a->inv_mass_tangent[m]) = u[3];
         FL_SIMD_STORE(&a->slow_inv_mass[m]) =
-            FL_SIMD_LOAD(&t->rest2[m]) * u[3]; /* for nothing but the stored energy */
+            FL_SIMD_LOAD(&t->slow_factor2[m]) * u[3]; /* for the stored energy only */
         FL_SIMD_STORE(&a->ri[m]) = p[3];
         FL_SIMD_STORE(&a->rj[m]) = q[3];
         all += u[3];
@@ -265,12 +267,12 @@ FL_SIMD4_VERSIONS static int load(const source *restrict s, batch *restrict t)
     return sum == sum;
 }
 
-/* Of those that depend on the direction. */
+/* Loads the inverse masses that depend on the direction. */
 static void load_masses(const fl_world *w, batch *t)
 {
     const fl_bodies *b = &w->b;
     for (int32_t m = 0; m < t->m; m++) {
-        const int32_t i = w->spheres.i[t->row[m]], j = w->spheres.j[t->row[m]];
+        const int32_t i = w->spheres.i[t->contact[m]], j = w->spheres.j[t->contact[m]];
         if (t->at.slow_inv_mass[m] == t->at.slow_inv_mass[m]) continue;
         const fl_vec3 n = v3_unit(v3(t->d[m][0], t->d[m][1], t->d[m][2]));
         t->at.inv_mass[m] = fl_body_mobility_along(b, i, n) + fl_body_mobility_along(b, j, n);
@@ -278,10 +280,11 @@ static void load_masses(const fl_world *w, batch *t)
         t->at.contact_count[m] =
             fl_effective_contact_count(w->spheres.state[i].contact_inv_mass,
                                        w->spheres.state[j].contact_inv_mass, t->at.inv_mass_tangent[m]);
-        t->at.slow_inv_mass[m] = t->rest2[m] * t->at.inv_mass[m];
+        t->at.slow_inv_mass[m] = t->slow_factor2[m] * t->at.inv_mass[m];
     }
 }
 
+/* Loads the parameters of law l for contact m. */
 static void load_law(const fl_world *w, batch *t, int32_t m, int32_t l)
 {
     const fl_pair_law *law = &w->law[l];
@@ -289,18 +292,18 @@ static void load_law(const fl_world *w, batch *t, int32_t m, int32_t l)
     t->at.friction[m] = law->friction;
     t->at.tangential[m] = law->tangential_ratio;
     t->at.impact_damping[m] = law->impact_damping;
-    t->rest2[m] = law->slow_damping_factor * law->slow_damping_factor;
+    t->slow_factor2[m] = law->slow_damping_factor * law->slow_damping_factor;
 }
 
-/* Where there is not one law for all, most often the numbers stand there from the contacts before. */
+/* Loads the parameters of several laws; mostly those of the contacts before are the same. */
 static void load_laws(const fl_world *w, batch *t)
 {
     const int32_t *law = w->spheres.law;
     for (int32_t m = 0; m < t->m; m++)
-        if (law[t->row[m]] != t->law[m]) load_law(w, t, m, law[t->row[m]]);
+        if (law[t->contact[m]] != t->law[m]) load_law(w, t, m, law[t->contact[m]]);
 }
 
-FL_SIMD4_VERSIONS static void save(fl_sphere_contact *restrict row, const batch *restrict t)
+FL_SIMD4_VERSIONS static void save_contacts(fl_sphere_contact *restrict contact, const batch *restrict t)
 {
     static_assert(offsetof(fl_sphere_contact, normal_damping) ==
                       offsetof(fl_sphere_contact, friction_force) + sizeof(fl_vec3),
@@ -317,7 +320,7 @@ FL_SIMD4_VERSIONS static void save(fl_sphere_contact *restrict row, const batch 
         FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
         {
             if (m + l >= n) break;
-            fl_sphere_contact *r = &row[t->row[m + l]];
+            fl_sphere_contact *r = &contact[t->contact[m + l]];
             FL_SIMD_STORE(&r->spring_force) = h[l];
             FL_SIMD_STORE(&r->friction_force) = f[l];
             r->max_approach_speed = a->max_approach_speed[m + l];
@@ -325,12 +328,12 @@ FL_SIMD4_VERSIONS static void save(fl_sphere_contact *restrict row, const batch 
     }
 }
 
-/* A sum is three registers of four. */
-enum { PARTS = 3 };
-static_assert(sizeof(fl_sphere_sum) == PARTS * sizeof(fl_simd), "a sum is twelve doubles");
+/* A sum fills three registers. */
+enum { SUM_REGISTERS = 3 };
+static_assert(sizeof(fl_sphere_sum) == SUM_REGISTERS * sizeof(fl_simd), "a sum is twelve doubles");
 
-/* Without the string instruction that a compiler makes of it, which takes longer than all else here. */
-FL_SIMD4_VERSIONS static void clear(fl_sphere_sum *s, int32_t n)
+/* Clears n sums.  volatile keeps the compiler from using a string instruction, which is much slower here. */
+FL_SIMD4_VERSIONS static void clear_sums(fl_sphere_sum *s, int32_t n)
 {
     const fl_simd zero = {0.0, 0.0, 0.0, 0.0};
     for (int32_t k = 0; k < n; k++) {
@@ -339,7 +342,7 @@ FL_SIMD4_VERSIONS static void clear(fl_sphere_sum *s, int32_t n)
     }
 }
 
-/* What four contacts do, each a row: to i and j alike but for the sign, and to either. */
+/* Wrenches of four contacts, one contact each: parts that are opposite on i and j, and parts of either. */
 typedef struct {
     fl_simd one[FL_SIMD_WIDTH], two[FL_SIMD_WIDTH], on_i[FL_SIMD_WIDTH], on_j[FL_SIMD_WIDTH];
 } wrenches;
@@ -360,10 +363,10 @@ FL_SIMD_INLINE void find_wrenches(wrenches *q, const fl_sphere_batch *a, int32_t
     fl_simd_transpose(q->on_j);
 }
 
-/* The l-th of them to the sum of i, and to that of j or to a slot.  Which of the two cannot be foreseen, so
- * nothing branches on it. */
-FL_SIMD_INLINE void hand_one(fl_sphere_sum *sums, fl_sphere_sum *slots, int32_t i, int32_t to,
-                             const wrenches *q, int32_t l)
+/* Adds wrench l to the sum of i, and to that of j or to a slot.  Which of the two cannot be predicted, so
+ * no branch depends on it. */
+FL_SIMD_INLINE void add_wrench(fl_sphere_sum *sums, fl_sphere_sum *slots, int32_t i, int32_t to,
+                               const wrenches *q, int32_t l)
 {
     const int32_t beyond = to < 0 ? -1 : 0;
     const uintptr_t which = ((uintptr_t)sums ^ (uintptr_t)slots) & (uintptr_t)(intptr_t)beyond;
@@ -373,34 +376,36 @@ FL_SIMD_INLINE void hand_one(fl_sphere_sum *sums, fl_sphere_sum *slots, int32_t 
     off[0] -= q->one[l], off[1] -= q->two[l], off[2] += q->on_j[l];
 }
 
-/* The wrenches of the batch. */
-FL_SIMD4_VERSIONS static void hand_out(const fl_sphere_contacts *restrict s, const batch *restrict t)
+/* Adds the wrenches of the batch to the sums. */
+FL_SIMD4_VERSIONS static void add_wrenches(const fl_sphere_contacts *restrict s, const batch *restrict t)
 {
-    const int32_t *bi = s->i, *bto = s->target, *row = t->row, n = t->m;
+    const int32_t *bi = s->i, *bto = s->target, *contact = t->contact, n = t->m;
     fl_sphere_sum *sums = s->sum, *slots = s->slot;
     int32_t m = 0;
     for (; m + FL_SIMD_WIDTH <= n; m += FL_SIMD_WIDTH) {
         wrenches q;
         find_wrenches(&q, &t->at, m);
         FL_SIMD_UNROLL for (int32_t l = 0; l < FL_SIMD_WIDTH; l++)
-            hand_one(sums, slots, bi[row[m + l]], bto[row[m + l]], &q, l);
+            add_wrench(sums, slots, bi[contact[m + l]], bto[contact[m + l]], &q, l);
     }
     if (m < n) {
         wrenches q;
         find_wrenches(&q, &t->at, m);
-        for (int32_t l = 0; m + l < n; l++) hand_one(sums, slots, bi[row[m + l]], bto[row[m + l]], &q, l);
+        for (int32_t l = 0; m + l < n; l++)
+            add_wrench(sums, slots, bi[contact[m + l]], bto[contact[m + l]], &q, l);
     }
 }
 
-FL_SIMD4_VERSIONS static void collect(fl_sphere_sum *restrict sums, const fl_sphere_sum *restrict slot,
-                                      const int32_t *restrict slots, const int32_t *restrict into,
-                                      int32_t from, int32_t to)
+/* Adds to each body the slots that refer to it, in their order. */
+FL_SIMD4_VERSIONS static void collect_slots(fl_sphere_sum *restrict sums, const fl_sphere_sum *restrict slot,
+                                            const int32_t *restrict slots, const int32_t *restrict into,
+                                            int32_t from, int32_t to)
 {
     for (int32_t k = from; k < to; k++) {
         fl_simd *sum = (fl_simd *)&sums[k], a = sum[0], b = sum[1], c = sum[2];
         if (into[k] == into[k + 1]) continue;
         for (int32_t at = into[k]; at < into[k + 1]; at++) {
-            fl_prefetch(&slot[slots[at + PASSED_ON < into[to] ? at + PASSED_ON : at]], sizeof *slot);
+            fl_prefetch(&slot[slots[at + PREFETCH_SLOT < into[to] ? at + PREFETCH_SLOT : at]], sizeof *slot);
             const fl_simd *in = (const fl_simd *)&slot[slots[at]];
             a += in[0], b += in[1], c += in[2];
         }
@@ -408,9 +413,9 @@ FL_SIMD4_VERSIONS static void collect(fl_sphere_sum *restrict sums, const fl_sph
     }
 }
 
-/* Whether one of the first m, or of those that fill the register behind them, is deeper than so much of the
- * sum of the radii. */
-FL_SIMD_VERSIONS static int deeper(const fl_sphere_batch *a, int32_t m, double most)
+/* True if one of the first m, or of the padding after them, overlaps by more than that fraction of the sum
+ * of the radii. */
+FL_SIMD_VERSIONS static int any_deeper(const fl_sphere_batch *a, int32_t m, double most)
 {
     int any = 0;
 #pragma omp simd reduction(| : any)
@@ -418,8 +423,8 @@ FL_SIMD_VERSIONS static int deeper(const fl_sphere_batch *a, int32_t m, double m
     return any;
 }
 
-/* Of the first m, lane by lane. */
-FL_SIMD4_VERSIONS static double all_sizes(const fl_sphere_batch *a, int32_t m)
+/* Sum of |F| of the first m, lane by lane. */
+FL_SIMD4_VERSIONS static double sum_magnitudes(const fl_sphere_batch *a, int32_t m)
 {
     fl_simd sum = {0.0, 0.0, 0.0, 0.0};
     double rest = 0.0;
@@ -429,27 +434,27 @@ FL_SIMD4_VERSIONS static double all_sizes(const fl_sphere_batch *a, int32_t m)
     return fl_simd_sum(&sum) + rest;
 }
 
-static void count(const batch *t, fl_chunk_totals *tally)
+static void add_to_totals(const batch *t, fl_chunk_totals *totals)
 {
     const fl_sphere_batch *a = &t->at;
-    tally->force_sum += all_sizes(a, t->m);
-    tally->touching += t->m;
-    if (!deeper(a, t->m, tally->max_overlap)) return;
+    totals->force_sum += sum_magnitudes(a, t->m);
+    totals->touching += t->m;
+    if (!any_deeper(a, t->m, totals->max_overlap)) return;
     for (int32_t m = 0; m < t->m; m++) {
         const double both = a->ri[m] + a->rj[m];
-        if (!(a->overlap[m] > tally->max_overlap * both)) continue;
-        tally->max_overlap = a->overlap[m] / both;
-        tally->max_overlap_contact = t->row[m];
+        if (!(a->overlap[m] > totals->max_overlap * both)) continue;
+        totals->max_overlap = a->overlap[m] / both;
+        totals->max_overlap_contact = t->contact[m];
     }
 }
 
-/* As share_of() of step.c says. */
-static void survey_batch(fl_world *w, const batch *t)
+/* Adds the bounds of omega^2: K + sqrt(K K') of the two bodies' own. */
+static void add_stiffness(fl_world *w, const batch *t)
 {
     fl_sphere_contacts *s = &w->spheres;
     const fl_sphere_batch *a = &t->at;
     for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m], i = s->i[c], j = s->j[c], to = s->target[c];
+        const int32_t c = t->contact[m], i = s->i[c], j = s->j[c], to = s->target[c];
         const double half = 0.5 * a->overlap[m];
         const double rolls = s->rolling ? fl_rolling_turn_stiffness(&s->rolling[c]) : 0.0,
                      ki = fl_stiffness_of_point(&w->b, i, a->slope[m], a->spring_stiffness[m],
@@ -463,48 +468,48 @@ static void survey_batch(fl_world *w, const batch *t)
     }
 }
 
-/* What keeps those of the batch from rolling. */
-static void roll(const fl_world *w, batch *t, double dt)
+/* Adds the rolling resistance of the batch. */
+static void add_rolling(const fl_world *w, batch *t, double dt)
 {
     const fl_sphere_contacts *s = &w->spheres;
-    fl_rolling_contact row[FL_SPHERE_BATCH];
+    fl_rolling_contact contact[FL_SPHERE_BATCH];
     for (int32_t m = 0; m < t->m; m++) {
-        const int32_t c = t->row[m];
-        row[m] = (fl_rolling_contact){&w->law[s->law[c]], &s->rolling[c], s->i[c], s->j[c]};
+        const int32_t c = t->contact[m];
+        contact[m] = (fl_rolling_contact){&w->law[s->law[c]], &s->rolling[c], s->i[c], s->j[c]};
     }
-    fl_rolling_evaluate(w, &t->at, row, t->m, dt);
+    fl_rolling_evaluate(w, &t->at, contact, t->m, dt);
 }
 
-/* What is done with the batch, which then is empty. */
-static void finish(fl_world *w, int32_t a, batch *t, double dt, int survey)
+/* Evaluates the batch, adds its results and empties it. */
+static void evaluate_batch(fl_world *w, int32_t a, batch *t, double dt, int survey)
 {
     fl_sphere_contacts *s = &w->spheres;
     if (dt < 0.0) {
         load_forces(w, t);
         fl_sphere_batch_restore(&t->at, t->m);
     } else {
-        const source from = {s->i, s->j, s->contact, s->state};
+        const load_arrays from = {s->i, s->j, s->contact, s->state};
         if (s->one_law < 0) load_laws(w, t);
-        if (!load(&from, t)) load_masses(w, t);
+        if (!load_contacts(&from, t)) load_masses(w, t);
         fl_sphere_batch_evaluate(&t->at, t->m, dt, fl_predictor_step_of(w, dt).half_step);
-        save(s->contact, t);
+        save_contacts(s->contact, t);
     }
-    if (s->rolling) roll(w, t, dt);
-    hand_out(s, t);
-    count(t, &s->totals[a]);
-    if (survey) survey_batch(w, t);
+    if (s->rolling) add_rolling(w, t, dt);
+    add_wrenches(s, t);
+    add_to_totals(t, &s->totals[a]);
+    if (survey) add_stiffness(w, t);
     t->m = 0;
 }
 
-/* And of the first BLOCK of it; the others move up. */
-static void finish_block(fl_world *w, int32_t a, batch *t, double dt, int survey)
+/* The same for the first BLOCK contacts; the others move up. */
+static void evaluate_block(fl_world *w, int32_t a, batch *t, double dt, int survey)
 {
     const int32_t more = t->m - BLOCK;
     if (more < 0) return;
     t->m = BLOCK;
-    finish(w, a, t, dt, survey);
+    evaluate_batch(w, a, t, dt, survey);
     memcpy(t->d, t->d[BLOCK], (size_t)more * sizeof *t->d);
-    memcpy(t->row, &t->row[BLOCK], (size_t)more * sizeof *t->row);
+    memcpy(t->contact, &t->contact[BLOCK], (size_t)more * sizeof *t->contact);
     t->m = more;
 }
 
@@ -512,43 +517,45 @@ void fl_sphere_chunk_evaluate(fl_world *w, int32_t a, double dt, int survey)
 {
     fl_sphere_contacts *s = &w->spheres;
     const int32_t begin = a * FL_SPHERE_CHUNK, end = fl_chunk_end(s, a), to = s->first[end],
-                  cross = s->slot_first[a];
-    const seeker by = {w, s->i, s->j, s->shift, s->shift_index, s->touches, s->state, s->contact, s->n};
+                  slot_begin = s->slot_first[a];
+    const search_arrays by = {w,          s->i,     s->j,       s->shift, s->shift_index,
+                              s->touches, s->state, s->contact, s->n};
     const int wide = dt >= 0.0 && s->shifts;
     batch t;
     memset(t.law, -1, sizeof t.law);
     for (int32_t m = 0; s->one_law >= 0 && m < FL_SPHERE_BATCH; m++) load_law(w, &t, m, s->one_law);
     t.m = 0;
     s->totals[a] = (fl_chunk_totals){.max_overlap_contact = -1};
-    clear(&s->sum[begin], end - begin);
-    clear(&s->slot[cross], s->slot_first[a + 1] - cross);
+    clear_sums(&s->sum[begin], end - begin);
+    clear_sums(&s->slot[slot_begin], s->slot_first[a + 1] - slot_begin);
     if (survey) {
         memset(&s->omega2[begin], 0, (size_t)(end - begin) * sizeof *s->omega2);
-        memset(&s->omega2_slot[cross], 0, (size_t)(s->slot_first[a + 1] - cross) * sizeof *s->omega2_slot);
+        memset(&s->omega2_slot[slot_begin], 0,
+               (size_t)(s->slot_first[a + 1] - slot_begin) * sizeof *s->omega2_slot);
     }
     for (int32_t c = s->first[begin]; c < to;) {
-        if (wide) c = look(&by, &t, c, to);
+        if (wide) c = find_touching(&by, &t, c, to);
         for (; c < to && t.m < BLOCK && (!wide || to - c < FL_SIMD_WIDTH); c++) {
-            const uint8_t touches = (uint8_t)look_one(w, &t, c);
-            if (dt >= 0.0 && touches != s->touches[c]) turn_over(s, c, 1);
+            const uint8_t touches = (uint8_t)test_contact(w, &t, c);
+            if (dt >= 0.0 && touches != s->touches[c]) toggle_contacts(s, c, 1);
             t.m += s->touches[c];
         }
-        finish_block(w, a, &t, dt, survey);
+        evaluate_block(w, a, &t, dt, survey);
     }
-    if (t.m) finish(w, a, &t, dt, survey);
+    if (t.m) evaluate_batch(w, a, &t, dt, survey);
     if (s->walls) fl_wall_chunk_evaluate(w, a, dt, survey);
 }
 
 void fl_sphere_sums_collect(fl_world *w, int32_t from, int32_t to)
 {
-    collect(w->spheres.sum, w->spheres.slot, w->spheres.incoming, w->spheres.incoming_first, from, to);
+    collect_slots(w->spheres.sum, w->spheres.slot, w->spheres.incoming, w->spheres.incoming_first, from, to);
 }
 
 int32_t fl_sphere_chunk_share(const fl_world *w, int t, int parts)
 {
     const fl_sphere_contacts *s = &w->spheres;
     const int64_t all = (int64_t)s->n + s->bodies;
-    int32_t lo = 0, hi = s->chunks; /* the first with as many rows and bodies before it as belong to others */
+    int32_t lo = 0, hi = s->chunks; /* the result: the first chunk after the work of the shares before */
     while (lo < hi) {
         const int32_t a = (lo + hi) / 2, k = a * FL_SPHERE_CHUNK;
         if (((int64_t)s->first[k] + k) * parts < all * t) lo = a + 1;

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/array.h"
-#include "law/normal.h"
-#include "sphere/contact_force.h"
-#include "sphere/sphere_pair.h"
-#include "sphere/contact_list.h"
-#include "sphere/wall_contact.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "contact/rolling_pair.h"
+#include "law/normal.h"
 #include "patch/stiffness_bound.h"
+#include "sphere/contact_force.h"
+#include "sphere/contact_list.h"
+#include "sphere/sphere_pair.h"
+#include "sphere/wall_contact.h"
 #include "world/access.h"
 
-/* Rounding of coordinates a million sizes away may hide so much of a distance. */
-#define NEARLY 1e-9
+/* Relative margin of a distance for rounding of coordinates, up to a million sizes from the origin. */
+#define MARGIN 1e-9
 
-enum { MOST_WAYS = 256 };
+enum { MAX_SHIFTS = 256 };
 
-/* --- which there are --------------------------------------------------------------------------- */
+/* --- list -------------------------------------------------------------------------------------- */
 
 void fl_contact_list_free(fl_sphere_contacts *s)
 {
@@ -32,8 +32,8 @@ void fl_contact_list_free(fl_sphere_contacts *s)
     *s = (fl_sphere_contacts){0};
 }
 
-/* Room for n rows; the arrays of bodies stay until the world ends. */
-static int rows_alloc(fl_sphere_contacts *s, const fl_world *w, int64_t n, fl_err *err)
+/* Allocates n contacts. */
+static int alloc_contacts(fl_sphere_contacts *s, const fl_world *w, int64_t n, fl_err *err)
 {
     if (n > INT32_MAX) return fl_fail(err, FL_SYSTEM, "out of memory: %lld pairs of spheres", (long long)n);
     s->i = fl_alloc(n, sizeof *s->i, err);
@@ -50,7 +50,8 @@ static int rows_alloc(fl_sphere_contacts *s, const fl_world *w, int64_t n, fl_er
     return 0;
 }
 
-static int bodies_alloc(fl_sphere_contacts *s, const fl_world *w, fl_err *err)
+/* Allocates the arrays of bodies once; they last as long as the world. */
+static int alloc_bodies(fl_sphere_contacts *s, const fl_world *w, fl_err *err)
 {
     if (s->bodies) return 0;
     s->chunks = (w->n + FL_SPHERE_CHUNK - 1) / FL_SPHERE_CHUNK;
@@ -76,12 +77,12 @@ static int bodies_alloc(fl_sphere_contacts *s, const fl_world *w, fl_err *err)
     return 0;
 }
 
-/* Images of rows are few: from any of them to where j is. */
-static int find_ways(fl_sphere_contacts *s, const fl_periodic_cell *cell, fl_err *err)
+/* Numbers the distinct image offsets of all contacts, which are few; 0 is no offset. */
+static int index_shifts(fl_sphere_contacts *s, const fl_periodic_cell *cell, fl_err *err)
 {
-    int32_t from[MOST_WAYS] = {0}; /* the first row with it; of the 0 none */
+    int32_t from[MAX_SHIFTS] = {0}; /* first contact with the offset; none for 0 */
     free(s->shift), free(s->shift_index);
-    s->shift = fl_alloc(MOST_WAYS, sizeof *s->shift, err);
+    s->shift = fl_alloc(MAX_SHIFTS, sizeof *s->shift, err);
     s->shift_index = fl_alloc(s->n, sizeof *s->shift_index, err);
     s->shifts = 1;
     if (!s->shift || !s->shift_index) return -1;
@@ -90,7 +91,7 @@ static int find_ways(fl_sphere_contacts *s, const fl_periodic_cell *cell, fl_err
         if (!(e[0] | e[1] | e[2])) continue;
         if (k == 0 || memcmp(e, &s->image[3 * from[k]], 3 * sizeof *e) != 0)
             for (k = 1; k < s->shifts && memcmp(e, &s->image[3 * from[k]], 3 * sizeof *e) != 0;) k++;
-        if (k == MOST_WAYS) {
+        if (k == MAX_SHIFTS) {
             s->shifts = 0;
             return 0;
         }
@@ -103,11 +104,11 @@ static int find_ways(fl_sphere_contacts *s, const fl_periodic_cell *cell, fl_err
     return 0;
 }
 
-/* Offsets and slots. */
-static int index_rows(fl_world *w, fl_err *err)
+/* Computes offsets, targets and slots of all contacts. */
+static int index_contacts(fl_world *w, fl_err *err)
 {
     fl_sphere_contacts *s = &w->spheres;
-    if (bodies_alloc(s, w, err)) return -1;
+    if (alloc_bodies(s, w, err)) return -1;
     for (int32_t i = 0; i <= s->bodies; i++) s->first[i] = s->incoming_first[i] = 0;
     for (int32_t c = 0; c < s->n; c++) s->first[s->i[c] + 1]++;
     for (int32_t i = 0; i < s->bodies; i++) s->first[i + 1] += s->first[i];
@@ -132,13 +133,13 @@ static int index_rows(fl_world *w, fl_err *err)
     s->incoming = fl_alloc(slots, sizeof *s->incoming, err);
     s->slot = fl_alloc(slots, sizeof *s->slot, err);
     s->omega2_slot = fl_alloc(slots, sizeof *s->omega2_slot, err);
-    if (!s->incoming || !s->slot || !s->omega2_slot || find_ways(s, &w->cell, err)) return -1;
+    if (!s->incoming || !s->slot || !s->omega2_slot || index_shifts(s, &w->cell, err)) return -1;
     s->one_law = s->n > 0 ? s->law[0] : -1;
     for (int32_t c = 0; c < s->n; c++)
         if (s->law[c] != s->one_law) s->one_law = -1;
     for (int32_t j = 0; j < s->bodies; j++) s->incoming_first[j + 1] += s->incoming_first[j];
     slots = 0;
-    for (int32_t a = 0; a < s->chunks; a++) { /* fills: into[j] goes from the start of j to that of j + 1 */
+    for (int32_t a = 0; a < s->chunks; a++) { /* filling moves incoming_first[j] to the start of j + 1 */
         const int32_t end = fl_chunk_end(s, a);
         for (int32_t c = s->first[a * FL_SPHERE_CHUNK]; c < s->first[end]; c++)
             if (s->j[c] >= end) s->incoming[s->incoming_first[s->j[c]]++] = slots++;
@@ -152,7 +153,8 @@ static int index_rows(fl_world *w, fl_err *err)
     return 0;
 }
 
-static int compare(const fl_sphere_contacts *s, int32_t c, int32_t j, const int32_t image[3])
+/* Order of contact c and (j, image). */
+static int compare_contact(const fl_sphere_contacts *s, int32_t c, int32_t j, const int32_t image[3])
 {
     if (s->j[c] != j) return s->j[c] < j ? -1 : 1;
     for (int axis = 0; s->image && axis < 3; axis++)
@@ -160,18 +162,18 @@ static int compare(const fl_sphere_contacts *s, int32_t c, int32_t j, const int3
     return 0;
 }
 
-/* Whether two spheres may touch before the next search: boxes meet across their corners too, where spheres
- * are far apart. */
-static int within(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
+/* True if two spheres may touch before the next search.  Boxes overlap at their corners already, where
+ * spheres are still apart. */
+static int may_touch(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
 {
-    const double R = (w->b.radius[i] + w->b.radius[j] + w->skin) * (1.0 + NEARLY);
+    const double R = (w->b.radius[i] + w->b.radius[j] + w->skin) * (1.0 + MARGIN);
     const fl_vec3 way = fl_periodic_cell_offset(&w->cell, v3(image[0], image[1], image[2]));
     return v3_norm2(v3_sub(v3_sub(w->b.x[i], w->b.x[j]), way)) < R * R;
 }
 
-/* The rows of body i from c on, with what those of before remember. */
-static void fill(const fl_world *w, fl_sphere_contacts *s, const uint8_t *listed, int32_t i, int32_t c,
-                 fl_pair_image *image)
+/* Fills in the contacts of body i from c on, with the memory of those that were listed before. */
+static void fill_contacts(const fl_world *w, fl_sphere_contacts *s, const uint8_t *listed, int32_t i,
+                          int32_t c, fl_pair_image *image)
 {
     const fl_sphere_contacts *old = &w->spheres;
     int32_t at = old->bodies ? old->first[i] : 0;
@@ -179,20 +181,19 @@ static void fill(const fl_world *w, fl_sphere_contacts *s, const uint8_t *listed
     for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++) {
         const int32_t j = w->candidates.partner[k];
         int32_t cells[3] = {0};
-        double n;
         if (!listed[k]) continue;
         image(w, k, i, j, cells);
-        while (at < end && compare(old, at, j, cells) < 0) at++;
+        while (at < end && compare_contact(old, at, j, cells) < 0) at++;
         s->i[c] = i;
         s->j[c] = j;
         s->law[c] = (int32_t)(fl_pair_law_of(w, i, j) - w->law);
         if (s->image) memcpy(&s->image[3 * c], cells, sizeof cells);
-        if (at < end && compare(old, at, j, cells) == 0) {
+        if (at < end && compare_contact(old, at, j, cells) == 0) {
             if (s->rolling) s->rolling[c] = old->rolling[at];
             s->touches[c] = old->touches[at];
             s->contact[c] = old->contact[at++];
         } else {
-            s->contact[c].k = fl_pair_stiffness(w, i, j, &n);
+            s->contact[c].k = fl_pair_stiffness(w, i, j).k;
         }
         c++;
     }
@@ -201,34 +202,34 @@ static void fill(const fl_world *w, fl_sphere_contacts *s, const uint8_t *listed
 int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl_err *err)
 {
     fl_sphere_contacts fresh = {0}, *s = &w->spheres;
-    int64_t near = 0, lean = 0;
+    int64_t near = 0, walls = 0;
     int32_t *at = fl_alloc((int64_t)w->n + 1, sizeof *at, err);
     uint8_t *listed = fl_alloc(w->candidates.first[w->n], sizeof *listed, err);
     if (!at || !listed) goto fail;
-#pragma omp parallel for schedule(static) reduction(+ : near, lean)
+#pragma omp parallel for schedule(static) reduction(+ : near, walls)
     for (int32_t i = 0; i < w->n; i++) {
         for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++) {
             const int32_t j = w->candidates.partner[k];
             int32_t cells[3] = {0};
-            lean += fl_sphere_pair_kind(w, i, j) == FL_SPHERE_WALL;
+            walls += fl_sphere_pair_kind(w, i, j) == FL_SPHERE_WALL;
             if (fl_sphere_pair_kind(w, i, j) != FL_SPHERE_SPHERE) continue;
             image(w, k, i, j, cells);
-            listed[k] = (uint8_t)within(w, i, j, cells);
+            listed[k] = (uint8_t)may_touch(w, i, j, cells);
             at[i + 1] += listed[k];
             near++;
         }
     }
-    *others = w->candidates.first[w->n] - near - lean;
+    *others = w->candidates.first[w->n] - near - walls;
     int64_t n = 0;
     for (int32_t i = 0; i < w->n; i++) n += at[i + 1], at[i + 1] = (int32_t)n;
-    if (n + lean == 0 && !s->bodies) {
+    if (n + walls == 0 && !s->bodies) {
         free(at), free(listed);
         return 0;
     }
-    if (rows_alloc(&fresh, w, n, err) || fl_wall_list_build(w, lean, err)) goto fail;
+    if (alloc_contacts(&fresh, w, n, err) || fl_wall_list_build(w, walls, err)) goto fail;
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < w->n; i++)
-        if (at[i + 1] > at[i]) fill(w, &fresh, listed, i, at[i], image);
+        if (at[i + 1] > at[i]) fill_contacts(w, &fresh, listed, i, at[i], image);
     free(at), free(listed);
     free(s->i), free(s->j), free(s->law), free(s->image), free(s->touches), free(s->contact),
         free(s->rolling);
@@ -237,7 +238,7 @@ int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl
     s->touches = fresh.touches, s->contact = fresh.contact, s->n = fresh.n;
     s->i_cap = fresh.i_cap, s->j_cap = fresh.j_cap, s->law_cap = fresh.law_cap;
     s->image_cap = fresh.image_cap, s->touches_cap = fresh.touches_cap, s->contact_cap = fresh.contact_cap;
-    if (index_rows(w, err)) return -1;
+    if (index_contacts(w, err)) return -1;
     fl_sphere_states_update(w, 0, w->n, 0.5 * w->dt);
     return 0;
 fail:
@@ -246,12 +247,12 @@ fail:
     return -1;
 }
 
-int fl_contact_list_append(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int hit,
-                           const fl_sphere_contact *row, const fl_rolling_spring *roll, fl_err *err)
+int fl_contact_list_append(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int touches,
+                           const fl_sphere_contact *contact, const fl_rolling_spring *roll, fl_err *err)
 {
     fl_sphere_contacts *s = &w->spheres;
     const int64_t n = (int64_t)s->n + 1;
-    if (j >= w->n) return fl_wall_list_append(w, i, j, hit, row, roll, err);
+    if (j >= w->n) return fl_wall_list_append(w, i, j, touches, contact, roll, err);
     if (fl_grow(&s->i, &s->i_cap, n, sizeof *s->i, err) || fl_grow(&s->j, &s->j_cap, n, sizeof *s->j, err) ||
         fl_grow(&s->law, &s->law_cap, n, sizeof *s->law, err) ||
         fl_grow(&s->touches, &s->touches_cap, n, sizeof *s->touches, err) ||
@@ -262,8 +263,8 @@ int fl_contact_list_append(fl_world *w, int32_t i, int32_t j, const int32_t imag
     s->i[s->n] = i;
     s->j[s->n] = j;
     s->law[s->n] = (int32_t)(fl_pair_law_of(w, i, j) - w->law);
-    s->touches[s->n] = (uint8_t)hit;
-    s->contact[s->n] = *row;
+    s->touches[s->n] = (uint8_t)touches;
+    s->contact[s->n] = *contact;
     if (s->rolling) s->rolling[s->n] = *roll;
     if (s->image) memcpy(&s->image[3 * s->n], image, 3 * sizeof *image);
     s->n++;
@@ -292,13 +293,13 @@ int fl_contact_list_remove_absent(fl_world *w, fl_err *err)
 
 int fl_contact_list_index(fl_world *w, fl_err *err)
 {
-    if (index_rows(w, err)) return -1;
+    if (index_contacts(w, err)) return -1;
     for (int32_t a = 0; a < w->spheres.chunks; a++) fl_sphere_chunk_evaluate(w, a, -1.0, 0);
     fl_sphere_sums_collect(w, 0, w->spheres.bodies);
     return 0;
 }
 
-/* --- their books ------------------------------------------------------------------------------- */
+/* --- sums -------------------------------------------------------------------------------------- */
 
 static double overlap_of(const fl_world *w, int32_t c)
 {
@@ -332,19 +333,19 @@ fl_sphere_totals fl_contact_list_totals(const fl_world *w)
 {
     const fl_sphere_contacts *s = &w->spheres;
     fl_sphere_totals all = {.i = -1, .j = -1};
-    int32_t row = -1;
+    int32_t contact = -1;
     for (int32_t a = 0; a < s->chunks; a++) {
         const fl_chunk_totals *t = &s->totals[a];
         all.force_sum += t->force_sum;
         all.touching += t->touching;
         if (t->max_overlap > all.max_overlap) {
             all.max_overlap = t->max_overlap;
-            row = t->max_overlap_contact;
+            contact = t->max_overlap_contact;
         }
     }
     if (all.max_overlap > 0.0) {
-        all.i = row < 0 ? s->wall[~row].i : s->i[row];
-        all.j = row < 0 ? s->wall[~row].j : s->j[row];
+        all.i = contact < 0 ? s->wall[~contact].i : s->i[contact];
+        all.j = contact < 0 ? s->wall[~contact].j : s->j[contact];
     }
     return all;
 }
@@ -361,19 +362,20 @@ double fl_sphere_omega2(const fl_world *w, int32_t k)
 double fl_contact_list_bytes(const fl_world *w)
 {
     const fl_sphere_contacts *s = &w->spheres;
-    const double row = 4 * sizeof(int32_t) + sizeof *s->touches + sizeof *s->shift_index + sizeof *s->contact,
+    const double contact =
+                     4 * sizeof(int32_t) + sizeof *s->touches + sizeof *s->shift_index + sizeof *s->contact,
                  image = s->image ? 3 * sizeof(int32_t) : 0, roll = s->rolling ? sizeof *s->rolling : 0,
                  slot = sizeof *s->slot + sizeof *s->incoming + sizeof *s->omega2_slot,
                  body = 2 * sizeof *s->sum + sizeof *s->state + 4 * sizeof(int32_t) + sizeof *s->omega2;
     if (!s->bodies) return 0.0;
-    return s->n * (row + image + roll) + s->walls * ((double)sizeof *s->wall + roll) +
+    return s->n * (contact + image + roll) + s->walls * ((double)sizeof *s->wall + roll) +
            s->slot_first[s->chunks] * slot + s->bodies * body;
 }
 
-/* --- as pairs like all others ------------------------------------------------------------------ */
+/* --- conversion to fl_pair --------------------------------------------------------------------- */
 
-/* Row c with its forces of the last touch. */
-static void pair_of(const fl_world *w, int32_t c, fl_pair *p)
+/* Converts contact c to an fl_pair, with the forces of its last evaluation. */
+static void convert_contact(const fl_world *w, int32_t c, fl_pair *p)
 {
     const fl_sphere_contacts *s = &w->spheres;
     const fl_bodies *b = &w->b;
@@ -393,7 +395,7 @@ static void pair_of(const fl_world *w, int32_t c, fl_pair *p)
                                         roll ? fl_rolling_turn_stiffness(roll) : 0.0);
 }
 
-/* Walls come after all spheres. */
+/* Walls come after all other contacts of a sphere. */
 int32_t fl_contact_list_next(const fl_world *w, fl_contact_iterator *at)
 {
     const fl_sphere_contacts *s = &w->spheres;
@@ -402,11 +404,11 @@ int32_t fl_contact_list_next(const fl_world *w, fl_contact_iterator *at)
     return ~at->wall++;
 }
 
-/* Whether row c, as fl_contact_list_next() tells it, comes before pair p. */
+/* True if contact c, as fl_contact_list_next() returns it, comes before pair p. */
 static int comes_first(const fl_sphere_contacts *s, int32_t c, const fl_neighbour_pair *p)
 {
     const int32_t i = c < 0 ? s->wall[~c].i : s->i[c], j = c < 0 ? s->wall[~c].j : s->j[c];
-    return i != p->i ? i < p->i : j < p->j; /* no pair is of both kinds */
+    return i != p->i ? i < p->i : j < p->j; /* no pair is in both lists */
 }
 
 const fl_pair *fl_pair_next(fl_pair_iterator *at)
@@ -418,7 +420,7 @@ const fl_pair *fl_pair_next(fl_pair_iterator *at)
         if (at->pair >= w->n_pair || comes_first(&w->spheres, c, &w->pair[at->pair])) {
             at->spheres = next;
             if (c < 0) fl_wall_contact_to_pair(w, ~c, &at->converted);
-            else pair_of(w, c, &at->converted);
+            else convert_contact(w, c, &at->converted);
             return &at->converted;
         }
     }

@@ -1,43 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sphere_pair.h -- which pairs are contacts of spheres, and such a contact as a pair like all others. */
+/* sphere_pair.h -- which pairs are sphere contacts, and helpers for a single one. */
 #ifndef FL_SPHERE_SPHERE_PAIR_H
 #define FL_SPHERE_SPHERE_PAIR_H
 #include "world/world.h"
 
-/* Which pairs have rows of their own (world/sphere_contacts.h), by `patch` or `core`: two spheres, that is bodies alike in
- * all directions, or one and a rigid wall of the boundary.  All others are pairs of w->pair. */
+/* Kinds of sphere contacts (world/sphere_contacts.h), for laws that have them: two spheres, that is
+ * isotropic bodies, or one and a rigid wall of the boundary.  All other pairs are in w->pair. */
 enum fl_sphere_kind { FL_SPHERE_NONE, FL_SPHERE_SPHERE, FL_SPHERE_WALL };
 
-/* i < n, j < total. */
+/* Kind of the pair i < n, j < total. */
 enum fl_sphere_kind fl_sphere_pair_kind(const fl_world *w, int32_t i, int32_t j);
 
-/* So many more rows and walls touch body i; any thread may say so. */
+/* Adds to the number of contacts that touch body i; any thread. */
 static inline void fl_sphere_add_contact_count(fl_sphere_contacts *s, int32_t i, int32_t by)
 {
 #pragma omp atomic
     s->contact_count[i] += by;
 }
 
-/* Of a sphere's row the energy of the springs of friction, with that against rolling, if any [J]. */
+/* Energy of the springs of friction and rolling of a sphere contact [J]. */
 static inline double fl_sphere_spring_energy(const fl_sphere_contact *r, const fl_rolling_spring *roll)
 {
     return (r->spring_stiffness > 0.0 ? 0.5 * v3_norm2(r->spring_force) / r->spring_stiffness : 0.0) +
            (roll ? fl_rolling_energy(*roll) : 0.0);
 }
 
-/* A row of i and j as a pair like all others, at that overlap along n, from j to i: all but its image, and
- * what it does to j. */
+/* Converts a sphere contact to an fl_pair, at the overlap `over` along n, from j to i: all but its image
+ * and the forces on j. */
 void fl_sphere_contact_to_pair(const fl_world *w, int32_t i, int32_t j, const fl_sphere_contact *r,
-                               const fl_rolling_spring *roll, int hit, fl_vec3 n, double over, fl_pair *p);
+                               const fl_rolling_spring *roll, int touches, fl_vec3 n, double over,
+                               fl_pair *p);
 
-/* Behind the last body of chunk a. */
+/* One past the last body of chunk a. */
 static inline int32_t fl_chunk_end(const fl_sphere_contacts *s, int32_t a)
 {
     const int32_t end = (a + 1) * FL_SPHERE_CHUNK;
     return end < s->bodies ? end : s->bodies;
 }
 
-/* D of row c, of the image that is meant, most often the one in the same cell. */
+/* D = x_i - x_j of contact c, with the image of j, mostly the one in the same cell. */
 static inline fl_vec3 fl_sphere_separation(const fl_world *w, int32_t c)
 {
     const fl_sphere_contacts *s = &w->spheres;

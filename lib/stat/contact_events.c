@@ -6,25 +6,25 @@
 #include "stat/contact_events.h"
 #include "stat/record.h"
 
-/* Normals print with all their digits; what is off by more was never a unit vector. */
-static const double UNIT = 1e-6;
+/* Normals are printed with all digits: a larger deviation from length 1 means the vector is not a normal. */
+static const double NORMAL_TOLERANCE = 1e-6;
 
 enum { T, J, NX, NY, NZ, PX, PY, PZ, LENGTH, AREA, FN, FSX, FSY, FSZ, COLUMNS };
 static const char *const NAME[COLUMNS] = {"t",  "j",      "nx",   "ny", "nz",  "px",  "py",
                                           "pz", "length", "area", "fn", "fsx", "fsy", "fsz"};
 
-int fl_contact_events_open(fl_contact_events *h, const char *path, const fl_contact_selection *ask,
+int fl_contact_events_open(fl_contact_events *h, const char *path, const fl_contact_selection *selection,
                            fl_err *err)
 {
-    *h = (fl_contact_events){.selection = *ask};
+    *h = (fl_contact_events){.selection = *selection};
     if (fl_table_open(&h->table, path, "contacts", 1, err)) return -1;
     for (int k = 0; k < COLUMNS; k++)
         if (fl_table_require(&h->table, NAME[k], &h->col[k], err)) return -1;
-    return fl_row_filter_make(&h->filter, &h->table, ask->where, ask->wheres, err);
+    return fl_row_filter_make(&h->filter, &h->table, selection->where, selection->wheres, err);
 }
 
-/* The contact of this row, if it is one with the structure that was asked for. */
-static int take(fl_contact_events *h, fl_err *err)
+/* Add the contact of this row if it is one of the selected parts of the structure. */
+static int read_contact(fl_contact_events *h, fl_err *err)
 {
     double x[COLUMNS], across;
     for (int k = J; k < COLUMNS; k++)
@@ -39,11 +39,11 @@ static int take(fl_contact_events *h, fl_err *err)
                           .area = x[AREA],
                           .normal_force = x[FN]};
     across = v3_norm(c.n);
-    if (!(fabs(across - 1.0) <= UNIT))
-        return fl_text_fail(&h->table.text, err, "the normal has the length %g, 1 is expected", across);
+    if (!(fabs(across - 1.0) <= NORMAL_TOLERANCE))
+        return fl_text_fail(&h->table.text, err, "the normal has the length %g, expected 1", across);
     if (c.length < 0.0 || c.area < 0.0)
-        return fl_text_fail(&h->table.text, err,
-                            "length and area are %g m and %g m2, not below 0 is expected", c.length, c.area);
+        return fl_text_fail(&h->table.text, err, "length and area are %g m and %g m2, expected not below 0",
+                            c.length, c.area);
     c.force = v3_neg(v3_add(v3_scale(c.normal_force, c.n), v3(x[FSX], x[FSY], x[FSZ])));
     if (fl_grow(&h->event, &h->cap, (int64_t)h->n + 1, sizeof *h->event, err)) return -1;
     h->event[h->n++] = c;
@@ -52,7 +52,7 @@ static int take(fl_contact_events *h, fl_err *err)
 
 int fl_contact_events_next(fl_contact_events *h, fl_err *err)
 {
-    int open = 0; /* a time has begun */
+    int open = 0; /* rows of a time have been read */
     h->n = 0;
     for (;;) {
         double t;
@@ -76,14 +76,13 @@ int fl_contact_events_next(fl_contact_events *h, fl_err *err)
             h->time[h->times++] = h->t = t;
             open = 1;
         }
-        if (take(h, err)) return -1;
+        if (read_contact(h, err)) return -1;
     }
     if (h->times) return open;
-    return fl_fail(err, FL_INPUT, "%s: no row of it is between the times that were asked for",
-                   fl_in_name(h->table.text.in));
+    return fl_fail(err, FL_INPUT, "%s: no row lies between the selected times", fl_in_name(h->table.text.in));
 }
 
-static int rising(const void *a, const void *b)
+static int compare_rising(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -98,7 +97,7 @@ int fl_contact_events_span(const fl_contact_events *h, int64_t *times, double *s
     double *apart = fl_alloc(n, sizeof *apart, err);
     if (!apart) return -1;
     for (int32_t k = 0; k < n; k++) apart[k] = h->time[k + 1] - h->time[k];
-    qsort(apart, (size_t)n, sizeof *apart, rising);
+    qsort(apart, (size_t)n, sizeof *apart, compare_rising);
     *step = apart[n / 2];
     free(apart);
     const double lo = isfinite(h->selection.from) ? h->selection.from : h->time[0],

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* contact_events.h -- where the ice presses on a structure: contacts against time, one time after the other.
+/* contact_events.h -- reads contacts of the ice with a structure, one time after the other.
  *
- * Of a table of contacts those count that are with no ice, j < 0, see contacts(5).  A table has no row for
- * what does not touch, so a time at which nothing touches at all is not in it: times are taken for equally
- * far apart, by the median of their distances, and those that are missing count as times without contacts. */
+ * Only contacts with the structure count, j < 0, see contacts(5).  A table of contacts has no row for a time
+ * without contacts.  Such times are reconstructed: times are assumed to be equally spaced, by the median of
+ * their differences, and missing ones count as times without contacts. */
 #ifndef FL_STAT_CONTACT_EVENTS_H
 #define FL_STAT_CONTACT_EVENTS_H
 #include "base/table.h"
@@ -13,12 +13,12 @@
 typedef struct {
     int32_t part;        /* j, below 0 */
     fl_vec3 p, n;        /* point [m]; unit normal from the structure to the ice */
-    double length, area; /* along which and over which the two lie on one another, 0 for none [m, m^2] */
-    double normal_force; /* force along the normal, > 0 where they push one another apart [N] */
-    fl_vec3 force;       /* on the structure, all of it [N] */
+    double length, area; /* of the contact, 0 for none [m, m^2] */
+    double normal_force; /* > 0 for compression [N] */
+    fl_vec3 force;       /* total force on the structure [N] */
 } fl_contact_event;
 
-/* What to read: times from <= t <= to; conditions as in row_filter.h; the part j, or 0 for all below 0. */
+/* Rows to read: times from <= t <= to; conditions as in row_filter.h; the part j, or 0 for all below 0. */
 typedef struct {
     double from, to;
     const char *const *where;
@@ -33,23 +33,23 @@ typedef struct {
     double t;                /* the time that was read [s] */
     int32_t n, cap;          /* its contacts */
     fl_contact_event *event; /* [n] in the order of the table */
-    int32_t times;           /* how many times were read so far, with and without contacts of the structure */
+    int32_t times;           /* number of times read so far, with and without contacts of the structure */
     int32_t time_cap;
     double *time; /* [times] */
     int pending;  /* the row in the table belongs to the next time */
 } fl_contact_events;
 
 /* Open a table of contacts.  0, or -1 with FL_INPUT, FL_USAGE or FL_SYSTEM in err. */
-int fl_contact_events_open(fl_contact_events *h, const char *path, const fl_contact_selection *ask,
+int fl_contact_events_open(fl_contact_events *h, const char *path, const fl_contact_selection *selection,
                            fl_err *err);
 
-/* The next time: n, hit, t.  1, 0 at the end, or -1 with err: a field that is no number, time that
- * falls, a normal that is none, no time at all. */
+/* The next time: n, event, t.  1, 0 at the end, or -1 with err: a field that is not a number, decreasing
+ * time, a normal that is not a unit vector, no time at all. */
 int fl_contact_events_next(fl_contact_events *h, fl_err *err);
 
-/* At the end: how many times the table stands for, those that are missing in it too, and how far apart they
- * are [s]; of a single time 1 and 0.  They reach from ask.from to ask.to where these are finite, else from
- * the first to the last time of the table.  0, or -1 with FL_SYSTEM in err. */
+/* At the end: the number of times the table represents, missing ones included, and their interval [s]; 1 and
+ * 0 for a single time.  They cover selection.from to selection.to where these are finite, else from the
+ * first to the last time of the table.  0, or -1 with FL_SYSTEM in err. */
 int fl_contact_events_span(const fl_contact_events *h, int64_t *times, double *step, fl_err *err);
 
 /* Accepts a zeroed struct and leaves one. */

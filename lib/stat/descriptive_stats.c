@@ -6,14 +6,14 @@
 #include "base/array.h"
 #include "stat/descriptive_stats.h"
 
-/* Sums of deviations from a mean that is rounded to half a unit in the last place cannot tell a smaller
- * spread from none: std <= 4 eps max|x| is rounding of the mean and of the differences. */
+/* The mean is rounded to half a unit in the last place, and so are the deviations from it: std <= 4 eps
+ * max|x| cannot be distinguished from 0. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 
 void fl_compute_moments(int32_t n, const double *x, const double *w, fl_descriptive_stats *d)
 {
     const double one = 1.0;
-    const size_t step = w ? 1 : 0, count = (size_t)n; /* equal weights: the same number over and over */
+    const size_t step = w ? 1 : 0, count = (size_t)n; /* stride 0 repeats the one weight */
     double squares = 0.0, large;
     *d = (fl_descriptive_stats){
         .n = n, .min = x[0], .max = x[0], .skew = NAN, .kurtosis = NAN, .std_sample = NAN};
@@ -38,26 +38,26 @@ void fl_compute_moments(int32_t n, const double *x, const double *w, fl_descript
 
 typedef struct {
     double x, w;
-} pair;
+} weighted_value;
 
-static int compare(const void *a, const void *b)
+static int compare_values(const void *a, const void *b)
 {
-    const pair *p = a, *q = b;
+    const weighted_value *p = a, *q = b;
     if (p->x != q->x) return p->x < q->x ? -1 : 1;
-    return (p->w > q->w) - (p->w < q->w); /* so that equal values have one order */
+    return (p->w > q->w) - (p->w < q->w); /* a defined order of equal values */
 }
 
 int fl_compute_quantiles(int32_t n, const double *x, const double *w, int32_t m, const double *p, double *q,
                          fl_err *err)
 {
-    pair *s = fl_alloc(n, sizeof *s, err);
+    weighted_value *s = fl_alloc(n, sizeof *s, err);
     double *middle = s ? fl_alloc(n, sizeof *middle, err) : NULL, sum = 0.0;
     if (!middle) {
         free(s);
         return -1;
     }
-    for (int32_t k = 0; k < n; k++) s[k] = (pair){x[k], w ? w[k] : 1.0};
-    qsort(s, (size_t)n, sizeof *s, compare);
+    for (int32_t k = 0; k < n; k++) s[k] = (weighted_value){x[k], w ? w[k] : 1.0};
+    qsort(s, (size_t)n, sizeof *s, compare_values);
     for (int32_t k = 0; k < n; k++) {
         middle[k] = sum + 0.5 * s[k].w;
         sum += s[k].w;
@@ -71,7 +71,7 @@ int fl_compute_quantiles(int32_t n, const double *x, const double *w, int32_t m,
             else hi = k;
         }
         const double f = middle[hi] > middle[lo] ? (want - middle[lo]) / (middle[hi] - middle[lo]) : 0.0;
-        /* p = 1 is the largest value, whatever the rounding of the sum makes of its position. */
+        /* p = 1 is the largest value, for any rounding of its position. */
         q[j] = p[j] >= 1.0 ? s[n - 1].x : s[lo].x + f * (s[hi].x - s[lo].x);
     }
     free(s);

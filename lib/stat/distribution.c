@@ -3,9 +3,9 @@
 #include <math.h>
 #include "stat/distribution.h"
 
-/* Below this the bend differs from z by less than the rounding of any z that a load can have, and a quotient
- * of two numbers near the smallest double is avoided. */
-static const double STRAIGHT = 1e-100;
+/* Below this shape the reduced variate equals z to rounding for every z of a load.  The test avoids a
+ * quotient of two numbers near the smallest double. */
+static const double SMALL_SHAPE = 1e-100;
 
 static const double HALF_LN_2PI = 0.91893853320467274178;
 
@@ -19,13 +19,13 @@ int fl_dist_parameter_count(int kind) { return kind == FL_GEV ? 3 : 2; }
 
 double fl_dist_reduced_variate(double shape, double z)
 {
-    if (fabs(shape) < STRAIGHT) return z;
+    if (fabs(shape) < SMALL_SHAPE) return z;
     return shape * z > -1.0 ? log1p(shape * z) / shape : shape > 0.0 ? -INFINITY : INFINITY;
 }
 
 double fl_dist_from_reduced_variate(double shape, double w)
 {
-    return fabs(shape) < STRAIGHT ? w : expm1(shape * w) / shape;
+    return fabs(shape) < SMALL_SHAPE ? w : expm1(shape * w) / shape;
 }
 
 double fl_dist_cdf(const fl_dist *d, double x)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <stdio.h> /* first: gmp.h looks whether it is there */
+#include <stdio.h> /* first: gmp.h declares its output functions only after it */
 
 #include <gmp.h>
 #include <math.h>
@@ -9,10 +9,10 @@
 #include "base/number_text.h"
 #include "stat/exact_sum.h"
 
-__extension__ typedef unsigned __int128 wide;
+__extension__ typedef unsigned __int128 uint128;
 
-/* Bits of a product w x^4: the lowest 2^(5 * -1074), the highest below 2^(5 * 334 + 63).  Words are
- * counted from 2^(64 * LEAST), so that their numbers are not negative when they are shifted. */
+/* Bits of a product w x^4: the lowest 2^(5 * -1074), the highest below 2^(5 * 334 + 63).  Words are counted
+ * from 2^(64 * LEAST), so that word numbers are not negative. */
 enum {
     LEAST = -84,
     BITS_MAX = 5 * 334 + 64,
@@ -26,19 +26,19 @@ typedef struct {
     uint64_t m;
     int32_t e;
     int minus;
-} parts;
+} double_parts;
 
-static parts split(double x)
+static double_parts split_double(double x)
 {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
     const uint64_t fraction = bits & ((UINT64_C(1) << 52) - 1);
     const int32_t e = (int32_t)(bits >> 52 & 2047);
-    return (parts){e ? fraction | UINT64_C(1) << 52 : fraction, (e ? e : 1) - 1075, (int)(bits >> 63)};
+    return (double_parts){e ? fraction | UINT64_C(1) << 52 : fraction, (e ? e : 1) - 1075, (int)(bits >> 63)};
 }
 
-/* Make room for words from lo to hi, and one above, which takes the carries. */
-static int make_room(fl_exact_sum *s, int32_t lo, int32_t hi, fl_err *err)
+/* Extend the sum to words from lo to hi, and one above for carries. */
+static int grow_words(fl_exact_sum *s, int32_t lo, int32_t hi, fl_err *err)
 {
     const int32_t from = s->n && s->lo < lo ? s->lo : lo,
                   to = s->n && s->lo + s->n > hi + 2 ? s->lo + s->n : hi + 2, n = to - from;
@@ -53,24 +53,24 @@ static int make_room(fl_exact_sum *s, int32_t lo, int32_t hi, fl_err *err)
     return 0;
 }
 
-/* Add (or take off) term[0 .. k) 2^e.  Inline, as the loop is as long as k, which callers know. */
+/* Add (or subtract) term[0 .. k) 2^e.  Inline: k is a constant of the caller, which unrolls the loop. */
 static inline __attribute__((always_inline)) int add_term(fl_exact_sum *s, const uint64_t *term, int k,
                                                           int32_t e, int minus, fl_err *err)
 {
     const int32_t place = e - 64 * LEAST, lo = place / 64 + LEAST;
     const int shift = place % 64;
-    if ((s->n == 0 || lo < s->lo || lo + k + 1 >= s->lo + s->n) && make_room(s, lo, lo + k, err)) return -1;
+    if ((s->n == 0 || lo < s->lo || lo + k + 1 >= s->lo + s->n) && grow_words(s, lo, lo + k, err)) return -1;
     uint64_t *word = s->word + (minus ? s->n : 0) + (lo - s->lo), over = 0;
     unsigned carry = 0;
     for (int i = 0; i < k; i++) {
-        const wide v = (wide)term[i] << shift | over, sum = (wide)word[i] + (uint64_t)v + carry;
+        const uint128 v = (uint128)term[i] << shift | over, sum = (uint128)word[i] + (uint64_t)v + carry;
         word[i] = (uint64_t)sum;
         carry = (unsigned)(sum >> 64);
         over = (uint64_t)(v >> 64);
     }
-    const wide sum = (wide)word[k] + over + carry;
+    const uint128 sum = (uint128)word[k] + over + carry;
     word[k] = (uint64_t)sum;
-    /* The word above all that is ever added counts carries, and 2^63 of them do not fill it. */
+    /* The word above every term counts carries; 2^63 of them do not overflow it. */
     if (sum >> 64)
         while (++word[++k] == 0) {}
     return 0;
@@ -78,16 +78,16 @@ static inline __attribute__((always_inline)) int add_term(fl_exact_sum *s, const
 
 int fl_exact_add(fl_exact_sum *s, double x, fl_err *err)
 {
-    const parts p = split(x);
+    const double_parts p = split_double(x);
     return p.m ? add_term(s, &p.m, 1, p.e, p.minus, err) : 0;
 }
 
-/* term[0 .. k) becomes its product with m, of one word more. */
-static inline __attribute__((always_inline)) void times(uint64_t *term, int k, uint64_t m)
+/* Multiply term[0 .. k) by m; the result has one word more. */
+static inline __attribute__((always_inline)) void multiply_word(uint64_t *term, int k, uint64_t m)
 {
     uint64_t carry = 0;
     for (int i = 0; i < k; i++) {
-        const wide product = (wide)term[i] * m + carry;
+        const uint128 product = (uint128)term[i] * m + carry;
         term[i] = (uint64_t)product;
         carry = (uint64_t)(product >> 64);
     }
@@ -96,16 +96,16 @@ static inline __attribute__((always_inline)) void times(uint64_t *term, int k, u
 
 int fl_exact_add_powers(fl_exact_sum s[5], double w, double x, fl_err *err)
 {
-    const parts pw = split(w), px = split(x);
+    const double_parts pw = split_double(w), px = split_double(x);
     uint64_t term[TERM_MAX] = {pw.m};
     const int32_t e = pw.e;
     if (pw.m == 0) return 0;
     if (add_term(&s[0], term, 1, e, 0, err)) return -1;
     if (px.m == 0) return 0;
-    if (times(term, 1, px.m), add_term(&s[1], term, 2, e + px.e, px.minus, err)) return -1;
-    if (times(term, 2, px.m), add_term(&s[2], term, 3, e + 2 * px.e, 0, err)) return -1;
-    if (times(term, 3, px.m), add_term(&s[3], term, 4, e + 3 * px.e, px.minus, err)) return -1;
-    times(term, 4, px.m);
+    if (multiply_word(term, 1, px.m), add_term(&s[1], term, 2, e + px.e, px.minus, err)) return -1;
+    if (multiply_word(term, 2, px.m), add_term(&s[2], term, 3, e + 2 * px.e, 0, err)) return -1;
+    if (multiply_word(term, 3, px.m), add_term(&s[3], term, 4, e + 3 * px.e, px.minus, err)) return -1;
+    multiply_word(term, 4, px.m);
     return add_term(&s[4], term, 5, e + 4 * px.e, 0, err);
 }
 
@@ -113,13 +113,13 @@ int fl_exact_merge(fl_exact_sum *s, const fl_exact_sum *t, fl_err *err)
 {
     if (t->n == 0) return 0;
     if ((s->n == 0 || t->lo < s->lo || t->lo + t->n > s->lo + s->n) &&
-        make_room(s, t->lo, t->lo + t->n - 1, err))
+        grow_words(s, t->lo, t->lo + t->n - 1, err))
         return -1;
     for (int half = 0; half < 2; half++) {
         uint64_t *word = s->word + (half ? s->n : 0);
         unsigned carry = 0;
         for (int32_t k = t->lo - s->lo, i = 0; i < t->n || carry; k++, i++) {
-            const wide sum = (wide)word[k] + (i < t->n ? t->word[(half ? t->n : 0) + i] : 0) + carry;
+            const uint128 sum = (uint128)word[k] + (i < t->n ? t->word[(half ? t->n : 0) + i] : 0) + carry;
             word[k] = (uint64_t)sum;
             carry = (unsigned)(sum >> 64);
         }
@@ -127,8 +127,8 @@ int fl_exact_merge(fl_exact_sum *s, const fl_exact_sum *t, fl_err *err)
     return 0;
 }
 
-/* z 2^(64 lo) is the sum.  GMP ends the program when it has no memory: of numbers of some kilobytes that is
- * no worse than any other place, and everything that grows with the data is ours. */
+/* z 2^(64 lo) is the sum.  GMP ends the program when it has no memory.  Its numbers have a few kilobytes;
+ * everything that grows with the data is allocated here. */
 static void to_integer(mpz_t z, const fl_exact_sum *s, int32_t lo)
 {
     mpz_t negative;
@@ -142,8 +142,8 @@ static void to_integer(mpz_t z, const fl_exact_sum *s, int32_t lo)
     mpz_clear(negative);
 }
 
-/* a / b = f 2^e with 1 <= |f| < 2, f nearest, or f = 0; b > 0. */
-static double quotient(const mpz_t a, const mpz_t b, int64_t *e)
+/* a / b = f 2^e with 1 <= |f| < 2, f rounded to nearest, or f = 0; b > 0. */
+static double nearest_quotient(const mpz_t a, const mpz_t b, int64_t *e)
 {
     mpz_t q, r;
     *e = 0;
@@ -162,7 +162,7 @@ static double quotient(const mpz_t a, const mpz_t b, int64_t *e)
         mpz_tdiv_qr(q, r, q, big);
         mpz_clear(big);
     }
-    /* 66 or 67 bits; the lowest stands for all that follow, so that a tie is one only when it is. */
+    /* 66 or 67 bits; the lowest is a sticky bit for all that follow, which decides ties. */
     if (mpz_sgn(r)) mpz_setbit(q, 0);
     const int64_t bits = (int64_t)mpz_sizeinbase(q, 2), drop = bits - 53;
     uint64_t m;
@@ -183,7 +183,7 @@ double fl_exact_value(const fl_exact_sum *s)
     mpz_init(z);
     mpz_init_set_ui(one, 1);
     to_integer(z, s, s->lo);
-    const double f = quotient(z, one, &e);
+    const double f = nearest_quotient(z, one, &e);
     mpz_clear(z);
     mpz_clear(one);
     return ldexp(f, (int)(e + 64 * (int64_t)s->lo));
@@ -224,11 +224,11 @@ int fl_exact_read(fl_exact_sum *s, const char *text, fl_err *err)
         for (p += 2; digit_of(p[n]) >= 0; n++) {}
     if (n == 0 || p[0] == '0' || p[n] != 'p' || fl_number_i32(p + n + 1, 64 * LEAST, BITS_MAX, &e) ||
         digit_of(p[n - 1]) % 2 == 0)
-        return fl_fail(err, FL_INPUT, "\"%.40s\" is no exact sum, which is 0xHEXpEXPONENT with HEX odd, or 0",
-                       text);
+        return fl_fail(err, FL_INPUT,
+                       "\"%.40s\" is not an exact sum, expected 0xHEXpEXPONENT with HEX odd, or 0", text);
     if (n > DIGITS_MAX || e + 4 * (int64_t)n > BITS_MAX)
-        return fl_fail(err, FL_INPUT, "the exact sum \"%.20s...\" is larger than any can be", text);
-    /* Sixteen digits at a time, from the lowest. */
+        return fl_fail(err, FL_INPUT, "the exact sum \"%.20s...\" is out of range", text);
+    /* One word of 16 digits at a time, from the lowest. */
     while (n > 0) {
         const size_t k = n < 16 ? n : 16;
         uint64_t word = 0;
@@ -261,14 +261,14 @@ void fl_exact_moments(const fl_exact_sum s[5], double out[4])
     for (int k = 1; k < 5; k++)
         while (lo[k] < base + k * unit) unit--;
     for (int k = 1; k < 5; k++) mpz_mul_2exp(z[k], z[k], (mp_bitcnt_t)(64 * (lo[k] - base - k * unit)));
-    f = quotient(z[1], *w, &e);
+    f = nearest_quotient(z[1], *w, &e);
     out[0] = ldexp(f, (int)(e + 64 * unit));
     /* m2 w^2 = s2 w - s1^2 */
     mpz_mul(t[M2], z[2], *w);
     mpz_submul(t[M2], z[1], z[1]);
     mpz_mul(t[A], *w, *w);
-    f = quotient(t[M2], t[A], &e);
-    if (e % 2) { /* an even exponent has a root */
+    f = nearest_quotient(t[M2], t[A], &e);
+    if (e % 2) { /* the square root needs an even exponent */
         f *= 2.0;
         e--;
     }
@@ -283,7 +283,7 @@ void fl_exact_moments(const fl_exact_sum s[5], double out[4])
     mpz_addmul_ui(t[M3], t[B], 2);
     mpz_mul(t[B], t[M3], t[M3]);
     mpz_pow_ui(t[M4], t[M2], 3);
-    f = quotient(t[B], t[M4], &e);
+    f = nearest_quotient(t[B], t[M4], &e);
     out[2] = copysign(sqrt(ldexp(f, (int)e)), mpz_sgn(t[M3]));
     /* m4 w^4 = s4 w^3 - 4 s3 s1 w^2 + 6 s2 s1^2 w - 3 s1^4 */
     mpz_mul(t[A], t[A], *w);
@@ -299,7 +299,7 @@ void fl_exact_moments(const fl_exact_sum s[5], double out[4])
     mpz_pow_ui(t[B], z[1], 4);
     mpz_submul_ui(t[M4], t[B], 3);
     mpz_mul(t[B], t[M2], t[M2]);
-    f = quotient(t[M4], t[B], &e);
+    f = nearest_quotient(t[M4], t[B], &e);
     out[3] = ldexp(f, (int)e) - 3.0;
 done:
     for (int k = 0; k < 5; k++) mpz_clear(z[k]);

@@ -6,21 +6,21 @@
 typedef struct {
     double x;
     int32_t at;
-} entry;
+} ranked_value;
 
-static int descending(const void *a, const void *b)
+static int compare_descending(const void *a, const void *b)
 {
-    const entry *p = a, *q = b;
+    const ranked_value *p = a, *q = b;
     if (p->x != q->x) return p->x > q->x ? -1 : 1;
     return (p->at > q->at) - (p->at < q->at);
 }
 
 int fl_rank_descending(int32_t n, const double *x, int32_t *rank, fl_err *err)
 {
-    entry *e = fl_alloc(n, sizeof *e, err);
+    ranked_value *e = fl_alloc(n, sizeof *e, err);
     if (!e) return -1;
-    for (int32_t k = 0; k < n; k++) e[k] = (entry){x[k], k};
-    qsort(e, (size_t)n, sizeof *e, descending);
+    for (int32_t k = 0; k < n; k++) e[k] = (ranked_value){x[k], k};
+    qsort(e, (size_t)n, sizeof *e, compare_descending);
     for (int32_t k = 0; k < n; k++) rank[k] = e[k].at;
     free(e);
     return 0;

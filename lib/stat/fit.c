@@ -13,14 +13,14 @@
 
 static const double EULER = 0.57721566490153286061, LN2 = 0.69314718055994530942;
 
-/* What the minimisers see where there is no law; finite, as GSL wants it, and above every value per
- * sample. */
-static const double NOWHERE = 1e30;
+/* Cost outside the support and the range of parameters: finite, as GSL requires, and above the cost per
+ * value of every sample. */
+static const double NO_COST = 1e30;
 
-/* A minimum is flat: its place is known to the square root of the rounding, 1e-8, and no better. */
-static const double PLACE = 1e-8;
+/* A minimum is flat: its abscissa is known only to the square root of the rounding, 1e-8. */
+static const double ABSCISSA_TOLERANCE = 1e-8;
 
-/* Below it a likelihood has no regular maximum, see fit.h. */
+/* Below this shape the likelihood has no regular maximum, see fit.h. */
 static const double SHAPE_LEAST = -0.5;
 
 const char *fl_fit_method_name(int method)
@@ -32,7 +32,7 @@ const char *fl_fit_method_name(int method)
 int fl_fit_work_make(fl_fit_work *w, int32_t cap, fl_err *err)
 {
     *w = (fl_fit_work){.cap = cap};
-    gsl_set_error_handler_off(); /* it would abort where memory is out; what fails here says so itself */
+    gsl_set_error_handler_off(); /* it would abort without memory; failures are reported here */
     w->z = fl_alloc(cap, sizeof *w->z, err);
     if (!w->z) return -1;
     w->line = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
@@ -52,9 +52,9 @@ void fl_fit_work_free(fl_fit_work *w)
 
 /* --- along a line --------------------------------------------------------------------------------------- */
 
-/* Minimum of f between lo and hi, neither of which is tried, downhill from x.  Its place, next to lo or hi
- * when f falls all the way to there, or NAN when there is none. */
-static double downhill(fl_fit_work *w, gsl_function *f, double x, double step, double lo, double hi)
+/* Abscissa of a minimum of f in the open interval lo .. hi, downhill from x: bracketing, then Brent's method.
+ * Next to lo or hi when f falls all the way there; NAN when there is no minimum. */
+static double minimise_from(fl_fit_work *w, gsl_function *f, double x, double step, double lo, double hi)
 {
     enum { STRIDES = 200, ROUNDS = 100 };
     const double grow = 1.6;
@@ -80,9 +80,10 @@ static double downhill(fl_fit_work *w, gsl_function *f, double x, double step, d
         b = c;
         fb = fc;
     }
-    if (!(fb < 0.5 * NOWHERE)) return NAN;
-    /* It falls as far as the wall: the least value is the one there. */
-    if (k == STRIDES) return fmin(fabs(b - lo), fabs(hi - b)) < PLACE * (hi - lo) ? b : (double)NAN;
+    if (!(fb < 0.5 * NO_COST)) return NAN;
+    /* f falls as far as the end of the interval: the minimum is there. */
+    if (k == STRIDES)
+        return fmin(fabs(b - lo), fabs(hi - b)) < ABSCISSA_TOLERANCE * (hi - lo) ? b : (double)NAN;
     if (!(fb < fa && fb < fc)) return b; /* flat to rounding */
     if (gsl_min_fminimizer_set_with_values(w->line, f, b, fb, fmin(a, c), a < c ? fa : fc, fmax(a, c),
                                            a < c ? fc : fa))
@@ -90,14 +91,15 @@ static double downhill(fl_fit_work *w, gsl_function *f, double x, double step, d
     for (k = 0; k < ROUNDS; k++) {
         if (gsl_min_fminimizer_iterate(w->line)) break;
         if (gsl_min_test_interval(gsl_min_fminimizer_x_lower(w->line), gsl_min_fminimizer_x_upper(w->line),
-                                  PLACE, PLACE) == GSL_SUCCESS)
+                                  ABSCISSA_TOLERANCE, ABSCISSA_TOLERANCE) == GSL_SUCCESS)
             break;
     }
     return gsl_min_fminimizer_x_minimum(w->line);
 }
 
-/* The root of a monotone function between lo and hi, where its signs differ; halving, as it must not fail. */
-static double root(double (*f)(double, const void *), const void *p, double lo, double hi)
+/* The root of a monotone function between lo and hi by bisection, which cannot fail; NAN where its signs do
+ * not differ. */
+static double find_root(double (*f)(double, const void *), const void *p, double lo, double hi)
 {
     const int rising = f(lo, p) < f(hi, p);
     if ((f(lo, p) < 0.0) == (f(hi, p) < 0.0)) return NAN;
@@ -111,9 +113,10 @@ static double root(double (*f)(double, const void *), const void *p, double lo, 
 
 /* --- likelihood ----------------------------------------------------------------------------------------- */
 
-/* The best Gumbel law for z[n], not all equal: location and scale.  Newton from below or above; the function
- * b - mean + weighted mean rises with slope 1 + variance/b^2, so a step that would leave b > 0 is halved. */
-static double gumbel(int32_t n, const double *z, double *scale)
+/* Maximum-likelihood Gumbel distribution of z[n], not all equal: returns the location, sets the scale b.
+ * Newton's method: the function b - mean + weighted mean rises with slope 1 + variance/b^2.  A step is
+ * limited so that b stays at 0.1 of its value or more. */
+static double fit_gumbel(int32_t n, const double *z, double *scale)
 {
     double low = z[0], sum = 0.0, squares = 0.0, b, e0 = 0.0;
     for (int32_t k = 0; k < n; k++) {
@@ -155,14 +158,14 @@ static double gev_profile(double theta, void *data)
     double m, b, slope = 0.0, sum = 0.0;
     for (int32_t k = 0; k < p->n; k++) {
         p->z[k] = fl_dist_reduced_variate(theta, (p->x[k] - p->c) / p->s);
-        if (!isfinite(p->z[k])) return NOWHERE;
+        if (!isfinite(p->z[k])) return NO_COST;
         slope += p->z[k];
     }
-    m = gumbel(p->n, p->z, &b);
+    m = fit_gumbel(p->n, p->z, &b);
     p->shape = theta * b;
     p->scale = b * exp(theta * m);
     p->location = fl_dist_from_reduced_variate(theta, m);
-    if (!(p->shape > SHAPE_LEAST) || !isfinite(p->scale)) return NOWHERE;
+    if (!(p->shape > SHAPE_LEAST) || !isfinite(p->scale)) return NO_COST;
     for (int32_t k = 0; k < p->n; k++) sum += (p->z[k] - m) / b + exp(-(p->z[k] - m) / b);
     return (sum + theta * slope) / p->n + log(b);
 }
@@ -174,7 +177,7 @@ static double gpd_profile(double theta, void *data)
     for (int32_t k = 0; k < p->n; k++) sum += fl_dist_reduced_variate(theta, (p->x[k] - p->c) / p->s);
     p->scale = sum / p->n;
     p->shape = theta * p->scale;
-    if (!isfinite(sum) || !(p->shape > SHAPE_LEAST)) return NOWHERE;
+    if (!isfinite(sum) || !(p->shape > SHAPE_LEAST)) return NO_COST;
     return log(p->scale) + p->shape;
 }
 
@@ -185,16 +188,16 @@ typedef struct {
     double tail, q, unit; /* unit of the scale */
 } level;
 
-static double likelihood_of(level *c)
+static double cost_of(level *c)
 {
     const double l = c->d.scale > 0.0 && isfinite(c->d.scale) && isfinite(c->d.location)
                          ? fl_fit_log_likelihood(&c->d, c->n, c->x) / c->n
                          : -INFINITY;
-    return l > -NOWHERE ? -l : NOWHERE; /* also for a nan */
+    return l > -NO_COST ? -l : NO_COST; /* also for a nan */
 }
 
-/* The law whose upper end is exp(u) of the range of the sample above its largest value. */
-static double at_end(double u, void *data)
+/* Cost of the distribution whose upper end is exp(u) of the range of the sample above its largest value. */
+static double cost_at_end(double u, void *data)
 {
     level *c = data;
     fl_dist *d = &c->d;
@@ -206,23 +209,24 @@ static double at_end(double u, void *data)
         d->location = end - s;
     }
     d->scale = -d->shape * s;
-    return likelihood_of(c);
+    return cost_of(c);
 }
 
-/* The likeliest law of the smallest shape. */
-static int by_edge(fl_dist *d, int kind, int32_t n, const double *x, double location, fl_fit_work *w)
+/* The most likely distribution of the smallest shape. */
+static int fit_smallest_shape(fl_dist *d, int kind, int32_t n, const double *x, double location,
+                              fl_fit_work *w)
 {
     const double lo = fmin(x[0], x[n - 1]), hi = fmax(x[0], x[n - 1]);
     level c = {.n = n, .x = x, .q = hi, .unit = hi - lo};
-    gsl_function f = {at_end, &c};
+    gsl_function f = {cost_at_end, &c};
     c.d = (fl_dist){.kind = kind, .location = location, .shape = SHAPE_LEAST};
-    const double u = downhill(w, &f, -3.0, 0.5, -30.0, 10.0);
-    if (!isfinite(u) || !(at_end(u, &c) < NOWHERE)) return 0;
+    const double u = minimise_from(w, &f, -3.0, 0.5, -30.0, 10.0);
+    if (!isfinite(u) || !(cost_at_end(u, &c) < NO_COST)) return 0;
     *d = c.d;
     return 1;
 }
 
-static int by_line(fl_dist *d, int32_t n, const double *x, double location, fl_fit_work *w)
+static int fit_by_profile(fl_dist *d, int32_t n, const double *x, double location, fl_fit_work *w)
 {
     const int gev = d->kind == FL_GEV;
     const double lo = fmin(x[0], x[n - 1]), hi = fmax(x[0], x[n - 1]);
@@ -235,20 +239,19 @@ static int by_line(fl_dist *d, int32_t n, const double *x, double location, fl_f
         p.c = 0.0;
         for (int32_t k = 0; k < n; k++) p.c += x[k] / n;
     }
-    /* Between these every x is inside the support. */
+    /* For theta between these limits every x is inside the support. */
     const double least = -p.s / (hi - p.c), most = gev ? p.s / (p.c - lo) : 1e6;
     if (fl_fit(&start, d->kind, FL_FIT_L_MOMENTS, n, x, location, w))
         theta = start.shape / (start.scale + start.shape * (p.c - start.location)) * p.s;
     if (!(theta > 0.95 * least)) theta = 0.95 * least;
     if (!(theta < 0.95 * most)) theta = 0.95 * most;
-    /* An L-moment fit may lie where the likelihood is unbounded; then the way leads from an exponential
+    /* An L-moment fit may lie where the likelihood is unbounded; the search then starts from an exponential
      * tail. */
-    if (!(GSL_FN_EVAL(&f, theta) < NOWHERE)) theta = 0.0;
-    theta = downhill(w, &f, theta, 0.1, least, most);
-    if (!isfinite(theta) || !(GSL_FN_EVAL(&f, theta) < NOWHERE) || p.shape < SHAPE_LEAST + 1e-3)
-        return by_edge(d, d->kind, n, x, location, w);
-    /* Equal values at the lower end of a GEV make its likelihood unbounded there: that is no maximum
-     * either. */
+    if (!(GSL_FN_EVAL(&f, theta) < NO_COST)) theta = 0.0;
+    theta = minimise_from(w, &f, theta, 0.1, least, most);
+    if (!isfinite(theta) || !(GSL_FN_EVAL(&f, theta) < NO_COST) || p.shape < SHAPE_LEAST + 1e-3)
+        return fit_smallest_shape(d, d->kind, n, x, location, w);
+    /* Equal values at the lower end of a GEV make its likelihood unbounded there: not a maximum. */
     if (theta > (1.0 - 1e-6) * most) return 0;
     d->location = p.c + p.s * p.location;
     d->scale = p.s * p.scale;
@@ -256,14 +259,14 @@ static int by_line(fl_dist *d, int32_t n, const double *x, double location, fl_f
     return d->scale > 0.0;
 }
 
-static int by_likelihood(fl_dist *d, int32_t n, const double *x, double location, fl_fit_work *w)
+static int fit_by_likelihood(fl_dist *d, int32_t n, const double *x, double location, fl_fit_work *w)
 {
     double mean = 0.0, squares = 0.0;
     switch (d->kind) {
-    case FL_GUMBEL: d->location = gumbel(n, x, &d->scale); return 1;
+    case FL_GUMBEL: d->location = fit_gumbel(n, x, &d->scale); return 1;
     case FL_WEIBULL:
         for (int32_t k = 0; k < n; k++) w->z[k] = -log(x[k]);
-        d->scale = exp(-gumbel(n, w->z, &mean));
+        d->scale = exp(-fit_gumbel(n, w->z, &mean));
         d->shape = 1.0 / mean;
         return 1;
     case FL_LOGNORMAL:
@@ -272,7 +275,7 @@ static int by_likelihood(fl_dist *d, int32_t n, const double *x, double location
         d->scale = exp(mean);
         d->shape = sqrt(squares / n);
         return 1;
-    default: return by_line(d, n, x, location, w);
+    default: return fit_by_profile(d, n, x, location, w);
     }
 }
 
@@ -300,9 +303,9 @@ static double gev_t3(double shape, const void *want)
     return 2.0 * q - 3.0 - *(const double *)want;
 }
 
-/* Skewness of a GEV, from its moments G(r) = Gamma(1 - r shape); they cancel to the third order near shape 0,
- * where the four values at +-h, +-2h are joined by a cubic. */
-static double gev_skew_far(double shape)
+/* Skewness of a GEV, from its moments G(r) = Gamma(1 - r shape).  They cancel to the third order near shape
+ * 0; there gev_skew() interpolates the values at +-h, +-2h by a cubic. */
+static double gev_skew_direct(double shape)
 {
     const double a = tgamma(1.0 - shape), b = tgamma(1.0 - 2.0 * shape), c = tgamma(1.0 - 3.0 * shape);
     return (shape > 0.0 ? 1.0 : -1.0) * (c - 3.0 * a * b + 2.0 * a * a * a) / pow(b - a * a, 1.5);
@@ -311,22 +314,23 @@ static double gev_skew_far(double shape)
 static double gev_skew(double shape, const void *want)
 {
     const double h = 3e-3, t = shape / h;
-    if (fabs(t) >= 1.0) return gev_skew_far(shape) - *(const double *)want;
-    const double m2 = gev_skew_far(-2.0 * h), m1 = gev_skew_far(-h), p1 = gev_skew_far(h),
-                 p2 = gev_skew_far(2.0 * h);
+    if (fabs(t) >= 1.0) return gev_skew_direct(shape) - *(const double *)want;
+    const double m2 = gev_skew_direct(-2.0 * h), m1 = gev_skew_direct(-h), p1 = gev_skew_direct(h),
+                 p2 = gev_skew_direct(2.0 * h);
     return m2 * (t + 1.0) * (t - 1.0) * (t - 2.0) / -12.0 + m1 * (t + 2.0) * (t - 1.0) * (t - 2.0) / 6.0 +
            p1 * (t + 2.0) * (t + 1.0) * (t - 2.0) / -6.0 + p2 * (t + 2.0) * (t + 1.0) * (t - 1.0) / 12.0 -
            *(const double *)want;
 }
 
-/* (coefficient of variation)^2 of a Weibull law of shape e^u, less the one wanted: falls with u. */
+/* (coefficient of variation)^2 of a Weibull distribution of shape e^u, minus the one of the sample: falls
+ * with u. */
 static double weibull_cv(double u, const void *want)
 {
     const double q = exp(-u);
     return gsl_sf_lngamma(1.0 + 2.0 * q) - 2.0 * gsl_sf_lngamma(1.0 + q) - log1p(*(const double *)want);
 }
 
-static int by_l_moments(fl_dist *d, int32_t n, const double *x, double location)
+static int fit_by_l_moments(fl_dist *d, int32_t n, const double *x, double location)
 {
     double l[3];
     fl_fit_l_moments(n, x, l);
@@ -345,7 +349,7 @@ static int by_l_moments(fl_dist *d, int32_t n, const double *x, double location)
         d->scale = l[0] * exp(-0.5 * d->shape * d->shape);
         break;
     case FL_GEV:
-        d->shape = root(gev_t3, &l[2], -60.0, 0.9999);
+        d->shape = find_root(gev_t3, &l[2], -60.0, 0.9999);
         if (fabs(d->shape) < 1e-9) {
             d->scale = l[1] / LN2;
             d->location = l[0] - EULER * d->scale;
@@ -360,7 +364,7 @@ static int by_l_moments(fl_dist *d, int32_t n, const double *x, double location)
     return 1;
 }
 
-static int by_moments(fl_dist *d, int32_t n, const double *x, double location)
+static int fit_by_moments(fl_dist *d, int32_t n, const double *x, double location)
 {
     fl_descriptive_stats m;
     fl_compute_moments(n, x, NULL, &m);
@@ -368,7 +372,7 @@ static int by_moments(fl_dist *d, int32_t n, const double *x, double location)
     double g;
     switch (d->kind) {
     case FL_WEIBULL:
-        d->shape = exp(root(weibull_cv, &cv, -4.0, 12.0));
+        d->shape = exp(find_root(weibull_cv, &cv, -4.0, 12.0));
         d->scale = m.mean / tgamma(1.0 + 1.0 / d->shape);
         break;
     case FL_GUMBEL:
@@ -380,7 +384,7 @@ static int by_moments(fl_dist *d, int32_t n, const double *x, double location)
         d->scale = m.mean * exp(-0.5 * d->shape * d->shape);
         break;
     case FL_GEV:
-        d->shape = root(gev_skew, &m.skew, -5.0, 0.333);
+        d->shape = find_root(gev_skew, &m.skew, -5.0, 0.333);
         if (fabs(d->shape) < 1e-6) {
             d->scale = s * sqrt(6.0) / PI;
             d->location = m.mean - EULER * d->scale;
@@ -395,7 +399,7 @@ static int by_moments(fl_dist *d, int32_t n, const double *x, double location)
     return 1;
 }
 
-/* --- all of it ------------------------------------------------------------------------------------------ */
+/* --- fit and goodness ----------------------------------------------------------------------------------- */
 
 int fl_fit(fl_dist *d, int kind, int method, int32_t n, const double *x, double location, fl_fit_work *w)
 {
@@ -404,9 +408,9 @@ int fl_fit(fl_dist *d, int kind, int method, int32_t n, const double *x, double 
     if (n < 1 + fl_dist_parameter_count(kind) || x[0] == x[n - 1]) return 0;
     if ((kind == FL_WEIBULL || kind == FL_LOGNORMAL) && !(fmin(x[0], x[n - 1]) > 0.0)) return 0;
     if (kind == FL_GPD && !(fmin(x[0], x[n - 1]) > location)) return 0;
-    if (method == FL_FIT_LIKELIHOOD) ok = by_likelihood(d, n, x, location, w);
-    else if (method == FL_FIT_L_MOMENTS) ok = by_l_moments(d, n, x, location);
-    else ok = by_moments(d, n, x, location);
+    if (method == FL_FIT_LIKELIHOOD) ok = fit_by_likelihood(d, n, x, location, w);
+    else if (method == FL_FIT_L_MOMENTS) ok = fit_by_l_moments(d, n, x, location);
+    else ok = fit_by_moments(d, n, x, location);
     if (ok && method == FL_FIT_LIKELIHOOD && !isfinite(fl_fit_log_likelihood(d, n, x))) return 0;
     return ok && isfinite(d->location) && isfinite(d->scale) && isfinite(d->shape) && d->scale > 0.0;
 }
@@ -448,8 +452,9 @@ double fl_fit_anderson(const fl_dist *d, int32_t n, const double *x)
 
 /* --- with a given level --------------------------------------------------------------------------------- */
 
-/* u is ln of the free parameter, or the shape of a GPD; the other one follows from the level. */
-static double on_line(double u, void *data)
+/* Cost along the constraint.  u is ln of the free parameter, or the shape of a GPD; the other parameter
+ * follows from the level. */
+static double cost_on_line(double u, void *data)
 {
     level *c = data;
     fl_dist *d = &c->d;
@@ -468,41 +473,42 @@ static double on_line(double u, void *data)
         break;
     default: d->shape = u; d->scale = (c->q - d->location) / fl_dist_from_reduced_variate(u, -log(c->tail));
     }
-    return likelihood_of(c);
+    return cost_of(c);
 }
 
-static double in_plane(const gsl_vector *u, void *data)
+static double cost_in_plane(const gsl_vector *u, void *data)
 {
     level *c = data;
     c->d.scale = c->unit * exp(gsl_vector_get(u, 0));
     c->d.shape = gsl_vector_get(u, 1);
     c->d.location = c->q - c->d.scale * fl_dist_from_reduced_variate(c->d.shape, -log(-log1p(-c->tail)));
-    return c->d.shape > SHAPE_LEAST ? likelihood_of(c) : NOWHERE;
+    return c->d.shape > SHAPE_LEAST ? cost_of(c) : NO_COST;
 }
 
-/* The shape with which a GEV of this location and scale has the level, where there is one. */
+/* The shape for which a GEV of given location and scale has the level is the root of level_excess(). */
 typedef struct {
     double w, z;
-} aim;
+} level_target;
 
-static double past(double shape, const void *data)
+static double level_excess(double shape, const void *data)
 {
-    const aim *a = data;
+    const level_target *a = data;
     return fl_dist_from_reduced_variate(shape, a->w) - a->z;
 }
 
-/* The simplex starts where the level comes from the tail alone, as the middle of the sample says little of
- * it; wider scales follow until all values are inside the support.  It starts again where it has ended, for a
- * simplex may collapse on the way. */
-static double plane(level *c, const fl_dist *start, fl_fit_work *w)
+/* Largest log-likelihood of a GEV with the given level, by a simplex in scale and shape.  The simplex starts
+ * with the location and scale of the best fit and the shape that gives the level, because the middle of the
+ * sample hardly determines the level.  The scale grows until all values are inside the support.  The search
+ * restarts from its result, because a simplex may collapse. */
+static double minimise_in_plane(level *c, const fl_dist *start, fl_fit_work *w)
 {
-    const aim a = {-log(-log1p(-c->tail)), (c->q - start->location) / start->scale};
-    const double shape = root(past, &a, SHAPE_LEAST + 0.01, 10.0);
+    const level_target a = {-log(-log1p(-c->tail)), (c->q - start->location) / start->scale};
+    const double shape = find_root(level_excess, &a, SHAPE_LEAST + 0.01, 10.0);
     double at[2] = {0.0, isfinite(shape) ? shape : start->shape}, step[2] = {0.1, 0.1};
     gsl_vector_view u = gsl_vector_view_array(at, 2), s = gsl_vector_view_array(step, 2);
-    gsl_multimin_function f = {in_plane, 2, c};
-    double least = NOWHERE;
-    for (int k = 0; k < 60 && !(in_plane(&u.vector, c) < NOWHERE); k++) {
+    gsl_multimin_function f = {cost_in_plane, 2, c};
+    double least = NO_COST;
+    for (int k = 0; k < 60 && !(cost_in_plane(&u.vector, c) < NO_COST); k++) {
         at[0] += 0.1;
         at[1] *= 0.9;
     }
@@ -514,32 +520,32 @@ static double plane(level *c, const fl_dist *start, fl_fit_work *w)
             if (gsl_multimin_test_size(gsl_multimin_fminimizer_size(w->plane), 1e-5) == GSL_SUCCESS) break;
         }
         gsl_vector_memcpy(&u.vector, gsl_multimin_fminimizer_x(w->plane));
-        least = in_plane(&u.vector, c);
-        if (round && before - least < 1e-7) break; /* of the log-likelihood of one value */
+        least = cost_in_plane(&u.vector, c);
+        if (round && before - least < 1e-7) break; /* log-likelihood per value */
     }
-    return least < NOWHERE ? -least * c->n : -INFINITY;
+    return least < NO_COST ? -least * c->n : -INFINITY;
 }
 
 double fl_fit_constrained(const fl_dist *start, int32_t n, const double *x, double tail, double q,
                           fl_fit_work *w, fl_dist *found)
 {
     level c = {.d = *start, .n = n, .x = x, .tail = tail, .q = q, .unit = start->scale};
-    gsl_function f = {on_line, &c};
+    gsl_function f = {cost_on_line, &c};
     double best;
     if (start->kind == FL_GEV) {
-        best = plane(&c, start, w);
+        best = minimise_in_plane(&c, start, w);
     } else {
         double u = start->kind == FL_GUMBEL ? 0.0 : log(start->shape), lo = -700.0, hi = 700.0;
         if (start->kind == FL_GPD) {
             u = start->shape;
             lo = SHAPE_LEAST;
             hi = 50.0;
-            /* The largest value must be inside: the longer the tail, the more room. */
-            for (int k = 0; k < 60 && !(on_line(u, &c) < NOWHERE); k++) u += 0.1;
+            /* The largest value must be inside the support, which grows with the shape. */
+            for (int k = 0; k < 60 && !(cost_on_line(u, &c) < NO_COST); k++) u += 0.1;
         }
-        u = downhill(w, &f, u, 0.02, lo, hi);
-        const double least = isfinite(u) ? on_line(u, &c) : NOWHERE;
-        best = least < NOWHERE ? -least * n : -INFINITY;
+        u = minimise_from(w, &f, u, 0.02, lo, hi);
+        const double least = isfinite(u) ? cost_on_line(u, &c) : NO_COST;
+        best = least < NO_COST ? -least * n : -INFINITY;
     }
     if (found) *found = c.d;
     return best;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* fit.h -- the law that fits a sample: by likelihood, by L-moments, by moments.
+/* fit.h -- fit a distribution to a sample by maximum likelihood, L-moments or moments.
  *
- * Maximum likelihood is one search along one line for every law, because
+ * Maximum likelihood is one search along one line for every distribution, because
  *     x Weibull (k, s)             -> -ln x is Gumbel (-ln s, 1/k)
  *     x GEV, theta = shape/scale'  -> ln(1 + theta (x - mean)) / theta is Gumbel (m, b), and then
  *                                     shape = theta b, scale = b e^(theta m),
@@ -10,10 +10,10 @@
  * and the Gumbel b is the one root of the monotone  b = mean(z) - sum(z e^(-z/b)) / sum(e^(-z/b)).
  * Source: Grimshaw 1993, Technometrics 35:185, for the GPD; the GEV by the same idea.
  *
- * The shape of a GEV and a GPD is held to -1/2 or more: below, likelihood does not tell what it tells
- * elsewhere, and below -1 it is unbounded.  The maximum is the local one, found uphill from the L-moment fit;
- * where there is none above -1/2 it is the likeliest law of that shape, by a search for its upper end
- * e > max x, with
+ * The shape of a GEV and a GPD is limited to -1/2 and more.  Below -1/2 the likelihood is not regular, below
+ * -1 it is unbounded.  The maximum is the local one, found uphill from the L-moment fit.  Where there is
+ * none above -1/2, the result is the most likely distribution of shape -1/2, by a search for its upper end e
+ * > max x, with
  *     GPD          scale = -shape (e - location)
  *     GEV          scale = -shape s, location = e - s, s^k = mean((e - x)^k), k = -1/shape
  * Source: Smith 1985, Biometrika 72:67, for the bound.
@@ -38,36 +38,36 @@ typedef struct {
     void *line, *plane; /* minimisers of GSL along a line and in a plane */
 } fl_fit_work;
 
-/* GSL's error handler is switched off.  0, or -1 with FL_SYSTEM in err. */
+/* Switches GSL's error handler off.  0, or -1 with FL_SYSTEM in err. */
 int fl_fit_work_make(fl_fit_work *w, int32_t cap, fl_err *err);
 /* Accepts a zeroed struct and leaves one. */
 void fl_fit_work_free(fl_fit_work *w);
 
-/* Fit a law.
+/* Fit a distribution.
  *   n, x[n]    sorted, ascending or descending, n <= w->cap
  *   location   threshold of a GPD, below all x; unused otherwise
- * Returns 1, or 0 when there is no such fit: too few values (3, for a GEV 4), all of them equal, values <= 0
- * in a law that has none, moments that no such law has. */
+ * Returns 1, or 0 where no fit exists: too few values (3, for a GEV 4), all values equal, values <= 0 for a
+ * positive distribution, or moments outside the range of the distribution. */
 int fl_fit(fl_dist *d, int kind, int method, int32_t n, const double *x, double location, fl_fit_work *w);
 
 /* sum ln density; -INFINITY when a value is outside the support. */
 double fl_fit_log_likelihood(const fl_dist *d, int32_t n, const double *x);
 
-/* The largest log-likelihood of all laws of this kind whose level at probability tail is q; start is a law
- * near it, the best of all.  -INFINITY when no law does it.  found may be NULL. */
+/* The largest log-likelihood of all distributions of this kind whose upper quantile at probability tail is q.
+ * start is the maximum-likelihood fit.  -INFINITY when there is none.  found may be NULL. */
 double fl_fit_constrained(const fl_dist *start, int32_t n, const double *x, double tail, double q,
                           fl_fit_work *w, fl_dist *found);
 
-/* Akaike's criterion, 2 (free parameters) - 2 logL: of laws for the same sample the smallest is best. */
+/* Akaike's criterion, 2 (free parameters) - 2 logL: the smallest is best among fits to the same sample. */
 double fl_fit_aic(const fl_dist *d, double log_likelihood);
 
 /* L-moments of a sorted sample, n >= 3: l[0] = l1, l[1] = l2, l[2] = t3. */
 void fl_fit_l_moments(int32_t n, const double *x, double l[3]);
 
-/* Distance of a sorted sample from a law:
+/* Distance of a sorted sample from a distribution:
  *     Kolmogorov-Smirnov   D = max |F_n - F|, F_n just below and at each value
  *     Anderson-Darling     A^2 = -n - (1/n) sum_i (2 i - 1) (ln F(x_i) + ln(1 - F(x_(n+1-i)))), x rising
- * Tables of their probabilities hold for laws that were not fitted to the same sample. */
+ * Tables of their probabilities hold only for distributions that were not fitted to the same sample. */
 double fl_fit_kolmogorov(const fl_dist *d, int32_t n, const double *x);
 double fl_fit_anderson(const fl_dist *d, int32_t n, const double *x);
 

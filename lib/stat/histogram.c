@@ -30,7 +30,8 @@ void fl_histogram_add(fl_histogram *h, double x, double weight)
 {
     gsl_histogram g = {.n = (size_t)h->n, .range = h->range, .bin = h->bin};
     if (x == h->range[h->n]) h->bin[h->n - 1] += weight;
-    else (void)gsl_histogram_accumulate(&g, x, weight); /* outside: GSL says so and changes nothing */
+    else
+        (void)gsl_histogram_accumulate(&g, x, weight); /* outside: GSL returns an error and changes nothing */
 }
 
 void fl_histogram_free(fl_histogram *h)

@@ -5,7 +5,8 @@
 #include "base/array.h"
 #include "stat/log_histogram.h"
 
-/* The leading bits of a double are sign, 11 bits of exponent and the bits that cut an octave into classes. */
+/* The leading bits of a double are sign, 11 bits of exponent and the bits that divide an octave into
+ * classes. */
 enum { OCTAVE_BITS = 7, DROP = 52 - OCTAVE_BITS, FIRST_CAP = 64 };
 
 fl_fixed_time fl_fixed_time_of(double t)
@@ -32,7 +33,7 @@ int32_t fl_log_bin_key(double x)
 }
 
 /* The k-th limit, counted outward from 0. */
-static double limit(int32_t k)
+static double class_limit(int32_t k)
 {
     const uint64_t bits = (uint64_t)k << DROP;
     double x;
@@ -40,13 +41,13 @@ static double limit(int32_t k)
     return x;
 }
 
-double fl_log_bin_lower(int32_t key) { return key > 0 ? limit(key) : -limit(1 - key); }
+double fl_log_bin_lower(int32_t key) { return key > 0 ? class_limit(key) : -class_limit(1 - key); }
 
-double fl_log_bin_upper(int32_t key) { return key < 0 ? -limit(-key) : limit(key + 1); }
+double fl_log_bin_upper(int32_t key) { return key < 0 ? -class_limit(-key) : class_limit(key + 1); }
 
-/* The slot of a class, or the empty one where it belongs.  Neighbouring classes are used together, so their
- * slots may lie together; the factor spreads the octaves. */
-static fl_log_bin *find(const fl_log_histogram *c, int32_t key)
+/* The slot of a class, or the empty slot for it.  Neighbouring classes are used together, so their slots may
+ * be adjacent; the factor spreads the octaves. */
+static fl_log_bin *find_slot(const fl_log_histogram *c, int32_t key)
 {
     const uint32_t mask = (uint32_t)c->cap - 1;
     uint32_t at = (uint32_t)key * UINT32_C(2654435769);
@@ -55,13 +56,13 @@ static fl_log_bin *find(const fl_log_histogram *c, int32_t key)
     return &c->slot[at];
 }
 
-static int grow(fl_log_histogram *c, fl_err *err)
+static int grow_table(fl_log_histogram *c, fl_err *err)
 {
     fl_log_histogram next = {.cap = c->cap ? 2 * c->cap : FIRST_CAP};
     next.slot = fl_alloc(next.cap, sizeof *next.slot, err);
     if (!next.slot) return -1;
     for (int32_t k = 0; k < c->cap; k++)
-        if (c->slot[k].n) *find(&next, c->slot[k].key) = c->slot[k];
+        if (c->slot[k].n) *find_slot(&next, c->slot[k].key) = c->slot[k];
     next.n = c->n;
     free(c->slot);
     *c = next;
@@ -70,8 +71,8 @@ static int grow(fl_log_histogram *c, fl_err *err)
 
 int fl_log_histogram_add(fl_log_histogram *c, int32_t key, int64_t n, fl_fixed_time time, fl_err *err)
 {
-    if (2 * c->n >= c->cap && grow(c, err)) return -1;
-    fl_log_bin *s = find(c, key);
+    if (2 * c->n >= c->cap && grow_table(c, err)) return -1;
+    fl_log_bin *s = find_slot(c, key);
     if (s->n == 0) {
         s->key = key;
         c->n++;
@@ -90,7 +91,7 @@ int fl_log_histogram_merge(fl_log_histogram *c, const fl_log_histogram *other, f
     return 0;
 }
 
-static int compare(const void *a, const void *b)
+static int compare_keys(const void *a, const void *b)
 {
     const fl_log_bin *p = a, *q = b;
     return (p->key > q->key) - (p->key < q->key);
@@ -103,11 +104,11 @@ int fl_log_histogram_sort(const fl_log_histogram *c, fl_log_bin **sorted, fl_err
     if (!*sorted) return -1;
     for (int32_t k = 0; k < c->cap; k++)
         if (c->slot[k].n) (*sorted)[n++] = c->slot[k];
-    qsort(*sorted, (size_t)n, sizeof **sorted, compare);
+    qsort(*sorted, (size_t)n, sizeof **sorted, compare_keys);
     return 0;
 }
 
-static double within(int32_t key, double f, double lo, double hi)
+static double value_in_class(int32_t key, double f, double lo, double hi)
 {
     const double a = fl_log_bin_lower(key), b = fl_log_bin_upper(key);
     if (key == 0) return fmin(fmax(0.0, lo), hi);
@@ -123,7 +124,7 @@ double fl_log_histogram_quantile(int32_t n, const fl_log_bin *sorted, double p, 
     for (int32_t k = 0; k < n; k++) {
         const double time = fl_fixed_time_seconds(sorted[k].time);
         if (before + time >= p * total && time > 0.0)
-            return within(sorted[k].key, (p * total - before) / time, lo, hi);
+            return value_in_class(sorted[k].key, (p * total - before) / time, lo, hi);
         before += time;
     }
     return hi;
@@ -137,7 +138,7 @@ double fl_log_histogram_mean_highest(int32_t n, const fl_log_bin *sorted, double
     double left = want;
     for (int32_t k = n - 1; k >= 0 && left > 0.0; k--) {
         const double take = fmin(left, (double)sorted[k].n);
-        sum += take * within(sorted[k].key, 0.5, lo, hi);
+        sum += take * value_in_class(sorted[k].key, 0.5, lo, hi);
         left -= take;
     }
     return sum / want;

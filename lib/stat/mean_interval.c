@@ -5,13 +5,13 @@
 
 static const double TAIL = 0.025;
 
-/* Below this skewness of T it is solved for by its first terms: the next one is smaller than rounding. */
-static const double STRAIGHT = 1e-8;
+/* Below this skewness of T the first two terms suffice: the next one is smaller than rounding. */
+static const double SMALL_SKEWNESS = 1e-8;
 
 /* The T with ((1 + a T / 3)^3 - 1) / a + a / 6 = y. */
-static double unskew(double a, double y)
+static double solve_for_t(double a, double y)
 {
-    if (fabs(a) < STRAIGHT) return y - a / 6.0 - a * y * y / 3.0;
+    if (fabs(a) < SMALL_SKEWNESS) return y - a / 6.0 - a * y * y / 3.0;
     return 3.0 / a * (cbrt(1.0 + a * (y - a / 6.0)) - 1.0);
 }
 
@@ -30,7 +30,7 @@ fl_mean_interval fl_mean_interval_of(int32_t n, const double *x)
     for (int32_t k = 0; k < n; k++) cubes += pow((x[k] - e.mean) / e.std, 3.0);
     /* G = n sum z^3 / ((n - 1) (n - 2)), z in units of std */
     const double a = n * cubes / ((n - 1.0) * (n - 2.0)) / sqrt(n);
-    e.low = fmin(e.low, e.mean - unskew(a, t) * unit);
-    e.high = fmax(e.high, e.mean - unskew(a, -t) * unit);
+    e.low = fmin(e.low, e.mean - solve_for_t(a, t) * unit);
+    e.high = fmax(e.high, e.mean - solve_for_t(a, -t) * unit);
     return e;
 }

@@ -29,19 +29,19 @@ static int add_panel(fl_panels *p, const char *name, const double *x, fl_err *er
     return 0;
 }
 
-/* The row in the table is that of panel k of this time. */
-static int take(fl_panels *p, int32_t k, fl_err *err)
+/* Read the row of panel k of this time. */
+static int read_panel(fl_panels *p, int32_t k, fl_err *err)
 {
     const char *name = fl_table_word(&p->table, p->col[PANEL]);
     double x[COLUMNS];
     for (int c = X; c < COLUMNS; c++)
         if (fl_table_f64_bounded(&p->table, p->col[c], FL_RECORD_LARGEST_VALUE, &x[c], err)) return -1;
     if (!(x[AREA] > 0.0))
-        return fl_text_fail(&p->table.text, err, "panel %.40s has the area %g m2, above 0 is expected", name,
+        return fl_text_fail(&p->table.text, err, "panel %.40s has the area %g m2, expected above 0", name,
                             x[AREA]);
     if (p->times == 0 && add_panel(p, name, x, err)) return -1;
     if (k == p->n || strcmp(name, p->panel[k].name) != 0)
-        return fl_text_fail(&p->table.text, err, "panel %.40s comes where %.40s is expected", name,
+        return fl_text_fail(&p->table.text, err, "panel %.40s comes here, expected %.40s", name,
                             k < p->n ? p->panel[k].name : "a later time");
     p->panel[k].force = v3(x[FX], x[FY], x[FZ]);
     return 0;
@@ -69,7 +69,7 @@ int fl_panels_next(fl_panels *p, fl_err *err)
             p->edge[0] = p->t;
             p->edge[1] = p->t = t;
         }
-        if (take(p, k++, err)) return -1;
+        if (read_panel(p, k++, err)) return -1;
     }
     if (k == 0 && p->times == 0)
         return fl_fail(err, FL_INPUT, "%s: this panels table has no rows", fl_in_name(p->table.text.in));

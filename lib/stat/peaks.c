@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "stat/peaks.h"
 
-static int push(fl_peaks *p, int32_t at, fl_err *err)
+static int push_row(fl_peaks *p, int32_t at, fl_err *err)
 {
     if (fl_grow(&p->row, &p->cap, (int64_t)p->n + 1, sizeof *p->row, err)) return -1;
     p->row[p->n++] = at;
@@ -13,7 +13,7 @@ static int push(fl_peaks *p, int32_t at, fl_err *err)
 
 int fl_peaks_rayleigh(int32_t n, const double *x, double ratio, double threshold, fl_peaks *p, fl_err *err)
 {
-    int32_t held = -1;     /* the maximum that may still give way to a larger neighbour */
+    int32_t held = -1;     /* the last maximum, which a larger neighbour may replace */
     double low = INFINITY; /* the smallest value since then */
     p->n = 0;
     for (int32_t k = 1, end; k < n; k = end) {
@@ -21,15 +21,15 @@ int fl_peaks_rayleigh(int32_t n, const double *x, double ratio, double threshold
         if (x[k] < low) low = x[k];
         if (end == n || !(x[k - 1] < x[k] && x[end] < x[k]) || !(x[k] > threshold)) continue;
         if (held >= 0 && low < ratio * fmin(x[held], x[k])) {
-            if (push(p, held, err)) return -1;
+            if (push_row(p, held, err)) return -1;
         } else if (held >= 0 && x[k] <= x[held]) {
-            continue; /* low goes on: it is the smallest since the one that is kept */
+            continue; /* low stays: the smallest value since the held maximum */
         }
-        /* Whatever peak came before is separate from the held one, so also from this one, which is larger. */
+        /* The peak before is separate from the held one, hence also from this one, which is larger. */
         held = k;
         low = INFINITY;
     }
-    return held < 0 ? 0 : push(p, held, err);
+    return held < 0 ? 0 : push_row(p, held, err);
 }
 
 void fl_peaks_free(fl_peaks *p)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* peaks.h -- the separate peaks of a record. */
+/* peaks.h -- separate peaks of a record, by Rayleigh separation. */
 #ifndef FL_STAT_PEAKS_H
 #define FL_STAT_PEAKS_H
 #include <stdint.h>
@@ -10,16 +10,16 @@ typedef struct {
     int32_t *row; /* [n] rows of the record, rising */
 } fl_peaks;
 
-/* Peaks by Rayleigh separation.  A maximum is a value, or a run of equal values, with a smaller one before it
- * and a smaller one after it (so the ends of the record are none: what lies beyond them is not known); of a
- * run the first row is taken.  Maxima at or below the threshold do not count.  Two neighbouring maxima are
- * separate peaks when
+/* Peaks by Rayleigh separation.  A maximum is a value, or a run of equal values, with a smaller one before
+ * it and a smaller one after it.  The ends of the record are no maxima: their other side is unknown.  The
+ * first row of a run represents it.  Maxima at or below the threshold do not count.  Two neighbouring maxima
+ * are separate peaks when
  *     min of the record between them < ratio * (the smaller of the two),
- * otherwise the smaller one belongs to the other (the later one, when they are equal).
+ * otherwise the smaller one is dropped (the later one, when they are equal).
  *   x[n]
  *   ratio      0 .. 1, usually 0.5
  *   threshold  in the unit of x; >= 0, as the rule compares fractions of a peak
- *   p          out; zeroed, or used before, whose memory is then used again
+ *   p          out; zeroed, or used before, whose memory is reused
  * 0, or -1 with FL_SYSTEM in err.
  * Source: ship and structure practice, as Chai, Leira & Naess 2018, Cold Regions Sci. Technol. use it. */
 int fl_peaks_rayleigh(int32_t n, const double *x, double ratio, double threshold, fl_peaks *p, fl_err *err);

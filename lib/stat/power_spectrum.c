@@ -15,7 +15,7 @@ const char *fl_taper_name(int taper)
     return name[taper];
 }
 
-static double taper_of(int taper, int32_t j, int32_t length)
+static double window_value(int taper, int32_t j, int32_t length)
 {
     const double u = 2.0 * PI * j / length;
     switch (taper) {
@@ -37,21 +37,21 @@ int32_t fl_spectrum_segment_length(int32_t n)
     return best < FL_SPECTRUM_SHORTEST_SEGMENT ? n : (int32_t)best;
 }
 
-/* One segment: add |X_k|^2 to psd. */
+/* Add |X_k|^2 of one segment to psd. */
 static void add_segment(fl_power_spectrum *s, const double *x, double mean, const double *w, double *y,
                         const gsl_fft_real_wavetable *table, gsl_fft_real_workspace *work)
 {
     const int32_t L = s->length;
     for (int32_t j = 0; j < L; j++) y[j] = w[j] * (x[j] - mean);
     gsl_fft_real_transform(y, 1, (size_t)L, table, work);
-    /* Packed as re0 re1 im1 re2 im2 ..., at the end re(L/2) alone where L is even. */
+    /* Half-complex order: re0 re1 im1 re2 im2 ..., and re(L/2) last where L is even. */
     s->psd[0] += y[0] * y[0];
     for (int32_t k = 1; 2 * k < L; k++) s->psd[k] += y[2 * k - 1] * y[2 * k - 1] + y[2 * k] * y[2 * k];
     if (L % 2 == 0) s->psd[L / 2] += y[L - 1] * y[L - 1];
 }
 
-/* Degrees of freedom, from how far the windows of neighbouring segments overlap. */
-static double freedom(const fl_power_spectrum *s, const double *w, double square)
+/* Degrees of freedom, from the overlap of the windows of neighbouring segments. */
+static double degrees_of_freedom(const fl_power_spectrum *s, const double *w, double square)
 {
     double sum = 0.0;
     for (int32_t j = 1; j < s->segments && (int64_t)j * s->step < s->length; j++) {
@@ -63,7 +63,7 @@ static double freedom(const fl_power_spectrum *s, const double *w, double square
     return 2.0 * s->segments / (1.0 + 2.0 * sum);
 }
 
-static int average(fl_power_spectrum *s, int32_t n, const double *x, fl_err *err)
+static int average_segments(fl_power_spectrum *s, int32_t n, const double *x, fl_err *err)
 {
     const int32_t L = s->length;
     double *w = fl_alloc(2 * (int64_t)L, sizeof *w, err), *y = w + L, sum = 0.0, square = 0.0, mean = 0.0;
@@ -71,7 +71,7 @@ static int average(fl_power_spectrum *s, int32_t n, const double *x, fl_err *err
     gsl_fft_real_workspace *work = NULL;
     int rc = -1;
     if (!w) return -1;
-    gsl_set_error_handler_off(); /* it would abort where memory is out */
+    gsl_set_error_handler_off(); /* it would abort without memory */
     table = gsl_fft_real_wavetable_alloc((size_t)L);
     work = gsl_fft_real_workspace_alloc((size_t)L);
     if (!table || !work) {
@@ -80,7 +80,7 @@ static int average(fl_power_spectrum *s, int32_t n, const double *x, fl_err *err
     }
     for (int32_t k = 0; k < n; k++) mean += (x[k] - mean) / (k + 1.0);
     for (int32_t j = 0; j < L; j++) {
-        w[j] = taper_of(s->taper, j, L);
+        w[j] = window_value(s->taper, j, L);
         sum += w[j];
         square += w[j] * w[j];
     }
@@ -89,7 +89,7 @@ static int average(fl_power_spectrum *s, int32_t n, const double *x, fl_err *err
     const double scale = 1.0 / (s->fs * square * s->segments);
     for (int32_t k = 0; k < s->n; k++) s->psd[k] *= k == 0 || 2 * k == L ? scale : 2.0 * scale;
     s->enbw = s->fs * square / (sum * sum);
-    s->dof = freedom(s, w, square);
+    s->dof = degrees_of_freedom(s, w, square);
     rc = 0;
 done:
     if (table) gsl_fft_real_wavetable_free(table);
@@ -103,14 +103,14 @@ int fl_power_spectrum_make(fl_power_spectrum *s, int32_t n, const double *x, dou
 {
     *s = (fl_power_spectrum){.taper = taper, .length = length, .fs = fs};
     if (length < FL_SPECTRUM_SHORTEST_SEGMENT || length > n)
-        return fl_fail(err, FL_INPUT, "a segment of %d rows, from %d to all %d of the record are expected",
-                       length, FL_SPECTRUM_SHORTEST_SEGMENT, n);
+        return fl_fail(err, FL_INPUT, "a segment of %d rows, expected %d to all %d of the record", length,
+                       FL_SPECTRUM_SHORTEST_SEGMENT, n);
     s->step = length - length / 2;
     s->segments = 1 + (n - length) / s->step;
     s->n = length / 2 + 1;
     s->df = fs / length;
     s->psd = fl_alloc(s->n, sizeof *s->psd, err);
-    if (s->psd && average(s, n, x, err) == 0) return 0;
+    if (s->psd && average_segments(s, n, x, err) == 0) return 0;
     fl_power_spectrum_free(s);
     return -1;
 }
@@ -138,7 +138,7 @@ double fl_power_spectrum_dominant(const fl_power_spectrum *s, int32_t *at)
     if (at) *at = best;
     if (best < 0) return NAN;
     const double a = s->psd[best - 1], b = s->psd[best], c = s->psd[best + 1];
-    /* A neighbour below the rounding of the peak says nothing of where it is. */
+    /* A neighbour below the rounding of the peak carries no information on its position. */
     if (!(a > 1e-15 * b && c > 1e-15 * b)) return best * s->df;
     const double l = log(a / b), r = log(c / b);
     return (best + 0.5 * (l - r) / (l + r)) * s->df;

@@ -23,20 +23,20 @@ static int close_cycle(fl_rainflow *f, double a, double b, double count, fl_err 
     return 0;
 }
 
-/* Take the two points before the last one out. */
-static void drop_inner(fl_rainflow *f)
+/* Remove the two points before the last one. */
+static void drop_inner_points(fl_rainflow *f)
 {
     f->point[f->n - 3] = f->point[f->n - 1];
     f->n -= 2;
 }
 
-/* The last point is a turning point for certain: what does it close? */
+/* Close the cycles that the last point, now a confirmed turning point, completes. */
 static int reduce_astm(fl_rainflow *f, fl_err *err)
 {
     while (f->n >= 3) {
         const double *p = f->point + f->n - 3, X = fabs(p[2] - p[1]), Y = fabs(p[1] - p[0]);
         if (X < Y) break;
-        /* The range that holds the start is the first one there is; every later range has one before it. */
+        /* With three points left, the range contains the start; otherwise another range precedes it. */
         if (f->n == 3) {
             if (close_cycle(f, p[0], p[1], 0.5, err)) return -1;
             f->point[0] = f->point[1];
@@ -44,26 +44,26 @@ static int reduce_astm(fl_rainflow *f, fl_err *err)
             f->n = 2;
         } else {
             if (close_cycle(f, p[0], p[1], 1.0, err)) return -1;
-            drop_inner(f);
+            drop_inner_points(f);
         }
     }
     return 0;
 }
 
-static int reduce_four(fl_rainflow *f, fl_err *err)
+static int reduce_four_points(fl_rainflow *f, fl_err *err)
 {
     while (f->n >= 4) {
         const double *p = f->point + f->n - 4, inner = fabs(p[2] - p[1]);
         if (inner > fabs(p[1] - p[0]) || inner > fabs(p[3] - p[2])) break;
         if (close_cycle(f, p[1], p[2], 1.0, err)) return -1;
-        drop_inner(f);
+        drop_inner_points(f);
     }
     return 0;
 }
 
-static int reduce(fl_rainflow *f, fl_err *err)
+static int close_complete_cycles(fl_rainflow *f, fl_err *err)
 {
-    return f->rule == FL_RAINFLOW_ASTM ? reduce_astm(f, err) : reduce_four(f, err);
+    return f->rule == FL_RAINFLOW_ASTM ? reduce_astm(f, err) : reduce_four_points(f, err);
 }
 
 int fl_rainflow_push(fl_rainflow *f, double x, fl_err *err)
@@ -71,10 +71,10 @@ int fl_rainflow_push(fl_rainflow *f, double x, fl_err *err)
     const int32_t n = f->n;
     if (n && x == f->point[n - 1]) return 0;
     if (n >= 2 && (x > f->point[n - 1]) == (f->point[n - 1] > f->point[n - 2])) {
-        f->point[n - 1] = x; /* the same way on: the last point was none */
+        f->point[n - 1] = x; /* same direction: the last point was not a turning point */
         return 0;
     }
-    if (n >= 2 && reduce(f, err)) return -1;
+    if (n >= 2 && close_complete_cycles(f, err)) return -1;
     if (fl_grow(&f->point, &f->cap, (int64_t)f->n + 1, sizeof *f->point, err)) return -1;
     f->point[f->n++] = x;
     return 0;
@@ -82,7 +82,7 @@ int fl_rainflow_push(fl_rainflow *f, double x, fl_err *err)
 
 int fl_rainflow_end(fl_rainflow *f, int residue, fl_err *err)
 {
-    if (f->n && reduce(f, err)) return -1;
+    if (f->n && close_complete_cycles(f, err)) return -1;
     if (f->rule == FL_RAINFLOW_FOUR_POINT && residue == FL_RESIDUE_REPEAT && f->n > 1) {
         const int32_t n = f->n;
         double *copy = fl_alloc(n, sizeof *copy, err);
@@ -90,8 +90,8 @@ int fl_rainflow_end(fl_rainflow *f, int residue, fl_err *err)
         for (int32_t k = 0; rc == 0 && k < n; k++) copy[k] = f->point[k];
         for (int32_t k = 0; rc == 0 && k < n; k++) rc = fl_rainflow_push(f, copy[k], err);
         free(copy);
-        /* The residue of the doubled residue is the residue again: it stands for the rest of eternity. */
-        if (rc || reduce(f, err)) return -1;
+        /* The residue of the doubled residue is the residue itself: it is not counted. */
+        if (rc || close_complete_cycles(f, err)) return -1;
     }
     if (f->rule == FL_RAINFLOW_ASTM || residue == FL_RESIDUE_HALF) {
         for (int32_t k = 0; k + 1 < f->n; k++)
@@ -129,7 +129,7 @@ double fl_rainflow_equivalent(int32_t n, const fl_cycle *cycle, double m)
 {
     double large = 0.0, sum = 0.0, count = 0.0;
     for (int32_t k = 0; k < n; k++) large = fmax(large, cycle[k].range);
-    /* In units of the largest, so that no power overflows. */
+    /* In units of the largest range, so that no power overflows. */
     for (int32_t k = 0; k < n; k++) {
         sum += cycle[k].count * pow(cycle[k].range / large, m);
         count += cycle[k].count;

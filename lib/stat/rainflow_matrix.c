@@ -3,23 +3,23 @@
 #include "base/array.h"
 #include "stat/rainflow_matrix.h"
 
-static double edge_of(double lo, double hi, int32_t n, int32_t k)
+static double class_edge(double lo, double hi, int32_t n, int32_t k)
 {
     return k == n ? hi : lo + (hi - lo) * ((double)k / n);
 }
 
-/* The class by its limits as they are printed: a quotient alone may be off by one at a limit. */
+/* The class by its limits as printed: a quotient alone may be off by one at a limit. */
 static int32_t class_of(double lo, double hi, int32_t n, double x)
 {
     if (!(hi > lo)) return 0;
     int32_t k = (int32_t)((x - lo) / (hi - lo) * n);
     if (k > n - 1) k = n - 1;
-    while (k > 0 && x < edge_of(lo, hi, n, k)) k--;
-    while (k + 1 < n && x >= edge_of(lo, hi, n, k + 1)) k++;
+    while (k > 0 && x < class_edge(lo, hi, n, k)) k--;
+    while (k + 1 < n && x >= class_edge(lo, hi, n, k + 1)) k++;
     return k;
 }
 
-static int rising(const void *a, const void *b)
+static int compare_cells(const void *a, const void *b)
 {
     const fl_rainflow_matrix_cell *p = a, *q = b;
     return p->range != q->range ? (p->range > q->range) - (p->range < q->range)
@@ -35,9 +35,9 @@ int fl_rainflow_matrix_make(fl_rainflow_matrix *m, int32_t n, double largest, do
     for (int32_t k = 0; k < count; k++)
         m->cell[k] = (fl_rainflow_matrix_cell){class_of(0.0, largest, n, cycle[k].range),
                                                class_of(lo, hi, n, cycle[k].mean), cycle[k].count};
-    qsort(m->cell, (size_t)count, sizeof *m->cell, rising);
+    qsort(m->cell, (size_t)count, sizeof *m->cell, compare_cells);
     for (int32_t k = 0; k < count; k++) {
-        if (m->cells && rising(&m->cell[m->cells - 1], &m->cell[k]) == 0)
+        if (m->cells && compare_cells(&m->cell[m->cells - 1], &m->cell[k]) == 0)
             m->cell[m->cells - 1].cycles += m->cell[k].cycles;
         else m->cell[m->cells++] = m->cell[k];
     }
@@ -46,11 +46,11 @@ int fl_rainflow_matrix_make(fl_rainflow_matrix *m, int32_t n, double largest, do
 
 double fl_rainflow_matrix_range(const fl_rainflow_matrix *m, int32_t k)
 {
-    return edge_of(0.0, m->largest, m->n, k);
+    return class_edge(0.0, m->largest, m->n, k);
 }
 double fl_rainflow_matrix_mean(const fl_rainflow_matrix *m, int32_t k)
 {
-    return edge_of(m->lo, m->hi, m->n, k);
+    return class_edge(m->lo, m->hi, m->n, k);
 }
 
 void fl_rainflow_matrix_free(fl_rainflow_matrix *m)

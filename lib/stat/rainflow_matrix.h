@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rainflow_matrix.h -- how many load cycles there are of which range about which mean: the rainflow matrix. */
+/* rainflow_matrix.h -- rainflow matrix: number of load cycles by class of range and class of mean. */
 #ifndef FL_STAT_RAINFLOW_MATRIX_H
 #define FL_STAT_RAINFLOW_MATRIX_H
 #include <stdint.h>
@@ -12,17 +12,17 @@ typedef struct {
 } fl_rainflow_matrix_cell;
 
 /* Class i of the range is i R/n <= range < (i + 1) R/n, class j of the mean
- * lo + j (hi - lo)/n <= mean < lo + (j + 1) (hi - lo)/n; the last of each holds its upper end too. */
+ * lo + j (hi - lo)/n <= mean < lo + (j + 1) (hi - lo)/n; the last of each includes its upper end. */
 typedef struct {
     int32_t n;                     /* classes each way */
     double largest, lo, hi;        /* R, and the limits of the means [unit of the load] */
-    fl_rainflow_matrix_cell *cell; /* [cells] those that hold something, by range, then by mean */
+    fl_rainflow_matrix_cell *cell; /* [cells] non-empty cells, by range, then by mean */
     int32_t cells;
 } fl_rainflow_matrix;
 
 /* Sort cycles into n >= 1 classes each way.
  *   largest       R, no range is larger
- *   lo, hi        no mean is outside; where lo = hi all are in class 0
+ *   lo, hi        bounds of all means; where lo = hi all are in class 0
  *   cycle[count]
  * Memory grows with the cycles, not with n^2.  Counts are halves, so their sums are exact.
  * 0, or -1 with FL_SYSTEM in err. */

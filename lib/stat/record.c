@@ -13,20 +13,20 @@ enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3 };
 /* A signal is the Euclidean length of one to three columns; of one column it is the column itself. */
 typedef struct {
     int raw[3], n; /* indices into the columns that are read */
-    int adds;      /* the sum over the parts means something */
+    int adds;      /* the sum over the parts is meaningful */
 } formula;
 
 typedef struct {
     char *name;
     int keep;
-    int64_t n; /* times it has had a row for */
+    int64_t n; /* times with a row of this part */
 } raw_part;
 
 struct fl_record_reader {
     fl_table table;
-    fl_record_selection ask;
+    fl_record_selection selection;
     int loads;
-    int32_t time, key;          /* columns; key < 0 when rows are not told apart */
+    int32_t time, key;          /* columns; key < 0 when no column distinguishes rows */
     int32_t col[RAW_MAX], raws; /* columns that are read */
     int adds[RAW_MAX];
     fl_row_filter where;
@@ -36,29 +36,29 @@ struct fl_record_reader {
     raw_part *part;
     double *raw; /* [parts * raws] of the time being read */
     int32_t parts, part_cap, raw_cap;
-    int32_t *by_name;   /* parts in the order of their names, once the first time is complete */
-    int32_t *shown;     /* [n_shown] the parts that are reported, -1 for the total */
+    int32_t *by_name;   /* parts sorted by name, once the first time is complete */
+    int32_t *shown;     /* [n_shown] reported parts, -1 for the total */
     const char **label; /* [n_shown] their names */
     unsigned char *has;
     int32_t n_shown;
     int64_t n;         /* complete times */
     int32_t seen;      /* rows at the time being read */
     double now, first; /* the time being read, and the first of all */
-    int pending; /* the row in the table belongs to the next time; 2: there is none, the table has ended */
-    /* What was read last and, where its interval is not known yet, the one that waits. */
+    int pending;       /* the row in the table belongs to the next time; 2: the table has ended */
+    /* The last time read and, while its interval is not known yet, the one before. */
     double *x[2], t[2], before;
     int waiting;
 };
 
-/* --- which columns -------------------------------------------------------------------------------------- */
+/* --- columns -------------------------------------------------------------------------------------------- */
 
-const char *fl_reduction_name(int over)
+const char *fl_reduction_name(int reduction)
 {
     static const char *const name[FL_REDUCTIONS] = {"", "sum", "mean", "min", "max", "count"};
-    return name[over];
+    return name[reduction];
 }
 
-static int adds_up(const char *name)
+static int is_additive(const char *name)
 {
     static const char *const list[] = {"fx", "fy", "fz", "mx", "my", "mz", "contacts"};
     for (size_t k = 0; k < sizeof list / sizeof *list; k++)
@@ -66,24 +66,25 @@ static int adds_up(const char *name)
     return 0;
 }
 
-static int want_column(fl_record_reader *r, const char *name, int *raw, fl_err *err)
+static int add_column(fl_record_reader *r, const char *name, int *raw, fl_err *err)
 {
     int32_t col;
     if (fl_table_require(&r->table, name, &col, err)) return -1;
     for (*raw = 0; *raw < r->raws; ++*raw)
         if (r->col[*raw] == col) return 0;
-    r->adds[r->raws] = r->loads && !r->ask.reduction && adds_up(r->table.name[col]);
+    r->adds[r->raws] = r->loads && !r->selection.reduction && is_additive(r->table.name[col]);
     r->col[r->raws++] = col;
     return 0;
 }
 
-static int want_signal(fl_record_reader *r, const fl_record_selection *ask, const char *name, fl_err *err)
+static int add_signal(fl_record_reader *r, const fl_record_selection *selection, const char *name,
+                      fl_err *err)
 {
     static const char *const axis[] = {"fx", "fy", "fz"};
     formula *f = &r->form[r->signals];
     const char *of[3] = {name, NULL, NULL};
     if (r->signals == SIGNAL_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d signals were asked for at once", SIGNAL_MAX);
+        return fl_fail(err, FL_USAGE, "at most %d signals can be selected", SIGNAL_MAX);
     f->n = 1;
     if (fl_table_column(&r->table, name) < 0 && (strcmp(name, "fh") == 0 || strcmp(name, "f") == 0)) {
         f->n = name[1] == 'h' ? 2 : 3;
@@ -91,39 +92,39 @@ static int want_signal(fl_record_reader *r, const fl_record_selection *ask, cons
     }
     f->adds = 1;
     for (int k = 0; k < f->n; k++) {
-        if (want_column(r, of[k], &f->raw[k], err)) return -1;
+        if (add_column(r, of[k], &f->raw[k], err)) return -1;
         f->adds &= r->adds[f->raw[k]];
     }
     const int32_t first = r->col[f->raw[0]];
     r->name[r->signals] = f->n == 1 ? r->table.name[first] : name;
-    r->unit[r->signals] = ask->reduction == FL_REDUCE_COUNT ? "" : r->table.unit[first];
+    r->unit[r->signals] = selection->reduction == FL_REDUCE_COUNT ? "" : r->table.unit[first];
     for (int32_t k = 0; k < r->signals; k++)
-        if (strcmp(r->name[k], r->name[r->signals]) == 0) return 0; /* asked for twice: once is enough */
+        if (strcmp(r->name[k], r->name[r->signals]) == 0) return 0; /* a repeated signal counts once */
     r->signals++;
     return 0;
 }
 
-static int want_all(fl_record_reader *r, const fl_record_selection *ask, fl_err *err)
+static int add_signals(fl_record_reader *r, const fl_record_selection *selection, fl_err *err)
 {
     static const char *const usual[] = {"fx", "fy", "fz", "fh"};
     const int loads = r->loads;
-    const char *const *list = ask->signals ? ask->signal : usual;
-    const int32_t n = ask->signals ? ask->signals : (int32_t)(sizeof usual / sizeof *usual);
-    if (!loads && !ask->signals)
+    const char *const *list = selection->signals ? selection->signal : usual;
+    const int32_t n = selection->signals ? selection->signals : (int32_t)(sizeof usual / sizeof *usual);
+    if (!loads && !selection->signals)
         return fl_fail(err, FL_USAGE, "%s: a column of this %s table must be chosen, it is not loads",
                        fl_in_name(r->table.text.in), r->table.text.kind);
     if (fl_table_require(&r->table, "t", &r->time, err)) return -1;
-    if (fl_row_filter_make(&r->where, &r->table, ask->where, ask->wheres, err)) return -1;
-    if (ask->reduction) r->key = -1;
+    if (fl_row_filter_make(&r->where, &r->table, selection->where, selection->wheres, err)) return -1;
+    if (selection->reduction) r->key = -1;
     else if (loads && fl_table_require(&r->table, "part", &r->key, err)) return -1;
-    if (!loads && !ask->reduction) r->key = fl_table_column(&r->table, "part");
-    if (!loads && !ask->reduction && r->key < 0) r->key = fl_table_column(&r->table, "body");
+    if (!loads && !selection->reduction) r->key = fl_table_column(&r->table, "part");
+    if (!loads && !selection->reduction && r->key < 0) r->key = fl_table_column(&r->table, "body");
     for (int32_t k = 0; k < n; k++)
-        if (want_signal(r, ask, list[k], err)) return -1;
-    if (ask->part && strcmp(ask->part, "total") == 0) {
+        if (add_signal(r, selection, list[k], err)) return -1;
+    if (selection->part && strcmp(selection->part, "total") == 0) {
         for (int32_t k = 0; k < r->signals; k++)
             if (!r->form[k].adds)
-                return fl_fail(err, FL_USAGE, "%s has no total: its sum over the parts means nothing",
+                return fl_fail(err, FL_USAGE, "%s has no total: its sum over the parts is meaningless",
                                r->name[k]);
     }
     return 0;
@@ -133,7 +134,7 @@ static int want_all(fl_record_reader *r, const fl_record_selection *ask, fl_err 
 
 static int32_t add_part(fl_record_reader *r, const char *name, fl_err *err)
 {
-    const char *const only = r->ask.part;
+    const char *const only = r->selection.part;
     raw_part *p;
     if (fl_grow(&r->part, &r->part_cap, (int64_t)r->parts + 1, sizeof *r->part, err) ||
         fl_grow(&r->raw, &r->raw_cap, ((int64_t)r->parts + 1) * r->raws, sizeof *r->raw, err))
@@ -145,17 +146,18 @@ static int32_t add_part(fl_record_reader *r, const char *name, fl_err *err)
     return r->parts++;
 }
 
-static _Thread_local const raw_part *sorting; /* qsort hands its comparison no argument */
+static _Thread_local const raw_part *parts_to_sort; /* qsort passes no context to its comparison */
 
 static int compare_parts(const void *a, const void *b)
 {
-    return strcmp(sorting[*(const int32_t *)a].name, sorting[*(const int32_t *)b].name);
+    return strcmp(parts_to_sort[*(const int32_t *)a].name, parts_to_sort[*(const int32_t *)b].name);
 }
 
 static int32_t find_part(const fl_record_reader *r, const char *name)
 {
     int32_t lo = 0, hi = r->parts - 1;
-    if (r->seen < r->parts && strcmp(r->part[r->seen].name, name) == 0) return r->seen; /* the usual order */
+    if (r->seen < r->parts && strcmp(r->part[r->seen].name, name) == 0)
+        return r->seen; /* rows in the usual order */
     while (lo <= hi) {
         const int32_t k = lo + (hi - lo) / 2;
         const int c = strcmp(name, r->part[r->by_name[k]].name);
@@ -168,7 +170,7 @@ static int32_t find_part(const fl_record_reader *r, const char *name)
 
 static int check_part(const fl_record_reader *r, fl_err *err)
 {
-    const char **names, *const want = r->ask.part;
+    const char **names, *const want = r->selection.part;
     if (!want || strcmp(want, "total") == 0 || find_part(r, want) >= 0) return 0;
     names = fl_alloc(r->parts, sizeof *names, err);
     if (!names) return -1;
@@ -179,19 +181,19 @@ static int check_part(const fl_record_reader *r, fl_err *err)
     return -1;
 }
 
-/* Which parts are reported, and whether their total. */
+/* Choose the reported parts, and whether their total is one. */
 static int choose_parts(fl_record_reader *r, fl_err *err)
 {
-    const int only_total = r->ask.part && strcmp(r->ask.part, "total") == 0;
+    const int only_total = r->selection.part && strcmp(r->selection.part, "total") == 0;
     int total = 0;
     for (int32_t k = 0; k < r->signals; k++) total |= r->form[k].adds;
-    total = total && (!r->ask.part || only_total);
+    total = total && (!r->selection.part || only_total);
     r->shown = fl_alloc((int64_t)r->parts + 1, sizeof *r->shown, err);
     r->label = r->shown ? fl_alloc((int64_t)r->parts + 1, sizeof *r->label, err) : NULL;
     if (!r->label) return -1;
     for (int32_t p = 0; p < r->parts; p++) {
         const int is_total = total && strcmp(r->part[p].name, "total") == 0;
-        /* A structure of one part called total is its own sum. */
+        /* A structure of one part named total is its own sum. */
         if (is_total && r->parts > 1)
             return fl_fail(err, FL_INPUT, "%s: a part is called total, the name of the sum over the parts",
                            fl_in_name(r->table.text.in));
@@ -213,13 +215,13 @@ static int choose_parts(fl_record_reader *r, fl_err *err)
     return 0;
 }
 
-/* The first time is complete: its rows are the list of parts. */
-static int freeze_parts(fl_record_reader *r, fl_err *err)
+/* The first time is complete: its rows define the parts. */
+static int fix_parts(fl_record_reader *r, fl_err *err)
 {
     r->by_name = fl_alloc(r->parts, sizeof *r->by_name, err);
     if (!r->by_name) return -1;
     for (int32_t p = 0; p < r->parts; p++) r->by_name[p] = p;
-    sorting = r->part;
+    parts_to_sort = r->part;
     qsort(r->by_name, (size_t)r->parts, sizeof *r->by_name, compare_parts);
     for (int32_t p = 1; p < r->parts; p++) {
         const char *name = r->part[r->by_name[p]].name;
@@ -230,19 +232,19 @@ static int freeze_parts(fl_record_reader *r, fl_err *err)
     return check_part(r, err) ? -1 : choose_parts(r, err);
 }
 
-static double length3(const double *raw, const formula *f)
+static double evaluate_formula(const double *raw, const formula *f)
 {
     if (f->n == 1) return raw[f->raw[0]];
     const double h = hypot(raw[f->raw[0]], raw[f->raw[1]]);
     return f->n == 2 ? h : hypot(h, raw[f->raw[2]]);
 }
 
-/* All rows of one time have been read: from columns to signals.  The total is the sum in the order in which
- * the parts were first seen, so that it has one value. */
+/* All rows of one time have been read: compute signals from columns.  The total is summed in the order in
+ * which the parts first appeared, so its rounding does not depend on the order of later rows. */
 static int close_time(fl_record_reader *r, fl_err *err)
 {
-    if (!r->by_name && freeze_parts(r, err)) return -1;
-    if (r->ask.reduction == FL_REDUCE_MEAN)
+    if (!r->by_name && fix_parts(r, err)) return -1;
+    if (r->selection.reduction == FL_REDUCE_MEAN)
         for (int32_t c = 0; c < r->raws; c++) r->raw[c] /= r->seen;
     for (int32_t p = 0; r->seen < r->parts && p < r->parts; p++)
         if (r->part[p].n == r->n)
@@ -257,7 +259,7 @@ static int close_time(fl_record_reader *r, fl_err *err)
             for (int32_t p = 0; p < r->parts; p++)
                 for (int32_t c = 0; c < r->raws; c++) sum[c] += r->raw[(int64_t)p * r->raws + c];
         }
-        for (int32_t s = 0; s < r->signals; s++) *x++ = length3(raw, &r->form[s]);
+        for (int32_t s = 0; s < r->signals; s++) *x++ = evaluate_formula(raw, &r->form[s]);
     }
     r->t[!r->waiting] = r->now;
     r->n++;
@@ -265,55 +267,55 @@ static int close_time(fl_record_reader *r, fl_err *err)
     return 0;
 }
 
-/* Put x into what the rows of this time have come to. */
-static void put_together(int over, int first, double x, double *sum)
+/* Combine x with the earlier rows of this time. */
+static void combine_value(int reduction, int first, double x, double *sum)
 {
-    if (over == FL_REDUCE_COUNT) x = 1.0;
-    if (first || over == FL_REDUCE_NONE) *sum = x;
-    else if (over == FL_REDUCE_MIN) *sum = fmin(*sum, x);
-    else if (over == FL_REDUCE_MAX) *sum = fmax(*sum, x);
+    if (reduction == FL_REDUCE_COUNT) x = 1.0;
+    if (first || reduction == FL_REDUCE_NONE) *sum = x;
+    else if (reduction == FL_REDUCE_MIN) *sum = fmin(*sum, x);
+    else if (reduction == FL_REDUCE_MAX) *sum = fmax(*sum, x);
     else *sum += x;
 }
 
-static int take_values(fl_record_reader *r, int32_t part, fl_err *err)
+static int read_values(fl_record_reader *r, int32_t part, fl_err *err)
 {
     raw_part *p = &r->part[part];
     double *sum = r->raw + (int64_t)part * r->raws, x;
     for (int32_t k = 0; p->keep && k < r->raws; k++, sum++) {
         if (fl_table_f64(&r->table, r->col[k], &x, err)) return -1;
         if (fabs(x) > FL_RECORD_LARGEST_VALUE)
-            return fl_text_fail(&r->table.text, err, "%.60s is %g, at most %g was expected",
+            return fl_text_fail(&r->table.text, err, "%.60s is %g, expected at most %g",
                                 r->table.name[r->col[k]], x, FL_RECORD_LARGEST_VALUE);
-        put_together(r->ask.reduction, r->seen == 1, x, sum);
+        combine_value(r->selection.reduction, r->seen == 1, x, sum);
     }
     if (p->n == r->n) p->n++;
     return 0;
 }
 
-static int not_there(const fl_record_reader *r, const char *name, fl_err *err)
+static int fail_unknown_part(const fl_record_reader *r, const char *name, fl_err *err)
 {
     return fl_text_fail(&r->table.text, err, "%.60s was not there at %.10g s", name, r->first);
 }
 
-/* Take the row in the table, or leave it when it belongs to the next time. */
-static int take_row(fl_record_reader *r, fl_err *err)
+/* Read the row in the table, or leave it pending when it belongs to the next time. */
+static int read_row(fl_record_reader *r, fl_err *err)
 {
     const char *name = r->key < 0 ? "-" : fl_table_word(&r->table, r->key);
     double t;
     int32_t p;
     if (fl_table_f64(&r->table, r->time, &t, err)) return -1;
     if (fabs(t) > FL_RECORD_LARGEST_VALUE)
-        return fl_text_fail(&r->table.text, err, "time %g s is out of reach", t);
+        return fl_text_fail(&r->table.text, err, "time %g s is out of range", t);
     r->pending = r->seen && t != r->now;
     if (r->pending) return 0;
     if (r->seen == 0 && (r->n || r->loads)) {
         const double before = r->n ? r->now : r->table.start;
-        /* A time that is complete and goes on: with a part that was there already, or with a new one. */
+        /* A complete time has a further row: of a known part, or of a new one. */
         if (r->n && r->key >= 0 && t == before)
             return find_part(r, name) < 0
-                       ? not_there(r, name, err)
+                       ? fail_unknown_part(r, name, err)
                        : fl_text_fail(&r->table.text, err, "%.60s has two rows at %.10g s", name, t);
-        if (r->n && r->key < 0 && !r->ask.reduction && t == before)
+        if (r->n && r->key < 0 && !r->selection.reduction && t == before)
             return fl_text_fail(&r->table.text, err,
                                 "several rows at %.10g s, and no column part or body tells them apart", t);
         if (!(t > before))
@@ -322,18 +324,18 @@ static int take_row(fl_record_reader *r, fl_err *err)
     }
     if (r->n == 0 && r->seen == 0) r->first = t;
     r->now = t;
-    if (r->ask.reduction && r->parts) p = 0;
+    if (r->selection.reduction && r->parts) p = 0;
     else p = r->by_name ? find_part(r, name) : add_part(r, name, err);
     if (p < 0 && !r->by_name) return -1;
-    if (p < 0) return not_there(r, name, err);
-    if (r->part[p].n > r->n && !r->ask.reduction)
+    if (p < 0) return fail_unknown_part(r, name, err);
+    if (r->part[p].n > r->n && !r->selection.reduction)
         return fl_text_fail(&r->table.text, err, "%.60s has two rows at %.10g s", name, t);
     r->seen++;
-    return take_values(r, p, err);
+    return read_values(r, p, err);
 }
 
-/* Read until a time is complete: 1, 0 at the end, -1.  Where the parts are known, their last row completes
- * it; the first time is complete when another begins. */
+/* Read until a time is complete: 1, 0 at the end, -1.  The first time is complete when another begins; later
+ * ones with the row of the last missing part. */
 static int read_time(fl_record_reader *r, fl_err *err)
 {
     for (;;) {
@@ -345,37 +347,38 @@ static int read_time(fl_record_reader *r, fl_err *err)
                 if (r->seen) return close_time(r, err) ? -1 : 1;
                 if (r->n) return 0;
                 return fl_text_fail(&r->table.text, err, "the %s table ends here without a row%s",
-                                    r->table.text.kind, r->ask.wheres ? " that was asked for" : "");
+                                    r->table.text.kind,
+                                    r->selection.wheres ? " that meets the conditions" : "");
             }
         }
         if (r->pending == 0 && !fl_row_filter_matches(&r->where, &r->table)) continue;
-        if (take_row(r, err)) return -1;
-        if (r->pending || (!r->ask.reduction && (r->key < 0 || (r->by_name && r->seen == r->parts))))
+        if (read_row(r, err)) return -1;
+        if (r->pending || (!r->selection.reduction && (r->key < 0 || (r->by_name && r->seen == r->parts))))
             return close_time(r, err) ? -1 : 1;
     }
 }
 
-/* --- all of it ------------------------------------------------------------------------------------------ */
+/* --- reader --------------------------------------------------------------------------------------------- */
 
-int fl_record_open(fl_record *r, const char *path, const fl_record_selection *ask, fl_err *err)
+int fl_record_open(fl_record *r, const char *path, const fl_record_selection *selection, fl_err *err)
 {
     *r = (fl_record){0};
     fl_record_reader *own = r->reader = fl_alloc(1, sizeof *own, err);
     if (!own) return -1;
     own->key = -1;
-    own->ask = *ask;
+    own->selection = *selection;
     int rc = fl_table_open(&own->table, path, NULL, 1, err);
     if (rc == 0 && strcmp(own->table.text.kind, "summary") == 0)
-        rc = fl_fail(err, FL_INPUT, "%s: this is a summary of runs, a record is expected",
+        rc = fl_fail(err, FL_INPUT, "%s: this is a summary of runs, expected a record",
                      fl_in_name(own->table.text.in));
     own->loads = rc == 0 && strcmp(own->table.text.kind, "loads") == 0;
-    if (rc == 0) rc = want_all(own, ask, err);
+    if (rc == 0) rc = add_signals(own, selection, err);
     if (rc) {
         fl_record_close(r);
         return -1;
     }
     r->kind = own->table.text.kind;
-    fl_in_follow(own->table.text.in, ask->patience);
+    fl_in_follow(own->table.text.in, selection->patience);
     own->before = own->table.start;
     r->signals = own->signals;
     r->signal = own->name;
@@ -383,7 +386,7 @@ int fl_record_open(fl_record *r, const char *path, const fl_record_selection *as
     return 0;
 }
 
-static void show(fl_record *r, int which)
+static void publish_time(fl_record *r, int which)
 {
     fl_record_reader *own = r->reader;
     r->parts = own->n_shown;
@@ -402,12 +405,12 @@ int fl_record_next(fl_record *r, fl_err *err)
         own->waiting = 0;
         more = read_time(own, err);
         if (more <= 0) return more;
-        show(r, 1);
+        publish_time(r, 1);
         r->edge[0] = own->before;
         r->edge[1] = own->before = r->t;
         return 1;
     }
-    /* A sample needs its neighbours: one is read ahead, and waits in the other place. */
+    /* A sample needs its neighbours: one time is read ahead into the other buffer. */
     if (r->n == 0) {
         own->waiting = 1;
         more = read_time(own, err);
@@ -419,9 +422,10 @@ int fl_record_next(fl_record *r, fl_err *err)
     own->waiting = here;
     more = read_time(own, err);
     if (more < 0) return -1;
-    show(r, here);
+    publish_time(r, here);
     const double t = r->t, next = own->t[!here], middle = t + 0.5 * (next - t);
-    /* One sample alone has no neighbours; any length will do, as it is the only weight, if it is one at t. */
+    /* A single sample has no neighbours.  Its length is the only weight, so any length above rounding will
+     * do. */
     if (r->n == 1) own->before = more ? t - (middle - t) : t - fmax(0.5, fabs(t) * DBL_EPSILON);
     r->edge[0] = own->before;
     r->edge[1] = own->before = more ? middle : t + (t - r->edge[0]);

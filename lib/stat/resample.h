@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* resample.h -- a record of unequal intervals on equal ones, its impulse unchanged. */
+/* resample.h -- resample a record of unequal intervals to equal ones; the impulse is preserved. */
 #ifndef FL_STAT_RESAMPLE_H
 #define FL_STAT_RESAMPLE_H
 #include <stdint.h>
 
-/* The common length of the intervals edge[k] .. edge[k + 1], k = 0 .. n - 1, when they are equal to a
- * millionth of their mean: then a row is nowhere off its place by more than a millionth of the whole record.
- * 0 otherwise. */
+/* The common length of the intervals edge[k] .. edge[k + 1], k = 0 .. n - 1, when they are equal to 10^-6 of
+ * their mean; no row is then displaced by more than 10^-6 of the whole record.  0 otherwise. */
 double fl_resample_common_interval(int32_t n, const double *edge);
 
 /* Means over m equal intervals of a record that is constant in each of its own,

@@ -6,27 +6,27 @@
 #include "stat/rainflow.h"
 #include "stat/run_summary.h"
 
-/* Times in the table are decimal: an edge may miss the cut, or the end of a block, by its rounding.  A
- * millionth of the interval (of the block) is far above that and far below anything that is meant. */
+/* Times in the table are decimal: an edge may differ from the cut, or the end of a block, by rounding.  This
+ * fraction of the interval (of the block) is far above rounding and far below any intended difference. */
 static const double SLACK = 1e-6;
 
-/* Separate peaks, one value after the other: fl_peaks_rayleigh() says which. */
+/* State of the peak search, one value after the other; the rule is that of fl_peaks_rayleigh(). */
 typedef struct {
     double before, now; /* the last two values that differ; now may be a run of equal ones */
     int runs;           /* of equal values so far, up to 3 */
-    int held;           /* is there a maximum that may still give way to a larger one? */
-    double top, low;    /* it, and the smallest value since */
+    int held;           /* a maximum is held, which a larger one may replace */
+    double top, low;    /* the held maximum, and the smallest value since */
 } peak_state;
 
 typedef struct {
-    double start, whole; /* [s] where blocks begin; whole blocks before the one under way */
+    double start, whole; /* start of the first block [s]; whole blocks before the current one */
     double top;
-    int open; /* has it a row? */
+    int open; /* the current block has a row */
 } block_state;
 
 struct fl_run_state {
     int32_t at;   /* in the summary */
-    int32_t same; /* the entry of the total, where it is the same; else -1 */
+    int32_t same; /* entry of the total where it equals this signal, else -1 */
     int32_t of;   /* in the record */
     peak_state peak;
     block_state block;
@@ -44,16 +44,16 @@ static int add_peak(fl_summary_signal *s, double x, fl_err *err)
                : 0;
 }
 
-static int push_peak(peak_state *p, fl_summary_signal *s, const fl_summary_settings *ask, double x,
+static int push_peak(peak_state *p, fl_summary_signal *s, const fl_summary_settings *settings, double x,
                      fl_err *err)
 {
     if (p->runs && x == p->now) return 0;
-    /* A run of equal values has ended: is it a maximum?  The first value of all is none, and neither lowers
-     * what lies between two of them. */
+    /* A run of equal values has ended: test whether it is a maximum.  The first value of the record is
+     * neither a maximum nor a minimum between two of them. */
     if (p->runs >= 2) {
         if (p->now < p->low) p->low = p->now;
-        if (p->before < p->now && x < p->now && p->now > ask->threshold) {
-            const int separate = p->held && p->low < ask->separation * fmin(p->top, p->now);
+        if (p->before < p->now && x < p->now && p->now > settings->threshold) {
+            const int separate = p->held && p->low < settings->separation * fmin(p->top, p->now);
             if (separate && add_peak(s, p->top, err)) return -1;
             if (!p->held || separate || p->now > p->top) {
                 p->held = 1;
@@ -77,7 +77,7 @@ static int close_block(block_state *b, fl_summary_signal *s, fl_err *err)
     return fl_multiset_add(&s->block, b->top, 1, err);
 }
 
-/* A row belongs to the block its middle lies in. */
+/* A row belongs to the block that contains its middle. */
 static int push_block(block_state *b, fl_summary_signal *s, double length, const double *edge, double x,
                       fl_err *err)
 {
@@ -91,7 +91,7 @@ static int push_block(block_state *b, fl_summary_signal *s, double length, const
     return 0;
 }
 
-static int take_cycles(fl_rainflow *f, fl_summary_signal *s, fl_err *err)
+static int add_cycles(fl_rainflow *f, fl_summary_signal *s, fl_err *err)
 {
     for (int32_t k = 0; k < f->cycles; k++)
         if (fl_log_histogram_add(&s->cycle, fl_log_bin_key(f->cycle[k].range),
@@ -103,15 +103,15 @@ static int take_cycles(fl_rainflow *f, fl_summary_signal *s, fl_err *err)
 
 /* --- a run ---------------------------------------------------------------------------------------------- */
 
-int fl_run_open(fl_run *r, const char *path, const fl_record_selection *ask, const fl_summary_settings *how,
-                fl_err *err)
+int fl_run_open(fl_run *r, const char *path, const fl_record_selection *selection,
+                const fl_summary_settings *settings, fl_err *err)
 {
-    *r = (fl_run){.selection = *ask, .sum = {.settings = *how}};
-    return fl_record_open(&r->record, path, ask, err);
+    *r = (fl_run){.selection = *selection, .sum = {.settings = *settings}};
+    return fl_record_open(&r->record, path, selection, err);
 }
 
-/* The place of a signal in the summary, or -1. */
-static int32_t find(fl_run *r, int32_t part, int32_t signal, fl_err *err)
+/* The index of a signal in the summary, or -1. */
+static int32_t signal_index(fl_run *r, int32_t part, int32_t signal, fl_err *err)
 {
     const fl_record *rec = &r->record;
     const fl_summary_signal *s = fl_summary_get_signal(&r->sum, rec->part[part], rec->signal[signal],
@@ -119,21 +119,22 @@ static int32_t find(fl_run *r, int32_t part, int32_t signal, fl_err *err)
     return s ? (int32_t)(s - r->sum.entry) : -1;
 }
 
-/* The first time says which signals there are; their places are known when all have one. */
-static int start(fl_run *r, fl_err *err)
+/* The first time defines the signals.  Inserting one moves the others, so indices are taken after all are
+ * in. */
+static int start_states(fl_run *r, fl_err *err)
 {
     const fl_record *rec = &r->record;
     for (int32_t k = 0; k < rec->parts * rec->signals; k++)
-        if (rec->defined[k] && find(r, k / rec->signals, k % rec->signals, err) < 0) return -1;
+        if (rec->defined[k] && signal_index(r, k / rec->signals, k % rec->signals, err) < 0) return -1;
     r->state = fl_alloc(r->sum.n, sizeof *r->state, err);
     if (!r->state) return -1;
-    /* One part and its sum, which is the same to the bit. */
+    /* With one part the sum equals it to the bit. */
     const int alone = rec->parts == 2 && strcmp(rec->part[1], "total") == 0;
     for (int32_t k = 0; k < rec->parts * rec->signals; k++) {
         const int32_t p = k / rec->signals, s = k % rec->signals;
         if (!rec->defined[k] || (alone && p == 1)) continue;
-        const int32_t at = find(r, p, s, err),
-                      same = alone && rec->defined[k + rec->signals] ? find(r, 1, s, err) : -1;
+        const int32_t at = signal_index(r, p, s, err),
+                      same = alone && rec->defined[k + rec->signals] ? signal_index(r, 1, s, err) : -1;
         if (at < 0) return -1;
         r->state[r->states++] = (struct fl_run_state){.at = at,
                                                       .same = same,
@@ -145,10 +146,10 @@ static int start(fl_run *r, fl_err *err)
     return 0;
 }
 
-static int take_value(fl_run *r, struct fl_run_state *state, double w, fl_fixed_time time, fl_err *err)
+static int add_value(fl_run *r, struct fl_run_state *state, double w, fl_fixed_time time, fl_err *err)
 {
     const fl_record *rec = &r->record;
-    const fl_summary_settings *ask = &r->sum.settings;
+    const fl_summary_settings *settings = &r->sum.settings;
     fl_summary_signal *s = &r->sum.entry[state->at];
     const double x = rec->x[state->of];
     if (s->rows == 0) {
@@ -168,11 +169,11 @@ static int take_value(fl_run *r, struct fl_run_state *state, double w, fl_fixed_
     }
     if (fl_exact_add_powers(s->sum, w, x, err) ||
         fl_log_histogram_add(&s->level, fl_log_bin_key(x), 1, time, err) ||
-        push_peak(&state->peak, s, ask, x, err))
+        push_peak(&state->peak, s, settings, x, err))
         return -1;
-    if (ask->block > 0.0 && push_block(&state->block, s, ask->block, rec->edge, x, err)) return -1;
+    if (settings->block > 0.0 && push_block(&state->block, s, settings->block, rec->edge, x, err)) return -1;
     if (fl_rainflow_push(&state->cycle, x, err)) return -1;
-    return state->cycle.cycles ? take_cycles(&state->cycle, s, err) : 0;
+    return state->cycle.cycles ? add_cycles(&state->cycle, s, err) : 0;
 }
 
 int fl_run_next(fl_run *r, fl_err *err)
@@ -187,10 +188,10 @@ int fl_run_next(fl_run *r, fl_err *err)
         if (!(w <= FL_LOG_HISTOGRAM_LONGEST))
             return fl_fail(err, FL_INPUT, "%s: a row lasts for %g s, at most %g s can be summed up",
                            fl_record_name(rec), w, FL_LOG_HISTOGRAM_LONGEST);
-        if (!r->state && start(r, err)) return -1;
+        if (!r->state && start_states(r, err)) return -1;
         const fl_fixed_time time = fl_fixed_time_of(w);
         for (int32_t k = 0; k < r->states; k++)
-            if (take_value(r, &r->state[k], w, time, err)) return -1;
+            if (add_value(r, &r->state[k], w, time, err)) return -1;
         r->end = rec->edge[1];
         return 1;
     }
@@ -199,15 +200,16 @@ int fl_run_next(fl_run *r, fl_err *err)
 static int end_signal(fl_run *r, struct fl_run_state *state, fl_err *err)
 {
     fl_summary_signal *s = &r->sum.entry[state->at];
-    const fl_summary_settings *ask = &r->sum.settings;
+    const fl_summary_settings *settings = &r->sum.settings;
     double moment[4];
     if (state->peak.held && add_peak(s, state->peak.top, err)) return -1;
-    if (ask->block > 0.0 && state->block.open) {
-        /* What is left at the end is no block. */
-        const double whole = floor((r->end - state->block.start) / ask->block + SLACK);
+    if (settings->block > 0.0 && state->block.open) {
+        /* An incomplete block at the end is dropped. */
+        const double whole = floor((r->end - state->block.start) / settings->block + SLACK);
         if (state->block.whole < whole && close_block(&state->block, s, err)) return -1;
     }
-    if (fl_rainflow_end(&state->cycle, ask->residue, err) || take_cycles(&state->cycle, s, err)) return -1;
+    if (fl_rainflow_end(&state->cycle, settings->residue, err) || add_cycles(&state->cycle, s, err))
+        return -1;
     fl_summary_moments(s, moment);
     if (fl_multiset_add(&s->run[FL_RUN_MEAN], moment[0], 1, err) ||
         fl_multiset_add(&s->run[FL_RUN_STD], moment[1], 1, err) ||
@@ -231,11 +233,10 @@ int fl_run_finish(fl_run *r, const char *by, fl_err *err)
 {
     const char *history = fl_record_history(&r->record);
     if (!r->state || r->states == 0)
-        return fl_fail(err, FL_INPUT, "%s: nothing is left by the cut, the record ends at %.10g s",
+        return fl_fail(err, FL_INPUT, "%s: the cut leaves no row, the record ends at %.10g s",
                        fl_record_name(&r->record), r->record.edge[1]);
     if (!(fl_exact_value(&r->sum.entry[r->state[0].at].sum[0]) > 0.0))
-        return fl_fail(err, FL_INPUT,
-                       "%s: its rows last for no time, they lie too close for a number to tell",
+        return fl_fail(err, FL_INPUT, "%s: its rows have no duration, their times are too close together",
                        fl_record_name(&r->record));
     for (int32_t k = 0; k < r->states; k++)
         if (end_signal(r, &r->state[k], err)) return -1;

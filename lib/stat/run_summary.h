@@ -1,35 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* run_summary.h -- one run, reduced to its summary while it is read. */
+/* run_summary.h -- computes the summary of one run while its record is read. */
 #ifndef FL_STAT_RUN_SUMMARY_H
 #define FL_STAT_RUN_SUMMARY_H
 #include "stat/record.h"
 #include "stat/summary.h"
 
-/* One run under way. */
+/* A run being read. */
 typedef struct fl_run_state fl_run_state;
 typedef struct {
     fl_record record;
-    fl_summary sum;      /* of what has been read: blocks and cycles as they end; see fl_run_update() */
-    fl_run_state *state; /* [states] of each signal that is summed up, in the order of the record */
+    fl_summary sum;      /* of the rows so far: blocks and cycles as they end; see fl_run_update() */
+    fl_run_state *state; /* [states] of each summarised signal, in the order of the record */
     int32_t states;
     fl_record_selection selection;
-    double end; /* [s] of the last row that was taken */
+    double end; /* end of the last row that counts [s] */
 } fl_run;
 
-/* Open a record as a run.  ask->last must be 0.  0, or -1 with the errors of fl_record_open(). */
-int fl_run_open(fl_run *r, const char *path, const fl_record_selection *ask, const fl_summary_settings *how,
-                fl_err *err);
+/* Open a record as a run.  selection->last must be 0.  0, or -1 with the errors of fl_record_open(). */
+int fl_run_open(fl_run *r, const char *path, const fl_record_selection *selection,
+                const fl_summary_settings *settings, fl_err *err);
 
-/* Take the next time.  1, 0 at the end, -1 with the errors of fl_record_next() or FL_INPUT for an interval
+/* Add the next time.  1, 0 at the end, -1 with the errors of fl_record_next() or FL_INPUT for an interval
  * above FL_LOG_HISTOGRAM_LONGEST. */
 int fl_run_next(fl_run *r, fl_err *err);
 
-/* Bring r->sum up to date: the total of a structure of one part is that part, and is summed up only once.
+/* Bring r->sum up to date: the total of a structure of one part equals that part and is summarised only once.
  * fl_run_finish() does it too.  0, or -1 with FL_SYSTEM in err. */
 int fl_run_update(fl_run *r, fl_err *err);
 
-/* The record has ended: settle what is open; by is the "#by" line of this summary, which ends the chain of
- * the record.  0, or -1 with FL_INPUT (no row lies within the cut, or all last for no time) or FL_SYSTEM. */
+/* End of the record: close peaks, blocks and cycles.  by is the "#by" line of this summary, which ends the
+ * chain of the record.  0, or -1 with FL_INPUT (no row lies within the cut, or all have no duration) or
+ * FL_SYSTEM. */
 int fl_run_finish(fl_run *r, const char *by, fl_err *err);
 
 /* Accepts a zeroed struct and leaves one. */

@@ -7,7 +7,7 @@
 
 /* --- rows ----------------------------------------------------------------------------------------------- */
 
-static int name_all(fl_series *s, const fl_record *r, fl_err *err)
+static int copy_names(fl_series *s, const fl_record *r, fl_err *err)
 {
     memcpy(s->kind, r->kind, strlen(r->kind) + 1);
     s->signal = fl_alloc(r->signals, sizeof *s->signal, err);
@@ -29,7 +29,7 @@ static int name_all(fl_series *s, const fl_record *r, fl_err *err)
     return 0;
 }
 
-static int grow(fl_series *s, const fl_record *r, int32_t *cap, fl_err *err)
+static int grow_series(fl_series *s, const fl_record *r, int32_t *cap, fl_err *err)
 {
     const int64_t want = (int64_t)s->n + 2; /* there is one edge more than rows */
     int32_t next = *cap;
@@ -47,7 +47,7 @@ static int grow(fl_series *s, const fl_record *r, int32_t *cap, fl_err *err)
 
 static int add_row(fl_series *s, const fl_record *r, int32_t *cap, fl_err *err)
 {
-    if (s->n + 1 >= *cap && grow(s, r, cap, err)) return -1;
+    if (s->n + 1 >= *cap && grow_series(s, r, cap, err)) return -1;
     for (int64_t k = 0; k < (int64_t)r->parts * r->signals; k++)
         if (r->defined[k]) s->x[k][s->n] = r->x[k];
     s->t[s->n] = r->t;
@@ -58,12 +58,12 @@ static int add_row(fl_series *s, const fl_record *r, int32_t *cap, fl_err *err)
 
 /* --- the cut -------------------------------------------------------------------------------------------- */
 
-/* Times in the table are decimal: an edge may miss the cut by its rounding.  A millionth of the mean interval
- * is far above that and far below any interval that is meant. */
+/* Times in the table are decimal: an edge may differ from the cut by rounding.  This fraction of the mean
+ * interval is far above rounding and far below any intended interval. */
 static const double CUT_SLACK = 1e-6;
 
-/* The start of the first row in which anything is not 0; INFINITY where there is none. */
-static double first_load(const fl_series *s)
+/* The start of the first row with a non-zero signal; INFINITY where there is none. */
+static double first_load_time(const fl_series *s)
 {
     const int64_t pairs = (int64_t)s->parts * s->signals;
     for (int32_t k = 0; k < s->n; k++)
@@ -72,18 +72,19 @@ static double first_load(const fl_series *s)
     return INFINITY;
 }
 
-static int cut(fl_series *s, const fl_record_selection *ask, const char *name, fl_err *err)
+static int apply_cut(fl_series *s, const fl_record_selection *selection, const char *name, fl_err *err)
 {
     const double first = s->edge[0], end = s->edge[s->n], slack = CUT_SLACK * (end - first) / s->n;
-    const double to = fmin(ask->to, end);
-    double from = fmax(ask->from, ask->last > 0.0 ? to - ask->last : first);
-    if (ask->after_first_load > 0.0) from = fmax(from, first_load(s) + ask->after_first_load);
-    if (from == INFINITY) return fl_fail(err, FL_INPUT, "%s: every load is 0, nothing ever comes near", name);
+    const double to = fmin(selection->to, end);
+    double from = fmax(selection->from, selection->last > 0.0 ? to - selection->last : first);
+    if (selection->after_first_load > 0.0)
+        from = fmax(from, first_load_time(s) + selection->after_first_load);
+    if (from == INFINITY) return fl_fail(err, FL_INPUT, "%s: every load is 0, there is no first load", name);
     int32_t a = 0, b = s->n;
     while (a < b && s->edge[a] < from - slack) a++;
     while (b > a && s->edge[b] > to + slack) b--;
     if (a == b && from >= to)
-        return fl_fail(err, FL_INPUT, "%s: nothing is left by the cut, the record is from %.10g s to %.10g s",
+        return fl_fail(err, FL_INPUT, "%s: the cut leaves no row, the record is from %.10g s to %.10g s",
                        name, first, end);
     if (a == b)
         return fl_fail(err, FL_INPUT,
@@ -97,23 +98,23 @@ static int cut(fl_series *s, const fl_record_selection *ask, const char *name, f
     return 0;
 }
 
-/* --- all of it ------------------------------------------------------------------------------------------ */
+/* --- series --------------------------------------------------------------------------------------------- */
 
-int fl_series_read(fl_series *s, const char *path, const fl_record_selection *ask, fl_err *err)
+int fl_series_read(fl_series *s, const char *path, const fl_record_selection *selection, fl_err *err)
 {
     fl_record r = {0};
     int32_t cap = 0;
     int more, rc = -1;
     *s = (fl_series){0};
-    if (fl_record_open(&r, path, ask, err)) goto done;
+    if (fl_record_open(&r, path, selection, err)) goto done;
     while ((more = fl_record_next(&r, err)) > 0)
-        if ((s->n == 0 && name_all(s, &r, err)) || add_row(s, &r, &cap, err)) goto done;
+        if ((s->n == 0 && copy_names(s, &r, err)) || add_row(s, &r, &cap, err)) goto done;
     if (more < 0) goto done;
     if (fl_record_history(&r)) {
         s->history = fl_alloc_text(fl_record_history(&r), err);
         if (!s->history) goto done;
     }
-    rc = cut(s, ask, fl_record_name(&r), err);
+    rc = apply_cut(s, selection, fl_record_name(&r), err);
 done:
     fl_record_close(&r);
     if (rc) fl_series_free(s);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* series.h -- signals against time, for each part of a structure and for their sum, whole and in memory.
+/* series.h -- signals against time in memory, for each part of a structure and for their sum.
+ *
  * Row k holds for the time edge[k] .. edge[k + 1]; see record.h. */
 #ifndef FL_STAT_SERIES_H
 #define FL_STAT_SERIES_H
@@ -17,12 +18,12 @@ typedef struct {
     char **part;           /* [parts] the sum over the parts is the last one, "total" */
     char **signal, **unit; /* [signals] */
     double **x;            /* [parts * signals] -> [n], of part p and signal s at x[p * signals + s];
-                             * NULL where the sum over parts would mean nothing */
+                             * NULL where the sum over parts is meaningless */
 } fl_series;
 
-/* Read a table as fl_record_open() and fl_record_next() do, and apply the cut.
- * 0, or -1 with their errors, or FL_INPUT when the cut leaves nothing. */
-int fl_series_read(fl_series *s, const char *path, const fl_record_selection *ask, fl_err *err);
+/* Read a table with fl_record_open() and fl_record_next(), and apply the cut.
+ * 0, or -1 with their errors, or FL_INPUT when no row is left. */
+int fl_series_read(fl_series *s, const char *path, const fl_record_selection *selection, fl_err *err);
 
 /* Accepts a zeroed struct and leaves one. */
 void fl_series_free(fl_series *s);

@@ -7,29 +7,30 @@
 #include "stat/resample.h"
 #include "stat/signal_view.h"
 
-const char *fl_filter_name(int pass)
+const char *fl_filter_name(int kind)
 {
     static const char *const name[FL_FILTER_KINDS] = {"low", "high", "band", "mean"};
-    return name[pass];
+    return name[kind];
 }
 
-static int design(fl_butterworth *f, double fs, const fl_signal_view_settings *ask, fl_err *err)
+static int design_filter(fl_butterworth *f, double fs, const fl_signal_view_settings *settings, fl_err *err)
 {
-    switch (ask->kind) {
-    case FL_FILTER_HIGH: return fl_butterworth_high(f, ask->order, ask->filter, fs, err);
-    case FL_FILTER_BAND: return fl_butterworth_band(f, ask->order, ask->filter, ask->upper, fs, err);
-    default: return fl_butterworth_low(f, ask->order, ask->filter, fs, err);
+    switch (settings->kind) {
+    case FL_FILTER_HIGH: return fl_butterworth_high(f, settings->order, settings->filter, fs, err);
+    case FL_FILTER_BAND:
+        return fl_butterworth_band(f, settings->order, settings->filter, settings->upper, fs, err);
+    default: return fl_butterworth_low(f, settings->order, settings->filter, fs, err);
     }
 }
 
-static int filter(fl_signal_view *v, const fl_series *s, const double *x, const fl_signal_view_settings *ask,
-                  fl_err *err)
+static int apply_filter(fl_signal_view *v, const fl_series *s, const double *x,
+                        const fl_signal_view_settings *settings, fl_err *err)
 {
     const int32_t n = s->n;
-    const int mean = ask->kind == FL_FILTER_MEAN,
+    const int mean = settings->kind == FL_FILTER_MEAN,
               even = mean || fl_resample_common_interval(n, s->edge) > 0.0;
     fl_butterworth f;
-    if (!mean && design(&f, n / (s->edge[n] - s->edge[0]), ask, err)) return -1;
+    if (!mean && design_filter(&f, n / (s->edge[n] - s->edge[0]), settings, err)) return -1;
     v->owned = fl_alloc(3 * (int64_t)n + 1, sizeof *v->owned, err);
     if (!v->owned) return -1;
     double *y = v->owned, *t = y + n, *edge = t + n;
@@ -45,26 +46,27 @@ static int filter(fl_signal_view *v, const fl_series *s, const double *x, const 
     v->x = y;
     v->t = t;
     v->edge = edge;
-    return mean ? fl_moving_mean(n, s->edge, x, ask->filter, y, err)
+    return mean ? fl_moving_mean(n, s->edge, x, settings->filter, y, err)
                 : fl_butterworth_zero_phase(&f, n, y, y, err);
 }
 
-static int describe(fl_signal_view *v, const fl_signal_view_settings *ask, fl_err *err)
+static int compute_stats(fl_signal_view *v, const fl_signal_view_settings *settings, fl_err *err)
 {
     int rc = -1;
     double *w = fl_alloc(v->n, sizeof *w, err);
     if (!w) return -1;
     for (int32_t k = 0; k < v->n; k++) w[k] = v->edge[k + 1] - v->edge[k];
     fl_compute_moments(v->n, v->x, w, &v->stats);
-    v->quantile = fl_alloc(ask->quantiles, sizeof *v->quantile, err);
-    if (v->quantile) rc = fl_compute_quantiles(v->n, v->x, w, ask->quantiles, ask->p, v->quantile, err);
+    v->quantile = fl_alloc(settings->quantiles, sizeof *v->quantile, err);
+    if (v->quantile)
+        rc = fl_compute_quantiles(v->n, v->x, w, settings->quantiles, settings->p, v->quantile, err);
     free(w);
     return rc;
 }
 
-static int rank(fl_signal_view *v, const fl_signal_view_settings *ask, fl_err *err)
+static int rank_peaks(fl_signal_view *v, const fl_signal_view_settings *settings, fl_err *err)
 {
-    if (fl_peaks_rayleigh(v->n, v->x, ask->ratio, ask->threshold, &v->peaks, err)) return -1;
+    if (fl_peaks_rayleigh(v->n, v->x, settings->ratio, settings->threshold, &v->peaks, err)) return -1;
     const int32_t n = v->peaks.n;
     double *value = fl_alloc(n, sizeof *value, err);
     v->peak_rank = value ? fl_alloc(n, sizeof *v->peak_rank, err) : NULL;
@@ -78,11 +80,12 @@ static int rank(fl_signal_view *v, const fl_signal_view_settings *ask, fl_err *e
 }
 
 int fl_signal_view_make(fl_signal_view *v, const fl_series *s, int32_t part, int32_t signal,
-                        const fl_signal_view_settings *ask, fl_err *err)
+                        const fl_signal_view_settings *settings, fl_err *err)
 {
     const double *x = s->x[(int64_t)part * s->signals + signal];
     *v = (fl_signal_view){.n = s->n, .t = s->t, .edge = s->edge, .x = x};
-    if ((ask->filter > 0.0 && filter(v, s, x, ask, err)) || describe(v, ask, err) || rank(v, ask, err)) {
+    if ((settings->filter > 0.0 && apply_filter(v, s, x, settings, err)) || compute_stats(v, settings, err) ||
+        rank_peaks(v, settings, err)) {
         fl_signal_view_free(v);
         return -1;
     }

@@ -15,7 +15,7 @@ int fl_multiset_add(fl_multiset *v, double x, int64_t count, fl_err *err)
     return 0;
 }
 
-static int rising(const void *a, const void *b)
+static int compare_entries(const void *a, const void *b)
 {
     const fl_multiset_entry *p = a, *q = b;
     return (p->x > q->x) - (p->x < q->x);
@@ -24,7 +24,7 @@ static int rising(const void *a, const void *b)
 void fl_multiset_sort(fl_multiset *v)
 {
     int32_t n = 0;
-    if (v->n) qsort(v->v, (size_t)v->n, sizeof *v->v, rising);
+    if (v->n) qsort(v->v, (size_t)v->n, sizeof *v->v, compare_entries);
     for (int32_t k = 0; k < v->n; k++) {
         if (n && v->v[n - 1].x == v->v[k].x) v->v[n - 1].count += v->v[k].count;
         else v->v[n++] = v->v[k];
@@ -48,8 +48,8 @@ static int add_values(fl_multiset *v, const fl_multiset *other, fl_err *err)
 
 /* --- signals -------------------------------------------------------------------------------------------- */
 
-/* The order in which components are told, then that of the alphabet. */
-static int order_signals(const char *a, const char *b)
+/* Components of force in their usual order, then the others in alphabetical order. */
+static int compare_signals(const char *a, const char *b)
 {
     static const char *const known[] = {"fx", "fy", "fz", "fh", "f", "mx", "my", "mz"};
     enum { KNOWN = sizeof known / sizeof *known };
@@ -59,13 +59,13 @@ static int order_signals(const char *a, const char *b)
     return i != j ? i - j : strcmp(a, b);
 }
 
-static int order_parts(const char *a, const char *b)
+static int compare_parts(const char *a, const char *b)
 {
     const int ta = strcmp(a, "total") == 0, tb = strcmp(b, "total") == 0;
     return ta != tb ? ta - tb : strcmp(a, b);
 }
 
-static void empty_signal(fl_summary_signal *s)
+static void clear_signal(fl_summary_signal *s)
 {
     char *const part = s->part, *const signal = s->signal, *const unit = s->unit;
     for (int k = 0; k < 5; k++) fl_exact_free(&s->sum[k]);
@@ -80,7 +80,7 @@ static void empty_signal(fl_summary_signal *s)
 
 static void free_signal(fl_summary_signal *s)
 {
-    empty_signal(s);
+    clear_signal(s);
     free(s->part);
     free(s->signal);
     free(s->unit);
@@ -90,11 +90,11 @@ static void free_signal(fl_summary_signal *s)
 fl_summary_signal *fl_summary_get_signal(fl_summary *s, const char *part, const char *signal,
                                          const char *unit, const char *name, fl_err *err)
 {
-    int32_t lo = 0, hi = s->n; /* entries before lo come earlier, those from hi on do not */
+    int32_t lo = 0, hi = s->n; /* entries before lo sort earlier, entries from hi on do not */
     while (lo < hi) {
         const int32_t k = lo + (hi - lo) / 2;
-        const int c = order_parts(s->entry[k].part, part);
-        if (c < 0 || (c == 0 && order_signals(s->entry[k].signal, signal) < 0)) lo = k + 1;
+        const int c = compare_parts(s->entry[k].part, part);
+        if (c < 0 || (c == 0 && compare_signals(s->entry[k].signal, signal) < 0)) lo = k + 1;
         else hi = k;
     }
     if (lo < s->n && strcmp(s->entry[lo].part, part) == 0 && strcmp(s->entry[lo].signal, signal) == 0) {
@@ -144,14 +144,14 @@ static int merge_signal(fl_summary_signal *s, const fl_summary_signal *t, fl_err
 
 int fl_summary_copy_signal(fl_summary_signal *to, const fl_summary_signal *from, fl_err *err)
 {
-    empty_signal(to);
+    clear_signal(to);
     return merge_signal(to, from, err);
 }
 
 /* --- history -------------------------------------------------------------------------------------------- */
 
-/* The end of the chain that begins at text: past the line of a summary, or past all. */
-static const char *end_of_chain(const char *text)
+/* The end of the chain that begins at text: behind the line of a summary, or behind all lines. */
+static const char *chain_end(const char *text)
 {
     while (*text) {
         const char *line = text, *end = strchr(line, '\n');
@@ -162,12 +162,12 @@ static const char *end_of_chain(const char *text)
     return text;
 }
 
-/* Insert one chain where it belongs among chains in order, unless it is there. */
+/* Insert one chain into the sorted chains unless it is present. */
 static int insert_chain(fl_summary *s, const char *chain, size_t len, fl_err *err)
 {
     const char *at = s->history ? s->history : "";
     while (*at) {
-        const char *end = end_of_chain(at);
+        const char *end = chain_end(at);
         const size_t n = (size_t)(end - at), less = n < len ? n : len;
         const int c = memcmp(at, chain, less);
         if (c == 0 && n == len) return 0;
@@ -188,17 +188,17 @@ static int insert_chain(fl_summary *s, const char *chain, size_t len, fl_err *er
 int fl_summary_add_history(fl_summary *s, const char *lines, fl_err *err)
 {
     while (lines && *lines) {
-        const char *end = end_of_chain(lines);
+        const char *end = chain_end(lines);
         if (insert_chain(s, lines, (size_t)(end - lines), err)) return -1;
         lines = end;
     }
     return 0;
 }
 
-/* --- all of it ------------------------------------------------------------------------------------------ */
+/* --- merge ---------------------------------------------------------------------------------------------- */
 
-static int check_ask(const fl_summary_settings *a, const fl_summary_settings *b, const char *name,
-                     fl_err *err)
+static int check_settings(const fl_summary_settings *a, const fl_summary_settings *b, const char *name,
+                          fl_err *err)
 {
     static const char what[] = "%s: its %s %g, that of the other runs %g: they do not add up";
     if (a->separation != b->separation)
@@ -217,7 +217,7 @@ int fl_summary_merge(fl_summary *s, const fl_summary *other, const char *name, f
 {
     if (other->n == 0) return 0;
     if (s->n == 0) s->settings = other->settings;
-    if (check_ask(&s->settings, &other->settings, name, err)) return -1;
+    if (check_settings(&s->settings, &other->settings, name, err)) return -1;
     for (int32_t k = 0; k < other->n; k++) {
         const fl_summary_signal *t = &other->entry[k];
         fl_summary_signal *to = fl_summary_get_signal(s, t->part, t->signal, t->unit, name, err);

@@ -21,8 +21,8 @@ typedef struct {
     const fl_summary_signal *s; /* NULL for the settings */
 } writer;
 
-/* part, signal, unit, item; then from, to, count and value, of which NAN is printed as -. */
-static void put(const writer *w, const char *item, double from, double to, double count, double value)
+/* part, signal, unit, item; then from, to, count and value; NAN is printed as -. */
+static void write_item(const writer *w, const char *item, double from, double to, double count, double value)
 {
     const double x[] = {from, to, count, value};
     char buf[FL_NUMBER_LEN];
@@ -33,23 +33,23 @@ static void put(const writer *w, const char *item, double from, double to, doubl
     putc('\t', w->f);
 }
 
-static void put_exact(const writer *w, const char *item, double from, double to, double count,
-                      const fl_exact_sum *sum)
+static void write_exact(const writer *w, const char *item, double from, double to, double count,
+                        const fl_exact_sum *sum)
 {
-    put(w, item, from, to, count, fl_exact_value(sum));
+    write_item(w, item, from, to, count, fl_exact_value(sum));
     fl_exact_print(w->f, sum);
     putc('\n', w->f);
 }
 
-static int put_classes(const writer *w, const char *item, const fl_log_histogram *c, double unit, int timed,
-                       fl_err *err)
+static int write_classes(const writer *w, const char *item, const fl_log_histogram *c, double unit, int timed,
+                         fl_err *err)
 {
     fl_log_bin *sorted;
     if (fl_log_histogram_sort(c, &sorted, err)) return -1;
     for (int32_t k = 0; k < c->n; k++) {
         const fl_log_bin *s = &sorted[k];
-        put(w, item, fl_log_bin_lower(s->key), fl_log_bin_upper(s->key), unit * (double)s->n,
-            timed ? fl_fixed_time_seconds(s->time) : NAN);
+        write_item(w, item, fl_log_bin_lower(s->key), fl_log_bin_upper(s->key), unit * (double)s->n,
+                   timed ? fl_fixed_time_seconds(s->time) : NAN);
         if (timed)
             fprintf(w->f, "%llu:%016llx\n", (unsigned long long)s->time.seconds,
                     (unsigned long long)s->time.part);
@@ -59,10 +59,10 @@ static int put_classes(const writer *w, const char *item, const fl_log_histogram
     return 0;
 }
 
-static void put_values(const writer *w, const char *item, const fl_multiset *v)
+static void write_values(const writer *w, const char *item, const fl_multiset *v)
 {
     for (int32_t k = 0; k < v->n; k++) {
-        put(w, item, NAN, NAN, (double)v->v[k].count, v->v[k].x);
+        write_item(w, item, NAN, NAN, (double)v->v[k].count, v->v[k].x);
         fputs("-\n", w->f);
     }
 }
@@ -72,33 +72,33 @@ int fl_summary_write(FILE *f, fl_summary *s, fl_err *err)
     writer w = {.f = f};
     fprintf(f, "#summary 1\n%s", s->history ? s->history : "");
     for (int k = 0; k < COLUMNS; k++) fprintf(f, "%s%c", COLUMN[k], k + 1 < COLUMNS ? '\t' : '\n');
-    put(&w, "separation", NAN, NAN, NAN, s->settings.separation);
+    write_item(&w, "separation", NAN, NAN, NAN, s->settings.separation);
     fputs("-\n", f);
-    put(&w, "threshold", NAN, NAN, NAN, s->settings.threshold);
+    write_item(&w, "threshold", NAN, NAN, NAN, s->settings.threshold);
     fputs("-\n", f);
-    put(&w, "block_length", NAN, NAN, NAN, s->settings.block);
+    write_item(&w, "block_length", NAN, NAN, NAN, s->settings.block);
     fputs("-\n", f);
-    put(&w, "rule", NAN, NAN, NAN, NAN);
+    write_item(&w, "rule", NAN, NAN, NAN, NAN);
     fprintf(f, "%s\n", fl_rainflow_rule_name(s->settings.rule));
-    put(&w, "residue", NAN, NAN, NAN, NAN);
+    write_item(&w, "residue", NAN, NAN, NAN, NAN);
     fprintf(f, "%s\n", fl_residue_name(s->settings.residue));
     for (int32_t i = 0; i < s->n; i++) {
         fl_summary_signal *t = &s->entry[i];
         w.s = t;
         fl_multiset_sort(&t->block);
         for (int k = 0; k < FL_RUN_VALUES; k++) fl_multiset_sort(&t->run[k]);
-        put_exact(&w, SUM[0], t->from, t->to, (double)t->rows, &t->sum[0]);
-        for (int k = 1; k < 5; k++) put_exact(&w, SUM[k], NAN, NAN, NAN, &t->sum[k]);
-        put(&w, "min", t->t_min, t->t_min, NAN, t->min);
+        write_exact(&w, SUM[0], t->from, t->to, (double)t->rows, &t->sum[0]);
+        for (int k = 1; k < 5; k++) write_exact(&w, SUM[k], NAN, NAN, NAN, &t->sum[k]);
+        write_item(&w, "min", t->t_min, t->t_min, NAN, t->min);
         fputs("-\n", f);
-        put(&w, "max", t->t_max, t->t_max, NAN, t->max);
+        write_item(&w, "max", t->t_max, t->t_max, NAN, t->max);
         fputs("-\n", f);
-        put_exact(&w, "peaks", NAN, NAN, (double)t->peaks, &t->peak_sum);
-        for (int k = 0; k < FL_RUN_VALUES; k++) put_values(&w, RUN[k], &t->run[k]);
-        put_values(&w, "block", &t->block);
-        if (put_classes(&w, "level", &t->level, 1.0, 1, err) ||
-            put_classes(&w, "peak", &t->peak, 1.0, 0, err) ||
-            put_classes(&w, "cycle", &t->cycle, 0.5, 0, err))
+        write_exact(&w, "peaks", NAN, NAN, (double)t->peaks, &t->peak_sum);
+        for (int k = 0; k < FL_RUN_VALUES; k++) write_values(&w, RUN[k], &t->run[k]);
+        write_values(&w, "block", &t->block);
+        if (write_classes(&w, "level", &t->level, 1.0, 1, err) ||
+            write_classes(&w, "peak", &t->peak, 1.0, 0, err) ||
+            write_classes(&w, "cycle", &t->cycle, 0.5, 0, err))
             return -1;
     }
     return 0;
@@ -112,49 +112,49 @@ typedef struct {
     fl_table t;
     int32_t col[COLUMNS];
     fl_summary s;
-    int settings;            /* those that have been read */
+    int settings;            /* bits of the settings read so far */
     fl_summary_signal *last; /* the signal of the row before */
-    int items;               /* of it: time 1, sum1 2, ... sum4 16, min 32, max 64, peaks 128 */
+    int items;               /* its items so far: time 1, sum1 2, ... sum4 16, min 32, max 64, peaks 128 */
 } reader;
 
 enum { MIN = 32, MAX = 64, PEAKS = 128, ITEMS = 255 };
 
-static const char *word(const reader *r, int column) { return fl_table_word(&r->t, r->col[column]); }
+static const char *word_of(const reader *r, int column) { return fl_table_word(&r->t, r->col[column]); }
 
-static int number(reader *r, int column, double *x, fl_err *err)
+static int read_number(reader *r, int column, double *x, fl_err *err)
 {
     if (fl_table_f64(&r->t, r->col[column], x, err)) return -1;
-    /* Sums of fourth powers are as large as any double; they are not used, their exact ones are. */
+    /* No bound: sums of fourth powers may be any double.  Only the exact sums are used. */
     return 0;
 }
 
-static int bounded(reader *r, int column, double *x, fl_err *err)
+static int read_bounded(reader *r, int column, double *x, fl_err *err)
 {
-    if (number(r, column, x, err)) return -1;
+    if (read_number(r, column, x, err)) return -1;
     if (fabs(*x) <= 1e100) return 0;
-    return fl_text_fail(&r->t.text, err, "%s is %g, at most 1e+100 was expected", COLUMN[column], *x);
+    return fl_text_fail(&r->t.text, err, "%s is %g, expected at most 1e+100", COLUMN[column], *x);
 }
 
-/* A whole number of units from lo on, small enough for a double to be exact. */
-static int count_of(reader *r, double unit, int64_t lo, int64_t *n, fl_err *err)
+/* Read a whole number of units, at least lo, small enough for a double to be exact. */
+static int read_count(reader *r, double unit, int64_t lo, int64_t *n, fl_err *err)
 {
     double x;
-    if (number(r, COUNT, &x, err)) return -1;
+    if (read_number(r, COUNT, &x, err)) return -1;
     x /= unit;
     if (x >= (double)lo && x <= 0x1p53 && x == floor(x)) {
         *n = (int64_t)x;
         return 0;
     }
-    return fl_text_fail(&r->t.text, err, "count is \"%.40s\", a whole number of %s from %g on is expected",
-                        word(r, COUNT), unit < 1.0 ? "halves" : "rows", unit * (double)lo);
+    return fl_text_fail(&r->t.text, err, "count is \"%.40s\", expected a whole number of %s, at least %g",
+                        word_of(r, COUNT), unit < 1.0 ? "halves" : "rows", unit * (double)lo);
 }
 
-static int find_word(reader *r, const char *(*name)(int), int n, int *k, fl_err *err)
+static int read_choice(reader *r, const char *(*name)(int), int n, int *k, fl_err *err)
 {
     for (*k = 0; *k < n; ++*k)
-        if (strcmp(word(r, EXACT), name(*k)) == 0) return 0;
-    return fl_text_fail(&r->t.text, err, "%s is \"%.40s\", which is not known", word(r, ITEM),
-                        word(r, EXACT));
+        if (strcmp(word_of(r, EXACT), name(*k)) == 0) return 0;
+    return fl_text_fail(&r->t.text, err, "%s is \"%.40s\", which is not known", word_of(r, ITEM),
+                        word_of(r, EXACT));
 }
 
 static int read_setting(reader *r, fl_err *err)
@@ -162,16 +162,16 @@ static int read_setting(reader *r, fl_err *err)
     static const char *const name[] = {"separation", "threshold", "block_length", "rule", "residue"};
     double *const to[] = {&r->s.settings.separation, &r->s.settings.threshold, &r->s.settings.block};
     int k = 0, rc;
-    while (k < 5 && strcmp(word(r, ITEM), name[k]) != 0) k++;
+    while (k < 5 && strcmp(word_of(r, ITEM), name[k]) != 0) k++;
     if (k == 5)
-        return fl_text_fail(&r->t.text, err, "no setting is called %.60s, the nearest is %s", word(r, ITEM),
-                            fl_text_nearest(word(r, ITEM), name, 5));
+        return fl_text_fail(&r->t.text, err, "unknown setting %.60s, the nearest is %s", word_of(r, ITEM),
+                            fl_text_nearest(word_of(r, ITEM), name, 5));
     if (r->settings & 1 << k || r->last)
         return fl_text_fail(&r->t.text, err, "%s is given twice, or below the first signal", name[k]);
     r->settings |= 1 << k;
-    if (k == 3) return find_word(r, fl_rainflow_rule_name, FL_RAINFLOW_RULES, &r->s.settings.rule, err);
-    if (k == 4) return find_word(r, fl_residue_name, FL_RESIDUES, &r->s.settings.residue, err);
-    rc = bounded(r, VALUE, to[k], err);
+    if (k == 3) return read_choice(r, fl_rainflow_rule_name, FL_RAINFLOW_RULES, &r->s.settings.rule, err);
+    if (k == 4) return read_choice(r, fl_residue_name, FL_RESIDUES, &r->s.settings.residue, err);
+    rc = read_bounded(r, VALUE, to[k], err);
     if (rc == 0 && !(*to[k] >= 0.0)) rc = fl_text_fail(&r->t.text, err, "%s is below 0", name[k]);
     return rc;
 }
@@ -180,8 +180,8 @@ static int read_exact(reader *r, fl_exact_sum *sum, fl_err *err)
 {
     fl_err why = {0};
     double value;
-    if (number(r, VALUE, &value, err)) return -1;
-    if (fl_exact_read(sum, word(r, EXACT), &why))
+    if (read_number(r, VALUE, &value, err)) return -1;
+    if (fl_exact_read(sum, word_of(r, EXACT), &why))
         return why.code == FL_INPUT ? fl_text_fail(&r->t.text, err, "%s", why.text)
                                     : fl_fail(err, why.code, "%s", why.text);
     if (fl_exact_value(sum) == value) return 0;
@@ -191,7 +191,7 @@ static int read_exact(reader *r, fl_exact_sum *sum, fl_err *err)
 
 static int read_time(reader *r, fl_fixed_time *time, fl_err *err)
 {
-    const char *text = word(r, EXACT), *colon = strchr(text, ':');
+    const char *text = word_of(r, EXACT), *colon = strchr(text, ':');
     char digits[32];
     uint64_t part = 0;
     const size_t n = colon ? (size_t)(colon - text) : sizeof digits;
@@ -204,7 +204,7 @@ static int read_time(reader *r, fl_fixed_time *time, fl_err *err)
         if (fl_number_u64(digits, &time->seconds) == 0 && time->seconds < UINT64_C(1) << 62) return 0;
     }
     return fl_text_fail(&r->t.text, err,
-                        "exact is \"%.40s\", a time SECONDS:PART of 16 hexadecimal digits is expected", text);
+                        "exact is \"%.40s\", expected a time SECONDS:PART of 16 hexadecimal digits", text);
 }
 
 static int read_class(reader *r, fl_log_histogram *c, double unit, int timed, fl_err *err)
@@ -212,11 +212,12 @@ static int read_class(reader *r, fl_log_histogram *c, double unit, int timed, fl
     double from, to;
     fl_fixed_time time = {0, 0};
     int64_t n;
-    if (bounded(r, FROM, &from, err) || bounded(r, TO, &to, err) || count_of(r, unit, 1, &n, err)) return -1;
+    if (read_bounded(r, FROM, &from, err) || read_bounded(r, TO, &to, err) || read_count(r, unit, 1, &n, err))
+        return -1;
     const int32_t key = fl_log_bin_key(0.5 * from + 0.5 * to);
     if (fl_log_bin_lower(key) != from || fl_log_bin_upper(key) != to)
-        return fl_text_fail(&r->t.text, err, "%.40s to %.40s is no class of %s", word(r, FROM), word(r, TO),
-                            word(r, ITEM));
+        return fl_text_fail(&r->t.text, err, "%.40s to %.40s is not a class of %s", word_of(r, FROM),
+                            word_of(r, TO), word_of(r, ITEM));
     if (timed && read_time(r, &time, err)) return -1;
     return fl_log_histogram_add(c, key, n, time, err);
 }
@@ -225,26 +226,27 @@ static int read_values(reader *r, fl_multiset *v, fl_err *err)
 {
     double x;
     int64_t n;
-    if (bounded(r, VALUE, &x, err) || count_of(r, 1.0, 1, &n, err)) return -1;
+    if (read_bounded(r, VALUE, &x, err) || read_count(r, 1.0, 1, &n, err)) return -1;
     return fl_multiset_add(v, x, n, err);
 }
 
-static int once(reader *r, int bit, fl_err *err)
+static int check_once(reader *r, int bit, fl_err *err)
 {
     if (r->items & bit)
-        return fl_text_fail(&r->t.text, err, "%s of %.60s is given twice", word(r, ITEM), word(r, SIGNAL));
+        return fl_text_fail(&r->t.text, err, "%s of %.60s is given twice", word_of(r, ITEM),
+                            word_of(r, SIGNAL));
     r->items |= bit;
     return 0;
 }
 
 static int read_item(reader *r, fl_summary_signal *s, fl_err *err)
 {
-    const char *item = word(r, ITEM);
+    const char *item = word_of(r, ITEM);
     for (int k = 0; k < 5; k++) {
         if (strcmp(item, SUM[k]) != 0) continue;
-        if (once(r, 1 << k, err)) return -1;
-        if (k == 0 && (bounded(r, FROM, &s->from, err) || bounded(r, TO, &s->to, err) ||
-                       count_of(r, 1.0, 1, &s->rows, err)))
+        if (check_once(r, 1 << k, err)) return -1;
+        if (k == 0 && (read_bounded(r, FROM, &s->from, err) || read_bounded(r, TO, &s->to, err) ||
+                       read_count(r, 1.0, 1, &s->rows, err)))
             return -1;
         return read_exact(r, &s->sum[k], err);
     }
@@ -255,39 +257,45 @@ static int read_item(reader *r, fl_summary_signal *s, fl_err *err)
     if (strcmp(item, "peak") == 0) return read_class(r, &s->peak, 1.0, 0, err);
     if (strcmp(item, "cycle") == 0) return read_class(r, &s->cycle, 0.5, 0, err);
     if (strcmp(item, "min") == 0)
-        return once(r, MIN, err) || bounded(r, FROM, &s->t_min, err) || bounded(r, VALUE, &s->min, err) ? -1
-                                                                                                        : 0;
+        return check_once(r, MIN, err) || read_bounded(r, FROM, &s->t_min, err) ||
+                       read_bounded(r, VALUE, &s->min, err)
+                   ? -1
+                   : 0;
     if (strcmp(item, "max") == 0)
-        return once(r, MAX, err) || bounded(r, FROM, &s->t_max, err) || bounded(r, VALUE, &s->max, err) ? -1
-                                                                                                        : 0;
+        return check_once(r, MAX, err) || read_bounded(r, FROM, &s->t_max, err) ||
+                       read_bounded(r, VALUE, &s->max, err)
+                   ? -1
+                   : 0;
     if (strcmp(item, "peaks") == 0)
-        return once(r, PEAKS, err) || count_of(r, 1.0, 0, &s->peaks, err) ? -1
-                                                                          : read_exact(r, &s->peak_sum, err);
+        return check_once(r, PEAKS, err) || read_count(r, 1.0, 0, &s->peaks, err)
+                   ? -1
+                   : read_exact(r, &s->peak_sum, err);
     return fl_text_fail(&r->t.text, err, "a summary has no item %.60s", item);
 }
 
-static int64_t count_all(const fl_log_histogram *c)
+static int64_t count_values(const fl_log_histogram *c)
 {
     int64_t n = 0;
     for (int32_t k = 0; k < c->cap; k++) n += c->slot[k].n;
     return n;
 }
 
-/* The rows of a signal are complete; do they belong together? */
+/* The rows of a signal are complete: check that they are consistent. */
 static int check_signal(const reader *r, fl_err *err)
 {
     const fl_summary_signal *s = r->last;
     const fl_text *t = &r->t.text;
     if (!s) return 0;
     if (r->items != ITEMS)
-        return fl_text_fail(
-            t, err, "%.60s of %.60s is not complete: time, sum1 to sum4, min, max and peaks are expected",
-            s->signal, s->part);
+        return fl_text_fail(t, err,
+                            "%.60s of %.60s is not complete, expected time, sum1 to sum4, min, max and peaks",
+                            s->signal, s->part);
     if (!(s->from < s->to) || !(fl_exact_value(&s->sum[0]) > 0.0) || !(s->min <= s->max))
         return fl_text_fail(t, err, "%.60s of %.60s has no extent: from %g to %g s, from %g to %g", s->signal,
                             s->part, s->from, s->to, s->min, s->max);
-    if (count_all(&s->level) != s->rows || count_all(&s->peak) != s->peaks)
-        return fl_text_fail(t, err, "%.60s of %.60s has %lld rows and %lld peaks, its classes hold others",
+    if (count_values(&s->level) != s->rows || count_values(&s->peak) != s->peaks)
+        return fl_text_fail(t, err,
+                            "%.60s of %.60s has %lld rows and %lld peaks, its classes hold other numbers",
                             s->signal, s->part, (long long)s->rows, (long long)s->peaks);
     for (int k = 0; k < FL_RUN_VALUES; k++) {
         const int64_t n = fl_multiset_size(&s->run[k]), runs = fl_multiset_size(&s->run[0]);
@@ -300,11 +308,11 @@ static int check_signal(const reader *r, fl_err *err)
 
 static int read_row(reader *r, fl_err *err)
 {
-    const char *part = word(r, PART), *signal = word(r, SIGNAL), *unit = word(r, UNIT);
+    const char *part = word_of(r, PART), *signal = word_of(r, SIGNAL), *unit = word_of(r, UNIT);
     if (strcmp(part, "-") == 0 && strcmp(signal, "-") == 0) return read_setting(r, err);
     if (r->settings != SETTINGS)
         return fl_text_fail(&r->t.text, err,
-                            "separation, threshold, block_length, rule and residue are expected first");
+                            "expected separation, threshold, block_length, rule and residue first");
     if (!r->last || strcmp(r->last->part, part) != 0 || strcmp(r->last->signal, signal) != 0) {
         const int32_t before = r->s.n;
         if (check_signal(r, err)) return -1;
@@ -312,8 +320,7 @@ static int read_row(reader *r, fl_err *err)
                                         fl_in_name(r->t.text.in), err);
         if (!r->last) return -1;
         if (r->s.n == before)
-            return fl_text_fail(&r->t.text, err, "rows of %.60s of %.60s do not stand together", signal,
-                                part);
+            return fl_text_fail(&r->t.text, err, "rows of %.60s of %.60s are not contiguous", signal, part);
         r->items = 0;
     }
     return read_item(r, r->last, err);

@@ -6,13 +6,13 @@
 #include "stat/uniform_step.h"
 #include "stat/resample.h"
 
-/* Times are decimal: the last step may miss the end of the record by rounding. */
+/* Times are decimal: the last step may end beyond the record by rounding. */
 static const double SLACK = 1e-9; /* of the record */
 
 enum { ROWS_MAX = INT32_MAX / 8 };
 
-static fl_resampling_loss lose(int32_t n, const double *edge, const double *x, int32_t m, const double *even,
-                               const double *y)
+static fl_resampling_loss loss_of(int32_t n, const double *edge, const double *x, int32_t m,
+                                  const double *even, const double *y)
 {
     fl_resampling_loss l = {0};
     int32_t k = 0;
@@ -32,8 +32,8 @@ static fl_resampling_loss lose(int32_t n, const double *edge, const double *x, i
     return l;
 }
 
-/* The rows of the record that the m steps cover: their number, with the last edge moved to the last step. */
-static int32_t cover(const fl_series *s, double end, double *edge)
+/* The number of rows that the steps cover, and their edges; the last edge is the end of the last step. */
+static int32_t covered_rows(const fl_series *s, double end, double *edge)
 {
     int32_t n = 0;
     while (n < s->n && s->edge[n] < end) {
@@ -49,14 +49,14 @@ int fl_resample_uniform(fl_series *s, double step, fl_resampling_loss *loss, fl_
     const double first = s->edge[0], span = s->edge[s->n] - first, steps = floor(span / step * (1.0 + SLACK));
     const int64_t pairs = (int64_t)s->parts * s->signals;
     if (!(steps >= 1.0) || steps > ROWS_MAX)
-        return fl_fail(err, FL_INPUT, "steps of %g s in a record of %g s: 1 to %d steps are expected", step,
-                       span, ROWS_MAX);
+        return fl_fail(err, FL_INPUT, "steps of %g s in a record of %g s, expected 1 to %d steps", step, span,
+                       ROWS_MAX);
     const int32_t m = (int32_t)steps;
     double *edge = fl_alloc((int64_t)s->n + 1, sizeof *edge, err);
     double *even = edge ? fl_alloc((int64_t)m + 1, sizeof *even, err) : NULL;
     double *t = even ? fl_alloc(m, sizeof *t, err) : NULL, **x = t ? fl_alloc(pairs, sizeof *x, err) : NULL;
     int rc = x ? 0 : -1;
-    const int32_t n = rc ? 0 : cover(s, first + step * m, edge);
+    const int32_t n = rc ? 0 : covered_rows(s, first + step * m, edge);
     for (int64_t k = 0; k < pairs && rc == 0; k++) {
         if (loss) loss[k] = (fl_resampling_loss){0};
         if (!s->x[k]) continue;
@@ -64,7 +64,7 @@ int fl_resample_uniform(fl_series *s, double step, fl_resampling_loss *loss, fl_
         rc = x[k] ? 0 : -1;
         if (rc) break;
         fl_resample_means(n, edge, s->x[k], m, even, x[k]);
-        if (loss) loss[k] = lose(n, edge, s->x[k], m, even, x[k]);
+        if (loss) loss[k] = loss_of(n, edge, s->x[k], m, even, x[k]);
     }
     free(edge);
     if (rc) {

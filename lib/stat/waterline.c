@@ -5,11 +5,11 @@
 #include "base/pi.h"
 #include "stat/waterline.h"
 
-/* Larger coordinates are no structure, and their squares must stay finite. */
+/* Largest coordinate of a structure [m]; squares stay finite. */
 static const double LARGEST = 1e9;
 
-/* The number up to the next of `ends` or the end of the text; *text goes on behind it. */
-static int number(const char **text, char end, double *x)
+/* Parse the number that ends at the character end, or at the end of the text; *text advances behind it. */
+static int parse_number(const char **text, char end, double *x)
 {
     char word[40];
     const size_t len = strcspn(*text, ",:");
@@ -23,17 +23,19 @@ static int number(const char **text, char end, double *x)
 static int make_circle(fl_waterline *w, const char *text)
 {
     w->circle = 1;
-    if (number(&text, ',', &w->x0) || number(&text, ',', &w->y0) || number(&text, '\0', &w->r)) return -1;
+    if (parse_number(&text, ',', &w->x0) || parse_number(&text, ',', &w->y0) ||
+        parse_number(&text, '\0', &w->r))
+        return -1;
     w->length = 2.0 * PI * w->r;
     return w->r > 0.0 ? 0 : -1;
 }
 
-static int make_chain(fl_waterline *w, const char *text)
+static int make_polyline(fl_waterline *w, const char *text)
 {
     while (*text) {
         const int32_t k = w->n;
-        if (k == FL_WATERLINE_MAX || number(&text, ',', &w->x[k])) return -1;
-        if (number(&text, strchr(text, ':') ? ':' : '\0', &w->y[k])) return -1;
+        if (k == FL_WATERLINE_MAX || parse_number(&text, ',', &w->x[k])) return -1;
+        if (parse_number(&text, strchr(text, ':') ? ':' : '\0', &w->y[k])) return -1;
         if (k) {
             const double d = hypot(w->x[k] - w->x[k - 1], w->y[k] - w->y[k - 1]);
             if (!(d > 0.0)) return -1;
@@ -50,12 +52,12 @@ int fl_waterline_make(fl_waterline *w, const char *text, fl_err *err)
     static const char word[] = "circle:";
     *w = (fl_waterline){0};
     const size_t len = strlen(text);
-    const int colon = len && text[len - 1] == ':'; /* nothing follows it */
+    const int colon = len && text[len - 1] == ':'; /* the last point is missing */
     const int bad = strncmp(text, word, sizeof word - 1) == 0 ? make_circle(w, text + sizeof word - 1)
                     : colon                                   ? -1
-                                                              : make_chain(w, text);
+                                                              : make_polyline(w, text);
     if (!bad) return 0;
-    return fl_fail(err, FL_USAGE, "\"%.80s\" is no waterline, circle:X,Y,R or X,Y:X,Y:... is expected", text);
+    return fl_fail(err, FL_USAGE, "\"%.80s\" is not a waterline, expected circle:X,Y,R or X,Y:X,Y:...", text);
 }
 
 double fl_waterline_nearest(const fl_waterline *w, double x, double y)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* waterline.h -- how far along the waterline of a structure a point lies.
+/* waterline.h -- arc length along the waterline of a structure.
  *
- * The waterline is a line in plan, a circle or a chain of straight pieces, along which s runs from 0 to its
- * length.  A circle runs counter-clockwise from +x as seen from above; a chain from its first point to its
- * last, and is closed where the last is the first. */
+ * The waterline is a curve in plan, a circle or a polyline, with arc length s from 0 to its length.  A circle
+ * runs counter-clockwise from +x as seen from above.  A polyline runs from its first point to its last and is
+ * closed where they coincide. */
 #ifndef FL_STAT_WATERLINE_H
 #define FL_STAT_WATERLINE_H
 #include <stdint.h>
@@ -14,16 +14,16 @@ enum { FL_WATERLINE_MAX = 1000 };
 typedef struct {
     int circle;
     double x0, y0, r;                                                     /* of a circle [m] */
-    int32_t n;                                                            /* points of a chain */
-    double x[FL_WATERLINE_MAX], y[FL_WATERLINE_MAX], s[FL_WATERLINE_MAX]; /* and how far along they lie [m] */
-    double length;                                                        /* of it all [m] */
+    int32_t n;                                                            /* points of a polyline */
+    double x[FL_WATERLINE_MAX], y[FL_WATERLINE_MAX], s[FL_WATERLINE_MAX]; /* and their arc length [m] */
+    double length;                                                        /* total [m] */
 } fl_waterline;
 
-/* "circle:X,Y,R", or "X,Y:X,Y:..." of 2 .. FL_WATERLINE_MAX points, no two neighbours the same.  text names
- * what was given.  0, or -1 with FL_USAGE in err. */
+/* "circle:X,Y,R", or "X,Y:X,Y:..." of 2 .. FL_WATERLINE_MAX points, no two neighbours equal.
+ * 0, or -1 with FL_USAGE in err. */
 int fl_waterline_make(fl_waterline *w, const char *text, fl_err *err);
 
-/* s of the point of the waterline nearest to (x, y) in plan, of several the first: 0 <= s <= length.  The
+/* s of the point of the waterline nearest to (x, y) in plan, the first of several: 0 <= s <= length.  The
  * centre of a circle has s = 0. */
 double fl_waterline_nearest(const fl_waterline *w, double x, double y);
 

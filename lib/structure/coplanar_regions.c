@@ -3,13 +3,13 @@
 #include <math.h>
 #include "base/array.h"
 
-/* Vertices within this fraction of the part's diagonal of a plane lie in it: coordinates that went through
- * 32-bit floats, as in STL, are rounded by 6e-8 of the largest of them. */
-#define FLAT 1e-6
-/* and two triangles whose normals differ by more than this bend all the same [rad] */
-#define BEND 1e-3
+/* Largest distance of a vertex from the plane of its region, relative to the diagonal of the part:
+ * coordinates that went through 32-bit floats, as in STL, are rounded by 6e-8 of the largest of them. */
+#define PLANE_TOL 1e-6
+/* Angle between normals above which two triangles are not one plane, whatever their size [rad]. */
+#define MAX_BEND 1e-3
 
-static int side_order(const void *x, const void *y)
+static int compare_sides(const void *x, const void *y)
 {
     const fl_region_side *p = x, *q = y;
     if (p->a != q->a) return p->a < q->a ? -1 : 1;
@@ -25,18 +25,18 @@ int fl_region_side_of(const fl_tri *t, int32_t a, int32_t b)
     return t->v[(k + 1) % 3] == b ? k : corner_of(t, b);
 }
 
-/* Both have an area, and are not one triangle that came twice. */
-static int faces_otherwise(const fl_coplanar_regions *f, int32_t t, int kt, int32_t u, int ku)
+/* True if both have an area, and are not one triangle twice. */
+static int is_misoriented(const fl_coplanar_regions *f, int32_t t, int kt, int32_t u, int ku)
 {
     return v3_norm2(f->normal[t]) > 0.0 && v3_norm2(f->normal[u]) > 0.0 &&
            f->p->t[t].v[(kt + 2) % 3] != f->p->t[u].v[(ku + 2) % 3];
 }
 
-/* Of three or more triangles at an edge, s[k .. end), the two that go on flat over it, if there are two: a
- * plate with a stiffener behind it has no rim there. */
-static int smoothest(const fl_coplanar_regions *f, int32_t k, int32_t end, int32_t *one, int32_t *two)
+/* Of three or more triangles at an edge, side[k .. end), finds the two that continue most nearly in one
+ * plane, if any: a plate with a stiffener behind it has no rim there. */
+static int find_smoothest(const fl_coplanar_regions *f, int32_t k, int32_t end, int32_t *one, int32_t *two)
 {
-    double best = 1.0 - 0.5 * BEND * BEND;
+    double best = 1.0 - 0.5 * MAX_BEND * MAX_BEND;
     const double least = best;
     for (int32_t i = k; i < end; i++) {
         for (int32_t j = i + 1; j < end; j++) {
@@ -62,7 +62,7 @@ static void join_sides(fl_coplanar_regions *f)
             f->neighbour[3 * t + k] = -1;
         }
     }
-    qsort(f->side, (size_t)ns, sizeof *f->side, side_order);
+    qsort(f->side, (size_t)ns, sizeof *f->side, compare_sides);
     f->closed = 1;
     f->misoriented[0] = f->misoriented[1] = -1;
     for (int32_t k = 0, end; k < ns; k = end) {
@@ -71,13 +71,13 @@ static void join_sides(fl_coplanar_regions *f)
         int32_t one = k, two = k + 1;
         if (end - k != 2) {
             f->closed = 0;
-            if (!smoothest(f, k, end, &one, &two)) continue;
+            if (!find_smoothest(f, k, end, &one, &two)) continue;
         }
         const int32_t t = f->side[one].t, u = f->side[two].t, a = f->side[k].a, b = f->side[k].b;
         const int kt = fl_region_side_of(&p->t[t], a, b), ku = fl_region_side_of(&p->t[u], a, b);
-        if (p->t[t].v[kt] == p->t[u].v[ku]) { /* both run the same way: turned against each other */
+        if (p->t[t].v[kt] == p->t[u].v[ku]) { /* both run the same way: opposite orientations */
             f->closed = 0;
-            if (f->misoriented[0] < 0 && faces_otherwise(f, t, kt, u, ku))
+            if (f->misoriented[0] < 0 && is_misoriented(f, t, kt, u, ku))
                 f->misoriented[0] = t, f->misoriented[1] = u;
             continue;
         }
@@ -86,23 +86,23 @@ static void join_sides(fl_coplanar_regions *f)
     }
 }
 
-/* Triangle t lies in the plane: its corners do, and its normal agrees as well as they tell it, which for a
- * triangle of small height is not well. */
-static int in_plane(const fl_coplanar_regions *f, int32_t t, fl_vec3 n, double c)
+/* True if triangle t lies in the plane: its corners do, and its normal agrees within its accuracy, which is
+ * poor for a triangle of small height. */
+static int is_in_plane(const fl_coplanar_regions *f, int32_t t, fl_vec3 n, double c)
 {
     const int32_t *v = f->p->t[t].v;
     const fl_vec3 *x = f->p->v;
     const fl_vec3 e = v3_sub(x[v[1]], x[v[0]]), g = v3_sub(x[v[2]], x[v[0]]), h = v3_sub(x[v[2]], x[v[1]]);
     const double longest = sqrt(fmax(v3_norm2(e), fmax(v3_norm2(g), v3_norm2(h))));
-    const double bend = BEND + f->tol * longest / v3_norm(v3_cross(e, g));
+    const double bend = MAX_BEND + f->tol * longest / v3_norm(v3_cross(e, g));
     if (1.0 - v3_dot(f->normal[t], n) > 0.5 * bend * bend) return 0;
     for (int k = 0; k < 3; k++)
         if (fabs(v3_dot(n, x[v[k]]) - c) > f->tol) return 0;
     return 1;
 }
 
-/* The plane of the triangles queue[0 .. n): their area vector, which the rim alone decides, is known better
- * than the normal of any of them; the offset lies halfway between their lowest and highest corner.  Returns
+/* Fits the plane of the triangles queue[0 .. n). Their area vector, which depends on the rim alone, is more
+ * accurate than any of their normals. The offset is midway between the lowest and the highest corner. Returns
  * half the distance of those two. */
 static double fit_plane(const fl_coplanar_regions *f, int32_t n, fl_vec3 *normal, double *offset)
 {
@@ -124,10 +124,10 @@ static double fit_plane(const fl_coplanar_regions *f, int32_t n, fl_vec3 *normal
     return 0.5 * (high - low);
 }
 
-/* Flood region f->regions from a triangle; queue[0 .. returned) is what it took.
- *   follow  fit the plane again whenever the region has doubled: that of a small triangle, whose corners are
- *           rounded, leaves a wide wall by more than the tolerance */
-static int32_t flood(fl_coplanar_regions *f, int32_t seed, int follow)
+/* Floods region f->regions from a triangle; its triangles are queue[0 .. returned).
+ *   follow  refit the plane whenever the region has doubled: the plane of a small triangle, with rounded
+ *           corners, misses a wide wall by more than the tolerance */
+static int32_t flood_region(fl_coplanar_regions *f, int32_t seed, int follow)
 {
     fl_vec3 n = f->normal[seed];
     double c = v3_dot(n, f->p->v[f->p->t[seed].v[0]]);
@@ -137,7 +137,7 @@ static int32_t flood(fl_coplanar_regions *f, int32_t seed, int follow)
     for (int32_t head = 0; head < tail; head++) {
         for (int k = 0; k < 3; k++) {
             const int32_t u = f->neighbour[3 * f->queue[head] + k];
-            if (u < 0 || f->region[u] >= 0 || !in_plane(f, u, n, c)) continue;
+            if (u < 0 || f->region[u] >= 0 || !is_in_plane(f, u, n, c)) continue;
             f->region[u] = f->regions;
             f->queue[tail++] = u;
         }
@@ -149,16 +149,16 @@ static int32_t flood(fl_coplanar_regions *f, int32_t seed, int follow)
     return tail;
 }
 
-/* The flat region of a triangle and its plane.  A plane that follows may creep round a gentle curve until
- * what it took at first no longer lies in it; then the first triangle's own plane decides. */
-static void take_region(fl_coplanar_regions *f, int32_t seed)
+/* Grows the region of a triangle and fits its plane. A plane that follows may creep round a gentle curve
+ * until its first triangles no longer lie in it; then the plane of the seed decides. */
+static void grow_region(fl_coplanar_regions *f, int32_t seed)
 {
     fl_vec3 n = f->normal[seed];
     double c;
-    int32_t taken = flood(f, seed, 1);
+    int32_t taken = flood_region(f, seed, 1);
     if (fit_plane(f, taken, &n, &c) > f->tol) {
         for (int32_t k = 0; k < taken; k++) f->region[f->queue[k]] = -1;
-        taken = flood(f, seed, 0);
+        taken = flood_region(f, seed, 0);
         fit_plane(f, taken, &n, &c);
     }
     f->region_normal[f->regions] = n;
@@ -168,22 +168,22 @@ static void take_region(fl_coplanar_regions *f, int32_t seed)
 typedef struct {
     double area;
     int32_t t;
-} sized;
+} sized_triangle;
 
-static int larger_first(const void *x, const void *y)
+static int compare_area(const void *x, const void *y)
 {
-    const sized *p = x, *q = y;
+    const sized_triangle *p = x, *q = y;
     if (p->area != q->area) return p->area > q->area ? -1 : 1;
     return (p->t > q->t) - (p->t < q->t);
 }
 
-/* The largest triangles first: their normals are the best known. */
+/* The largest triangles come first: their normals are the most accurate. */
 int fl_coplanar_regions_find(fl_coplanar_regions *f, const fl_part *p, fl_err *err)
 {
     const fl_aabb box = fl_part_aabb(p);
-    sized *order = fl_alloc(p->nt, sizeof *order, err);
+    sized_triangle *order = fl_alloc(p->nt, sizeof *order, err);
     f->p = p;
-    f->tol = FLAT * v3_norm(v3_sub(box.hi, box.lo));
+    f->tol = PLANE_TOL * v3_norm(v3_sub(box.hi, box.lo));
     f->normal = fl_alloc(p->nt, sizeof *f->normal, err);
     f->side = fl_alloc(3 * (int64_t)p->nt, sizeof *f->side, err);
     f->neighbour = fl_alloc(3 * (int64_t)p->nt, sizeof *f->neighbour, err);
@@ -200,11 +200,11 @@ int fl_coplanar_regions_find(fl_coplanar_regions *f, const fl_part *p, fl_err *e
     for (int32_t t = 0; t < p->nt; t++) {
         const fl_vec3 a = p->v[p->t[t].v[0]], b = p->v[p->t[t].v[1]], c = p->v[p->t[t].v[2]];
         const fl_vec3 n = v3_cross(v3_sub(b, a), v3_sub(c, a));
-        order[t] = (sized){v3_norm(n), t};
+        order[t] = (sized_triangle){v3_norm(n), t};
         f->normal[t] = v3_unit(n);
         f->region[t] = -1;
     }
-    qsort(order, (size_t)p->nt, sizeof *order, larger_first);
+    qsort(order, (size_t)p->nt, sizeof *order, compare_area);
     if (order[0].area == 0.0) {
         free(order);
         return fl_fail(err, FL_INPUT, "part %s: its triangles have no area", p->name);
@@ -212,7 +212,7 @@ int fl_coplanar_regions_find(fl_coplanar_regions *f, const fl_part *p, fl_err *e
     join_sides(f);
     for (int32_t o = 0; o < p->nt; o++) {
         const int32_t seed = order[o].t;
-        if (f->region[seed] < 0 && order[o].area > 0.0) take_region(f, seed);
+        if (f->region[seed] < 0 && order[o].area > 0.0) grow_region(f, seed);
     }
     free(order);
     return 0;

@@ -4,21 +4,22 @@
 #include "structure/mesh_contact.h"
 #include "narrow/closest_point.h"
 
-/* Two distances within this fraction of the size are one: rounding of the coordinates. */
-#define SAME 1e-12
-/* A point is on an edge or a face where it is within this fraction of the size: straight runs of edges are as
- * straight, and corners of faces as far from their planes, as that (coplanar_regions.c). */
-#define ON_EDGE 2e-6
-/* Where the way to a face is upright to it but for that cosine, no other tells the side. */
-#define UPRIGHT (1.0 - 1e-9)
+/* Distances within this fraction of the size are equal: rounding of the coordinates. */
+#define ROUNDING_TOL 1e-12
+/* A point lies on an edge or face if it is within this fraction of the size: straight runs of edges are
+ * straight, and corners of faces lie in their planes, to that (coplanar_regions.c). */
+#define EDGE_TOL 2e-6
+/* Cosine between the way to a face and its normal above which that face decides the side: another face of the
+ * same point could be more in front by 1e-9 of the distance at most. */
+#define NORMAL_COSINE (1.0 - 1e-9)
 
-/* A wall that is as deep in a core as that part of the deepest is known by what it bears. */
-#define KNOWN 0.8
+/* A wall that overlaps a core by this part of the largest overlap counts as loaded. */
+#define KNOWN_SHARE 0.8
 
-/* The point lies where the surface ends. */
-static int on_rim(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+/* True if the point lies on the rim of the surface. */
+static int is_on_rim(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
-    const double same = ON_EDGE * p->size;
+    const double same = EDGE_TOL * p->size;
     fl_bvh_walk at = fl_bvh_walk_from(&sh->edge_tree, sh->edge_box, x);
     for (int32_t k; (k = fl_bvh_walk_next(&at, same)) >= 0;) {
         const fl_edge e = p->edge[k];
@@ -30,18 +31,19 @@ static int on_rim(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
     return 0;
 }
 
-/* The nearest point of some faces, looked at one by one, in any order but for rounding. */
+/* Search for the nearest point of some faces, tried one by one; the result does not depend on their order but
+ * for rounding. */
 typedef struct {
     fl_closest_point at;
-    double least; /* distance, in any order at all */
-    double front; /* how far x is in front of the face */
+    double least; /* distance, whatever the order */
+    double front; /* height of x in front of the face */
     double same;
-    int32_t of; /* the face */
-} finding;
+    int32_t of; /* face */
+} nearest_search;
 
-/* Of faces whose nearest points agree within rounding (a shared edge or corner) the one that x is most in
- * front of tells the side: its plane passes between x and the others. */
-static inline void look_at(finding *b, const fl_poly *p, int32_t f, fl_vec3 x)
+/* Among faces whose nearest points agree within rounding (a shared edge or corner), the one that x is most in
+ * front of decides the side: its plane passes between x and the others. */
+static inline void try_face(nearest_search *b, const fl_poly *p, int32_t f, fl_vec3 x)
 {
     const double s = v3_dot(p->n[f], x) - p->c[f], most = b->at.d + b->same;
     if (fabs(s) > most) return;
@@ -51,14 +53,14 @@ static inline void look_at(finding *b, const fl_poly *p, int32_t f, fl_vec3 x)
     if (q.d < b->at.d - b->same || fabs(s) > fabs(b->front)) b->at = q, b->front = s, b->of = f;
 }
 
-/* How far x is in front of the surface: of the faces that meet in the nearest point the one that it is most
- * in front of tells, seen from that point, since the plane of a face may pass its corners by. */
-static double in_front(const finding *b, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+/* Height of x in front of the surface: the largest among the faces that meet in the nearest point, seen from
+ * that point, since the plane of a face may miss its corners. */
+static double height_in_front(const nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
     const fl_vec3 r = v3_sub(x, b->at.p);
-    const double same = ON_EDGE * p->size;
+    const double same = EDGE_TOL * p->size;
     double most = v3_dot(p->n[b->of], r);
-    if (fabs(most) > UPRIGHT * b->at.d) return most;
+    if (fabs(most) > NORMAL_COSINE * b->at.d) return most;
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, b->at.p);
     for (int32_t f; (f = fl_bvh_walk_next(&at, same)) >= 0;) {
         const double s = v3_dot(p->n[f], r);
@@ -67,42 +69,43 @@ static double in_front(const finding *b, const fl_poly *p, const fl_piece_mesh *
     return most;
 }
 
-/* With its sign: what is nearest to a rim is beside the surface, not behind it. */
-static fl_closest_point sided(const finding *b, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+/* Signs the distance: a point nearest to a rim is beside the surface, not behind it. */
+static fl_closest_point with_sign(const nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh,
+                                  fl_vec3 x)
 {
     fl_closest_point q = b->at;
-    if (in_front(b, p, sh, x) < 0.0 && !on_rim(p, sh, q.p)) {
+    if (height_in_front(b, p, sh, x) < 0.0 && !is_on_rim(p, sh, q.p)) {
         q.d = -q.d;
         q.n = v3_neg(q.n);
     }
     return q;
 }
 
-static finding nothing_yet(const fl_poly *p)
+static nearest_search empty_search(const fl_poly *p)
 {
-    return (finding){.at.d = INFINITY, .least = INFINITY, .same = SAME * p->size, .of = -1};
+    return (nearest_search){.at.d = INFINITY, .least = INFINITY, .same = ROUNDING_TOL * p->size, .of = -1};
 }
 
-static finding nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+static nearest_search find_nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
-    finding b = nothing_yet(p);
+    nearest_search b = empty_search(p);
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, x);
-    for (int32_t f; (f = fl_bvh_walk_next(&at, b.at.d + b.same)) >= 0;) look_at(&b, p, f, x);
+    for (int32_t f; (f = fl_bvh_walk_next(&at, b.at.d + b.same)) >= 0;) try_face(&b, p, f, x);
     return b;
 }
 
 /* Signed distance of x from the surface. */
-static fl_closest_point nearest_to(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+static fl_closest_point signed_nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
-    const finding b = nearest(p, sh, x);
-    return sided(&b, p, sh, x);
+    const nearest_search b = find_nearest(p, sh, x);
+    return with_sign(&b, p, sh, x);
 }
 
-/* Is x behind the surface, or may it come there when it moves by the margin?  Not when it is farther off than
- * that, and in front of every face that may become the nearest. */
-static int may_come_behind(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x, double margin)
+/* True if x is behind the surface, or may pass behind when it moves by the margin. That is excluded if x is
+ * farther away, and in front of every face that may become the nearest. */
+static int may_pass_behind(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x, double margin)
 {
-    const double d = nearest_to(p, sh, x).d, most = d + 2.0 * margin;
+    const double d = signed_nearest(p, sh, x).d, most = d + 2.0 * margin;
     if (d < margin) return 1;
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, x);
     for (int32_t f; (f = fl_bvh_walk_next(&at, most)) >= 0;) {
@@ -112,7 +115,7 @@ static int may_come_behind(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x,
     return 0;
 }
 
-static int32_t query(const fl_bvh *tree, const fl_aabb *box, fl_aabb q, int32_t **list, int32_t *cap)
+static int32_t query_boxes(const fl_bvh *tree, const fl_aabb *box, fl_aabb q, int32_t **list, int32_t *cap)
 {
     fl_err lost = {0};
     int32_t n = fl_bvh_query(tree, box, q, *list, *cap);
@@ -121,14 +124,14 @@ static int32_t query(const fl_bvh *tree, const fl_aabb *box, fl_aabb q, int32_t 
     return fl_bvh_query(tree, box, q, *list, *cap);
 }
 
-static int ascending(const void *a, const void *b)
+static int compare_int(const void *a, const void *b)
 {
     const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
     return (x > y) - (x < y);
 }
 
-/* Every feature of the core. */
-static int whole(fl_feature_set *r, const fl_poly *a)
+/* Lists every feature of the core. */
+static int list_all_features(fl_feature_set *r, const fl_poly *a)
 {
     fl_err lost = {0};
     if (fl_grow(&r->vertex, &r->vertex_cap, a->nv, sizeof *r->vertex, &lost) ||
@@ -144,19 +147,19 @@ static int whole(fl_feature_set *r, const fl_poly *a)
     return 0;
 }
 
-/* Faces within the reach, edges and corners within the radius; -1 when memory runs out. */
-static int around(fl_feature_set *r, const fl_poly *core, const fl_piece_mesh *sh, fl_aabb box, double ra,
-                  double reach)
+/* Lists faces within the reach, edges and corners within the radius; -1 when memory runs out. */
+static int list_near_features(fl_feature_set *r, const fl_poly *core, const fl_piece_mesh *sh, fl_aabb box,
+                              double ra, double reach)
 {
     fl_err lost = {0};
-    r->faces = query(&sh->tree, sh->box, aabb_grow(box, reach), &r->face, &r->face_cap);
+    r->faces = query_boxes(&sh->tree, sh->box, aabb_grow(box, reach), &r->face, &r->face_cap);
     r->edges = r->vertices = 0;
     if (r->faces <= 0) return r->faces;
-    qsort(r->face, (size_t)r->faces, sizeof *r->face, ascending);
+    qsort(r->face, (size_t)r->faces, sizeof *r->face, compare_int);
     box = aabb_grow(box, ra);
-    r->edges = query(&sh->edge_tree, sh->edge_box, box, &r->edge, &r->edge_cap);
+    r->edges = query_boxes(&sh->edge_tree, sh->edge_box, box, &r->edge, &r->edge_cap);
     if (r->edges < 0) return -1;
-    if (r->edges > 0) qsort(r->edge, (size_t)r->edges, sizeof *r->edge, ascending);
+    if (r->edges > 0) qsort(r->edge, (size_t)r->edges, sizeof *r->edge, compare_int);
     if (sh->corners && fl_grow(&r->vertex, &r->vertex_cap, sh->corners, sizeof *r->vertex, &lost)) return -1;
     for (int32_t k = 0; k < sh->corners; k++) {
         const fl_vec3 x = core->v[sh->corner[k]];
@@ -165,15 +168,15 @@ static int around(fl_feature_set *r, const fl_poly *core, const fl_piece_mesh *s
     return 0;
 }
 
-/* The vertices of the core that may be behind the surface: signed distances.  *behind is set when one is; the
- * places of those are added here. */
-static int core_vertices(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B,
-                         const fl_piece_mesh *sh, const fl_feature_pairs *l, double ra, int *behind)
+/* Evaluates the vertices of the core that may be behind the surface. Adds the contact points of those behind,
+ * and sets *behind if there are any. */
+static int add_vertices_behind(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B,
+                               const fl_piece_mesh *sh, const fl_feature_pairs *l, double ra, int *behind)
 {
     *behind = 0;
     for (int32_t k = 0; k < l->candidates; k++) {
         const int32_t v = l->candidate[k];
-        const fl_closest_point q = nearest_to(B->p, sh, w->va[v]);
+        const fl_closest_point q = signed_nearest(B->p, sh, w->va[v]);
         if (q.d >= 0.0) continue;
         *behind = 1;
         if (fl_patch_points_add_vertex(w, A, 0.0, v, q.n, ra - q.d)) return -1;
@@ -181,9 +184,9 @@ static int core_vertices(fl_patch_points *w, const fl_patch_core *A, const fl_pa
     return 0;
 }
 
-/* Some face of the core has all of the points beyond it by `far`: they are farther than that from the core.
- */
-static int beyond(const fl_patch_core *A, const fl_patch_core *B, const int32_t *at, int32_t n, double far)
+/* True if some face of the core has all of the points beyond it by `far`: they are farther than that from the
+ * core. */
+static int is_beyond(const fl_patch_core *A, const fl_patch_core *B, const int32_t *at, int32_t n, double far)
 {
     for (int32_t F = 0; F < A->p->nf; F++) {
         const double level = v3_dot(A->n[F], A->v[A->p->loop[A->p->first[F]]]) + far;
@@ -194,62 +197,62 @@ static int beyond(const fl_patch_core *A, const fl_patch_core *B, const int32_t 
     return 0;
 }
 
-/* Leave of the walls what is within `far` of the core. */
-static void leave_near(fl_feature_set *r, const fl_patch_core *A, const fl_patch_core *B, double far)
+/* Keeps the walls within `far` of the core. */
+static void keep_near(fl_feature_set *r, const fl_patch_core *A, const fl_patch_core *B, double far)
 {
     const fl_poly *p = B->p;
     int32_t n = 0;
     for (int32_t k = 0; k < r->faces; k++) {
         const int32_t f = r->face[k];
-        if (!beyond(A, B, p->loop + p->first[f], p->first[f + 1] - p->first[f], far)) r->face[n++] = f;
+        if (!is_beyond(A, B, p->loop + p->first[f], p->first[f + 1] - p->first[f], far)) r->face[n++] = f;
     }
     r->faces = n;
     n = 0;
     for (int32_t k = 0; k < r->edges; k++) {
         const fl_edge e = p->edge[r->edge[k]];
-        if (!beyond(A, B, (const int32_t[2]){e.a, e.b}, 2, far)) r->edge[n++] = r->edge[k];
+        if (!is_beyond(A, B, (const int32_t[2]){e.a, e.b}, 2, far)) r->edge[n++] = r->edge[k];
     }
     r->edges = n;
     n = 0;
     for (int32_t k = 0; k < r->vertices; k++)
-        if (!beyond(A, B, &r->vertex[k], 1, far)) r->vertex[n++] = r->vertex[k];
+        if (!is_beyond(A, B, &r->vertex[k], 1, far)) r->vertex[n++] = r->vertex[k];
     r->vertices = n;
 }
 
-/* The walls within reach, and what of them and of the core may have places, until the pair has moved by the
- * margin. */
-static int list_matches(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
-                        const fl_patch_core *B, const fl_piece_mesh *shell, double ra, double reach,
-                        fl_feature_pairs *l)
+/* Lists the walls within reach, and the features of them and of the core that may have contact points, until
+ * the pair has moved by the margin. */
+static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
+                              const fl_patch_core *B, const fl_piece_mesh *mesh, double ra, double reach,
+                              fl_feature_pairs *l)
 {
-    const double margin = fl_feature_pairs_margin(l, ra), same = SAME * (A->p->size + B->p->size),
-                 shy = margin + ON_EDGE * B->p->size;
-    fl_feature_set *walls = &near->of_shell, *all = &near->of_core;
+    const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * (A->p->size + B->p->size),
+                 margin_behind = margin + EDGE_TOL * B->p->size;
+    fl_feature_set *walls = &near->of_mesh, *all = &near->of_core;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
-    if (around(walls, B->p, shell, box, ra + margin, reach + margin)) return -1;
+    if (list_near_features(walls, B->p, mesh, box, ra + margin, reach + margin)) return -1;
     l->out_of_reach = walls->faces == 0;
     l->stores_planes = 1;
     l->candidates = 0;
     if (fl_reserve(&l->candidate, &l->candidate_cap, A->p->nv, sizeof *l->candidate)) return -1;
     for (int32_t v = 0; v < A->p->nv && !l->out_of_reach; v++)
-        if (may_come_behind(B->p, shell, w->va[v], shy)) l->candidate[l->candidates++] = v;
-    leave_near(walls, A, B, ra + margin + same);
-    return whole(all, A->p) || fl_feature_pairs_build(l, w, A, all, B, walls, ra, ra, margin) ||
+        if (may_pass_behind(B->p, mesh, w->va[v], margin_behind)) l->candidate[l->candidates++] = v;
+    keep_near(walls, A, B, ra + margin + same);
+    return list_all_features(all, A->p) || fl_feature_pairs_build(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_mesh_under_face_list(l, A, B)
                ? -1
                : 0;
 }
 
-/* Whether no face is in reach now: the list may be one of another time, and what sleeps by the distance has
- * to be told the same with a list that is new. */
-static int nothing_near(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                        const fl_piece_mesh *shell, double reach, double *distance)
+/* Sets *distance to reach if no face is in reach now. The list may be an old one, and the free travel
+ * computed from the distance has to be the same with a new list. */
+static int bound_distance(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
+                          const fl_piece_mesh *mesh, double reach, double *distance)
 {
-    fl_feature_set *walls = &near->of_shell;
+    fl_feature_set *walls = &near->of_mesh;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < a->nv; v++) box = aabb_add(box, w->va[v]);
-    walls->faces = query(&shell->tree, shell->box, aabb_grow(box, reach), &walls->face, &walls->face_cap);
+    walls->faces = query_boxes(&mesh->tree, mesh->box, aabb_grow(box, reach), &walls->face, &walls->face_cap);
     if (walls->faces < 0) return -1;
     if (walls->faces == 0) *distance = reach;
     return 0;
@@ -264,20 +267,21 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
     w->n = w->features = 0;
     w->couple = v3(0, 0, 0);
     *distance = reach;
-    if (!fl_feature_pairs_valid(l, &w->M, w->o) && list_matches(w, near, &A, &B, &b->mesh, ra, reach, l))
+    if (!fl_feature_pairs_valid(l, &w->M, w->o) &&
+        list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, l))
         return -1;
     if (l->out_of_reach) {
-        l->max_shift2 = 0.0; /* what is not near now is not known later */
+        l->max_shift2 = 0.0; /* not near now: no list is kept */
         return 0;
     }
-    *distance = ra; /* something is near: no bound is claimed */
-    if (core_vertices(w, &A, &B, &b->mesh, l, ra, &behind)) return -1;
-    if (behind) { /* what is farther behind than all faces reach is beyond the surface, not in it */
+    *distance = ra; /* a face is near: no bound is claimed */
+    if (add_vertices_behind(w, &A, &B, &b->mesh, l, ra, &behind)) return -1;
+    if (behind) { /* a vertex farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
-        if (nothing_near(w, near, a, &b->mesh, ra, &beside)) return -1;
+        if (bound_distance(w, near, a, &b->mesh, ra, &beside)) return -1;
         if (beside == ra) {
             w->n = 0;
-            return nothing_near(w, near, a, &b->mesh, reach, distance);
+            return bound_distance(w, near, a, &b->mesh, reach, distance);
         }
     }
     fl_feature_pairs rest;
@@ -285,23 +289,23 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
     if (fl_mesh_under_face_evaluate(w, l, &near->under_face, &A, &B, ra, far, rim, &rest) ||
         fl_feature_pairs_evaluate(w, &rest, &A, &B, ra, far, rim, 0.0))
         return -1;
-    return w->n ? 0 : nothing_near(w, near, a, &b->mesh, reach, distance);
+    return w->n ? 0 : bound_distance(w, near, a, &b->mesh, reach, distance);
 }
 
-/* The faces that the point may meet until it has moved by the margin: where it can touch one wall only those
- * that can be the nearest, else all in reach.  None where nothing is near enough: *distance tells how far. */
-static int list_point(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
-                      fl_feature_pairs *l, double *distance)
+/* Lists the faces that the point may meet until it has moved by the margin: those that can be the nearest if
+ * it can touch one wall only, else all in reach. None if nothing is near enough; then *distance is set. */
+static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
+                             fl_feature_pairs *l, double *distance)
 {
-    const double margin = fl_feature_pairs_margin(l, ra), same = SAME * b->core.size,
+    const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * b->core.size,
                  far = ra + margin + same;
     const fl_piece_mesh *sh = &b->mesh;
     const fl_vec3 x = w->va[0];
-    fl_feature_set *walls = &near->of_shell;
+    fl_feature_set *walls = &near->of_mesh;
     int32_t n = 0;
     l->candidates = 0;
     l->max_shift2 = 0.0;
-    *distance = nearest(&b->core, sh, x).least;
+    *distance = find_nearest(&b->core, sh, x).least;
     if (*distance > far) return 0;
     const double next = *distance + 2.0 * (margin + same);
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, x);
@@ -310,7 +314,7 @@ static int list_point(fl_patch_points *w, fl_mesh_contact_work *near, const fl_p
         if (fl_reserve(&walls->face, &walls->face_cap, (int64_t)n + 1, sizeof *walls->face)) return -1;
         walls->face[n++] = f;
     }
-    if (n > 1) qsort(walls->face, (size_t)n, sizeof *walls->face, ascending);
+    if (n > 1) qsort(walls->face, (size_t)n, sizeof *walls->face, compare_int);
     l->single_wall = fl_persistence_is_single(&sh->seams, &near->persistence, &b->core,
                                               &(fl_near_tiles){walls->face, n}, x, far);
     if (l->single_wall < 0 || fl_reserve(&l->candidate, &l->candidate_cap, n, sizeof *l->candidate))
@@ -330,15 +334,15 @@ int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const
     const fl_poly *core = &b->core;
     const fl_piece_mesh *sh = &b->mesh;
     const fl_vec3 x = w->va[0];
-    finding best = nothing_yet(core);
+    nearest_search best = empty_search(core);
     w->n = w->features = 0;
     w->couple = v3(0, 0, 0);
-    if (!fl_feature_pairs_valid(l, &w->M, w->o) && list_point(w, near, b, ra, l, distance)) return -1;
+    if (!fl_feature_pairs_valid(l, &w->M, w->o) && list_sphere_tiles(w, near, b, ra, l, distance)) return -1;
     if (l->candidates == 0) return 0;
-    for (int32_t c = 0; c < l->candidates; c++) look_at(&best, core, l->candidate[c], x);
-    const fl_closest_point q = sided(&best, core, sh, x);
+    for (int32_t c = 0; c < l->candidates; c++) try_face(&best, core, l->candidate[c], x);
+    const fl_closest_point q = with_sign(&best, core, sh, x);
     *distance = best.least;
-    if (best.least >= ra) return 0; /* also from behind */
+    if (best.least >= ra) return 0; /* from behind as well */
     return l->single_wall
                ? fl_patch_points_add_plain(w, x, q.n, ra - q.d, ra)
                : fl_persistence_points(&sh->seams, &near->persistence, w, core,
@@ -349,21 +353,21 @@ int fl_mesh_contact_contains(const fl_piece *b, fl_vec3 x)
 {
     for (int32_t e = 0; e < b->core.ne; e++)
         if (b->core.edge[e].left < 0 || b->core.edge[e].right < 0) return 0;
-    return nearest_to(&b->core, &b->mesh, x).d < 0.0;
+    return signed_nearest(&b->core, &b->mesh, x).d < 0.0;
 }
 
 int fl_mesh_contact_gap(fl_mesh_contact_work *near, const fl_vec3 *v, const fl_poly *a, const fl_piece *b,
                         double within, fl_gap *out)
 {
     const fl_poly *core = &b->core;
-    fl_feature_set *r = &near->of_shell;
+    fl_feature_set *r = &near->of_mesh;
     fl_err lost = {0};
     fl_vec3 *tile = NULL;
     int32_t cap = 0;
     fl_aabb box = aabb_empty();
     *out = (fl_gap){.d = INFINITY};
     for (int32_t k = 0; k < a->nv; k++) box = aabb_add(box, v[k]);
-    r->faces = query(&b->mesh.tree, b->mesh.box, aabb_grow(box, within), &r->face, &r->face_cap);
+    r->faces = query_boxes(&b->mesh.tree, b->mesh.box, aabb_grow(box, within), &r->face, &r->face_cap);
     for (int32_t k = 0; k < r->faces; k++) {
         const int32_t from = core->first[r->face[k]], n = core->first[r->face[k] + 1] - from;
         fl_gjk_cache cold = {0};
@@ -378,8 +382,8 @@ int fl_mesh_contact_gap(fl_mesh_contact_work *near, const fl_vec3 *v, const fl_p
     return r->faces < 0 || lost.code ? -1 : out->d < within;
 }
 
-/* The lowest of the points over a plane, or something lower than `enough` as soon as one is. */
-static double lowest_over(fl_vec3 n, fl_vec3 o, const fl_vec3 *v, int32_t points, double enough)
+/* Height of the lowest point above a plane, or any height below `enough` as soon as one is found. */
+static double lowest_above(fl_vec3 n, fl_vec3 o, const fl_vec3 *v, int32_t points, double enough)
 {
     const double level = v3_dot(n, o);
     double low = INFINITY;
@@ -391,15 +395,15 @@ double fl_mesh_contact_free_travel(fl_mesh_contact_work *near, const fl_vec3 *v,
                                    const fl_piece *b, double ra, double overlap, double part)
 {
     const fl_poly *core = &b->core;
-    const double known = ra - KNOWN * overlap;
+    const double known = ra - KNOWN_SHARE * overlap;
     double most = ra;
-    fl_feature_set *r = &near->of_shell;
+    fl_feature_set *r = &near->of_mesh;
     fl_aabb box = aabb_empty();
     for (int32_t k = 0; k < a->nv; k++) box = aabb_add(box, v[k]);
-    r->faces = query(&b->mesh.tree, b->mesh.box, aabb_grow(box, ra + most), &r->face, &r->face_cap);
+    r->faces = query_boxes(&b->mesh.tree, b->mesh.box, aabb_grow(box, ra + most), &r->face, &r->face_cap);
     for (int32_t k = 0; k < r->faces; k++) {
         const int32_t f = r->face[k];
-        const double low = lowest_over(core->n[f], core->v[core->loop[core->first[f]]], v, a->nv, known);
+        const double low = lowest_above(core->n[f], core->v[core->loop[core->first[f]]], v, a->nv, known);
         if (low > known) most = fmin(most, fmax(low - ra + part * part * overlap, part * (ra - low)));
     }
     return r->faces < 0 ? -1.0 : most;
@@ -408,6 +412,6 @@ double fl_mesh_contact_free_travel(fl_mesh_contact_work *near, const fl_vec3 *v,
 void fl_mesh_contact_work_free(fl_mesh_contact_work *near)
 {
     fl_persistence_work_free(&near->persistence);
-    fl_feature_set_free(&near->of_shell), fl_feature_set_free(&near->of_core);
+    fl_feature_set_free(&near->of_mesh), fl_feature_set_free(&near->of_core);
     fl_mesh_under_face_work_free(&near->under_face);
 }

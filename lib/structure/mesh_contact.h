@@ -1,52 +1,52 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* mesh_contact.h -- the places where a dilated convex core touches a surface that is not convex.
+/* mesh_contact.h -- contact of a dilated convex core with a surface that is not convex.
  *
- * The potential is that of patch_points.h, summed over the prisms over all faces, the wedges over the edges that
- * bend outward and the cones over the corners: seams between coplanar triangles are not there.  Where the
- * surface bends inward by less than 60 degrees points and edges count over the nearer of its faces
- * (feature_pairs.c); in a sharper inner corner every wall bears for itself.  Vertices behind the surface have one
- * distance, to the nearest face of all; what is nearest to the rim of an open surface is beside it, not
- * behind.  An open surface has one side: what has come round it to its back is as deep in it as it is far
- * from it.  Balls have a law of their own (persistence_contact.h). */
+ * The potential is that of patch_points.h, summed over the prisms over all faces, the wedges over convex
+ * edges and the cones over the corners; seams between coplanar triangles do not count. At a concave edge of
+ * less than 60 degrees, points and edges count over the nearer of its faces (feature_pairs.c). In a sharper
+ * inner corner every wall acts independently. A vertex behind the surface has one distance, to the nearest
+ * face. A point whose nearest point lies on the rim of an open surface is beside it, not behind. An open
+ * surface is one-sided: a core that has come round to its back overlaps it by its distance. Spheres have a
+ * law of their own (persistence_contact.h). */
 #ifndef FL_STRUCTURE_MESH_CONTACT_H
 #define FL_STRUCTURE_MESH_CONTACT_H
 #include "structure/structure.h"
 #include "patch/mesh_under_face.h"
 #include "narrow/gjk.h"
 
-/* Scratch for the faces and edges in reach, and for what lies under a face. */
+/* Scratch: faces and edges in reach, and what lies under a face. */
 typedef struct {
-    fl_feature_set of_shell, of_core;
+    fl_feature_set of_mesh, of_core;
     fl_persistence_work persistence;
     fl_mesh_under_face_work under_face;
 } fl_mesh_contact_work;
 
-/* All places of core a (radius ra) on the shell of piece b, as fl_patch_points_find();
- * after fl_patch_points_transform().  *distance is a lower bound of the distance of the core from the surface: reach
- * when no face comes that near, else ra.
- *   reach   how far to look, >= ra [m]
- *   l       the matches of the pair, as fl_patch_points_find() wants them
- * -1 when memory runs out. */
+/* Contact points of core a (radius ra) on the mesh of piece b, as fl_patch_points_find(), after
+ * fl_patch_points_transform(). *distance is a lower bound of the distance of the core from the surface: reach
+ * if no face is that near, else ra.
+ *   reach   search distance, >= ra [m]
+ *   l       feature pairs of the pair, as in fl_patch_points_find()
+ * Returns -1 when memory runs out. */
 int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
                            const fl_piece *b, double ra, double reach, fl_feature_pairs *l, double *distance);
 
-/* The same of a core that is a point, for laws that are not `patch`: the walls that it touches, for which
- * passes must have been made (persistence_contact.h).  *distance is that of the point, where nothing touches. */
+/* The same for a core that is a point, for laws other than `patch`: the walls that the sphere touches. Needs
+ * the seams of persistence_contact.h. *distance is that of the point if nothing touches. */
 int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
                            fl_feature_pairs *l, double *distance);
 
-/* The point, in the frame of b, lies behind a surface that has no rim. */
+/* True if the point, in the frame of b, lies behind a surface without a rim. */
 int fl_mesh_contact_contains(const fl_piece *b, fl_vec3 x);
 
-/* How far any point of the core may move before a wall that bears little or nothing bears more: until the
- * core is in it by part^2 of the largest overlap, or by `part` deeper than it was; ra at the most [m].  The
- * vertices v are those of core a in the frame of b.  -1 when memory runs out. */
+/* How far any point of the core may move before a wall with little or no load bears more: until it overlaps
+ * the core by part^2 of the largest overlap, or by `part` more than now; at most ra [m]. v: the vertices of
+ * core a in the frame of b. Returns -1 when memory runs out. */
 double fl_mesh_contact_free_travel(fl_mesh_contact_work *near, const fl_vec3 *v, const fl_poly *a,
                                    const fl_piece *b, double ra, double overlap, double part);
 
-/* The gap between the hull of the vertices v of core a, in the frame of b, and the surface: 1 where it is
- * below `within`, overlap set where a face of the surface cuts the core; else 0.  What is held has its
- * distance with the other sign, and n looks out.  -1 when memory runs out. */
+/* Gap between the hull of the vertices v of core a, in the frame of b, and the surface. Returns 1 if it is
+ * below `within`, with overlap set if a face of the surface cuts the core; else 0. A core enclosed by the
+ * surface has a negative distance, and n points out. Returns -1 when memory runs out. */
 int fl_mesh_contact_gap(fl_mesh_contact_work *near, const fl_vec3 *v, const fl_poly *a, const fl_piece *b,
                         double within, fl_gap *out);
 

@@ -1,30 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* persistence_contact.h -- the walls that a ball touches of a surface that is not convex, and how often each bears.
+/* persistence_contact.h -- contact of a sphere with a surface that is not convex, by persistent homology.
  *
- * On a convex surface the nearest point bears, and nothing else.  In a groove two walls bear, and a groove
- * that is filled up little by little goes over into a flat, on which one does: neither "the nearest" nor "all
- * of them" is right, and whatever counts them changes at once somewhere.  Here a ball about x of radius R,
- * whose energy on a wall at the distance d is H(R - d), counts the pieces that a smaller ball cuts out of the
- * surface S:
+ * On a convex surface the nearest point alone bears load. In a groove two walls do, and a groove that is
+ * filled up gradually turns into a plane, on which one does. Neither "the nearest point" nor "all walls" is
+ * right, and any count of walls jumps somewhere. Here the energy of a sphere about x of radius R counts the
+ * pieces that smaller spheres cut out of the surface S. With the energy H(R - d) of one wall at distance d,
  *
- *     W(x) = int pieces(S, x, r) dH(R - r)  =  sum over minima H(R - d) - sum over passes H(R - d),
+ *     W(x) = int pieces(S, x, r) dH(R - r)  =  sum over minima H(R - d) - sum over saddles H(R - d),
  *
- * pieces being the number of connected parts of S within r of x.  A piece begins at a minimum of the distance
- * from x, and two become one at the pass between them, the lowest saddle of that distance: the walls of a
- * groove meet at its bottom.  Where one wall ends, its minimum and the pass coincide and what is added and
- * what is taken off cancel, to the first order; so W is continuous wherever x goes in front of the surface,
- * and the force, its gradient, but where two passes are alike.  (W is a sum over the diagram of persistence
- * of the distance, which moves by no more than x does: Cohen-Steiner, Edelsbrunner and Harer, Discrete Comput
- * Geom 37 (2007) 103.)  What follows:
- *   - one minimum, on all that is convex: Hertz' contact, exactly;
- *   - walls that meet farther away than R bear each for itself: in a corner of a box W = H + H + H;
- *   - how a surface is cut into tiles is nothing that it could know.
- * A hollow that is meshed more coarsely than the ball overlaps it is a polyhedron, and more than one facet
- * bears; sheets that lie behind one another, nearer than the overlap, bear each, and so do both sides of a
- * gap that is wider than tol.  Where x is behind the surface the nearest point bears alone.
- * Tiles are convex, so the distance from x has one minimum in each, and the pieces are those of the graph of
- * tiles that are nearer than r and of segments where two of them meet: its minimum spanning forest has the
- * passes.  What stands behind a tile sees its rim alone. */
+ * pieces being the number of connected parts of S within r of x. A piece begins at a minimum of the distance
+ * from x. Two pieces join at the saddle between them, the lowest point of the way from one to the other: the
+ * walls of a groove join at its bottom. Where a wall ends, its minimum and the saddle coincide, and the two
+ * terms cancel to first order. So W is continuous wherever x moves in front of the surface. So is the force,
+ * its gradient, unless two saddles are equal. W is a sum over the persistence diagram of the distance, which
+ * moves by no more than x does: Cohen-Steiner, Edelsbrunner and Harer, Discrete Comput Geom 37 (2007) 103. It
+ * follows:
+ *   - a convex surface has one minimum: exactly Hertz' contact;
+ *   - walls that meet farther away than R act independently: in a corner of a box W = H + H + H;
+ *   - the division of the surface into tiles has no effect.
+ *
+ * Limits. A hollow meshed more coarsely than the overlap of the sphere is a polyhedron, and more than one
+ * facet bears load. Sheets one behind another, nearer than the overlap, bear load each, as do both sides of a
+ * gap wider than tol. If x is behind the surface, the nearest point alone bears load.
+ *
+ * Tiles are convex, so the distance from x has one minimum in each. The pieces are the components of a graph:
+ * tiles nearer than r, and the seams where two of them meet. Its minimum spanning forest contains the
+ * saddles. Of a tile that faces away from x only the rim counts. */
 #ifndef FL_STRUCTURE_PERSISTENCE_CONTACT_H
 #define FL_STRUCTURE_PERSISTENCE_CONTACT_H
 #include "broad/bvh.h"
@@ -32,38 +33,38 @@
 #include "narrow/closest_point.h"
 #include "patch/patch_points.h"
 
-/* Tiles i < j meet from a to b. */
+/* A seam: tiles i < j meet from a to b. */
 typedef struct {
     int32_t j;
-    int32_t inward; /* the surface bends inward there, or in no way that could be told */
+    int32_t concave; /* the surface is concave there, or it could not be decided */
     fl_vec3 a, b;
-} fl_filter_kind;
+} fl_tile_seam;
 
-/* Of a surface.  Zeroed: not made. */
+/* The seams of a surface. Zeroed: not made. */
 typedef struct {
-    int32_t *begin; /* [tiles + 1] offsets into pass, by i */
-    fl_filter_kind *seam;
-    uint8_t *rim; /* [sides] over this side of a tile, or a part of it, there is no other */
+    int32_t *begin; /* [tiles + 1] offsets into seam, by i */
+    fl_tile_seam *seam;
+    uint8_t *rim; /* [sides] 1: no other tile over this side of a tile, or over a part of it */
     int32_t n, cap;
-    double tol;      /* nearer than that two tiles meet [m] */
-    double rounding; /* and that is rounding of distances */
+    double tol;      /* distance up to which two tiles meet [m] */
+    double rounding; /* rounding of distances [m] */
 } fl_tile_seams;
 
-/* Find them for the tiles of a core; tree: over their boxes.  A seam need not share its vertices.  -1 with
- * FL_SYSTEM, *s untouched. */
+/* Finds the seams between the tiles of a core; tree: over their boxes. Tiles at a seam need not share
+ * vertices. Returns -1 with FL_SYSTEM, *s untouched. */
 int fl_tile_seams_make(fl_tile_seams *s, const fl_poly *core, const fl_bvh *tree, const fl_aabb *box,
                        fl_err *err);
 void fl_tile_seams_free(fl_tile_seams *s);
 
-/* Scratch. */
+/* A tile within reach; scratch. */
 typedef struct {
-    int32_t tile;   /* the tile */
-    int32_t parent; /* towards the one that its piece is told by */
+    int32_t tile;   /* tile */
+    int32_t parent; /* parent in the union-find forest of pieces, an index into the scratch */
     fl_closest_point nearest;
 } fl_persistence_tile;
 
 typedef struct {
-    double d; /* at which i and j, numbers in the scratch, become one */
+    double d; /* distance of the saddle that joins i and j, indices into the scratch */
     int32_t i, j, seam;
 } fl_persistence_link;
 
@@ -76,21 +77,21 @@ typedef struct {
 
 void fl_persistence_work_free(fl_persistence_work *w);
 
-/* Some tiles, ascending. */
+/* A list of tiles, ascending. */
 typedef struct {
     const int32_t *tile;
     int32_t n;
 } fl_near_tiles;
 
-/* Whether a ball of a smaller radius within one of radius r about x can touch one wall only, as far as can be
- * told without computing: 1, 0, or -1 when memory runs out.  near: all tiles nearer than r, and maybe
- * others. */
+/* True if a sphere of at most the radius r about x can touch one wall only, as far as can be decided without
+ * computing the points: 1, 0, or -1 when memory runs out. near: all tiles nearer than r, and possibly others.
+ */
 int fl_persistence_is_single(const fl_tile_seams *s, fl_persistence_work *k, const fl_poly *core,
                              const fl_near_tiles *near, fl_vec3 x, double r);
 
-/* The places of a ball on the surface, by fl_patch_points_add_plain(), their du 1 for minima and -1 for passes; the
- * first is q, the nearest point of all with its sign, which lies in tile `of`.  near: all tiles nearer than
- * the radius, and maybe others.  -1 when memory runs out. */
+/* Contact points of a sphere on the surface, by fl_patch_points_add_plain(); their du is 1 for minima and -1
+ * for saddles. The first is q, the nearest point of all with its sign, in tile `of`. near: all tiles nearer
+ * than the radius, and possibly others. Returns -1 when memory runs out. */
 int fl_persistence_points(const fl_tile_seams *s, fl_persistence_work *k, fl_patch_points *w,
                           const fl_poly *core, const fl_near_tiles *near, fl_vec3 x, double radius,
                           const fl_closest_point *q, int32_t of);

@@ -6,18 +6,18 @@
 #include "base/table.h"
 #include "structure/prescribed_track.h"
 
-/* Beyond this no motion is meant, and its squares stay finite [m, deg, s]. */
-#define FARTHEST 1e15
+/* Larger values are no plausible motion; the square of this one is finite [m, deg, s]. */
+#define MAX_VALUE 1e15
 
 static const char *const NAME[6] = {"x", "y", "z", "rx", "ry", "rz"};
 
-static double *six(fl_pose6 *p, int k)
+static double *component_of(fl_pose6 *p, int k)
 {
     double *const of[6] = {&p->x.x, &p->x.y, &p->x.z, &p->r.x, &p->r.y, &p->r.z};
     return of[k];
 }
 
-static double six_of(const fl_pose6 *p, int k)
+static double component_value(const fl_pose6 *p, int k)
 {
     const double of[6] = {p->x.x, p->x.y, p->x.z, p->r.x, p->r.y, p->r.z};
     return of[k];
@@ -28,14 +28,15 @@ static double end_slope(const fl_track *tr, int k, int32_t end, int32_t inward)
 {
     const int32_t a = end, b = end + inward, c = end + 2 * inward;
     const double h = tr->t[b] - tr->t[a], g = tr->t[c] - tr->t[b];
-    const double first = (six_of(&tr->value[b], k) - six_of(&tr->value[a], k)) / h,
-                 next = (six_of(&tr->value[c], k) - six_of(&tr->value[b], k)) / g;
+    const double first = (component_value(&tr->value[b], k) - component_value(&tr->value[a], k)) / h,
+                 next = (component_value(&tr->value[c], k) - component_value(&tr->value[b], k)) / g;
     return first + (first - next) * h / (h + g);
 }
 
-/* Continuous second derivatives at the inner rows: with h, g the intervals before and behind row i,
- *     g s[i-1] + 2 (h + g) s[i] + h s[i+1] = 3 (g d[before] + h d[behind]),
- * by elimination; rows are dominated by their diagonal, so that no pivot is wanted. */
+/* Sets slopes that make the second derivatives continuous at the inner rows: with h, g the intervals before
+ * and after row i,
+ *     g s[i-1] + 2 (h + g) s[i] + h s[i+1] = 3 (g d[before] + h d[after]),
+ * by elimination; the matrix is diagonally dominant, so no pivoting is needed. */
 static int make_slopes(fl_track *tr, fl_err *err)
 {
     const int32_t n = tr->n;
@@ -47,31 +48,35 @@ static int make_slopes(fl_track *tr, fl_err *err)
     }
     for (int k = 0; k < 6 && n > 1; k++) {
         if (n == 2) {
-            const double s = (six_of(&tr->value[1], k) - six_of(&tr->value[0], k)) / (tr->t[1] - tr->t[0]);
-            *six(&tr->slope[0], k) = *six(&tr->slope[1], k) = s;
+            const double s = (component_value(&tr->value[1], k) - component_value(&tr->value[0], k)) /
+                             (tr->t[1] - tr->t[0]);
+            *component_of(&tr->slope[0], k) = *component_of(&tr->slope[1], k) = s;
             continue;
         }
-        *six(&tr->slope[0], k) = end_slope(tr, k, 0, 1);
-        *six(&tr->slope[n - 1], k) = end_slope(tr, k, n - 1, -1);
+        *component_of(&tr->slope[0], k) = end_slope(tr, k, 0, 1);
+        *component_of(&tr->slope[n - 1], k) = end_slope(tr, k, n - 1, -1);
         upper[0] = 0.0;
         for (int32_t i = 1; i < n - 1; i++) {
             const double h = tr->t[i] - tr->t[i - 1], g = tr->t[i + 1] - tr->t[i];
-            const double before = (six_of(&tr->value[i], k) - six_of(&tr->value[i - 1], k)) / h,
-                         behind = (six_of(&tr->value[i + 1], k) - six_of(&tr->value[i], k)) / g;
+            const double before =
+                             (component_value(&tr->value[i], k) - component_value(&tr->value[i - 1], k)) / h,
+                         behind =
+                             (component_value(&tr->value[i + 1], k) - component_value(&tr->value[i], k)) / g;
             const double pivot = 2.0 * (h + g) - g * upper[i - 1];
             upper[i] = h / pivot;
-            *six(&tr->slope[i], k) =
-                (3.0 * (g * before + h * behind) - g * six_of(&tr->slope[i - 1], k)) / pivot;
+            *component_of(&tr->slope[i], k) =
+                (3.0 * (g * before + h * behind) - g * component_value(&tr->slope[i - 1], k)) / pivot;
         }
-        for (int32_t i = n - 2; i > 0; i--) *six(&tr->slope[i], k) -= upper[i] * six_of(&tr->slope[i + 1], k);
+        for (int32_t i = n - 2; i > 0; i--)
+            *component_of(&tr->slope[i], k) -= upper[i] * component_value(&tr->slope[i + 1], k);
     }
     free(upper);
     return 0;
 }
 
-/* The columns that there are, -1 for the others, in the units that the page tells: what is in other units, or
- * no motion at all, is no structure at rest. */
-static int columns(const fl_table *in, int32_t *time, int32_t col[6], fl_err *err)
+/* Finds the columns, -1 for those missing, and checks their units: a table in other units, or without a
+ * motion, is an error and not a structure at rest. */
+static int find_columns(const fl_table *in, int32_t *time, int32_t col[6], fl_err *err)
 {
     int there = 0;
     if (fl_table_require(in, "t", time, err)) return -1;
@@ -80,11 +85,11 @@ static int columns(const fl_table *in, int32_t *time, int32_t col[6], fl_err *er
         const char *unit = k < 0 ? "s" : k < 3 ? "m" : "deg";
         there += k >= 0 && c >= 0;
         if (c >= 0 && in->unit[c][0] && strcmp(in->unit[c], unit) != 0)
-            return fl_text_fail(&in->text, err, "column %s has the unit \"%.40s\", %s is expected",
-                                in->name[c], in->unit[c], unit);
+            return fl_text_fail(&in->text, err, "column %s has the unit \"%.40s\", expected %s", in->name[c],
+                                in->unit[c], unit);
     }
     if (there) return 0;
-    return fl_text_fail(&in->text, err, "no column of a motion, at least one of x y z rx ry rz is expected");
+    return fl_text_fail(&in->text, err, "no column of a motion, expected at least one of x y z rx ry rz");
 }
 
 int fl_track_read(fl_track *out, const char *path, int cubic, fl_err *err)
@@ -93,19 +98,19 @@ int fl_track_read(fl_track *out, const char *path, int cubic, fl_err *err)
     fl_track tr = {0};
     int32_t time, col[6], t_cap = 0, at_cap = 0;
     int rc = -1, more;
-    if (fl_table_open(&in, path, "track", 1, err) || columns(&in, &time, col, err)) goto done;
+    if (fl_table_open(&in, path, "track", 1, err) || find_columns(&in, &time, col, err)) goto done;
     while ((more = fl_table_row(&in, err)) > 0) {
         fl_pose6 at = {0};
         double t;
-        if (fl_table_f64_bounded(&in, time, FARTHEST, &t, err)) goto done;
+        if (fl_table_f64_bounded(&in, time, MAX_VALUE, &t, err)) goto done;
         if (tr.n && t <= tr.t[tr.n - 1]) {
             fl_text_fail(&in.text, err, "time %.10g s does not follow %.10g s", t, tr.t[tr.n - 1]);
             goto done;
         }
         for (int k = 0; k < 6; k++) {
             double x = 0.0;
-            if (col[k] >= 0 && fl_table_f64_bounded(&in, col[k], FARTHEST, &x, err)) goto done;
-            *six(&at, k) = k < 3 ? x : fl_radians(x);
+            if (col[k] >= 0 && fl_table_f64_bounded(&in, col[k], MAX_VALUE, &x, err)) goto done;
+            *component_of(&at, k) = k < 3 ? x : fl_radians(x);
         }
         if (fl_grow(&tr.t, &t_cap, (int64_t)tr.n + 1, sizeof *tr.t, err) ||
             fl_grow(&tr.value, &at_cap, (int64_t)tr.n + 1, sizeof *tr.value, err))
@@ -128,7 +133,7 @@ done:
     return rc;
 }
 
-/* Row at or before t, so that row + 1 is there too; n > 1. */
+/* Row at or before t, such that row + 1 exists; n > 1. */
 static int32_t row_before(const fl_track *tr, double t)
 {
     int32_t low = 0, high = tr->n - 1;
@@ -150,18 +155,19 @@ void fl_track_evaluate(const fl_track *tr, double t, fl_pose6 *x, fl_pose6 *rate
     const double inside = t < tr->t[0] ? tr->t[0] : t > last ? last : t;
     const double u = (inside - tr->t[i]) / h, beyond = t - inside;
     for (int k = 0; k < 6; k++) {
-        const double a = six_of(&tr->value[i], k), d = six_of(&tr->value[i + 1], k) - a;
+        const double a = component_value(&tr->value[i], k), d = component_value(&tr->value[i + 1], k) - a;
         double value = a + u * d, slope = d / h, bend = 0.0;
         if (tr->slope) { /* a + h s0 u + (3 d - h (2 s0 + s1)) u^2 + (h (s0 + s1) - 2 d) u^3 */
-            const double p = h * six_of(&tr->slope[i], k), q = h * six_of(&tr->slope[i + 1], k);
+            const double p = h * component_value(&tr->slope[i], k),
+                         q = h * component_value(&tr->slope[i + 1], k);
             const double c2 = 3.0 * d - 2.0 * p - q, c3 = p + q - 2.0 * d;
             value = a + u * (p + u * (c2 + u * c3));
             slope = (p + u * (2.0 * c2 + 3.0 * u * c3)) / h;
             bend = beyond == 0.0 ? (2.0 * c2 + 6.0 * u * c3) / (h * h) : 0.0;
         }
-        *six(x, k) = value + beyond * slope;
-        *six(rate, k) = slope;
-        *six(second, k) = bend;
+        *component_of(x, k) = value + beyond * slope;
+        *component_of(rate, k) = slope;
+        *component_of(second, k) = bend;
     }
 }
 

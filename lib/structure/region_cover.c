@@ -13,13 +13,13 @@ int fl_region_is_flat(const fl_part *p, fl_vec3 n, double c, double tol)
     return 1;
 }
 
-/* A corner in the plane, and which vertex it is. */
+/* A corner in the plane, and its vertex. */
 typedef struct {
     fl_vec2 at;
     int32_t v;
 } corner;
 
-static int by_place(const void *x, const void *y)
+static int compare_position(const void *x, const void *y)
 {
     const corner *p = x, *q = y;
     if (p->at.x != q->at.x) return p->at.x < q->at.x ? -1 : 1;
@@ -27,13 +27,13 @@ static int by_place(const void *x, const void *y)
     return (p->v > q->v) - (p->v < q->v);
 }
 
-/* Of a to b and c: positive where c is to the left. */
+/* Twice the signed area of a b c: positive if c is to the left of a b. */
 static double left_of(fl_vec2 a, fl_vec2 b, fl_vec2 c)
 {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* The hull of sorted corners, counter-clockwise, into out, with room for one more than there are.
+/* Convex hull of sorted corners, counter-clockwise, into out, which has room for one more than there are.
  * Source: Andrew, Inf. Process. Lett. 9 (1979) 216. */
 static int32_t hull_of(int32_t n, const corner *c, corner *out)
 {
@@ -45,48 +45,48 @@ static int32_t hull_of(int32_t n, const corner *c, corner *out)
             while (m >= start + 2 && left_of(out[m - 2].at, out[m - 1].at, at->at) <= 0.0) m--;
             out[m++] = *at;
         }
-        m--; /* the next run begins with it */
+        m--; /* the upper chain begins with it */
     }
     return m;
 }
 
-/* A triangle by its vertices in their order, the side that it faces and its area; 0 where it has none. */
+/* A triangle: its vertices in ascending order, the side that it faces (1: along n) and its area. */
 typedef struct {
     int32_t v[3], up;
     double area;
-} face;
+} flat_triangle;
 
-static int by_vertices(const void *x, const void *y)
+static int compare_vertices(const void *x, const void *y)
 {
-    const face *p = x, *q = y;
+    const flat_triangle *p = x, *q = y;
     if (p->up != q->up) return p->up - q->up;
     for (int k = 0; k < 3; k++)
         if (p->v[k] != q->v[k]) return p->v[k] < q->v[k] ? -1 : 1;
     return 0;
 }
 
-static void swap(int32_t *a, int32_t *b)
+static void order_pair(int32_t *a, int32_t *b)
 {
     const int32_t was = *a;
     if (was > *b) *a = *b, *b = was;
 }
 
-static face face_of(const fl_part *p, const fl_tri *t, fl_vec3 n)
+static flat_triangle triangle_of(const fl_part *p, const fl_tri *t, fl_vec3 n)
 {
     const fl_vec3 a = p->v[t->v[0]], cross = v3_cross(v3_sub(p->v[t->v[1]], a), v3_sub(p->v[t->v[2]], a));
-    face f = {{t->v[0], t->v[1], t->v[2]}, v3_dot(cross, n) > 0.0, 0.5 * v3_norm(cross)};
-    swap(&f.v[0], &f.v[1]), swap(&f.v[1], &f.v[2]), swap(&f.v[0], &f.v[1]);
+    flat_triangle f = {{t->v[0], t->v[1], t->v[2]}, v3_dot(cross, n) > 0.0, 0.5 * v3_norm(cross)};
+    order_pair(&f.v[0], &f.v[1]), order_pair(&f.v[1], &f.v[2]), order_pair(&f.v[0], &f.v[1]);
     return f;
 }
 
-/* What faces down and up covers, each triangle once. */
-static void areas_of(const fl_part *p, fl_vec3 n, face *all, double area[2])
+/* Areas covered by the triangles that face down and up, each triangle once. */
+static void areas_of(const fl_part *p, fl_vec3 n, flat_triangle *all, double area[2])
 {
     area[0] = area[1] = 0.0;
-    for (int32_t t = 0; t < p->nt; t++) all[t] = face_of(p, &p->t[t], n);
-    qsort(all, (size_t)p->nt, sizeof *all, by_vertices);
+    for (int32_t t = 0; t < p->nt; t++) all[t] = triangle_of(p, &p->t[t], n);
+    qsort(all, (size_t)p->nt, sizeof *all, compare_vertices);
     for (int32_t t = 0; t < p->nt; t++)
-        if (t == 0 || by_vertices(&all[t - 1], &all[t]) != 0) area[all[t].up] += all[t].area;
+        if (t == 0 || compare_vertices(&all[t - 1], &all[t]) != 0) area[all[t].up] += all[t].area;
 }
 
 int fl_region_covers_hull(const fl_part *p, fl_vec3 n, double tol, int32_t *loop, int32_t *count, fl_err *err)
@@ -94,7 +94,7 @@ int fl_region_covers_hull(const fl_part *p, fl_vec3 n, double tol, int32_t *loop
     const fl_vec3 x = v3_normal_to(n), y = v3_cross(n, x), from = p->v[p->t[0].v[0]];
     corner *all = fl_alloc(p->nv, sizeof *all, err), *rim = fl_alloc((int64_t)p->nv + 1, sizeof *rim, err);
     fl_vec2 *at = fl_alloc(p->nv, sizeof *at, err);
-    face *faces = fl_alloc(p->nt, sizeof *faces, err);
+    flat_triangle *faces = fl_alloc(p->nt, sizeof *faces, err);
     uint8_t *used = fl_alloc(p->nv, 1, err);
     int found = -1;
     if (all && rim && at && faces && used) {
@@ -104,8 +104,8 @@ int fl_region_covers_hull(const fl_part *p, fl_vec3 n, double tol, int32_t *loop
             const fl_vec3 d = v3_sub(p->v[v], from);
             if (used[v]) all[m++] = (corner){{v3_dot(d, x), v3_dot(d, y)}, v};
         }
-        qsort(all, (size_t)m, sizeof *all, by_place);
-        for (int32_t k = 0; k < m; k++) /* of vertices at one place the first */
+        qsort(all, (size_t)m, sizeof *all, compare_position);
+        for (int32_t k = 0; k < m; k++) /* of vertices at one position the first */
             if (k == 0 || all[k].at.x != all[kept - 1].at.x || all[k].at.y != all[kept - 1].at.y)
                 all[kept++] = all[k];
         *count = hull_of(kept, all, rim);

@@ -4,7 +4,7 @@
 #include "body/integrate.h"
 #include "structure/rigid_motion.h"
 
-enum { TURNS = FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ, ALL = 63 };
+enum { ROTATIONS = FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ, ALL_DOF = 63 };
 
 int32_t fl_rigid_motions_add(fl_rigid_motions *v, fl_rigid_motion *m, fl_err *err)
 {
@@ -14,8 +14,8 @@ int32_t fl_rigid_motions_add(fl_rigid_motions *v, fl_rigid_motion *m, fl_err *er
     return v->n++;
 }
 
-/* What is told at time t: way and turn, their rates and second derivatives. */
-static void told(const fl_rigid_motion *m, double t, fl_pose6 *x, fl_pose6 *rate, fl_pose6 *second)
+/* The prescribed motion at time t: displacement and rotation, their rates and second derivatives. */
+static void prescribed_at(const fl_rigid_motion *m, double t, fl_pose6 *x, fl_pose6 *rate, fl_pose6 *second)
 {
     if (m->track.n) {
         fl_track_evaluate(&m->track, t, x, rate, second);
@@ -29,9 +29,9 @@ static void told(const fl_rigid_motion *m, double t, fl_pose6 *x, fl_pose6 *rate
 /* Below this |r|^2 the series of the two quotients is exact to rounding: r^8 is left out. */
 #define SMALL_TURN 1e-4
 
-/* Angular velocity of exp(r(t)):  w = r' + (1 - cos a)/a^2 r x r' + (a - sin a)/a^3 r x (r x r'), a = |r|.
- * Cosine and sine come from the quaternion of the turn. */
-static fl_vec3 turning(fl_vec3 r, fl_vec3 rate)
+/* Angular velocity of exp(r(t)): w = r' + (1 - cos a)/a^2 r x r' + (a - sin a)/a^3 r x (r x r'), a = |r|.
+ * Cosine and sine come from the quaternion of the rotation. */
+static fl_vec3 angular_velocity(fl_vec3 r, fl_vec3 rate)
 {
     const double a2 = v3_norm2(r);
     const fl_vec3 across = v3_cross(r, rate);
@@ -55,8 +55,9 @@ static void set_component(fl_vec3 *a, int k, double x)
     else a->z = x;
 }
 
-/* The told components of a free mover's velocity become v; what holds them works at the mean. */
-static void lead(fl_rigid_motions *m, int32_t k, fl_vec3 v)
+/* Sets the prescribed components of a free mover's velocity; the constraint does work at the mean of old and
+ * new velocity. */
+static void set_prescribed_velocity(fl_rigid_motions *m, int32_t k, fl_vec3 v)
 {
     fl_bodies *b = &m->b;
     for (int c = 0; c < 3; c++) {
@@ -85,11 +86,11 @@ int fl_rigid_motions_start(fl_rigid_motions *v, double t, fl_err *err)
     for (int32_t k = 0; k < n; k++) {
         const fl_rigid_motion *m = &v->motion[k];
         fl_pose6 x, rate, second;
-        told(m, t, &x, &rate, &second);
+        prescribed_at(m, t, &x, &rate, &second);
         if (m->free_dof) {
             b->m[k] = m->mass > 0.0 ? m->mass : 1.0;
             b->invm[k] = 1.0 / b->m[k];
-            b->fixed_dof[k] = (uint8_t)(ALL & ~m->free_dof);
+            b->fixed_dof[k] = (uint8_t)(ALL_DOF & ~m->free_dof);
             fl_body_set_inertia(b, k,
                                 v3(m->inertia.x > 0.0 ? m->inertia.x : 1.0,
                                    m->inertia.y > 0.0 ? m->inertia.y : 1.0,
@@ -98,7 +99,7 @@ int fl_rigid_motions_start(fl_rigid_motions *v, double t, fl_err *err)
         b->x[k] = v3_add(m->reference, x.x);
         b->q[k] = q_of_vector(x.r);
         b->v[k] = v->prescribed_velocity[k] = rate.x;
-        b->w[k] = turning(x.r, rate.r);
+        b->w[k] = angular_velocity(x.r, rate.r);
         v->prescribed[k] = x.x;
     }
     return 0;
@@ -129,25 +130,25 @@ void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k)
         v->prescribed_work[k] += b->m[k] * v3_dot(pull, v3_sub(now, old));
         b->v[k] = v3_add(pull, now);
     }
-    if (m->free_dof & TURNS && v3_nonzero(m->ct)) {
+    if (m->free_dof & ROTATIONS && v3_nonzero(m->ct)) {
         const double before = v3_dot(b->w[k], b->L[k]);
         const fl_mat3 R = fl_body_axes(b, k);
         const fl_vec3 own = m3_tmul(R, b->L[k]), f = v->angular_decay[k], w = b->w[k];
         b->L[k] = m3_mul(R, v3(f.x * own.x, f.y * own.y, f.z * own.z));
         b->w[k] = fl_body_apply_inverse_inertia(b, k, b->L[k]);
-        if (b->fixed_dof[k] & TURNS) fl_body_apply_fixed_dof(b, k, b->v[k], w);
+        if (b->fixed_dof[k] & ROTATIONS) fl_body_apply_fixed_dof(b, k, b->v[k], w);
         v->damper_loss[k] += 0.5 * (before - v3_dot(b->w[k], b->L[k]));
     }
 }
 
-static void kick(fl_rigid_motions *v, int32_t k, double h)
+static void kick_motion(fl_rigid_motions *v, int32_t k, double h)
 {
     fl_kick(&v->b, k, h);
     v->prescribed_work[k] += h * v3_dot(v->spring_force[k], v->prescribed_velocity[k]);
 }
 
-/* Rounding aside, x follows the told way in the held directions by itself. */
-static void follow(fl_rigid_motions *v, int32_t k)
+/* Removes the rounding of x in the fixed directions, where it follows the prescribed displacement. */
+static void reset_fixed_position(fl_rigid_motions *v, int32_t k)
 {
     fl_bodies *b = &v->b;
     const fl_vec3 x = v3_add(v->motion[k].reference, v->prescribed[k]);
@@ -160,22 +161,22 @@ void fl_rigid_motion_first_half(fl_rigid_motions *v, int32_t k, double t, double
     fl_bodies *b = &v->b;
     const fl_rigid_motion *m = &v->motion[k];
     fl_pose6 x, rate, second;
-    told(m, t + dt, &x, &rate, &second);
+    prescribed_at(m, t + dt, &x, &rate, &second);
     v->prescribed_velocity[k] = m->track.n ? v3_scale(1.0 / dt, v3_sub(x.x, v->prescribed[k])) : m->velocity;
     v->prescribed[k] = x.x;
     if (m->free_dof) {
-        lead(v, k, v->prescribed_velocity[k]);
+        set_prescribed_velocity(v, k, v->prescribed_velocity[k]);
         fl_rigid_motion_damp(v, k);
-        kick(v, k, 0.5 * dt);
+        kick_motion(v, k, 0.5 * dt);
         fl_drift(b, k, dt);
-        follow(v, k);
+        reset_fixed_position(v, k);
         return;
     }
     fl_pose6 middle;
-    told(m, t + 0.5 * dt, &middle, &rate, &second);
+    prescribed_at(m, t + 0.5 * dt, &middle, &rate, &second);
     b->x[k] = v3_add(m->reference, x.x);
     b->v[k] = v->prescribed_velocity[k];
-    b->w[k] = turning(middle.r, rate.r);
+    b->w[k] = angular_velocity(middle.r, rate.r);
     if (!v3_nonzero(x.r) && !v3_nonzero(b->w[k])) return;
     b->q[k] = q_of_vector(x.r);
 }
@@ -206,12 +207,12 @@ void fl_rigid_motion_second_kick(fl_rigid_motions *v, int32_t k, double t, doubl
 {
     fl_pose6 x, rate, second;
     if (v->motion[k].free_dof) {
-        kick(v, k, h);
+        kick_motion(v, k, h);
         return;
     }
-    told(&v->motion[k], t, &x, &rate, &second);
+    prescribed_at(&v->motion[k], t, &x, &rate, &second);
     v->b.v[k] = rate.x;
-    v->b.w[k] = turning(x.r, rate.r);
+    v->b.w[k] = angular_velocity(x.r, rate.r);
 }
 
 double fl_rigid_motion_kinetic_energy(const fl_rigid_motions *v, int32_t k)
@@ -219,25 +220,30 @@ double fl_rigid_motion_kinetic_energy(const fl_rigid_motions *v, int32_t k)
     return v->motion[k].free_dof ? fl_body_kinetic_energy(&v->b, k) : 0.0;
 }
 
+/* Half the interval of a central difference [s], for rates up to 1 rad/s.  Its truncation, of order 1e-8, and
+ * the rounding that it magnifies, 1e-12, are both far below the accuracy of a table of motion. */
+#define DIFFERENCE 1e-4
+
 void fl_rigid_motion_acceleration(const fl_rigid_motions *v, int32_t k, double t, fl_vec3 *a, fl_vec3 *turn)
 {
     const fl_bodies *b = &v->b;
     const fl_rigid_motion *m = &v->motion[k];
     fl_pose6 x, rate, second;
-    told(m, t, &x, &rate, &second);
+    prescribed_at(m, t, &x, &rate, &second);
     *a = second.x;
-    if (!m->free_dof) { /* how w changes with r'' at once, and with r along r': the difference over a short way */
-        const double h = 1e-4 / (1.0 + v3_norm(rate.r));
-        const fl_vec3 late = turning(v3_madd(x.r, h, rate.r), rate.r),
-                      early = turning(v3_madd(x.r, -h, rate.r), rate.r);
-        *turn = v3_madd(turning(x.r, second.r), 0.5 / h, v3_sub(late, early));
+    /* w changes with r'' directly, and with r along r': a central difference */
+    if (!m->free_dof) {
+        const double h = DIFFERENCE / (1.0 + v3_norm(rate.r));
+        const fl_vec3 late = angular_velocity(v3_madd(x.r, h, rate.r), rate.r),
+                      early = angular_velocity(v3_madd(x.r, -h, rate.r), rate.r);
+        *turn = v3_madd(angular_velocity(x.r, second.r), 0.5 / h, v3_sub(late, early));
         return;
     }
     const fl_mat3 R = fl_body_axes(b, k);
     const fl_vec3 slip = v3_sub(b->v[k], v->prescribed_velocity[k]), own = m3_tmul(R, b->w[k]);
     const fl_vec3 drag = m3_mul(R, v3(m->ct.x * own.x, m->ct.y * own.y, m->ct.z * own.z));
     const fl_vec3 torque = v3_sub(v3_sub(b->t[k], drag), v3_cross(b->w[k], b->L[k]));
-    *turn = m->free_dof & TURNS ? fl_body_apply_inverse_inertia(b, k, torque) : v3(0, 0, 0);
+    *turn = m->free_dof & ROTATIONS ? fl_body_apply_inverse_inertia(b, k, torque) : v3(0, 0, 0);
     for (int c = 0; c < 3; c++) {
         const double force = v3_at(b->f[k], c) - v3_at(m->c, c) * v3_at(slip, c);
         if (m->free_dof >> c & 1u) set_component(a, c, force * b->invm[k]);
@@ -245,7 +251,7 @@ void fl_rigid_motion_acceleration(const fl_rigid_motions *v, int32_t k, double t
     }
 }
 
-static double inert(const fl_rigid_motion *m, int k)
+static double inertia_of(const fl_rigid_motion *m, int k)
 {
     return k < 3 ? m->mass : k == 3 ? m->inertia.x : k == 4 ? m->inertia.y : m->inertia.z;
 }
@@ -257,7 +263,7 @@ double fl_rigid_motion_max_omega2(const fl_rigid_motion *m)
         double row = 0.0;
         for (int c = 0; c < 6; c++)
             if (m->free_dof >> r & m->free_dof >> c & 1u)
-                row += fabs(m->K[r][c]) / sqrt(inert(m, r) * inert(m, c));
+                row += fabs(m->K[r][c]) / sqrt(inertia_of(m, r) * inertia_of(m, c));
         most = row > most ? row : most;
     }
     return most;
@@ -267,7 +273,7 @@ double fl_rigid_motion_compliance(const fl_rigid_motion *m, double arm)
 {
     double turn = 0.0;
     for (int k = 3; k < 6; k++)
-        if (m->free_dof >> k & 1u && 1.0 / inert(m, k) > turn) turn = 1.0 / inert(m, k);
+        if (m->free_dof >> k & 1u && 1.0 / inertia_of(m, k) > turn) turn = 1.0 / inertia_of(m, k);
     return (m->free_dof & 7u ? 1.0 / m->mass : 0.0) + arm * arm * turn;
 }
 

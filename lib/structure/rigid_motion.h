@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rigid_motion.h -- rigid things that carry pieces of a structure: moved as told, or by springs and what presses on
- * them.
+/* rigid_motion.h -- rigid bodies that carry pieces of a structure: prescribed motion, or springs and dampers
+ * under the contact forces.
  *
- * A mover is a point, the reference, and axes, those of the world in the pose of the file.  What is told is
- * the way d(t) of the reference, and for a mover without free directions a turn: a spin, or the rotation
- * vector of a track.  A mover with free directions obeys M y'' = F - K y - C y' ,     y = (x - x0 - d(t), s),
- * s = 2 (qx, qy, qz) of its quaternion, in those, M the mass and the inertia about the reference, which is
- * its centre of mass; the other directions follow what is told.  s is the rotation vector up to its third
- * power, and W = y.K y/2 a potential of the pose for turns of any size: with g = dW/ds the torque is -(qw g +
- * q x g), so that energy is kept without any transcendental function.  Weight and buoyancy at rest are in
- * balance, and only what changes acts.
+ * A mover is a reference point with axes, those of the world in the pose of the file. Prescribed is the
+ * displacement d(t) of the reference, and for a mover without free directions also the rotation: an angular
+ * velocity, or the rotation vector of a track. In its free directions a mover obeys
+ *     M y'' = F - K y - C y',     y = (x - x0 - d(t), s),     s = 2 (qx, qy, qz) of its quaternion,
+ * with M the mass and the inertia about the reference, its centre of mass. The other directions follow the
+ * prescribed motion. s is the rotation vector up to its third power, and W = y.K y/2 is a potential of the
+ * pose for rotations of any size: with g = dW/ds the torque is -(qw g + q x g). So energy is conserved
+ * without transcendental functions. Weight and buoyancy at rest are in balance; only changes act.
  *
- * A step is symmetric: dampers h, kick h by forces and springs, drift dt, kick h, dampers h, h = dt/2.  Kick
- * and drift are those of a floe, so that two-way coupling keeps momentum to rounding; dampers are solved
- * exactly, v <- vd + (v - vd) exp(-c h/m)   along x y z,     L <- L exp(-c h/I)   about its own axes, stable
- * and monotone for any c and h.  Springs are kicks: order 2, symplectic, stable for omega dt < 2. */
+ * A step is symmetric: dampers h, kick h by forces and springs, drift dt, kick h, dampers h, h = dt/2. Kick
+ * and drift are those of a floe, so that two-way coupling conserves momentum to rounding. Dampers are exact,
+ *     v <- vd + (v - vd) exp(-c h/m)   along x y z,     L <- L exp(-c h/I)   about the own axes,
+ * stable and monotone for any c and h. Springs are kicks: order 2, symplectic, stable for omega dt < 2. */
 #ifndef FL_STRUCTURE_RIGID_MOTION_H
 #define FL_STRUCTURE_RIGID_MOTION_H
 #include "body/body.h"
 #include "structure/prescribed_track.h"
 
-/* What a mover is. */
+/* Parameters of a mover. */
 typedef struct {
     fl_vec3 reference;      /* in the pose of the file [m] */
-    fl_vec3 velocity, spin; /* told, where there is no track [m/s], [rad/s] */
+    fl_vec3 velocity, spin; /* prescribed, without a track [m/s], [rad/s] */
     fl_track track;         /* n = 0: none */
-    unsigned free_dof;      /* FL_DOF_X | ...: directions left to forces; 0: all is told */
+    unsigned free_dof;      /* FL_DOF_X | ...: free directions; 0: all is prescribed */
     double mass;            /* [kg] */
     fl_vec3 inertia;        /* [kg m2] */
     double K[6][6];         /* symmetric, x y z rx ry rz */
@@ -35,48 +35,48 @@ typedef struct {
 typedef struct {
     int32_t n, cap;
     fl_rigid_motion *motion; /* [n] owned, with their tracks */
-    fl_bodies b;             /* [n] pose, velocity, forces; mass 0 where all is told */
+    fl_bodies b;             /* [n] pose, velocity, forces; mass 0 if all is prescribed */
     /* [n] each */
-    fl_vec3 *prescribed,
-        *prescribed_velocity;              /* d(t), and its velocity over the step in progress [m], [m/s] */
-    fl_vec3 *spring_force, *spring_torque; /* force and torque of K, of the last evaluation [N], [N m] */
-    double *spring_energy;                 /* y.K y/2 [J] */
-    double *damper_loss;                   /* taken out by dampers so far [J] */
-    double *prescribed_work;        /* put in so far by what is told of a mover with free directions [J] */
-    fl_vec3 *decay, *angular_decay; /* exp(-c h/m) of half a step, fl_rigid_motions_set_step() */
+    fl_vec3 *prescribed, *prescribed_velocity; /* d(t), and its velocity over the present step [m], [m/s] */
+    fl_vec3 *spring_force, *spring_torque;     /* force and torque of K at the last evaluation [N], [N m] */
+    double *spring_energy;                     /* y.K y/2 [J] */
+    double *damper_loss;                       /* energy removed by dampers so far [J] */
+    /* work of the prescribed part of movers with free directions so far [J] */
+    double *prescribed_work;
+    fl_vec3 *decay, *angular_decay; /* exp(-c h/m) of half a step, by fl_rigid_motions_set_step() */
 } fl_rigid_motions;
 
-/* Add one: m is taken over.  Index, or -1 with FL_SYSTEM. */
+/* Adds a mover; m is taken over. Returns its index, or -1 with FL_SYSTEM. */
 int32_t fl_rigid_motions_add(fl_rigid_motions *v, fl_rigid_motion *m, fl_err *err);
 
-/* All movers added: arrays, and the pose and velocity of time t.  No track of a mover with free directions
- * turns.  -1 with FL_SYSTEM. */
+/* Call after all movers are added: allocates arrays, sets pose and velocity of time t. No track of a mover
+ * with free directions rotates. Returns -1 with FL_SYSTEM. */
 int fl_rigid_motions_start(fl_rigid_motions *v, double t, fl_err *err);
 
-/* The factors of the dampers for a step of dt.  Cannot fail. */
+/* Sets the decay factors of the dampers for a step of dt. Cannot fail. */
 void fl_rigid_motions_set_step(fl_rigid_motions *v, double dt);
 
-/* From t to t + dt: dampers h, kick h, drift dt.  v and w are those of the middle of the step then. */
+/* From t to t + dt: dampers h, kick h, drift dt. Then v and w are those of the middle of the step. */
 void fl_rigid_motion_first_half(fl_rigid_motions *v, int32_t k, double t, double dt);
 
-/* Springs at the pose of now: adds to b.f and b.t, which hold what presses on it. */
+/* Adds the springs at the present pose to b.f and b.t, which hold the contact forces. */
 void fl_rigid_motion_add_springs(fl_rigid_motions *v, int32_t k);
 
-/* Kick h; told velocities become those of time t. */
+/* Kick h; prescribed velocities become those of time t. */
 void fl_rigid_motion_second_kick(fl_rigid_motions *v, int32_t k, double t, double h);
 
-/* Dampers h. */
+/* Dampers over half a step. */
 void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k);
 
-/* Kinetic energy of a mover with free directions, 0 of one that is told [J]. */
+/* Kinetic energy of a mover with free directions, 0 of a prescribed one [J]. */
 double fl_rigid_motion_kinetic_energy(const fl_rigid_motions *v, int32_t k);
 
-/* Acceleration of the reference and of the turn at time t, of the forces in b.f and b.t and of the dampers,
- * or as it is told [m/s2], [rad/s2]. */
+/* Acceleration of the reference and of the rotation at time t, by the forces in b.f and b.t and the dampers,
+ * or as prescribed [m/s2], [rad/s2]. */
 void fl_rigid_motion_acceleration(const fl_rigid_motions *v, int32_t k, double t, fl_vec3 *a, fl_vec3 *turn);
 
-/* A bound of omega^2 of its springs by the rows of M^-1/2 K M^-1/2 [1/s2], and of the compliance of a point
- * at distance arm, 1/m + arm^2/I [1/kg]; 0 and 0 where all is told. */
+/* Bound of omega^2 of the springs by the rows of M^-1/2 K M^-1/2 [1/s2], and compliance of a point at
+ * distance arm, 1/m + arm^2/I [1/kg]; 0 if all is prescribed. */
 double fl_rigid_motion_max_omega2(const fl_rigid_motion *m);
 double fl_rigid_motion_compliance(const fl_rigid_motion *m, double arm);
 

@@ -8,7 +8,7 @@
 #include "geom/clip.h"
 #include "geom/merge_coplanar.h"
 
-/* Every vertex in use lies behind every region's plane. */
+/* True if every vertex in use lies behind every region's plane. */
 static int is_convex(const fl_coplanar_regions *f)
 {
     const fl_part *p = f->p;
@@ -27,7 +27,7 @@ static fl_piece *add_piece(fl_structure *s, fl_err *err)
     return piece;
 }
 
-/* The convex part as the intersection of its faces' half-spaces, cut out of a box that holds it. */
+/* The convex part as the intersection of the half-spaces of its faces, cut out of a box that contains it. */
 static int make_solid(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_aabb box = fl_part_aabb(f->p);
@@ -42,9 +42,9 @@ static int make_solid(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err
     return 0;
 }
 
-/* A plate, the rim of which runs through loop[0 .. n) of the part's vertices: 1 where that is convex. */
-static int plate_within(fl_piece *piece, const fl_coplanar_regions *f, int32_t n, const int32_t *loop,
-                        fl_err *err)
+/* Makes a plate whose rim is loop[0 .. n) of the part's vertices. Returns 1 if that is convex, else 0. */
+static int make_plate_of_loop(fl_piece *piece, const fl_coplanar_regions *f, int32_t n, const int32_t *loop,
+                              fl_err *err)
 {
     const fl_part *p = f->p;
     const fl_vec3 up = f->region_normal[0];
@@ -57,9 +57,10 @@ static int plate_within(fl_piece *piece, const fl_coplanar_regions *f, int32_t n
     piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
     for (int32_t k = 0; k < n; k++) {
         const fl_vec3 x = p->v[loop[k]];
-        rim[k] = v3_madd(v3_sub(x, piece->x), f->region_offset[0] - v3_dot(up, x), up); /* into the plane */
+        /* projected onto the plane */
+        rim[k] = v3_madd(v3_sub(x, piece->x), f->region_offset[0] - v3_dot(up, x), up);
     }
-    for (int again = 1; again && count > 3;) { /* corners that are straight go */
+    for (int again = 1; again && count > 3;) { /* drop straight corners */
         again = 0;
         for (int32_t k = 0; k < count && count > 3; k++) {
             const fl_vec3 a = rim[(k + count - 1) % count], b = rim[k], c = rim[(k + 1) % count];
@@ -82,7 +83,7 @@ done:
     return made;
 }
 
-/* The rim of a flat open part, into loop: how many vertices it has, 0 when it is not a single loop. */
+/* The rim of a flat open part, into loop. Returns its number of vertices, 0 if it is not a single loop. */
 static int32_t find_rim(const fl_coplanar_regions *f, int32_t *next, int32_t *loop)
 {
     const fl_part *p = f->p;
@@ -104,21 +105,22 @@ static int32_t find_rim(const fl_coplanar_regions *f, int32_t *next, int32_t *lo
     return sides;
 }
 
-/* A flat part that is one convex polygon, by its rim or else by what it covers: 1, and else 0. */
+/* Makes a plate of a flat part that is one convex polygon, by its rim or else by the area it covers. Returns
+ * 1, or 0 if it is none. */
 static int make_plate(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_part *p = f->p;
     int32_t *next = fl_alloc(p->nv, sizeof *next, err), *loop = fl_alloc(p->nv, sizeof *loop, err), n;
     int made = next && loop ? 0 : -1;
     if (made == 0 && f->regions == 1 && (n = find_rim(f, next, loop)) > 0)
-        made = plate_within(piece, f, n, loop, err);
+        made = make_plate_of_loop(piece, f, n, loop, err);
     if (made == 0 && (made = fl_region_covers_hull(p, f->region_normal[0], f->tol, loop, &n, err)) > 0)
-        made = plate_within(piece, f, n, loop, err);
+        made = make_plate_of_loop(piece, f, n, loop, err);
     free(next), free(loop);
     return made;
 }
 
-static void shell_free(fl_piece_mesh *s)
+static void mesh_free(fl_piece_mesh *s)
 {
     free(s->corner), free(s->box), free(s->edge_box), free(s->concave_face), free(s->saddle);
     fl_tile_seams_free(&s->seams);
@@ -126,13 +128,13 @@ static void shell_free(fl_piece_mesh *s)
     fl_bvh_free(&s->edge_tree);
 }
 
-/* The bent edges at a vertex: how many, and the far ends of the first two. */
+/* Bent edges at a vertex: their number, and the far ends of the first two. */
 typedef struct {
     int32_t n, v[2];
-} bends;
+} vertex_bends;
 
-/* The sides where the surface bends or ends, each once, and what meets at every vertex. */
-static void bent_edges(const fl_coplanar_regions *f, fl_region_side *edge, int32_t *edges, bends *ends)
+/* Lists the sides where the surface bends or ends, each once, and the bent edges at every vertex. */
+static void bent_edges(const fl_coplanar_regions *f, fl_region_side *edge, int32_t *edges, vertex_bends *ends)
 {
     const fl_part *p = f->p;
     for (int32_t k = 0; k < 3 * p->nt; k++) {
@@ -142,20 +144,20 @@ static void bent_edges(const fl_coplanar_regions *f, fl_region_side *edge, int32
         for (const fl_region_side *o = s; o < f->side + 3 * p->nt && o->a == s->a && o->b == s->b && u < 0;
              o++) {
             u = f->neighbour[3 * o->t + fl_region_side_of(&p->t[o->t], o->a, o->b)];
-            if (u >= 0) s = o; /* of three at an edge one of the two that go on over it */
+            if (u >= 0) s = o; /* of three at an edge one of the two that are joined */
         }
         if (f->region[s->t] < 0 || (u >= 0 && f->region[u] == f->region[s->t])) continue;
         edge[(*edges)++] = *s;
         for (int end = 0; end < 2; end++) {
-            bends *at = &ends[end ? s->b : s->a];
+            vertex_bends *at = &ends[end ? s->b : s->a];
             if (at->n < 2) at->v[at->n] = end ? s->a : s->b;
             at->n++;
         }
     }
 }
 
-/* Two bent edges meet at v in one line: v is a seam of the mesh, not a corner of the shape. */
-static int straight(const fl_part *p, const bends *ends, int32_t v, double tol)
+/* True if exactly two bent edges meet at v in one line: v is no corner of the shape. */
+static int is_straight(const fl_part *p, const vertex_bends *ends, int32_t v, double tol)
 {
     if (ends[v].n != 2) return 0;
     const fl_vec3 a = p->v[ends[v].v[0]], b = p->v[ends[v].v[1]], along = v3_sub(b, a);
@@ -171,8 +173,9 @@ static double triangle_area(const fl_part *p, int32_t t)
 }
 
 /* The faces on both sides of the edge a b of triangle t: left where a b runs counter-clockwise round it; -1
- * where the surface ends. */
-static fl_edge sides_of(const fl_coplanar_regions *f, const int32_t *face_of, int32_t t, int32_t a, int32_t b)
+ * beyond a rim. */
+static fl_edge faces_of_edge(const fl_coplanar_regions *f, const int32_t *face_of, int32_t t, int32_t a,
+                             int32_t b)
 {
     const fl_tri *tri = &f->p->t[t];
     const int k = fl_region_side_of(tri, a, b);
@@ -180,15 +183,16 @@ static fl_edge sides_of(const fl_coplanar_regions *f, const int32_t *face_of, in
     return tri->v[k] == a ? (fl_edge){a, b, one, other} : (fl_edge){a, b, other, one};
 }
 
-/* The faces of a shell: convex tiles of its flat regions.  The block of a fl_poly is laid out by hand: it is
- * not convex, so fl_poly_make() is not asked. */
-static int lay_out(fl_piece *piece, const fl_coplanar_regions *f, const fl_merged_faces *tiles, fl_err *err)
+/* Lays out the faces of a mesh, convex tiles of its flat regions. The block of a fl_poly is laid out by hand,
+ * since fl_poly_make() requires a convex one. */
+static int lay_out_mesh(fl_piece *piece, const fl_coplanar_regions *f, const fl_merged_faces *tiles,
+                        fl_err *err)
 {
     const fl_part *p = f->p;
     const fl_aabb box = fl_part_aabb(p);
     const size_t nv = (size_t)p->nv, nt = (size_t)p->nt, nf = (size_t)tiles->n;
     fl_poly *core = &piece->core;
-    fl_piece_mesh *sh = &piece->mesh;
+    fl_piece_mesh *mesh = &piece->mesh;
     const size_t sides = (size_t)tiles->first[nf];
     const size_t bytes = (nv + nf) * sizeof(fl_vec3) + (nf + nv + 3 * nt) * sizeof(double) +
                          3 * nt * sizeof(fl_edge) + (nf + 1 + sides + nv + 1 + 6 * nt) * sizeof(int32_t);
@@ -196,10 +200,10 @@ static int lay_out(fl_piece *piece, const fl_coplanar_regions *f, const fl_merge
     piece->kind = FL_PIECE_MESH;
     piece->x = v3_scale(0.5, v3_add(box.lo, box.hi));
     core->v = (fl_vec3 *)mem;
-    sh->corner = fl_alloc(p->nv, sizeof *sh->corner, err);
-    sh->box = fl_alloc(tiles->n, sizeof *sh->box, err);
-    sh->edge_box = fl_alloc(3 * (int64_t)p->nt, sizeof *sh->edge_box, err);
-    if (!mem || !sh->corner || !sh->box || !sh->edge_box) return -1;
+    mesh->corner = fl_alloc(p->nv, sizeof *mesh->corner, err);
+    mesh->box = fl_alloc(tiles->n, sizeof *mesh->box, err);
+    mesh->edge_box = fl_alloc(3 * (int64_t)p->nt, sizeof *mesh->edge_box, err);
+    if (!mem || !mesh->corner || !mesh->box || !mesh->edge_box) return -1;
     core->n = core->v + nv;
     core->c = (double *)(core->n + nf);
     core->bend = core->c + nf;
@@ -222,22 +226,22 @@ static int lay_out(fl_piece *piece, const fl_coplanar_regions *f, const fl_merge
     }
     for (int32_t r = 0; r < core->nf; r++) {
         const int32_t region = tiles->region[r];
-        sh->box[r] = aabb_empty();
+        mesh->box[r] = aabb_empty();
         for (int32_t k = core->first[r]; k < core->first[r + 1]; k++)
-            sh->box[r] = aabb_add(sh->box[r], core->v[core->loop[k]]);
+            mesh->box[r] = aabb_add(mesh->box[r], core->v[core->loop[k]]);
         core->n[r] = f->region_normal[region];
         core->c[r] = f->region_offset[region] - v3_dot(core->n[r], piece->x);
     }
     return 0;
 }
 
-/* Sides of triangles where one flat region passes into another, by the vertex that they begin at. */
+/* Sides of triangles at borders between flat regions, by their first vertex. */
 typedef struct {
     int32_t *begin; /* [nv + 1] */
     int32_t *side;  /* 3 triangle + side */
-} seams;
+} region_borders;
 
-static int find_seams(seams *s, const fl_coplanar_regions *f, fl_err *err)
+static int find_borders(region_borders *s, const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_part *p = f->p;
     s->begin = fl_alloc((int64_t)p->nv + 2, sizeof *s->begin, err);
@@ -256,10 +260,10 @@ static int find_seams(seams *s, const fl_coplanar_regions *f, fl_err *err)
     return 0;
 }
 
-/* The tile over the side from a to b of a tile of this region, or -1 where there is none, or several that are
- * not of one plane. */
-static int32_t tile_over(const seams *s, const fl_coplanar_regions *f, const fl_merged_faces *tiles,
-                         int32_t region, int32_t a, int32_t b)
+/* The tile across the side from a to b of a tile of this region; -1 if there is none, or several that are not
+ * of one plane. */
+static int32_t tile_across(const region_borders *s, const fl_coplanar_regions *f,
+                           const fl_merged_faces *tiles, int32_t region, int32_t a, int32_t b)
 {
     const fl_part *p = f->p;
     const fl_vec3 way = v3_sub(p->v[b], p->v[a]);
@@ -283,25 +287,26 @@ static int32_t tile_over(const seams *s, const fl_coplanar_regions *f, const fl_
     return over;
 }
 
-#define LEANS 0.5 /* cosine of the bend from which on every wall bears for itself */
+/* cosine of the bend of a concave edge: sharper inner corners have independent walls */
+#define MIN_CONCAVE_COSINE 0.5
 
-static int find_leans(fl_piece *piece, const fl_coplanar_regions *f, const fl_merged_faces *tiles,
-                      fl_err *err)
+static int find_concave_faces(fl_piece *piece, const fl_coplanar_regions *f, const fl_merged_faces *tiles,
+                              fl_err *err)
 {
     fl_poly *core = &piece->core;
-    seams s = {0};
+    region_borders s = {0};
     int rc = -1;
     piece->mesh.concave_face = fl_alloc(core->first[core->nf], sizeof *piece->mesh.concave_face, err);
-    if (piece->mesh.concave_face && find_seams(&s, f, err) == 0) {
+    if (piece->mesh.concave_face && find_borders(&s, f, err) == 0) {
         for (int32_t r = 0; r < core->nf; r++) {
             for (int32_t k = core->first[r]; k < core->first[r + 1]; k++) {
                 const int32_t a = core->loop[k],
                               b = core->loop[k + 1 < core->first[r + 1] ? k + 1 : core->first[r]];
-                const int32_t g = tile_over(&s, f, tiles, tiles->region[r], a, b);
+                const int32_t g = tile_across(&s, f, tiles, tiles->region[r], a, b);
                 const fl_vec3 u = v3_sub(core->v[b], core->v[a]);
-                const int leans = g >= 0 && v3_dot(core->n[r], core->n[g]) > LEANS &&
-                                  v3_dot(v3_cross(core->n[r], core->n[g]), u) < 0.0;
-                piece->mesh.concave_face[k] = leans ? g : -1;
+                const int concave = g >= 0 && v3_dot(core->n[r], core->n[g]) > MIN_CONCAVE_COSINE &&
+                                    v3_dot(v3_cross(core->n[r], core->n[g]), u) < 0.0;
+                piece->mesh.concave_face[k] = concave ? g : -1;
             }
         }
         core->concave_face = piece->mesh.concave_face;
@@ -311,8 +316,8 @@ static int find_leans(fl_piece *piece, const fl_coplanar_regions *f, const fl_me
     return rc;
 }
 
-/* What bends outward from vertices at which something bends inward, also the rim within its surface. */
-static int find_forks(fl_piece *piece, fl_err *err)
+/* Marks convex edges at vertices where the surface is concave too, or where a rim lies within it. */
+static int find_saddles(fl_piece *piece, fl_err *err)
 {
     fl_poly *p = &piece->core;
     uint8_t *hollow = fl_alloc(p->nv, 1, err);
@@ -337,45 +342,45 @@ static int find_forks(fl_piece *piece, fl_err *err)
     return 0;
 }
 
-static int make_shell(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err)
+static int make_mesh(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_part *p = f->p;
     fl_poly *core = &piece->core;
-    fl_piece_mesh *sh = &piece->mesh;
+    fl_piece_mesh *mesh = &piece->mesh;
     fl_merged_faces tiles = {0};
     fl_region_side *edge = fl_alloc(3 * (int64_t)p->nt, sizeof *edge, err);
-    bends *ends = fl_alloc(p->nv, sizeof *ends, err);
+    vertex_bends *ends = fl_alloc(p->nv, sizeof *ends, err);
     int32_t edges = 0;
     int rc = -1;
     if (!edge || !ends ||
         fl_merge_coplanar(&tiles, p->nv, p->v, p->nt, p->t, f->region, f->region_normal, f->neighbour, f->tol,
                           err) ||
-        lay_out(piece, f, &tiles, err) || find_leans(piece, f, &tiles, err))
+        lay_out_mesh(piece, f, &tiles, err) || find_concave_faces(piece, f, &tiles, err))
         goto done;
     bent_edges(f, edge, &edges, ends);
     for (int32_t k = 0; k < edges; k++) { /* every straight run once, from its lower end */
-        if (straight(p, ends, edge[k].a, f->tol) && straight(p, ends, edge[k].b, f->tol)) continue;
+        if (is_straight(p, ends, edge[k].a, f->tol) && is_straight(p, ends, edge[k].b, f->tol)) continue;
         for (int turn = 0; turn < 2; turn++) {
             const int32_t from = turn ? edge[k].b : edge[k].a;
             int32_t last = from, to = turn ? edge[k].a : edge[k].b;
-            const fl_edge sides = sides_of(f, tiles.face_of_tri, edge[k].t, from, to);
-            if (straight(p, ends, from, f->tol)) continue;
-            while (straight(p, ends, to, f->tol)) {
+            const fl_edge sides = faces_of_edge(f, tiles.face_of_tri, edge[k].t, from, to);
+            if (is_straight(p, ends, from, f->tol)) continue;
+            while (is_straight(p, ends, to, f->tol)) {
                 const int32_t next = ends[to].v[0] == last ? ends[to].v[1] : ends[to].v[0];
                 last = to;
                 to = next;
             }
             if (from > to) continue;
             core->edge[core->ne] = (fl_edge){from, to, sides.left, sides.right};
-            sh->edge_box[core->ne++] = aabb_add((fl_aabb){core->v[from], core->v[from]}, core->v[to]);
+            mesh->edge_box[core->ne++] = aabb_add((fl_aabb){core->v[from], core->v[from]}, core->v[to]);
         }
     }
     for (int32_t v = 0; v < p->nv; v++)
-        if (ends[v].n && !straight(p, ends, v, f->tol)) sh->corner[sh->corners++] = v;
+        if (ends[v].n && !is_straight(p, ends, v, f->tol)) mesh->corner[mesh->corners++] = v;
     fl_poly_angles(core);
     for (int32_t v = 0; v < p->nv; v++) core->defect[v] -= PI * tiles.straight_corners[v];
-    rc = find_forks(piece, err) || fl_bvh_build(&sh->tree, sh->box, core->nf, err) ||
-                 fl_bvh_build(&sh->edge_tree, sh->edge_box, core->ne, err)
+    rc = find_saddles(piece, err) || fl_bvh_build(&mesh->tree, mesh->box, core->nf, err) ||
+                 fl_bvh_build(&mesh->edge_tree, mesh->edge_box, core->ne, err)
              ? -1
              : 0;
 done:
@@ -384,30 +389,30 @@ done:
     return rc;
 }
 
-/* An inside that is one to one triangle and none to the next would push both ways. */
-static int check_turned(const fl_coplanar_regions *f, fl_err *err)
+/* Rejects inconsistent orientation: a wall would push both ways. */
+static int check_orientation(const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_part *p = f->p;
-    const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one behind the other */
+    const int rows = p->line > 0 && p->last_line - p->line == p->nt - 1; /* one after another in the file */
     const int32_t first = rows ? p->line : 0;
     if (f->misoriented[0] < 0) return 0;
     return fl_fail(err, FL_INPUT,
                    "part %s: its triangles %s%d and %d share an edge and face different ways: struct-import "
-                   "turns what has two sides",
+                   "orients them",
                    p->name, rows ? "of lines " : "", first + f->misoriented[0], first + f->misoriented[1]);
 }
 
-/* Six times what triangle t encloses with o. */
-static double cone_over(const fl_part *p, int32_t t, fl_vec3 o)
+/* Six times the volume that triangle t encloses with o. */
+static double six_volumes(const fl_part *p, int32_t t, fl_vec3 o)
 {
     const int32_t *v = p->t[t].v;
     return v3_dot(v3_sub(p->v[v[0]], o),
                   v3_cross(v3_sub(p->v[v[1]], p->v[v[0]]), v3_sub(p->v[v[2]], p->v[v[0]])));
 }
 
-/* Whether a body of a closed surface, which is what edges join, encloses less than nothing, as cavities do
- * and what is inside out: 1 + its first triangle, or 0.  -1 with FL_SYSTEM. */
-static int32_t looks_inward(const fl_coplanar_regions *f, fl_err *err)
+/* Finds a connected body of a closed surface with a negative volume, as of a cavity or of a mesh inside out:
+ * 1 + its first triangle, or 0. Returns -1 with FL_SYSTEM. */
+static int32_t find_inward_body(const fl_coplanar_regions *f, fl_err *err)
 {
     const fl_part *p = f->p;
     int32_t inward = 0;
@@ -420,7 +425,7 @@ static int32_t looks_inward(const fl_coplanar_regions *f, fl_err *err)
         if (!seen[t]) seen[f->queue[tail++] = t] = 1;
         for (int32_t head = 0; head < tail; head++) {
             const int32_t u = f->queue[head];
-            volume += cone_over(p, u, o);
+            volume += six_volumes(p, u, o);
             for (int k = 0; k < 3; k++) {
                 const int32_t next = f->neighbour[3 * u + k];
                 if (!seen[next]) seen[f->queue[tail++] = next] = 1;
@@ -443,11 +448,11 @@ static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err
     const int flat = f.regions == 1 || fl_region_is_flat(p, f.region_normal[0], f.region_offset[0], f.tol);
     if (flat) plate = make_plate(piece, &f, err);
     if (plate) rc = plate < 0 ? -1 : 0;
-    else if (check_turned(&f, err)) goto done;
-    else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_shell(piece, &f, err);
+    else if (check_orientation(&f, err)) goto done;
+    else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_mesh(piece, &f, err);
     piece->one_sided = flat && !plate;
     if (rc == 0 && f.closed && piece->kind == FL_PIECE_MESH &&
-        (piece->inward_triangle = looks_inward(&f, err)) < 0)
+        (piece->inward_triangle = find_inward_body(&f, err)) < 0)
         rc = -1;
 done:
     fl_coplanar_regions_free(&f);
@@ -521,7 +526,7 @@ void fl_structure_free(fl_structure *s)
 {
     for (int32_t k = 0; k < s->n; k++) {
         fl_poly_free(&s->piece[k].core);
-        shell_free(&s->piece[k].mesh);
+        mesh_free(&s->piece[k].mesh);
     }
     free(s->piece);
     *s = (fl_structure){0};

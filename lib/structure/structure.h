@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* structure.h -- what ice meets, as pieces that a contact can be computed with.
+/* structure.h -- the structure as pieces that contacts can be computed with.
  *
- * Triangles of a part that lie in one plane and hang together become one face first, so that a flat wall
- * loads the ice the same whether it is 2 triangles or 20 000.  Then a part is
- *   a solid   when it is closed and convex: one convex polyhedron, the half-spaces of its faces;
- *   a plate   when it is one flat convex polygon, which is felt from both sides;
- *   a shell   otherwise: those faces in convex tiles, and of edges and vertices those where the surface
- * bends, straight runs whole. A truncated cone is a piece of its own.  It is exact for spheres, and under the
- * law `patch` for polyhedra whose centre is farther from both its ends than twice their bounding radius
- * (patch/cone.h); nearer to an end it becomes, by a smooth share of the energy, a frustum of
- * FL_CONE_SIDES sides and the same cross-section, which it is for the other laws. */
+ * Connected triangles of a part in one plane become one face first, so that a flat wall loads the ice alike
+ * with 2 triangles or 20 000. Then a part is
+ *   a solid   if closed and convex: one convex polyhedron, the half-spaces of its faces;
+ *   a plate   if one flat convex polygon, which is two-sided;
+ *   a mesh    otherwise: its faces in convex tiles, and the edges and vertices where the surface bends,
+ *             straight runs as one edge.
+ * A truncated cone is a piece of its own. It is exact for spheres, and under the law `patch` for polyhedra
+ * whose centre is farther from both ends of the cone than twice their bounding radius (patch/cone.h). Nearer
+ * to an end it turns, by a smooth share of the energy, into a frustum of FL_CONE_SIDES sides and the same
+ * cross-section, which it is for the other laws. */
 #ifndef FL_STRUCTURE_STRUCTURE_H
 #define FL_STRUCTURE_STRUCTURE_H
 #include "structure/persistence_contact.h"
@@ -22,8 +23,8 @@ enum { FL_CONE_SIDES = 96 };
 
 typedef enum { FL_PIECE_SOLID, FL_PIECE_CONE, FL_PIECE_PLANE, FL_PIECE_MESH } fl_piece_kind;
 
-/* The faces of a shell are convex tiles of its flat regions (geom/merge_coplanar.h), of one triangle each where it is
- * curved; core.edge and corner[] only what bends or ends there. */
+/* A mesh. Its faces are convex tiles of flat regions (geom/merge_coplanar.h), single triangles where it is
+ * curved. core.edge and corner[] hold only what bends or ends. */
 typedef struct {
     int32_t corners;
     int32_t *corner;       /* [corners] vertices of core where the surface bends */
@@ -31,25 +32,24 @@ typedef struct {
     fl_bvh tree;           /* over box */
     fl_bvh edge_tree;      /* over edge_box */
     fl_aabb *edge_box;     /* [core.ne] */
-    int32_t *concave_face; /* core.lean */
-    uint8_t *saddle;       /* core.fork */
-    fl_tile_seams seams;   /* only where fl_structure_prepare_spheres() was asked for them */
+    int32_t *concave_face; /* core.concave_face */
+    uint8_t *saddle;       /* core.saddle */
+    fl_tile_seams seams;   /* only after fl_structure_prepare_spheres() */
 } fl_piece_mesh;
 
 typedef struct {
     fl_piece_kind kind;
-    int32_t part;  /* index in the surface                      */
-    fl_vec3 x;     /* origin of the frame of the piece      [m] */
-    fl_quat q;     /* its axes                                  */
-    fl_poly core;  /* in that frame; a plate for plates         */
-    int elastic;   /* a plane on springs                        */
-    int one_sided; /* a flat sheet that is a shell: what comes from behind feels nothing of it */
-    int32_t
-        inward_triangle; /* a closed shell, a body of which looks inward: 1 + its first triangle; all is solid but
-                       * what that encloses */
+    int32_t part;  /* index in the surface */
+    fl_vec3 x;     /* origin of the frame of the piece [m] */
+    fl_quat q;     /* axes of that frame */
+    fl_poly core;  /* in that frame; of a plate with two faces */
+    int elastic;   /* 1: a wall on springs */
+    int one_sided; /* 1: a flat sheet that is a mesh; nothing acts on what comes from behind */
+    /* of a closed mesh with a body that encloses less than nothing: 1 + its first triangle; else 0 */
+    int32_t inward_triangle;
     double r0, r1, h; /* cone: between z = 0 and z = h of the frame */
     fl_piece_mesh mesh;
-    double largest_region_area; /* area of the largest flat region of a shell, however it is cut up [m2] */
+    double largest_region_area; /* of the largest flat region of a mesh, however it is divided [m2] */
 } fl_piece;
 
 typedef struct {
@@ -57,12 +57,12 @@ typedef struct {
     fl_piece *piece;
 } fl_structure;
 
-/* Build the pieces of all parts.  Welds nothing: triangles are joined by the indices of their vertices.
- * -1 with FL_INPUT (a part whose triangles have no area, or of which two that share an edge with no third
- * face different ways) or FL_SYSTEM. */
+/* Builds the pieces of all parts. Welds nothing: triangles are joined by the indices of their vertices.
+ * Returns -1 with FL_INPUT (a part whose triangles have no area, or two of which share an edge with no third
+ * one and face different ways) or FL_SYSTEM. */
 int fl_structure_build(fl_structure *s, const fl_surface *surface, fl_err *err);
 
-/* Make ready for balls, which ask where the walls of shells meet.  -1 with FL_SYSTEM. */
+/* Prepares the meshes for contact with spheres, which needs the seams of tiles. Returns -1 with FL_SYSTEM. */
 int fl_structure_prepare_spheres(fl_structure *s, fl_err *err);
 void fl_structure_free(fl_structure *s);
 

@@ -36,17 +36,17 @@ int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
     return 0;
 }
 
-/* Vertices that a few numbers each are kept of while one shape is looked at. */
-enum { KEPT = 64 };
+/* Vertices up to which heights are stored. */
+enum { MAX_KEPT = 64 };
 
-/* A shape whose faces stand r out from those of a right prism with its long edges along e. */
-struct standing {
+/* The right prism whose faces lie r outside those of a core with long edges along e. */
+struct offset_prism {
     fl_poly p;
-    fl_vec3 v[KEPT];
-    double c[KEPT];
+    fl_vec3 v[MAX_KEPT];
+    double c[MAX_KEPT];
 };
 
-static const fl_poly *stand_out(struct standing *to, const fl_poly *core, fl_vec3 e, double r)
+static const fl_poly *offset_faces(struct offset_prism *to, const fl_poly *core, fl_vec3 e, double r)
 {
     fl_vec3 *v = to->v;
     const int32_t *first = core->first, *loop = core->loop;
@@ -71,26 +71,28 @@ static const fl_poly *stand_out(struct standing *to, const fl_poly *core, fl_vec
     return &to->p;
 }
 
-/* The shape that floats. */
-static const fl_poly *shape_of(const fl_hull *h, struct standing *room)
+/* The polyhedron that floats. */
+static const fl_poly *floating_shape(const fl_hull *h, struct offset_prism *scratch)
 {
-    return h->face_area || h->shape->nf == 0 ? h->shape : stand_out(room, h->shape, h->prism.e, h->radius);
+    return h->face_area || h->shape->nf == 0 ? h->shape
+                                             : offset_faces(scratch, h->shape, h->prism.e, h->radius);
 }
 
-#define OFF 1e-12 /* of the size */
+/* of the size: the rounding of the formula and of the corners read; below it the two shapes are the same */
+#define CORE_TOL 1e-12
 
 int fl_hull_borrow_core(fl_hull *h, const fl_poly *core, double r)
 {
     const fl_poly *p = h->shape;
-    struct standing room;
-    if (!(h->prism.area > 0.0) || p->nv > KEPT || core->nv != p->nv || core->nf != p->nf) return 0;
+    struct offset_prism scratch;
+    if (!(h->prism.area > 0.0) || p->nv > MAX_KEPT || core->nv != p->nv || core->nf != p->nf) return 0;
     const int32_t loops = p->first[p->nf];
     if (memcmp(core->first, p->first, ((size_t)p->nf + 1) * sizeof *p->first) != 0 ||
         memcmp(core->loop, p->loop, (size_t)loops * sizeof *p->loop) != 0)
         return 0;
-    const fl_poly *q = stand_out(&room, core, h->prism.e, r);
-    for (int32_t v = 0; v < p->nv; v++) /* no number is worse than any */
-        if (!(v3_norm(v3_sub(p->v[v], q->v[v])) <= OFF * p->size)) return 0;
+    const fl_poly *q = offset_faces(&scratch, core, h->prism.e, r);
+    for (int32_t v = 0; v < p->nv; v++) /* written so that a NaN fails */
+        if (!(v3_norm(v3_sub(p->v[v], q->v[v])) <= CORE_TOL * p->size)) return 0;
     free(h->face_area);
     h->face_area = NULL;
     h->shape = core;
@@ -104,34 +106,34 @@ void fl_hull_free(fl_hull *h)
     *h = (fl_hull){0};
 }
 
-/* The water plane, and the heights of the vertices over it when there are few enough to keep: every face of a
- * vertex asks for its height. */
-struct water {
+/* The water plane, and the heights of the vertices above it if there are few enough to store: every face of a
+ * vertex needs its height. */
+struct plane_heights {
     fl_vec3 up;
-    double level, s[KEPT];
+    double level, s[MAX_KEPT];
     int kept;
 };
 
-static double over(const fl_poly *p, int32_t v, const struct water *w)
+static double height_over(const fl_poly *p, int32_t v, const struct plane_heights *w)
 {
     return w->kept ? w->s[v] : v3_dot(w->up, p->v[v]) - w->level;
 }
 
-/* The wetted part of a face: area, int (x - apex) dA, and the two points where the water leaves and enters
- * the loop. */
-struct part {
+/* Wetted part of a face: area, int (x - apex) dA, and the points where the water line leaves and enters the
+ * loop. */
+struct wet_face {
     double area;
     fl_vec3 moment, leave, enter;
     int cut;
 };
 
-/* A fan of triangles over its first corner, as its corners come. */
-struct fan {
+/* A fan of triangles over the first corner, built corner by corner. */
+struct face_fan {
     fl_vec3 n, apex, hub, rim;
     int have;
 };
 
-static inline void open_to(struct fan *fan, struct part *out, fl_vec3 corner)
+static inline void fan_add(struct face_fan *fan, struct wet_face *out, fl_vec3 corner)
 {
     const fl_vec3 x = v3_sub(corner, fan->apex);
     if (fan->have >= 2) {
@@ -144,41 +146,42 @@ static inline void open_to(struct fan *fan, struct part *out, fl_vec3 corner)
     fan->have++;
 }
 
-/* Walk round face f and keep what is wet, as a fan over its first wet corner: no list of corners is needed.
- * A crossing is always computed from its wet end, so that the two faces of an edge find the same point. */
-static struct part clip_face(const fl_poly *p, int32_t f, const struct water *w, fl_vec3 apex)
+/* Walks round face f and keeps the wet part, as a fan over its first wet corner, so that no list of corners
+ * is needed. A crossing is always computed from its wet end, so that both faces of an edge find the same
+ * point. */
+static struct wet_face clip_face(const fl_poly *p, int32_t f, const struct plane_heights *w, fl_vec3 apex)
 {
     const int32_t *at = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
-    struct part out = {0};
-    struct fan fan = {.n = p->n[f], .apex = apex};
+    struct wet_face out = {0};
+    struct face_fan fan = {.n = p->n[f], .apex = apex};
     fl_vec3 from = p->v[at[m - 1]];
-    double s0 = over(p, at[m - 1], w);
+    double s0 = height_over(p, at[m - 1], w);
     for (int32_t k = 0; k < m; k++) {
         const fl_vec3 to = p->v[at[k]];
-        const double s1 = over(p, at[k], w);
+        const double s1 = height_over(p, at[k], w);
         const int wet0 = s0 <= 0.0, wet1 = s1 <= 0.0;
         if (wet0 && !wet1) {
             out.leave = v3_lerp(from, to, s0 / (s0 - s1));
             out.cut = 1;
-            open_to(&fan, &out, out.leave);
+            fan_add(&fan, &out, out.leave);
         } else if (!wet0 && wet1) {
             out.enter = v3_lerp(to, from, s1 / (s1 - s0));
-            open_to(&fan, &out, out.enter);
+            fan_add(&fan, &out, out.enter);
         }
-        if (wet1) open_to(&fan, &out, to);
+        if (wet1) fan_add(&fan, &out, to);
         from = to;
         s0 = s1;
     }
     return out;
 }
 
-/* The same of a face that is wet all over. */
-static struct part whole_face(const fl_poly *p, int32_t f, fl_vec3 apex)
+/* The same of a face that is wholly wet. */
+static struct wet_face whole_face_of(const fl_poly *p, int32_t f, fl_vec3 apex)
 {
     const int32_t *at = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
     const fl_vec3 hub = p->v[at[0]], n = p->n[f], by = v3_sub(hub, apex);
     fl_vec3 rim = v3_sub(p->v[at[1]], hub);
-    struct part out = {0};
+    struct wet_face out = {0};
     for (int32_t k = 2; k < m; k++) {
         const fl_vec3 x = v3_sub(p->v[at[k]], hub);
         const double tri = 0.5 * v3_dot(n, v3_cross(rim, x));
@@ -190,15 +193,15 @@ static struct part whole_face(const fl_poly *p, int32_t f, fl_vec3 apex)
     return out;
 }
 
-/* -1 dry, +1 wet, 0 cut: then the apex is where the line from the deepest to the highest vertex meets the
- * water, a point inside. */
-static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct water *w, fl_vec3 *apex)
+/* Returns -1 dry, +1 wet, 0 cut. For a cut body the apex is where the line from the deepest to the highest
+ * vertex meets the water plane, a point inside. */
+static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct plane_heights *w, fl_vec3 *apex)
 {
     double low = INFINITY, high = -INFINITY;
     int32_t l = 0, h = 0;
     w->up = up;
     w->level = level;
-    w->kept = p->nv <= KEPT;
+    w->kept = p->nv <= MAX_KEPT;
     for (int32_t v = 0; v < p->nv; v++) {
         const double s = v3_dot(up, p->v[v]) - level;
         if (w->kept) w->s[v] = s;
@@ -217,13 +220,13 @@ static int find_apex(const fl_poly *p, fl_vec3 up, double level, struct water *w
     return 0;
 }
 
-static void solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
+static void submerge_solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
 {
-    struct standing room;
-    const fl_poly *p = shape_of(h, &room);
+    struct offset_prism scratch;
+    const fl_poly *p = floating_shape(h, &scratch);
     fl_vec3 apex, sum = {0};
     double v3fold = 0.0, wetted = 0.0, plane = 0.0;
-    struct water water;
+    struct plane_heights water;
     const int state = find_apex(p, up, level, &water, &apex);
     if (state) {
         *wet = state < 0
@@ -236,13 +239,15 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
         const int32_t m = p->first[f + 1] - p->first[f];
         double area;
         fl_vec3 moment;
-        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) below += over(p, p->loop[k], &water) <= 0.0;
+        for (int32_t k = p->first[f]; k < p->first[f + 1]; k++)
+            below += height_over(p, p->loop[k], &water) <= 0.0;
         if (below == 0) continue;
         if (below == m && h->face_area) {
             area = h->face_area[f];
             moment = v3_scale(area, v3_sub(fl_hull_face_centroids(h)[f], apex));
         } else {
-            const struct part part = below == m ? whole_face(p, f, apex) : clip_face(p, f, &water, apex);
+            const struct wet_face part =
+                below == m ? whole_face_of(p, f, apex) : clip_face(p, f, &water, apex);
             area = part.area;
             moment = part.moment;
         }
@@ -258,9 +263,9 @@ static void solid(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
     wet->waterplane_area = plane > 0.0 ? plane : 0.0;
 }
 
-/* Spherical cap of height t = level + r over the lowest point:
+/* Spherical cap of height t = level + r above the lowest point:
  *     V = pi t^2 (3r - t) / 3,  its centroid 3 (2r - t)^2 / (4 (3r - t)) below the centre. */
-static void sphere(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
+static void submerge_sphere(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
 {
     const fl_vec3 o = h->shape->v[0];
     const double r = h->radius, level = water - v3_dot(up, o), t = level + r;
@@ -276,23 +281,23 @@ static void sphere(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet
     wet->waterplane_area = PI * t * (2.0 * r - t);
 }
 
-/* What the parts of a capsule add up to: first moments about its middle, along the axis and along w, the
- * direction across it that leads out of the water; plane is the area of the water plane, found as minus the
- * sum of A (n.up) over the wetted surface. */
-struct parts {
+/* Sums over the parts of a capsule: first moments about its middle, along the axis and along w, the direction
+ * normal to the axis that points out of the water. plane is the area of the water plane, minus the sum of A
+ * (n.up) over the wetted surface. */
+struct capsule_sums {
     double volume, along, across, wetted, plane;
 };
 
-/* The capsule |s| <= half + r on its axis, turned so that sine >= 0. */
+/* The capsule |s| <= half + r on its axis, directed so that sine >= 0. */
 struct capsule {
-    double r, half, level; /* level: height of the water over the middle */
+    double r, half, level; /* level: height of the water above the middle */
     double sine, cosine;   /* up = sine axis + cosine w, cosine > 0 */
 };
 
-static double clamped(double x, double lo, double hi) { return fmin(fmax(x, lo), hi); }
+static double clamp(double x, double lo, double hi) { return fmin(fmax(x, lo), hi); }
 
-/* theta/2 - sin cos/2 - sin^3 cos/3: what rho^2 A - int |x|^2 dA is for a circular segment of radius rho and
- * half angle theta, in units of rho^4 */
+/* theta/2 - sin cos/2 - sin^3 cos/3: rho^2 A - int |x|^2 dA of a circular segment of radius rho and half
+ * angle theta, in units of rho^4. */
 static double segment4(double theta, double s, double c)
 {
     return 0.5 * (theta - s * c) - s * s * s * c / 3.0;
@@ -300,21 +305,21 @@ static double segment4(double theta, double s, double c)
 
 /* The half ball beyond an end of the axis, side = +1 or -1: |x| <= r, p.x >= 0 with p = side axis, up.x <= d.
  * Its surface is a patch A0 of the sphere, a segment A1 of the water plane (circle of radius rho, half angle
- * t1) and a segment A2 of the end of the cylinder (radius r, half angle t2).  With S = segment4(), sp = up.p,
+ * t1) and a segment A2 of the end of the cylinder (radius r, half angle t2). With S = segment4(), sp = up.p,
  *     V        = (r A0 + d A1) / 3                                            (divergence theorem)
  *     int x dV = 1/2 int |x|^2 n dA = 1/2 (p r^4 S(t2) - up rho^4 S(t1))     (the same)
  *     A0       = r^2 (2 atan2(q, sp r) + 2 (d/r) t1)                          (Gauss and Bonnet)
- * where q is half the chord that A1 and A2 share, times the cosine.  All three angles are atan2 of q; where
- * the circles miss each other q = 0, and they come out as the 0 or pi that is right. */
-static void add_cap(struct parts *t, const struct capsule *c, int side)
+ * where q is half the common chord of A1 and A2, times the cosine. All three angles are atan2 of q. Where the
+ * circles do not meet q = 0, and the angles come out as 0 or pi, correctly. */
+static void add_cap(struct capsule_sums *t, const struct capsule *c, int side)
 {
     const double r = c->r, g = c->cosine, sp = side * c->sine, at = c->level - sp * c->half;
-    const double d = clamped(at, -r, r), qq = (g * r - d) * (g * r + d), q = qq > 0.0 ? sqrt(qq) : 0.0;
+    const double d = clamp(at, -r, r), qq = (g * r - d) * (g * r + d), q = qq > 0.0 ? sqrt(qq) : 0.0;
     const double rho2 = (r - d) * (r + d), t1 = atan2(q, -d * sp), t2 = atan2(q, -d);
     const double rho = sqrt(rho2), s1 = rho > 0.0 ? q / (g * rho) : 0.0,
                  c1 = rho > 0.0 ? -d * sp / (g * rho) : 0.0;
     const double s2 = q / (g * r),
-                 c2 = -d / (g * r); /* sine and cosine only where q > 0: else they multiply 0 */
+                 c2 = -d / (g * r); /* sine and cosine hold for q > 0 only; else they multiply 0 */
     const double a0 = r * r * (2.0 * atan2(q, sp * r) + 2.0 * (d / r) * t1);
     const double a1 = rho2 * (q > 0.0 ? t1 - s1 * c1 : t1), a2 = r * r * (q > 0.0 ? t2 - s2 * c2 : t2);
     const double m1 = -0.5 * rho2 * rho2 * (q > 0.0 ? segment4(t1, s1, c1) : 0.5 * t1);
@@ -341,15 +346,22 @@ static double wet_angle(const struct capsule *c, double s)
     return atan2(sqrt((1.0 - u) * (1.0 + u)), -u);
 }
 
-/* The cylinder: whole discs up to station a, then segments up to b, then nothing.  The half angle theta of a
- * segment has cos theta linear in s; over theta instead of s all integrands are entire functions (sixteen
- * nodes leave 1e-16 even for a range of pi), and differences of cosines written as products of sines stay
- * good when the axis lies along the water and all angles are nearly one. */
-static void add_cylinder(struct parts *t, const struct capsule *c)
+/* Up to here x / sin x, 1 + x^2/6, is 1 to rounding [rad]. */
+#define SMALL_ANGLE 1e-8
+/* Stations beyond come of a division by a sine near 0: the axis is level. */
+#define FAR_STATION 1e300
+/* Least cosine of the axis: its square is still a normal number. */
+#define MIN_COSINE 1e-140
+
+/* The cylinder: whole discs up to station a, segments up to b, nothing beyond. The half angle theta of a
+ * segment has cos theta linear in s. Over theta instead of s all integrands are entire functions: sixteen
+ * nodes leave 1e-16 even for a range of pi. Differences of cosines, written as products of sines, stay
+ * accurate when the axis lies along the water and all angles are nearly equal. */
+static void add_cylinder(struct capsule_sums *t, const struct capsule *c)
 {
     const double r = c->r, h = c->half, in = (c->level - c->cosine * r) / c->sine,
                  out = (c->level + c->cosine * r) / c->sine;
-    const int level_axis = !(c->sine > 0.0) || !(fabs(in) < 1e300);
+    const int level_axis = !(c->sine > 0.0) || !(fabs(in) < FAR_STATION);
     const double x = c->level / (c->cosine * r); /* of all discs, when the axis is level */
     const double a = level_axis ? (x >= 1.0 ? h : -h) : in > h ? h : in < -h ? -h : in;
     const double b = level_axis ? (x <= -1.0 ? -h : h) : out > h ? h : out < -h ? -h : out;
@@ -364,9 +376,9 @@ static void add_cylinder(struct parts *t, const struct capsule *c)
         const double y = g < 8 ? -GAUSS[g][0] : GAUSS[g - 8][0], weight = GAUSS[g % 8][1];
         const double theta = mid + y * part, rest = 0.5 * (1.0 - y) * part; /* rest = (ta - theta) / 2 */
         const double sine = sin(theta), cosine = cos(theta);
-        const double narrow = part > 1e-8 ? part / sin(part) : 1.0;
-        const double done =
-            (part > 1e-8 ? sin(rest) / sin(part) : 0.5 * (1.0 - y)) * sin(0.5 * (ta + theta)) / sin(mid);
+        const double narrow = part > SMALL_ANGLE ? part / sin(part) : 1.0;
+        const double done = (part > SMALL_ANGLE ? sin(rest) / sin(part) : 0.5 * (1.0 - y)) *
+                            sin(0.5 * (ta + theta)) / sin(mid);
         const double s = a + (b - a) * done, ds = 0.5 * (b - a) * weight * narrow * sine / sin(mid);
         const double area = r * r * (theta - sine * cosine);
         t->volume += ds * area;
@@ -377,21 +389,21 @@ static void add_cylinder(struct parts *t, const struct capsule *c)
     }
 }
 
-static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
+static void submerge_capsule(const fl_hull *h, fl_vec3 up, double water, fl_submerged *wet)
 {
     const fl_vec3 ends = v3_sub(h->shape->v[1], h->shape->v[0]),
                   mid = v3_lerp(h->shape->v[0], h->shape->v[1], 0.5);
     const double len = v3_norm(ends), r = h->radius, half = 0.5 * len;
     const fl_vec3 axis = v3_scale((v3_dot(up, ends) < 0.0 ? -1.0 : 1.0) / len, ends);
     const fl_vec3 cross = v3_madd(up, -v3_dot(up, axis), axis);
-    /* A cosine of zero would only divide 0 by 0 at one station: any tiny one gives the limit. */
+    /* Without a least cosine one station would divide 0 by 0; MIN_COSINE gives the limit. */
     const struct capsule c = {.r = r,
                               .half = half,
                               .level = water - v3_dot(up, mid),
                               .sine = v3_dot(up, axis),
-                              .cosine = fmax(v3_norm(cross), 1e-140)};
+                              .cosine = fmax(v3_norm(cross), MIN_COSINE)};
     const double reach = half * c.sine + r;
-    struct parts t = {0};
+    struct capsule_sums t = {0};
 
     *wet = (fl_submerged){0};
     if (c.level <= -reach) return;
@@ -402,35 +414,35 @@ static void capsule(const fl_hull *h, fl_vec3 up, double water, fl_submerged *we
     add_cap(&t, &c, -1);
     add_cap(&t, &c, 1);
     add_cylinder(&t, &c);
-    /* The last rounding of a body just dipping in must not leave it, nor throw its centroid about. */
+    /* The last rounding of a body just dipping in must neither remain nor displace its centroid. */
     if (!(t.volume > 0.0)) return;
     wet->volume = t.volume;
-    wet->centre = v3_madd(v3_madd(mid, clamped(t.along / t.volume, -half - r, half + r), axis),
-                          clamped(t.across / t.volume, -r, 0.0) / c.cosine, cross);
+    wet->centre = v3_madd(v3_madd(mid, clamp(t.along / t.volume, -half - r, half + r), axis),
+                          clamp(t.across / t.volume, -r, 0.0) / c.cosine, cross);
     wet->wetted_area = fmax(t.wetted, 0.0);
     wet->waterplane_area = fmax(t.plane, 0.0);
 }
 
 void fl_hull_submerged(const fl_hull *h, fl_vec3 up, double level, fl_submerged *wet)
 {
-    if (h->shape->nv == 1) sphere(h, up, level, wet);
-    else if (h->shape->nv == 2) capsule(h, up, level, wet);
+    if (h->shape->nv == 1) submerge_sphere(h, up, level, wet);
+    else if (h->shape->nv == 2) submerge_capsule(h, up, level, wet);
     else if (!(h->prism.area > 0.0) || !fl_prism_submerged(&h->prism, up, level, wet))
-        solid(h, up, level, wet);
+        submerge_solid(h, up, level, wet);
 }
 
 void fl_hull_waterplane(const fl_hull *h, fl_vec3 up, double level, fl_waterplane *w)
 {
-    struct standing room;
-    const fl_poly *p = shape_of(h, &room);
+    struct offset_prism scratch;
+    const fl_poly *p = floating_shape(h, &scratch);
     double xx[3][3] = {{0}};
     fl_vec3 apex, sum = {0};
-    struct water water;
+    struct plane_heights water;
     *w = (fl_waterplane){0};
     if (p->nf == 0 || find_apex(p, up, level, &water, &apex)) return;
-    /* Each cut face gives one side of the water plane, which the wet part's cap runs from enter to leave. */
+    /* Each cut face gives one side of the water plane: the section runs from enter to leave. */
     for (int32_t f = 0; f < p->nf; f++) {
-        const struct part part = clip_face(p, f, &water, apex);
+        const struct wet_face part = clip_face(p, f, &water, apex);
         if (!part.cut) continue;
         const fl_vec3 a = v3_sub(part.enter, apex), b = v3_sub(part.leave, apex), s = v3_add(a, b);
         const double tri = 0.5 * v3_dot(up, v3_cross(a, b));

@@ -4,11 +4,11 @@
 #include "base/text.h"
 #include "water/current.h"
 
-/* No sea goes deeper, and none runs faster [m], [m/s]. */
-#define DEEPEST 12000.0
-#define FASTEST 100.0
+/* Bounds of a plausible current: no sea is deeper than 12 km, and none is faster [m], [m/s]. */
+#define MAX_HEIGHT 12000.0
+#define MAX_SPEED 100.0
 
-static fl_vec3 in_table(const fl_current *c, double z)
+static fl_vec3 velocity_in_table(const fl_current *c, double z)
 {
     int32_t lo = 0, hi = c->n - 1;
     if (z <= c->z[0]) return c->u[0];
@@ -24,7 +24,7 @@ static fl_vec3 in_table(const fl_current *c, double z)
 fl_vec3 fl_current_at(const fl_current *c, double z)
 {
     if (c->kind == FL_PROFILE_UNIFORM) return c->velocity;
-    if (c->kind == FL_PROFILE_TABLE) return in_table(c, z);
+    if (c->kind == FL_PROFILE_TABLE) return velocity_in_table(c, z);
     const double part = z < 0.0 ? 1.0 + z / c->depth : 1.0;
     if (!(part > 0.0)) return v3(0, 0, 0);
     return v3_scale(c->kind == FL_PROFILE_POWER ? fl_pow(part, c->exponent) : part, c->velocity);
@@ -37,7 +37,7 @@ double fl_current_max_speed(const fl_current *c)
     return most;
 }
 
-/* A row follows the one before it in the direction that the first two have. */
+/* Reads one row. Heights continue in the direction of the first two rows. */
 static int read_row(fl_current *c, int32_t *z_cap, int32_t *u_cap, fl_text *in, fl_err *err)
 {
     double z = 0.0;
@@ -45,16 +45,16 @@ static int read_row(fl_current *c, int32_t *z_cap, int32_t *u_cap, fl_text *in, 
     if (fl_text_f64(in, "z", &z, err) || fl_text_f64(in, "u", &u.x, err) || fl_text_f64(in, "v", &u.y, err) ||
         fl_text_no_more(in, err))
         return -1;
-    if (!(fabs(z) <= DEEPEST))
-        return fl_text_fail(in, err, "height %g m found, one within %g m is expected", z, DEEPEST);
-    if (!(v3_norm(u) <= FASTEST))
-        return fl_text_fail(in, err, "speed %g m/s found, one up to %g m/s is expected", v3_norm(u), FASTEST);
+    if (!(fabs(z) <= MAX_HEIGHT))
+        return fl_text_fail(in, err, "height %g m found, expected one within %g m", z, MAX_HEIGHT);
+    if (!(v3_norm(u) <= MAX_SPEED))
+        return fl_text_fail(in, err, "speed %g m/s found, expected one up to %g m/s", v3_norm(u), MAX_SPEED);
     if (c->n) {
         const double last = c->z[c->n - 1];
         if (z == last || (c->n > 1 && (z > last) != (last > c->z[0])))
             return fl_text_fail(in, err,
-                                "height %g m does not follow %g m: heights all rising or all falling "
-                                "are expected",
+                                "height %g m does not follow %g m: expected heights all rising or all "
+                                "falling",
                                 z, last);
     }
     if (fl_grow(&c->z, z_cap, (int64_t)c->n + 1, sizeof *c->z, err) ||
@@ -65,7 +65,7 @@ static int read_row(fl_current *c, int32_t *z_cap, int32_t *u_cap, fl_text *in, 
     return 0;
 }
 
-static void turn_round(fl_current *c)
+static void reverse_rows(fl_current *c)
 {
     for (int32_t lo = 0, hi = c->n - 1; lo < hi; lo++, hi--) {
         const double z = c->z[lo];
@@ -88,10 +88,10 @@ int fl_current_read(fl_current *c, const char *path, fl_err *err)
         if (read_row(&t, &z_cap, &u_cap, &in, err)) goto done;
     if (more < 0) goto done;
     if (t.n == 0) {
-        fl_text_fail(&in, err, "no row found, rows of height and velocity are expected");
+        fl_text_fail(&in, err, "no row found, expected rows of height and velocity");
         goto done;
     }
-    if (t.n > 1 && t.z[0] > t.z[1]) turn_round(&t);
+    if (t.n > 1 && t.z[0] > t.z[1]) reverse_rows(&t);
     fl_current_free(c);
     c->kind = FL_PROFILE_TABLE;
     c->n = t.n;

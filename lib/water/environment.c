@@ -4,14 +4,14 @@
 #include "base/pi.h"
 #include "water/environment.h"
 
-/* Places that a wave is looked at in for one body, at most. */
-#define MOST_CELLS 1000000
+/* Most cells of the wave field of one body. */
+#define MAX_CELLS 1000000
 
-/* Where a plane is fitted to the wave, to a column of cells, which is no wider than 1.6 of the shortest wave:
- * one bend after another evens out. */
-enum { PLACES = 8 };
+/* Points per column of cells for the fit of a plane to the wave. A column is no wider than 1.6 of the
+ * shortest wavelength, and crests and troughs even out. */
+enum { FIT_POINTS = 8 };
 
-static const fl_wave_sample unseen = {.q = {1, 0, 0, 0}, .when = INFINITY};
+static const fl_wave_sample no_sample = {.q = {1, 0, 0, 0}, .when = INFINITY};
 
 int fl_environment_alloc(fl_environment *s, int32_t n, int threads, fl_err *err)
 {
@@ -35,11 +35,11 @@ int fl_environment_alloc(fl_environment *s, int32_t n, int threads, fl_err *err)
         s->drag_surface = fl_alloc(n, sizeof *s->drag_surface, err);
         if (!s->drag_surface) return -1;
     }
-    if (!s->waves) return 0; /* a look at still water costs no more than its drag */
+    if (!s->waves) return 0; /* still water is evaluated in every step: it costs no more than its drag */
     if (s->sample_every > 1) {
         s->sample = fl_alloc(n, sizeof *s->sample, err);
         if (!s->sample) return -1;
-        for (int32_t i = 0; i < n; i++) s->sample[i] = unseen;
+        for (int32_t i = 0; i < n; i++) s->sample[i] = no_sample;
         s->sample_now = 1;
     }
     s->panels = fl_alloc(n, sizeof *s->panels, err);
@@ -49,17 +49,17 @@ int fl_environment_alloc(fl_environment *s, int32_t n, int threads, fl_err *err)
     return s->panels && s->water_force && s->water_moment && s->water_work ? 0 : -1;
 }
 
-static void bare_skin(fl_drag_surface *skin)
+static void free_surface(fl_drag_surface *skin)
 {
     fl_facets_free(&skin->facets);
     fl_facet_cut_free(&skin->wet), fl_facet_cut_free(&skin->dry);
 }
 
-static int fit_skin(fl_environment *s, int32_t i, fl_err *err)
+static int fit_surface(fl_environment *s, int32_t i, fl_err *err)
 {
     const fl_hull *h = &s->hull[i];
     fl_drag_surface *skin = &s->drag_surface[i];
-    bare_skin(skin);
+    free_surface(skin);
     if (h->shape->nf == 0) return 0;
     if (fl_facets_make(&skin->facets, h, err)) return -1;
     if (s->water && s->water_drag_law == FL_DRAG_FACET &&
@@ -67,7 +67,7 @@ static int fit_skin(fl_environment *s, int32_t i, fl_err *err)
         return -1;
     if (s->wind && s->wind_drag_law == FL_DRAG_FACET) {
         if (fl_facet_cut_make(&skin->dry, h, 1, 0, err)) return -1;
-        /* where there is no water to tell otherwise, all is dry */
+        /* without water all of it is dry */
         fl_facet_cut_update(&skin->dry, &skin->facets, h, v3(0, 0, 1), -INFINITY);
     }
     return 0;
@@ -75,16 +75,15 @@ static int fit_skin(fl_environment *s, int32_t i, fl_err *err)
 
 int fl_environment_fit_hull(fl_environment *s, int32_t i, fl_err *err)
 {
-    if (s->sample) s->sample[i] = unseen;
-    if (s->drag_surface && fit_skin(s, i, err)) return -1;
+    if (s->sample) s->sample[i] = no_sample;
+    if (s->drag_surface && fit_surface(s, i, err)) return -1;
     if (!s->waves) return 0;
     const int32_t want = fl_wave_field_cells(&s->wave, s->drag_radius[i] + s->wave.four_sigma);
-    if (want > MOST_CELLS)
+    if (want > MAX_CELLS)
         return fl_fail(err, FL_INPUT,
                        "water.height, water.period: waves down to %.3g m long that rise by up to %.3g m "
-                       "would be seen by "
-                       "a floe that reaches %.3g m in more than %d places",
-                       2.0 * PI / s->wave.max_k, s->wave.four_sigma, s->drag_radius[i], MOST_CELLS);
+                       "would need, for a floe of radius %.3g m, more than %d cells",
+                       2.0 * PI / s->wave.max_k, s->wave.four_sigma, s->drag_radius[i], MAX_CELLS);
     if (want > s->cells_per_thread) {
         fl_wave_expansion *cells = fl_alloc((int64_t)s->threads * want, sizeof *cells, err);
         if (!cells) return -1;
@@ -129,7 +128,7 @@ void fl_environment_free(fl_environment *s)
     for (int32_t i = 0; i < s->n; i++) {
         if (s->hull) fl_environment_clear_hull(s, i);
         if (s->panels) fl_hull_panels_free(&s->panels[i]);
-        if (s->drag_surface) bare_skin(&s->drag_surface[i]);
+        if (s->drag_surface) free_surface(&s->drag_surface[i]);
     }
     free(s->hull), free(s->drag_radius), free(s->wetted_area), free(s->buoyancy);
     free(s->flow_velocity), free(s->drag_loss), free(s->wind_work);
@@ -140,9 +139,9 @@ void fl_environment_free(fl_environment *s)
     *s = (fl_environment){0};
 }
 
-/* Velocity of the waves at r from the origin of a body, and the acceleration; world axes. */
-static fl_vec3 orbital(const fl_environment *s, const fl_hull_pose *at, const fl_wave_field *around,
-                       fl_vec3 r, fl_vec3 *acceleration)
+/* Orbital velocity of the waves at offset r from the origin of a body, and the acceleration; world axes. */
+static fl_vec3 orbital_velocity(const fl_environment *s, const fl_hull_pose *at, const fl_wave_field *around,
+                                fl_vec3 r, fl_vec3 *acceleration)
 {
     const double x = at->s + v3_dot(at->along, r), z = at->z + v3_dot(at->up, r),
                  zeta = fl_wave_stretch(&s->wave, z, fl_wave_field_elevation(around, x, NULL));
@@ -152,9 +151,9 @@ static fl_vec3 orbital(const fl_environment *s, const fl_hull_pose *at, const fl
     return v3_madd(v3(0, 0, u[1]), u[0], s->wave.direction);
 }
 
-/* How the water goes by at all pieces that are wet. */
-static void look_at_flow(fl_environment *s, const fl_bodies *b, int32_t i, const fl_hull_pose *at,
-                         const fl_wave_field *around)
+/* Updates the flow at all wet pieces. */
+static void update_flow(fl_environment *s, const fl_bodies *b, int32_t i, const fl_hull_pose *at,
+                        const fl_wave_field *around)
 {
     const fl_mat3 R = fl_body_axes(b, i);
     fl_facet_cut *wet = &s->drag_surface[i].wet;
@@ -166,37 +165,37 @@ static void look_at_flow(fl_environment *s, const fl_bodies *b, int32_t i, const
                 fl_vec3 u = v3(0, 0, 0), none;
                 if (wet->piece[k].area[l] > 0.0) {
                     u = fl_current_at(&s->current, at->z + v3_dot(at->up, r));
-                    if (around) u = v3_add(u, orbital(s, at, around, r, &none));
+                    if (around) u = v3_add(u, orbital_velocity(s, at, around, r, &none));
                     u = fl_facet_group_to_local(f, l, m3_tmul(R, v3_sub(u, fl_environment_flow(s, i))));
                 }
                 wet->flow[k].u[0][l] = u.x, wet->flow[k].u[1][l] = u.y, wet->flow[k].u[2][l] = u.z;
             }
 }
 
-/* Where the surface of body i is wet and dry, and how the water goes by there; around: NULL without waves. */
-static void look_at_skin(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level,
-                         const fl_hull_pose *at, const fl_wave_field *around)
+/* Updates the wet and dry surface of body i, and the flow there; around: NULL without waves. */
+static void update_surface(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level,
+                           const fl_hull_pose *at, const fl_wave_field *around)
 {
     const fl_hull *h = &s->hull[i];
     fl_drag_surface *skin = &s->drag_surface[i];
     if (skin->dry.group) fl_facet_cut_update(&skin->dry, &skin->facets, h, up, level);
     if (!skin->wet.group) return;
     fl_facet_cut_update(&skin->wet, &skin->facets, h, up, level);
-    if (skin->wet.flow) look_at_flow(s, b, i, at, around);
+    if (skin->wet.flow) update_flow(s, b, i, at, around);
 }
 
 void fl_environment_update_surface(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 up, double level)
 {
     const fl_hull_pose at = {.up = up, .z = -level};
-    look_at_skin(s, b, i, up, level, &at, NULL);
+    update_surface(s, b, i, up, level, &at, NULL);
 }
 
-/* e_z of the world in the frame of a body with these axes. */
-static fl_vec3 upward(fl_mat3 R) { return v3(R.m[2][0], R.m[2][1], R.m[2][2]); }
+/* e_z in body axes. */
+static fl_vec3 vertical_of(fl_mat3 R) { return v3(R.m[2][0], R.m[2][1], R.m[2][2]); }
 
-/* What is below still water; one that is wholly dry or wet by far is told by its reach alone.  up is
- * transpose(R) e_z. */
-static fl_submerged wet_of(const fl_environment *s, int32_t i, fl_vec3 up, double level)
+/* The part below still water; up is transpose(R) e_z. Bodies wholly dry or wet by their drag radius are not
+ * cut. */
+static fl_submerged submerged_of(const fl_environment *s, int32_t i, fl_vec3 up, double level)
 {
     const fl_hull *h = &s->hull[i];
     fl_submerged wet = {0};
@@ -208,20 +207,20 @@ static fl_submerged wet_of(const fl_environment *s, int32_t i, fl_vec3 up, doubl
 
 double fl_environment_energy(const fl_environment *s, const fl_bodies *b, int32_t i)
 {
-    const fl_vec3 up = upward(fl_body_axes(b, i));
+    const fl_vec3 up = vertical_of(fl_body_axes(b, i));
     const double level = s->level - b->x[i].z;
-    const fl_submerged wet = wet_of(s, i, up, level);
+    const fl_submerged wet = submerged_of(s, i, up, level);
     fl_vec3 f, turn;
     return fl_buoyancy_force(&wet, up, level, s->specific_weight, &f, &turn);
 }
 
-/* Still water as it meets body i: force and moment about its centre, world axes. */
-static void look_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+/* Evaluates still water at body i: force and moment about its centre, world axes. */
+static void evaluate_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_mat3 R = fl_body_axes(b, i);
-    const fl_vec3 up = upward(R);
+    const fl_vec3 up = vertical_of(R);
     const double level = s->level - b->x[i].z;
-    const fl_submerged wet = wet_of(s, i, up, level);
+    const fl_submerged wet = submerged_of(s, i, up, level);
     fl_vec3 turn;
     s->wetted_area[i] = wet.wetted_area;
     fl_buoyancy_force(&wet, up, level, s->specific_weight, f, &turn);
@@ -237,18 +236,18 @@ double fl_environment_omega2(const fl_environment *s, const fl_bodies *b, int32_
 {
     const fl_hull *h = &s->hull[i];
     const fl_mat3 R = fl_body_axes(b, i);
-    const fl_vec3 up = upward(R), none = v3(0, 0, 0);
+    const fl_vec3 up = vertical_of(R), none = v3(0, 0, 0);
     const fl_mobility yields = fl_body_mobility(b, i);
     fl_submerged wet;
     fl_hull_submerged(h, up, 0.0, &wet);
     double most = s->specific_weight * wet.waterplane_area * fl_mobility_along(&yields, v3(0, 0, 1), none);
     *turns = 0;
-    if (h->shape->nf == 0) return most; /* what is round hardly rights itself */
+    if (h->shape->nf == 0) return most; /* a sphere or capsule has hardly any restoring moment */
     fl_waterplane plane;
     fl_hull_waterplane(h, up, 0.0, &plane);
     const fl_vec3 e = m3_tmul(R, v3(1, 0, 0)), g = m3_tmul(R, v3(0, 1, 0)), Te = m3_mul(plane.second, e);
     const double xx = v3_dot(e, Te), xy = v3_dot(g, Te), yy = v3_dot(g, m3_mul(plane.second, g)),
-                 angle = 0.5 * atan2(2.0 * xy, xx - yy); /* of its main axes */
+                 angle = 0.5 * atan2(2.0 * xy, xx - yy); /* of the principal axes */
     for (int k = 0; k < 2; k++) {
         const double a = angle + 0.5 * k * PI, c = cos(a), d = sin(a),
                      J = c * c * xx + 2.0 * c * d * xy + d * d * yy;
@@ -258,8 +257,8 @@ double fl_environment_omega2(const fl_environment *s, const fl_bodies *b, int32_
     return most;
 }
 
-/* How far body i reaches along a direction of its own axes. */
-static void extent(const fl_environment *s, int32_t i, fl_vec3 d, double *lo, double *hi)
+/* Extent of body i along a direction of its own axes. */
+static void extent_along(const fl_environment *s, int32_t i, fl_vec3 d, double *lo, double *hi)
 {
     const fl_poly *p = s->hull[i].shape;
     const double r = s->hull[i].radius;
@@ -273,11 +272,11 @@ static void extent(const fl_environment *s, int32_t i, fl_vec3 d, double *lo, do
     *hi = most + r;
 }
 
-/* The plane that lies nearest to the wave along a body whose origin is at s. */
+/* Least-squares plane of the wave along a body whose origin is at s. */
 static void fit_plane(const fl_wave_field *a, double s, double *z, double *slope)
 {
-    const int n = PLACES * a->columns;
-    const double all = n, step = a->width / PLACES, spread = all * (all * all - 1.0) / 12.0 * step * step,
+    const int n = FIT_POINTS * a->columns;
+    const double all = n, step = a->width / FIT_POINTS, spread = all * (all * all - 1.0) / 12.0 * step * step,
                  middle = a->s0 + 0.5 * all * step; /* spread: the sum of off^2 */
     double sum = 0.0, tilt = 0.0;
     for (int k = 0; k < n; k++) {
@@ -289,14 +288,15 @@ static void fit_plane(const fl_wave_field *a, double s, double *z, double *slope
     *z = sum / all + (s - middle) * *slope;
 }
 
-/* Buoyancy of body i where the water is a plane, z over still water at the body's origin; world axes. */
-static void float_on(const fl_environment *s, const fl_bodies *b, int32_t i, double z, double slope,
-                     fl_vec3 *f, fl_vec3 *t)
+/* Buoyancy of body i if the water surface is a plane, z above still water at the body's origin; world axes.
+ */
+static void buoyancy_on_plane(const fl_environment *s, const fl_bodies *b, int32_t i, double z, double slope,
+                              fl_vec3 *f, fl_vec3 *t)
 {
     const fl_mat3 R = fl_body_axes(b, i);
     const double c = 1.0 / sqrt(1.0 + slope * slope), level = c * (z + s->level - b->x[i].z);
-    const fl_vec3 up = v3_scale(c, v3_madd(upward(R), -slope, m3_tmul(R, s->wave.direction)));
-    const fl_submerged wet = wet_of(s, i, up, level);
+    const fl_vec3 up = v3_scale(c, v3_madd(vertical_of(R), -slope, m3_tmul(R, s->wave.direction)));
+    const fl_submerged wet = submerged_of(s, i, up, level);
     fl_vec3 force, turn;
     fl_buoyancy_force(&wet, up, level, s->specific_weight / c, &force,
                       &turn); /* the pressure grows downwards */
@@ -304,8 +304,8 @@ static void float_on(const fl_environment *s, const fl_bodies *b, int32_t i, dou
     *t = m3_mul(R, turn);
 }
 
-/* The plane about body i, at s, as it is now, and how it went on from the look before. */
-static void hold_plane(fl_environment *s, int32_t i, const fl_wave_field *around, double at)
+/* Updates the plane at body i, which is at s, and its rates since the last sample. */
+static void update_plane(fl_environment *s, int32_t i, const fl_wave_field *around, double at)
 {
     fl_wave_sample *h = &s->sample[i];
     const double past = s->time - h->when, z = h->z, slope = h->slope;
@@ -315,12 +315,12 @@ static void hold_plane(fl_environment *s, int32_t i, const fl_wave_field *around
     h->dslope = (h->slope - slope) / past;
 }
 
-/* A sea with waves as it meets body i. */
-static void look_wavy(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+/* Evaluates the waves at body i. */
+static void evaluate_waves(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_waves *w = &s->wave;
     const fl_mat3 R = fl_body_axes(b, i);
-    const fl_hull_pose at = {.up = upward(R),
+    const fl_hull_pose at = {.up = vertical_of(R),
                              .along = m3_tmul(R, w->direction),
                              .s = v3_dot(w->direction, b->x[i]),
                              .z = b->x[i].z - s->level};
@@ -331,12 +331,12 @@ static void look_wavy(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl
     *f = *t = v3(0, 0, 0);
     if (meets || s->sample) {
         double s_lo, s_hi, z_lo, z_hi;
-        extent(s, i, at.along, &s_lo, &s_hi);
-        extent(s, i, at.up, &z_lo, &z_hi);
+        extent_along(s, i, at.along, &s_lo, &s_hi);
+        extent_along(s, i, at.up, &z_lo, &z_hi);
         fl_wave_field_fill(w, at.s + s_lo, at.s + s_hi, at.z + z_lo - w->four_sigma,
                            at.z + z_hi + w->four_sigma, s->time,
                            s->cells + (int64_t)omp_get_thread_num() * s->cells_per_thread, &around);
-        if (s->sample) hold_plane(s, i, &around, at.s);
+        if (s->sample) update_plane(s, i, &around, at.s);
         if (meets && h->shape->nf)
             fl_froude_krylov_solid(&s->panels[i], h, w, &around, &at, s->specific_weight, &p);
         else if (meets) fl_froude_krylov_round(h, w, &around, &at, s->specific_weight, &p);
@@ -347,58 +347,58 @@ static void look_wavy(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl
     if (p.volume > 0.0) {
         fl_vec3 a, up;
         double level;
-        s->flow_velocity[i] = v3_add(s->flow_velocity[i], orbital(s, &at, &around, p.centre, &a));
+        s->flow_velocity[i] = v3_add(s->flow_velocity[i], orbital_velocity(s, &at, &around, p.centre, &a));
         *f = m3_mul(R, p.force);
         *t = m3_mul(R, p.moment);
         if (b->added_mass) *f = v3_add(*f, m3_mul(R, v3_mul(b->added_mass[i], m3_tmul(R, a))));
         if (s->drag_surface) {
             fl_wave_field_plane(&around, &at, &up, &level);
-            look_at_skin(s, b, i, up, level, &at, &around);
+            update_surface(s, b, i, up, level, &at, &around);
         }
     } else if (s->drag_surface) {
-        look_at_skin(s, b, i, at.up, -INFINITY, &at, NULL);
+        update_surface(s, b, i, at.up, -INFINITY, &at, NULL);
     }
     if (b->added_mass) b->flow_velocity[i] = s->flow_velocity[i];
     s->water_force[i] = *f;
     s->water_moment[i] = *t;
 }
 
-/* From then to now. */
-static fl_vec3 change(fl_vec3 now, fl_vec3 then, double past)
+/* Rate of change over `past` seconds. */
+static fl_vec3 rate_of_change(fl_vec3 now, fl_vec3 then, double past)
 {
     return v3_scale(1.0 / past, v3_sub(now, then));
 }
 
-/* What of it the plane does not tell. */
-static void hold(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 f, fl_vec3 t)
+/* Stores the part of the load that the plane leaves out, and its rates. */
+static void store_sample(fl_environment *s, const fl_bodies *b, int32_t i, fl_vec3 f, fl_vec3 t)
 {
     fl_wave_sample *h = &s->sample[i];
     const double past = s->time - h->when;
     fl_vec3 force, turn;
-    float_on(s, b, i, h->z, h->slope, &force, &turn);
+    buoyancy_on_plane(s, b, i, h->z, h->slope, &force, &turn);
     f = v3_sub(f, force), t = v3_sub(t, turn);
     if (past > 0.0) {
-        h->df = change(f, h->f, past);
-        h->dt = change(t, h->t, past);
-        h->dflow = change(s->flow_velocity[i], h->flow, past);
+        h->df = rate_of_change(f, h->f, past);
+        h->dt = rate_of_change(t, h->t, past);
+        h->dflow = rate_of_change(s->flow_velocity[i], h->flow, past);
     }
     h->f = f, h->t = t, h->flow = s->flow_velocity[i];
     h->x = b->x[i], h->q = b->q[i], h->when = s->time;
 }
 
-static void look(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+static void evaluate_water(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
-    if (s->waves) look_wavy(s, b, i, f, t);
-    else look_still(s, b, i, f, t);
-    if (s->sample) hold(s, b, i, *f, *t);
+    if (s->waves) evaluate_waves(s, b, i, f, t);
+    else evaluate_still(s, b, i, f, t);
+    if (s->sample) store_sample(s, b, i, *f, *t);
 }
 
-/* What there would be to see by now. */
-static void go_on(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+/* Extrapolates the load from the last sample. */
+static void extrapolate_sample(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
     const fl_wave_sample *h = &s->sample[i];
     const double past = s->time - h->when;
-    float_on(s, b, i, h->z + past * h->dz, h->slope + past * h->dslope, f, t);
+    buoyancy_on_plane(s, b, i, h->z + past * h->dz, h->slope + past * h->dslope, f, t);
     *f = v3_add(*f, v3_madd(h->f, past, h->df));
     *t = v3_add(*t, v3_madd(h->t, past, h->dt));
     s->flow_velocity[i] = v3_madd(h->flow, past, h->dflow);
@@ -409,8 +409,8 @@ static void go_on(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec
 void fl_environment_force(fl_environment *s, fl_bodies *b, int32_t i)
 {
     fl_vec3 f, t;
-    if (s->sample && !s->sample_now) go_on(s, b, i, &f, &t);
-    else look(s, b, i, &f, &t);
+    if (s->sample && !s->sample_now) extrapolate_sample(s, b, i, &f, &t);
+    else evaluate_water(s, b, i, &f, &t);
     b->f[i] = v3_add(b->f[i], f);
     b->t[i] = v3_add(b->t[i], t);
 }
@@ -420,16 +420,17 @@ void fl_environment_refresh(fl_environment *s, fl_bodies *b, int32_t i)
     fl_vec3 f, t;
     if (!s->water) return;
     if (!s->sample) {
-        look(s, b, i, &f, &t);
+        evaluate_water(s, b, i, &f, &t);
         return;
     }
     const fl_vec3 x = b->x[i];
     const fl_quat q = b->q[i];
     const double now = s->time;
     b->x[i] = s->sample[i].x, b->q[i] = s->sample[i].q, s->time = s->sample[i].when;
-    look(s, b, i, &f, &t);
+    evaluate_water(s, b, i, &f, &t);
     b->x[i] = x, b->q[i] = q, s->time = now;
-    if (now > s->sample[i].when) go_on(s, b, i, &f, &t); /* else it was a look, which nothing is added to */
+    if (now > s->sample[i].when)
+        extrapolate_sample(s, b, i, &f, &t); /* at the time of the sample itself there is nothing to add */
 }
 
 void fl_environment_add_work(fl_environment *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0,
@@ -440,17 +441,17 @@ void fl_environment_add_work(fl_environment *s, const fl_bodies *b, int32_t i, d
         (v3_dot(s->water_force[i], v3_add(v0, b->v[i])) + v3_dot(s->water_moment[i], v3_add(w0, b->w[i])));
 }
 
-/* Decay of body i in a fluid that goes by with velocity c; returns the work done on the body. */
-static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach, fl_vec3 c,
-                    double h)
+/* Decay of the velocities of body i in a fluid of velocity c; returns the work done on the body. */
+static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach,
+                             fl_vec3 c, double h)
 {
     const double before = fl_body_kinetic_energy(b, i) - b->work_of_constraints[i];
     const fl_vec3 u = v3_sub(b->v[i], c), v0 = b->v[i], w0 = b->w[i];
     const double speed = v3_norm(u), spin2 = v3_norm2(b->w[i]);
     const double c_force = fl_drag_force_constant(fluid, area), m = b->m[i];
     if (b->added_mass) {
-        /* each axis with its own mass: the step that is implicit in u and frozen in |u|, which is the exact
-         * decay along an axis, and slows the others down whatever the step */
+        /* each axis with its own mass: implicit in u, with |u| of the start, which is the exact decay along
+         * an axis and slows the others for any step */
         const fl_mat3 R = fl_body_axes(b, i);
         const fl_vec3 a = b->added_mass[i], p = m3_tmul(R, u);
         const double s = c_force * speed * h;
@@ -461,7 +462,7 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
     }
     const double turning = v3_dot(b->w[i], b->L[i]);
     if (turning > 0.0 && fluid->moment_coefficient > 0.0) {
-        /* about the axis of the motion, whose moment of inertia is w.L/w^2: exact for a principal axis; both
+        /* about the axis of rotation, whose moment of inertia is w.L/w^2: exact for a principal axis; both
          * sides of the factor times w^2 */
         const double turn = fl_drag_decay_factor(turning, fl_drag_moment_constant(fluid, area, reach) * spin2,
                                                  sqrt(spin2), h);
@@ -472,8 +473,8 @@ static double decay(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
     return fl_body_kinetic_energy(b, i) - b->work_of_constraints[i] - before;
 }
 
-/* The same facet by facet. */
-static double decay_of_facets(fl_bodies *b, int32_t i, const fl_facet_cut *of, fl_facet_drag_law law,
+/* The same by facets. */
+static double decay_by_facets(fl_bodies *b, int32_t i, const fl_facet_cut *of, fl_facet_drag_law law,
                               fl_vec3 c, double h)
 {
     const double before = fl_body_kinetic_energy(b, i) - b->work_of_constraints[i], m = b->m[i];
@@ -488,31 +489,44 @@ static double decay_of_facets(fl_bodies *b, int32_t i, const fl_facet_cut *of, f
     return fl_body_kinetic_energy(b, i) - b->work_of_constraints[i] - before;
 }
 
-static void drag_of_water(fl_environment *s, fl_bodies *b, int32_t i, double h)
+static void apply_water_drag(fl_environment *s, fl_bodies *b, int32_t i, double h)
 {
     if (!s->water || s->wetted_area[i] <= 0.0) return;
     if (s->drag_surface && s->drag_surface[i].wet.group)
-        s->drag_loss[i] -= decay_of_facets(b, i, &s->drag_surface[i].wet, fl_environment_water_law(s),
+        s->drag_loss[i] -= decay_by_facets(b, i, &s->drag_surface[i].wet, fl_environment_water_law(s),
                                            fl_environment_flow(s, i), h);
     else
-        s->drag_loss[i] -=
-            decay(b, i, &s->seawater, s->wetted_area[i], s->drag_radius[i], fl_environment_flow(s, i), h);
+        s->drag_loss[i] -= decay_velocity(b, i, &s->seawater, s->wetted_area[i], s->drag_radius[i],
+                                          fl_environment_flow(s, i), h);
 }
 
-static void drag_of_wind(fl_environment *s, fl_bodies *b, int32_t i, double h)
+static void apply_wind_drag(fl_environment *s, fl_bodies *b, int32_t i, double h)
 {
     if (!s->wind) return;
     const double dry = s->hull[i].surface_area - (s->water ? s->wetted_area[i] : 0.0);
     if (!(dry > 0.0)) return;
     if (s->drag_surface && s->drag_surface[i].dry.group)
         s->wind_work[i] +=
-            decay_of_facets(b, i, &s->drag_surface[i].dry, fl_environment_wind_law(s), s->wind_velocity, h);
-    else s->wind_work[i] += decay(b, i, &s->air, dry, s->drag_radius[i], s->wind_velocity, h);
+            decay_by_facets(b, i, &s->drag_surface[i].dry, fl_environment_wind_law(s), s->wind_velocity, h);
+    else s->wind_work[i] += decay_velocity(b, i, &s->air, dry, s->drag_radius[i], s->wind_velocity, h);
+}
+
+void fl_environment_apply_impulses(fl_environment *s, fl_bodies *b, int32_t i, double h, int back)
+{
+    for (int32_t k = 0; k < s->impulses; k++) {
+        const double before = fl_body_kinetic_energy(b, i) - b->work_of_constraints[i];
+        const fl_vec3 v0 = b->v[i], w0 = b->w[i];
+        s->impulse[back ? s->impulses - 1 - k : k]->impulse(s, b, i, h);
+        if (b->fixed_dof[i]) fl_body_apply_fixed_dof(b, i, v0, w0);
+        s->drag_loss[i] -= fl_body_kinetic_energy(b, i) - b->work_of_constraints[i] - before;
+    }
 }
 
 void fl_environment_drag(fl_environment *s, fl_bodies *b, int32_t i, double h, int back)
 {
-    if (back) drag_of_wind(s, b, i, h);
-    drag_of_water(s, b, i, h);
-    if (!back) drag_of_wind(s, b, i, h);
+    if (back && s->impulses) fl_environment_apply_impulses(s, b, i, h, back);
+    if (back) apply_wind_drag(s, b, i, h);
+    apply_water_drag(s, b, i, h);
+    if (!back) apply_wind_drag(s, b, i, h);
+    if (!back && s->impulses) fl_environment_apply_impulses(s, b, i, h, back);
 }

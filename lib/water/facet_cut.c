@@ -6,25 +6,25 @@
 
 static int32_t corners_of(const fl_poly *p, int32_t f) { return p->first[f + 1] - p->first[f]; }
 
-#define SAME 1e-12 /* of a radian, as in prism_buoyancy.c */
+#define AXIS_TOL 1e-12 /* of a radian, as PRISM_TOL: the rounding of a normal */
 
-/* The axis of the body that is +-e, or -1. */
-static int32_t axis_of(fl_vec3 e)
+/* The body axis that is +-e, or -1. */
+static int32_t body_axis_of(fl_vec3 e)
 {
     const double a[3] = {fabs(e.x), fabs(e.y), fabs(e.z)};
     for (int32_t k = 0; k < 3; k++)
-        if (fmax(a[(k + 1) % 3], a[(k + 2) % 3]) <= SAME) return k;
+        if (fmax(a[(k + 1) % 3], a[(k + 2) % 3]) <= AXIS_TOL) return k;
     return -1;
 }
 
-/* That axis, and the next ones. */
-static fl_vec3 along(int32_t k) { return v3(k % 3 == 0, k % 3 == 1, k % 3 == 2); }
+/* Unit vector of body axis k, modulo 3. */
+static fl_vec3 unit_axis(int32_t k) { return v3(k % 3 == 0, k % 3 == 1, k % 3 == 2); }
 
-/* Where faces of p are the sides and caps of a prism, their axes are those of facet_cut.h. */
-static void stand_up(fl_facets *k, const fl_poly *p, const fl_prism *q)
+/* If the faces of p are the sides and caps of a prism, gives them the axes of facet_cut.h. */
+static void set_prism_axes(fl_facets *k, const fl_poly *p, const fl_prism *q)
 {
-    const int32_t axis = q->area > 0.0 ? axis_of(q->e) : -1;
-    const fl_vec3 g = along(axis + 3);
+    const int32_t axis = q->area > 0.0 ? body_axis_of(q->e) : -1;
+    const fl_vec3 g = unit_axis(axis + 3);
     int32_t caps[2] = {-1, -1};
     if (axis < 0) return;
     for (int32_t f = 0; f < p->nf; f++) {
@@ -32,7 +32,7 @@ static void stand_up(fl_facets *k, const fl_poly *p, const fl_prism *q)
         if (fabs(up) < 0.5) {
             if (corners_of(p, f) != 4) return;
         } else {
-            if (caps[up > 0.0] >= 0) return; /* it is in two */
+            if (caps[up > 0.0] >= 0) return; /* the cap has two faces */
             caps[up > 0.0] = f;
         }
     }
@@ -41,8 +41,8 @@ static void stand_up(fl_facets *k, const fl_poly *p, const fl_prism *q)
     k->y0 = -p->c[k->bottom], k->y1 = p->c[k->top];
     for (int32_t f = 0; f < p->nf; f++) {
         const int cap = f == k->bottom || f == k->top;
-        k->axis[2 * f] = cap ? along(axis + 1) : v3_unit(v3_cross(g, p->n[f]));
-        k->axis[2 * f + 1] = !cap ? g : f == k->top ? along(axis + 2) : v3_neg(along(axis + 2));
+        k->axis[2 * f] = cap ? unit_axis(axis + 1) : v3_unit(v3_cross(g, p->n[f]));
+        k->axis[2 * f + 1] = !cap ? g : f == k->top ? unit_axis(axis + 2) : v3_neg(unit_axis(axis + 2));
     }
 }
 
@@ -58,7 +58,7 @@ int fl_facets_make(fl_facets *k, const fl_hull *h, fl_err *err)
         k->axis[2 * f + 1] = v3_cross(p->n[f], k->axis[2 * f]);
         if (corners_of(p, f) > corners_of(p, k->most_corners)) k->most_corners = f;
     }
-    stand_up(k, p, &h->prism);
+    set_prism_axes(k, p, &h->prism);
     return 0;
 }
 
@@ -68,11 +68,11 @@ void fl_facets_free(fl_facets *k)
     *k = (fl_facets){0};
 }
 
-/* What the water leaves of m corners are m + 1, and m + m/2 where rounding puts every other one of a level
- * face into it; two pieces each.  Fours, at most those of all sides of a prism and one of a cap, have no
- * more rows than as many of the faces with the most corners: of numbers m_f the G largest add up to
+/* A cut leaves at most m + 1 of m corners, or m + m/2 where rounding submerges every other corner of a level
+ * face; each corner has two pieces. The groups, at most all sides of a prism and a cap, need no more pieces
+ * than as many of the faces with the most corners. Of numbers m_f the G largest add up to
  *     sum_{k > 0} min(G, number of m_f >= k). */
-static int32_t most_rows(const fl_poly *p, int32_t fours)
+static int32_t max_pieces_of(const fl_poly *p, int32_t fours)
 {
     int32_t sum = 0, many = 1;
     for (int32_t k = 1; many; k++) {
@@ -86,7 +86,7 @@ static int32_t most_rows(const fl_poly *p, int32_t fours)
 int fl_facet_cut_make(fl_facet_cut *s, const fl_hull *h, int dry, int flows, fl_err *err)
 {
     *s = (fl_facet_cut){.dry = dry, .cap_axis = -1, .max_groups = (h->shape->nf + 1) / FL_SIMD_WIDTH + 1};
-    s->max_pieces = most_rows(h->shape, s->max_groups);
+    s->max_pieces = max_pieces_of(h->shape, s->max_groups);
     s->group = fl_alloc(s->max_groups, sizeof *s->group, err);
     s->piece = fl_alloc(s->max_pieces, sizeof *s->piece, err);
     if (!s->group || !s->piece) return -1;
@@ -114,20 +114,19 @@ double fl_facet_cut_bytes(const fl_facet_cut *s)
 
 /* --- facet by facet ---------------------------------------------------------------------------- */
 
-/* Below (sign 1) or above (-1) the plane up.x = level. */
+/* Points below (sign 1) or above (-1) the plane up.x = level. */
 typedef struct {
     fl_vec3 up;
     double level, sign;
-} half;
+} half_space;
 
-/* A skin that is being filled: the four that is open, its rows, lanes that are taken and how many pieces they
- * have. */
+/* A cut under construction: the open group, its pieces, the lanes in use and the pieces of each. */
 typedef struct {
     fl_facet_cut *s;
     fl_facet_group *four;
     fl_facet_piece *row;
     int32_t lanes, pieces[FL_SIMD_WIDTH];
-} filler;
+} cut_builder;
 
 static void set_frame(fl_facet_group *to, int32_t l, fl_vec3 n, fl_vec3 e, fl_vec3 g, double c)
 {
@@ -138,8 +137,8 @@ static void set_frame(fl_facet_group *to, int32_t l, fl_vec3 n, fl_vec3 e, fl_ve
     to->x0[l] = to->x1[l] = 0.0;
 }
 
-/* Whatever has been told of no lane, or of no piece, is zero. */
-static void close_four(filler *to)
+/* Zeroes unused lanes and pieces, and closes the group. */
+static void close_group(cut_builder *to)
 {
     const fl_vec3 no = v3(0, 0, 0);
     int32_t rows = 0;
@@ -157,9 +156,9 @@ static void close_four(filler *to)
     to->s->groups++;
 }
 
-/* Round face f: the corners of what is left of it, x and y in every other row; returns how many. */
-static int32_t outline(const fl_poly *p, int32_t f, fl_vec3 e, fl_vec3 g, const half *part,
-                       fl_facet_piece *row, int32_t l)
+/* Clips face f: writes its corners x, y to every other piece and returns their number. */
+static int32_t clip_outline(const fl_poly *p, int32_t f, fl_vec3 e, fl_vec3 g, const half_space *part,
+                            fl_facet_piece *row, int32_t l)
 {
     const int32_t *at = p->loop + p->first[f], m = corners_of(p, f);
     fl_vec3 v = p->v[at[m - 1]];
@@ -183,8 +182,8 @@ static int32_t outline(const fl_poly *p, int32_t f, fl_vec3 e, fl_vec3 g, const 
     return n;
 }
 
-/* Of n corners to the pieces of the fan about their centroid, which are as many as are returned. */
-static int32_t fan(fl_facet_piece *row, int32_t l, int32_t n)
+/* Turns n corners into the pieces of the fan about their centroid; returns the number of pieces. */
+static int32_t fan_pieces(fl_facet_piece *row, int32_t l, int32_t n)
 {
     const double ox = row[0].x[l], oy = row[0].y[l];
     double twice = 0.0, mx = 0.0, my = 0.0;
@@ -212,20 +211,21 @@ static int32_t fan(fl_facet_piece *row, int32_t l, int32_t n)
     return 2 * n;
 }
 
-/* What is left of face f, in the next lane. */
-static void add_face(filler *to, const fl_facets *k, const fl_poly *p, int32_t f, const half *part)
+/* Adds the clipped face f in the next lane. */
+static void add_face(cut_builder *to, const fl_facets *k, const fl_poly *p, int32_t f, const half_space *part)
 {
     const fl_vec3 e = k->axis[2 * f], g = k->axis[2 * f + 1];
-    if (to->lanes == FL_SIMD_WIDTH) close_four(to);
-    const int32_t l = to->lanes, corners = outline(p, f, e, g, part, to->row, l);
-    to->pieces[l] = corners > 2 ? fan(to->row, l, corners) : 0;
+    if (to->lanes == FL_SIMD_WIDTH) close_group(to);
+    const int32_t l = to->lanes, corners = clip_outline(p, f, e, g, part, to->row, l);
+    to->pieces[l] = corners > 2 ? fan_pieces(to->row, l, corners) : 0;
     if (to->pieces[l] == 0) return;
     set_frame(to->four, l, p->n[f], e, g, p->c[f]);
     to->lanes++;
 }
 
-/* The same of a face that takes all lanes that are left. */
-static void spread_face(filler *to, const fl_facets *k, const fl_poly *p, int32_t f, const half *part)
+/* Adds the clipped face f over all lanes that are left. */
+static void spread_face(cut_builder *to, const fl_facets *k, const fl_poly *p, int32_t f,
+                        const half_space *part)
 {
     const int32_t l = to->lanes % FL_SIMD_WIDTH, parts = FL_SIMD_WIDTH - l;
     add_face(to, k, p, f, part);
@@ -245,39 +245,39 @@ static void spread_face(filler *to, const fl_facets *k, const fl_poly *p, int32_
     to->lanes = FL_SIMD_WIDTH;
 }
 
-static filler start(fl_facet_cut *s, enum fl_facet_cut_state state)
+static cut_builder begin_cut(fl_facet_cut *s, enum fl_facet_cut_state state)
 {
     s->state = state;
     s->cap_axis = -1;
     s->groups = 0;
-    return (filler){.s = s, .four = s->group, .row = s->piece};
+    return (cut_builder){.s = s, .four = s->group, .row = s->piece};
 }
 
-static void cut(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, enum fl_facet_cut_state state,
-                half part)
+static void cut_faces(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, enum fl_facet_cut_state state,
+                      half_space part)
 {
-    filler to = start(s, state);
+    cut_builder to = begin_cut(s, state);
     for (int32_t f = 0; f < p->nf; f++)
         if (f != k->most_corners) add_face(&to, k, p, f, &part);
     spread_face(&to, k, p, k->most_corners, &part);
-    close_four(&to);
+    close_group(&to);
 }
 
 /* --- prisms ------------------------------------------------------------------------------------ */
 
 enum { SIDE = 8 }; /* pieces of a side, which has four corners */
 
-FL_SIMD_INLINE void put(fl_facet_piece *row, const fl_simd *area, const fl_simd *x, const fl_simd *y)
+FL_SIMD_INLINE void store_piece(fl_facet_piece *row, const fl_simd *area, const fl_simd *x, const fl_simd *y)
 {
     FL_SIMD_STORE(row->area) = *area;
     FL_SIMD_STORE(row->x) = *x;
     FL_SIMD_STORE(row->y) = *y;
 }
 
-/* Four sides: their trapezoids from the cap at y0 on, on the side of sign; 0 where one of their long edges,
- * so long, is not crossed.  Lanes that are zero stand where the origin is, have no width and no area. */
-FL_SIMD_INLINE int trapezoids(const fl_facet_group *f, fl_facet_piece *row, fl_vec3 up, double level,
-                              double per, double y0, double sign, double length)
+/* Four sides: their trapezoids from the cap at y0 on, in the direction of sign. Returns 0 if a long edge
+ * (`length`) does not cross the water plane. Zero lanes lie at the origin and have neither width nor area. */
+FL_SIMD_INLINE int cut_sides(const fl_facet_group *f, fl_facet_piece *row, fl_vec3 up, double level,
+                             double per, double y0, double sign, double length)
 {
     const fl_simd un = up.x * FL_SIMD_LOAD(f->n[0]) + up.y * FL_SIMD_LOAD(f->n[1]) +
                        up.z * FL_SIMD_LOAD(f->n[2]),
@@ -290,7 +290,8 @@ FL_SIMD_INLINE int trapezoids(const fl_facet_group *f, fl_facet_piece *row, fl_v
     if (fl_simd_any(&off)) return 0;
     const fl_simd ab = a + b, third = 1.0 / (3.0 * ab);
     const fl_simd x = L * (ab + b) * third, y = (a * ab + b * b) * third, rest = L - x;
-    const fl_simd hx = x0 + x, hy = y0 + y, da = a - y, db = b - y; /* the hub, and the water over it */
+    /* the centroid, and the water line relative to it */
+    const fl_simd hx = x0 + x, hy = y0 + y, da = a - y, db = b - y;
     const double sixth = sign / 6.0;
     const fl_simd low = sixth * (L * y), right = sixth * (b * rest), left = sixth * (a * x),
                   high = sixth * (rest * da + x * db);
@@ -298,27 +299,27 @@ FL_SIMD_INLINE int trapezoids(const fl_facet_group *f, fl_facet_piece *row, fl_v
     const fl_simd xl = x0 + 0.5 * x, xr = hx + 0.5 * rest, xm = 0.5 * (x0 + x1);
     const fl_simd yl = y0 + 0.5 * y, ya = hy + 0.5 * da, yb = hy + 0.5 * db, yz = {y0, y0, y0, y0};
     const fl_simd ra = y0 + 0.5 * a, rb = y0 + 0.5 * b, rm = y0 + 0.5 * ab;
-    put(&row[0], &w0, &xl, &yl), put(&row[1], &low, &xm, &yz);
-    put(&row[2], &w1, &xr, &yl), put(&row[3], &right, &x1, &rb);
-    put(&row[4], &w2, &xr, &yb), put(&row[5], &high, &xm, &rm);
-    put(&row[6], &w3, &xl, &ya), put(&row[7], &left, &x0, &ra);
+    store_piece(&row[0], &w0, &xl, &yl), store_piece(&row[1], &low, &xm, &yz);
+    store_piece(&row[2], &w1, &xr, &yl), store_piece(&row[3], &right, &x1, &rb);
+    store_piece(&row[4], &w2, &xr, &yb), store_piece(&row[5], &high, &xm, &rm);
+    store_piece(&row[6], &w3, &xl, &ya), store_piece(&row[7], &left, &x0, &ra);
     return 1;
 }
 
-FL_SIMD4_VERSIONS static int all_sides(fl_facet_cut *s, fl_vec3 up, double level, double per, double y0,
-                                       double sign, double length)
+FL_SIMD4_VERSIONS static int cut_all_sides(fl_facet_cut *s, fl_vec3 up, double level, double per, double y0,
+                                           double sign, double length)
 {
     for (int32_t k = 0; k + 1 < s->groups; k++)
-        if (!trapezoids(&s->group[k], &s->piece[SIDE * k], up, level, per, y0, sign, length)) return 0;
+        if (!cut_sides(&s->group[k], &s->piece[SIDE * k], up, level, per, y0, sign, length)) return 0;
     return 1;
 }
 
-/* Sides one after another, then the cap; the pieces of the sides are still to be told. */
-static void stand(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, enum fl_facet_cut_state state,
-                  int32_t cap)
+/* Lays out the sides one after another, then the cap; cut_all_sides() computes the pieces of the sides. */
+static void lay_out_prism(fl_facet_cut *s, const fl_facets *k, const fl_poly *p,
+                          enum fl_facet_cut_state state, int32_t cap)
 {
-    const half all = {.up = p->n[cap], .level = INFINITY, .sign = 1.0};
-    filler to = start(s, state);
+    const half_space all = {.up = p->n[cap], .level = INFINITY, .sign = 1.0};
+    cut_builder to = begin_cut(s, state);
     for (int32_t f = 0; f < p->nf; f++) {
         const fl_vec3 e = k->axis[2 * f];
         if (f == k->top || f == k->bottom) continue;
@@ -330,21 +331,21 @@ static void stand(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, enum fl
         }
         to.four->x0[to.lanes - 1] = lo, to.four->x1[to.lanes - 1] = hi;
     }
-    close_four(&to);
+    close_group(&to);
     spread_face(&to, k, p, cap, &all);
-    close_four(&to);
+    close_group(&to);
     s->cap_axis = k->cap_axis;
 }
 
-/* Returns 0 where some long edge is not crossed. */
-static int stands(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, fl_vec3 up, double level)
+/* Returns 0 if a long edge does not cross the water plane. */
+static int cut_prism(fl_facet_cut *s, const fl_facets *k, const fl_poly *p, fl_vec3 up, double level)
 {
     const double ue = k->cap_axis == 0 ? up.x : k->cap_axis == 1 ? up.y : up.z;
-    if (k->cap_axis < 0 || !(fabs(ue) > 0.1)) return 0;
+    if (k->cap_axis < 0 || !(fabs(ue) > FL_PRISM_MIN_UPRIGHT)) return 0;
     const int top = (ue > 0.0) == s->dry;
     const enum fl_facet_cut_state state = top ? FL_FACET_CUT_TOP : FL_FACET_CUT_BOTTOM;
-    if (s->state != state) stand(s, k, p, state, top ? k->top : k->bottom);
-    return all_sides(s, up, level, 1.0 / ue, top ? k->y1 : k->y0, top ? -1.0 : 1.0, k->y1 - k->y0);
+    if (s->state != state) lay_out_prism(s, k, p, state, top ? k->top : k->bottom);
+    return cut_all_sides(s, up, level, 1.0 / ue, top ? k->y1 : k->y0, top ? -1.0 : 1.0, k->y1 - k->y0);
 }
 
 void fl_facet_cut_update(fl_facet_cut *s, const fl_facets *k, const fl_hull *h, fl_vec3 up, double level)
@@ -353,9 +354,9 @@ void fl_facet_cut_update(fl_facet_cut *s, const fl_facets *k, const fl_hull *h, 
     if (!(fabs(level) < k->max_radius)) {
         const enum fl_facet_cut_state state = sign * level > 0.0 ? FL_FACET_CUT_WHOLE : FL_FACET_CUT_NONE;
         if (s->state == state) return;
-        if (state == FL_FACET_CUT_NONE) start(s, state);
-        else cut(s, k, h->shape, state, (half){up, sign * INFINITY, sign});
-    } else if (!stands(s, k, h->shape, up, level)) {
-        cut(s, k, h->shape, FL_FACET_CUT_GENERAL, (half){up, level, sign});
+        if (state == FL_FACET_CUT_NONE) begin_cut(s, state);
+        else cut_faces(s, k, h->shape, state, (half_space){up, sign * INFINITY, sign});
+    } else if (!cut_prism(s, k, h->shape, up, level)) {
+        cut_faces(s, k, h->shape, FL_FACET_CUT_GENERAL, (half_space){up, level, sign});
     }
 }

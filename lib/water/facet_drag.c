@@ -3,7 +3,7 @@
 #include "base/simd.h"
 #include "water/facet_drag.h"
 
-FL_SIMD_INLINE void to_roots(fl_simd *x)
+FL_SIMD_INLINE void take_square_roots(fl_simd *x)
 {
     double a[FL_SIMD_WIDTH];
     FL_SIMD_STORE(a) = *x;
@@ -14,15 +14,16 @@ FL_SIMD_INLINE void to_roots(fl_simd *x)
 
 #define DOT(a, v) (v.x * a[0] + v.y * a[1] + v.z * a[2])
 
-/* Moments of s and of f over the pieces of four facets, and those with U. */
+/* Moments of s and of f over the pieces of four facets, and their moments with U. */
 typedef struct {
     fl_simd s, sx, sy, srr, f, fx, fy, fxx, fxy, fyy;
     fl_simd se, sg, turn, fn, fnx, fny;
 } moments;
 
-/* u0: at the foot of the origin, x = y = 0; w: both along e, g and n.  skin, form: times h. */
-FL_SIMD_INLINE void add_rows(moments *to, const fl_facet_piece *row, const fl_facet_flow *flow, int32_t rows,
-                             double skin, double form, const fl_simd u0[3], const fl_simd w[3])
+/* u0: velocity at x = y = 0 of the facet; w: angular velocity; both along e, g and n. skin, form: times h. */
+FL_SIMD_INLINE void sum_pieces(moments *to, const fl_facet_piece *row, const fl_facet_flow *flow,
+                               int32_t rows, double skin, double form, const fl_simd u0[3],
+                               const fl_simd w[3])
 {
     const fl_simd zero = {0.0, 0.0, 0.0, 0.0};
     moments m = {zero, zero, zero, zero, zero, zero, zero, zero,
@@ -37,7 +38,7 @@ FL_SIMD_INLINE void add_rows(moments *to, const fl_facet_piece *row, const fl_fa
             un -= FL_SIMD_LOAD(flow[k].u[2]);
         }
         fl_simd ut = ue * ue + ug * ug;
-        to_roots(&ut);
+        take_square_roots(&ut);
         const fl_simd s = area * ut, f = area * FL_SIMD_MASKED(un > 0.0, un);
         const fl_simd sx = s * x, sy = s * y, fx = f * x, fy = f * y;
         m.s += s, m.sx += sx, m.sy += sy, m.srr += x * sx + y * sy;
@@ -58,12 +59,12 @@ FL_SIMD_INLINE void add_rows(moments *to, const fl_facet_piece *row, const fl_fa
     to->fn = form * m.fn, to->fnx = form * m.fnx, to->fny = form * m.fny;
 }
 
-/* Where a row of the matrix begins. */
+/* First number of row i of the matrix. */
 #define ROW(sum, i) ((sum) + FL_DRAG_MATRIX + (i) * ((i) + 1) / 2)
 
-/* Four facets, into sums of four each.  skin, form: times h. */
-FL_SIMD_INLINE void add_four(const fl_facet_group *at, const fl_facet_piece *row, const fl_facet_flow *flow,
-                             double skin, double form, fl_vec3 v, fl_vec3 w, fl_simd *sum)
+/* Adds four facets to sums of four each. skin, form: times h. */
+FL_SIMD_INLINE void add_group(const fl_facet_group *at, const fl_facet_piece *row, const fl_facet_flow *flow,
+                              double skin, double form, fl_vec3 v, fl_vec3 w, fl_simd *sum)
 {
     const fl_simd n[3] = {FL_SIMD_LOAD(at->n[0]), FL_SIMD_LOAD(at->n[1]), FL_SIMD_LOAD(at->n[2])},
                   e[3] = {FL_SIMD_LOAD(at->e[0]), FL_SIMD_LOAD(at->e[1]), FL_SIMD_LOAD(at->e[2])},
@@ -72,7 +73,7 @@ FL_SIMD_INLINE void add_four(const fl_facet_group *at, const fl_facet_piece *row
     const fl_simd turn[3] = {DOT(e, w), DOT(g, w), DOT(n, w)};
     const fl_simd u[3] = {DOT(e, v) + c * turn[1], DOT(g, v) - c * turn[0], DOT(n, v)};
     moments m;
-    add_rows(&m, row, flow, at->pieces, skin, form, u, turn);
+    sum_pieces(&m, row, flow, at->pieces, skin, form, u, turn);
     fl_simd *const vv[3] = {ROW(sum, 0), ROW(sum, 1), ROW(sum, 2)};
     fl_simd *const wv[3] = {ROW(sum, 3), ROW(sum, 4), ROW(sum, 5)};
     fl_simd *const ww[3] = {wv[0] + 3, wv[1] + 3, wv[2] + 3};
@@ -113,17 +114,16 @@ FL_SIMD_INLINE void add_four(const fl_facet_group *at, const fl_facet_piece *row
     }
 }
 
-/* The same of sides of a prism that stands along the last axis: n = (a, b, 0), e = (-b, a, 0),
- * g = (0, 0, 1). */
-FL_SIMD_INLINE void add_sides(const fl_simd *a, const fl_simd *b, const fl_facet_group *at,
-                              const fl_facet_piece *row, const fl_facet_flow *flow, double skin, double form,
-                              fl_vec3 v, fl_vec3 w, fl_simd *sum)
+/* Adds four sides of a prism along the last axis: n = (a, b, 0), e = (-b, a, 0), g = (0, 0, 1). */
+FL_SIMD_INLINE void add_prism_sides(const fl_simd *a, const fl_simd *b, const fl_facet_group *at,
+                                    const fl_facet_piece *row, const fl_facet_flow *flow, double skin,
+                                    double form, fl_vec3 v, fl_vec3 w, fl_simd *sum)
 {
     const fl_simd n1 = *a, n2 = *b, c = FL_SIMD_LOAD(at->c), zero = {0.0, 0.0, 0.0, 0.0};
     const fl_simd turn[3] = {w.y * n1 - w.x * n2, zero + w.z, w.x * n1 + w.y * n2};
     const fl_simd u[3] = {(v.y * n1 - v.x * n2) + c * turn[1], v.z - c * turn[0], v.x * n1 + v.y * n2};
     moments m;
-    add_rows(&m, row, flow, at->pieces, skin, form, u, turn);
+    sum_pieces(&m, row, flow, at->pieces, skin, form, u, turn);
     fl_simd *const vv[3] = {ROW(sum, 0), ROW(sum, 1), ROW(sum, 2)};
     fl_simd *const wv[3] = {ROW(sum, 3), ROW(sum, 4), ROW(sum, 5)};
     fl_simd *const ww[3] = {wv[0] + 3, wv[1] + 3, wv[2] + 3};
@@ -145,17 +145,17 @@ FL_SIMD_INLINE void add_sides(const fl_simd *a, const fl_simd *b, const fl_facet
     sum[3] += m.turn * n1 - re * n2, sum[4] += m.turn * n2 + re * n1, sum[5] += c * m.se - m.fnx;
 }
 
-/* And of its cap: n = (0, 0, z), e = (1, 0, 0), g = (0, z, 0), z being 1 or -1. */
-FL_SIMD_INLINE void add_cap(double z, const fl_facet_group *at, const fl_facet_piece *row,
-                            const fl_facet_flow *flow, double skin, double form, fl_vec3 v, fl_vec3 w,
-                            fl_simd *sum)
+/* Adds its cap: n = (0, 0, z), e = (1, 0, 0), g = (0, z, 0), z = 1 or -1. */
+FL_SIMD_INLINE void add_prism_cap(double z, const fl_facet_group *at, const fl_facet_piece *row,
+                                  const fl_facet_flow *flow, double skin, double form, fl_vec3 v, fl_vec3 w,
+                                  fl_simd *sum)
 {
     const fl_simd zero = {0.0, 0.0, 0.0, 0.0};
     const double c = at->c[0];
     const fl_simd turn[3] = {zero + w.x, zero + z * w.y, zero + z * w.z};
     const fl_simd u[3] = {zero + (v.x + c * (z * w.y)), zero + (z * v.y - c * w.x), zero + z * v.z};
     moments m;
-    add_rows(&m, row, flow, at->pieces, skin, form, u, turn);
+    sum_pieces(&m, row, flow, at->pieces, skin, form, u, turn);
     fl_simd *const vv[3] = {ROW(sum, 0), ROW(sum, 1), ROW(sum, 2)};
     fl_simd *const wv[3] = {ROW(sum, 3), ROW(sum, 4), ROW(sum, 5)};
     fl_simd *const ww[3] = {wv[0] + 3, wv[1] + 3, wv[2] + 3};
@@ -170,9 +170,10 @@ FL_SIMD_INLINE void add_cap(double z, const fl_facet_group *at, const fl_facet_p
     sum[3] += m.fny - c * m.sg, sum[4] += z * (c * m.se - m.fnx), sum[5] += z * m.turn;
 }
 
-/* Where sums along the axes k + 1, k + 2 and k go, in doubles from the first on; the last is no sum. */
-static_assert(FL_BODY_BATCH == 16, "places below are times that");
-static const uint16_t place_of[3][FL_DRAG_SUMS + 1] = {
+/* Where the sums along the axes k + 1, k + 2 and k are stored, in doubles from the first one; the last is no
+ * sum. */
+static_assert(FL_BODY_BATCH == 16, "position_of[] counts in rows of 16");
+static const uint16_t position_of[3][FL_DRAG_SUMS + 1] = {
     {16,  32,  0,   64,  80,  48,  128, 160, 176, 112, 144, 96,  272, 288,
      256, 320, 352, 368, 336, 400, 416, 208, 224, 192, 304, 384, 240, 432},
     {32,  0,   16,  80,  48,  64,  176, 144, 96,  160, 112, 128, 368, 336,
@@ -180,21 +181,21 @@ static const uint16_t place_of[3][FL_DRAG_SUMS + 1] = {
     {0,   16,  32,  48,  64,  80,  96,  112, 128, 144, 160, 176, 192, 208,
      224, 240, 256, 272, 288, 304, 320, 336, 352, 368, 384, 400, 416, 432}};
 
-/* Four sums of four each to four, which go to so many places of a body. */
-FL_SIMD_INLINE void put_four(fl_facet_drag_batch *to, int32_t i, fl_simd *sum, const uint16_t *place, int n)
+/* Reduces four sums of four lanes and stores them at n positions of a body. */
+FL_SIMD_INLINE void store_four(fl_facet_drag_batch *to, int32_t i, fl_simd *sum, const uint16_t *place, int n)
 {
     fl_simd_transpose(sum);
     const fl_simd all = (sum[0] + sum[2]) + (sum[1] + sum[3]);
     FL_SIMD_UNROLL for (int l = 0; l < n; l++)(&to->sum[0][i])[place[l]] = all[l];
 }
 
-FL_SIMD_INLINE void put_all(fl_facet_drag_batch *to, int32_t i, fl_simd *sum, const uint16_t *place,
-                            int flows)
+FL_SIMD_INLINE void store_sums(fl_facet_drag_batch *to, int32_t i, fl_simd *sum, const uint16_t *place,
+                               int flows)
 {
     FL_SIMD_UNROLL for (int c = 0; c < FL_DRAG_MATRIX && !flows; c++) to->sum[c][i] = 0.0;
-    if (flows) put_four(to, i, sum, place, 4);
-    FL_SIMD_UNROLL for (int c = 4; c + 4 <= FL_DRAG_SUMS; c += 4) put_four(to, i, sum + c, place + c, 4);
-    put_four(to, i, sum + FL_DRAG_SUMS - 3, place + FL_DRAG_SUMS - 3, 3);
+    if (flows) store_four(to, i, sum, place, 4);
+    FL_SIMD_UNROLL for (int c = 4; c + 4 <= FL_DRAG_SUMS; c += 4) store_four(to, i, sum + c, place + c, 4);
+    store_four(to, i, sum + FL_DRAG_SUMS - 3, place + FL_DRAG_SUMS - 3, 3);
 }
 
 FL_SIMD_INLINE void add_facets(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s, double skin,
@@ -204,11 +205,11 @@ FL_SIMD_INLINE void add_facets(fl_facet_drag_batch *to, int32_t i, const fl_face
     fl_simd sum[FL_DRAG_SUMS + 1] = {{0.0}};
     int32_t row = 0;
     for (int32_t k = 0; k < s->groups; row += s->group[k++].pieces)
-        add_four(&s->group[k], &s->piece[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
-    put_all(to, i, sum, place_of[2], flows);
+        add_group(&s->group[k], &s->piece[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
+    store_sums(to, i, sum, position_of[2], flows);
 }
 
-/* Where they stand along an axis of the body. */
+/* Adds a prism along a body axis. */
 FL_SIMD_INLINE void add_prism(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s, double skin,
                               double form, int flows)
 {
@@ -220,32 +221,32 @@ FL_SIMD_INLINE void add_prism(fl_facet_drag_batch *to, int32_t i, const fl_facet
     int32_t row = 0;
     for (; at < cap; row += at++->pieces) {
         const fl_simd a = FL_SIMD_LOAD(at->n[k1]), b = FL_SIMD_LOAD(at->n[k2]);
-        add_sides(&a, &b, at, &s->piece[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
+        add_prism_sides(&a, &b, at, &s->piece[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
     }
-    add_cap(at->n[k3][0], at, &s->piece[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
-    put_all(to, i, sum, place_of[k3], flows);
+    add_prism_cap(at->n[k3][0], at, &s->piece[row], flows ? &s->flow[row] : NULL, skin, form, v, w, sum);
+    store_sums(to, i, sum, position_of[k3], flows);
 }
 
-FL_SIMD4_VERSIONS static void facets_still(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s,
-                                           double skin, double form)
+FL_SIMD4_VERSIONS static void sum_facets_still(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s,
+                                               double skin, double form)
 {
     add_facets(to, i, s, skin, form, 0);
 }
 
-FL_SIMD4_VERSIONS static void facets_flowing(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s,
-                                             double skin, double form)
+FL_SIMD4_VERSIONS static void sum_facets_flowing(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s,
+                                                 double skin, double form)
 {
     add_facets(to, i, s, skin, form, 1);
 }
 
-FL_SIMD4_VERSIONS static void prism_still(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s,
-                                          double skin, double form)
+FL_SIMD4_VERSIONS static void sum_prism_still(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s,
+                                              double skin, double form)
 {
     add_prism(to, i, s, skin, form, 0);
 }
 
-FL_SIMD4_VERSIONS static void prism_flowing(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s,
-                                            double skin, double form)
+FL_SIMD4_VERSIONS static void sum_prism_flowing(fl_facet_drag_batch *to, int32_t i, const fl_facet_cut *s,
+                                                double skin, double form)
 {
     add_prism(to, i, s, skin, form, 1);
 }
@@ -254,13 +255,13 @@ void fl_facet_drag_sum(fl_facet_drag_batch *a, int32_t i, const fl_facet_cut *s,
                        double h)
 {
     const double skin = h * law.skin, form = h * law.form;
-    if (s->cap_axis < 0) (s->flow ? facets_flowing : facets_still)(a, i, s, skin, form);
-    else (s->flow ? prism_flowing : prism_still)(a, i, s, skin, form);
+    if (s->cap_axis < 0) (s->flow ? sum_facets_flowing : sum_facets_still)(a, i, s, skin, form);
+    else (s->flow ? sum_prism_flowing : sum_prism_still)(a, i, s, skin, form);
 }
 
-/* (M + h K) y' = M y + ..., of four bodies: L d L^T, whose pivots are no less than M but for rounding, where
- * h K is 1e16 times larger. */
-FL_SIMD_INLINE void solve_four(fl_facet_drag_batch *of, int32_t at)
+/* Solves (M + h K) y' = M y + ... of four bodies by L d L^T. The pivots are at least M but for rounding,
+ * which counts where h K is 1e16 times M. */
+FL_SIMD_INLINE void solve_four_bodies(fl_facet_drag_batch *of, int32_t at)
 {
     fl_simd l[6][6], x[6], per[6];
     double(*row)[FL_BODY_BATCH] = of->sum + FL_DRAG_MATRIX;
@@ -289,7 +290,7 @@ FL_SIMD_INLINE void solve_four(fl_facet_drag_batch *of, int32_t at)
 
 FL_SIMD4_VERSIONS void fl_facet_drag_step(fl_facet_drag_batch *a, int32_t lanes)
 {
-    for (int32_t k = 0; k < lanes; k += FL_SIMD_WIDTH) solve_four(a, k);
+    for (int32_t k = 0; k < lanes; k += FL_SIMD_WIDTH) solve_four_bodies(a, k);
 }
 
 void fl_facet_drag(const fl_facet_cut *s, fl_facet_drag_law law, fl_vec3 mass, fl_vec3 inertia, double h,

@@ -4,8 +4,9 @@
 #include <string.h>
 #include "water/still_water_batch.h"
 
-/* Of the i-th of a few that goes with v: twice the kinetic energy of its way; */
-FL_SIMD_INLINE double going(const fl_body_batch *a, const fl_body_batch_water *water, int32_t i, fl_vec3 v)
+/* Twice the kinetic energy of translation of lane i at velocity v. */
+FL_SIMD_INLINE double twice_kinetic(const fl_body_batch *a, const fl_body_batch_water *water, int32_t i,
+                                    fl_vec3 v)
 {
     const double m = a->m[i];
     if (!water) return m * v3_norm2(v);
@@ -13,9 +14,9 @@ FL_SIMD_INLINE double going(const fl_body_batch *a, const fl_body_batch_water *w
         v, fl_body_batch_momentum(fl_body_batch_axes(a, i), m, FL_BODY_BATCH_VEC(water->added_mass, i), v));
 }
 
-/* what c |u| u leaves of u, its speed through the fluid. */
-FL_SIMD_INLINE fl_vec3 slowed(const fl_body_batch *a, const fl_body_batch_water *water, int32_t i, double c,
-                              fl_vec3 u)
+/* Velocity u through the fluid of lane i after the decay by c |u| u. */
+FL_SIMD_INLINE fl_vec3 slowed_velocity(const fl_body_batch *a, const fl_body_batch_water *water, int32_t i,
+                                       double c, fl_vec3 u)
 {
     const double h = a->h[i], m = a->m[i], speed = v3_norm(u);
     if (!water) return v3_scale(fl_drag_decay_factor(m, c, speed, h), u);
@@ -26,12 +27,12 @@ FL_SIMD_INLINE fl_vec3 slowed(const fl_body_batch *a, const fl_body_batch_water 
                         p.z / (1.0 + s / (m + added.z))));
 }
 
-/* decay() of environment.c, where nothing is held, by the surface that the fluid meets, r_eff, and its velocity; what
- * it does is added to work[], times sign. */
-FL_SIMD_INLINE void decay(fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
-                          const fl_fluid *fluid, const double *restrict surface, const double *restrict reach,
-                          double (*restrict c)[FL_BODY_BATCH], const double *restrict held, double sign,
-                          double *restrict work)
+/* decay_velocity() of environment.c for bodies without constraints: surface in contact with the fluid, r_eff,
+ * velocity c of the fluid. Adds sign times the work to work[]. */
+FL_SIMD_INLINE void decay_lanes(fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
+                                const fl_fluid *fluid, const double *restrict surface,
+                                const double *restrict reach, double (*restrict c)[FL_BODY_BATCH],
+                                const double *restrict held, double sign, double *restrict work)
 {
 #pragma omp simd
     for (int32_t i = 0; i < a->lanes; i++) {
@@ -39,9 +40,10 @@ FL_SIMD_INLINE void decay(fl_body_batch *restrict a, const fl_body_batch_water *
         const fl_vec3 v = FL_BODY_BATCH_VEC(a->v, i), w = FL_BODY_BATCH_VEC(a->w, i),
                       L = FL_BODY_BATCH_VEC(a->L, i), flow = FL_BODY_BATCH_VEC(c, i);
         const double turning = v3_dot(w, L), spin2 = v3_norm2(w);
-        const double before = 0.5 * (going(a, water, i, v) + turning) - held[i];
-        const fl_vec3 slow = slowed(a, water, i, fl_drag_force_constant(fluid, area), v3_sub(v, flow));
-        /* 1 where it does not turn, or meets nothing */
+        const double before = 0.5 * (twice_kinetic(a, water, i, v) + turning) - held[i];
+        const fl_vec3 slow =
+            slowed_velocity(a, water, i, fl_drag_force_constant(fluid, area), v3_sub(v, flow));
+        /* 1 for a body that does not rotate, or has no contact with the fluid */
         const double about = turning > 0.0 ? turning : 1.0, by = turning > 0.0 ? spin2 : 0.0,
                      stays = fl_drag_decay_factor(about, fl_drag_moment_constant(fluid, area, r) * by,
                                                   sqrt(by), h);
@@ -49,7 +51,7 @@ FL_SIMD_INLINE void decay(fl_body_batch *restrict a, const fl_body_batch_water *
         const double px = meets ? flow.x + slow.x : v.x, py = meets ? flow.y + slow.y : v.y,
                      pz = meets ? flow.z + slow.z : v.z;
         const fl_vec3 l = v3_scale(stays, L), s = v3_scale(stays, w);
-        const double after = 0.5 * (going(a, water, i, v3(px, py, pz)) + v3_dot(s, l)) - held[i];
+        const double after = 0.5 * (twice_kinetic(a, water, i, v3(px, py, pz)) + v3_dot(s, l)) - held[i];
         fl_body_batch_set_vec(a->v, i, v3(px, py, pz));
         fl_body_batch_set_vec(a->L, i, l);
         fl_body_batch_set_vec(a->w, i, s);
@@ -57,29 +59,30 @@ FL_SIMD_INLINE void decay(fl_body_batch *restrict a, const fl_body_batch_water *
     }
 }
 
-FL_SIMD_VERSIONS static void decay_free(fl_body_batch *restrict a, const fl_fluid *fluid,
-                                        const double *restrict surface, const double *restrict reach,
-                                        double (*restrict c)[FL_BODY_BATCH], const double *restrict held,
-                                        double sign, double *restrict work)
+FL_SIMD_VERSIONS static void decay_free_lanes(fl_body_batch *restrict a, const fl_fluid *fluid,
+                                              const double *restrict surface, const double *restrict reach,
+                                              double (*restrict c)[FL_BODY_BATCH],
+                                              const double *restrict held, double sign, double *restrict work)
 {
-    decay(a, NULL, fluid, surface, reach, c, held, sign, work);
+    decay_lanes(a, NULL, fluid, surface, reach, c, held, sign, work);
 }
 
-FL_SIMD_VERSIONS static void decay_wet(fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
-                                       const fl_fluid *fluid, const double *restrict surface,
-                                       const double *restrict reach, double (*restrict c)[FL_BODY_BATCH],
-                                       const double *restrict held, double sign, double *restrict work)
+FL_SIMD_VERSIONS static void
+decay_lanes_with_water(fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
+                       const fl_fluid *fluid, const double *restrict surface, const double *restrict reach,
+                       double (*restrict c)[FL_BODY_BATCH], const double *restrict held, double sign,
+                       double *restrict work)
 {
-    decay(a, water, fluid, surface, reach, c, held, sign, work);
+    decay_lanes(a, water, fluid, surface, reach, c, held, sign, work);
 }
 
-FL_SIMD_VERSIONS static void alike(double (*restrict c)[FL_BODY_BATCH], fl_vec3 u, int32_t n)
+FL_SIMD_VERSIONS static void fill_vec(double (*restrict c)[FL_BODY_BATCH], fl_vec3 u, int32_t n)
 {
 #pragma omp simd
     for (int32_t i = 0; i < n; i++) c[0][i] = u.x, c[1][i] = u.y, c[2][i] = u.z;
 }
 
-FL_SIMD_VERSIONS static int meets(const double *restrict area, int32_t n)
+FL_SIMD_VERSIONS static int any_positive(const double *restrict area, int32_t n)
 {
     double many = 0.0;
 #pragma omp simd reduction(+ : many)
@@ -87,30 +90,30 @@ FL_SIMD_VERSIONS static int meets(const double *restrict area, int32_t n)
     return many > 0.0;
 }
 
-/* By what the fluid meets of each, and its velocity there. */
-static void decay_all(fl_body_batch *a, const fl_body_batch_water *water, const fl_environment *s,
-                      const fl_bodies *b, const fl_fluid *fluid, const double *surface,
-                      double (*c)[FL_BODY_BATCH], double sign, double *work)
+/* The same for surface[] and c[] of the batch; work[] is an array over all bodies. */
+static void decay_bodies(fl_body_batch *a, const fl_body_batch_water *water, const fl_environment *s,
+                         const fl_bodies *b, const fl_fluid *fluid, const double *surface,
+                         double (*c)[FL_BODY_BATCH], double sign, double *work)
 {
     _Alignas(64) double of_reach[FL_BODY_BATCH], of_held[FL_BODY_BATCH], done[FL_BODY_BATCH];
     double *const sum = fl_body_batch_gather(a, work, done);
     const double *const reach = fl_body_batch_gather(a, s->drag_radius, of_reach),
                         *const held = fl_body_batch_gather(a, b->work_of_constraints, of_held);
-    if (water) decay_wet(a, water, fluid, surface, reach, c, held, sign, sum);
-    else decay_free(a, fluid, surface, reach, c, held, sign, sum);
+    if (water) decay_lanes_with_water(a, water, fluid, surface, reach, c, held, sign, sum);
+    else decay_free_lanes(a, fluid, surface, reach, c, held, sign, sum);
     fl_body_batch_scatter(a, work, sum);
 }
 
-/* decay_of_facets() of environment.c. */
+/* State of decay_by_facets() of environment.c. */
 typedef struct {
     fl_facet_drag_batch few;
     double I[3][FL_BODY_BATCH], before[FL_BODY_BATCH];
-    double has[FL_BODY_BATCH]; /* 1 where a body has facets that the fluid meets, or 0 */
-} facets;
+    double has[FL_BODY_BATCH]; /* 1 if the body has facets in contact with the fluid, else 0 */
+} facet_state;
 
 FL_SIMD_INLINE void begin_facets(const fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
                                  double (*restrict c)[FL_BODY_BATCH], const double *restrict held,
-                                 facets *restrict q)
+                                 facet_state *restrict q)
 {
 #pragma omp simd
     for (int32_t i = 0; i < a->lanes; i++) {
@@ -118,7 +121,7 @@ FL_SIMD_INLINE void begin_facets(const fl_body_batch *restrict a, const fl_body_
         const fl_vec3 v = FL_BODY_BATCH_VEC(a->v, i), w = FL_BODY_BATCH_VEC(a->w, i),
                       L = FL_BODY_BATCH_VEC(a->L, i);
         const double m = a->m[i];
-        q->before[i] = 0.5 * (going(a, water, i, v) + v3_dot(w, L)) - held[i];
+        q->before[i] = 0.5 * (twice_kinetic(a, water, i, v) + v3_dot(w, L)) - held[i];
         fl_body_batch_set_vec(q->few.y, i, r3_tmul(R, v3_sub(v, FL_BODY_BATCH_VEC(c, i))));
         fl_body_batch_set_vec(q->few.y + 3, i, r3_tmul(R, w));
         for (int k = 0; k < 3; k++) {
@@ -130,7 +133,7 @@ FL_SIMD_INLINE void begin_facets(const fl_body_batch *restrict a, const fl_body_
 
 FL_SIMD_INLINE void end_facets(fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
                                double (*restrict c)[FL_BODY_BATCH], const double *restrict held,
-                               const facets *restrict q, double sign, double *restrict work)
+                               const facet_state *restrict q, double sign, double *restrict work)
 {
 #pragma omp simd
     for (int32_t i = 0; i < a->lanes; i++) {
@@ -140,7 +143,7 @@ FL_SIMD_INLINE void end_facets(fl_body_batch *restrict a, const fl_body_batch_wa
         const fl_vec3 turn = FL_BODY_BATCH_VEC(q->few.y + 3, i);
         const fl_vec3 v = v3_add(FL_BODY_BATCH_VEC(c, i), r3_mul(R, FL_BODY_BATCH_VEC(q->few.y, i))),
                       w = r3_mul(R, turn), L = r3_mul(R, v3_mul(FL_BODY_BATCH_VEC(q->I, i), turn));
-        const double after = 0.5 * (going(a, water, i, v) + v3_dot(w, L)) - held[i];
+        const double after = 0.5 * (twice_kinetic(a, water, i, v) + v3_dot(w, L)) - held[i];
         const int has = q->has[i] > 0.0;
         fl_body_batch_set_vec(a->v, i, v3(has ? v.x : v0.x, has ? v.y : v0.y, has ? v.z : v0.z));
         fl_body_batch_set_vec(a->w, i, v3(has ? w.x : w0.x, has ? w.y : w0.y, has ? w.z : w0.z));
@@ -149,35 +152,38 @@ FL_SIMD_INLINE void end_facets(fl_body_batch *restrict a, const fl_body_batch_wa
     }
 }
 
-FL_SIMD_VERSIONS static void begin_free(const fl_body_batch *restrict a, double (*restrict c)[FL_BODY_BATCH],
-                                        const double *restrict held, facets *restrict q)
+FL_SIMD_VERSIONS static void begin_free_facets(const fl_body_batch *restrict a,
+                                               double (*restrict c)[FL_BODY_BATCH],
+                                               const double *restrict held, facet_state *restrict q)
 {
     begin_facets(a, NULL, c, held, q);
 }
 
-FL_SIMD_VERSIONS static void begin_wet(const fl_body_batch *restrict a,
-                                       const fl_body_batch_water *restrict water,
-                                       double (*restrict c)[FL_BODY_BATCH], const double *restrict held,
-                                       facets *restrict q)
+FL_SIMD_VERSIONS static void begin_facets_with_water(const fl_body_batch *restrict a,
+                                                     const fl_body_batch_water *restrict water,
+                                                     double (*restrict c)[FL_BODY_BATCH],
+                                                     const double *restrict held, facet_state *restrict q)
 {
     begin_facets(a, water, c, held, q);
 }
 
-FL_SIMD_VERSIONS static void end_free(fl_body_batch *restrict a, double (*restrict c)[FL_BODY_BATCH],
-                                      const double *restrict held, const facets *restrict q, double sign,
-                                      double *restrict work)
+FL_SIMD_VERSIONS static void end_free_facets(fl_body_batch *restrict a, double (*restrict c)[FL_BODY_BATCH],
+                                             const double *restrict held, const facet_state *restrict q,
+                                             double sign, double *restrict work)
 {
     end_facets(a, NULL, c, held, q, sign, work);
 }
 
-FL_SIMD_VERSIONS static void end_wet(fl_body_batch *restrict a, const fl_body_batch_water *restrict water,
-                                     double (*restrict c)[FL_BODY_BATCH], const double *restrict held,
-                                     const facets *restrict q, double sign, double *restrict work)
+FL_SIMD_VERSIONS static void end_facets_with_water(fl_body_batch *restrict a,
+                                                   const fl_body_batch_water *restrict water,
+                                                   double (*restrict c)[FL_BODY_BATCH],
+                                                   const double *restrict held, const facet_state *restrict q,
+                                                   double sign, double *restrict work)
 {
     end_facets(a, water, c, held, q, sign, work);
 }
 
-/* Those of them whose facets the fluid meets, as decay_all(); air: which fluid. */
+/* Drag by facets on the bodies with has[] set; air: 1 for the wind. */
 static void decay_facets(fl_body_batch *a, const fl_body_batch_water *water, const fl_environment *s,
                          const fl_bodies *b, int air, const double *has, double (*c)[FL_BODY_BATCH],
                          double sign, double *work)
@@ -186,11 +192,11 @@ static void decay_facets(fl_body_batch *a, const fl_body_batch_water *water, con
     const fl_facet_drag_law law = air ? fl_environment_wind_law(s) : fl_environment_water_law(s);
     double *const sum = fl_body_batch_gather(a, work, done);
     const double *const held = fl_body_batch_gather(a, b->work_of_constraints, of_held);
-    facets q;
+    facet_state q;
     memcpy(q.has, has, sizeof q.has);
     for (int32_t k = 0; k < a->lanes; k++) fl_body_batch_set_vec(q.I, k, b->I[a->index[k]]);
-    if (water) begin_wet(a, water, c, held, &q);
-    else begin_free(a, c, held, &q);
+    if (water) begin_facets_with_water(a, water, c, held, &q);
+    else begin_free_facets(a, c, held, &q);
     for (int32_t k = 0; k < a->lanes; k++) {
         const fl_drag_surface *skin = &s->drag_surface[a->index[k]];
         if (k < a->n && has[k] > 0.0)
@@ -199,14 +205,14 @@ static void decay_facets(fl_body_batch *a, const fl_body_batch_water *water, con
             for (int row = 0; row < FL_DRAG_SUMS; row++) q.few.sum[row][k] = 0.0;
     }
     fl_facet_drag_step(&q.few, a->lanes);
-    if (water) end_wet(a, water, c, held, &q, sign, sum);
-    else end_free(a, c, held, &q, sign, sum);
+    if (water) end_facets_with_water(a, water, c, held, &q, sign, sum);
+    else end_free_facets(a, c, held, &q, sign, sum);
     fl_body_batch_scatter(a, work, sum);
 }
 
-/* Drag on the area that the fluid meets of each, or on its facets where it has such. */
-static void decay_each(fl_body_batch *a, const fl_body_batch_water *water, const fl_environment *s,
-                       const fl_bodies *b, int air, const double *area, double (*c)[FL_BODY_BATCH])
+/* Drag by facets on bodies that have such, and on the whole surface of the others. */
+static void decay_mixed(fl_body_batch *a, const fl_body_batch_water *water, const fl_environment *s,
+                        const fl_bodies *b, int air, const double *area, double (*c)[FL_BODY_BATCH])
 {
     _Alignas(64) double has[FL_BODY_BATCH], rest[FL_BODY_BATCH];
     const fl_fluid *fluid = air ? &s->air : &s->seawater;
@@ -221,39 +227,55 @@ static void decay_each(fl_body_batch *a, const fl_body_batch_water *water, const
         many += has[k], others += of_skin ? 0.0 : 1.0;
     }
     if (!s->drag_surface || others > 0.0)
-        decay_all(a, water, s, b, fluid, s->drag_surface ? rest : area, c, sign, work);
+        decay_bodies(a, water, s, b, fluid, s->drag_surface ? rest : area, c, sign, work);
     if (many > 0.0) decay_facets(a, water, s, b, air, has, c, sign, work);
 }
 
-static void by_water(fl_environment *s, const fl_bodies *b, fl_body_batch *a,
-                     const fl_body_batch_water *water)
+static void apply_water_drag(fl_environment *s, const fl_bodies *b, fl_body_batch *a,
+                             const fl_body_batch_water *water)
 {
     _Alignas(64) double c[3][FL_BODY_BATCH], room[FL_BODY_BATCH];
     const double *const wetted = fl_body_batch_gather(a, s->wetted_area, room);
-    if (!(wetted[0] > 0.0) && !meets(wetted, a->lanes)) return;
-    if (!s->flow_velocity) alike(c, s->current.velocity, a->lanes);
+    if (!(wetted[0] > 0.0) && !any_positive(wetted, a->lanes)) return;
+    if (!s->flow_velocity) fill_vec(c, s->current.velocity, a->lanes);
     for (int32_t k = 0; k < a->lanes && s->flow_velocity; k++) {
         const fl_vec3 u = s->flow_velocity[a->index[k]];
         c[0][k] = u.x, c[1][k] = u.y, c[2][k] = u.z;
     }
-    decay_each(a, water, s, b, 0, wetted, c);
+    decay_mixed(a, water, s, b, 0, wetted, c);
 }
 
-static void by_wind(fl_environment *s, const fl_bodies *b, fl_body_batch *a, const fl_body_batch_water *water)
+static void apply_wind_drag(fl_environment *s, const fl_bodies *b, fl_body_batch *a,
+                            const fl_body_batch_water *water)
 {
     _Alignas(64) double c[3][FL_BODY_BATCH], dry[FL_BODY_BATCH];
-    alike(c, s->wind_velocity, a->lanes);
+    fill_vec(c, s->wind_velocity, a->lanes);
     for (int32_t k = 0; k < a->lanes; k++)
         dry[k] = s->hull[a->index[k]].surface_area - (s->water ? s->wetted_area[a->index[k]] : 0.0);
-    decay_each(a, water, s, b, 1, dry, c);
+    decay_mixed(a, water, s, b, 1, dry, c);
 }
 
-void fl_still_water_batch_drag(fl_environment *s, const fl_bodies *b, fl_body_batch *a,
+/* Forces with an `impulse` work on the arrays of the bodies, one by one. */
+static void apply_impulses(fl_environment *s, fl_bodies *b, fl_body_batch *a, int back)
+{
+    fl_body_batch_store_velocities(a, b);
+    for (int32_t k = 0; k < a->n; k++) fl_environment_apply_impulses(s, b, a->index[k], a->h[k], back);
+    for (int32_t k = 0; k < a->lanes; k++) {
+        const int32_t i = a->index[k];
+        fl_body_batch_set_vec(a->v, k, b->v[i]);
+        fl_body_batch_set_vec(a->L, k, b->L[i]);
+        fl_body_batch_set_vec(a->w, k, b->w[i]);
+    }
+}
+
+void fl_still_water_batch_drag(fl_environment *s, fl_bodies *b, fl_body_batch *a,
                                const fl_body_batch_water *water, int back)
 {
-    if (back && s->wind) by_wind(s, b, a, water);
-    if (s->water) by_water(s, b, a, water);
-    if (!back && s->wind) by_wind(s, b, a, water);
+    if (back && s->impulses) apply_impulses(s, b, a, back);
+    if (back && s->wind) apply_wind_drag(s, b, a, water);
+    if (s->water) apply_water_drag(s, b, a, water);
+    if (!back && s->wind) apply_wind_drag(s, b, a, water);
+    if (!back && s->impulses) apply_impulses(s, b, a, back);
 }
 
 void fl_still_water_batch_add_work(fl_environment *s, const fl_body_batch *a, double (*v)[FL_BODY_BATCH],
@@ -268,8 +290,8 @@ void fl_still_water_batch_add_work(fl_environment *s, const fl_body_batch *a, do
     }
 }
 
-/* Right prisms, one array a number, in the order of fl_prism: read by that order. */
-enum { AREA, O, A = O + 3, E = A + 3, Z0 = E + 3, Z1, JAA, JAB, JBB, ROUND, GA, GB, FAR2, NUMBERS };
+/* Numbers of fl_prism in its order, one array per number. */
+enum { AREA, O, A = O + 3, E = A + 3, Z0 = E + 3, Z1, JAA, JAB, JBB, PERIMETER, GA, GB, FAR2, NUMBERS };
 static_assert(offsetof(fl_prism, o) == O * sizeof(double) && offsetof(fl_prism, e) == E * sizeof(double) &&
                   offsetof(fl_prism, jaa) == JAA * sizeof(double) &&
                   offsetof(fl_prism, far2) == FAR2 * sizeof(double),
@@ -277,21 +299,22 @@ static_assert(offsetof(fl_prism, o) == O * sizeof(double) && offsetof(fl_prism, 
 
 typedef struct {
     _Alignas(64) double p[NUMBERS][FL_BODY_BATCH];
-    double level[FL_BODY_BATCH];  /* of the water over the origin */
-    double floats[FL_BODY_BATCH]; /* out: 1 where all of it holds, 0 */
-} prisms;
+    double level[FL_BODY_BATCH];  /* of the water above the origin */
+    double floats[FL_BODY_BATCH]; /* out: 1 if it floats as a prism, else 0 */
+} prism_lanes;
 
-FL_SIMD4_VERSIONS static void take_row(prisms *q, const fl_hull *h, int32_t lanes)
+FL_SIMD4_VERSIONS static void load_contiguous(prism_lanes *q, const fl_hull *h, int32_t lanes)
 {
     const double *first = &h->prism.area;
     for (int32_t k = 0; k < lanes; k += FL_SIMD_WIDTH) {
         for (int c = 0; c + 4 <= NUMBERS; c += 4) fl_body_batch_unpack4(q->p + c, first + c, sizeof *h, k);
-        /* the last four begin early, so as not to read beyond */
+        /* the last four overlap the ones before, so as not to read beyond the struct */
         fl_body_batch_unpack4(q->p + NUMBERS - 4, first + NUMBERS - 4, sizeof *h, k);
     }
 }
 
-FL_SIMD4_VERSIONS static void take_some(prisms *q, const fl_hull *h, const int32_t *at, int32_t lanes)
+FL_SIMD4_VERSIONS static void load_gathered(prism_lanes *q, const fl_hull *h, const int32_t *at,
+                                            int32_t lanes)
 {
     const double *first = &h->prism.area;
     for (int32_t k = 0; k < lanes; k += FL_SIMD_WIDTH) {
@@ -301,19 +324,20 @@ FL_SIMD4_VERSIONS static void take_some(prisms *q, const fl_hull *h, const int32
     }
 }
 
-static void take(prisms *q, const fl_environment *s, const fl_body_batch *a)
+static void load_prisms(prism_lanes *q, const fl_environment *s, const fl_body_batch *a)
 {
-    if (a->contiguous) take_row(q, &s->hull[a->index[0]], a->lanes);
-    else take_some(q, s->hull, a->index, a->lanes);
+    if (a->contiguous) load_contiguous(q, &s->hull[a->index[0]], a->lanes);
+    else load_gathered(q, s->hull, a->index, a->lanes);
 }
 
-/* What of a prism is under water: fl_prism_submerged(), where it floats as one does. */
+/* Submerged part of a prism by fl_prism_submerged(), and whether that applies. */
 typedef struct {
     double volume, wetted, floats; /* 1 or 0 */
     fl_vec3 centre;
-} prism_wet;
+} prism_submerged;
 
-FL_SIMD_INLINE prism_wet wet_of(const prisms *q, int32_t i, fl_vec3 up, double level, double reach)
+FL_SIMD_INLINE prism_submerged submerge_lane(const prism_lanes *q, int32_t i, fl_vec3 up, double level,
+                                             double reach)
 {
     const double ux = up.x, uy = up.y, uz = up.z;
     const double ax = q->p[A][i], ay = q->p[A + 1][i], az = q->p[A + 2][i], ex = q->p[E][i],
@@ -322,38 +346,39 @@ FL_SIMD_INLINE prism_wet wet_of(const prisms *q, int32_t i, fl_vec3 up, double l
     const double bx = ey * az - ez * ay, by = ez * ax - ex * az, bz = ex * ay - ey * ax;
     const double area = q->p[AREA][i], jab = q->p[JAB][i];
     const double along = ux * ex + uy * ey + uz * ez;
-    const int over = along < 0.0; /* turned over: seen along -e */
+    const int over = along < 0.0; /* upside down: seen along -e */
     const double ue = over ? -along : along, sign = over ? -1.0 : 1.0, z0 = over ? -q->p[Z1][i] : q->p[Z0][i],
                  z1 = over ? -q->p[Z0][i] : q->p[Z1][i];
-    const double per_ue = 1.0 / (ue > 0.1 ? ue : 1.0);
+    const double per_ue = 1.0 / (ue > FL_PRISM_MIN_UPRIGHT ? ue : 1.0);
     const double sa = -per_ue * (ux * ax + uy * ay + uz * az), sb = -per_ue * (ux * bx + uy * by + uz * bz);
     const double zw = per_ue * (level - (ux * ox + uy * oy + uz * oz)), wet0 = zw - z0, dry0 = z1 - zw;
     const double least = wet0 < dry0 ? wet0 : dry0;
-    const int floats = area > 0.0 && ue > 0.1 && level < reach && level > -reach && least > 0.0 &&
-                       least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
+    const int floats = area > 0.0 && ue > FL_PRISM_MIN_UPRIGHT && level < reach && level > -reach &&
+                       least > 0.0 && least * least > (sa * sa + sb * sb) * q->p[FAR2][i];
     const double ja = q->p[JAA][i] * sa + jab * sb, jb = jab * sa + q->p[JBB][i] * sb;
     const double volume = area * wet0, per = 1.0 / (floats ? volume : 1.0);
     const double mz = 0.5 * (area * wet0 * (zw + z0) + sa * ja + sb * jb);
     const double pa = per * ja, pb = per * jb, pe = sign * per * mz;
     const double cx = ox + pa * ax + pb * bx + pe * ex, cy = oy + pa * ay + pb * by + pe * ey,
                  cz = oz + pa * az + pb * bz + pe * ez;
-    return (prism_wet){.volume = volume,
-                       .wetted = area + q->p[ROUND][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]),
-                       .floats = floats ? 1.0 : 0.0,
-                       .centre = v3(cx, cy, cz)};
+    return (prism_submerged){.volume = volume,
+                             .wetted =
+                                 area + q->p[PERIMETER][i] * (wet0 + sa * q->p[GA][i] + sb * q->p[GB][i]),
+                             .floats = floats ? 1.0 : 0.0,
+                             .centre = v3(cx, cy, cz)};
 }
 
-/* fl_buoyancy_force() of that and what look_still() of environment.c makes of it; returns how many float as prisms
- * do. */
-FL_SIMD_VERSIONS static double look(prisms *restrict q, fl_body_batch *restrict a, double weight,
-                                    const double *restrict reach, double *restrict wetted,
-                                    double *restrict lift, double *restrict centre)
+/* evaluate_still() of environment.c for prisms; returns how many float as prisms. */
+FL_SIMD_VERSIONS static double add_prism_buoyancy(prism_lanes *restrict q, fl_body_batch *restrict a,
+                                                  double weight, const double *restrict reach,
+                                                  double *restrict wetted, double *restrict lift,
+                                                  double *restrict centre)
 {
     double afloat = 0.0;
 #pragma omp simd reduction(+ : afloat)
     for (int32_t i = 0; i < a->lanes; i++) {
         const double ux = a->R[6][i], uy = a->R[7][i], uz = a->R[8][i], level = q->level[i];
-        const prism_wet w = wet_of(q, i, v3(ux, uy, uz), level, reach[i]);
+        const prism_submerged w = submerge_lane(q, i, v3(ux, uy, uz), level, reach[i]);
         const double cx = w.centre.x, cy = w.centre.y, cz = w.centre.z, one = w.floats;
         const double over_water = ux * cx + uy * cy + uz * cz - level, push = weight * w.volume;
         const double fx = push * ux, fy = push * uy, fz = push * uz;
@@ -373,8 +398,9 @@ FL_SIMD_VERSIONS static double look(prisms *restrict q, fl_body_batch *restrict 
     return afloat;
 }
 
-/* Where all of them are, told by their reach alone: -1 wholly out of the water, 1 wholly in, 0 neither. */
-FL_SIMD_VERSIONS static int far(const double *restrict level, const double *restrict reach, int32_t n)
+/* -1 if all bodies are wholly out of the water by their drag radius, 1 if all are wholly in, else 0. */
+FL_SIMD_VERSIONS static int all_dry_or_wet(const double *restrict level, const double *restrict reach,
+                                           int32_t n)
 {
     double out = 0.0, in = 0.0;
 #pragma omp simd reduction(+ : out, in)
@@ -385,9 +411,9 @@ FL_SIMD_VERSIONS static int far(const double *restrict level, const double *rest
     return out == n ? -1 : in == n;
 }
 
-/* The same as look() makes where all of each is out of the water, but for the zeros that it adds; */
-FL_SIMD_VERSIONS static void look_out(const double *restrict level, int32_t n, double *restrict wetted,
-                                      double *restrict lift, double *restrict centre)
+/* add_prism_buoyancy() for bodies wholly out of the water, without the zeros that it adds. */
+FL_SIMD_VERSIONS static void set_dry(const double *restrict level, int32_t n, double *restrict wetted,
+                                     double *restrict lift, double *restrict centre)
 {
 #pragma omp simd
     for (int32_t i = 0; i < n; i++) {
@@ -397,15 +423,15 @@ FL_SIMD_VERSIONS static void look_out(const double *restrict level, int32_t n, d
     }
 }
 
-/* and where all of it is in. */
+/* Volumes and centres for bodies wholly in the water. */
 typedef struct {
     _Alignas(64) double volume[FL_BODY_BATCH];
     double c[3][FL_BODY_BATCH];
-} wholes;
+} whole_hulls;
 
-FL_SIMD_VERSIONS static void look_in(const wholes *restrict q, const double *restrict level,
-                                     fl_body_batch *restrict a, double weight, double *restrict lift,
-                                     double *restrict centre)
+FL_SIMD_VERSIONS static void add_whole_buoyancy(const whole_hulls *restrict q, const double *restrict level,
+                                                fl_body_batch *restrict a, double weight,
+                                                double *restrict lift, double *restrict centre)
 {
 #pragma omp simd
     for (int32_t i = 0; i < a->lanes; i++) {
@@ -423,29 +449,29 @@ FL_SIMD_VERSIONS static void look_in(const wholes *restrict q, const double *res
     }
 }
 
-/* What is kept of them, where it is or in rooms of its own. */
+/* Buffers for a batch that is not contiguous. */
 typedef struct {
     double wetted[FL_BODY_BATCH], lift[FL_BODY_BATCH], reach[FL_BODY_BATCH];
-} rooms;
+} lane_buffers;
 
-static void look_from_far(fl_environment *s, const double *level, fl_body_batch *a, int in, double *wetted,
-                          double *lift, double *centre)
+static void add_dry_or_wet(fl_environment *s, const double *level, fl_body_batch *a, int in, double *wetted,
+                           double *lift, double *centre)
 {
     if (!in) {
-        look_out(level, a->lanes, wetted, lift, centre);
+        set_dry(level, a->lanes, wetted, lift, centre);
         return;
     }
-    wholes q;
+    whole_hulls q;
     for (int32_t k = 0; k < a->lanes; k++) {
         const fl_hull *h = &s->hull[a->index[k]];
         wetted[k] = h->surface_area;
         q.volume[k] = h->volume;
         q.c[0][k] = h->centre.x, q.c[1][k] = h->centre.y, q.c[2][k] = h->centre.z;
     }
-    look_in(&q, level, a, s->specific_weight, lift, centre);
+    add_whole_buoyancy(&q, level, a, s->specific_weight, lift, centre);
 }
 
-static void flow(fl_environment *s, const fl_bodies *b, const fl_body_batch *a, const double *centre)
+static void update_flow(fl_environment *s, const fl_bodies *b, const fl_body_batch *a, const double *centre)
 {
     for (int32_t k = 0; k < a->n && s->flow_velocity; k++)
         s->flow_velocity[a->index[k]] = fl_current_at(&s->current, centre[k]);
@@ -453,85 +479,86 @@ static void flow(fl_environment *s, const fl_bodies *b, const fl_body_batch *a, 
         b->flow_velocity[a->index[k]] = fl_environment_flow(s, a->index[k]);
 }
 
-/* What a look at the waves has left, in the order of fl_wave_sample: read by that order. */
+/* Numbers of fl_wave_sample in its order, one array per number. */
 enum {
-    HELD_F,
-    HELD_T = 3,
-    HELD_FLOW = 6,
-    HELD_DF = 9,
-    HELD_DT = 12,
-    HELD_DFLOW = 15,
-    HELD_Z = 18,
-    HELD_SLOPE,
-    HELD_DZ,
-    HELD_DSLOPE,
-    HELD = 24
+    SAMPLE_F,
+    SAMPLE_T = 3,
+    SAMPLE_FLOW = 6,
+    SAMPLE_DF = 9,
+    SAMPLE_DT = 12,
+    SAMPLE_DFLOW = 15,
+    SAMPLE_Z = 18,
+    SAMPLE_SLOPE,
+    SAMPLE_DZ,
+    SAMPLE_DSLOPE,
+    SAMPLE_NUMBERS = 24
 };
-static_assert(offsetof(fl_wave_sample, t) == HELD_T * sizeof(double) &&
-                  offsetof(fl_wave_sample, df) == HELD_DF * sizeof(double) &&
-                  offsetof(fl_wave_sample, dflow) == HELD_DFLOW * sizeof(double) &&
-                  offsetof(fl_wave_sample, dslope) == HELD_DSLOPE * sizeof(double) &&
-                  sizeof(fl_wave_sample) >= HELD * sizeof(double),
+static_assert(offsetof(fl_wave_sample, t) == SAMPLE_T * sizeof(double) &&
+                  offsetof(fl_wave_sample, df) == SAMPLE_DF * sizeof(double) &&
+                  offsetof(fl_wave_sample, dflow) == SAMPLE_DFLOW * sizeof(double) &&
+                  offsetof(fl_wave_sample, dslope) == SAMPLE_DSLOPE * sizeof(double) &&
+                  sizeof(fl_wave_sample) >= SAMPLE_NUMBERS * sizeof(double),
               "as fl_wave_sample has them");
 
 typedef struct {
-    _Alignas(64) double h[HELD][FL_BODY_BATCH];
+    _Alignas(64) double h[SAMPLE_NUMBERS][FL_BODY_BATCH];
     double past[FL_BODY_BATCH], over[FL_BODY_BATCH],
-        reach[FL_BODY_BATCH]; /* over: of still water over the origin */
+        reach[FL_BODY_BATCH]; /* over: height of still water above the origin */
     double push[3][FL_BODY_BATCH], turn[3][FL_BODY_BATCH], flow[3][FL_BODY_BATCH]; /* out */
-} riders;
+} sampled_lanes;
 
-FL_SIMD4_VERSIONS static void take_held(riders *r, const fl_wave_sample *h, const int32_t *at, int32_t lanes)
+FL_SIMD4_VERSIONS static void load_samples(sampled_lanes *r, const fl_wave_sample *h, const int32_t *at,
+                                           int32_t lanes)
 {
     for (int32_t k = 0; k < lanes; k += FL_SIMD_WIDTH)
-        for (int c = 0; c < HELD; c += FL_SIMD_WIDTH)
+        for (int c = 0; c < SAMPLE_NUMBERS; c += FL_SIMD_WIDTH)
             fl_body_batch_gather4(r->h + c, (const double *)(const void *)h + c, sizeof *h, at, k);
 }
 
-/* go_on() of environment.c; returns how many float as prisms do. */
-FL_SIMD_VERSIONS static double ride(prisms *restrict q, riders *restrict r, fl_body_batch *restrict a,
-                                    fl_vec3 along, double weight)
+/* extrapolate_sample() of environment.c; returns how many float as prisms. */
+FL_SIMD_VERSIONS static double add_sampled_buoyancy(prism_lanes *restrict q, sampled_lanes *restrict r,
+                                                    fl_body_batch *restrict a, fl_vec3 along, double weight)
 {
     double afloat = 0.0;
 #pragma omp simd reduction(+ : afloat)
     for (int32_t i = 0; i < a->lanes; i++) {
         const fl_rows3 R = fl_body_batch_axes(a, i);
-        const double past = r->past[i], z = r->h[HELD_Z][i] + past * r->h[HELD_DZ][i],
-                     slope = r->h[HELD_SLOPE][i] + past * r->h[HELD_DSLOPE][i];
+        const double past = r->past[i], z = r->h[SAMPLE_Z][i] + past * r->h[SAMPLE_DZ][i],
+                     slope = r->h[SAMPLE_SLOPE][i] + past * r->h[SAMPLE_DSLOPE][i];
         const double c = 1.0 / sqrt(1.0 + slope * slope), level = c * (z + r->over[i]);
         const fl_vec3 up = v3_scale(c, v3_madd(R.z, -slope, r3_tmul(R, along)));
-        const prism_wet w = wet_of(q, i, up, level, r->reach[i]);
+        const prism_submerged w = submerge_lane(q, i, up, level, r->reach[i]);
         const fl_vec3 force = v3_scale(weight / c * w.volume, up), moment = v3_cross(w.centre, force);
-        const fl_vec3 f = v3_add(r3_mul(R, force), v3_madd(FL_BODY_BATCH_VEC(r->h + HELD_F, i), past,
-                                                           FL_BODY_BATCH_VEC(r->h + HELD_DF, i))),
-                      t = v3_add(r3_mul(R, moment), v3_madd(FL_BODY_BATCH_VEC(r->h + HELD_T, i), past,
-                                                            FL_BODY_BATCH_VEC(r->h + HELD_DT, i)));
+        const fl_vec3 f = v3_add(r3_mul(R, force), v3_madd(FL_BODY_BATCH_VEC(r->h + SAMPLE_F, i), past,
+                                                           FL_BODY_BATCH_VEC(r->h + SAMPLE_DF, i))),
+                      t = v3_add(r3_mul(R, moment), v3_madd(FL_BODY_BATCH_VEC(r->h + SAMPLE_T, i), past,
+                                                            FL_BODY_BATCH_VEC(r->h + SAMPLE_DT, i)));
         q->floats[i] = w.floats;
         afloat += w.floats;
         fl_body_batch_set_vec(r->push, i, f);
         fl_body_batch_set_vec(r->turn, i, t);
-        fl_body_batch_set_vec(
-            r->flow, i,
-            v3_madd(FL_BODY_BATCH_VEC(r->h + HELD_FLOW, i), past, FL_BODY_BATCH_VEC(r->h + HELD_DFLOW, i)));
+        fl_body_batch_set_vec(r->flow, i,
+                              v3_madd(FL_BODY_BATCH_VEC(r->h + SAMPLE_FLOW, i), past,
+                                      FL_BODY_BATCH_VEC(r->h + SAMPLE_DFLOW, i)));
         fl_body_batch_set_vec(a->f, i, v3_add(FL_BODY_BATCH_VEC(a->f, i), f));
         fl_body_batch_set_vec(a->t, i, v3_add(FL_BODY_BATCH_VEC(a->t, i), t));
     }
     return afloat;
 }
 
-/* On the planes that were fitted to the waves. */
-static double ride_on(fl_environment *s, const fl_bodies *b, fl_body_batch *a, prisms *q)
+/* Force on the planes fitted to the waves. */
+static double force_from_samples(fl_environment *s, const fl_bodies *b, fl_body_batch *a, prism_lanes *q)
 {
-    riders r;
+    sampled_lanes r;
     for (int32_t k = 0; k < a->lanes; k++) {
         const int32_t i = a->index[k];
         r.past[k] = s->time - s->sample[i].when;
         r.over[k] = s->level - b->x[i].z;
         r.reach[k] = s->drag_radius[i];
     }
-    take_held(&r, s->sample, a->index, a->lanes);
-    take(q, s, a);
-    const double afloat = ride(q, &r, a, s->wave.direction, s->specific_weight);
+    load_samples(&r, s->sample, a->index, a->lanes);
+    load_prisms(q, s, a);
+    const double afloat = add_sampled_buoyancy(q, &r, a, s->wave.direction, s->specific_weight);
     for (int32_t k = 0; k < a->n; k++) {
         const int32_t i = a->index[k];
         s->water_force[i] = FL_BODY_BATCH_VEC(r.push, k), s->water_moment[i] = FL_BODY_BATCH_VEC(r.turn, k),
@@ -541,11 +568,11 @@ static double ride_on(fl_environment *s, const fl_bodies *b, fl_body_batch *a, p
     return afloat;
 }
 
-/* On still water. */
-static double rest_on(fl_environment *s, const fl_bodies *b, fl_body_batch *a, prisms *q)
+/* Force in still water. */
+static double force_on_still_water(fl_environment *s, const fl_bodies *b, fl_body_batch *a, prism_lanes *q)
 {
-    rooms room;
-    _Alignas(64) double centre[FL_BODY_BATCH]; /* height of the submerged centres over still water [m] */
+    lane_buffers room;
+    _Alignas(64) double centre[FL_BODY_BATCH]; /* height of the submerged centres above still water [m] */
     double *const wetted = fl_body_batch_buffer(a, s->wetted_area, room.wetted);
     double *const lift = fl_body_batch_buffer(a, s->buoyancy, room.lift);
     const double *const reach = fl_body_batch_gather(a, s->drag_radius, room.reach);
@@ -553,27 +580,26 @@ static double rest_on(fl_environment *s, const fl_bodies *b, fl_body_batch *a, p
     double afloat = a->lanes;
     do q->level[lane] = s->level - b->x[a->index[lane]].z;
     while (++lane < a->lanes);
-    const int away = fabs(q->level[0]) < reach[0] ? 0 : far(q->level, reach, a->lanes);
+    const int away = fabs(q->level[0]) < reach[0] ? 0 : all_dry_or_wet(q->level, reach, a->lanes);
     if (away) {
-        look_from_far(s, q->level, a, away > 0, wetted, lift, centre);
+        add_dry_or_wet(s, q->level, a, away > 0, wetted, lift, centre);
     } else {
-        take(q, s, a);
-        afloat = look(q, a, s->specific_weight, reach, wetted, lift, centre);
+        load_prisms(q, s, a);
+        afloat = add_prism_buoyancy(q, a, s->specific_weight, reach, wetted, lift, centre);
     }
     fl_body_batch_scatter(a, s->wetted_area, wetted), fl_body_batch_scatter(a, s->buoyancy, lift);
-    flow(s, b, a, centre);
+    update_flow(s, b, a, centre);
     return afloat;
 }
 
 int32_t fl_still_water_batch_force(fl_environment *s, const fl_bodies *b, fl_body_batch *a,
                                    int32_t left[FL_BODY_BATCH])
 {
-    prisms q;
-    const double afloat = s->waves ? ride_on(s, b, a, &q) : rest_on(s, b, a, &q);
+    prism_lanes q;
+    const double afloat = s->waves ? force_from_samples(s, b, a, &q) : force_on_still_water(s, b, a, &q);
     int32_t others = 0;
     for (int32_t k = 0; k < a->n && s->drag_surface && !s->waves; k++) {
-        if (afloat < a->lanes && !(q.floats[k] > 0.0))
-            continue; /* whoever looks at it sees to that as well */
+        if (afloat < a->lanes && !(q.floats[k] > 0.0)) continue; /* the scalar path updates it */
         fl_environment_update_surface(s, b, a->index[k], FL_BODY_BATCH_VEC(a->R + 6, k), q.level[k]);
     }
     for (int32_t k = 0; k < a->n && afloat < a->lanes; k++)

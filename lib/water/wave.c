@@ -5,19 +5,28 @@
 #include "base/rng.h"
 #include "water/wave.h"
 
-/* What a series may leave out of a train, over its amplitude. */
-#define ENDING 1e-5
+/* k d from which on the water is deep: 1 - tanh 20 = 2 e^-40 = 8e-18 is below the rounding of 1. */
+#define DEEP_KD 20.0
+/* Newton's step that is rounding: 2^-53 of x. */
+#define NEWTON_TOL 1e-16
+/* Reflection by the bottom, of the amplitude, that has no effect: far below SERIES_TOL. */
+#define MIRROR_TOL 1e-12
+/* Trains have equal energy: this part of them in ascending k is this part of the energy. */
+#define ENERGY_PART 0.95
 
-/* x tanh x = y by Newton from above: the function is convex there, so the steps only fall. */
+/* Largest relative error of a truncated series of one train. */
+#define SERIES_TOL 1e-5
+
+/* Solves x tanh x = y by Newton from above; the function is convex there, so the iterates decrease. */
 double fl_wave_number(double omega, double depth, double gravity)
 {
     const double deep = omega * omega / gravity, y = deep * depth;
-    if (!(y < 20.0)) return deep; /* tanh 20 is 1 to rounding */
+    if (!(y < DEEP_KD)) return deep;
     double x = fmax(y, sqrt(y)) * 1.2;
     for (int k = 0; k < 50; k++) {
         const double t = tanh(x), step = (x * t - y) / (t + x * (1.0 - t * t));
         x -= step;
-        if (fabs(step) <= 1e-16 * x) break;
+        if (fabs(step) <= NEWTON_TOL * x) break;
     }
     return x / depth;
 }
@@ -29,14 +38,14 @@ static void fill_train(const fl_waves *w, fl_wave_train *t, double omega, double
                          .omega = omega,
                          .a = a,
                          .phase = phase,
-                         .mirror = kd2 < 40.0 ? exp(-kd2) : 0.0};
+                         .mirror = kd2 < 2.0 * DEEP_KD ? exp(-kd2) : 0.0};
     t->velocity_factor = w->gravity * t->k / omega;
     t->norm = 1.0 / (1.0 + t->mirror);
     t->power[0] = 1.0;
     for (int m = 1; m < FL_WAVE_TERMS; m++) t->power[m] = t->power[m - 1] * t->k / m;
 }
 
-static int start(fl_waves *w, int32_t n, double direction, double depth, double gravity, fl_err *err)
+static int begin_waves(fl_waves *w, int32_t n, double direction, double depth, double gravity, fl_err *err)
 {
     const double a = fl_radians(direction);
     *w = (fl_waves){.n = n, .direction = v3(cos(a), sin(a), 0), .depth = depth, .gravity = gravity};
@@ -44,10 +53,10 @@ static int start(fl_waves *w, int32_t n, double direction, double depth, double 
     return w->train ? 0 : -1;
 }
 
-static void finish(fl_waves *w)
+static void finish_waves(fl_waves *w)
 {
     w->max_k = w->train[w->n - 1].k;
-    w->k95 = w->train[(int32_t)(0.95 * (w->n - 1))].k;
+    w->k95 = w->train[(int32_t)(ENERGY_PART * (w->n - 1))].k;
     double sum = 0.0;
     for (int32_t j = 0; j < w->n; j++) {
         w->max_crest += w->train[j].a;
@@ -59,9 +68,9 @@ static void finish(fl_waves *w)
 int fl_waves_airy(fl_waves *w, double height, double period, double direction, double depth, double gravity,
                   fl_err *err)
 {
-    if (start(w, 1, direction, depth, gravity, err)) return -1;
+    if (begin_waves(w, 1, direction, depth, gravity, err)) return -1;
     fill_train(w, w->train, 2.0 * PI / period, 0.5 * height, 0.0);
-    finish(w);
+    finish_waves(w);
     return 0;
 }
 
@@ -73,52 +82,53 @@ double fl_jonswap_spectrum(double f, double Hs, double Tp, double gamma)
            pow(gamma, exp(-0.5 * off * off)) * (1.0 - 0.287 * log(gamma));
 }
 
-/* Parts of the peak frequency between which the energy of a sea is cut: 1e-67 and 0.4 % of it lie outside. */
-#define SLOWEST 0.3
-#define FASTEST 4.0
+/* The spectrum is used between these parts of the peak frequency: 1e-67 and 0.4 % of the energy lie outside.
+ */
+#define LOW_FREQUENCY 0.3
+#define HIGH_FREQUENCY 4.0
 enum { CELLS = 8192 };
 
 int fl_waves_jonswap(fl_waves *w, double Hs, double Tp, double gamma, int32_t n, uint64_t seed,
                      double direction, double depth, double gravity, fl_err *err)
 {
-    const double a = 0.25 * Hs * sqrt(2.0 / n), df = (FASTEST - SLOWEST) / Tp / CELLS;
+    const double a = 0.25 * Hs * sqrt(2.0 / n), df = (HIGH_FREQUENCY - LOW_FREQUENCY) / Tp / CELLS;
     double *sum = fl_alloc(CELLS + 1, sizeof *sum, err); /* energy below the edge of each cell */
-    if (!sum || start(w, n, direction, depth, gravity, err)) {
+    if (!sum || begin_waves(w, n, direction, depth, gravity, err)) {
         free(sum);
         return -1;
     }
     for (int c = 0; c < CELLS; c++)
-        sum[c + 1] = sum[c] + df * fl_jonswap_spectrum(SLOWEST / Tp + (c + 0.5) * df, Hs, Tp, gamma);
+        sum[c + 1] = sum[c] + df * fl_jonswap_spectrum(LOW_FREQUENCY / Tp + (c + 0.5) * df, Hs, Tp, gamma);
     int c = 0;
     for (int32_t j = 0; j < n; j++) {
         fl_rng g = fl_rng_of(seed, j, FL_RNG_WAVE);
         const double x = fl_rng_unit(&g), phase = 2.0 * PI * fl_rng_unit(&g);
         const double want = (j + x) / n * sum[CELLS];
         while (c < CELLS - 1 && sum[c + 1] < want) c++;
-        const double f = SLOWEST / Tp + df * (c + (want - sum[c]) / (sum[c + 1] - sum[c]));
+        const double f = LOW_FREQUENCY / Tp + df * (c + (want - sum[c]) / (sum[c + 1] - sum[c]));
         fill_train(w, &w->train[j], 2.0 * PI * f, a, phase);
     }
-    finish(w);
+    finish_waves(w);
     free(sum);
     return 0;
 }
 
 /* --- the field around a place ------------------------------------------------------------------ */
 
-/* How many terms a train needs within the radius: until k^m r^m / m! is of no account. */
+/* Terms that a train needs within the radius: until k^m r^m / m! is below SERIES_TOL. */
 static int terms_of(const fl_wave_train *t, double radius)
 {
     const double x = t->k * radius;
     double size = 1.0;
     int m = 0;
-    while (m < FL_WAVE_TERMS && (size > ENDING || m < x)) {
+    while (m < FL_WAVE_TERMS && (size > SERIES_TOL || m < x)) {
         m++;
         size *= x / m;
     }
     return m < 2 ? 2 : m;
 }
 
-static void add(const double *restrict power, int terms, double re, double im, fl_wave_series *a)
+static void add_series(const double *restrict power, int terms, double re, double im, fl_wave_series *a)
 {
     double *restrict x = a->re, *restrict y = a->im;
 #pragma omp simd
@@ -129,7 +139,7 @@ static void add(const double *restrict power, int terms, double re, double im, f
 }
 
 /* f_m += (-1)^m conj(h_m) */
-static void reflect(fl_wave_series *f, const fl_wave_series *h, int terms)
+static void add_reflected(fl_wave_series *f, const fl_wave_series *h, int terms)
 {
     for (int m = 0; m < terms; m++) {
         const double sign = m & 1 ? -1.0 : 1.0;
@@ -143,7 +153,7 @@ void fl_wave_expand(const fl_waves *w, double s, double z, double radius, double
     near->s = s;
     near->z = z;
     near->terms = terms_of(&w->train[w->n - 1], radius);
-    const int wall = w->train[0].mirror > 1e-12; /* the bottom is felt */
+    const int wall = w->train[0].mirror > MIRROR_TOL; /* 1: the bottom has an effect */
     fl_wave_series h, v;
     fl_wave_series *const all[4] = {&near->f, &near->u, &h, &v};
     for (int k = 0; k < (wall ? 4 : 2); k++)
@@ -154,16 +164,16 @@ void fl_wave_expand(const fl_waves *w, double s, double z, double radius, double
         double c, d;
         fl_cos_sin(train->k * s - train->omega * t + train->phase, &c, &d);
         const double down = z < 0.0 ? fl_exp(train->k * z) : 1.0, a = train->a * train->norm;
-        add(train->power, terms, a * down * c, a * down * d, &near->f);
-        add(train->power, terms, a * down * train->velocity_factor * c, a * down * train->velocity_factor * d,
-            &near->u);
+        add_series(train->power, terms, a * down * c, a * down * d, &near->f);
+        add_series(train->power, terms, a * down * train->velocity_factor * c,
+                   a * down * train->velocity_factor * d, &near->u);
         if (!wall) continue;
         const double b = a * train->mirror * (z < 0.0 ? fl_exp(-train->k * z) : 1.0);
-        add(train->power, terms, b * c, b * d, &h);
-        add(train->power, terms, b * train->velocity_factor * c, b * train->velocity_factor * d, &v);
+        add_series(train->power, terms, b * c, b * d, &h);
+        add_series(train->power, terms, b * train->velocity_factor * c, b * train->velocity_factor * d, &v);
     }
-    if (wall) reflect(&near->f, &h, near->terms), reflect(&near->u, &v, near->terms);
-    /* on zeta = 0: f_m (i s)^m, the real part; i^m is 1, i, -1, -i */
+    if (wall) add_reflected(&near->f, &h, near->terms), add_reflected(&near->u, &v, near->terms);
+    /* on zeta = 0: the real part of f_m (i s)^m; i^m is 1, i, -1, -i */
     for (int m = 0; m < near->terms; m++) {
         const double sign = m & 2 ? -1.0 : 1.0;
         near->eta[m] = m & 1 ? -sign * near->f.im[m] : sign * near->f.re[m];
@@ -188,8 +198,9 @@ double fl_wave_stretch(const fl_waves *w, double z, double eta)
     return w->depth < INFINITY ? (z - eta) * w->depth / (w->depth + eta) : z - eta;
 }
 
-/* sum a_m (x + i y)^m, and its derivative by that number (may be NULL) */
-static void series(const fl_wave_series *a, int terms, double x, double y, double value[2], double slope[2])
+/* sum a_m (x + i y)^m, and its derivative by x + i y (may be NULL). */
+static void evaluate_series(const fl_wave_series *a, int terms, double x, double y, double value[2],
+                            double slope[2])
 {
     double re = 0.0, im = 0.0, dre = 0.0, dim = 0.0;
     for (int m = terms - 1; m >= 0; m--) {
@@ -209,7 +220,7 @@ static void series(const fl_wave_series *a, int terms, double x, double y, doubl
 double fl_wave_pressure(const fl_wave_expansion *near, double s, double zeta)
 {
     double f[2];
-    series(&near->f, near->terms, zeta - near->z, s - near->s, f, NULL);
+    evaluate_series(&near->f, near->terms, zeta - near->z, s - near->s, f, NULL);
     return f[0];
 }
 
@@ -218,8 +229,8 @@ void fl_wave_kinematics(const fl_waves *w, const fl_wave_expansion *near, double
 {
     const double x = zeta - near->z, y = s - near->s;
     double f[2], df[2];
-    series(&near->f, near->terms, x, y, f, df);
-    series(&near->u, near->terms, x, y, velocity, NULL);
+    evaluate_series(&near->f, near->terms, x, y, f, df);
+    evaluate_series(&near->u, near->terms, x, y, velocity, NULL);
     acceleration[0] = w->gravity * df[1]; /* dc/ds = i */
     acceleration[1] = -w->gravity * df[0];
 }

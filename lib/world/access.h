@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* access.h -- what is read of a world, in a line or two each. */
+/* access.h -- short accessors of a world.
+ *
+ * Thing k is a floe for k < n, then a piece of the structure, then a wall. */
 #ifndef FL_WORLD_ACCESS_H
 #define FL_WORLD_ACCESS_H
 #include <math.h>
 #include "world/world.h"
 
-/* Time now [s].  Steps are of one size, or change it at times that are known exactly. */
+/* Time now [s].  dt changes only at times that are known exactly, so no rounding accumulates. */
 static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(w->step - w->step0) * w->dt; }
 
-/* The spring of a driven floe in place i: its stiffness [N/m], 0 where there is none, and how far it is drawn
- * upwards of its rest [m]. */
+/* Heave spring of driven floe i: returns its stiffness [N/m], 0 without a spring; *drawn is its extension
+ * upwards [m]. */
 static inline double fl_driven_floe_spring(const fl_world *w, int32_t i, double *drawn)
 {
     if (i >= w->driven_floes.n || !w->driven_floes.is_driven[i] ||
@@ -19,13 +21,13 @@ static inline double fl_driven_floe_spring(const fl_world *w, int32_t i, double 
     return w->driven_floes.k[i];
 }
 
-/* The piece or wall that thing j is, NULL where it is a floe. */
+/* The piece or wall of thing j, NULL for a floe. */
 static inline const fl_piece *fl_world_piece(const fl_world *w, int32_t j)
 {
     return j < w->n ? NULL : &w->structure.piece[j - w->n];
 }
 
-/* From thing i to j, or to the image of it that is meant [m]. */
+/* Vector from the centre of thing i to that of j, or of its periodic image [m]. */
 static inline fl_vec3 fl_separation(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
 {
     const fl_vec3 way = v3_sub(w->b.x[j], w->b.x[i]);
@@ -33,60 +35,65 @@ static inline fl_vec3 fl_separation(const fl_world *w, int32_t i, int32_t j, con
                             : way;
 }
 
-/* Pair c is watched as it is known now. */
+/* Update next_check[c] from near pair c. */
 static inline void fl_set_next_check(fl_world *w, int32_t c)
 {
     const fl_neighbour_pair *p = &w->pair[c];
     w->next_check[c] = (fl_next_check){p->i, p->j, p->touching ? -INFINITY : p->free_travel};
 }
 
-/* Whether pair c still cannot touch since it was last looked at. */
+/* 1 while near pair c cannot touch: the two have not moved far enough since its last evaluation. */
 static inline int fl_next_check_pending(const fl_world *w, int32_t c)
 {
     const fl_next_check q = w->next_check[c];
     return w->b.odometer[q.i] + w->b.odometer[q.j] < q.free_travel;
 }
 
-/* Whether place i < n is empty. */
+/* 1 if place i < n of the arrays is empty: its floe has left, or has not come in. */
 static inline int fl_body_absent(const fl_world *w, int32_t i)
 {
     return w->inflow.absent && w->inflow.absent[i];
 }
 
-/* How many there are. */
+/* Number of blocks of FL_BODY_BLOCK floes. */
 static inline int32_t fl_block_count(const fl_world *w) { return (w->n + FL_BODY_BLOCK - 1) / FL_BODY_BLOCK; }
 
-/* How many of them a thread takes in a row: where most sleep those that do not fill a register together.  No
- * more than FL_BLOCKS_AT_ONCE, and no bit depends on how many it is. */
+/* Largest number of blocks that a thread takes at a time. */
 enum { FL_BLOCKS_AT_ONCE = 8 };
 
+/* Number of blocks that a thread takes at a time: several where floes may sleep, so that those awake fill
+ * the vector registers.  No bit of a result depends on it. */
 static inline int32_t fl_blocks_per_turn(const fl_world *w) { return w->sleep.state ? FL_BLOCKS_AT_ONCE : 1; }
 
+/* Sleep phase of thing k; pieces and walls are awake. */
 static inline enum fl_sleep_phase fl_sleep_phase_of(const fl_world *w, int32_t k)
 {
     return w->sleep.state && k < w->n ? (enum fl_sleep_phase)w->sleep.phase[k] : FL_AWAKE;
 }
 
-/* Whether piece or wall j is moved by what presses on it. */
+/* 1 if contact forces move piece or wall j: its mover has free directions. */
 static inline int fl_piece_is_free(const fl_world *w, int32_t j)
 {
     const int32_t m = w->moving.movers.n ? w->moving.mover_of_piece[j - w->n] : -1;
     return m >= 0 && w->moving.movers.motion[m].free_dof != 0;
 }
 
+/* 1 if floes may rest against thing j: a piece or wall that stands still and whose panel loads are not
+ * written. */
 static inline int fl_thing_is_still(const fl_world *w, int32_t j)
 {
     return j >= w->n && (w->moving.movers.n == 0 || w->moving.mover_of_piece[j - w->n] < 0) &&
            !(w->panel_load.panels && j < w->n + w->pieces);
 }
 
+/* 1 if near pair p is not evaluated: the two touch and both rest, or one rests and the other stands still. */
 static inline int fl_pair_is_resting(const fl_world *w, const fl_neighbour_pair *p)
 {
     if (p->touching == 0 || fl_sleep_phase_of(w, p->i) != FL_RESTING) return 0;
     return p->j >= w->n ? fl_thing_is_still(w, p->j) : fl_sleep_phase_of(w, p->j) == FL_RESTING;
 }
 
-/* What acts on thing k now, and what did before; n = 0 where nothing does or did. */
+/* Contact sums of thing k in this step and in the step before; .contacts = 0 without contacts. */
 static inline fl_contact_sum *fl_sums_now(const fl_world *w, int32_t k)
 {
     return &w->contact_sums.sum[w->contact_sums.slot[k]];
@@ -97,26 +104,27 @@ static inline const fl_contact_sum *fl_sums_before(const fl_world *w, int32_t k)
     return &w->previous_sums.sum[w->previous_sums.slot[k]];
 }
 
-/* Room for the gain of the first kick of k; NULL where nobody will ask for it. */
+/* Where to store the velocity change by the first kick of thing k; NULL if nothing will read it. */
 static inline fl_velocity_change *fl_kick_change(const fl_world *w, int32_t k)
 {
     return w->previous_sums.slot[k] ? &w->kick_change[w->previous_sums.slot[k]] : NULL;
 }
 
-/* What the first half of the step changed of k's speeds, drag as well; 0 where nothing pressed before. */
+/* Velocity change of thing k by the first half of the step, with drag; 0 without contacts in the step
+ * before. */
 static inline const fl_velocity_change *fl_predicted_change(const fl_world *w, int32_t k)
 {
     return &w->predicted_change[w->previous_sums.slot[k]];
 }
 
-/* It is that, if anybody may ask for it. */
+/* Store that change, if it will be read. */
 static inline void fl_set_predicted_change(fl_world *w, int32_t k, fl_vec3 v, fl_vec3 spin)
 {
     if (w->previous_sums.slot[k])
         w->predicted_change[w->previous_sums.slot[k]] = (fl_velocity_change){v, spin};
 }
 
-/* Nothing acts on thing k any longer. */
+/* Set the contact sums of thing k to 0. */
 static inline void fl_sums_clear(const fl_world *w, int32_t k)
 {
     fl_contact_sum *s = fl_sums_now(w, k);

@@ -1,32 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* contact_sums.h -- sums of damping and friction over the contacts of a body. */
+/* contact_sums.h -- damping and friction summed over the contacts of a body, for the energy ledger.
+ *
+ * sim/energy_ledger.h computes the works from these sums; sphere pairs have their own sums
+ * (sphere_contacts.h). */
 #ifndef FL_WORLD_CONTACT_SUMS_H
 #define FL_WORLD_CONTACT_SUMS_H
 #include "world/pair.h"
 
-/* What damping and friction of its contacts do to a thing: forces and torques about its centre, world axes.
- */
+/* Forces and torques of damping and of friction on one body: world axes, torques about its centre. */
 typedef struct {
-    fl_vec3 damping, damping_torque, friction, friction_torque;
-    int32_t contacts; /* with 0 all is 0 */
+    fl_vec3 damping, damping_torque, friction, friction_torque; /* [N], [N m] */
+    int32_t contacts;                                           /* 0: all members are 0 */
 } fl_contact_sum;
 
-/* Those of all that are pressed.  A body has the sink at[place[k]]; at[0] is of all that nothing presses on,
- * and stays 0.  Few touch at a time: only they have one of their own, but where faces are frozen together or
- * somebody sleeps; then place[k] = k + 1.  What rows do to spheres is in their own sums, sphere_contacts.h. */
+/* The sums of all bodies.  Body k uses sum[slot[k]]; sum[0] stays 0 and serves bodies without contacts.
+ * Few bodies touch at a time, so only these have a slot of their own.  With bonds or resting bodies every
+ * body has one: slot[k] = k + 1. */
 typedef struct {
     int32_t *slot;       /* [total] */
     fl_contact_sum *sum; /* [cap] */
     int32_t cap;
-    int one_each; /* every body has one */
+    int one_each; /* every body has its own slot */
 } fl_contact_sums;
 
-/* How its velocities change in a kick. */
+/* Change of velocity and angular velocity of a body by a kick, world axes. */
 typedef struct {
-    fl_vec3 v, w;
+    fl_vec3 v, w; /* [m/s], [rad/s] */
 } fl_velocity_change;
 
-/* Add what damping and friction of pair p do to one of its two. */
+/* Add damping and friction of pair p to the sum of its body i (is_i = 1) or j (is_i = 0). */
 static inline void fl_contact_sum_add(fl_contact_sum *s, const fl_pair *p, int is_i)
 {
     const double sign = is_i ? 1.0 : -1.0;

@@ -1,35 +1,38 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* inflow_state.h -- floes that leave the domain and floes that come in. */
+/* inflow_state.h -- floes that leave the domain and floes that come in (sim/inflow.h moves them).
+ *
+ * Every floe has a place in the arrays, [0, n).  The place of a floe that has left is reused for one that
+ * comes in, so memory is bounded by the number of floes in the domain at a time.
+ *
+ * The inflow is a field of ice that is copied again and again against the drift: an endless sheet that moves
+ * at one speed.  Copy m of floe k is due when its foremost point reaches the bound, at
+ *     t = (lag[k] + m pitch) / speed.
+ * The floe is then guided until its last point is inside: x, y and the rotation about z are fixed, so that it
+ * drifts with the sheet whatever is in its way. */
 #ifndef FL_WORLD_INFLOW_STATE_H
 #define FL_WORLD_INFLOW_STATE_H
 #include <stdint.h>
 #include "scene/ice_field.h"
 
-/* Floes that leave, and floes that come in.  Every floe has a place in the arrays, [0, n); that of one that
- * has left is empty and is taken again by one that comes, so memory is bounded by what is there at a time.
- *
- * What comes in is a field, copied again and again against the drift: an endless sheet that moves at one
- * speed.  Copy m of floe k is due when its foremost point reaches the bound, at t = (lag[k] + m pitch) /
- * speed. It is then given its place, and is guided: held in x, y and about z, so that it drifts as the sheet
- * does whatever is in its way, until the last of it is inside. */
 typedef struct {
-    uint8_t
-        *absent;    /* [n] nobody is in this place; NULL: nobody leaves or comes, and the rest is not there */
-    fl_vec3 lo, hi; /* who is wholly beyond leaves [m]; infinite where nobody does */
-    int64_t *entry_step; /* [n] the step in which it came                               */
-    int64_t n_left, n_entered;
-    double mass_left, mass_entered;          /* [kg]    */
+    uint8_t *absent;     /* [n] the place is empty; NULL: no bound is free, and nothing else here is set */
+    fl_vec3 lo, hi;      /* free bounds; a floe that is wholly beyond one leaves [m]; infinite: not free */
+    int64_t *entry_step; /* [n] step in which the floe came in */
+    int64_t n_left, n_entered;               /* floes that left and came in so far */
+    double mass_left, mass_entered;          /* [kg] */
     fl_vec3 momentum_left, momentum_entered; /* [kg m/s] */
-    const fl_ice_field *feed,
-        *ice; /* borrowed: what comes in, and what stood there at first; NULL: nobody comes */
-    int axis; /* of the drift: 0 x, 1 y */
-    double sign, entry, speed, pitch; /* +1: upwards; the bound, times sign [m]; [m/s]; [m] */
-    double *lag;                      /* [feed->n] [m] */
-    int64_t *next_copy;               /* [feed->n] m of the copy that is next */
-    int32_t *source_floe;             /* [n] which of feed; -1: one of the ice file */
-    uint8_t *guided, *own_fixed_dof;  /* [n] whether; what else holds it afterwards */
+    const fl_ice_field *feed; /* borrowed: the field that is copied; NULL: there is no inflow */
+    const fl_ice_field *ice;  /* borrowed: the ice of the start; NULL: there is no inflow */
+    int axis;                 /* of the drift: 0 x, 1 y */
+    double sign, entry;     /* +1: drift to larger coordinates; sign times the coordinate of the bound [m] */
+    double speed, pitch;    /* of the sheet [m/s]; length of a copy along the drift [m] */
+    double *lag;            /* [feed->n] distance behind the front of the field [m] */
+    int64_t *next_copy;     /* [feed->n] m of the copy that comes next */
+    int32_t *source_floe;   /* [n] floe of `feed`; -1: a floe of the ice file */
+    uint8_t *guided;        /* [n] */
+    uint8_t *own_fixed_dof; /* [n] degrees of freedom that stay fixed after the guidance ends */
     int32_t next_id;
-    int64_t n_blocked, n_dropped; /* floes whose place was taken; that had to be given up a pitch later */
+    int64_t n_blocked, n_dropped; /* floes whose place was taken when due; floes dropped a pitch later */
 } fl_inflow_state;
 
 #endif

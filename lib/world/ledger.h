@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ledger.h -- the energy ledger: stores, sinks and sources. */
+/* ledger.h -- the energy ledger [J]: stores, sinks and sources.
+ *
+ *     residual = stores - start + sinks - sources,
+ * 0 but for the error of the time integration.  sim/energy_ledger.h books the works of each step,
+ * sim/energy_balance.h fills in the rest and has the columns of the table energy(5). */
 #ifndef FL_WORLD_LEDGER_H
 #define FL_WORLD_LEDGER_H
 
-/* Stores, sinks and sources of energy [J].  The residual is stores - start + taken out - put in: 0 but for
- * the error of the time integration. */
 typedef struct {
-    double kinetic, gravity, elastic, hydrostatic; /* stores now; elastic with the springs of friction */
-    double friction_now, damping_now, drag;        /* taken out since the start                        */
-    double wind, drive_now;                        /* put in: by the wind, by what is moved or held    */
-    double waves;                                  /* and by waves, the work of buoyancy with it */
+    double kinetic, gravity, elastic, hydrostatic; /* stores; elastic: contacts with their friction springs */
+    double friction_now, damping_now, drag;        /* sinks since the start */
+    double wind, drive_now;                        /* sources: wind; work of prescribed motions */
+    double waves;                                  /* source: waves, with the work of buoyancy */
     double structure, spring,
-        damper;            /* of a structure that moves by itself: in it, in its springs; taken out */
-    double bond, fracture; /* in bonds; taken out by their damage */
-    double carried;        /* put in by floes that came, less what left with others */
-    double start, residual;
-    double throughput; /* largest kinetic energy + |each of the works|: what the residual is held against */
-    double friction, damping, drive; /* the works booked so far: with that of the half kick that lies ahead */
+        damper;             /* parts that move freely: kinetic and spring energy (stores), dashpots */
+    double bond, fracture;  /* bonds: store; sink by damage */
+    double carried;         /* source: floes that came in, less those that left */
+    double start, residual; /* sum of the stores at the start; see above */
+    double throughput;      /* largest sum so far of kinetic energies, |sinks| and |sources|: the
+                                       * scale of the residual */
+    double friction, damping, drive; /* works booked so far, with those of the half kick to come */
 } fl_ledger;
 
 #endif

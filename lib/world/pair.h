@@ -1,104 +1,107 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pair.h -- a contact of two bodies, and two bodies that are near. */
+/* pair.h -- the data of contacts, of near pairs, and of the laws between two materials. */
 #ifndef FL_WORLD_PAIR_H
 #define FL_WORLD_PAIR_H
 #include <math.h>
 #include <stddef.h>
+#include "law/contact_law.h"
+#include "law/rolling.h"
 #include "law/tangent.h"
 #include "narrow/contact.h"
 #include "narrow/gjk.h"
 #include "patch/feature_pairs.h"
 #include "patch/surrogate.h"
-#include "law/rolling.h"
 
-/* A pair of materials, resolved. */
+/* The contact law of a pair of materials. */
 typedef struct {
-    int32_t kind;               /* enum fl_law                                       */
-    double exponent;            /* n of the polyhedra's places                       */
-    double modulus;             /* E* [Pa]                                           */
-    double stiffness;           /* given by the user [N/m^n]; 0: from the modulus    */
-    double stiffness_factor;    /* multiplies the stiffness that comes from the modulus */
-    double friction;            /* mu                                                */
-    double tangential_ratio;    /* k_t over the tangent stiffness of the place       */
-    double rolling;             /* mu_r of law/rolling.h; 0: nothing keeps a sphere from rolling */
-    double impact_damping;      /* D = chi v_impact of patch and core                */
-    double slow_damping_factor; /* c of fl_damping_slow_factor()                            */
-    double zeta, alpha;         /* of the manual's laws                              */
-    double surrogate_tolerance; /* tolerance of surrogate.h; 0: none                 */
-    double stable_share;        /* what damping by the speed half a step ago leaves of the critical step */
+    const fl_contact_law *law;  /* row of the table of laws */
+    double exponent;            /* n of contact points of polyhedra */
+    double modulus;             /* E* [Pa] */
+    double stiffness;           /* given by the scene [N/m^n]; 0: from the modulus */
+    double stiffness_factor;    /* multiplies the stiffness that follows from the modulus */
+    double friction;            /* mu */
+    double tangential_ratio;    /* k_t over the tangent stiffness of the contact point */
+    double rolling;             /* mu_r of law/rolling.h; 0: no rolling resistance */
+    double impact_damping;      /* D = chi v_impact of laws patch and core */
+    double slow_damping_factor; /* c of fl_damping_slow_factor() */
+    double zeta, alpha;         /* of the laws manual and manual-si */
+    double surrogate_tolerance; /* of patch/surrogate.h; 0: no surrogate */
+    double stable_share;        /* share of the critical step that damping by the speed of half a step ago
+                                 * leaves stable */
     int32_t literal2, literal18;
 } fl_pair_law;
 
-/* A contact of two things.  What is new here and lasts from step to step, or is new in fl_world, goes into
- * snapshot_pair.c or snapshot.c as well: prop_restart finds what is missing there, once it bears on a bit;
- * what lasts while they do not touch goes into fl_neighbour_pair too. */
+/* A contact of two bodies; body i moves, i < j.
+ * A new member that lasts from step to step must be added to snapshot_pair.c (and what is new in fl_world to
+ * snapshot.c): prop_restart finds it missing once it changes a bit.  What lasts while the two do not touch
+ * must be added to fl_neighbour_pair too. */
 typedef struct {
-    int32_t i, j;                    /* i moves, i < j                                        */
-    int32_t image[3];                /* j is where it is, moved by so many lengths of the cell */
-    int32_t touching;                /* touching                                              */
-    fl_friction_springs springs;     /* what friction remembers                               */
-    fl_feature_pairs *feature_pairs; /* which features may touch, or NULL; can be made again at any time */
-    fl_surrogate *surrogate;         /* NULL until there is one */
-    fl_rolling_spring *rolling; /* of a sphere, rolling_pair.h; NULL where nothing keeps it from rolling */
-    fl_gjk_cache cache;         /* where the distance query starts                       */
-    fl_mode mode;               /* of the manual's laws                                  */
-    int32_t cores_overlap;      /* the cores overlap                                     */
-    int32_t has_axis;           /* axis has been set                                     */
-    fl_vec3 axis;               /* from j to i in the frame of j: separates the cores, or did */
-    double free_travel;         /* while the odometers add up to less, it cannot touch [m] */
-    double k;                   /* stiffness of one place [N/m^n]; of `patch`, c in W = c sqrt(U) [N/m2] */
-    double exponent;            /* n; 0 for `patch` */
-    double mass;                /* reduced [kg]                                          */
-    double max_approach_speed;  /* largest approach speed of this touch [m/s]            */
-    int32_t bond;               /* 1 + number of the bond that stood here, 0: there was none; bond_list.h */
-    double radius_factor;       /* so much of its radii counts: 1, but after a bond */
+    int32_t i, j;
+    int32_t image[3];            /* periodic image of j: offset in lengths of the cell */
+    int32_t touching;            /* the two touch */
+    fl_friction_springs springs; /* memory of friction */
+    fl_feature_pairs
+        *feature_pairs;         /* pairs of features that may touch, or NULL; can be rebuilt at any time */
+    fl_surrogate *surrogate;    /* NULL until there is one */
+    fl_rolling_spring *rolling; /* of a sphere, rolling_pair.h; NULL without rolling resistance */
+    fl_gjk_cache cache;         /* start of the distance query */
+    fl_mode mode;               /* of the laws manual and manual-si */
+    int32_t cores_overlap;      /* the cores overlap */
+    int32_t has_axis;           /* axis is set */
+    fl_vec3 axis;               /* from j to i, axes of j: separates the cores, now or at an earlier time */
+    double free_travel;         /* the two cannot touch while the sum of their odometers is below this [m] */
+    double k;                   /* stiffness of one point [N/m^n]; of `patch`, c of W = c sqrt(U) [N/m2] */
+    double exponent;            /* n; 0 with FL_POINTS_PATCH */
+    double mass;                /* reduced mass [kg] */
+    double max_approach_speed;  /* largest of this contact so far [m/s] */
+    int32_t points;             /* enum fl_contact_points: what is evaluated */
+    int32_t bond;               /* 1 + index of the bond that was here, 0: none; bond_list.h */
+    double radius_factor;       /* multiplies both radii: 1, but less after a bond */
     const fl_pair_law *law;     /* borrowed */
-    /* of the last evaluation; world axes, torques about the two centres */
-    fl_vec3 force, torque_i, torque_j; /* force on i (on j its opposite), torques               */
-    fl_vec3 force_damping, torque_i_damping,
-        torque_j_damping; /* the part of damping                                   */
-    fl_vec3 force_friction, torque_i_friction,
-        torque_j_friction;     /* the part of friction                                  */
-    double energy;             /* elastic, normal and tangential [J]                    */
-    double spring_energy;      /* the tangential part of it [J]                         */
-    double overlap;            /* largest [m]                                           */
-    double omega2_i, omega2_j; /* bounds of omega^2 of this contact for either, the other held [1/s2] */
-    int32_t index;             /* place in fl_world.pair */
+    /* results of the last evaluation: world axes, torques about the two centres, forces on i (-f on j) */
+    fl_vec3 force, torque_i, torque_j;
+    fl_vec3 force_damping, torque_i_damping, torque_j_damping;    /* the part of damping */
+    fl_vec3 force_friction, torque_i_friction, torque_j_friction; /* the part of friction */
+    double energy;                                                /* elastic, normal and tangential [J] */
+    double spring_energy;                                         /* its tangential part [J] */
+    double overlap;                                               /* largest [m] */
+    double omega2_i, omega2_j; /* bounds of omega^2 of this contact for i and j, the other fixed [1/s2] */
+    int32_t index;             /* into fl_world.pair */
 } fl_pair;
 
-/* What an evaluation tells, from f on: so many doubles in a row. */
+/* The results of an evaluation are so many consecutive doubles, from force to omega2_j. */
 enum { FL_PAIR_RESULTS = 32 };
 _Static_assert(offsetof(fl_pair, omega2_j) ==
                    offsetof(fl_pair, force) + (FL_PAIR_RESULTS - 1) * sizeof(double),
-               "nothing between them");
+               "the results are consecutive");
 
-/* Two things that are near: what is known of them while they do not touch, and their contact where they do,
- * or did a moment ago, or are left by a bond.  Most near pairs do not touch for most of the time. */
+/* An entry of the neighbour list.  It keeps what must last while the two bodies do not touch, which is most
+ * of the time; `contact` is set while they touch, shortly after, and where a bond was. */
 typedef struct {
-    int32_t i, j;     /* i moves, i < j */
-    int32_t image[3]; /* as in fl_pair, like all that follows */
+    int32_t i, j;
+    int32_t image[3]; /* like all members below, as in fl_pair */
     uint8_t touching : 1, cores_overlap : 1, has_axis : 1, cache_size : 3;
     uint8_t mode;
     double free_travel;
-    float axis[3];                  /* no longer than 1: gaps along it are bounds */
-    uint8_t cache_a[4], cache_b[4]; /* of the cache */
-    fl_pair *contact; /* or NULL; where there is one it knows better, but for n, deep and asleep */
+    float axis[3];                  /* length at most 1, so that gaps along it are lower bounds */
+    uint8_t cache_a[4], cache_b[4]; /* vertices of the cache */
+    fl_pair *contact; /* or NULL; its members win, but for touching, cores_overlap, free_travel */
 } fl_neighbour_pair;
 
-/* When a near pair has to be looked at, which is asked in every step: short, to lie close together. */
+/* The members of a near pair that every step reads, kept together. */
 typedef struct {
     int32_t i, j;
-    double free_travel; /* while the odometers add up to less, it cannot touch [m]; -INFINITY: it touches */
+    double free_travel; /* as above [m]; -INFINITY: the two touch */
 } fl_next_check;
 
-/* Room for contacts: what one leaves the next one takes. */
+/* Pool of contacts with a free list. */
 typedef union fl_pair_slot {
     fl_pair pair;
     union fl_pair_slot *next;
 } fl_pair_slot;
 
 typedef struct {
-    fl_pair_slot **block; /* [blocks] of FL_PAIR_BLOCK each */
+    fl_pair_slot **block; /* [blocks] of FL_PAIR_BLOCK slots each */
     fl_pair_slot *free;
     int32_t blocks, cap;
 } fl_pair_store;

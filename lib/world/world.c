@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "world/world.h"
 #include <math.h>
 #include <stdio.h>
 #include "geom/quat.h"
-#include "world/world.h"
-
-/* a body may have gone through so many */
 
 static fl_vec3 normal_of(const fl_piece *wall) { return q_rotate(wall->q, v3(0, 0, 1)); }
 

@@ -1,43 +1,48 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* world.h -- everything that a scene sets in motion: bodies, what is held, pairs, laws, surroundings, ledger.
+/* world.h -- the state of a simulation: bodies, structure, walls, contacts, water, energy ledger.
  *
- * Indices [0, n) are floes; then come the pieces of the structure, then the walls of the boundary. */
+ * Things are numbered: [0, n) floes, then `pieces` pieces of the structure, then `walls` walls of the
+ * boundary; total = n + pieces + walls = b.total.  world/ has types and accessors; sim/setup.h builds a
+ * world, sim/step.h advances it. */
 #ifndef FL_WORLD_WORLD_H
 #define FL_WORLD_WORLD_H
 #include "base/barrier.h"
+#include "base/thread_count.h"
 #include "base/work_share.h"
 #include "body/body.h"
-#include "structure/periodic_cell.h"
-#include "structure/mesh_contact.h"
 #include "broad/pairs.h"
 #include "geom/topology.h"
 #include "narrow/penetration.h"
 #include "patch/patch_points.h"
 #include "scene/ice_field.h"
 #include "scene/scene.h"
-#include "world/sphere_contacts.h"
-#include "base/thread_count.h"
+#include "structure/mesh_contact.h"
+#include "structure/periodic_cell.h"
 #include "water/environment.h"
+#include "world/body_block.h"
 #include "world/bond_state.h"
 #include "world/contact_sums.h"
 #include "world/driven_floes.h"
 #include "world/elastic_walls.h"
-#include "world/group_state.h"
 #include "world/inflow_state.h"
 #include "world/ledger.h"
 #include "world/moving_parts.h"
 #include "world/pair.h"
 #include "world/panel_state.h"
 #include "world/sleep_state.h"
+#include "world/sphere_contacts.h"
 
-/* Overlaps past this part of the radii are counted: no law is meant for them, and beyond 1 the cores meet. */
+/* Overlaps above this fraction of the sum of the radii are counted: no contact law is meant for them.  At 1
+ * the cores meet. */
 #define FL_DEEP_OVERLAP 0.5
 
 typedef struct {
     const fl_scene *scene; /* borrowed */
+
+    /* bodies and their surroundings */
     fl_bodies b;
     fl_topologies topologies; /* of cores and outer shapes */
-    int has_points;           /* some core is a point: they ask others for the offsets of their faces */
+    int has_points;           /* some core is a point, whose contacts need face offsets of the other cores */
     int32_t n, pieces, walls;
     fl_structure structure;
     fl_periodic_cell cell;
@@ -48,88 +53,90 @@ typedef struct {
     fl_driven_floes driven_floes;
     fl_sleep sleep;
     fl_bond_list bonds;
-    fl_environment sea;    /* water and wind; n = 0 where there are none */
-    int32_t *id;           /* [n] as in the ice file                 */
+    fl_environment sea;    /* water and wind; n = 0 without them */
+    int32_t *id;           /* [n] number in the ice file */
     int32_t *material;     /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */
-    double *max_face_area; /* [total] area of the largest face [m2]  */
-    fl_quat *q0;           /* [n] body axes in the ice file's pose: orientations are told against it */
+    double *max_face_area; /* [total] [m2] */
+    fl_quat *q0; /* [n] body axes in the pose of the ice file: the reference of written orientations */
     fl_vec3 gravity;
-    fl_pair_law *law; /* [materials][materials + 2]             */
+    fl_pair_law *law; /* [materials][materials + 2] */
     int32_t materials;
-    int32_t has_rolling; /* some law has what keeps spheres from rolling */
+    int32_t has_rolling; /* some law has rolling resistance */
 
+    /* neighbours and contacts */
     fl_pairs candidates;
-    fl_aabb *box;               /* [total] while neighbours are searched, NULL else, like */
-    fl_vec3 *cell_of_body;      /* [total] the cell that each is in, where something wraps */
+    fl_aabb *box;               /* [total] during a neighbour search, NULL else, like: */
+    fl_vec3 *cell_of_body;      /* [total] periodic cell that each body is in */
     fl_body_block *blocks;      /* [n / FL_BODY_BLOCK + 1] */
-    fl_sphere_contacts spheres; /* near pairs of spheres; all others: */
-    fl_neighbour_pair *pair;
+    fl_sphere_contacts spheres; /* near pairs of spheres, and of spheres and walls; all others: */
+    fl_neighbour_pair *pair;    /* [n_pair] */
     fl_pair_store pair_store;
     int32_t n_pair, pair_cap;
-    int32_t *first_pair_of_body; /* [total + 1] pairs of each body, ascending */
-    int32_t *pairs_of_body;      /* [2 n_pair] */
+    int32_t *first_pair_of_body; /* [total + 1] offsets into pairs_of_body */
+    int32_t *pairs_of_body;      /* [2 n_pair] pairs of each body, ascending */
     fl_next_check *next_check;   /* [n_pair] */
-    /* Which pairs touch, apart from the pairs themselves: most do not, and need not be looked at for it. */
-    uint8_t *pair_touches;   /* [n_pair] 1: touches, else 0 */
-    int32_t *touching_pairs; /* [n_live] those that do, ascending */
-    uint8_t *body_touches;   /* [total] is of one of those */
+    /* which pairs touch: apart from the pairs, as most do not touch and need not be read for it */
+    uint8_t *pair_touches;   /* [n_pair] 0 or 1 */
+    int32_t *touching_pairs; /* [n_touching] ascending */
+    uint8_t *body_touches;   /* [total] the body has a touching pair */
     int32_t n_touching, pair_touches_cap, touching_pairs_cap, next_check_cap;
     fl_work_share *pair_share,
-        *block_share;     /* [threads] of pairs, of groups of bodies; of a step those of its team */
-    fl_barrier barrier;   /* of the team that does a step, */
-    fl_thread_count team; /* and how many they are */
+        *block_share;     /* [threads] ranges of pairs, of blocks; used: those of the team */
+    fl_barrier barrier;   /* of the team of a step */
+    fl_thread_count team; /* number of threads of the team */
     int32_t pairs_of_body_cap, first_pair_of_body_cap;
-    fl_contact_sums contact_sums,
-        previous_sums; /* of the forces of now, and of those before; see energy_ledger.h */
-    /* [gain_cap] at was.place[k], 0: of nobody; of the first kick of a step, and of all of its first half */
+    fl_contact_sums contact_sums, previous_sums; /* of this step and of the one before; energy_ledger.h */
+    /* [change_cap] at previous_sums.slot[k], 0: none; by the first kick, and by the first half of a step */
     fl_velocity_change *kick_change, *predicted_change;
-    fl_velocity_change
-        *drag_change; /* [n] of spheres, what of that half was drag's; NULL where there is none */
+    fl_velocity_change *drag_change; /* [n] of spheres: by drag in that first half; NULL without drag */
     int32_t change_cap;
-    double skin;                /* boxes are grown by half of it [m] */
+    double skin;                /* boxes are larger by half of it on each side [m] */
     double *odometer_at_search; /* [total] odometers at the last search */
-    int64_t last_search_step;   /* step of the last search, -1 before the first */
-    double search_bytes;        /* what it took of memory, while it lasted [B] */
+    int64_t last_search_step;   /* -1 before the first search */
+    double search_bytes;        /* memory that the last search used while it ran [B] */
 
+    /* scratch */
     fl_patch_points *scratch;             /* [threads] */
-    fl_surrogate_count *surrogate_counts; /* [threads], NULL where nothing has a surrogate */
+    fl_surrogate_count *surrogate_counts; /* [threads], NULL without surrogates */
     fl_mesh_contact_work *mesh_near;      /* [threads] */
     int32_t threads;
 
-    double dt, dt_critical;      /* dt_critical: the smallest 2/omega seen [s] */
-    double dt_critical_contacts; /* and that without bonds */
-    double
-        dt_safe; /* fl_automatic_step() at the start, at most 0.2 of 2/omega; longer steps look more often */
-    int32_t critical_body; /* id of the one that had it, -1 */
+    /* time */
+    double dt, dt_critical;      /* step; smallest 2/omega seen [s] */
+    double dt_critical_contacts; /* smallest 2/omega by contacts alone, without bonds [s] */
+    double dt_safe;        /* fl_automatic_step() at the start, at most 0.2 of 2/omega; a longer step updates
+                     * stiffnesses more often [s] */
+    int32_t critical_body; /* body of dt_critical; b.total + mover for a mover; -1: none */
     int64_t step;
-    double t0; /* the time of step `step0`, from which on steps are of dt [s] */
+    double t0; /* time of step step0; from there on steps are of dt [s] */
     int64_t step0;
+
+    /* results */
     fl_ledger ledger;
-    fl_vec3 *part_impulse,
-        *part_moment;                  /* [parts] since the last loads row [N s], [N m s], about part_about */
-    fl_vec3 *part_reference;           /* [parts] reference point, now [m] */
-    fl_vec3 *part_force, *part_torque; /* [parts] now                                                       */
-    double *part_peak;                 /* [parts] largest |F| since the last row */
+    fl_vec3 *part_impulse, *part_moment; /* [parts] since the last row of the loads [N s], [N m s]; moments
+                                          * about part_reference */
+    fl_vec3 *part_reference;             /* [parts] reference point now [m] */
+    fl_vec3 *part_force, *part_torque;   /* [parts] now [N], [N m] */
+    double *part_peak;                   /* [parts] largest |F| since the last row [N] */
     int32_t parts;
-    fl_vec3 imbalance;  /* sum of all contact impulses, floes and held things together: 0 but for rounding */
-    double impulse_sum; /* sum of their sizes */
-    double max_overlap; /* largest overlap over the sum of the radii (or the radius of the floe) so far */
-    int32_t max_overlap_i, max_overlap_j; /* names of the two, -1 before there are any */
-    double max_overlap_time;              /* when [s] */
-    int64_t deep_overlap_steps; /* steps in which an overlap was past FL_DEEP_OVERLAP of the radii */
-    int32_t deep_overlap_i, deep_overlap_j; /* who was so first */
-    double deep_overlap_time;               /* and when [s] */
-    int64_t contact_steps;                  /* sum over steps of pairs in contact */
+    fl_vec3 imbalance;  /* sum of all contact impulses on all things: 0 but for rounding [N s] */
+    double impulse_sum; /* sum of their magnitudes [N s] */
+    double max_overlap; /* largest overlap over the sum of the radii so far */
+    int32_t max_overlap_i, max_overlap_j;   /* ids of the two, -1 without any overlap */
+    double max_overlap_time;                /* [s] */
+    int64_t deep_overlap_steps;             /* steps with an overlap above FL_DEEP_OVERLAP */
+    int32_t deep_overlap_i, deep_overlap_j; /* ids of the first two with such an overlap */
+    double deep_overlap_time;               /* and its time [s] */
+    int64_t contact_steps;                  /* sum over steps of the number of contacts */
     int64_t searches, overlapping_cores;    /* neighbour searches; evaluations with overlapping cores */
     fl_penetration_count penetration_count;
     int failed; /* a thread ran out of memory */
 } fl_world;
 
-/* The number by which tables call a thing: the id of a floe; -1 - part of the structure; walls after those.
- */
+/* Number of thing k in the tables: the id of a floe; -1 - part for a piece; walls after those. */
 int32_t fl_world_id(const fl_world *w, int32_t k);
 
-/* "the wall at x = -5 m", of wall k. */
+/* Name of wall k, such as "the wall at x = -5 m". */
 const char *fl_wall_name(const fl_world *w, int32_t k, char name[64]);
 
 #endif

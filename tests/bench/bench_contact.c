@@ -275,7 +275,7 @@ static int print_row(which c, const char *law)
     } else if (strcmp(law, "patch") == 0) {
         printf(" %10s %10s %10s %10s", "-", "-", "-", "-");
     }
-    if (p->exponent == 0.0 && strcmp(law, "patch") == 0) {
+    if (p->points == FL_POINTS_PATCH && strcmp(law, "patch") == 0) {
         double exact_share, most;
         const double t = time_with_surrogates(c, TOLERANCE, &exact_share, &most);
         printf(" %8.0f %8.3f %9.1e", 1e9 * t, exact_share, most);

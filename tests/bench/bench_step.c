@@ -178,7 +178,7 @@ static void make_grid(lab *l, int32_t side, int spheres, double pitch, enum sea 
     }
     if (water == HELD) lab_set(l, "water.every=20");
     if (water == FACETS) lab_set(l, "water.drag=facet");
-    lab_set(l, "contact.softening=0.05");
+    lab_set(l, "contact.stiffness_factor=0.05");
     for (int32_t k = 0; k < side * side; k++) {
         fl_rng g = fl_rng_of(4, k, FL_RNG_TEST);
         const fl_vec3 at = v3(pitch * (k % side), pitch * (k / side), water ? -0.03 : 0.0);
@@ -247,7 +247,7 @@ static double cost_of_sleep(int rests, double sleep, lab *l)
     lab_start(l);
     if (sleep > 0.0) lab_setf(l, "run.sleep=%g", sleep);
     lab_set(l, "run.gravity=9.81");
-    lab_set(l, "contact.softening=0.05");
+    lab_set(l, "contact.stiffness_factor=0.05");
     if (rests) {
         lab_set(l, "contact.friction=0.3");
         lab_set(l, "contact.restitution=0.1");

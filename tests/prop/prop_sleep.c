@@ -28,7 +28,7 @@ static void make_floes(lab *l, enum sea sea, double pitch, double speed, uint64_
     lab_start(l);
     lab_setf(l, "run.threads=%d", threads);
     if (sleep > 0.0) lab_setf(l, "run.sleep=%.17g", sleep);
-    lab_set(l, "contact.softening=0.001");
+    lab_set(l, "contact.stiffness_factor=0.001");
     lab_set(l, "contact.friction=0.2");
     lab_set(l, "contact.restitution=0.5");
     if (sea != DRY) {
@@ -153,7 +153,7 @@ static void make_heap(lab *l, double sleep)
     lab_start(l);
     if (sleep > 0.0) lab_setf(l, "run.sleep=%.17g", sleep);
     lab_set(l, "run.gravity=9.81");
-    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.stiffness_factor=0.02");
     lab_set(l, "contact.friction=0.4");
     lab_set(l, "contact.restitution=0.1");
     lab_set(l, "boundary.type=free free rigid");
@@ -203,7 +203,7 @@ static void make_stack(lab *l)
     lab_start(l);
     lab_set(l, "run.sleep=1e-3");
     lab_set(l, "run.gravity=9.81");
-    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.stiffness_factor=0.02");
     lab_set(l, "contact.friction=0.4");
     lab_set(l, "contact.restitution=0.1");
     lab_set(l, "boundary.type=free free rigid");

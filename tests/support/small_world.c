@@ -5,6 +5,7 @@
 #include <string.h>
 #include "base/rng.h"
 #include "geom/facet.h"
+#include "law/contact_law.h"
 #include "scene/scene_check.h"
 #include "scene/scene_read.h"
 #include "sim/energy_balance.h"
@@ -169,8 +170,9 @@ void lab_make(lab *l, double dt)
     int32_t body;
     if (l->surface.n) lab_set(l, "structure.file=lab");
     const fl_scene_contact *const all = &l->scene.contact[0]; /* [contact], which lab_start() began */
-    const int with_surrogate =
-        lab_surrogate_tolerance() > 0.0 && all->law == FL_LAW_PATCH && !(all->surrogate > 0.0);
+    const int with_surrogate = lab_surrogate_tolerance() > 0.0 &&
+                               fl_contact_law_uses(&fl_contact_laws[all->law], "surrogate") &&
+                               !(all->surrogate > 0.0);
     if (with_surrogate) lab_setf(l, "contact.surrogate=%.17g", lab_surrogate_tolerance());
     check_result(fl_scene_check(&l->scene, &err), &err);
     check_result(fl_world_make(&l->w, &l->scene, &l->field, l->surface.n ? &l->surface : NULL, &err), &err);
@@ -239,7 +241,7 @@ static void fill_gas(lab *l, double safety)
 {
     enum { SIDE = 14 };
     lab_setf(l, "run.safety=%g", safety);
-    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.stiffness_factor=0.02");
     lab_set(l, "boundary.type=rigid");
     lab_set(l, "boundary.min=-26.6 -26.6 none");
     lab_set(l, "boundary.max=26.6 26.6 none");

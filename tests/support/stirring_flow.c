@@ -61,7 +61,7 @@ void stirring_flow_start(lab *l, int32_t n, double speed)
     fl_err err = {0};
     if (!core || !at) exit(1);
     lab_start(l);
-    lab_set(l, "contact.softening=0.025");
+    lab_set(l, "contact.stiffness_factor=0.025");
     lab_set(l, "contact.friction=0.3");
     lab_set(l, "contact.restitution=0.1");
     make_cores(core, n);

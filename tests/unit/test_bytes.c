@@ -144,8 +144,8 @@ static int same_through(const char *path, int32_t window)
 static void meshes_do_not_depend_on_the_window(void **state)
 {
     (void)state;
-    static const char *const kind[] = {"stl", "obj",     "off", "ply", "inp", "cdb",
-                                       "bdf", "gstruct", "msh", "vtk", "vtx"};
+    static const char *const kind[] = {"stl", "obj",     "off", "ply", "inp",    "cdb",
+                                       "bdf", "gstruct", "msh", "vtk", "vtk_xml"};
     for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
         char folder[100], path[400];
         const struct dirent *e;

@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "geom/mesh_patch.h"
 #include "geom/weld.h"
-#include "mesh/elements.h"
+#include "mesh/element_surface.h"
 #include "mesh/skin.h"
 #include "support/mesh.h"
 #include "support/near.h"
@@ -305,7 +305,7 @@ static void twins_count_once(void **state)
         assert_int_equal(q.cones, 2);
         assert_int_equal(q.triangles, 13);
         assert_int_equal(s.n, way == 0 ? 2 : way == 1 ? 3 : 1);
-        assert_non_null(strstr(b.note, way < 2 ? "3 elements stand on the nodes of others" : "1 elements"));
+        assert_non_null(strstr(b.note, way < 2 ? "3 elements on the nodes of others" : "1 elements"));
         if (way == 0) {
             assert_int_equal(s.part[0].duplicates, 2);
             assert_int_equal(s.part[1].duplicates, 1);
@@ -497,7 +497,7 @@ static void later_lines_win_and_say_so(void **state)
     node(1, -1, 0, 0); /* moved */
     add(7, FL_TRI3, part("p"), m);
     assert_near(surface(NULL).area, 1.0, 1e-15);
-    assert_non_null(strstr(b.note, "1 nodes were given another place"));
+    assert_non_null(strstr(b.note, "1 nodes were moved"));
     assert_non_null(strstr(b.note, "1 elements were replaced"));
 }
 
@@ -522,7 +522,7 @@ static void complaints_name_file_and_line(void **state)
     e.line = 20;
     assert_int_equal(fl_elements_surface(&e, &s, &b, NULL, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
-    assert_string_equal(err.text, "more.inp:12: the element wants node 99, which is defined nowhere");
+    assert_string_equal(err.text, "more.inp:12: the element refers to node 99, which is not defined");
 }
 
 static void what_is_passed_over_is_told(void **state)
@@ -540,7 +540,7 @@ static void what_is_passed_over_is_told(void **state)
     add(9, FL_HEX8, part("p"), flat);
     add(10, FL_TRI3, part("p"), hex + 3);
     assert_int_equal(surface(NULL).triangles, 3 * 7 + 1);
-    assert_non_null(strstr(b.note, "not known, passed over: SPRING1 3, MASS 1"));
+    assert_non_null(strstr(b.note, "without a surface, skipped: SPRING1 3, MASS 1"));
     assert_non_null(strstr(b.note, "1 solids have no volume"));
     assert_non_null(strstr(b.note, "1 faces belong to three or more solids"));
 }

@@ -228,7 +228,7 @@ static void looks_at_waves_are_often_enough(void **state)
     assert_int_equal(err.code, FL_INPUT);
     assert_string_equal(err.text,
                         "water.every: 19 steps of 0.005 s, and body 1 heaves with a period of 1.88 s: 19 "
-                        "looks in it, at most 18 steps are expected, or a smaller run.dt");
+                        "samples in it; at most 18 steps expected, or a smaller run.dt");
     /* one that is held moves with nothing, and the waves themselves are left */
     w->b.fixed_dof[0] = FL_DOF_Z | FL_DOF_RX | FL_DOF_RY;
     w->sea.sample_every = 100;
@@ -236,7 +236,7 @@ static void looks_at_waves_are_often_enough(void **state)
     w->sea.sample_every = 101;
     err = (fl_err){0};
     assert_int_equal(fl_check_wave_sampling(w, &err), -1);
-    assert_non_null(strstr(err.text, ", and the waves have a period of 10 s: 19 looks in it, at most 100"));
+    assert_non_null(strstr(err.text, ", and the waves have a period of 10 s: 19 samples in it; at most 100"));
     lab_free(&l);
 }
 
@@ -297,6 +297,42 @@ static void flotsam(lab *l, int wind, int shear, int along, int facets)
 
 static void same_bits(const void *a, const void *b, size_t bytes) { assert_memory_equal(a, b, bytes); }
 
+/* A force with an impulse: an acceleration along x, and a rotation that decays. */
+static void accelerate(const fl_environment *s, fl_bodies *b, int32_t i, double h)
+{
+    const double rest = 1.0 / (1.0 + 0.2 * h);
+    (void)s;
+    b->v[i].x += 0.3 * h;
+    b->L[i] = v3_scale(rest, b->L[i]), b->w[i] = v3_scale(rest, b->w[i]);
+}
+
+static const fl_water_force EXTRA_FORCE = {.name = "acceleration", .impulse = accelerate};
+
+static void add_force(fl_environment *s) { s->impulse[s->impulses++] = &EXTRA_FORCE; }
+
+/* It acts in both halves, its work is drag, and a constraint holds against it. */
+static void work_of_an_impulse_is_booked(void **state)
+{
+    (void)state;
+    const double h = 0.5;
+    for (int fixed = 0; fixed < 2; fixed++) {
+        lab l;
+        floe(&l, 9.0, v3(1, 2, 0), v3(0, 0, 0.4)); /* in the air: without drag */
+        lab_make(&l, 1e-3);
+        fl_bodies *b = &l.w.b;
+        if (fixed) b->fixed_dof[0] = FL_DOF_X;
+        add_force(&l.w.sea);
+        const double before = fl_body_kinetic_energy(b, 0);
+        for (int back = 0; back < 2; back++) fl_environment_drag(&l.w.sea, b, 0, h, back);
+        assert_near(b->v[0].x, fixed ? 1.0 : 1.0 + 2.0 * 0.3 * h, 1e-14);
+        assert_near(b->w[0].z, 0.4 / (1.1 * 1.1), 1e-14);
+        assert_near(b->work_of_constraints[0] - l.w.sea.drag_loss[0], fl_body_kinetic_energy(b, 0) - before,
+                    1e-11);
+        assert_true((b->work_of_constraints[0] < 0.0) == fixed);
+        lab_free(&l);
+    }
+}
+
 static void several_meet_the_sea_as_one_does(void **state)
 {
     (void)state;
@@ -307,6 +343,7 @@ static void several_meet_the_sea_as_one_does(void **state)
         lab l, m;
         flotsam(&l, way & 1, way & 2, way & 8, way & 16), flotsam(&m, way & 1, way & 2, way & 8, way & 16);
         fl_world *one = &l.w, *all = &m.w;
+        if (way & 4) add_force(&one->sea), add_force(&all->sea);
         for (int32_t k = 0; k < SEVERAL; k++) {
             fl_body_external_force(one, k);
             fl_environment_drag(&one->sea, &one->b, k, h, 0);
@@ -412,6 +449,7 @@ int main(void)
         cmocka_unit_test(wind_takes_hold_of_what_is_dry),
         cmocka_unit_test(what_is_held_is_not_dragged),
         cmocka_unit_test(round_bodies_float_round),
+        cmocka_unit_test(work_of_an_impulse_is_booked),
         cmocka_unit_test(several_meet_the_sea_as_one_does),
         cmocka_unit_test(several_ride_on_waves_as_one_does),
         cmocka_unit_test(still_water_is_looked_at_in_each_step),

@@ -174,8 +174,8 @@ static void what_cannot_be_is_refused(void **state)
     fl_err err = {0};
     make_cells(&c, 100, 1, 2);
     refused(&c, 0.5, 5.0, "too little for a core inside a dilation radius of 5 m");
-    refused(&c, 0.01, 0.5, "of the area at least, 0.01 was asked for");
-    refused(&c, 1.0 - 1e-7, 0.5, "of the area at most, 0.9999999 was asked for");
+    refused(&c, 0.01, 0.5, "of the area at least, 0.01 is requested");
+    refused(&c, 1.0 - 1e-7, 0.5, "of the area at most, 0.9999999 is requested");
     fl_power_cells_free(&c);
     assert_int_equal(fl_power_cells_build(&c, 3, site, LO, HI, &err), 0);
     refused(&c, 0.5, 5.2, "the cell of floe 2 has an inscribed radius");

@@ -89,7 +89,7 @@ static void each_fault_has_its_sentence(void **state)
         {"#g_struct 1\nv 0 0 0\n", ":2: \"v\" stands before the first part"},
         {"#g_struct 1\npart 0 a\npart 1 b\n", ":2: part \"a\" has neither triangles nor cones"},
         {HEAD, ":2: part \"a\" has neither triangles nor cones"},
-        {HEAD "t 0 1 3\n", ":6: triangle 0 wants vertex 3, but part \"a\" has 3 so far"},
+        {HEAD "t 0 1 3\n", ":6: triangle 0 refers to vertex 3, but part \"a\" has 3 so far"},
         {HEAD "t 0 1 -1\n", ":6: vertex index is \"-1\", a whole number from 0 to 2147483647 is expected"},
         {HEAD "t 0 1 1\n", ":6: triangle 0 1 1 repeats a vertex"},
         {HEAD "t 0 1\n", ":6: vertex index is missing after 3 fields"},

@@ -83,8 +83,8 @@ static void limits_are_sentences(void **state)
     (void)state;
     assert_int_equal(fl_moving_mean(2, edge, x, 2.1, y, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
-    assert_string_equal(
-        err.text, "a moving mean over 2.1 s, more than 0 and at most the 2 s of the record is expected");
+    assert_string_equal(err.text,
+                        "a moving mean over 2.1 s, expected more than 0 and at most the 2 s of the record");
     fl_alloc_fail_after(0);
     err = (fl_err){0};
     assert_int_equal(fl_moving_mean(2, edge, x, 1.0, y, &err), -1);

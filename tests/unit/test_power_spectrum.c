@@ -142,7 +142,7 @@ static void limits_are_sentences(void **state)
     (void)state;
     assert_int_equal(fl_power_spectrum_make(&s, 64, x, 1.0, 65, FL_TAPER_HANN, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
-    assert_string_equal(err.text, "a segment of 65 rows, from 4 to all 64 of the record are expected");
+    assert_string_equal(err.text, "a segment of 65 rows, expected 4 to all 64 of the record");
     err = (fl_err){0};
     assert_int_equal(fl_power_spectrum_make(&s, 3, x, 1.0, 3, FL_TAPER_HANN, &err), -1);
     for (long n = 0;; n++) {

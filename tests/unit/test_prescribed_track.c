@@ -93,10 +93,10 @@ static void what_is_no_track_is_refused(void **state)
         {"#track 1\nt x\n0 1\n1 1e20\n", ":4: x is 1e+20, at most 1e+15 is expected"},
         {"#track 1\nt x\n", "this track has no rows"},
         {"#track 1\nx y\n1 2\n", "t"},
-        {"#track 1\n\nt[s] x[mm]\n0 1\n", ":3: column x has the unit \"mm\", m is expected"},
-        {"#track 1\nt[min] x[m]\n0 1\n", ":2: column t has the unit \"min\", s is expected"},
-        {"#track 1\nt[s] rz[rad]\n0 1\n", ":2: column rz has the unit \"rad\", deg is expected"},
-        {"#track 1\nt[s] foo[m]\n0 1\n", ":2: no column of a motion, at least one of x y z rx ry rz"},
+        {"#track 1\n\nt[s] x[mm]\n0 1\n", ":3: column x has the unit \"mm\", expected m"},
+        {"#track 1\nt[min] x[m]\n0 1\n", ":2: column t has the unit \"min\", expected s"},
+        {"#track 1\nt[s] rz[rad]\n0 1\n", ":2: column rz has the unit \"rad\", expected deg"},
+        {"#track 1\nt[s] foo[m]\n0 1\n", ":2: no column of a motion, expected at least one of x y z rx ry rz"},
         {"#loads 1\nt x\n1 2\n", "track"}};
     (void)state;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {

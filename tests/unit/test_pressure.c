@@ -167,8 +167,7 @@ static void bad_contacts_are_refused(void **state)
         "0.2 1 -1 FF 0 2 0 0 1 2 3 0 0 9 0 0 0\n", "0.2 1 -1 FF 0 1 0 0 1 2 3 0 -1 9 0 0 0\n",
         "0.2 1 -1 FF 0 1 0 0 1 2 3 0 0 1e200 0 0 0\n", ""};
     static const char *const said[] = {"time 0.1 s comes after 0.2 s", "the normal has the length 2",
-                                       "not below 0 is expected", "at most 1e+100 is expected",
-                                       "no row of it"};
+                                       "expected not below 0", "at most 1e+100 is expected", "no row lies"};
     const fl_contact_selection ask = {.from = -INFINITY, .to = INFINITY};
     (void)state;
     for (int k = 0; k < 5; k++) {

@@ -109,7 +109,7 @@ static void counts_are_only_told(void **state)
     reads("ET,1,185\n" NODES "EBLOCK,19,SOLID,9,2000000000\n(19i4)\n"
           "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7   8\n"
           "  -1\n");
-    assert_non_null(strstr(note, "EBLOCK is to hold 2000000000 entries, and has 1"));
+    assert_non_null(strstr(note, "EBLOCK announces 2000000000 entries and has 1"));
 }
 
 /* A tube by its section, a pipe by its section and by its real constants, a rod; a truss has no radius. */
@@ -181,7 +181,7 @@ static void bad_decks_are_told_where_and_why(void **state)
     refuses(NODES HEX, "of type 1, which no ET");
     refuses("ET,1,185\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
             "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7  88\n  -1\n",
-            ":15: the element wants node 88, which is defined nowhere");
+            ":15: the element refers to node 88, which is not defined");
     refuses("ET,1,185\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
             "   1   1   1   1   0   0   0   0   7   0   9   1   2   3   4   5   6   7\n  -1\n",
             "has 7 nodes");

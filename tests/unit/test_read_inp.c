@@ -66,10 +66,10 @@ static void decks_are_taken_as_calculix_does(void **state)
     fl_mesh_quality q = reads(">** a beam\n*\n" CUBE "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8, 1, 2,\n"
                               "*ELSET, ELSET=A, INSTANCE=Part-1-1\n1\n");
     assert_true(q.closed && q.triangles == 12);
-    says("1 elements list more nodes than their type has; those behind were passed over");
+    says("1 elements list more nodes than their type has; those behind were skipped");
     q = takes("some words\n" CUBE HEX "*ELSET, ELSET=A, INSTANCE=Part-1-1\n1\n", "A");
     assert_true(q.closed && q.triangles == 12);
-    refuses("some words\n*G1, 2\n", "neither STL");
+    refuses("some words\n*G1, 2\n", "unknown format");
 }
 
 /* --- types ---------------------------------------------------------------------------------------------- */
@@ -119,7 +119,7 @@ static void other_types_are_counted(void **state)
     reads(CUBE HEX
           "*ELEMENT, TYPE=SPRING1\n10, 1\n11, 2\n*ELEMENT, TYPE=CCL24\n12, 1, 2, 3,\n4, 5, 6\n13, 1, 2,\n"
           "3, 4\n*ELEMENT, TYPE=SPRING1\n14, 1\n");
-    says("passed over: SPRING1 3, CCL24 2");
+    says("skipped: SPRING1 3, CCL24 2");
     assert_int_equal(read_some(CUBE "*ELEMENT, TYPE=MASS\n1, 2\n", NULL), -1);
     assert_non_null(strstr(err.text, "no triangles"));
 }
@@ -138,7 +138,7 @@ static void lines_have_radii(void **state)
     reads(deck);
     says("1 lines without a section radius");
     says("largest sagitta is 0 ");
-    says("1 elements stand on the nodes of others"); /* both of LEG lie between 1 and 2 */
+    says("1 elements on the nodes of others"); /* both of LEG lie between 1 and 2 */
     assert_int_equal(s.n, 3);
     assert_string_equal(s.part[0].name, "LEG");
     assert_int_equal(s.part[0].nc, 1);
@@ -149,7 +149,7 @@ static void lines_have_radii(void **state)
     /* a leg in pieces, numbered this way and that, with a brace at the joint */
     reads("*NODE\n1, 0, 0, -9\n2, 0, 0, 0\n3, 0, 0, 4\n4, 5\n5, 0, 0, 6\n*ELEMENT, TYPE=B31, ELSET=A\n"
           "1, 1, 2\n2, 3, 2\n3, 2, 4\n4, 3, 5\n*BEAM SECTION, SECTION=CIRC, ELSET=A\n.5\n");
-    says("3 lines that go straight on became 1\n");
+    says("3 lines that continue one another were merged into 1\n");
     assert_int_equal(s.part[0].nc, 2);
     assert_near(s.part[0].cone[0].p0.z, -9.0, 0.0);
     assert_near(s.part[0].cone[0].p1.z, 6.0, 0.0);
@@ -190,10 +190,10 @@ static void sets_name_sets(void **state)
     }
     assert_int_equal(reads(deck).triangles, 36); /* not asked for, sets are nothing */
     assert_int_equal(s.n, 2);
-    refuses(ROW "*ELSET, ELSET=A\n1, NONE\n", "\"A\" wants \"NONE\", which is defined nowhere");
+    refuses(ROW "*ELSET, ELSET=A\n1, NONE\n", "\"A\" refers to \"NONE\", which is not defined");
     refuses(ROW "*ELSET, ELSET=A\nB\n*ELSET, ELSET=B\nC\n*ELSET, ELSET=C\nA\n", "\"A\" contains itself");
     refuses(ROW "*ELSET, ELSET=A, GENERATE\n5, 1\n", "deck:30: from 5 to 1 by 1: a rising range is expected");
-    refuses(ROW "*ELSET, GENERATE\n1, 5\n", "*ELSET wants ELSET=");
+    refuses(ROW "*ELSET, GENERATE\n1, 5\n", "*ELSET needs ELSET=");
 }
 
 /* Sets that name each other twice over, sixty deep; and a chain longer than any stack should bear. */
@@ -370,14 +370,14 @@ static void broken_assemblies(void **state)
     refuses("*PART, NAME=P\n" CUBE HEX, "the deck ends inside a part");
     refuses("*END PART\n", "*END PART without *PART");
     refuses("*END INSTANCE\n", "*END INSTANCE without *INSTANCE");
-    refuses("*PART\n", "*PART wants NAME=");
+    refuses("*PART\n", "*PART needs NAME=");
     refuses("*INSTANCE, NAME=I, LIBRARY=old\n", "from an earlier analysis is not read");
     refuses("*PART, NAME=P\n" CUBE HEX "*END PART\n*INSTANCE, NAME=J, PART=P\n*END INSTANCE\n"
             "*ELSET, ELSET=A, INSTANCE=I\n1\n",
             "there is no instance I");
     refuses("*PART, NAME=P\n*NODE\n1, x\n", "deck:3: field 2 is \"x\", a number is expected");
     refuses(PART("P", "*NODE\n1\n2, 1\n*ELEMENT, TYPE=S3\n1, 1, 2, 7\n") "*INSTANCE, NAME=I, PART=P\n",
-            "deck:6: the element wants node 7, which is defined nowhere");
+            "deck:6: the element refers to node 7, which is not defined");
 }
 
 /* --- coordinates and generation ------------------------------------------------------------------------- */
@@ -427,13 +427,13 @@ static void meshes_are_generated(void **state)
     assert_near(q.volume, 16.0, 1e-15);
     assert_string_equal(s.part[0].name, "BODY");
     assert_near(takes(deck, "EALL").volume, 16.0, 1e-15);
-    reads(CUBE HEX "*ELEMENT, TYPE=MASS\n5, 1\n*ELGEN\n5, 3\n"); /* of what was passed over */
-    refuses("*NODE\n1\n2, 1\n*NGEN\n1, 4\n", "*NGEN wants node 4, which is not defined yet");
+    reads(CUBE HEX "*ELEMENT, TYPE=MASS\n5, 1\n*ELGEN\n5, 3\n"); /* of what was skipped */
+    refuses("*NODE\n1\n2, 1\n*NGEN\n1, 4\n", "*NGEN refers to node 4, which is not defined yet");
     refuses("*NODE\n1\n4, 1\n*NGEN\n1, 4, 2\n", "nodes 1 to 4 by 2: steps that end there are expected");
     refuses("*NODE\n1\n4, 1\n*NGEN, LINE=C\n1, 4, 1, 9\n", "*NGEN on arcs and parabolas is not read");
     refuses("*NODE\n1\n900000000, 1\n*NGEN\n1, 900000000\n",
             "more than 2000000 nodes and elements are generated");
-    refuses(CUBE HEX "*ELGEN\n7, 2\n", "*ELGEN wants element 7");
+    refuses(CUBE HEX "*ELGEN\n7, 2\n", "*ELGEN refers to element 7");
     refuses(CUBE HEX "*ELGEN\n1, 2000, 1, 1, 2000, 1, 1, 2000\n", "more than 2000000");
     refuses(CUBE HEX "*ELGEN\n1, -2\n", "counts of 1 or more");
     refuses(CUBE HEX "*ELGEN\n1, 2, 0, -1\n", "this makes element 0");
@@ -454,8 +454,8 @@ static void files_are_included(void **state)
     snprintf(deck, sizeof deck, "*NODE\n*INCLUDE, INPUT=\"%s\"\n9, 5, 5, 5\n" HEX, nodes);
     assert_near(reads(deck).volume, 1.0, 0.0);
     says("9 nodes");
-    refuses("*INCLUDE, INPUT=none.inp\n", "deck:1: the included file is wanted here, but ");
-    refuses("*INCLUDE\n", "*INCLUDE wants INPUT=");
+    refuses("*INCLUDE, INPUT=none.inp\n", "deck:1: the file included here cannot be read: ");
+    refuses("*INCLUDE\n", "*INCLUDE needs INPUT=");
     snprintf(deck, sizeof deck, "*INCLUDE, INPUT=%s\n", strrchr(test_path("deck"), '/') + 1);
     refuses(deck, "is included in itself");
 }
@@ -475,7 +475,7 @@ static void what_is_not_read_is_named(void **state)
     refuses("*NODE\n1, 0, 1e999\n", "deck:2: field 3 is \"1e999\", a number is expected");
     refuses("*NODE\n0, 0, 1\n", "field 1 is \"0\", a number of 1 or more is expected");
     refuses("*NODE\n       1         0.0\n", "field 1 is ");
-    refuses("*ELEMENT\n1, 1, 2, 3\n", "*ELEMENT wants TYPE=");
+    refuses("*ELEMENT\n1, 1, 2, 3\n", "*ELEMENT needs TYPE=");
     refuses("*ELEMENT, TYPE=S3\n1, 1, 2.5, 3\n", "field 3 is \"2.5\", a whole number is expected");
     refuses("*ELEMENT, TYPE=S3\n1, 1, 0, 3\n", "corner 2 of the element is node 0");
 }

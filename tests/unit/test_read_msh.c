@@ -128,16 +128,16 @@ static void bad_files_are_told_where_and_why(void **state)
     refuses(HEAD2 "$Nodes\n1\n1 0 inf 0\n$EndNodes\n", ":6: y is \"inf\"");
     refuses(HEAD2 "$Nodes\n1\n0 0 0 0\n$EndNodes\n", "node 0 was found");
     refuses(HEAD2 NODES2 "$Elements\n1\n1 2 2 7 1 1 20 30\n$EndElements\n",
-            ":14: the element wants node 30, which is defined nowhere");
+            ":14: the element refers to node 30, which is not defined");
     refuses(HEAD2 NODES2 "$Elements\n1\n1 140 2 7 1 1 20 30\n$EndElements\n",
             "element type 140 is not known");
-    refuses(HEAD2 NODES2 "$Elements\n0\n$EndElements\n", "no elements: put what is wanted");
+    refuses(HEAD2 NODES2 "$Elements\n0\n$EndElements\n", "no elements: put the parts to import");
     refuses(HEAD4 "$Elements\n1 1 1 1\n3 1 2 1\n", "elements of type 2 are in an entity of dimension 3");
     refuses(HEAD2 "$Parametrizations\n1\n", "the file ends inside $Parametrizations");
     assert_int_equal(read_bytes(binary, sizeof binary - 1, NULL), -1);
     assert_non_null(strstr(err.text, "byte 55: the file ends inside the data"));
     assert_int_equal(read_bytes(order, sizeof order - 1, NULL), -1);
-    assert_non_null(strstr(err.text, "tells the byte order"));
+    assert_non_null(strstr(err.text, "in either byte order"));
 }
 
 static void release(void **state)

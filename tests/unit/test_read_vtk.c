@@ -94,7 +94,7 @@ static void bad_files_are_told_where_and_why(void **state)
     refuses(HEAD "POLYDATA\nPOINTS 1 float\n0 0 x\n", ":6: \"x\" was found, a number is expected");
     refuses(HEAD "POLYDATA\nPOINTS 1 float\n0 0 1e999\n", "finite coordinates");
     refuses(HEAD "POLYDATA\nPOINTS 1 colour\n", "points of type");
-    refuses(HEAD "POLYDATA\n" CUBE "POLYGONS 1 4\n3 0 1 8\n", "cell 0 wants point 8, 0 to 7");
+    refuses(HEAD "POLYDATA\n" CUBE "POLYGONS 1 4\n3 0 1 8\n", "cell 0 refers to point 8, 0 to 7");
     refuses(HEAD "POLYDATA\n" CUBE "POLYGONS 1 4\n4 0 1 2\n", "does not fit");
     refuses(HEAD "POLYDATA\n" CUBE "POLYGONS 1 4\n2 0 1 2\n", "1 numbers are left");
     refuses(HEAD "POLYDATA\n" CUBE "CELLS 1 4\n3 0 1 2\n", "do not belong");

@@ -74,7 +74,7 @@ static void bad_files_are_told_where_and_why(void **state)
     refuses("<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\"></VTKFile>",
             "with zlib or not packed");
     refuses(HEAD "<PolyData><Piece>" POINTS, "before </VTKFile>");
-    refuses(HEAD "<PolyData><Piece>" POINTS POLYS("0 1 3", "3") TAIL, "cell 0 wants point 3, 0 to 2");
+    refuses(HEAD "<PolyData><Piece>" POINTS POLYS("0 1 3", "3") TAIL, "cell 0 refers to point 3, 0 to 2");
     refuses(HEAD "<PolyData><Piece>" POINTS POLYS("0 1 2", "4") TAIL, "corners up to place 4");
     refuses(HEAD "<PolyData><Piece>" POINTS POLYS("0 1 x", "3") TAIL,
             ":3: \"x\" was found, a number is expected");

@@ -115,7 +115,7 @@ static void complaints(void **state)
     assert_int_equal(fl_run_open(&r, path, &ask, &HOW, &err), 0);
     assert_int_equal(fl_run_next(&r, &err), 0);
     assert_int_equal(fl_run_finish(&r, "", &err), -1);
-    snprintf(want, sizeof want, "%s: nothing is left by the cut, the record ends at 1.5 s", path);
+    snprintf(want, sizeof want, "%s: the cut leaves no row, the record ends at 1.5 s", path);
     assert_string_equal(err.text, want);
     fl_run_close(&r);
     unlink(path);

@@ -88,7 +88,7 @@ static void asking(void **state)
     ask.part = "total";
     assert_int_equal(read_text(&s, &ask, TWO), -1);
     assert_int_equal(err.code, FL_USAGE);
-    assert_string_equal(err.text, "fpeak has no total: its sum over the parts means nothing");
+    assert_string_equal(err.text, "fpeak has no total: its sum over the parts is meaningless");
     ask.part = NULL;
     ask.signal = wrong;
     ask.signals = 1;
@@ -190,7 +190,7 @@ static void rows_of_one_time(void **state)
     ask.wheres = 1;
     ask.where = none;
     assert_int_equal(read_text(&s, &ask, TOUCH), -1);
-    expect_told(FL_INPUT, 8, "the contacts table ends here without a row that was asked for");
+    expect_told(FL_INPUT, 8, "the contacts table ends here without a row that meets the conditions");
     ask.where = wrong;
     assert_int_equal(read_text(&s, &ask, TOUCH), -1);
     assert_int_equal(err.code, FL_USAGE);
@@ -219,7 +219,7 @@ static void complaints(void **state)
         {HEAD "1 a 1 1 1 1 1\n1 b 1 1 1 1 1\n2 a 1 1 1 1 1\n", 6, "b has no row at 2 s"},
         {HEAD "1 a 1 1 1 1 1\n2 a 1 1 1 1 1\n2 b 1 1 1 1 1\n", 6, "b was not there at 1 s"},
         {HEAD "1 a nan 1 1 1 1\n", 4, "fx is \"nan\", a finite number is expected"},
-        {HEAD "1 a 1e101 1 1 1 1\n", 4, "fx is 1e+101, at most 1e+100 was expected"},
+        {HEAD "1 a 1e101 1 1 1 1\n", 4, "fx is 1e+101, expected at most 1e+100"},
         {HEAD "inf a 1 1 1 1 1\n", 4, "t is \"inf\", a finite number is expected"},
         {HEAD "1 a 1 1\n", 4, "4 fields, 7 are expected as there are columns"},
         {HEAD "1 a 1 1 1 1 1\n1 total 1 1 1 1 1\n", 0,

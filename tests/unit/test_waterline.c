@@ -110,10 +110,10 @@ static void bad_panels_are_refused(void **state)
         "1 a 0 0 0 1 1 0 0\n2 a 0 0 0 1 1 0 0\n2 a 0 0 0 1 1 0 0\n",
         "0 a 0 0 0 1 1 0 0\n"};
     static const char *const said[] = {"has no rows",
-                                       "above 0 is expected",
-                                       "panel b comes where a is expected",
+                                       "expected above 0",
+                                       "panel b comes here, expected a",
                                        "panel b has no row at 2 s",
-                                       "where a later time is expected",
+                                       "expected a later time",
                                        "time 0 s does not follow 0 s"};
     (void)state;
     for (int k = 0; k < 6; k++) {

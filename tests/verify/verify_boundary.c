@@ -146,7 +146,7 @@ static int oblique_hit(const char *type, fl_vec3 corner, fl_vec3 L, fl_vec3 over
     lab_start(&l);
     lab_set(&l, "contact.friction=0.3");
     lab_set(&l, "contact.restitution=0.5");
-    lab_set(&l, "contact.softening=0.001");
+    lab_set(&l, "contact.stiffness_factor=0.001");
     if (type) {
         lab_setf(&l, "boundary.type=%s", type);
         lab_setf(&l, "boundary.min=%.17g %.17g %.17g", corner.x - L.x, corner.y - L.y, corner.z - L.z);
@@ -216,7 +216,7 @@ static void make_gas(lab *l, fl_vec3 by, double safety)
     const double pitch = 3.0, half = 0.5 * pitch * SIDE;
     lab_start(l);
     lab_setf(l, "run.safety=%.17g", safety);
-    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.stiffness_factor=0.02");
     lab_set(l, "boundary.type=periodic periodic free");
     lab_setf(l, "boundary.min=%.17g %.17g none", -half, -half);
     lab_setf(l, "boundary.max=%.17g %.17g none", half, half);
@@ -328,7 +328,7 @@ static void outflow_of_cluster(void)
     double size, mass = 0.0;
     lab l;
     lab_start(&l);
-    lab_set(&l, "contact.softening=0.02");
+    lab_set(&l, "contact.stiffness_factor=0.02");
     lab_set(&l, "boundary.type=free");
     lab_set(&l, "boundary.min=-8 -8 -8");
     lab_set(&l, "boundary.max=8 8 8");
@@ -372,7 +372,7 @@ enum { ACROSS = 4, ALONG = 5 };
 static void make_sheet(lab *l, double speed)
 {
     lab_start(l);
-    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.stiffness_factor=0.02");
     lab_set(l, "contact.friction=0.3");
     lab_set(l, "contact.restitution=0.3");
     lab_set(l, "boundary.type=free periodic free");
@@ -493,7 +493,7 @@ static double residual_against_cylinder(double dy, double safety, double seconds
     double most = 0.0;
     make_sheet(&l, 1.5);
     lab_setf(&l, "run.safety=%.17g", safety);
-    lab_set(&l, "contact.softening=0.02");
+    lab_set(&l, "contact.stiffness_factor=0.02");
     lab_cone(&l, (fl_cone){v3(2, 0.7 + dy, -2), v3(2, 0.7 + dy, 2), 1.5, 1.5});
     lab_make(&l, 0.0);
     *dt = l.w.dt;

@@ -194,7 +194,7 @@ static result run(const scene *s, double goal, const char *of, int64_t m)
     fl_err err = {0};
     result r = {0};
     lab_start(&l);
-    lab_set(&l, "contact.softening=0.1");
+    lab_set(&l, "contact.stiffness_factor=0.1");
     lab_setf(&l, "output.loads_every=%.17g", EVERY);
     if (m == 0) lab_setf(&l, "run.error=%.17g", goal), lab_setf(&l, "run.error_of=%s", of);
     lab_setf(&l, "run.duration=%g", s->seconds);
@@ -326,7 +326,7 @@ static int verify_reported_error(const scene *s, double *share)
     for (int fine = 0; fine < 2; fine++) {
         lab l;
         lab_start(&l);
-        lab_set(&l, "contact.softening=0.1");
+        lab_set(&l, "contact.stiffness_factor=0.1");
         lab_setf(&l, "run.duration=%g", s->seconds);
         s->build(&l);
         lab_make(&l, 0);
@@ -438,7 +438,7 @@ static void billiards(lab *l)
 static void make_billiards(lab *l, int neighbour, double seconds, double error)
 {
     lab_start(l);
-    lab_setf(l, "contact.softening=%g", 0.01 * (1.0 + 0.02 * neighbour));
+    lab_setf(l, "contact.stiffness_factor=%g", 0.01 * (1.0 + 0.02 * neighbour));
     lab_setf(l, "output.loads_every=%.17g", EVERY);
     lab_setf(l, "run.duration=%g", seconds);
     if (error > 0.0) lab_setf(l, "run.error=%g", error);

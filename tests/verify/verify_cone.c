@@ -248,7 +248,7 @@ static double impulse_with_order(double lift)
     lab l[2];
     for (int s = 0; s < 2; s++) {
         lab_start(&l[s]);
-        lab_set(&l[s], "contact.softening=0.02");
+        lab_set(&l[s], "contact.stiffness_factor=0.02");
         lab_set(&l[s], "contact.restitution=0.3");
         for (int q = 0; q < 2; q++) {
             const int k = s ? 1 - q : q;

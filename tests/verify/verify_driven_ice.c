@@ -70,7 +70,7 @@ static void drive_chain(void)
     lab_setf(&l, "run.gravity=%.17g", G);
     lab_set(&l, "water.current=0");
     lab_set(&l, "contact.restitution=0.2");
-    lab_set(&l, "contact.softening=0.01");
+    lab_set(&l, "contact.stiffness_factor=0.01");
     lab_set(&l, "boundary.type=free");
     lab_set(&l, "boundary.drive=0.5");
     lab_set(&l, "boundary.drive_group=none");
@@ -106,7 +106,7 @@ static void raft_over_floe(double tilt)
     lab_set(&l, "water.current=0");
     lab_set(&l, "contact.friction=0.2");
     lab_set(&l, "contact.restitution=0.3");
-    lab_set(&l, "contact.softening=0.05");
+    lab_set(&l, "contact.stiffness_factor=0.05");
     lab_set(&l, "boundary.type=free");
     lab_set(&l, "boundary.drive=0.5");
     lab_set(&l, "boundary.drive_width=4");
@@ -156,7 +156,7 @@ static void jam_field(void)
     lab_start(&l);
     lab_set(&l, "contact.friction=0.3");
     lab_set(&l, "contact.restitution=0.3");
-    lab_set(&l, "contact.softening=0.1");
+    lab_set(&l, "contact.stiffness_factor=0.1");
     lab_set(&l, "boundary.type=rigid");
     lab_setf(&l, "boundary.min=none %.17g none", -0.5 * ROWS * pitch);
     lab_setf(&l, "boundary.max=%.17g %.17g none", (COLUMNS - 0.5) * pitch, 0.5 * ROWS * pitch);
@@ -248,7 +248,7 @@ static void press_between_cylinders(double off, int wet)
     if (wet) lab_set(&l, "water.drag_force_coef=0.5");
     lab_set(&l, "contact.friction=0.3");
     lab_set(&l, "contact.restitution=0.3");
-    lab_set(&l, "contact.softening=0.01");
+    lab_set(&l, "contact.stiffness_factor=0.01");
     lab_cone(&l, (fl_cone){v3(2, 1.7, -2), v3(2, 1.7, 2), 0.8, 0.8});
     lab_cone(&l, (fl_cone){v3(2, -1.7, -2), v3(2, -1.7, 2), 0.8, 0.8});
     lab_box(&l, v3(-0.3, off, wet ? -0.0305 : 0.0), v3(1.5, 1.5, 0.25), 0.05, q_one(), v3(1, 0, 0), ZERO);
@@ -289,7 +289,7 @@ static void extreme_laws(void)
         lab_set(&l, "contact.restitution=0.3");
         lab_set(&l, KEY[k]);
         lab_set(&l, "run.safety=0.05");
-        lab_set(&l, "contact.softening=0.02");
+        lab_set(&l, "contact.stiffness_factor=0.02");
         lab_box(&l, ZERO, v3(1, 0.8, 0.4), 0.05, q_of_vector(v3(0.1, 0.2, 0.3)), v3(1, 0.5, 0.2),
                 v3(0.5, 1, 2));
         lab_box(&l, v3(2.3, 0.3, 0.1), v3(0.9, 1, 0.5), 0.05, q_of_vector(v3(0.3, 0.1, 0.2)), v3(-1, 0, 0),

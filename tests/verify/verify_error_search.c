@@ -45,7 +45,7 @@ static void no_potential_search(void)
     fl_error_budget g;
     lab_start(&l);
     lab_set(&l, "output.loads_every=0.1"), lab_set(&l, "run.duration=0.6"), lab_set(&l, "run.error=0.01");
-    lab_set(&l, "contact.law=manual-si"), lab_set(&l, "contact.softening=1e-4");
+    lab_set(&l, "contact.law=manual-si"), lab_set(&l, "contact.stiffness_factor=1e-4");
     post(&l, 30, 1);
     for (int k = 0; k < 2; k++)
         lab_box(&l, v3(1.5 * k, 0.3 * k, 0.2 * k), v3(0.55, 0.55, 0.55), 0.05, q_one(), v3(k ? 0 : 5, 0, 0),
@@ -90,7 +90,7 @@ static void no_events(void)
     lab_start(&l);
     lab_set(&l, "output.loads_every=0.05"), lab_set(&l, "run.duration=0.5"), lab_set(&l, "run.error=0.01");
     lab_set(&l, "output.events=events.dat");
-    lab_set(&l, "contact.softening=0.1"), lab_set(&l, "contact.restitution=1");
+    lab_set(&l, "contact.stiffness_factor=0.1"), lab_set(&l, "contact.restitution=1");
     post(&l, 2, 1), lab_box(&l, v3(-0.13, 0, 0), v3(1, 1, 0.3), 0.05, q_one(), v3(1, 0, 0), NONE);
     make_world(&l, &g);
     for (int64_t row = 0; row < ROWS; row++) {

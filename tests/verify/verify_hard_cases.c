@@ -77,7 +77,7 @@ static void crush_pebble(void)
 {
     lab l;
     lab_start(&l);
-    lab_set(&l, "contact.softening=0.1");
+    lab_set(&l, "contact.stiffness_factor=0.1");
     lab_set(&l, "contact.restitution=0.3");
     lab_box(&l, v3(-5.062, 0, 0), v3(5, 5, 0.5), 0.05, q_one(), v3(0.02, 0, 0), ZERO);
     lab_sphere(&l, v3(-0.031, 0, 0), 0.03, ZERO, ZERO);
@@ -510,7 +510,7 @@ static work_counts count_work(int spheres, int32_t side, int32_t steps)
     work_counts k = {0};
     lab_start(&l);
     lab_set(&l, "run.threads=2");
-    lab_set(&l, spheres ? "material.ice.young=20 MPa" : "contact.softening=0.02");
+    lab_set(&l, spheres ? "material.ice.young=20 MPa" : "contact.stiffness_factor=0.02");
     lab_set(&l, "boundary.type=periodic");
     lab_set(&l, "boundary.min=0 0 0");
     lab_setf(&l, "boundary.max=%.17g %.17g %.17g", side * pitch, side * pitch, spheres ? high * pitch : 9.0);

@@ -20,7 +20,7 @@ static void make_field(lab *l, double safety, int elastic, double pitch, double 
     lab_set(l, "water.current=0.5 0 0");
     lab_setf(l, "contact.friction=%g", elastic ? 0.0 : 0.3);
     lab_setf(l, "contact.restitution=%g", elastic ? 1.0 : 0.3);
-    lab_set(l, "contact.softening=0.02");
+    lab_set(l, "contact.stiffness_factor=0.02");
     lab_setf(l, "run.safety=%.17g", safety);
     lab_cone(l, (fl_cone){v3(0, 0, -3), v3(0, 0, 3), 1.3, 1.3});
     for (int32_t k = 0; n < FLOES; k++) {

@@ -17,15 +17,15 @@ static const char *const OUTPUT[] = {"loads.tsv", "state.tsv", "energy.tsv", "co
                                      "frames.1",  "frames.2",  "run.ckpt",   "hash.tsv"};
 enum { FILES = sizeof OUTPUT / sizeof *OUTPUT };
 
-static const char SCENE[] =
-    "[run]\nduration = 0.6 s\n"
-    "[output]\nloads_every = 10 ms\nstate = state.tsv\nstate_every = 50 ms\n"
-    "energy = energy.tsv\nenergy_every = 20 ms\ncontacts = contacts.tsv\n"
-    "contacts_every = 0.1 s\nframes = frames\nframes_every = 50 ms\nfiles = 3\n"
-    "hash = hash.tsv\ncheckpoint = run.ckpt\ncheckpoint_every = 20 ms\n"
-    "[material ice]\nyoung = 5 MPa\n"
-    "[contact]\nsoftening = 0.2\n[ice]\nfile = ice.dat\n[structure]\nfile = post.dat\nvelocity = 0.1 0 0\n"
-    "[boundary]\nmin = -6 -5 none\nmax = 6 5 none\n[water]\ncurrent = 0.5 0 0\n";
+static const char SCENE[] = "[run]\nduration = 0.6 s\n"
+                            "[output]\nloads_every = 10 ms\nstate = state.tsv\nstate_every = 50 ms\n"
+                            "energy = energy.tsv\nenergy_every = 20 ms\ncontacts = contacts.tsv\n"
+                            "contacts_every = 0.1 s\nframes = frames\nframes_every = 50 ms\nfiles = 3\n"
+                            "hash = hash.tsv\ncheckpoint = run.ckpt\ncheckpoint_every = 20 ms\n"
+                            "[material ice]\nyoung = 5 MPa\n"
+                            "[contact]\nstiffness_factor = 0.2\n[ice]\nfile = ice.dat\n[structure]\nfile = "
+                            "post.dat\nvelocity = 0.1 0 0\n"
+                            "[boundary]\nmin = -6 -5 none\nmax = 6 5 none\n[water]\ncurrent = 0.5 0 0\n";
 
 static char bin[600]; /* folder of the programs */
 

@@ -143,7 +143,7 @@ static void oscillation_period(enum ground on, int spins)
     lab l;
     rest_on(&l, on, mu, 0.0, v3(0, 0, 0), spins ? v3(0, 0, slight) : v3(0, slight, 0));
     lab_set(&l, "contact.restitution=1");
-    lab_set(&l, "contact.tangential=2");
+    lab_set(&l, "contact.tangential_ratio=2");
     const int32_t k = make_world(&l, 1e-5);
     if (!spins) l.w.b.v[k].x = R * slight;
     const double slope = 1.5 * pow(kappa(on), 2.0 / 3.0) * cbrt(mass() * G),

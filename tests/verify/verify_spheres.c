@@ -255,7 +255,7 @@ static void oblique_impacts(void)
         sphere_on_plane(&l, &OXIDE, R, v3(v * sin(a), 0, -v * cos(a)), v3(0, 0, 0));
         lab_set(&l, "contact.restitution=0.98");
         lab_set(&l, "contact.friction=0.092");
-        lab_setf(&l, "contact.tangential=%.17g", tangential_ratio(&OXIDE));
+        lab_setf(&l, "contact.tangential_ratio=%.17g", tangential_ratio(&OXIDE));
         lab_make(&l, time / 4000);
         collide(&l, 8000);
         const double vt = l.w.b.v[0].x, vn = l.w.b.v[0].z, spin = l.w.b.w[0].y;
@@ -287,7 +287,7 @@ static void spinning_impacts(void)
             sphere_on_plane(&l, m[c], R, v3(0, 0, -v), v3(0, w0, 0));
             lab_set(&l, "contact.restitution=0.5");
             lab_set(&l, "contact.friction=0.4");
-            lab_setf(&l, "contact.tangential=%.17g", tangential_ratio(m[c]));
+            lab_setf(&l, "contact.tangential_ratio=%.17g", tangential_ratio(m[c]));
             lab_make(&l, 0);
             l.w.dt *= 0.02;
             collide(&l, 1000000);

@@ -64,7 +64,7 @@ static int count_instructions(const char *program, const char *scene, const char
 int main(void)
 {
     static const char SCENE[] = "[run]\nduration = 0.04\ndt = 0.001\n[ice]\nmaterial = ice\n[contact]\n"
-                                "softening = 0.01\n";
+                                "stiffness_factor = 0.01\n";
     static const struct {
         const char *name, *set;
     } AT[5] = {{"dry", ""},

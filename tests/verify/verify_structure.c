@@ -468,7 +468,7 @@ static double tumble_in_groove(int32_t run, double surrogate, double *worst)
     lab l;
     lab_start(&l);
     lab_set(&l, "run.gravity=0 0 -9.81");
-    lab_set(&l, "contact.softening=0.1");
+    lab_set(&l, "contact.stiffness_factor=0.1");
     lab_set(&l, "contact.friction=0.4");
     lab_set(&l, "contact.restitution=0.3");
     lab_setf(&l, "contact.surrogate=%.17g", surrogate);

@@ -7,20 +7,23 @@
 #include "base/array.h"
 #include "base/parallel.h"
 #include "base/stream.h"
+#include "mesh/gstruct.h"
 #include "options.h"
+#include "plan_probe.h"
+#include "report.h"
 #include "run.h"
 #include "save.h"
-#include "sim/setup.h"
-#include "targets.h"
 #include "scene/ice_field.h"
 #include "scene/ice_field_order.h"
-#include "mesh/gstruct.h"
 #include "scene/scene_check.h"
-#include "scene/scene_read.h"
 #include "scene/scene_print.h"
+#include "scene/scene_read.h"
+#include "sim/setup.h"
+#include "step_choice.h"
+#include "targets.h"
 #include "world/access.h"
 
-/* The scene with what the command line says of it. */
+/* Read the scene, with the changes of the command line. */
 static int read_scene(fl_scene *s, const struct options *o, fl_err *err)
 {
     char key[FL_SCENE_PATH + 32];
@@ -39,7 +42,7 @@ static int read_scene(fl_scene *s, const struct options *o, fl_err *err)
     return fl_scene_check(s, err);
 }
 
-/* The histories of both inputs, one after the other; NULL when there are none. */
+/* The histories of both inputs, one after the other. */
 static int join_history(char **out, const char *a, const char *b, fl_err *err)
 {
     const size_t na = a ? strlen(a) : 0, nb = b ? strlen(b) : 0;
@@ -50,7 +53,7 @@ static int join_history(char **out, const char *a, const char *b, fl_err *err)
     return 0;
 }
 
-/* A run of hours whose report or checkpoint cannot be written is to end before it begins. */
+/* Open the report, and check that a checkpoint can be written, before a run of hours begins. */
 static int open_report(const struct run *r, fl_out *report, fl_err *err)
 {
     fl_out checkpoint = {0};
@@ -61,23 +64,23 @@ static int open_report(const struct run *r, fl_out *report, fl_err *err)
     return r->o->report ? fl_out_open(report, r->o->report, 0, err) : 0;
 }
 
-static int write_report(const struct run *r, fl_out *report, fl_err *err)
+static int print_report(const struct run *r, fl_out *report, fl_err *err)
 {
     if (!r->o->report) {
-        if (!r->o->quiet) report_write(r, stderr);
+        if (!r->o->quiet) write_report(r, stderr);
         return 0;
     }
-    report_write(r, report->f);
+    write_report(r, report->f);
     return fl_out_close(report, err);
 }
 
-/* What was asked for, with everything read. */
-static int act(struct run *r, fl_err *err)
+/* Run, or print the plan or the probe. */
+static int run_or_print(struct run *r, fl_err *err)
 {
     fl_out out = {0};
     if (r->o->plan || r->o->probe >= 0.0) {
-        if (fl_out_open(&out, r->out, r->gzip, err)) return -1;
-        if (r->o->plan ? look_plan(r, out.f, err) : look_probe(r, out.f, err)) {
+        if (fl_out_open(&out, r->loads_path, r->gzip, err)) return -1;
+        if (r->o->plan ? print_plan(r, out.f, err) : print_probe(r, out.f, err)) {
             fl_out_abort(&out);
             return -1;
         }
@@ -85,26 +88,26 @@ static int act(struct run *r, fl_err *err)
     }
     if (open_report(r, &out, err)) return -1;
     const int rc = run_scene(r, err);
-    if (r->going && err->code != FL_SYSTEM && write_report(r, &out, err)) return -1;
+    if (r->started && err->code != FL_SYSTEM && print_report(r, &out, err)) return -1;
     fl_out_abort(&out);
     return rc;
 }
 
-/* What a run is made from. */
+/* The inputs of a run. */
 struct inputs {
     fl_scene scene;
-    fl_ice_field field, feed; /* feed: what comes in, of another file */
+    fl_ice_field field, feed; /* feed: the field of inflow_file */
     fl_surface surface;
     fl_restart saved;
-    fl_restart_part kept[KEPT];
-    char *text[KEPT]; /* of kept, where it is owned */
+    fl_restart_part input_text[INPUT_TEXTS];
+    char *text[INPUT_TEXTS]; /* of input_text, where it is owned */
     char *history;
     fl_history_line by;
 };
 
-/* A file that is not there is told by the line of the scene that names it; any other trouble, and what the
- * command line names, by its reader. */
-static int file_there(const fl_scene *s, const char *key, const char *path, fl_err *err)
+/* If a file named by the scene does not exist, fail with the line of the scene.  Its reader reports other
+ * failures, and files named on the command line. */
+static int check_file(const fl_scene *s, const char *key, const char *path, fl_err *err)
 {
     fl_err why = {0};
     if (!path[0] || strcmp(path, "-") == 0 || access(path, R_OK) == 0) return 0;
@@ -114,18 +117,18 @@ static int file_there(const fl_scene *s, const char *key, const char *path, fl_e
     return -1;
 }
 
-static int files_there(const fl_scene *s, fl_err *err)
+static int check_files(const fl_scene *s, fl_err *err)
 {
     char key[128];
-    if (file_there(s, "ice.file", s->ice.file, err) ||
-        file_there(s, "structure.file", s->structure.file, err) ||
-        file_there(s, "structure.track", s->structure.motion.track, err) ||
-        file_there(s, "boundary.inflow_file", s->boundary.inflow_file, err) ||
-        file_there(s, "water.profile_file", s->water.profile_file, err))
+    if (check_file(s, "ice.file", s->ice.file, err) ||
+        check_file(s, "structure.file", s->structure.file, err) ||
+        check_file(s, "structure.track", s->structure.motion.track, err) ||
+        check_file(s, "boundary.inflow_file", s->boundary.inflow_file, err) ||
+        check_file(s, "water.profile_file", s->water.profile_file, err))
         return -1;
     for (int32_t k = 0; k < s->n_part; k++) {
         snprintf(key, sizeof key, "part %s.track", s->part[k].name);
-        if (file_there(s, key, s->part[k].motion.track, err)) return -1;
+        if (check_file(s, key, s->part[k].motion.track, err)) return -1;
     }
     return 0;
 }
@@ -134,13 +137,14 @@ static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
 {
     if (o->resume)
         return fl_restart_read(&in->saved, o->resume, err) || fl_restart_current(&in->saved, err) ||
-                       save_inputs(&in->saved, o, &in->scene, &in->field, &in->feed, &in->surface, err) ||
-                       save_history(&in->saved, &in->history, &in->by, err)
+                       save_read_inputs(&in->saved, o, &in->scene, &in->field, &in->feed, &in->surface,
+                                        err) ||
+                       save_read_history(&in->saved, &in->history, &in->by, err)
                    ? -1
                    : 0;
     if (read_scene(&in->scene, o, err)) return -1;
     if (o->echo) return 0;
-    if (files_there(&in->scene, err)) return -1;
+    if (check_files(&in->scene, err)) return -1;
     if (fl_ice_field_read(&in->field, in->scene.ice.file, err)) return -1;
     if (in->scene.boundary.inflow == FL_INFLOW_FILE &&
         fl_ice_field_read(&in->feed, in->scene.boundary.inflow_file, err))
@@ -152,25 +156,26 @@ static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
     return join_history(&in->history, in->field.history, in->surface.history, err);
 }
 
-/* The texts that checkpoints carry on: those of the checkpoint resumed from, or the inputs just read. */
-static int keep_texts(struct inputs *in, const fl_surface *surface, fl_err *err)
+/* The input texts for checkpoints: those of the checkpoint that is resumed, or the inputs just read. */
+static int make_input_texts(struct inputs *in, const fl_surface *surface, fl_err *err)
 {
-    static const char *const NAME[KEPT] = {"ice", "structure", "inflow"};
+    static const char *const NAME[INPUT_TEXTS] = {"ice", "structure", "inflow"};
     if (!in->scene.output.checkpoint[0]) return 0;
     if (!in->saved.data) {
-        const int rc = save_keep(in->kept, &in->field, surface, &in->feed, &in->by, err);
-        for (int k = 0; k < KEPT; k++) memcpy(&in->text[k], &in->kept[k].text, sizeof in->text[k]);
+        const int rc = save_inputs_as_text(in->input_text, &in->field, surface, &in->feed, &in->by, err);
+        for (int k = 0; k < INPUT_TEXTS; k++)
+            memcpy(&in->text[k], &in->input_text[k].text, sizeof in->text[k]);
         return rc;
     }
-    for (int k = 0; k < KEPT; k++) {
+    for (int k = 0; k < INPUT_TEXTS; k++) {
         const fl_restart_part *part = fl_restart_find(&in->saved, NAME[k]);
-        if (part) in->kept[k] = *part;
+        if (part) in->input_text[k] = *part;
     }
     return 0;
 }
 
-/* Bring a field into the order of its places; where the k-th body has gone into *at, NULL: nobody asks. */
-static int order(fl_ice_field *field, int32_t **at, fl_err *err)
+/* Sort a field along its Hilbert curve; *at: new index of the k-th body, NULL: not needed. */
+static int sort_field(fl_ice_field *field, int32_t **at, fl_err *err)
 {
     int32_t *to = fl_alloc(field->n, sizeof *to, err);
     const int bad = !to || fl_ice_field_order(field, to, err);
@@ -179,8 +184,8 @@ static int order(fl_ice_field *field, int32_t **at, fl_err *err)
     return bad ? -1 : 0;
 }
 
-/* The tables tell the bodies of the ice file first, in its order, then who has come in. */
-static int places(int32_t **at, int32_t n, int32_t all, fl_err *err)
+/* Extend the order of the tables: the bodies of the ice file in its order, then those that come in. */
+static int extend_order(int32_t **at, int32_t n, int32_t all, fl_err *err)
 {
     int32_t cap = n;
     if (fl_grow(at, &cap, all, sizeof **at, err)) return -1;
@@ -188,15 +193,16 @@ static int places(int32_t **at, int32_t n, int32_t all, fl_err *err)
     return 0;
 }
 
-/* A signal is answered by a checkpoint; when a reader has gone the last one stays. */
-static void tell_stop(const struct run *r)
+/* After a signal there is a checkpoint; after SIGPIPE the last one, if any. */
+static void print_stop(const struct run *r)
 {
     const char *checkpoint = r->scene->output.checkpoint;
-    const int gone = r->stopped == SIGPIPE, on = checkpoint[0] && (!gone || r->saves || r->saved);
-    fprintf(stderr, "dem-solve: stopped %s in step %lld (t = %g s)%s%s%s\n",
-            gone ? "when a reader of its output had gone," : "by a signal", (long long)r->w->step,
-            fl_world_time(r->w), on ? ", dem-solve --resume " : "", on ? checkpoint : "",
-            on ? " goes on" : "");
+    const int pipe = r->stopped == SIGPIPE,
+              has_checkpoint = checkpoint[0] && (!pipe || r->saves || r->resumed);
+    fprintf(stderr, "dem-solve: stopped %s in step %lld (t = %g s)%s%s\n",
+            pipe ? "because the reader of its output ended," : "by a signal", (long long)r->w->step,
+            fl_world_time(r->w), has_checkpoint ? "; continue with dem-solve --resume " : "",
+            has_checkpoint ? checkpoint : "");
 }
 
 static int run(const struct options *o, int *stopped, fl_err *err)
@@ -205,7 +211,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     fl_world world = {0};
     fl_error_budget budget = {0};
     char path[FL_SCENE_PATH];
-    int32_t *at = NULL;
+    int32_t *order = NULL;
     int rc = -1;
     if (o->explain) return fl_scene_explain(stdout, o->explain, err);
     if (read_inputs(&in, o, err)) goto done;
@@ -216,28 +222,28 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     }
     const fl_surface *surface = in.surface.n ? &in.surface : NULL;
     if (in.field.n == 0) {
-        fl_fail(err, FL_INPUT, "%s: no body in it, a field of ice is expected", in.scene.ice.file);
+        fl_fail(err, FL_INPUT, "%s: the file has no body; an ice field expected", in.scene.ice.file);
         goto done;
     }
-    const int fed = in.scene.boundary.inflow != FL_INFLOW_NONE;
-    if (keep_texts(&in, surface, err) || order(&in.field, &at, err) ||
-        (in.feed.n && order(&in.feed, NULL, err)) ||
+    const int has_inflow = in.scene.boundary.inflow != FL_INFLOW_NONE;
+    if (make_input_texts(&in, surface, err) || sort_field(&in.field, &order, err) ||
+        (in.feed.n && sort_field(&in.feed, NULL, err)) ||
         fl_world_make_with_inflow(&world, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface,
                                   err) ||
-        (!o->resume && fl_world_check_walls(&world, err)) || places(&at, in.field.n, world.n, err) ||
+        (!o->resume && fl_world_check_walls(&world, err)) || extend_order(&order, in.field.n, world.n, err) ||
         (in.scene.run.error > 0.0 &&
          fl_error_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err)))
         goto done;
-    if (!fed) fl_ice_field_free(&in.field);
+    if (!has_inflow) fl_ice_field_free(&in.field);
     struct run r = {.o = o,
                     .scene = &in.scene,
-                    .at = at,
+                    .order = order,
                     .surface = surface,
                     .history = in.history,
                     .by = &in.by,
-                    .saved = o->resume ? &in.saved : NULL,
-                    .kept = in.kept,
-                    .out = o->out ? o->out : "-",
+                    .resumed = o->resume ? &in.saved : NULL,
+                    .input_text = in.input_text,
+                    .loads_path = o->out ? o->out : "-",
                     .gzip = o->gzip,
                     .w = &world,
                     .budget = in.scene.run.error > 0.0 ? &budget : NULL};
@@ -246,18 +252,18 @@ static int run(const struct options *o, int *stopped, fl_err *err)
         snprintf(path, sizeof path, "%.*s",
                  loads ? (int)(loads->n < FL_SCENE_PATH ? loads->n : FL_SCENE_PATH) : 1,
                  loads ? loads->text : "-");
-        r.out = path;
+        r.loads_path = path;
     }
-    if (targets_check(&in.scene, o, r.out, err)) goto done;
-    run_step_size(&r);
-    if (run_countable(&r, err)) goto done;
-    if (!o->quiet && world.bonds.n) report_bonds(&world, stderr);
-    rc = act(&r, err);
+    if (targets_check(&in.scene, o, r.loads_path, err)) goto done;
+    choose_step(&r);
+    if (check_step_count(&r, err)) goto done;
+    if (!o->quiet && world.bonds.n) note_long_bonds(&world, stderr);
+    rc = run_or_print(&r, err);
     *stopped = r.stopped;
-    if (r.stopped && !o->quiet) tell_stop(&r);
+    if (r.stopped && !o->quiet) print_stop(&r);
 done:
-    free(at);
-    for (int k = 0; k < KEPT; k++) free(in.text[k]);
+    free(order);
+    for (int k = 0; k < INPUT_TEXTS; k++) free(in.text[k]);
     free(in.history);
     fl_restart_free(&in.saved);
     fl_world_free(&world);
@@ -278,11 +284,11 @@ int main(int argc, char **argv)
     fl_parallel_limit_spin(argv);
     int rc = options_parse(&o, argc, argv, &err);
     if (rc == 0 && !o.ended) rc = run(&o, &stopped, &err);
-    if (rc == 0 && stopped == SIGPIPE) { /* quietly, as what stands in a pipe does */
+    if (rc == 0 && stopped == SIGPIPE) { /* end silently, as programs in a pipe do */
         signal(SIGPIPE, SIG_DFL);
         raise(SIGPIPE);
     }
     rc = fl_tool_end("dem-solve", rc, &err);
-    if (rc == 0 && stopped) raise(stopped); /* whoever sent it sees that it was heeded */
+    if (rc == 0 && stopped) raise(stopped); /* so that the sender sees it */
     return rc;
 }

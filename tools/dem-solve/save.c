@@ -1,43 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "save.h"
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
 #include "base/number_text.h"
+#include "clocks.h"
 #include "mesh/gstruct.h"
-#include "save.h"
 #include "scene/scene_check.h"
-#include "scene/scene_read.h"
 #include "scene/scene_print.h"
+#include "scene/scene_read.h"
 #include "sim/critical_step.h"
 #include "sim/snapshot.h"
 #include "sim/step.h"
+#include "step_choice.h"
 #include "world/access.h"
 
-static const char *const TABLE[TABLES] = {"loads",  "state",  "energy", "contacts", "hash",
-                                          "frames", "panels", "events", "bonds"};
-
-/* Keys that may be changed under way: none of them bears on a step or a row, but for the first two, which
- * give the run another step from here on. */
+/* Keys that a resumed run may change, besides the paths of its tables.  The first two give it another step
+ * from then on; the others change no step and no row. */
 enum { STEP_KEYS = 2 };
-static const char *const FREE_KEY[] = {"run.dt",
-                                       "run.safety",
-                                       "run.duration",
-                                       "run.threads",
-                                       "output.state",
-                                       "output.energy",
-                                       "output.contacts",
-                                       "output.hash",
-                                       "output.panels",
-                                       "output.events",
-                                       "output.bonds",
-                                       "output.frames",
-                                       "output.checkpoint",
-                                       "output.checkpoint_every"};
+static const char *const FREE_KEY[] = {"run.dt",      "run.safety",        "run.duration",
+                                       "run.threads", "output.checkpoint", "output.checkpoint_every"};
 
 /* --- write ------------------------------------------------------------------------------------- */
 
-static int text_end(FILE *f, fl_restart_part *part, const size_t *n, fl_err *err)
+static int close_text(FILE *f, fl_restart_part *part, const size_t *n, fl_err *err)
 {
     const int bad = ferror(f);
     if (fclose(f) || bad) return fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
@@ -45,63 +32,65 @@ static int text_end(FILE *f, fl_restart_part *part, const size_t *n, fl_err *err
     return 0;
 }
 
-int save_keep(fl_restart_part kept[KEPT], const fl_ice_field *field, const fl_surface *surface,
-              const fl_ice_field *feed, const fl_history_line *by, fl_err *err)
+int save_inputs_as_text(fl_restart_part input[INPUT_TEXTS], const fl_ice_field *field,
+                        const fl_surface *surface, const fl_ice_field *feed, const fl_history_line *by,
+                        fl_err *err)
 {
-    static const char *const NAME[KEPT] = {"ice", "structure", "inflow"};
-    const int there[KEPT] = {1, surface != NULL, feed->n > 0};
-    for (int k = 0; k < KEPT; k++) {
+    static const char *const NAME[INPUT_TEXTS] = {"ice", "structure", "inflow"};
+    const int present[INPUT_TEXTS] = {1, surface != NULL, feed->n > 0};
+    for (int k = 0; k < INPUT_TEXTS; k++) {
         char *text = NULL;
         size_t n = 0;
-        kept[k] = (fl_restart_part){.name = ""};
-        if (!there[k]) continue;
-        snprintf(kept[k].name, sizeof kept[k].name, "%s", NAME[k]);
+        input[k] = (fl_restart_part){.name = ""};
+        if (!present[k]) continue;
+        snprintf(input[k].name, sizeof input[k].name, "%s", NAME[k]);
         FILE *f = open_memstream(&text, &n);
         if (!f) return fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
         if (k == 1) fl_gstruct_write(f, surface, by);
         else fl_ice_field_write(f, k ? feed : field, by);
-        const int bad = text_end(f, &kept[k], &n, err);
-        kept[k].text = text;
+        const int bad = close_text(f, &input[k], &n, err);
+        input[k].text = text;
         if (bad) return -1;
     }
     return 0;
 }
 
-/* Where the run is in its tables. */
-static void write_place(FILE *f, const struct run *r, const struct outputs *u, const fl_file_mark *mark)
+/* Positions in the tables: next rows, and the end of each file. */
+static void write_positions(FILE *f, const struct run *r, const struct outputs *u, const fl_file_mark *mark)
 {
     char num[FL_NUMBER_LEN];
     fprintf(f, "rows");
-    for (int k = 0; k < TIMERS; k++) fprintf(f, " %" PRId64, u->at[k].k);
+    for (int k = 0; k < TIMERS; k++) fprintf(f, " %" PRId64, u->timer[k].k);
     fprintf(f, " %s %" PRId32 "\n", fl_number_text(u->last_row, num), u->frame_file);
     for (int k = 0; k < TABLES; k++)
         if (u->table[k].f)
-            fprintf(f, "table %s %" PRId64 " %" PRIu64 " %d\n", TABLE[k], mark[k].offset, mark[k].tail_hash,
-                    k == AT_LOADS && r->gzip);
+            fprintf(f, "table %s %" PRId64 " %" PRIu64 " %d\n", table_name(k), mark[k].offset,
+                    mark[k].tail_hash, k == TABLE_LOADS && r->gzip);
 }
 
 int save_write(struct run *r, struct outputs *u, fl_err *err)
 {
-    enum { SCENE, ICE, STRUCTURE, INFLOW, PLACE, LOADS, STATE, BUDGET, BESIDE, PARTS };
-    fl_restart_part part[PARTS] = {[SCENE] = {.name = "scene"},
-                                   [ICE] = r->kept[0],
-                                   [STRUCTURE] = r->kept[1],
-                                   [INFLOW] = r->kept[2],
-                                   [PLACE] = {.name = "tables"},
-                                   [LOADS] = {.name = "loads", .text = r->out, .n = (int64_t)strlen(r->out)},
-                                   [STATE] = {.name = "state"},
-                                   [BUDGET] = {.name = "budget"},
-                                   [BESIDE] = {.name = "beside"}};
+    enum { SCENE, ICE, STRUCTURE, INFLOW, POSITIONS, LOADS, STATE, BUDGET, COMPANION, PARTS };
+    fl_restart_part part[PARTS] = {
+        [SCENE] = {.name = "scene"},
+        [ICE] = r->input_text[0],
+        [STRUCTURE] = r->input_text[1],
+        [INFLOW] = r->input_text[2],
+        [POSITIONS] = {.name = "tables"},
+        [LOADS] = {.name = "loads", .text = r->loads_path, .n = (int64_t)strlen(r->loads_path)},
+        [STATE] = {.name = "state"},
+        [BUDGET] = {.name = "budget"},
+        [COMPANION] = {.name = "beside"}};
     fl_file_mark mark[TABLES];
     char *text[PARTS] = {0}, *history = NULL;
     size_t n[PARTS] = {0};
-    const double begun = run_clock();
-    fl_scene scene = *r->scene; /* to be written; nothing in it is changed but this */
+    const double begun = wall_clock();
+    fl_scene scene = *r->scene; /* a copy for writing, without the number of threads */
     int rc = -1;
-    const int beside = r->budget && fl_companion_is_active(&r->budget->companion);
+    const int companion = r->budget && fl_companion_is_active(&r->budget->companion);
     if (!r->budget) part[BUDGET].name[0] = '\0';
-    if (!beside) part[BESIDE].name[0] = '\0';
-    scene.run.threads = 0; /* they belong to the machine, and would be the only bytes that tell */
+    if (!companion) part[COMPANION].name[0] = '\0';
+    scene.run.threads = 0; /* the only byte that would depend on the machine */
     for (int k = 0; k < TABLES; k++)
         if (u->table[k].f && fl_out_mark(&u->table[k], &mark[k], err)) return -1;
     for (int k = 0; k < PARTS; k++) {
@@ -112,64 +101,76 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
             goto done;
         }
         if (k == SCENE) fl_scene_write(f, &scene);
-        if (k == PLACE) write_place(f, r, u, mark);
+        if (k == POSITIONS) write_positions(f, r, u, mark);
         if (k == STATE) fl_snapshot_write(f, r->w);
         if (k == BUDGET) fl_error_budget_write(f, r->budget);
-        if (k == BESIDE) fl_snapshot_write(f, &r->budget->companion.world);
-        if (text_end(f, &part[k], &n[k], err)) goto done;
+        if (k == COMPANION) fl_snapshot_write(f, &r->budget->companion.world);
+        if (close_text(f, &part[k], &n[k], err)) goto done;
         part[k].text = text[k];
     }
-    const size_t own = strlen(r->by->text), before = r->history ? strlen(r->history) : 0;
-    history = fl_alloc((int64_t)(before + own) + 2, 1, err);
+    const size_t own_line = strlen(r->by->text), before = r->history ? strlen(r->history) : 0;
+    history = fl_alloc((int64_t)(before + own_line) + 2, 1, err);
     if (!history) goto done;
     if (before) memcpy(history, r->history, before);
-    memcpy(history + before, r->by->text, own);
-    history[before + own] = '\n';
-    int there = 0; /* a scene may be without some */
+    memcpy(history + before, r->by->text, own_line);
+    history[before + own_line] = '\n';
+    int present = 0; /* some may be absent */
     for (int k = 0; k < PARTS; k++)
-        if (part[k].name[0]) part[there++] = part[k];
-    rc = fl_restart_write(r->scene->output.checkpoint, history, part, there, err);
+        if (part[k].name[0]) part[present++] = part[k];
+    rc = fl_restart_write(r->scene->output.checkpoint, history, part, present, err);
 done:
     for (int k = 0; k < PARTS; k++) free(text[k]);
     free(history);
     r->saves++;
-    r->saved_at = r->w->step;
-    r->save_wall += run_clock() - begun;
+    r->saved_step = r->w->step;
+    r->save_wall += wall_clock() - begun;
     return rc;
 }
 
 /* --- read -------------------------------------------------------------------------------------- */
 
-/* Is the key of an assignment FREE_KEY[k]? */
-static int sets_key(const char *set, int k)
+/* 1 if an assignment sets that key. */
+static int sets_key(const char *set, const char *key)
 {
     const size_t len = strcspn(set, "= ");
-    return strlen(FREE_KEY[k]) == len && strncmp(FREE_KEY[k], set, len) == 0;
+    return strlen(key) == len && strncmp(key, set, len) == 0;
 }
 
-static int change(fl_scene *scene, const char *set, fl_err *err)
+/* 1 if an assignment sets the path of a table. */
+static int sets_table_path(const char *set)
+{
+    char key[32];
+    for (int k = 0; k < TABLES; k++) {
+        snprintf(key, sizeof key, "output.%s", table_name(k));
+        if (k != TABLE_LOADS && sets_key(set, key)) return 1;
+    }
+    return 0;
+}
+
+static int change_key(fl_scene *scene, const char *set, fl_err *err)
 {
     const int keys = (int)(sizeof FREE_KEY / sizeof *FREE_KEY);
-    for (int k = 0; k < keys; k++)
-        if (sets_key(set, k)) return fl_scene_set(scene, set, err);
+    int may = sets_table_path(set);
+    for (int k = 0; k < keys; k++) may |= sets_key(set, FREE_KEY[k]);
+    if (may) return fl_scene_set(scene, set, err);
     return fl_fail(err, FL_USAGE,
-                   "--set: \"%.60s\" would make another run of the one that is resumed; run.duration, "
+                   "--set: \"%.60s\" would change the run that is resumed; run.duration, "
                    "run.threads, run.dt, run.safety and files of output may be changed",
                    set);
 }
 
-int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scene, fl_ice_field *field,
-                fl_ice_field *feed, fl_surface *surface, fl_err *err)
+int save_read_inputs(const fl_restart *saved, const struct options *o, fl_scene *scene, fl_ice_field *field,
+                     fl_ice_field *feed, fl_surface *surface, fl_err *err)
 {
     fl_text text = {0};
     if (fl_restart_open(saved, "scene", &text, err) || fl_scene_read_text(scene, &text, err)) return -1;
     const double duration = scene->run.duration;
     for (int k = 0; k < o->sets; k++)
-        if (change(scene, o->set[k], err)) return -1;
+        if (change_key(scene, o->set[k], err)) return -1;
     if (o->threads) scene->run.threads = o->threads;
     if (fl_scene_check(scene, err)) return -1;
     if (scene->output.until == duration)
-        scene->output.until = scene->run.duration; /* it followed then, too */
+        scene->output.until = scene->run.duration; /* its default is the duration */
     if (fl_restart_open(saved, "ice", &text, err) || fl_ice_field_read_text(field, &text, err)) return -1;
     if (fl_restart_find(saved, "inflow") &&
         (fl_restart_open(saved, "inflow", &text, err) || fl_ice_field_read_text(feed, &text, err)))
@@ -179,47 +180,42 @@ int save_inputs(const fl_restart *saved, const struct options *o, fl_scene *scen
                                                                                                         : 0;
 }
 
-int save_history(const fl_restart *saved, char **history, fl_history_line *by, fl_err *err)
+int save_read_history(const fl_restart *saved, char **history, fl_history_line *by, fl_err *err)
 {
-    const char *all = saved->history, *own = NULL;
-    for (const char *p = all; *p; p = strchr(p, '\n') + 1) own = p;
-    if (!own || strlen(own) > FL_HISTORY_LINE_MAX)
+    const char *all = saved->history, *own_line = NULL;
+    for (const char *p = all; *p; p = strchr(p, '\n') + 1) own_line = p;
+    if (!own_line || strlen(own_line) > FL_HISTORY_LINE_MAX)
         return fl_fail(err, FL_INPUT, "%s: the checkpoint has no history of its run", saved->path);
-    by->len = (int)strlen(own) - 1;
-    memcpy(by->text, own, (size_t)by->len);
+    by->len = (int)strlen(own_line) - 1;
+    memcpy(by->text, own_line, (size_t)by->len);
     by->text[by->len] = '\0';
-    *history = fl_alloc(own - all + 1, 1, err);
+    *history = fl_alloc(own_line - all + 1, 1, err);
     if (!*history) return -1;
-    memcpy(*history, all, (size_t)(own - all));
+    memcpy(*history, all, (size_t)(own_line - all));
     return 0;
 }
 
-static int word_i64(fl_text *in, int64_t *x, fl_err *err)
+static int read_count(fl_text *in, int64_t *x, fl_err *err)
 {
     const char *word = "";
     char *end;
     if (fl_text_word(in, "count", &word, err)) return -1;
     const long long n = strtoll(word, &end, 10);
     if (end == word || *end || n < -1 || n > INT64_C(1) << 53)
-        return fl_text_fail(in, err, "\"%.40s\" found, a count is expected", word);
+        return fl_text_fail(in, err, "\"%.40s\" found, a count expected", word);
     *x = n;
     return 0;
 }
 
-static int read_rows(fl_text *in, struct run *r, struct outputs *u, fl_err *err)
+static int read_next_rows(fl_text *in, struct run *r, struct outputs *u, fl_err *err)
 {
-    const fl_scene_output *s = &r->scene->output;
-    const double every[TIMERS] = {s->loads_every, s->state_every,  s->energy_every,    s->contacts_every,
-                                  s->hash_every,  s->frames_every, s->loads_every,     s->loads_every,
-                                  s->bonds_every, s->ice_every,    s->checkpoint_every};
     int64_t k;
     for (int c = 0; c < TIMERS; c++) {
-        if (word_i64(in, &k, err)) return -1;
-        u->at[c].every = every[c];
-        run_timer(&u->at[c], k, r->w);
+        if (read_count(in, &k, err)) return -1;
+        set_timer(r, u, c, k);
     }
-    /* the next checkpoint comes after this one, also when its interval has been changed */
-    while (u->at[AT_SAVE].due <= r->w->step) run_timer(&u->at[AT_SAVE], u->at[AT_SAVE].k + 1, r->w);
+    /* the next checkpoint is after this one, also if its interval has changed */
+    while (u->timer[TIMER_SAVE].due <= r->w->step) set_timer(r, u, TIMER_SAVE, u->timer[TIMER_SAVE].k + 1);
     return fl_text_f64(in, "time of the last row", &u->last_row, err) ||
                    fl_text_i32(in, "file of the frames", 0, INT32_MAX, &u->frame_file, err) ||
                    fl_text_no_more(in, err)
@@ -227,67 +223,59 @@ static int read_rows(fl_text *in, struct run *r, struct outputs *u, fl_err *err)
                : 0;
 }
 
-static int read_table(fl_text *in, fl_file_mark mark[TABLES], int had[TABLES], struct run *r, fl_err *err)
+static int read_position(fl_text *in, fl_file_mark mark[TABLES], int written[TABLES], struct run *r,
+                         fl_err *err)
 {
     const char *name = "", *tail = "";
     fl_file_mark m = {0};
     int32_t gzip = 0;
-    if (fl_text_word(in, "table", &name, err) || word_i64(in, &m.offset, err) ||
+    if (fl_text_word(in, "table", &name, err) || read_count(in, &m.offset, err) ||
         fl_text_word(in, "hash", &tail, err) || fl_text_i32(in, "gzip", 0, 1, &gzip, err) ||
         fl_text_no_more(in, err))
         return -1;
     if (fl_number_u64(tail, &m.tail_hash))
-        return fl_text_fail(in, err, "\"%.40s\" found, a hash is expected", tail);
+        return fl_text_fail(in, err, "\"%.40s\" found, a hash expected", tail);
     for (int k = 0; k < TABLES; k++) {
-        if (strcmp(name, TABLE[k]) != 0) continue;
+        if (strcmp(name, table_name(k)) != 0) continue;
         mark[k] = m;
-        had[k] = 1;
-        if (k == AT_LOADS) r->gzip = gzip;
+        written[k] = 1;
+        if (k == TABLE_LOADS) r->gzip = gzip;
         return 0;
     }
     return fl_text_fail(in, err, "unknown table \"%.40s\"", name);
 }
 
-static int read_place(struct run *r, struct outputs *u, fl_file_mark mark[TABLES], int had[TABLES],
-                      fl_err *err)
+static int read_positions(struct run *r, struct outputs *u, fl_file_mark mark[TABLES], int written[TABLES],
+                          fl_err *err)
 {
     fl_text in = {0};
     const char *word = "";
     int more, rows = 0;
-    if (fl_restart_open(r->saved, "tables", &in, err)) return -1;
+    if (fl_restart_open(r->resumed, "tables", &in, err)) return -1;
     while ((more = fl_text_row(&in, err)) > 0) {
         if (fl_text_word(&in, "row", &word, err)) break;
         const int first = strcmp(word, "rows") == 0;
         if (!first && strcmp(word, "table") != 0) fl_text_fail(&in, err, "unknown row \"%.40s\"", word);
-        else if (first ? read_rows(&in, r, u, err) : read_table(&in, mark, had, r, err)) break;
+        else if (first ? read_next_rows(&in, r, u, err) : read_position(&in, mark, written, r, err)) break;
         if (err->code) break;
         rows += first;
     }
-    if (!err->code && (rows != 1 || !had[AT_LOADS]))
-        fl_fail(err, FL_INPUT, "%s: the checkpoint does not tell where its tables are", r->saved->path);
+    if (!err->code && (rows != 1 || !written[TABLE_LOADS]))
+        fl_fail(err, FL_INPUT, "%s: the checkpoint has no positions of its tables", r->resumed->path);
     fl_text_close(&in);
     return err->code ? -1 : 0;
 }
 
-static void table_path(const struct run *r, const struct outputs *u, int k, char path[FL_SCENE_PATH + 16])
-{
-    const fl_scene_output *s = &r->scene->output;
-    const char *const name[TABLES] = {r->out, s->state,  s->energy, s->contacts, s->hash,
-                                      "",     s->panels, s->events, s->bonds};
-    if (k == AT_FRAMES) run_frames_path(r, u, path);
-    else snprintf(path, FL_SCENE_PATH + 16, "%s", name[k]);
-}
-
-/* Another step from here on, where the command line asks for one: rows then come at the first step at or
- * after their times.  Looks at waves are as many steps apart as before. */
+/* Change the step from now on if the command line does: rows are due at the first step at or after their
+ * times. water.every stays the same number of steps. */
 static int change_step(struct run *r, double dt, fl_err *err)
 {
-    int asked = 0;
+    int requested = 0;
     for (int k = 0; k < r->o->sets; k++)
-        for (int c = 0; c < STEP_KEYS; c++) asked |= sets_key(r->o->set[k], c);
-    if (!asked || dt == r->w->dt) return 0;
+        for (int c = 0; c < STEP_KEYS; c++) requested |= sets_key(r->o->set[k], FREE_KEY[c]);
+    if (!requested || dt == r->w->dt) return 0;
     if (!r->o->quiet)
-        fprintf(stderr, "dem-solve: note: from t = %.9g s on with steps of %.4g s instead of %.4g s\n",
+        fprintf(stderr, "dem-solve: note: from t = %.9g s on steps are %.4g s instead of %.4g s\n",
                 fl_world_time(r->w), dt, r->w->dt);
     fl_step_set_size(r->w, dt, fl_world_time(r->w));
     return fl_check_wave_sampling(r->w, err);
@@ -298,48 +286,49 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
     char path[FL_SCENE_PATH + 16];
     fl_file_mark mark[TABLES];
     fl_text in = {0};
-    int had[TABLES] = {0}, fresh[TABLES] = {0};
-    const double dt = r->w->dt; /* as the scene asks for */
-    if (fl_restart_open(r->saved, "state", &in, err)) return -1;
+    int written[TABLES] = {0}, is_new[TABLES] = {0};
+    const double dt = r->w->dt; /* that of the scene */
+    if (fl_restart_open(r->resumed, "state", &in, err)) return -1;
     fl_snapshot_read(r->w, &in, err);
     fl_text_close(&in);
     if (!err->code) change_step(r, dt, err);
-    if (!err->code && r->budget && fl_restart_open(r->saved, "budget", &in, err) == 0) {
+    if (!err->code && r->budget && fl_restart_open(r->resumed, "budget", &in, err) == 0) {
         fl_error_budget_read(r->budget, &in, err);
         fl_text_close(&in);
     }
     if (!err->code && r->budget && fl_companion_is_active(&r->budget->companion) &&
-        fl_restart_open(r->saved, "beside", &in, err) == 0) {
+        fl_restart_open(r->resumed, "beside", &in, err) == 0) {
         fl_snapshot_read(&r->budget->companion.world, &in, err);
         fl_text_close(&in);
     }
-    if (err->code || read_place(r, u, mark, had, err)) return -1;
-    run_steps(r);
-    r->begun = r->w->step;
-    r->begun_time = fl_world_time(r->w);
-    r->begun_touching = r->w->contact_steps;
+    if (err->code || read_positions(r, u, mark, written, err)) return -1;
+    count_steps(r);
+    r->first_step = r->w->step;
+    r->first_time = fl_world_time(r->w);
+    r->first_contact_steps = r->w->contact_steps;
     if (r->steps < r->w->step)
         return fl_fail(err, FL_USAGE,
-                       "run.duration is %g s, and the checkpoint is of t = %g s: a later end is expected",
+                       "run.duration is %g s, and the checkpoint is of t = %g s: a later end expected",
                        r->scene->run.duration, fl_world_time(r->w));
-    for (int k = 0; k < TABLES; k++) { /* all of them are there, before one is touched */
+    for (int k = 0; k < TABLES; k++) { /* check all before one is changed */
         table_path(r, u, k, path);
-        if (path[0] && !had[k])
+        if (path[0] && !written[k])
             return fl_fail(err, FL_USAGE,
-                           "%s: the run to resume does not write output.%s, and it cannot begin now", path,
-                           TABLE[k]);
-        if (!path[0] && had[k])
+                           "%s: the run to resume does not write output.%s, which cannot begin now", path,
+                           table_name(k));
+        if (!path[0] && written[k])
             return fl_fail(err, FL_USAGE,
-                           "the run to resume writes output.%s, and it cannot end now: a file is expected",
-                           TABLE[k]);
+                           "the run to resume writes output.%s, which cannot end now: a file expected",
+                           table_name(k));
         if (path[0] && fl_out_check_mark(path, &mark[k], err)) return -1;
     }
     for (int k = 0; k < TABLES; k++) {
         table_path(r, u, k, path);
         if (!path[0]) continue;
-        if (fl_out_resume(&u->table[k], path, k == AT_LOADS && r->gzip, &mark[k], &fresh[k], err)) return -1;
+        if (fl_out_resume(&u->table[k], path, k == TABLE_LOADS && r->gzip, &mark[k], &is_new[k], err))
+            return -1;
     }
     for (int k = 0; k < TABLES; k++)
-        if (fresh[k]) run_header(r, u, k);
+        if (is_new[k]) write_header(r, u, k);
     return 0;
 }

@@ -4,17 +4,18 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/output_guard.h"
+#include "outputs.h"
 #include "base/array.h"
 #include "base/number_text.h"
 
-/* An input, or NULL for the checkpoint that is gone on from, where that is to be renewed. */
-static const char *kept(const char *input, const fl_scene *s, const struct options *o)
+/* The input, or NULL if it is the checkpoint that is resumed and will be replaced. */
+static const char *input_path(const char *input, const fl_scene *s, const struct options *o)
 {
     const int renewed = o->resume && fl_same_file(o->resume, s->output.checkpoint);
     return renewed && fl_same_file(o->resume, input) ? NULL : input;
 }
 
-/* Whether path is one of the files over which the frames are split, NAME.0 and up. */
+/* 1 if path is one of the files of the frames, NAME.0 and up. */
 static int is_frame(const fl_scene *s, const char *path)
 {
     char stem[FL_SCENE_PATH];
@@ -44,17 +45,15 @@ static int check_frames(const fl_scene *s, const fl_named_path *out, size_t outs
 int targets_check(const fl_scene *s, const struct options *o, const char *loads, fl_err *err)
 {
     const int split = s->output.files > 1 && s->output.frames[0];
-    const fl_named_path out[] = {{"--output", loads},
-                                 {"--report", o->report},
-                                 {"output.frames", split ? NULL : s->output.frames},
-                                 {"output.state", s->output.state},
-                                 {"output.energy", s->output.energy},
-                                 {"output.contacts", s->output.contacts},
-                                 {"output.hash", s->output.hash},
-                                 {"output.panels", s->output.panels},
-                                 {"output.events", s->output.events},
-                                 {"output.bonds", s->output.bonds},
-                                 {"output.checkpoint", s->output.checkpoint}};
+    char key[TABLES][32];
+    fl_named_path out[TABLES + 2] = {{"--output", loads}, {"--report", o->report}};
+    size_t outs = 2;
+    for (int k = 0; k < TABLES; k++) {
+        if (k == TABLE_LOADS) continue;
+        snprintf(key[k], sizeof key[k], "output.%s", table_name(k));
+        out[outs++] = (fl_named_path){key[k], k == TABLE_FRAMES && split ? NULL : scene_path(s, k)};
+    }
+    out[outs++] = (fl_named_path){"output.checkpoint", s->output.checkpoint};
     const char *const one[] = {o->resume,
                                o->scene,
                                s->ice.file,
@@ -66,10 +65,9 @@ int targets_check(const fl_scene *s, const struct options *o, const char *loads,
     size_t n = 0;
     fl_named_path *in = fl_alloc((int64_t)ones + s->n_part + s->n_file, sizeof *in, err);
     if (!in) return -1;
-    for (size_t k = 0; k < ones; k++) in[n++].path = kept(one[k], s, o);
+    for (size_t k = 0; k < ones; k++) in[n++].path = input_path(one[k], s, o);
     for (int32_t k = 0; k < s->n_part; k++) in[n++].path = s->part[k].motion.track;
-    for (int32_t k = 0; k < s->n_file; k++) in[n++].path = kept(s->file[k], s, o);
-    const size_t outs = sizeof out / sizeof *out;
+    for (int32_t k = 0; k < s->n_file; k++) in[n++].path = input_path(s->file[k], s, o);
     const int rc =
         fl_output_guard_check(out, outs, in, n, err) || (split && check_frames(s, out, outs, in, n, err)) ? -1
                                                                                                           : 0;

@@ -7,6 +7,7 @@
 #include "stat/signal_view.h"
 #include "stat/power_spectrum.h"
 #include "history_line.h"
+#include "table_list.h"
 
 static void add_number(fl_history_line *by, const char *option, double x)
 {
@@ -14,7 +15,7 @@ static void add_number(fl_history_line *by, const char *option, double x)
     fl_history_line_add(by, "--%s %s", option, fl_number_text(x, buf));
 }
 
-static void add_sn_line(fl_history_line *by, const fl_sn_curve *sn)
+static void add_sn_curve(fl_history_line *by, const fl_sn_curve *sn)
 {
     char m[FL_NUMBER_LEN], a[FL_NUMBER_LEN], m2[FL_NUMBER_LEN] = "inf", knee[FL_NUMBER_LEN];
     fl_number_text(sn->m, m);
@@ -28,8 +29,8 @@ static void add_sn_line(fl_history_line *by, const fl_sn_curve *sn)
     else fl_history_line_add(by, "--sn %s,%s", m, a);
 }
 
-/* What is read. */
-static void add_choice(const struct options *o, fl_history_line *by)
+/* The selection of signals and rows. */
+static void add_selection(const struct options *o, fl_history_line *by)
 {
     for (int32_t k = 0; k < o->signals; k++) fl_history_line_add(by, "--column %s", o->signal[k]);
     if (o->part) fl_history_line_add(by, "--part %s", o->part);
@@ -53,74 +54,75 @@ static void add_files(const struct options *o, fl_history_line *by)
         if (strcmp(o->file[k], "-") != 0) fl_history_line_word(by, "", o->file[k]);
 }
 
-/* Of contacts and panels. */
-static void add_places(const struct options *o, fl_history_line *by)
+/* Of tables of contacts and panels. */
+static void add_contact_options(const struct options *o, fl_history_line *by)
 {
-    if (o->page) fl_history_line_add(by, "--table %s", options_table(o->table));
-    if (o->table == TABLE_PRESSURE && o->areas_text) fl_history_line_add(by, "--areas %s", o->areas_text);
-    if (o->table != TABLE_PRESSURE && o->waterline)
+    if (o->report_page) fl_history_line_add(by, "--table %s", o->table->name);
+    if ((o->table->uses & USES_AREAS) && o->areas_text) fl_history_line_add(by, "--areas %s", o->areas_text);
+    if ((o->table->uses & USES_WATERLINE) && o->waterline)
         fl_history_line_add(by, "--waterline %s --bins %d", o->waterline, o->bins);
-    if (o->table == TABLE_MAP && o->heights_text) fl_history_line_add(by, "--heights %s", o->heights_text);
+    if ((o->table->uses & USES_HEIGHTS) && o->heights_text)
+        fl_history_line_add(by, "--heights %s", o->heights_text);
     add_files(o, by);
+}
+
+static void add_filter(const struct options *o, fl_history_line *by)
+{
+    if (!(o->filter > 0.0)) return;
+    char x[FL_NUMBER_LEN], y[FL_NUMBER_LEN];
+    fl_number_text(o->filter, x);
+    if (o->filter_kind == FL_FILTER_LOW) fl_history_line_add(by, "--filter %s", x);
+    else if (o->filter_kind == FL_FILTER_BAND)
+        fl_history_line_add(by, "--filter band:%s,%s", x, fl_number_text(o->upper, y));
+    else fl_history_line_add(by, "--filter %s:%s", fl_filter_name(o->filter_kind), x);
+    if (o->filter_kind != FL_FILTER_MEAN) fl_history_line_add(by, "--order %d", o->order);
+}
+
+/* Extreme-value analysis. */
+static void add_sample(const struct options *o, unsigned uses, fl_history_line *by)
+{
+    if (o->sample) fl_history_line_add(by, "--sample %s", sample_name(o->sample));
+    if (o->sample == SAMPLE_POT && o->gap > 0.0) add_number(by, "gap", o->gap);
+    if (o->block > 0.0) add_number(by, "block", o->block);
+    for (int32_t k = 0; (uses & USES_RETURNS) && k < o->returns; k++) add_number(by, "return", o->period[k]);
+    fl_history_line_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
 }
 
 void history_line_run(const struct options *o, fl_history_line *by)
 {
+    const unsigned own = o->table->uses, uses = own | (o->report_page ? table_report_uses() : 0u);
     fl_history_line_start(by, "loadstats");
-    add_choice(o, by);
+    add_selection(o, by);
     if (o->window > 0.0) add_number(by, "window", o->window);
     if (o->step > 0.0) add_number(by, "step", o->step);
-    if (o->filter > 0.0) {
-        char x[FL_NUMBER_LEN], y[FL_NUMBER_LEN];
-        fl_number_text(o->filter, x);
-        if (o->pass == FL_FILTER_LOW) fl_history_line_add(by, "--filter %s", x);
-        else if (o->pass == FL_FILTER_BAND)
-            fl_history_line_add(by, "--filter band:%s,%s", x, fl_number_text(o->upper, y));
-        else fl_history_line_add(by, "--filter %s:%s", fl_filter_name(o->pass), x);
-        if (o->pass != FL_FILTER_MEAN) fl_history_line_add(by, "--order %d", o->order);
-    }
-    const int placed = o->table == TABLE_PRESSURE || o->table == TABLE_LINE || o->table == TABLE_MAP;
-    if (placed) {
-        add_places(o, by);
+    add_filter(o, by);
+    if (o->table->source == FROM_CONTACTS) {
+        add_contact_options(o, by);
         return;
     }
     add_number(by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
-    if ((o->table == TABLE_HISTOGRAM && !options_many_runs(o)) || o->table == TABLE_RAINFLOW)
-        fl_history_line_add(by, "--bins %d", o->bins);
-    if ((o->table == TABLE_STATS || o->page) && o->quantiles_text)
+    if ((uses & USES_BINS) && !settings_many_runs(o)) fl_history_line_add(by, "--bins %d", o->bins);
+    if ((uses & USES_QUANTILES) && o->quantiles_text)
         fl_history_line_add(by, "--quantiles %s", o->quantiles_text);
-    if (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->page) {
-        if (o->sample) fl_history_line_add(by, "--sample %s", options_sample(o->sample));
-        if (o->sample == SAMPLE_POT && o->gap > 0.0) add_number(by, "gap", o->gap);
-        if (o->block > 0.0) add_number(by, "block", o->block);
-        for (int32_t k = 0; (o->table == TABLE_LEVELS || o->page) && k < o->returns; k++)
-            add_number(by, "return", o->period[k]);
-        fl_history_line_add(by, "--resamples %d --seed %d", o->resamples, o->seed);
-    }
-    if ((o->table == TABLE_LEGS || o->table == TABLE_EVENTS || o->page) && o->level != 0.5)
-        add_number(by, "level", o->level);
-    if (o->page && o->table != TABLE_STATS) fl_history_line_add(by, "--table %s", options_table(o->table));
-    const enum table t = o->table;
-    const int damage = t == TABLE_DAMAGE || o->page;
-    const int cycles = damage || t == TABLE_CYCLES || t == TABLE_RAINFLOW;
-    const int sway = t == TABLE_RESPONSE || t == TABLE_MOTION || o->page;
-    const int spectra = t == TABLE_SPECTRUM || t == TABLE_FREQUENCY || t == TABLE_RESPONSE || o->page;
-    if (cycles && o->rule && !o->merge) {
+    if (uses & USES_SAMPLE) add_sample(o, uses, by);
+    if ((uses & USES_LEVEL) && o->level != 0.5) add_number(by, "level", o->level);
+    if (o->report_page && o->table != table_default()) fl_history_line_add(by, "--table %s", o->table->name);
+    if ((uses & USES_RULE) && o->rule && !o->merge) {
         fl_history_line_add(by, "--rule %s", fl_rainflow_rule_name(o->rule));
         fl_history_line_add(by, "--residue %s", fl_residue_name(o->residue));
     }
-    for (int32_t k = 0; sway && k < o->sways; k++)
-        fl_history_line_add(by, "--oscillator %s", o->sway[k].text);
-    if (spectra && o->segment > 0.0) add_number(by, "segment", o->segment);
-    if (spectra && o->taper) fl_history_line_add(by, "--taper %s", fl_taper_name(o->taper));
-    if ((t == TABLE_FREQUENCY || o->page) && o->speed > 0.0 && !o->skips) add_number(by, "speed", o->speed);
-    for (int32_t k = 0; damage && k < o->sns; k++) add_sn_line(by, &o->sn[k]);
-    if (damage && o->stress != 1.0) add_number(by, "stress", o->stress);
+    for (int32_t k = 0; (uses & USES_OSCILLATOR) && k < o->oscillators; k++)
+        fl_history_line_add(by, "--oscillator %s", o->oscillator[k].text);
+    if ((uses & USES_SEGMENT) && o->segment > 0.0) add_number(by, "segment", o->segment);
+    if ((uses & USES_SEGMENT) && o->taper) fl_history_line_add(by, "--taper %s", fl_taper_name(o->taper));
+    if ((uses & USES_SPEED) && o->speed > 0.0 && !o->skips) add_number(by, "speed", o->speed);
+    for (int32_t k = 0; (uses & USES_SN) && k < o->sn_curves; k++) add_sn_curve(by, &o->sn[k]);
+    if ((uses & USES_SN) && o->stress != 1.0) add_number(by, "stress", o->stress);
     if (o->merge) fl_history_line_add(by, "--merge");
     if (o->stream) fl_history_line_add(by, "--stream");
     if (o->follow > 0.0) add_number(by, "follow", o->follow);
-    if (o->table == TABLE_ENSEMBLE && o->block > 0.0) add_number(by, "block", o->block);
+    if ((own & USES_BLOCK) && o->block > 0.0) add_number(by, "block", o->block);
     add_files(o, by);
 }
 
@@ -129,7 +131,7 @@ void history_line_summary(const struct options *o, char *text)
     fl_history_line by;
     fl_history_line_start(&by, "loadstats");
     fl_history_line_add(&by, "--summary");
-    add_choice(o, &by);
+    add_selection(o, &by);
     add_number(&by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(&by, "threshold", o->threshold);
     if (o->block > 0.0) add_number(&by, "block", o->block);

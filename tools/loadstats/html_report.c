@@ -8,20 +8,18 @@
 #include "base/array.h"
 #include "base/number_text.h"
 #include "base/stream.h"
-#include "stat/power_spectrum.h"
 #include "history_line.h"
 #include "html_report.h"
-#include "plot.h"
+#include "table_list.h"
 
 enum { PATH_LEN = 4096, DIR_LEN = 3000, WORD_MAX = 200, ROWS_MAX = 400 };
 
-/* Levels beyond this many record lengths rest on the law, not on the record. */
+/* Beyond this many record lengths a level is an extrapolation of the distribution. */
 static const double REACH = 4.0;
 
 static const char STYLE[] =
     "body { font: 15px/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 66rem; margin: 2.5rem auto; "
-    "padding: 0 "
-    "1.5rem; }\n"
+    "padding: 0 1.5rem; }\n"
     "h1 { font-size: 1.6rem; margin: 0 0 .3rem; }\n"
     "h2 { font-size: 1.15rem; margin: 2.4rem 0 .6rem; }\n"
     "p { max-width: 46rem; }\n"
@@ -37,7 +35,7 @@ static const char STYLE[] =
 
 /* --- text ----------------------------------------------------------------------------------------------- */
 
-static void put_text(FILE *f, const char *text)
+static void write_text(FILE *f, const char *text)
 {
     for (; *text; text++) {
         if (*text == '<') fputs("&lt;", f);
@@ -48,24 +46,24 @@ static void put_text(FILE *f, const char *text)
     }
 }
 
-static void put_cell(FILE *f, const char *word)
+static void write_html_cell(FILE *f, const char *word)
 {
     double x;
     if (fl_number_f64(word, &x) == 0) {
         fprintf(f, "<td>%.6g</td>", x);
     } else {
         fputs(strcmp(word, "-") == 0 ? "<td>" : "<td class=\"word\">", f);
-        put_text(f, word);
+        write_text(f, word);
         fputs("</td>", f);
     }
 }
 
 /* --- tables --------------------------------------------------------------------------------------------- */
 
-/* A table of ours in memory, cut into its rows and fields. */
+/* A table of loadstats in memory, split into rows. */
 typedef struct {
     char *text;
-    char **row; /* [rows] the first one is that of the names */
+    char **row; /* [rows] the first one holds the column names */
     int32_t rows, cap;
 } sheet;
 
@@ -76,13 +74,13 @@ static void sheet_free(sheet *s)
     *s = (sheet){0};
 }
 
-static int sheet_make(sheet *s, const report_source *from, const struct options *o, enum table table,
+static int sheet_make(sheet *s, const report_source *from, const struct options *o, const struct table *table,
                       fl_err *err)
 {
     struct options own = *o;
     size_t size = 0;
     own.table = table;
-    own.quiet = 1; /* what is to be said was said with the table itself */
+    own.quiet = 1; /* warnings were printed with the table itself */
     FILE *f = open_memstream(&s->text, &size);
     if (!f) return fl_fail(err, FL_SYSTEM, "out of memory");
     int rc = from->table(f, from->what, &own, err);
@@ -99,7 +97,7 @@ static int sheet_make(sheet *s, const report_source *from, const struct options 
     return rc;
 }
 
-/* The next field of a row; the tab behind it is kept. */
+/* Copy the next field of a row; returns the start of the field after it, or NULL. */
 static const char *next_word(const char *p, char word[WORD_MAX])
 {
     const size_t len = strcspn(p, "\t"), take = len < WORD_MAX - 1 ? len : WORD_MAX - 1;
@@ -125,7 +123,7 @@ static int column_of(const sheet *s, const char *name)
     return -1;
 }
 
-static void put_names(FILE *f, const sheet *s)
+static void write_column_names(FILE *f, const sheet *s)
 {
     char word[WORD_MAX], below[WORD_MAX];
     double x;
@@ -135,34 +133,34 @@ static void put_names(FILE *f, const sheet *s)
         p = next_word(p, word);
         field_of(s->row[1], k, below);
         fputs(fl_number_f64(below, &x) == 0 || strcmp(below, "-") == 0 ? "<th>" : "<th class=\"word\">", f);
-        put_text(f, word);
+        write_text(f, word);
         fputs("</th>", f);
     }
     fputs("</tr>\n", f);
 }
 
-static void put_row(FILE *f, const char *row, int best)
+static void write_html_row(FILE *f, const char *row, int best)
 {
     char word[WORD_MAX];
     fputs(best ? "<tr class=\"best\">" : "<tr>", f);
     for (const char *p = row; p;) {
         p = next_word(p, word);
-        put_cell(f, word);
+        write_html_cell(f, word);
     }
     fputs("</tr>\n", f);
 }
 
-static void put_rows(FILE *f, const sheet *s)
+static void write_all_rows(FILE *f, const sheet *s)
 {
     const int32_t n = s->rows < ROWS_MAX ? s->rows : ROWS_MAX;
     fputs("<div><table>\n", f);
-    put_names(f, s);
-    for (int32_t k = 1; k < n; k++) put_row(f, s->row[k], 0);
+    write_column_names(f, s);
+    for (int32_t k = 1; k < n; k++) write_html_row(f, s->row[k], 0);
     fputs("</table></div>\n", f);
     if (n < s->rows) fprintf(f, "<p>%d more rows are in the table itself.</p>\n", s->rows - n);
 }
 
-/* Do two rows of the table fits speak of the same sample? */
+/* True if two rows of the table fits belong to the same sample. */
 static int same_sample(const char *a, const char *b)
 {
     enum { LABELS = 5 };
@@ -175,9 +173,8 @@ static int same_sample(const char *a, const char *b)
     return 1;
 }
 
-/* Of the laws only those by likelihood, which have an AIC; of each sample the one with the smallest stands
- * out. */
-static void put_laws(FILE *f, const sheet *s)
+/* Only fits by likelihood, which have an AIC; the smallest one of each sample is in bold type. */
+static void write_likelihood_fits(FILE *f, const sheet *s)
 {
     const int aic = column_of(s, "AIC");
     char word[WORD_MAX];
@@ -188,13 +185,14 @@ static void put_laws(FILE *f, const sheet *s)
         laws += fl_number_f64(word, &x) == 0;
     }
     if (laws == 0) {
-        fputs("<p>There are too few values to fit a law to.</p>\n", f);
+        fputs("<p>There are too few values to fit a distribution.</p>\n", f);
         return;
     }
-    fputs("<p>By maximum likelihood; of each sample the law with the smallest AIC is in bold type. ks_p and "
-          "ad_p tell how often a sample of the law itself lies as far from its fit.</p>\n<div><table>\n",
+    fputs("<p>By maximum likelihood; the distribution with the smallest AIC of each sample is in bold type. "
+          "ks_p and ad_p are the probabilities that a sample of the distribution itself lies as far from its "
+          "fit.</p>\n<div><table>\n",
           f);
-    put_names(f, s);
+    write_column_names(f, s);
     for (int32_t from = 1, to; from < s->rows; from = to) {
         double least = INFINITY;
         int32_t best = -1;
@@ -207,14 +205,14 @@ static void put_laws(FILE *f, const sheet *s)
         }
         for (int32_t k = from; k < to; k++) {
             field_of(s->row[k], aic, word);
-            if (fl_number_f64(word, &x) == 0) put_row(f, s->row[k], k == best);
+            if (fl_number_f64(word, &x) == 0) write_html_row(f, s->row[k], k == best);
         }
     }
     fputs("</table></div>\n", f);
 }
 
-/* The table stats has few rows and many columns: on a page it stands upright, part by part. */
-static void put_upright(FILE *f, const sheet *s)
+/* A table of few rows and many columns is transposed, part by part. */
+static void write_transposed(FILE *f, const sheet *s)
 {
     enum { LABELS = 4 };
     char part[WORD_MAX], word[WORD_MAX], label[LABELS][WORD_MAX];
@@ -226,17 +224,17 @@ static void put_upright(FILE *f, const sheet *s)
         }
         if (strcmp(part, "-") != 0) {
             fputs("<h3>", f);
-            put_text(f, part);
+            write_text(f, part);
             fputs("</h3>\n", f);
         }
         fputs("<div><table>\n<tr><th></th>", f);
         for (int32_t k = from; k < to; k++) {
             for (int i = 0; i < LABELS; i++) field_of(s->row[k], i, label[i]);
             fputs("<th>", f);
-            put_text(f, label[1]);
+            write_text(f, label[1]);
             if (strcmp(label[2], "-") != 0) {
                 fputs(" [", f);
-                put_text(f, label[2]);
+                write_text(f, label[2]);
                 putc(']', f);
             }
             fprintf(f, ", %s</th>", label[3]);
@@ -247,11 +245,11 @@ static void put_upright(FILE *f, const sheet *s)
             name = next_word(name, word);
             if (column < LABELS) continue;
             fputs("<tr><td class=\"word\">", f);
-            put_text(f, word);
+            write_text(f, word);
             fputs("</td>", f);
             for (int32_t k = from; k < to; k++) {
                 field_of(s->row[k], column, label[0]);
-                put_cell(f, label[0]);
+                write_html_cell(f, label[0]);
             }
             fputs("</tr>\n", f);
         }
@@ -259,72 +257,52 @@ static void put_upright(FILE *f, const sheet *s)
     }
 }
 
-/* As the table says on standard error. */
-static void warn_far(FILE *f, double span, const struct options *o)
+/* The warning that the table levels prints on standard error. */
+static void write_extrapolation(FILE *f, double span, const struct options *o)
 {
     double most = 0.0;
     for (int32_t k = 0; k < o->returns; k++) most = fmax(most, o->period[k]);
     if (most > REACH * span)
         fprintf(f,
                 "<p>The record lasts for %.6g s. A return period of more than %g times that, here up to %.3g "
-                "times, rests on the law alone and not on what was seen.</p>\n",
+                "times, is an extrapolation of the fitted distribution.</p>\n",
                 span, REACH, most / span);
 }
 
-/* Of an ensemble the first few numbers of runs, tens, and the last. */
-static void put_some_runs(FILE *f, const sheet *s)
+/* The rows of an ensemble for 2, 5, tens and hundreds of runs, and the last one. */
+static void write_some_runs(FILE *f, const sheet *s)
 {
     const int runs = column_of(s, "runs");
     char word[WORD_MAX], next[WORD_MAX];
-    fputs("<p>Of the first n runs: mean of their means and mean of their largest values, each with its 95 % "
-          "interval, "
-          "skewness included, and the deviation between runs.</p>\n<div><table>\n",
-          f);
-    put_names(f, s);
+    fputs("<div><table>\n", f);
+    write_column_names(f, s);
     for (int32_t k = 1; k < s->rows; k++) {
         field_of(s->row[k], runs, word);
         if (k + 1 < s->rows) field_of(s->row[k + 1], runs, next);
         double n = 0.0, then = 0.0;
         if (fl_number_f64(word, &n) || (k + 1 < s->rows && fl_number_f64(next, &then))) continue;
         const int last = then <= n, round = n == 2.0 || n == 5.0 || (n >= 10.0 && fmod(n, 10.0) == 0.0);
-        if (last || (round && n <= 100.0) || (n > 100.0 && fmod(n, 100.0) == 0.0)) put_row(f, s->row[k], 0);
+        if (last || (round && n <= 100.0) || (n > 100.0 && fmod(n, 100.0) == 0.0))
+            write_html_row(f, s->row[k], 0);
     }
     fputs("</table></div>\n", f);
 }
 
-static int put_table(FILE *f, const report_source *from, const struct options *o, enum table table,
-                     const char *heading, fl_err *err)
+static int write_section(FILE *f, const report_source *from, const struct options *o,
+                         const struct table *table, const char *heading, fl_err *err)
 {
     sheet s = {0};
     const int rc = sheet_make(&s, from, o, table, err);
     if (rc == 0 && s.rows > 1) {
         fprintf(f, "<h2>%s</h2>\n", heading);
-        if (table == TABLE_LEVELS) warn_far(f, from->span, o);
-        if (table == TABLE_LEGS)
-            fputs("<p>Ratios are those to the part that carries most. at_total is the value at the moment "
-                  "the total is largest, simultaneity that over the own largest value; of the total, its "
-                  "largest value over the sum of those of the parts. Rise and duration are means over the "
-                  "peaks.</p>\n",
-                  f);
-        if (table == TABLE_FREQUENCY)
-            fputs("<p>Of Welch's spectrum: share is the part of the variance within two steps df of the "
-                  "dominant "
-                  "frequency f; where it is small, no frequency dominates.</p>\n",
-                  f);
-        if (table == TABLE_DAMAGE)
-            fputs(
-                "<p>Cycles by the rule that is named, with their residue; the equivalent range does the same "
-                "damage as all of them with as many.</p>\n",
-                f);
-        if (table == TABLE_RESPONSE)
-            fputs("<p>Lock-in is flagged where the dominant frequency of the load is within 10 % of the "
-                  "natural "
-                  "one.</p>\n",
-                  f);
-        if (table == TABLE_STATS || table == TABLE_FREQUENCY || table == TABLE_RESPONSE) put_upright(f, &s);
-        else if (table == TABLE_FITS) put_laws(f, &s);
-        else if (table == TABLE_ENSEMBLE) put_some_runs(f, &s);
-        else put_rows(f, &s);
+        if (table->uses & USES_RETURNS) write_extrapolation(f, from->span, o);
+        if (table->report.note && !from->alone) fprintf(f, "<p>%s</p>\n", table->report.note);
+        switch (table->report.layout) {
+        case LAYOUT_TRANSPOSED: write_transposed(f, &s); break;
+        case LAYOUT_FITS: write_likelihood_fits(f, &s); break;
+        case LAYOUT_RUNS: write_some_runs(f, &s); break;
+        case LAYOUT_ROWS: write_all_rows(f, &s); break;
+        }
     }
     sheet_free(&s);
     return rc;
@@ -338,21 +316,21 @@ static int is_picture(const char *name)
     return len > 4 && strcmp(name + len - 4, ".svg") == 0;
 }
 
-static int wanted(const struct dirent *d) { return is_picture(d->d_name); }
+static int is_picture_entry(const struct dirent *d) { return is_picture(d->d_name); }
 
-/* dir is shorter than DIR_LEN. */
-static void join(char path[PATH_LEN], const char *dir, const char *name)
+/* DIR/NAME; dir is shorter than DIR_LEN. */
+static void join_path(char path[PATH_LEN], const char *dir, const char *name)
 {
     snprintf(path, PATH_LEN, "%.*s/%.*s", DIR_LEN, dir, PATH_LEN - DIR_LEN - 2, name);
 }
 
-/* The picture from its first tag on: what stands above is for a file of its own. */
-static int put_picture(FILE *f, const char *dir, const char *name, fl_err *err)
+/* The picture from its svg tag on, without the XML header of a separate file. */
+static int write_picture(FILE *f, const char *dir, const char *name, fl_err *err)
 {
     char path[PATH_LEN], *text = NULL;
     int32_t cap = 0;
     int64_t n = 0, k = 1;
-    join(path, dir, name);
+    join_path(path, dir, name);
     fl_in *in = fl_in_open(path, err);
     while (in && k > 0) {
         k = fl_grow(&text, &cap, n + 65537, 1, err) ? -1 : fl_in_read(in, text + n, 65536, err);
@@ -369,14 +347,14 @@ static int put_picture(FILE *f, const char *dir, const char *name, fl_err *err)
     return in && k == 0 ? 0 : -1;
 }
 
-static int put_pictures(FILE *f, const char *dir, fl_err *err)
+static int write_pictures(FILE *f, const char *dir, fl_err *err)
 {
     struct dirent **list = NULL;
-    const int n = scandir(dir, &list, wanted, alphasort);
+    const int n = scandir(dir, &list, is_picture_entry, alphasort);
     int rc = n < 0 ? fl_fail(err, FL_SYSTEM, "%s: %s", dir, strerror(errno)) : 0;
     if (n > 0) fputs("<h2>Pictures</h2>\n", f);
     for (int k = 0; k < n; k++) {
-        if (rc == 0) rc = put_picture(f, dir, list[k]->d_name, err);
+        if (rc == 0) rc = write_picture(f, dir, list[k]->d_name, err);
         free(list[k]);
     }
     free(list);
@@ -389,7 +367,7 @@ static void remove_folder(const char *dir)
     DIR *d = opendir(dir);
     for (struct dirent *e; d && (e = readdir(d));) {
         if (strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0) continue;
-        join(path, dir, e->d_name);
+        join_path(path, dir, e->d_name);
         unlink(path);
     }
     if (d) closedir(d);
@@ -398,7 +376,7 @@ static void remove_folder(const char *dir)
 
 /* --- the page ------------------------------------------------------------------------------------------- */
 
-static void put_head(FILE *f, const report_source *from)
+static void write_head(FILE *f, const report_source *from)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
           "content=\"width=device-width, initial-scale=1\">\n",
@@ -409,61 +387,55 @@ static void put_head(FILE *f, const report_source *from)
     fputs("</p>\n", f);
 }
 
-/* Is the table on the page in any case? */
-static int has_place(const report_source *from, enum table table)
+/* Data and options that are available for the report, table_need. */
+static unsigned available(const report_source *from, const struct options *o)
 {
-    switch (table) {
-    case TABLE_STATS:
-    case TABLE_FITS:
-    case TABLE_LEVELS:
-    case TABLE_ENSEMBLE:
-    case TABLE_FREQUENCY:
-    case TABLE_DAMAGE:
-    case TABLE_RESPONSE: return 1;
-    case TABLE_LEGS: return from->legs;
-    default: return 0;
-    }
+    return (from->many ? NEEDS_RUNS : NEEDS_RECORD) | (from->legs ? NEEDS_PARTS : 0u) |
+           (from->spectra ? NEEDS_SEGMENT : 0u) | (o->returns ? NEEDS_RETURNS : 0u) |
+           (o->oscillators ? NEEDS_OSCILLATOR : 0u);
 }
 
-static void put_end(FILE *f, const report_source *from, const fl_history_line *by)
+/* True if the report holds the table whichever --table is chosen. */
+static int is_standard(const struct table *t, const report_source *from, const struct options *o)
 {
-    fputs(
-        "<h2>How to make it again</h2>\n<p>The programs in the order in which they ran, with what they were "
-        "asked; the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
-        "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",
-        f);
-    if (from->history) put_text(f, from->history);
-    put_text(f, by->text);
+    return t->report.position && ((t->needs | t->report.needs) & ~available(from, o)) == 0;
+}
+
+static void write_end(FILE *f, const report_source *from, const fl_history_line *by)
+{
+    fputs("<h2>How to reproduce it</h2>\n<p>The programs in the order in which they ran, with their options; "
+          "the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
+          "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",
+          f);
+    if (from->history) write_text(f, from->history);
+    write_text(f, by->text);
     fputs("\n</pre>\n</body>\n</html>\n", f);
 }
 
-static int put_page(FILE *f, const char *dir, const report_source *from, const struct options *o,
-                    const fl_history_line *by, fl_err *err)
+static int write_page(FILE *f, const char *dir, const report_source *from, const struct options *o,
+                      const fl_history_line *by, fl_err *err)
 {
-    const char *laws = from->many ? "Laws of the largest values" : "Laws of the peaks";
-    put_head(f, from);
+    const struct table *t;
+    write_head(f, from);
     if (from->alone) {
-        if (put_pictures(f, dir, err) || put_table(f, from, o, o->table, "Numbers", err)) return -1;
-        put_end(f, from, by);
+        if (write_pictures(f, dir, err) || write_section(f, from, o, o->table, "Numbers", err)) return -1;
+        write_end(f, from, by);
         return 0;
     }
-    if (put_table(f, from, o, TABLE_STATS, "Numbers", err) || put_pictures(f, dir, err)) return -1;
-    if (from->legs && put_table(f, from, o, TABLE_LEGS, "Parts side by side", err)) return -1;
-    if (from->many && put_table(f, from, o, TABLE_ENSEMBLE, "How sure they are", err)) return -1;
-    if (put_table(f, from, o, TABLE_FITS, laws, err)) return -1;
-    if (o->returns && put_table(f, from, o, TABLE_LEVELS, "Return levels", err)) return -1;
-    if (from->spectra && put_table(f, from, o, TABLE_FREQUENCY, "Frequencies", err)) return -1;
-    if (put_table(f, from, o, TABLE_DAMAGE, "Fatigue", err)) return -1;
-    if (!from->many && o->sways && put_table(f, from, o, TABLE_RESPONSE, "Response of an oscillator", err))
+    for (int k = 1; (t = table_in_report(k)); k++) {
+        const char *heading =
+            from->many && t->report.heading_of_runs ? t->report.heading_of_runs : t->report.heading;
+        if (is_standard(t, from, o) && write_section(f, from, o, t, heading, err)) return -1;
+        if (k == 1 && write_pictures(f, dir, err)) return -1;
+    }
+    if (!is_standard(o->table, from, o) && write_section(f, from, o, o->table, o->table->name, err))
         return -1;
-    if (!has_place(from, o->table) && put_table(f, from, o, o->table, options_table(o->table), err))
-        return -1;
-    put_end(f, from, by);
+    write_end(f, from, by);
     return 0;
 }
 
-/* The page in memory, so that the folder of the pictures is gone before anything is written: who reads the
- * page may stop reading. */
+/* The page is made in memory, so that the folder of the pictures is removed before anything is written: a
+ * reader that closes the pipe ends the program. */
 static int make_page(char **text, size_t *size, const report_source *from, const struct options *o,
                      fl_err *err)
 {
@@ -474,14 +446,14 @@ static int make_page(char **text, size_t *size, const report_source *from, const
     int rc = -1;
     snprintf(dir, sizeof dir, "%.*s/loadstats-XXXXXX", DIR_LEN - 20, tmp && *tmp ? tmp : "/tmp");
     if (!mkdtemp(dir)) return fl_fail(err, FL_SYSTEM, "%s: %s", dir, strerror(errno));
-    own.page = 1;
-    history_line_run(&own, &by); /* the pictures too are those of a page */
+    own.report_page = 1;
+    history_line_run(&own, &by); /* report_page also selects all pictures */
     own.plot = dir;
     own.format = "svg";
     own.quiet = 1;
     if (from->draw(from->what, &own, err) == 0) {
         FILE *f = open_memstream(text, size);
-        rc = f ? put_page(f, dir, from, o, &by, err) : fl_fail(err, FL_SYSTEM, "out of memory");
+        rc = f ? write_page(f, dir, from, o, &by, err) : fl_fail(err, FL_SYSTEM, "out of memory");
         if (f && fclose(f) != 0 && rc == 0) rc = fl_fail(err, FL_SYSTEM, "out of memory");
     }
     remove_folder(dir);
@@ -501,56 +473,4 @@ int html_report_write(const report_source *from, const struct options *o, fl_err
     fl_out_abort(&out);
     free(text);
     return rc;
-}
-
-/* --- one record ----------------------------------------------------------------------------------------- */
-
-static void record_intro(FILE *f, const void *what)
-{
-    const struct result *r = what;
-    const fl_series *s = r->s;
-    double share = 0.0;
-    fprintf(f, "%d rows of the %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
-    if (strcmp(s->kind, "loads") == 0)
-        fputs(" A row is the mean over its interval; every mean is the impulse over the time.", f);
-    for (int64_t k = 0; r->loss && k < (int64_t)s->parts * s->signals; k++) {
-        const fl_signal_view *v = &r->views[k * r->each];
-        if (v->n && v->stats.std > 0.0)
-            share = fmax(share, r->loss[k].rms / hypot(r->loss[k].rms, v->stats.std));
-    }
-    if (r->loss)
-        fprintf(f,
-                " The record was brought to equal steps, which takes up to %.3g %% of a standard deviation "
-                "from it.",
-                100.0 * share);
-    if (r->each > 1) fputs(" The filtered view stands beside the raw one, for a filter hides spikes.", f);
-}
-
-static int record_table(FILE *f, const void *what, const struct options *o, fl_err *err)
-{
-    fl_history_line by;
-    history_line_run(o, &by);
-    return table_write(f, what, o, &by, err);
-}
-
-static int record_draw(const void *what, const struct options *o, fl_err *err)
-{
-    fl_history_line by;
-    history_line_run(o, &by);
-    return plot(what, o, &by, err);
-}
-
-int html_report_write_record(const struct result *r, const struct options *o, fl_err *err)
-{
-    const fl_series *s = r->s;
-    const report_source from = {.what = r,
-                                .title = strcmp(s->kind, "loads") == 0 ? "Ice loads" : "Statistics",
-                                .history = s->history,
-                                .legs = s->parts > 2,
-                                .spectra = s->n >= FL_SPECTRUM_SHORTEST_SEGMENT,
-                                .span = s->edge[s->n] - s->edge[0],
-                                .intro = record_intro,
-                                .table = record_table,
-                                .draw = record_draw};
-    return html_report_write(&from, o, err);
 }

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* html_report.h -- the report: one HTML page that needs no other file. */
+/* html_report.h -- the report: one self-contained HTML page. */
 #ifndef LOADSTATS_HTML_REPORT_H
 #define LOADSTATS_HTML_REPORT_H
-#include "table_stats.h"
+#include <stdio.h>
+#include "base/err.h"
+#include "settings.h"
 
-/* What a page is about. */
+/* The subject of a report. */
 typedef struct {
-    const void *what; /* handed to the functions below */
+    const void *what; /* passed to the functions below */
     const char *title;
     int many;            /* many runs, not one record */
-    int legs;            /* there are parts to compare */
-    int alone;           /* nothing but the pictures and the table o->table */
-    int spectra;         /* there are rows enough for a spectrum */
-    const char *history; /* the "#by" lines of what was read, or NULL */
-    double span;         /* how long it is [s] */
-    /* Print the paragraph under the title, as HTML. */
+    int legs;            /* there are two parts or more to compare */
+    int alone;           /* pictures and the table o->table only */
+    int spectra;         /* there are enough rows for a spectrum */
+    const char *history; /* the "#by" lines of the input, or NULL */
+    double span;         /* duration of the data [s] */
+    /* Print the paragraph below the title, as HTML. */
     void (*intro)(FILE *f, const void *what);
     /* Print the table o->table, as loadstats does.  0, or -1 with err. */
     int (*table)(FILE *f, const void *what, const struct options *o, fl_err *err);
@@ -22,15 +24,10 @@ typedef struct {
     int (*draw)(const void *what, const struct options *o, fl_err *err);
 } report_source;
 
-/* Write o->report: the table stats (of many runs the table ensemble too), the laws of the peaks (of the
- * largest values), of several parts the table legs, return levels where --return asks for them, the tables
- * frequency, damage and, where there is an oscillator, response, the table of --table where it is another,
- * the pictures as inline SVG, and the "#by" lines from which all of it can be made again.  Numbers are
- * rounded to six digits. The pictures are drawn in a folder of TMPDIR that is removed again. 0, or -1 with
- * the errors of the functions above or FL_SYSTEM in err. */
+/* Write o->report: the tables that have a position in the report and whose needs are met (table_kind.h), the
+ * table of --table where it is another, the pictures as inline SVG, and the "#by" lines that reproduce all
+ * of it. Numbers are rounded to six digits.  The pictures are drawn in a folder of TMPDIR that is removed
+ * again.  0, or -1 with the errors of the functions above or FL_SYSTEM in err. */
 int html_report_write(const report_source *from, const struct options *o, fl_err *err);
-
-/* The same for one record. */
-int html_report_write_record(const struct result *r, const struct options *o, fl_err *err);
 
 #endif

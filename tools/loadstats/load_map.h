@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* load_map.h -- what table_pressure.c finds, as plot_pressure.c draws it. */
+/* load_map.h -- loads by place on a structure: local pressures of windows, or loads of panels. */
 #ifndef LOADSTATS_LOAD_MAP_H
 #define LOADSTATS_LOAD_MAP_H
 #include <stdint.h>
-#include <stdio.h>
+#include "base/err.h"
 #include "stat/pressure.h"
 #include "stat/waterline.h"
-#include "options.h"
+#include "settings.h"
 
-/* A load at one place against time: mean, largest value, how long there is any. */
+/* Load against time at one place. */
 typedef struct {
-    double sum, now; /* over the times; of the time being read */
+    double sum, now; /* sum over the times; at the time being read */
     double max, t_max;
-    double loaded; /* the times, or seconds, with a load */
+    double loaded; /* number of times, or seconds, with a load */
 } panel_load_stats;
 
 /* Local pressures of one part, by area [areas]. */
@@ -20,7 +20,7 @@ typedef struct {
     int32_t part;
     panel_load_stats p[AREAS_MAX]; /* [Pa] */
     fl_window best[AREAS_MAX];     /* the window of the largest one */
-} place_part;
+} part_pressure;
 
 /* A panel: of a grid along the waterline and upward, or of the table panels. */
 typedef struct {
@@ -31,26 +31,26 @@ typedef struct {
     panel_load_stats load; /* force on it [N] */
 } load_panel;
 
-typedef struct {
+typedef struct load_map {
     const struct options *o;
     char *history;
-    double weight; /* how many times, or seconds, there are: a mean is sum / weight */
-    place_part *part;
+    double weight; /* number of times, or seconds: a mean is sum / weight */
+    part_pressure *part;
     int32_t parts, part_cap;
     fl_waterline line;
-    load_panel *panel; /* the places of a line load too: then height and area are 1 */
+    load_panel *panel; /* also the sections of a line load, of height and area 1 */
     int32_t panels, panel_cap;
     int32_t across; /* panels side by side in a grid, 0 for none */
-    int32_t only;   /* the part that a waterline belongs to, 0 for none yet */
-} place;
+    int32_t only;   /* the part of the waterline, 0 for none yet */
+} load_map;
 
-/* c A^-k through the largest pressures of a part. */
-void fit_pressure_area(const place *p, const place_part *part, double *c, double *k);
+/* Read contacts or panels, as o->table needs them.  0, or -1 with err; p is to be freed either way. */
+int load_map_read(load_map *p, const struct options *o, fl_err *err);
 
-/* Write the table. */
-void load_map_write(FILE *f, const place *p, const fl_history_line *by);
+/* Fit c A^-k to the largest pressures of a part. */
+void fit_pressure_area(const load_map *p, const part_pressure *part, double *c, double *k);
 
-/* Draw o->table into o->plot, made if need be.  0, or -1 with FL_SYSTEM in err. */
-int plot_load_map(const place *p, const struct options *o, const fl_history_line *by, fl_err *err);
+/* Accepts a zeroed struct and leaves one. */
+void load_map_free(load_map *p);
 
 #endif

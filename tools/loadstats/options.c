@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,227 +8,48 @@
 #include "base/text.h"
 #include "stat/butterworth.h"
 #include "stat/signal_view.h"
+#include "base/tool.h"
 #include "options.h"
+#include "table_list.h"
 
-static const char HELP[] =
+static const char USAGE[] =
     "usage: loadstats [options] [FILE ...]\n"
     "Statistics of a load record: moments, quantiles, peaks, histogram, exceedance, plots.\n"
     "FILE is a loads table, or any table with a column t; - or nothing is standard input.\n"
-    "\n"
-    "  -t, --table WHAT        stats, peaks, histogram, exceedance, fits, levels, legs, events,\n"
-    "                          rainflow, damage, spectrum, frequency, response, motion, summary, ensemble,\n"
-    "                          cycles; or, of contacts, pressure-area, line-load, map (stats)\n"
-    "      --summary           the table summary: what adds up, of one run or of many files\n"
-    "      --merge             the files are summaries: add them up\n"
-    "      --stream            stats, histogram in constant memory, values in classes of 0.8 %\n"
-    "      --follow S          stats of a record that grows, every S seconds of its data\n"
-    "      --patience S        of --follow: a file that has not grown for so long has ended (0)\n"
-    "  -c, --component LIST    of fx fy fz mx my mz, fh (horizontal), f (all of it) (fx,fy,fz,fh)\n"
-    "  -C, --column LIST       columns of the table by name\n"
-    "  -p, --part NAME         one part of the structure, or total\n"
-    "      --where COLUMN=WORD only rows that have this in that column\n"
-    "      --over WHAT         rows of one time become one: sum, mean, min, max or count of them\n"
-    "      --from T            leave out what is before T seconds\n"
-    "      --to T              leave out what is after T seconds\n"
-    "      --skip N,D[,GAP]    leave out the start, until an ice front of --speed has passed N diameters D;\n"
-    "                          it is GAP before the structure at time 0, or there with the first load\n"
-    "  -w, --window S          only the last S seconds\n"
-    "      --step S            bring the record to equal steps by its means over them\n"
-    "  -f, --filter WHAT       add the view through a zero-phase Butterworth filter, HZ or low:HZ, high:HZ\n"
-    "                          or band:HZ,HZ, or a moving mean, mean:S\n"
-    "      --order N           order of one pass of the filter (4)\n"
-    "  -s, --separation R      peaks are separate when the load falls below R times the smaller (0.5)\n"
-    "      --threshold X       only peaks above X, in the unit of the signal (0)\n"
-    "  -b, --bins N            classes of the histogram (20)\n"
-    "      --quantiles LIST    of 0 .. 1 (0.5,0.9,0.95,0.99)\n"
-    "      --sample WHAT       laws are fitted to peaks, pot (over the threshold), blocks or runs (peaks)\n"
-    "      --gap S             of pot: time below the threshold that separates two of them (0)\n"
-    "      --block S           of blocks: their length\n";
+    "\n";
 
-/* The rest of it: a string of C has no more than 4095 characters. */
-static const char HELP_MORE[] =
-    "      --areas LIST        of pressure-area: areas of the window (0.01,0.02,0.05 ... 10)\n"
-    "      --waterline LINE    of line-load, map: circle:X,Y,R or X,Y:X,Y:...; --bins pieces of it\n"
-    "      --heights LIST      of map: rising, edges of the rows of panels\n"
-    "      --level R           of legs, events: durations are those above R times the peak (0.5)\n"
-    "      --rule RULE         of load cycles: astm (E1049) or iso (12110-2) (astm)\n"
-    "      --residue WHAT      what iso leaves open: half cycles, repeat, or none (half)\n"
-    "      --sn M[,A[,M2,KNEE]] of damage: N = A S^-M cycles to failure, slope M2 below S = KNEE (3; 5)\n"
-    "      --stress X          of damage: stress per unit of the load (1)\n"
-    "      --segment S         of spectra: length of a segment, they overlap by half (8 or a few more of "
-    "them)\n"
-    "      --taper WINDOW      of spectra: hann, hamming, blackman or none (hann)\n"
-    "      --speed V           of the ice, in m/s: for the breaking length V / f\n"
-    "      --oscillator F,Z[,K] of response, motion: natural frequency, damping (1 is critical), stiffness,\n"
-    "                          or mass, as 2e6kg; may be repeated\n"
-    "      --return LIST       of levels: return periods, seconds or with a unit, 100h (s min h d a)\n"
-    "      --resamples N       for intervals and probabilities, 0 for none (199)\n"
-    "      --seed N            of their random numbers (1)\n"
-    "      --plot DIR          draw history and peak distribution into DIR\n"
-    "      --report FILE       write numbers, pictures and history as one HTML page\n"
-    "      --format FORMAT     of the pictures, svg or png (svg)\n"
-    "  -o, --output FILE       write there, - is standard output\n"
-    "  -z, --gzip              compress the table\n"
-    "  -j, --threads N         threads (one per processor)\n"
-    "  -q, --quiet             no notes on standard error\n"
-    "  -v, --verbose           more of them\n"
-    "  -h, --help              this text\n"
-    "      --version           the version\n";
-
-enum {
-    FROM = 256,
-    TO,
-    ORDER,
-    THRESHOLD,
-    QUANTILES,
-    PLOT,
-    FORMAT,
-    VERSION,
-    SAMPLE,
-    GAP,
-    BLOCK,
-    RETURN,
-    RESAMPLES,
-    SEED,
-    SUMMARY,
-    MERGE,
-    STREAM,
-    FOLLOW,
-    REPORT,
-    WHERE,
-    OVER,
-    PATIENCE,
-    LEVEL,
-    AREAS,
-    WATERLINE,
-    HEIGHTS,
-    RULE,
-    RESIDUE,
-    SN,
-    STRESS,
-    SEGMENT,
-    TAPER,
-    SPEED,
-    SKIP,
-    STEP,
-    OSCILLATOR
-};
-
-static const struct option LONG[] = {{"table", required_argument, NULL, 't'},
-                                     {"component", required_argument, NULL, 'c'},
-                                     {"column", required_argument, NULL, 'C'},
-                                     {"part", required_argument, NULL, 'p'},
-                                     {"from", required_argument, NULL, FROM},
-                                     {"to", required_argument, NULL, TO},
-                                     {"window", required_argument, NULL, 'w'},
-                                     {"filter", required_argument, NULL, 'f'},
-                                     {"order", required_argument, NULL, ORDER},
-                                     {"separation", required_argument, NULL, 's'},
-                                     {"threshold", required_argument, NULL, THRESHOLD},
-                                     {"bins", required_argument, NULL, 'b'},
-                                     {"quantiles", required_argument, NULL, QUANTILES},
-                                     {"sample", required_argument, NULL, SAMPLE},
-                                     {"gap", required_argument, NULL, GAP},
-                                     {"block", required_argument, NULL, BLOCK},
-                                     {"level", required_argument, NULL, LEVEL},
-                                     {"areas", required_argument, NULL, AREAS},
-                                     {"waterline", required_argument, NULL, WATERLINE},
-                                     {"heights", required_argument, NULL, HEIGHTS},
-                                     {"return", required_argument, NULL, RETURN},
-                                     {"resamples", required_argument, NULL, RESAMPLES},
-                                     {"seed", required_argument, NULL, SEED},
-                                     {"plot", required_argument, NULL, PLOT},
-                                     {"format", required_argument, NULL, FORMAT},
-                                     {"summary", no_argument, NULL, SUMMARY},
-                                     {"report", required_argument, NULL, REPORT},
-                                     {"where", required_argument, NULL, WHERE},
-                                     {"over", required_argument, NULL, OVER},
-                                     {"patience", required_argument, NULL, PATIENCE},
-                                     {"rule", required_argument, NULL, RULE},
-                                     {"residue", required_argument, NULL, RESIDUE},
-                                     {"sn", required_argument, NULL, SN},
-                                     {"segment", required_argument, NULL, SEGMENT},
-                                     {"taper", required_argument, NULL, TAPER},
-                                     {"speed", required_argument, NULL, SPEED},
-                                     {"oscillator", required_argument, NULL, OSCILLATOR},
-                                     {"skip", required_argument, NULL, SKIP},
-                                     {"step", required_argument, NULL, STEP},
-                                     {"stress", required_argument, NULL, STRESS},
-                                     {"merge", no_argument, NULL, MERGE},
-                                     {"stream", no_argument, NULL, STREAM},
-                                     {"follow", required_argument, NULL, FOLLOW},
-                                     {"output", required_argument, NULL, 'o'},
-                                     {"gzip", no_argument, NULL, 'z'},
-                                     {"threads", required_argument, NULL, 'j'},
-                                     {"quiet", no_argument, NULL, 'q'},
-                                     {"verbose", no_argument, NULL, 'v'},
-                                     {"help", no_argument, NULL, 'h'},
-                                     {"version", no_argument, NULL, VERSION},
-                                     {NULL, 0, NULL, 0}};
-
-static const char *const TABLE[] = {[TABLE_STATS] = "stats",         [TABLE_PEAKS] = "peaks",
-                                    [TABLE_HISTOGRAM] = "histogram", [TABLE_EXCEEDANCE] = "exceedance",
-                                    [TABLE_FITS] = "fits",           [TABLE_LEVELS] = "levels",
-                                    [TABLE_LEGS] = "legs",           [TABLE_EVENTS] = "events",
-                                    [TABLE_RAINFLOW] = "rainflow",   [TABLE_DAMAGE] = "damage",
-                                    [TABLE_SPECTRUM] = "spectrum",   [TABLE_FREQUENCY] = "frequency",
-                                    [TABLE_RESPONSE] = "response",   [TABLE_MOTION] = "motion",
-                                    [TABLE_SUMMARY] = "summary",     [TABLE_ENSEMBLE] = "ensemble",
-                                    [TABLE_CYCLES] = "cycles",       [TABLE_PRESSURE] = "pressure-area",
-                                    [TABLE_LINE] = "line-load",      [TABLE_MAP] = "map"};
-static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs"};
-static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f"};
-static const char *const OVER_WHAT[] = {"sum", "mean", "min", "max", "count"}; /* as fl_reduction_name() */
-static const char *const CYCLE_RULE[] = {"astm", "iso"};                     /* as fl_rainflow_rule_name() */
-static const char *const OPEN_CYCLES[] = {"half", "repeat", "none"};         /* as fl_residue_name() */
-static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none"}; /* as fl_taper_name() */
-static const char *const PASS[] = {"low", "high", "band", "mean"};           /* as fl_filter_name() */
-static const char *const PICTURE[] = {"svg", "png"};
+static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs", NULL};
+static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f", NULL};
+static const char *const REDUCTIONS[] = {"sum", "mean",  "min",
+                                         "max", "count", NULL};         /* as fl_reduction_name() */
+static const char *const CYCLE_RULE[] = {"astm", "iso", NULL};          /* as fl_rainflow_rule_name() */
+static const char *const RESIDUES[] = {"half", "repeat", "none", NULL}; /* as fl_residue_name() */
+static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none", NULL}; /* as fl_taper_name() */
+static const char *const FILTERS[] = {"low", "high", "band", "mean", NULL};        /* as fl_filter_name() */
+static const char *const FORMATS[] = {"svg", "png", NULL};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+#define TINY 1e-300
+#define HUGE_NUMBER 1e300
 
-const char *options_table(enum table t) { return TABLE[t]; }
-const char *options_sample(enum sample s) { return SAMPLES[s]; }
-
-int options_many_runs(const struct options *o) { return o->merge || o->stream; }
-
-static int number(const char *option, const char *text, double lo, double hi, const char *wanted, double *x,
-                  fl_err *err)
+static int choose_table(void *options, const char *text, fl_err *err)
 {
-    if (fl_number_f64(text, x) == 0 && *x >= lo && *x <= hi) return 0;
-    return fl_fail(err, FL_USAGE, "--%s is \"%.40s\", %s is expected", option, text, wanted);
-}
-
-static int choice(const char *option, const char *text, const char *const *list, int n, fl_err *err)
-{
-    for (int k = 0; k < n; k++)
-        if (strcmp(text, list[k]) == 0) return k;
-    return fl_fail(err, FL_USAGE, "--%s does not know \"%.40s\", the nearest is %s", option, text,
-                   fl_text_nearest(text, list, n));
-}
-
-/* Cut a list at its commas; each word goes to `take`. */
-static int each(struct options *o, const char *option, const char *text,
-                int (*take)(struct options *, char *, fl_err *), fl_err *err)
-{
-    char *word = fl_alloc_text(text, err), *copy = word;
-    int rc = word ? 0 : -1;
-    while (rc == 0 && word) {
-        char *comma = strchr(word, ',');
-        if (comma) *comma++ = '\0';
-        rc = word[0] ? take(o, word, err)
-                     : fl_fail(err, FL_USAGE, "--%s has an empty entry in \"%.60s\"", option, text);
-        word = comma;
-    }
-    free(copy);
-    return rc;
+    struct options *const o = options;
+    const char *name[TABLES_MAX + 1] = {NULL};
+    int k;
+    for (int j = 0; j < table_count(); j++) name[j] = table_at(j)->name;
+    if (fl_option_choice("table", text, name, &k, err)) return -1;
+    o->table = table_at(k);
+    o->table_given = 1;
+    return 0;
 }
 
 /* words moves when it grows, so the list keeps offsets until options_parse() is done. */
-static int take_signal(struct options *o, char *word, fl_err *err)
+static int parse_signal(void *options, const char *word, fl_err *err)
 {
+    struct options *const o = options;
     const int32_t bytes = (int32_t)strnlen(word, 1000) + 1;
     if (o->signals == SIGNALS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d components and columns were asked for", SIGNALS_MAX);
+        return fl_fail(err, FL_USAGE, "expected at most %d components and columns", SIGNALS_MAX);
     if (fl_grow(&o->words, &o->words_cap, (int64_t)o->words_len + bytes, 1, err)) return -1;
     memcpy(o->words + o->words_len, word, (size_t)bytes - 1);
     o->words_len += bytes;
@@ -238,282 +58,557 @@ static int take_signal(struct options *o, char *word, fl_err *err)
     return 0;
 }
 
-static int take_component(struct options *o, char *word, fl_err *err)
+static int parse_component(void *options, const char *word, fl_err *err)
 {
-    return choice("component", word, COMPONENT, COUNT(COMPONENT), err) < 0 ? -1 : take_signal(o, word, err);
+    struct options *const o = options;
+    int k;
+    return fl_option_choice("component", word, COMPONENT, &k, err) ? -1 : parse_signal(o, word, err);
 }
 
-static int take_quantile(struct options *o, char *word, fl_err *err)
+static int parse_quantile(void *options, const char *word, fl_err *err)
 {
+    struct options *const o = options;
     if (o->quantiles == QUANTILES_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d quantiles were asked for", QUANTILES_MAX);
+        return fl_fail(err, FL_USAGE, "expected at most %d quantiles", QUANTILES_MAX);
     double *q = &o->quantile[o->quantiles];
-    if (number("quantiles", word, 0.0, 1.0, "a number from 0 to 1", q, err)) return -1;
-    for (int32_t k = 0; k < o->quantiles; k++) /* it names a column, and columns have different names */
+    if (fl_option_number("quantiles", word, 0.0, 1.0, "a number from 0 to 1", q, err)) return -1;
+    for (int32_t k = 0; k < o->quantiles; k++) /* a quantile names a column, and names are unique */
         if (o->quantile[k] == *q) return fl_fail(err, FL_USAGE, "--quantiles has %.40s twice", word);
     o->quantiles++;
     return 0;
 }
 
-/* A time in seconds, or with its unit: 90s 10min 3h 2d 50a. */
-static int time_of(const char *option, const char *text, double *t, fl_err *err)
+static int parse_return(void *options, const char *word, fl_err *err)
 {
-    static const struct {
-        const char *unit;
-        double seconds;
-    } known[] = {{"", 1.0}, {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}, {"a", 31557600.0}};
-    const size_t digits = strspn(text, "+-0123456789.eE");
-    char number_text[40];
-    if (digits < sizeof number_text) {
-        memcpy(number_text, text, digits);
-        number_text[digits] = '\0';
-        for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
-            if (strcmp(text + digits, known[k].unit) != 0 || fl_number_f64(number_text, t) || !(*t > 0.0))
-                continue;
-            *t *= known[k].seconds;
-            if (*t <= 1e300) return 0;
-        }
-    }
-    return fl_fail(err, FL_USAGE,
-                   "--%s is \"%.40s\", a time above 0 is expected, as 90, 10min, 3h, 2d or 50a", option,
-                   text);
-}
-
-static int take_return(struct options *o, char *word, fl_err *err)
-{
+    struct options *const o = options;
     if (o->returns == RETURNS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d return periods were asked for", RETURNS_MAX);
-    return time_of("return", word, &o->period[o->returns++], err);
+        return fl_fail(err, FL_USAGE, "expected at most %d return periods", RETURNS_MAX);
+    return fl_option_time("return", word, &o->period[o->returns++], err);
 }
 
-static int take_skip(struct options *o, char *word, fl_err *err)
+static int parse_skip(void *options, const char *word, fl_err *err)
 {
+    struct options *const o = options;
     static const char *const wanted[] = {"a number of diameters above 0", "a diameter above 0",
                                          "a distance from 0 on"};
     if (o->skips == 3) return fl_fail(err, FL_USAGE, "--skip has more than N,D,GAP");
     const double least = o->skips < 2 ? 1e-100 : 0.0;
     double *to = &o->skip[o->skips];
-    return number("skip", word, least, 1e100, wanted[o->skips++], to, err);
+    return fl_option_number("skip", word, least, 1e100, wanted[o->skips++], to, err);
 }
 
 /* HZ, low:HZ, high:HZ, band:HZ,HZ or mean:S. */
-static int take_filter(struct options *o, const char *text, fl_err *err)
+static int parse_filter(void *options, const char *text, fl_err *err)
 {
+    struct options *const o = options;
     const char *colon = strchr(text, ':'), *value = colon ? colon + 1 : text, *comma = strchr(value, ',');
     char word[40];
-    o->pass = FL_FILTER_LOW;
+    o->filter_kind = FL_FILTER_LOW;
     if (colon) {
         snprintf(word, sizeof word, "%.*s", (int)(colon - text), text);
-        o->pass = choice("filter", word, PASS, COUNT(PASS), err);
-        if (o->pass < 0) return -1;
+        if (fl_option_choice("filter", word, FILTERS, &o->filter_kind, err)) return -1;
     }
-    if (o->pass == FL_FILTER_MEAN) return time_of("filter", value, &o->filter, err);
-    if (o->pass != FL_FILTER_BAND)
-        return number("filter", value, 1e-300, 1e300, "a frequency above 0", &o->filter, err);
+    if (o->filter_kind == FL_FILTER_MEAN) return fl_option_time("filter", value, &o->filter, err);
+    if (o->filter_kind != FL_FILTER_BAND)
+        return fl_option_number("filter", value, 1e-300, 1e300, "a frequency above 0", &o->filter, err);
     if (!comma || comma - value >= (int)sizeof word)
-        return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", band:HZ,HZ is expected", text);
+        return fl_fail(err, FL_USAGE, "--filter is \"%.40s\", expected band:HZ,HZ", text);
     snprintf(word, sizeof word, "%.*s", (int)(comma - value), value);
-    if (number("filter", word, 1e-300, 1e300, "a frequency above 0", &o->filter, err) ||
-        number("filter", comma + 1, 1e-300, 1e300, "a frequency above 0", &o->upper, err))
+    if (fl_option_number("filter", word, 1e-300, 1e300, "a frequency above 0", &o->filter, err) ||
+        fl_option_number("filter", comma + 1, 1e-300, 1e300, "a frequency above 0", &o->upper, err))
         return -1;
     if (o->upper > o->filter) return 0;
-    return fl_fail(err, FL_USAGE, "--filter \"%.40s\" ends before it begins", text);
+    return fl_fail(err, FL_USAGE, "--filter \"%.40s\" has its second frequency below the first", text);
 }
 
-/* The words of one --sn; o->sns is raised when all of them are known. */
-static int take_sn(struct options *o, char *word, fl_err *err)
+/* One word of --sn; add_sn() counts the curve when all its words are read. */
+static int parse_sn_word(void *options, const char *word, fl_err *err)
 {
-    fl_sn_curve *sn = &o->sn[o->sns];
-    const double tiny = 1e-300, huge = 1e300;
+    struct options *const o = options;
+    fl_sn_curve *sn = &o->sn[o->sn_curves];
     switch (o->sn_words++) {
-    case 0: return number("sn", word, 1e-3, 100.0, "an exponent above 0", &sn->m, err);
-    case 1: return number("sn", word, tiny, huge, "cycles to failure at a stress of 1", &sn->a, err);
+    case 0: return fl_option_number("sn", word, 1e-3, 100.0, "an exponent above 0", &sn->m, err);
+    case 1:
+        return fl_option_number("sn", word, TINY, HUGE_NUMBER, "cycles to failure at a stress of 1", &sn->a,
+                                err);
     case 2:
         sn->m2 = INFINITY;
         if (strcmp(word, "inf") == 0) return 0;
-        return number("sn", word, 1e-3, 100.0, "the exponent below the knee, or inf,", &sn->m2, err);
-    case 3: return number("sn", word, tiny, huge, "the stress at the knee", &sn->knee, err);
+        return fl_option_number("sn", word, 1e-3, 100.0, "the exponent below the knee, or inf,", &sn->m2, err);
+    case 3: return fl_option_number("sn", word, TINY, HUGE_NUMBER, "the stress at the knee", &sn->knee, err);
     default: return fl_fail(err, FL_USAGE, "--sn has more than M,A,M2,KNEE");
     }
 }
 
-static int add_sn(struct options *o, const char *text, fl_err *err)
+static int add_sn(void *options, const char *text, fl_err *err)
 {
-    if (o->sns == SNS_MAX) return fl_fail(err, FL_USAGE, "more than %d S-N lines were given", SNS_MAX);
-    o->sn[o->sns] = (fl_sn_curve){.a = NAN};
+    struct options *const o = options;
+    if (o->sn_curves == SN_CURVES_MAX)
+        return fl_fail(err, FL_USAGE, "expected at most %d S-N curves", SN_CURVES_MAX);
+    o->sn[o->sn_curves] = (fl_sn_curve){.a = NAN};
     o->sn_words = 0;
-    if (each(o, "sn", text, take_sn, err)) return -1;
+    if (fl_option_each("sn", text, parse_sn_word, o, err)) return -1;
     if (o->sn_words == 3)
         return fl_fail(err, FL_USAGE, "--sn \"%.60s\" has a second slope but no knee", text);
-    o->sns++;
+    o->sn_curves++;
     return 0;
 }
 
-/* The words of one --oscillator; o->sways is raised when all of them are known. */
-static int take_sway(struct options *o, char *word, fl_err *err)
+/* One word of --oscillator; add_oscillator() counts it when all its words are read. */
+static int parse_oscillator_word(void *options, const char *word, fl_err *err)
 {
-    struct sway *a = &o->sway[o->sways];
+    struct options *const o = options;
+    struct oscillator_case *a = &o->oscillator[o->oscillators];
     const double tiny = 1e-100, huge = 1e100;
     const size_t len = strlen(word);
     const int mass = len > 2 && strcmp(word + len - 2, "kg") == 0;
+    char number[64];
     double k;
-    switch (o->sway_words++) {
+    switch (o->oscillator_words++) {
     case 0:
-        return number("oscillator", word, tiny, huge, "a natural frequency above 0", &a->o.frequency, err);
-    case 1: return number("oscillator", word, 0.0, 100.0, "a damping ratio from 0 on", &a->o.damping, err);
+        return fl_option_number("oscillator", word, tiny, huge, "a natural frequency above 0", &a->o.frequency,
+                            err);
+    case 1:
+        return fl_option_number("oscillator", word, 0.0, 100.0, "a damping ratio from 0 on", &a->o.damping,
+                                err);
     case 2:
-        if (mass) word[len - 2] = '\0';
-        if (number("oscillator", word, tiny, huge, "a stiffness or a mass above 0", &k, err)) return -1;
+        snprintf(number, sizeof number, "%.*s", (int)(mass ? len - 2 : len), word);
+        if (fl_option_number("oscillator", number, tiny, huge, "a stiffness or a mass above 0", &k, err))
+            return -1;
         a->stiffness = mass ? k * pow(6.283185307179586 * a->o.frequency, 2.0) : k;
         return 0;
     default: return fl_fail(err, FL_USAGE, "--oscillator has more than F,Z,K");
     }
 }
 
-static int add_sway(struct options *o, const char *text, fl_err *err)
+static int add_oscillator(void *options, const char *text, fl_err *err)
 {
-    if (o->sways == SWAYS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d oscillators were given", SWAYS_MAX);
-    o->sway[o->sways] = (struct sway){.stiffness = NAN, .text = text};
-    o->sway_words = 0;
-    if (each(o, "oscillator", text, take_sway, err)) return -1;
-    if (o->sway_words < 2)
-        return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, F,Z is expected", text);
-    o->sways++;
+    struct options *const o = options;
+    if (o->oscillators == OSCILLATORS_MAX)
+        return fl_fail(err, FL_USAGE, "expected at most %d oscillators", OSCILLATORS_MAX);
+    o->oscillator[o->oscillators] = (struct oscillator_case){.stiffness = NAN, .text = text};
+    o->oscillator_words = 0;
+    if (fl_option_each("oscillator", text, parse_oscillator_word, o, err)) return -1;
+    if (o->oscillator_words < 2)
+        return fl_fail(err, FL_USAGE, "--oscillator \"%.60s\" has no damping, expected F,Z", text);
+    o->oscillators++;
     return 0;
 }
 
-static int take_area(struct options *o, char *word, fl_err *err)
+static int parse_area(void *options, const char *word, fl_err *err)
 {
-    if (o->areas == AREAS_MAX) return fl_fail(err, FL_USAGE, "more than %d areas were asked for", AREAS_MAX);
-    return number("areas", word, 1e-12, 1e12, "an area above 0", &o->area[o->areas++], err);
+    struct options *const o = options;
+    if (o->areas == AREAS_MAX) return fl_fail(err, FL_USAGE, "expected at most %d areas", AREAS_MAX);
+    return fl_option_number("areas", word, 1e-12, 1e12, "an area above 0", &o->area[o->areas++], err);
 }
 
-static int take_height(struct options *o, char *word, fl_err *err)
+static int parse_height(void *options, const char *word, fl_err *err)
 {
+    struct options *const o = options;
     double *z = &o->height[o->heights];
-    if (o->heights == HEIGHTS_MAX)
-        return fl_fail(err, FL_USAGE, "more than %d heights were asked for", HEIGHTS_MAX);
-    if (number("heights", word, -1e6, 1e6, "a height", z, err)) return -1;
+    if (o->heights == HEIGHTS_MAX) return fl_fail(err, FL_USAGE, "expected at most %d heights", HEIGHTS_MAX);
+    if (fl_option_number("heights", word, -1e6, 1e6, "a height", z, err)) return -1;
     if (o->heights && !(*z > z[-1]))
         return fl_fail(err, FL_USAGE, "--heights do not rise at \"%.40s\"", word);
     o->heights++;
     return 0;
 }
 
-static int apply(struct options *o, int c, const char *arg, fl_err *err)
+/* --- one function for each option that has a form of its own ------------------------------------ */
+
+static int add_components(void *options, const char *text, fl_err *err)
 {
-    const double tiny = 1e-300, huge = 1e300;
-    int k;
-    switch (c) {
-    case 't':
-        k = choice("table", arg, TABLE, COUNT(TABLE), err);
-        o->table = k < 0 ? TABLE_STATS : (enum table)k;
-        o->table_given = 1;
-        return k < 0 ? -1 : 0;
-    case 'c': return each(o, "component", arg, take_component, err);
-    case 'C': return each(o, "column", arg, take_signal, err);
-    case 'p': o->part = arg; return 0;
-    case FROM: return number("from", arg, -huge, huge, "a time", &o->from, err);
-    case TO: return number("to", arg, -huge, huge, "a time", &o->to, err);
-    case 'w': return number("window", arg, tiny, huge, "a time above 0", &o->window, err);
-    case 'f': return take_filter(o, arg, err);
-    case ORDER: return fl_option_whole("order", arg, 1, FL_BUTTERWORTH_ORDER_MAX, &o->order, err);
-    case 's': return number("separation", arg, 0.0, 1.0, "a number from 0 to 1", &o->separation, err);
-    case THRESHOLD: return number("threshold", arg, 0.0, huge, "a number not below 0", &o->threshold, err);
-    case 'b': return fl_option_whole("bins", arg, 1, 1000000, &o->bins, err);
-    case QUANTILES:
-        o->quantiles = 0;
-        o->quantiles_text = arg;
-        return each(o, "quantiles", arg, take_quantile, err);
-    case SAMPLE:
-        k = choice("sample", arg, SAMPLES, COUNT(SAMPLES), err);
-        o->sample = k < 0 ? SAMPLE_PEAKS : (enum sample)k;
-        return k < 0 ? -1 : 0;
-    case GAP: return strcmp(arg, "0") == 0 ? 0 : time_of("gap", arg, &o->gap, err);
-    case BLOCK: return time_of("block", arg, &o->block, err);
-    case AREAS:
-        o->areas = 0;
-        o->areas_text = arg;
-        return each(o, "areas", arg, take_area, err);
-    case WATERLINE: o->waterline = arg; return 0;
-    case HEIGHTS:
-        o->heights = 0;
-        o->heights_text = arg;
-        return each(o, "heights", arg, take_height, err);
-    case LEVEL: return number("level", arg, 1e-9, 1.0 - 1e-9, "a number between 0 and 1", &o->level, err);
-    case RETURN: return each(o, "return", arg, take_return, err);
-    case RESAMPLES: return fl_option_whole("resamples", arg, 0, 100000, &o->resamples, err);
-    case SEED: return fl_option_whole("seed", arg, 0, INT32_MAX, &o->seed, err);
-    case PLOT: o->plot = arg; return 0;
-    case SUMMARY:
-        o->table = TABLE_SUMMARY;
-        o->table_given = 1;
-        return 0;
-    case MERGE: o->merge = 1; return 0;
-    case STREAM: o->stream = 1; return 0;
-    case REPORT: o->report = arg; return 0;
-    case WHERE:
-        if (o->wheres == WHERES_MAX)
-            return fl_fail(err, FL_USAGE, "more than %d conditions were given", WHERES_MAX);
-        o->where[o->wheres++] = arg;
-        return 0;
-    case OVER:
-        k = choice("over", arg, OVER_WHAT, COUNT(OVER_WHAT), err);
-        o->over = k + 1;
-        return k < 0 ? -1 : 0;
-    case RULE: o->rule = choice("rule", arg, CYCLE_RULE, COUNT(CYCLE_RULE), err); return o->rule < 0 ? -1 : 0;
-    case RESIDUE:
-        o->residue = choice("residue", arg, OPEN_CYCLES, COUNT(OPEN_CYCLES), err);
-        return o->residue < 0 ? -1 : 0;
-    case SEGMENT: return time_of("segment", arg, &o->segment, err);
-    case TAPER: o->taper = choice("taper", arg, TAPERS, COUNT(TAPERS), err); return o->taper < 0 ? -1 : 0;
-    case SPEED: return number("speed", arg, tiny, huge, "a speed above 0", &o->speed, err);
-    case OSCILLATOR: return add_sway(o, arg, err);
-    case SKIP:
-        o->skips = 0;
-        o->skip[2] = NAN;
-        if (each(o, "skip", arg, take_skip, err)) return -1;
-        return o->skips >= 2 ? 0
-                             : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", N,D or N,D,GAP is expected", arg);
-    case STEP: return time_of("step", arg, &o->step, err);
-    case SN: return add_sn(o, arg, err);
-    case STRESS: return number("stress", arg, tiny, huge, "a number above 0", &o->stress, err);
-    case PATIENCE: return strcmp(arg, "0") == 0 ? 0 : time_of("patience", arg, &o->patience, err);
-    case FOLLOW: return time_of("follow", arg, &o->follow, err);
-    case FORMAT:
-        k = choice("format", arg, PICTURE, COUNT(PICTURE), err);
-        if (k >= 0) o->format = PICTURE[k];
-        return k < 0 ? -1 : 0;
-    case 'o': o->out = arg; return 0;
-    case 'z': o->gzip = 1; return 0;
-    case 'j': return fl_option_whole("threads", arg, 1, 1024, &o->threads, err);
-    case 'q': o->quiet = 1; return 0;
-    case 'v': o->verbose = 1; return 0;
-    case 'h':
-        fputs(HELP, stdout);
-        fputs(HELP_MORE, stdout);
-        o->ended = 1;
-        return 0;
-    case VERSION:
-        fl_tool_version("loadstats");
-        o->ended = 1;
-        return 0;
-    default: return fl_fail(err, FL_USAGE, "see loadstats --help");
-    }
+    return fl_option_each("component", text, parse_component, options, err);
 }
 
-static void take_files(struct options *o, int n, char *const *file)
+static int add_columns(void *options, const char *text, fl_err *err)
+{
+    return fl_option_each("column", text, parse_signal, options, err);
+}
+
+static int set_quantiles(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    o->quantiles = 0;
+    o->quantiles_text = text;
+    return fl_option_each("quantiles", text, parse_quantile, o, err);
+}
+
+static int set_areas(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    o->areas = 0;
+    o->areas_text = text;
+    return fl_option_each("areas", text, parse_area, o, err);
+}
+
+static int set_heights(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    o->heights = 0;
+    o->heights_text = text;
+    return fl_option_each("heights", text, parse_height, o, err);
+}
+
+static int add_returns(void *options, const char *text, fl_err *err)
+{
+    return fl_option_each("return", text, parse_return, options, err);
+}
+
+static int choose_summary(void *options, const char *text, fl_err *err)
+{
+    (void)text;
+    return choose_table(options, "summary", err);
+}
+
+static int add_condition(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    if (o->wheres == CONDITIONS_MAX)
+        return fl_fail(err, FL_USAGE, "expected at most %d conditions", CONDITIONS_MAX);
+    o->where[o->wheres++] = text;
+    return 0;
+}
+
+static int set_reduction(void *options, const char *text, fl_err *err)
+{
+    int k;
+    if (fl_option_choice("over", text, REDUCTIONS, &k, err)) return -1;
+    ((struct options *)options)->over = k + 1;
+    return 0;
+}
+
+static int set_skip(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    o->skips = 0;
+    o->skip[2] = NAN;
+    if (fl_option_each("skip", text, parse_skip, o, err)) return -1;
+    return o->skips >= 2 ? 0 : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", expected N,D or N,D,GAP", text);
+}
+
+static int set_gap(void *options, const char *text, fl_err *err)
+{
+    return strcmp(text, "0") == 0 ? 0 : fl_option_time("gap", text, &((struct options *)options)->gap, err);
+}
+
+static int set_patience(void *options, const char *text, fl_err *err)
+{
+    return strcmp(text, "0") == 0
+               ? 0
+               : fl_option_time("patience", text, &((struct options *)options)->patience, err);
+}
+
+static int set_format(void *options, const char *text, fl_err *err)
+{
+    int k;
+    if (fl_option_choice("format", text, FORMATS, &k, err)) return -1;
+    ((struct options *)options)->format = FORMATS[k];
+    return 0;
+}
+
+static int count_file(void *options, const char *text, fl_err *err)
+{
+    (void)text, (void)err;
+    ((struct options *)options)->files++;
+    return 0;
+}
+
+/* --- the table --------------------------------------------------------------------------------- */
+
+#define AT(member) offsetof(struct options, member)
+
+/* The first row's help lists the kinds of tables; options_parse() writes it. */
+static char tables_help[500];
+
+static const fl_option OPTION[] = {
+    {.word = "table",
+     .letter = 't',
+     .argument = "WHAT",
+     .help = tables_help,
+     .kind = FL_OPTION_CALL,
+     .call = choose_table},
+    {.word = "summary",
+     .help = "the table summary, of one run or of many files",
+     .kind = FL_OPTION_CALL,
+     .call = choose_summary},
+    {.word = "merge", .help = "merge files that are summaries", .at = AT(merge)},
+    {.word = "stream",
+     .help = "stats, histogram in constant memory, values in classes of 0.8 %",
+     .at = AT(stream)},
+    {.word = "follow",
+     .argument = "S",
+     .help = "stats of a record that grows, every S seconds of its data",
+     .kind = FL_OPTION_TIME,
+     .at = AT(follow)},
+    {.word = "patience",
+     .argument = "S",
+     .help = "of --follow: stop when the file has not grown for S seconds (0)",
+     .kind = FL_OPTION_CALL,
+     .call = set_patience},
+    {.word = "component",
+     .letter = 'c',
+     .argument = "LIST",
+     .help = "of fx fy fz mx my mz, fh (horizontal), f (all of it) (fx,fy,fz,fh)",
+     .kind = FL_OPTION_CALL,
+     .call = add_components},
+    {.word = "column",
+     .letter = 'C',
+     .argument = "LIST",
+     .help = "columns of the table by name",
+     .kind = FL_OPTION_CALL,
+     .call = add_columns},
+    {.word = "part",
+     .letter = 'p',
+     .argument = "NAME",
+     .help = "one part of the structure, or total",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(part)},
+    {.word = "where",
+     .argument = "COLUMN=WORD",
+     .help = "only rows with that word in that column",
+     .kind = FL_OPTION_CALL,
+     .call = add_condition},
+    {.word = "over",
+     .argument = "WHAT",
+     .help = "combine the rows of one time: sum, mean, min, max or count",
+     .kind = FL_OPTION_CALL,
+     .call = set_reduction},
+    {.word = "from",
+     .argument = "T",
+     .help = "drop rows before T seconds",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(from),
+     .lo = -HUGE_NUMBER,
+     .hi = HUGE_NUMBER,
+     .expected = "a time"},
+    {.word = "to",
+     .argument = "T",
+     .help = "drop rows after T seconds",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(to),
+     .lo = -HUGE_NUMBER,
+     .hi = HUGE_NUMBER,
+     .expected = "a time"},
+    {.word = "skip",
+     .argument = "N,D[,GAP]",
+     .help = "drop the start, until an ice front of --speed has passed N diameters D;\n"
+             "GAP is its distance at time 0; without it, it arrives with the first load",
+     .kind = FL_OPTION_CALL,
+     .call = set_skip},
+    {.word = "window",
+     .letter = 'w',
+     .argument = "S",
+     .help = "only the last S seconds",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(window),
+     .lo = TINY,
+     .hi = HUGE_NUMBER,
+     .expected = "a time above 0"},
+    {.word = "step",
+     .argument = "S",
+     .help = "resample the record to equal steps by means",
+     .kind = FL_OPTION_TIME,
+     .at = AT(step)},
+    {.word = "filter",
+     .letter = 'f',
+     .argument = "WHAT",
+     .help = "add the view through a zero-phase Butterworth filter, HZ or low:HZ, high:HZ\n"
+             "or band:HZ,HZ, or a moving mean, mean:S",
+     .kind = FL_OPTION_CALL,
+     .call = parse_filter},
+    {.word = "order",
+     .argument = "N",
+     .help = "order of one pass of the filter (4)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(order),
+     .lo = 1,
+     .hi = FL_BUTTERWORTH_ORDER_MAX},
+    {.word = "separation",
+     .letter = 's',
+     .argument = "R",
+     .help = "peaks are separate when the load falls below R times the smaller (0.5)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(separation),
+     .lo = 0.0,
+     .hi = 1.0,
+     .expected = "a number from 0 to 1"},
+    {.word = "threshold",
+     .argument = "X",
+     .help = "only peaks above X, in the unit of the signal (0)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(threshold),
+     .lo = 0.0,
+     .hi = HUGE_NUMBER,
+     .expected = "a number not below 0"},
+    {.word = "bins",
+     .letter = 'b',
+     .argument = "N",
+     .help = "classes of the histogram (20)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(bins),
+     .lo = 1,
+     .hi = 1000000},
+    {.word = "quantiles",
+     .argument = "LIST",
+     .help = "of 0 .. 1 (0.5,0.9,0.95,0.99)",
+     .kind = FL_OPTION_CALL,
+     .call = set_quantiles},
+    {.word = "sample",
+     .argument = "WHAT",
+     .help = "fit distributions to peaks, pot (over threshold), blocks or runs (peaks)",
+     .kind = FL_OPTION_CHOICE,
+     .at = AT(sample),
+     .choice = SAMPLES},
+    {.word = "gap",
+     .argument = "S",
+     .help = "of pot: time below the threshold that separates two of them (0)",
+     .kind = FL_OPTION_CALL,
+     .call = set_gap},
+    {.word = "block",
+     .argument = "S",
+     .help = "of blocks: their length",
+     .kind = FL_OPTION_TIME,
+     .at = AT(block)},
+    {.word = "areas",
+     .argument = "LIST",
+     .help = "of pressure-area: areas of the window (0.01,0.02,0.05 ... 10)",
+     .kind = FL_OPTION_CALL,
+     .call = set_areas},
+    {.word = "waterline",
+     .argument = "LINE",
+     .help = "of line-load, map: circle:X,Y,R or X,Y:X,Y:...; --bins sections",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(waterline)},
+    {.word = "heights",
+     .argument = "LIST",
+     .help = "of map: rising, edges of the rows of panels",
+     .kind = FL_OPTION_CALL,
+     .call = set_heights},
+    {.word = "level",
+     .argument = "R",
+     .help = "of legs, events: durations are those above R times the peak (0.5)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(level),
+     .lo = 1e-9,
+     .hi = 1.0 - 1e-9,
+     .expected = "a number between 0 and 1"},
+    {.word = "rule",
+     .argument = "RULE",
+     .help = "of load cycles: astm (E1049) or iso (12110-2) (astm)",
+     .kind = FL_OPTION_CHOICE,
+     .at = AT(rule),
+     .choice = CYCLE_RULE},
+    {.word = "residue",
+     .argument = "WHAT",
+     .help = "residue of iso: half cycles, repeat, or none (half)",
+     .kind = FL_OPTION_CHOICE,
+     .at = AT(residue),
+     .choice = RESIDUES},
+    {.word = "sn",
+     .argument = "M[,A[,M2,KNEE]]",
+     .help = "of damage: N = A S^-M cycles to failure, slope M2 below S = KNEE (3; 5)",
+     .kind = FL_OPTION_CALL,
+     .call = add_sn},
+    {.word = "stress",
+     .argument = "X",
+     .help = "of damage: stress per unit of the load (1)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(stress),
+     .lo = TINY,
+     .hi = HUGE_NUMBER,
+     .expected = "a number above 0"},
+    {.word = "segment",
+     .argument = "S",
+     .help = "of spectra: length of a segment, they overlap by half (8 or a few more of them)",
+     .kind = FL_OPTION_TIME,
+     .at = AT(segment)},
+    {.word = "taper",
+     .argument = "WINDOW",
+     .help = "of spectra: hann, hamming, blackman or none (hann)",
+     .kind = FL_OPTION_CHOICE,
+     .at = AT(taper),
+     .choice = TAPERS},
+    {.word = "speed",
+     .argument = "V",
+     .help = "of the ice, in m/s: for the breaking length V / f",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(speed),
+     .lo = TINY,
+     .hi = HUGE_NUMBER,
+     .expected = "a speed above 0"},
+    {.word = "oscillator",
+     .argument = "F,Z[,K]",
+     .help = "of response, motion: natural frequency, damping (1 is critical), stiffness,\n"
+             "or mass, as 2e6kg; may be repeated",
+     .kind = FL_OPTION_CALL,
+     .call = add_oscillator},
+    {.word = "return",
+     .argument = "LIST",
+     .help = "of levels: return periods, seconds or with a unit, 100h (s min h d a)",
+     .kind = FL_OPTION_CALL,
+     .call = add_returns},
+    {.word = "resamples",
+     .argument = "N",
+     .help = "for intervals and probabilities, 0 for none (199)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(resamples),
+     .lo = 0,
+     .hi = 100000},
+    {.word = "seed",
+     .argument = "N",
+     .help = "of their random numbers (1)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(seed),
+     .lo = 0,
+     .hi = INT32_MAX},
+    {.word = "plot",
+     .argument = "DIR",
+     .help = "draw history and peak distribution into DIR",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(plot)},
+    {.word = "report",
+     .argument = "FILE",
+     .help = "write numbers, pictures and history as one HTML page",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(report)},
+    {.word = "format",
+     .argument = "FORMAT",
+     .help = "of the pictures, svg or png (svg)",
+     .kind = FL_OPTION_CALL,
+     .call = set_format},
+    FL_COMMON_OPTIONS(struct options, "write there, - is standard output", "compress the table",
+                      "threads (one per processor)", "no notes on standard error", "more of them"),
+};
+
+static const fl_option_table TABLE = {"loadstats", USAGE, OPTION, count_file, 0};
+
+static void write_tables_help(void)
+{
+    size_t line = 0;
+    tables_help[0] = '\0';
+    for (int k = 0; k < table_count(); k++) {
+        const char *name = table_at(k)->name, *mark = k == 0 ? "" : line > 60 ? ",\n" : ", ";
+        const size_t at = strlen(tables_help);
+        line = line > 60 ? strlen(name) : line + strlen(mark) + strlen(name);
+        snprintf(tables_help + at, sizeof tables_help - at, "%s%s", mark, name);
+    }
+    const size_t at = strlen(tables_help);
+    snprintf(tables_help + at, sizeof tables_help - at, " (%s)", table_default()->name);
+}
+
+/* The files are the last arguments: getopt_long() moves them there. */
+static void set_files(struct options *o, int argc, char *const *argv)
 {
     static char input[] = "-";
     static char *const only[] = {input};
-    o->file = n ? file : only;
-    o->files = n ? n : 1;
+    o->file = o->files ? argv + argc - o->files : only;
+    if (!o->files) o->files = 1;
     o->in = o->file[0];
 }
 
-/* What reads contacts or panels knows no signals. */
-static int check_places(const struct options *o, fl_err *err)
+/* Tables of contacts or panels have no signals. */
+static int check_contacts(const struct options *o, fl_err *err)
 {
     const char *not = o->signals        ? "column"
                       : o->filter > 0.0 ? "filter"
@@ -523,41 +618,40 @@ static int check_places(const struct options *o, fl_err *err)
                       : o->stream       ? "stream"
                       : o->follow > 0.0 ? "follow"
                                         : NULL;
-    if (o->table != TABLE_PRESSURE && o->table != TABLE_LINE && o->table != TABLE_MAP) return 0;
-    if (not ) return fl_fail(err, FL_USAGE, "--%s is of loads, --table %s has none", not, TABLE[o->table]);
-    if (o->table == TABLE_LINE && !o->waterline)
-        return fl_fail(err, FL_USAGE, "--table line-load needs --waterline, as circle:0,0,2");
-    if (o->table == TABLE_MAP && o->waterline && o->heights < 2)
+    const int map = (o->table->uses & USES_HEIGHTS) != 0;
+    if (o->table->source != FROM_CONTACTS) return 0;
+    if (not ) return fl_fail(err, FL_USAGE, "--%s is for loads, not for --table %s", not, o->table->name);
+    if ((o->table->needs & NEEDS_WATERLINE) && !o->waterline)
+        return fl_fail(err, FL_USAGE, "--table %s needs --waterline, as circle:0,0,2", o->table->name);
+    if (map && o->waterline && o->heights < 2)
         return fl_fail(err, FL_USAGE,
                        "--table map of contacts needs --heights, two or more, as -1,-0.5,0,0.5");
-    if (o->table == TABLE_MAP && !o->waterline && (o->heights || o->part || o->wheres))
-        return fl_fail(err, FL_USAGE, "--%s is of contacts, whose --table map needs --waterline too",
+    if (map && !o->waterline && (o->heights || o->part || o->wheres))
+        return fl_fail(err, FL_USAGE, "--%s is for --table map of contacts, which needs --waterline",
                        o->part      ? "part"
                        : o->heights ? "heights"
                                     : "where");
     return 0;
 }
 
-/* What works in constant memory, and on many files. */
+/* Options of summaries: constant memory, many files. */
 static int check_summary(struct options *o, fl_err *err)
 {
-    const int many = o->table >= TABLE_SUMMARY || o->merge;
+    const int many = o->table->source == FROM_RUNS || o->merge;
     const char *how = o->follow > 0.0 ? "follow" : o->merge ? "merge" : "stream";
-    if (o->merge && !o->table_given) o->table = TABLE_SUMMARY;
-    const int table = o->table == TABLE_STATS || o->table == TABLE_HISTOGRAM || o->table >= TABLE_SUMMARY ||
-                      (options_many_runs(o) &&
-                       (o->table == TABLE_FITS || o->table == TABLE_LEVELS || o->table == TABLE_DAMAGE));
+    if (o->merge && !o->table_given) o->table = table_named("summary");
+    const int table = o->table->source == FROM_RUNS || o->table->run_rows;
     if (o->files > 1 && !many && !o->stream)
-        return fl_fail(err, FL_USAGE, "one file is read, \"%.60s\" is one too many", o->file[1]);
+        return fl_fail(err, FL_USAGE, "expected one file, \"%.60s\" is another one", o->file[1]);
     if (!many && !o->stream && !(o->follow > 0.0)) return 0;
-    if (o->follow > 0.0 && o->table != TABLE_STATS)
-        return fl_fail(err, FL_USAGE, "--follow prints the table stats, not %s", TABLE[o->table]);
+    if (o->follow > 0.0 && !o->table->follows)
+        return fl_fail(err, FL_USAGE, "--follow prints the table stats, not %s", o->table->name);
     if (!table)
-        return fl_fail(err, FL_USAGE, "--table %s needs the whole record, not --%s", TABLE[o->table], how);
+        return fl_fail(err, FL_USAGE, "--table %s needs the whole record, not --%s", o->table->name, how);
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
-    const int pictures = (o->plot || o->report) && o->table != TABLE_ENSEMBLE;
-    const int first = o->skips && isnan(o->skip[2]); /* the first load is not known beforehand */
+    const int pictures = (o->plot || o->report) && !o->table->draw_runs;
+    const int first = o->skips && isnan(o->skip[2]); /* the first load is not known in advance */
     const char *whole = first             ? "skip without GAP"
                         : o->step > 0.0   ? "step"
                         : o->filter > 0.0 ? "filter"
@@ -566,7 +660,7 @@ static int check_summary(struct options *o, fl_err *err)
                                           : "report";
     if (first || o->step > 0.0 || o->filter > 0.0 || o->window > 0.0 || pictures)
         return fl_fail(err, FL_USAGE, "--%s needs the whole record, not %s%s", whole,
-                       many ? "--table " : "--", many ? TABLE[o->table] : how);
+                       many ? "--table " : "--", many ? o->table->name : how);
     return 0;
 }
 
@@ -574,10 +668,10 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
     static const double usual[] = {0.5, 0.9, 0.95, 0.99},
                         areas[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0};
-    int c;
     *o = (struct options){.in = "-",
                           .out = "-",
                           .format = "svg",
+                          .table = table_default(),
                           .from = -INFINITY,
                           .to = INFINITY,
                           .order = 4,
@@ -591,29 +685,25 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     memcpy(o->quantile, usual, sizeof usual);
     memcpy(o->area, areas, sizeof areas);
     o->areas = COUNT(areas);
-    opterr = 0;
-    while (!o->ended && (c = getopt_long(argc, argv, ":t:c:C:p:w:f:s:b:o:zj:qvh", LONG, NULL)) != -1) {
-        if (c == ':' || c == '?')
-            return fl_option_unknown("loadstats", LONG, c, optopt, argv[optind - 1], err);
-        if (apply(o, c, optarg, err)) return -1;
-    }
+    write_tables_help();
+    if (fl_options_read(&TABLE, o, NULL, argc, argv, err)) return -1;
     if (o->ended) return 0;
-    take_files(o, argc - optind, argv + optind);
-    if (check_places(o, err) || check_summary(o, err)) return -1;
+    set_files(o, argc, argv);
+    if (check_contacts(o, err) || check_summary(o, err)) return -1;
     if (o->skips && !(o->speed > 0.0)) return fl_fail(err, FL_USAGE, "--skip needs --speed, that of the ice");
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
-    if (o->sample == SAMPLE_RUNS && !options_many_runs(o))
+    if (o->sample == SAMPLE_RUNS && !settings_many_runs(o))
         return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
     if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
-        return fl_fail(err, FL_USAGE, "--sample blocks needs --block, their length");
-    if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue is of --rule iso, astm has its own");
+        return fl_fail(err, FL_USAGE, "--sample blocks needs --block");
+    if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue needs --rule iso");
     if (o->report && strcmp(o->report, "-") == 0 && strcmp(o->out, "-") == 0)
-        return fl_fail(err, FL_USAGE, "--report - needs another place for the table, --output");
-    if ((o->table == TABLE_RESPONSE || o->table == TABLE_MOTION) && !o->sways)
-        return fl_fail(err, FL_USAGE, "--table %s needs --oscillator, F,Z", TABLE[o->table]);
-    if (o->table == TABLE_LEVELS && !o->returns)
-        return fl_fail(err, FL_USAGE, "--table levels needs --return, the return periods");
+        return fl_fail(err, FL_USAGE, "--report - needs --output for the table");
+    if ((o->table->needs & NEEDS_OSCILLATOR) && !o->oscillators)
+        return fl_fail(err, FL_USAGE, "--table %s needs --oscillator, F,Z", o->table->name);
+    if ((o->table->needs & NEEDS_RETURNS) && !o->returns)
+        return fl_fail(err, FL_USAGE, "--table %s needs --return, the return periods", o->table->name);
     char *word = o->words;
     for (int32_t k = 0; k < o->signals; k++) {
         o->signal[k] = word;
@@ -626,23 +716,4 @@ void options_free(struct options *o)
 {
     free(o->words);
     o->words = NULL;
-}
-
-void options_filter(const struct options *o, char *text, size_t size)
-{
-    if (o->pass == FL_FILTER_LOW) snprintf(text, size, "%g Hz", o->filter);
-    else if (o->pass == FL_FILTER_HIGH) snprintf(text, size, "above %g Hz", o->filter);
-    else if (o->pass == FL_FILTER_BAND) snprintf(text, size, "%g to %g Hz", o->filter, o->upper);
-    else snprintf(text, size, "mean of %g s", o->filter);
-}
-
-double options_from(const struct options *o)
-{
-    if (!o->skips || isnan(o->skip[2])) return o->from;
-    return fmax(o->from, (o->skip[2] + o->skip[0] * o->skip[1]) / o->speed);
-}
-
-double options_after(const struct options *o)
-{
-    return o->skips && isnan(o->skip[2]) ? o->skip[0] * o->skip[1] / o->speed : 0.0;
 }

@@ -32,16 +32,15 @@ plot_scale plot_scale_of(const char *unit, double large)
 
 static double largest_of(const picture *p, int32_t s)
 {
-    const fl_descriptive_stats *d = &view_of(p->r, p->part, s, 0)->stats;
+    const fl_descriptive_stats *d = &find_view(p->r, p->part, s, 0)->stats;
     return fmax(fabs(d->min), fabs(d->max));
 }
 
-plot_scale plot_scale_here(const picture *p, int32_t s)
+plot_scale plot_scale_of_signal(const picture *p, int32_t s)
 {
-    return plot_scale_of(p->r->s->unit[s], largest_of(p, s));
+    return plot_scale_of(p->r->series->unit[s], largest_of(p, s));
 }
 
-/* A text in a gnuplot script, between single quotes. */
 void plot_quoted(FILE *f, const char *text)
 {
     putc('\'', f);
@@ -52,19 +51,20 @@ void plot_quoted(FILE *f, const char *text)
     putc('\'', f);
 }
 
-void plot_axis(char *label, size_t size, const char *signal, const char *unit, double large)
+void plot_axis_label(char *label, size_t size, const char *signal, const char *unit, double large)
 {
     const char *title = title_of(signal);
     if (unit[0]) snprintf(label, size, "%.200s  [%s%.60s]", title, plot_scale_of(unit, large).prefix, unit);
     else snprintf(label, size, "%.200s", title);
 }
 
-void plot_axis_text(const picture *p, int32_t s, char *label, size_t size)
+void plot_signal_label(const picture *p, int32_t s, char *label, size_t size)
 {
-    plot_axis(label, size, p->r->s->signal[s], p->r->s->unit[s], largest_of(p, s));
+    plot_axis_label(label, size, p->r->series->signal[s], p->r->series->unit[s], largest_of(p, s));
 }
 
-/* gnuplot puts the title of a vertical axis beside its longest number; at one place the titles line up. */
+/* gnuplot places the title of a vertical axis beside its longest number; a label at a fixed x aligns the
+ * titles. */
 void plot_left_title(const picture *p, const char *text, double x)
 {
     fputs("set label 2 ", p->script);
@@ -72,13 +72,13 @@ void plot_left_title(const picture *p, const char *text, double x)
     fprintf(p->script, " at screen %.4f, graph 0.5 center rotate\n", x);
 }
 
-/* A part may have any name; a file has a plain one, told apart by the number of the part where that is not
- * enough. */
+/* A part may have any name.  Other characters become _, and the number of the part then distinguishes the
+ * file. */
 static void make_stem(picture *p)
 {
-    const char *name = p->r->s->part[p->part];
+    const char *name = p->r->series->part[p->part];
     int plain = strlen(name) < 40 && name[0] != '\0', n;
-    n = snprintf(p->stem, sizeof p->stem, "%s-%.40s", p->what, strcmp(name, "-") == 0 ? "all" : name);
+    n = snprintf(p->stem, sizeof p->stem, "%s-%.40s", p->name, strcmp(name, "-") == 0 ? "all" : name);
     for (char *c = p->stem; *c; c++) {
         if (strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.", *c)) continue;
         *c = '_';
@@ -96,22 +96,22 @@ void plot_block(picture *p)
 
 void plot_label(const picture *p, int32_t s, int w)
 {
-    const char *unit = p->r->s->unit[s];
-    fprintf(p->data, "%s\t%s\t%s", p->r->s->signal[s], unit[0] ? unit : "-", view_name(w));
+    const char *unit = p->r->series->unit[s];
+    fprintf(p->data, "%s\t%s\t%s", p->r->series->signal[s], unit[0] ? unit : "-", view_name(w));
 }
 
 void plot_columns(const picture *p, int n, const double *x)
 {
     for (int k = 0; k < n; k++) {
         putc('\t', p->data);
-        put_number(p->data, x[k]);
+        write_number(p->data, x[k]);
     }
     putc('\n', p->data);
 }
 
 /* --- scripts -------------------------------------------------------------------------------------------- */
 
-/* Raw is thin and light, filtered strong; alone, raw is strong. */
+/* Line styles: 1 raw beside filtered, thin and light; 2 filtered; 3 raw alone. */
 static const char *const STYLES = "set style line 1 lc rgb '#85bcdb' lw 1.0 pt 6 ps 0.6\n"
                                   "set style line 2 lc rgb '#08519c' lw 2.0 pt 7 ps 0.5\n"
                                   "set style line 3 lc rgb '#2171b5' lw 1.2 pt 7 ps 0.5\n"
@@ -139,7 +139,21 @@ static int height_of(const picture *p)
     return HEAD + p->panels * PANEL + (p->panels - 1) * p->gap + PLOT_FOOT;
 }
 
-int plot_is_loads(const picture *p) { return strcmp(p->r->s->kind, "loads") == 0; }
+int plot_signal_varies(const picture *p, int32_t s)
+{
+    const fl_signal_view *v = find_view(p->r, p->part, s, 0);
+    return v && v->stats.max > v->stats.min;
+}
+
+int plot_part_varies(const picture *p, fl_err *err)
+{
+    (void)err;
+    for (int32_t s = 0; s < p->r->series->signals; s++)
+        if (plot_signal_varies(p, s)) return 1;
+    return 0;
+}
+
+int plot_is_loads(const picture *p) { return strcmp(p->r->series->kind, "loads") == 0; }
 
 void plot_start(const picture *p, const char *heading)
 {
@@ -149,7 +163,8 @@ void plot_start(const picture *p, const char *heading)
     plot_open(f, p->stem, p->o->format, WIDTH, height);
     fprintf(f, "%sset multiplot\n", STYLES);
     snprintf(title, sizeof title, "%s, %.100s", heading,
-             strcmp(p->r->s->part[p->part], "-") == 0 ? p->r->s->kind : p->r->s->part[p->part]);
+             strcmp(p->r->series->part[p->part], "-") == 0 ? p->r->series->kind
+                                                           : p->r->series->part[p->part]);
     fputs("set label 1 ", f);
     plot_quoted(f, title);
     fprintf(f, " at screen 0.5, screen %.4f center font ',%d' textcolor rgb '#111111'\n", 1.0 - 24.0 / height,
@@ -158,8 +173,8 @@ void plot_start(const picture *p, const char *heading)
             1.0 - 40.0 / height);
 }
 
-/* Panel k: all have the same margins, so that axes line up. */
-void plot_place(picture *p, int k, double left, double right)
+/* All panels have the same margins, so that axes are aligned. */
+void plot_set_margins(picture *p, int k, double left, double right)
 {
     const double height = height_of(p), top = HEAD + k * (PANEL + p->gap);
     fprintf(p->script, "set lmargin at screen %.4f\nset rmargin at screen %.4f\n", left, right);
@@ -168,16 +183,15 @@ void plot_place(picture *p, int k, double left, double right)
     p->curves = 0;
 }
 
-/* The next curve of the panel, of the next block of the data. */
 void plot_curve(picture *p)
 {
     fprintf(p->script, "%sdata index %d ", p->curves++ ? ", \\\n     " : "plot ", p->blocks);
 }
 
-/* Title and key belong to the first panel. */
+/* Title and key stand on the first panel only. */
 void plot_end_panel(const picture *p) { fputs("\nunset key\nunset label 1\n", p->script); }
 
-/* A step of 1, 2 or 5 times a power of ten that cuts a range into three to six. */
+/* 1, 2 or 5 times a power of ten. */
 double plot_tics(double range)
 {
     const double unit = pow(10.0, floor(log10(range / 3.0))), k = range / 3.0 / unit;
@@ -197,7 +211,7 @@ int plot_draw(const char *dir, const char *stem, const char *format, fl_err *err
     return fl_gnuplot_draw(dir, stem, format, err);
 }
 
-int plot_make(const picture *plan, int (*fill)(picture *, fl_err *), fl_err *err)
+int make_picture(const picture *plan, int (*fill)(picture *, fl_err *), fl_err *err)
 {
     picture p = *plan;
     fl_out data = {0}, script = {0};
@@ -208,7 +222,7 @@ int plot_make(const picture *plan, int (*fill)(picture *, fl_err *), fl_err *err
     if (plot_path(path, p.o->plot, p.stem, "gp", err) || fl_out_open(&script, path, 0, err)) goto done;
     p.data = data.f;
     p.script = script.f;
-    fl_write_file_header(p.data, p.what, 1, p.r->s->history, p.by);
+    fl_write_file_header(p.data, p.name, 1, p.r->series->history, p.by);
     if (fill(&p, err)) goto done;
     fputs("unset multiplot\nset output\n", p.script);
     if (fl_out_close(&data, err) || fl_out_close(&script, err)) goto done;

@@ -11,7 +11,7 @@ enum { POINTS = 60, BAND = 16 };
 
 static const char *const COLOUR[FL_DISTS] = {"#08519c", "#3f8f5f", "#7b4fa3", "#c8642d", "#b8860b"};
 
-/* What a panel shows: the sample of a signal, the laws found, the best of them by AIC, -1 for none. */
+/* A panel: the sample of a signal, the distributions fitted, the best of them by AIC, -1 for none. */
 typedef struct {
     extreme_sample s;
     fl_dist law[FL_DISTS];
@@ -21,7 +21,7 @@ typedef struct {
 
 static int open_panel(panel *q, const picture *p, int32_t s, fl_err *err)
 {
-    const fl_signal_view *v = view_of(p->r, p->part, s, 0);
+    const fl_signal_view *v = find_view(p->r, p->part, s, 0);
     fl_fit_work w = {0};
     double least = INFINITY;
     *q = (panel){.best = -1};
@@ -49,13 +49,13 @@ static double period_of(const panel *q, int k, int n)
     return q->from * pow(q->to / q->from, k / (n - 1.0));
 }
 
-static void point(const picture *p, int32_t s, int n, const double *x)
+static void write_point(const picture *p, int32_t s, int n, const double *x)
 {
     plot_label(p, s, 0);
     plot_columns(p, n, x);
 }
 
-/* The interval of the best law; how far up it reaches comes back. */
+/* The interval of the best distribution; *top is raised to its largest upper end. */
 static int make_band(const panel *q, fl_return_level r[BAND], double *top, fl_err *err)
 {
     fl_fit_work w = {0};
@@ -73,8 +73,8 @@ static int make_band(const panel *q, fl_return_level r[BAND], double *top, fl_er
     return rc;
 }
 
-/* Periods are told in the largest unit of which there are two or more. */
-static double unit_of(double period, const char **name)
+/* The largest unit of which a period holds two or more. */
+static double unit_of_period(double period, const char **name)
 {
     static const struct {
         const char *name;
@@ -88,19 +88,19 @@ static double unit_of(double period, const char **name)
     return 1.0;
 }
 
-/* The axis ends where the interval does: laws of a heavier tail must not press the rest to the ground. */
-static int put_panel(picture *p, int k, int32_t s, const panel *q, fl_err *err)
+/* The axis ends with the interval: a distribution of heavier tail would compress the rest. */
+static int write_panel(picture *p, int k, int32_t s, const panel *q, fl_err *err)
 {
-    const plot_scale c = plot_scale_here(p, s);
+    const plot_scale c = plot_scale_of_signal(p, s);
     const char *unit;
-    const double second = 1.0 / unit_of(q->to, &unit);
+    const double second = 1.0 / unit_of_period(q->to, &unit);
     FILE *f = p->script;
     double top = q->s.x[0];
     fl_return_level r[BAND];
     char text[300];
     if (make_band(q, r, &top, err)) return -1;
-    plot_place(p, k, 0.095, 0.8);
-    plot_axis_text(p, s, text, sizeof text);
+    plot_set_margins(p, k, 0.095, 0.8);
+    plot_signal_label(p, s, text, sizeof text);
     plot_left_title(p, text, 0.022);
     fprintf(f,
             "set logscale x\nset xrange [%.6g:%.6g]\nset yrange [*:%.6g]\nset xlabel 'Return period  [%s]'\n"
@@ -111,7 +111,7 @@ static int put_panel(picture *p, int k, int32_t s, const panel *q, fl_err *err)
             c.factor, c.factor, fl_dist_name(q->best));
     plot_block(p);
     for (int i = 0; i < BAND; i++)
-        point(p, s, 3, (double[]){period_of(q, i, BAND), r[i].profile[0], r[i].profile[1]});
+        write_point(p, s, 3, (double[]){period_of(q, i, BAND), r[i].profile[0], r[i].profile[1]});
     for (int kind = 0; kind < FL_DISTS; kind++) {
         if (!q->found[kind]) continue;
         plot_curve(p);
@@ -121,7 +121,7 @@ static int put_panel(picture *p, int k, int32_t s, const panel *q, fl_err *err)
         plot_block(p);
         for (int i = 0; i < POINTS; i++) {
             const double T = period_of(q, i, POINTS);
-            point(p, s, 2, (double[]){T, fl_dist_upper_quantile(&q->law[kind], 1.0 / (q->s.rate * T))});
+            write_point(p, s, 2, (double[]){T, fl_dist_upper_quantile(&q->law[kind], 1.0 / (q->s.rate * T))});
         }
     }
     plot_curve(p);
@@ -129,17 +129,17 @@ static int put_panel(picture *p, int k, int32_t s, const panel *q, fl_err *err)
             c.factor);
     plot_block(p);
     for (int32_t i = 0; i < q->s.n; i++)
-        point(p, s, 2, (double[]){1.0 / (q->s.rate * fl_plotting_position(i + 1, q->s.n)), q->s.x[i]});
+        write_point(p, s, 2, (double[]){1.0 / (q->s.rate * fl_plotting_position(i + 1, q->s.n)), q->s.x[i]});
     fprintf(f, "\nunset label 1\n");
     return 0;
 }
 
-static int fill(picture *p, fl_err *err)
+static int fill_levels(picture *p, fl_err *err)
 {
     int k = 0, rc = 0;
     p->gap = PLOT_FOOT + 10;
     p->panels = 0;
-    for (int32_t s = 0; s < p->r->s->signals && rc == 0; s++) {
+    for (int32_t s = 0; s < p->r->series->signals && rc == 0; s++) {
         panel q;
         rc = open_panel(&q, p, s, err);
         p->panels += rc == 0 && q.best >= 0;
@@ -147,25 +147,26 @@ static int fill(picture *p, fl_err *err)
     }
     fputs("signal\tunit\tview\tT[s]\tlevel_or_low\thigh\n", p->data);
     plot_start(p, "Return levels");
-    for (int32_t s = 0; s < p->r->s->signals && rc == 0; s++) {
+    for (int32_t s = 0; s < p->r->series->signals && rc == 0; s++) {
         panel q;
         rc = open_panel(&q, p, s, err);
-        if (rc == 0 && q.best >= 0) rc = put_panel(p, k++, s, &q, err);
+        if (rc == 0 && q.best >= 0) rc = write_panel(p, k++, s, &q, err);
         free(q.s.x);
     }
     return rc;
 }
 
-int plot_levels(picture *p, int *made, fl_err *err)
+/* A distribution can be fitted to one of the signals. */
+static int has_fit(const picture *p, fl_err *err)
 {
-    for (int32_t s = 0; s < p->r->s->signals; s++) {
+    for (int32_t s = 0; s < p->r->series->signals; s++) {
         panel q;
         const int rc = open_panel(&q, p, s, err), any = q.best >= 0;
         free(q.s.x);
         if (rc) return -1;
-        if (!any) continue;
-        ++*made;
-        return plot_make(p, fill, err);
+        if (any) return 1;
     }
     return 0;
 }
+
+const struct picture_kind levels_picture = {.name = "levels", .drawable = has_fit, .fill = fill_levels};

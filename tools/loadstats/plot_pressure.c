@@ -4,8 +4,11 @@
 #include <string.h>
 #include <sys/stat.h>
 #include "base/stream.h"
+#include "cell.h"
 #include "picture.h"
 #include "load_map.h"
+#include "plot_pressure.h"
+#include "table_kind.h"
 
 enum { WIDTH = 1000, PARTS_DRAWN = 6 };
 
@@ -16,11 +19,11 @@ static const char *const STYLES = "set border 3 lc rgb '#444444' lw 1\n"
 static const char *const COLOUR[PARTS_DRAWN] = {"#08519c", "#c8642d", "#3f8f5f",
                                                 "#7b4fa3", "#b8860b", "#555555"};
 
-static void put_title(FILE *f, const char *text) { fprintf(f, "set title '%s' offset 0,0.4\n", text); }
+static void write_title(FILE *f, const char *text) { fprintf(f, "set title '%s' offset 0,0.4\n", text); }
 
 /* --- pressure against area ------------------------------------------------------------------------------ */
 
-static void pressure_data(FILE *f, const place *p)
+static void write_pressure_data(FILE *f, const load_map *p)
 {
     fputs("part\tarea[m2]\tp_max[MPa]\tp_mean[MPa]\n", f);
     for (int32_t k = 0; k < p->parts && k < PARTS_DRAWN; k++) {
@@ -36,7 +39,7 @@ static void pressure_data(FILE *f, const place *p)
     }
 }
 
-static void pressure_script(FILE *f, const place *p)
+static void write_pressure_script(FILE *f, const load_map *p)
 {
     const int32_t parts = p->parts < PARTS_DRAWN ? p->parts : PARTS_DRAWN;
     double lo = INFINITY, hi = 0.0;
@@ -44,7 +47,7 @@ static void pressure_script(FILE *f, const place *p)
         lo = fmin(lo, p->o->area[a]);
         hi = fmax(hi, p->o->area[a]);
     }
-    put_title(f, "Local pressure, largest at any time and place");
+    write_title(f, "Local pressure, largest at any time and place");
     fprintf(f,
             "set logscale xy\nset format '%%g'\nset xrange [%g:%g]\nset xlabel 'Area of the window  [m²]'\n"
             "set ylabel 'Pressure  [MPa]'\nset grid back lc rgb '#dddddd' lw 0.8\n"
@@ -73,13 +76,13 @@ static void pressure_script(FILE *f, const place *p)
 
 /* --- load along the waterline --------------------------------------------------------------------------- */
 
-static void line_data(FILE *f, const place *p)
+static void write_line_data(FILE *f, const load_map *p)
 {
     fputs("s[m]\tq_mean\tq_max\twidth[m]\n\n\n", f);
     for (int32_t k = 0; k < p->panels; k++) {
         const load_panel *q = &p->panel[k];
         const double width = q->to - q->from;
-        put_number(f, 0.5 * (q->from + q->to));
+        write_number(f, 0.5 * (q->from + q->to));
         write_cell(f, q->load.sum / p->weight / width);
         write_cell(f, q->load.max / width);
         write_cell(f, width);
@@ -87,7 +90,7 @@ static void line_data(FILE *f, const place *p)
     }
 }
 
-static void line_script(FILE *f, const place *p)
+static void write_line_script(FILE *f, const load_map *p)
 {
     const double width = p->line.length / p->across;
     double max = 0.0, mean = 0.0;
@@ -96,7 +99,7 @@ static void line_script(FILE *f, const place *p)
         mean = fmax(mean, fabs(p->panel[k].load.sum / p->weight / width));
     }
     const plot_scale a = plot_scale_of("N/m", max), b = plot_scale_of("N/m", mean);
-    put_title(f, "Load along the waterline");
+    write_title(f, "Load along the waterline");
     fprintf(
         f,
         "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.97\nset xrange [0:%g]\n"
@@ -109,10 +112,10 @@ static void line_script(FILE *f, const place *p)
         p->line.length, a.prefix, a.factor, b.prefix, b.factor);
 }
 
-/* --- the map -------------------------------------------------------------------------------------------- */
+/* --- map ------------------------------------------------------------------------------------------------ */
 
-/* The two directions in which panels that know no waterline are spread widest. */
-static void directions(const place *p, int way[2])
+/* The two axes along which panels without a waterline extend most. */
+static void widest_axes(const load_map *p, int way[2])
 {
     double wide[3];
     for (int d = 0; d < 3; d++) {
@@ -130,16 +133,16 @@ static void directions(const place *p, int way[2])
     way[1] = out == 2 ? 1 : 2;
 }
 
-/* Each panel as a rectangle: its middle, half its width and height, pressures. */
-static void map_data(FILE *f, const place *p)
+/* Each panel as a rectangle: middle, half width and half height, pressures. */
+static void write_map_data(FILE *f, const load_map *p)
 {
     int way[2];
-    directions(p, way);
+    widest_axes(p, way);
     fputs("across[m]\tup[m]\thalf_width[m]\thalf_height[m]\tp_mean\tp_max\n\n\n", f);
     for (int32_t k = 0; k < p->panels; k++) {
         const load_panel *q = &p->panel[k];
         const double at[3] = {q->middle.x, q->middle.y, q->middle.z}, side = 0.5 * sqrt(q->area);
-        put_number(f, p->across ? 0.5 * (q->from + q->to) : at[way[0]]);
+        write_number(f, p->across ? 0.5 * (q->from + q->to) : at[way[0]]);
         write_cell(f, p->across ? 0.5 * (q->bottom + q->top) : at[way[1]]);
         write_cell(f, p->across ? 0.5 * (q->to - q->from) : side);
         write_cell(f, p->across ? 0.5 * (q->top - q->bottom) : side);
@@ -150,7 +153,7 @@ static void map_data(FILE *f, const place *p)
 }
 
 /* One of the two maps: column of the data, its largest value. */
-static void map_panel(FILE *f, const char *what, int column, double most)
+static void write_map_panel(FILE *f, const char *what, int column, double most)
 {
     const plot_scale c = plot_scale_of("Pa", most);
     fprintf(f, "set cbrange [0:%.6g]\nset cbtics %.6g\nset cblabel '%s  [%sPa]'\n",
@@ -159,7 +162,7 @@ static void map_panel(FILE *f, const char *what, int column, double most)
     fprintf(f, "plot data index 1 using 1:2:3:4:(%g*$%d) with boxxyerror lc palette\n", c.factor, column);
 }
 
-static void map_script(FILE *f, const place *p)
+static void write_map_script(FILE *f, const load_map *p)
 {
     static const char *const name[] = {"x", "y", "z"};
     double max = 0.0, mean = 0.0;
@@ -168,47 +171,47 @@ static void map_script(FILE *f, const place *p)
         max = fmax(max, p->panel[k].load.max / p->panel[k].area);
         mean = fmax(mean, p->panel[k].load.sum / p->weight / p->panel[k].area);
     }
-    directions(p, way);
-    put_title(f, "Load on panels");
+    widest_axes(p, way);
+    write_title(f, "Load on panels");
     fprintf(f,
             "set multiplot\nset lmargin at screen 0.09\nset rmargin at screen 0.86\nunset key\n"
             "set style fill solid 1 noborder\nset autoscale noextend\n"
             "set palette defined (0 '#f4f7fa', 0.15 '#c6dbef', 0.5 '#4292c6', 1 '#08306b')\n"
             "set tmargin at screen 0.89\nset bmargin at screen 0.58\nset format x ''\nset ylabel '%s  [m]'\n",
             p->across ? "z" : name[way[1]]);
-    map_panel(f, "Largest", 6, max);
+    write_map_panel(f, "Largest", 6, max);
     fprintf(f,
             "unset title\nset tmargin at screen 0.49\nset bmargin at screen 0.18\nset format x '%%g'\n"
             "set xlabel '%s  [m]'\n",
             p->across ? "Along the waterline" : name[way[0]]);
-    map_panel(f, "Mean", 5, mean);
+    write_map_panel(f, "Mean", 5, mean);
     fputs("unset multiplot\n", f);
 }
 
-/* --- all of it ------------------------------------------------------------------------------------------ */
+/* --- pictures ------------------------------------------------------------------------------------------- */
 
-int plot_load_map(const place *p, const struct options *o, const fl_history_line *by, fl_err *err)
+const struct load_picture pressure_picture = {write_pressure_data, write_pressure_script, 460};
+const struct load_picture line_picture = {write_line_data, write_line_script, 480};
+const struct load_picture map_picture = {write_map_data, write_map_script, 480};
+
+int plot_load_map(const load_map *p, const struct options *o, const fl_history_line *by, fl_err *err)
 {
-    const enum table t = p->o->table;
-    const char *stem = options_table(t);
+    const struct load_picture *kind = p->o->table->contact_picture;
+    const char *stem = p->o->table->name;
     char path[PLOT_PATH_LEN];
     fl_out out = {0};
     int rc = -1;
-    if (t == TABLE_PRESSURE ? p->parts == 0 : p->panels == 0) return 0;
+    if (p->parts == 0 && p->panels == 0) return 0;
     if (mkdir(o->plot, 0777) != 0 && errno != EEXIST)
         return fl_fail(err, FL_SYSTEM, "%s: %s", o->plot, strerror(errno));
     if (plot_path(path, o->plot, stem, "tsv", err) || fl_out_open(&out, path, 0, err)) goto done;
     fl_write_file_header(out.f, stem, 1, p->history, by);
-    if (t == TABLE_PRESSURE) pressure_data(out.f, p);
-    else if (t == TABLE_LINE) line_data(out.f, p);
-    else map_data(out.f, p);
+    kind->data(out.f, p);
     if (fl_out_close(&out, err)) goto done;
     if (plot_path(path, o->plot, stem, "gp", err) || fl_out_open(&out, path, 0, err)) goto done;
-    plot_open(out.f, stem, o->format, WIDTH, t == TABLE_PRESSURE ? 460 : 480);
+    plot_open(out.f, stem, o->format, WIDTH, kind->height);
     fputs(STYLES, out.f);
-    if (t == TABLE_PRESSURE) pressure_script(out.f, p);
-    else if (t == TABLE_LINE) line_script(out.f, p);
-    else map_script(out.f, p);
+    kind->script(out.f, p);
     fputs("set output\n", out.f);
     if (fl_out_close(&out, err)) goto done;
     rc = plot_draw(o->plot, stem, o->format, err);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* plot_response.h -- the picture response: the motion of an oscillator, or the amplification of many. */
+/* plot_response.h -- the picture response: response of oscillators against time, or amplification against
+ * frequency. */
 #ifndef LOADSTATS_PLOT_RESPONSE_H
 #define LOADSTATS_PLOT_RESPONSE_H
 #include "picture.h"
 
-/* Write data and script for plot_make().  0, or -1 with FL_INPUT or FL_SYSTEM in err. */
-int plot_response(picture *p, fl_err *err);
+extern const struct picture_kind response_picture;
 
 #endif

@@ -4,13 +4,13 @@
 #include "plot_spectrum.h"
 #include "table_spectrum.h"
 
-/* Below the highest density by more than this nothing is shown. */
+/* Range of the axis below the highest density. */
 static const double DECADES = 4.5;
 
-/* Frequencies are shown one by one up to this one, above it as means over stretches of 1 / ALL of them. */
+/* Frequencies are drawn one by one up to this number, above it as means over 1 / ALL of the frequency. */
 enum { ALL = 400 };
 
-static void spectrum_block(picture *p, int32_t s, int w, const fl_power_spectrum *a)
+static void write_spectrum_block(picture *p, int32_t s, int w, const fl_power_spectrum *a)
 {
     plot_block(p);
     for (int32_t k = 1, next; k < a->n; k = next) {
@@ -29,12 +29,12 @@ static void spectrum_block(picture *p, int32_t s, int w, const fl_power_spectrum
     }
 }
 
-static void curves(picture *p, int32_t s, const fl_power_spectrum a[2])
+static void write_curves(picture *p, int32_t s, const fl_power_spectrum a[2])
 {
-    const double factor = pow(plot_scale_here(p, s).factor, 2.0);
+    const double factor = pow(plot_scale_of_signal(p, s).factor, 2.0);
     FILE *f = p->script;
     char text[120];
-    for (int w = 0; w < p->r->each; w++) {
+    for (int w = 0; w < p->r->view_count; w++) {
         if (w == 0) {
             plot_curve(p);
             fprintf(
@@ -43,30 +43,32 @@ static void curves(picture *p, int32_t s, const fl_power_spectrum a[2])
                 "     ",
                 factor, factor);
             fprintf(f, "'' index %d using 4:($5*%g) with lines ls %d title '%s'", p->blocks, factor,
-                    p->r->each > 1 ? 1 : 3, view_name(w));
+                    p->r->view_count > 1 ? 1 : 3, view_name(w));
         } else {
-            options_filter(p->o, text, sizeof text);
+            settings_filter_text(p->o, text, sizeof text);
             plot_curve(p);
             fprintf(f, "using 4:($5*%g) with lines ls 2 title '%s, %s'", factor, view_name(w), text);
         }
-        spectrum_block(p, s, w, &a[w]);
+        write_spectrum_block(p, s, w, &a[w]);
     }
 }
 
-static int spectrum_panel(picture *p, int k, int32_t s, fl_err *err)
+static int write_spectrum_panel(picture *p, int k, int32_t s, fl_err *err)
 {
-    const plot_scale c = plot_scale_here(p, s);
-    const char *unit = p->r->s->unit[s];
+    const plot_scale c = plot_scale_of_signal(p, s);
+    const char *unit = p->r->series->unit[s];
     FILE *f = p->script;
     fl_power_spectrum a[2] = {{0}, {0}};
     double most = 0.0;
     char text[300];
     int rc = 0;
-    for (int w = 0; w < p->r->each && rc == 0; w++) rc = spectrum_make(&a[w], p->r, p->o, p->part, s, w, err);
+    for (int w = 0; w < p->r->view_count && rc == 0; w++)
+        rc = spectrum_make(&a[w], p->r, p->o, p->part, s, w, err);
     if (rc) goto done;
     for (int32_t j = 1; j < a[0].n; j++) most = fmax(most, c.factor * c.factor * a[0].psd[j]);
-    plot_place(p, k, 0.095, 0.97);
-    snprintf(text, sizeof text, "%.80s  [%s%.60s²/Hz]", p->r->s->signal[s], c.prefix, unit[0] ? unit : "");
+    plot_set_margins(p, k, 0.095, 0.97);
+    snprintf(text, sizeof text, "%.80s  [%s%.60s²/Hz]", p->r->series->signal[s], c.prefix,
+             unit[0] ? unit : "");
     plot_left_title(p, text, 0.015);
     fprintf(f, "set logscale xy\nset xrange [%.6g:%.6g]\n", a[0].df, a[0].fs / 2.0);
     fprintf(f, "set yrange [%.3g:%.3g]\nset format y '%%g'\n", most * pow(10.0, -DECADES), 4.0 * most);
@@ -81,7 +83,7 @@ static int spectrum_panel(picture *p, int k, int32_t s, fl_err *err)
         fprintf(f, "set label 3 '%.3g Hz' at %.6g, graph 0.93 offset 0.6,0 textcolor rgb '#c8642d'\n",
                 dominant, dominant);
     }
-    curves(p, s, a);
+    write_curves(p, s, a);
     plot_end_panel(p);
 done:
     fl_power_spectrum_free(&a[0]);
@@ -89,23 +91,19 @@ done:
     return rc;
 }
 
-/* A constant has no spectrum. */
-static int varies(const picture *p, int32_t s)
-{
-    const fl_signal_view *v = view_of(p->r, p->part, s, 0);
-    return v && v->stats.max > v->stats.min;
-}
-
-int plot_spectrum(picture *p, fl_err *err)
+static int fill_spectrum(picture *p, fl_err *err)
 {
     char heading[80];
     int k = 0;
     p->gap = 26;
-    for (int32_t s = 0; s < p->r->s->signals; s++) p->panels += varies(p, s);
+    for (int32_t s = 0; s < p->r->series->signals; s++) p->panels += plot_signal_varies(p, s);
     fputs("signal\tunit\tview\tf[Hz]\tpsd\tpsd_low\tpsd_high\n", p->data);
     snprintf(heading, sizeof heading, "Spectrum (%s)", fl_taper_name(p->o->taper));
     plot_start(p, heading);
-    for (int32_t s = 0; s < p->r->s->signals; s++)
-        if (varies(p, s) && spectrum_panel(p, k++, s, err)) return -1;
+    for (int32_t s = 0; s < p->r->series->signals; s++)
+        if (plot_signal_varies(p, s) && write_spectrum_panel(p, k++, s, err)) return -1;
     return 0;
 }
+
+const struct picture_kind spectrum_picture = {
+    .name = "spectrum", .drawable = plot_part_varies, .fill = fill_spectrum};

@@ -7,9 +7,9 @@
 #include "stat/sample.h"
 #include "table_fits.h"
 
-enum { FEW = 20 }; /* values: a law fitted to fewer says little */
+enum { FEW = 20 }; /* values: a distribution fitted to fewer is unreliable */
 
-/* Levels beyond this many record lengths rest on the law, not on the record. */
+/* Beyond this many record lengths a level is an extrapolation of the distribution. */
 static const double REACH = 4.0;
 
 typedef struct {
@@ -19,8 +19,8 @@ typedef struct {
     fl_return_level r[RETURNS_MAX];
 } law;
 
-/* From rows to their values, the largest first. */
-static int take(extreme_sample *s, const fl_signal_view *v, const fl_peaks *p, fl_err *err)
+/* The values of the selected rows in descending order. */
+static int sorted_values(extreme_sample *s, const fl_signal_view *v, const fl_peaks *p, fl_err *err)
 {
     double *x = fl_alloc(p->n, sizeof *x, err);
     int32_t *rank = x ? fl_alloc(p->n, sizeof *rank, err) : NULL;
@@ -43,24 +43,25 @@ int extreme_sample_make(extreme_sample *s, const fl_signal_view *v, const struct
     int rc;
     *s = (extreme_sample){.threshold = o->threshold, .excesses = o->sample < SAMPLE_BLOCKS};
     if (o->sample == SAMPLE_PEAKS) {
-        rc = take(s, v, &v->peaks, err);
+        rc = sorted_values(s, v, &v->peaks, err);
     } else if (o->sample == SAMPLE_POT) {
         rc = fl_sample_peaks_over_threshold(v->n, v->x, v->edge, o->threshold, o->gap, &p, err);
-        if (rc == 0) rc = take(s, v, &p, err);
+        if (rc == 0) rc = sorted_values(s, v, &p, err);
     } else {
         rc = fl_sample_block_maxima(v->n, v->x, v->edge, o->block, &p, &blocks, err);
-        if (rc == 0) rc = take(s, v, &p, err);
+        if (rc == 0) rc = sorted_values(s, v, &p, err);
     }
-    /* a block without a row has no largest value: those that have one come less often */
+    /* A block without rows has no maximum, which lowers the rate of the others. */
     s->rate =
         o->sample >= SAMPLE_BLOCKS ? (blocks > 0 ? s->n / (blocks * o->block) : 1.0 / o->block) : s->n / span;
     fl_peaks_free(&p);
     return rc;
 }
 
-/* The law of one kind by likelihood, with its levels.  Its random numbers are its own: the entity is the
- * kind. */
-static int make_law(law *l, int kind, const extreme_sample *s, const struct options *o, fl_err *err)
+/* Fit one kind of distribution by likelihood and compute its levels.  Its kind is the entity of its random
+ * numbers. */
+static int make_law(law *l, int kind, const extreme_sample *s, const struct options *o, int32_t levels,
+                    fl_err *err)
 {
     fl_fit_work w = {0};
     int rc = -1;
@@ -68,12 +69,11 @@ static int make_law(law *l, int kind, const extreme_sample *s, const struct opti
     l->found = (kind != FL_GPD || s->excesses) &&
                fl_fit(&l->d, kind, FL_FIT_LIKELIHOOD, s->n, s->x, s->threshold, &w);
     if (l->found) {
-        const int levels = o->table == TABLE_LEVELS;
-        for (int32_t k = 0; k < o->returns; k++)
+        for (int32_t k = 0; k < levels; k++)
             l->r[k] = (fl_return_level){.tail = 1.0 / (s->rate * o->period[k])};
-        /* Of a level that is exceeded more often than values come nothing can be said. */
+        /* A level exceeded more often than values occur is undefined. */
         int32_t m = 0;
-        for (int32_t k = 0; levels && k < o->returns; k++)
+        for (int32_t k = 0; k < levels; k++)
             if (l->r[k].tail < 1.0) l->r[m++] = l->r[k];
         rc = fl_compute_return_levels(&l->d, s->n, s->x, m, l->r, &l->g, o->resamples, (uint64_t)o->seed,
                                       kind, &w, err);
@@ -84,13 +84,13 @@ static int make_law(law *l, int kind, const extreme_sample *s, const struct opti
     return rc;
 }
 
-static int make_laws(law *l, const extreme_sample *s, const struct options *o, fl_err *err)
+static int make_laws(law *l, const extreme_sample *s, const struct options *o, int32_t levels, fl_err *err)
 {
     int failed = FL_DISTS;
 #pragma omp parallel for schedule(dynamic)
     for (int kind = 0; kind < FL_DISTS; kind++) {
         fl_err own = {0};
-        if (make_law(&l[kind], kind, s, o, &own) == 0) continue;
+        if (make_law(&l[kind], kind, s, o, levels, &own) == 0) continue;
 #pragma omp critical(loadstats_laws)
         if (kind < failed) {
             failed = kind;
@@ -100,8 +100,8 @@ static int make_laws(law *l, const extreme_sample *s, const struct options *o, f
     return failed < FL_DISTS ? -1 : 0;
 }
 
-static int fits(FILE *f, const struct result *r, const struct options *o, int32_t p, int32_t s, int w,
-                const extreme_sample *c, const law *l, fl_err *err)
+static int write_fits(FILE *f, const struct record_views *r, const struct options *o, int32_t p, int32_t s,
+                      int w, const extreme_sample *c, const law *l, fl_err *err)
 {
     fl_fit_work work = {0};
     if (fl_fit_work_make(&work, c->n, err)) return -1;
@@ -113,7 +113,7 @@ static int fits(FILE *f, const struct result *r, const struct options *o, int32_
             const double likelihood = ok ? fl_fit_log_likelihood(&d, c->n, c->x) : NAN;
             const int best = ok && method == FL_FIT_LIKELIHOOD;
             write_labels(f, r, p, s, w);
-            fprintf(f, "\t%s\t%d\t%s\t%s", options_sample(o->sample), c->n, fl_dist_name(kind),
+            fprintf(f, "\t%s\t%d\t%s\t%s", sample_name(o->sample), c->n, fl_dist_name(kind),
                     fl_fit_method_name(method));
             write_cell(f, ok && kind != FL_WEIBULL && kind != FL_LOGNORMAL ? d.location : NAN);
             write_cell(f, ok ? d.scale : NAN);
@@ -131,8 +131,8 @@ static int fits(FILE *f, const struct result *r, const struct options *o, int32_
     return 0;
 }
 
-static void levels(FILE *f, const struct result *r, const struct options *o, int32_t p, int32_t s, int w,
-                   const extreme_sample *c, const law *l, double span)
+static void write_levels(FILE *f, const struct record_views *r, const struct options *o, int32_t p, int32_t s,
+                         int w, const extreme_sample *c, const law *l, double span)
 {
     for (int kind = 0; kind < FL_DISTS; kind++) {
         int32_t j = 0;
@@ -142,7 +142,7 @@ static void levels(FILE *f, const struct result *r, const struct options *o, int
             const fl_return_level none = {NAN, NAN, {NAN, NAN}, {NAN, NAN}},
                                   *v = known ? &l[kind].r[j++] : &none;
             write_labels(f, r, p, s, w);
-            fprintf(f, "\t%s\t%d\t%s", options_sample(o->sample), c->n, fl_dist_name(kind));
+            fprintf(f, "\t%s\t%d\t%s", sample_name(o->sample), c->n, fl_dist_name(kind));
             write_cell(f, o->period[k]);
             write_cell(f, v->level);
             write_cell(f, v->profile[0]);
@@ -155,45 +155,50 @@ static void levels(FILE *f, const struct result *r, const struct options *o, int
     }
 }
 
-void fits_header(FILE *f, const struct options *o)
+static void warn_few(const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
+                     int w, const extreme_sample *c)
 {
-    if (o->table == TABLE_FITS)
-        fputs("\tsample\tn\tlaw\tmethod\tlocation\tscale\tshape\tlogL\tAIC\tks\tks_p\tad\tad_p\n", f);
-    else
-        fputs("\tsample\tn\tlaw\tT[s]\tlevel\tprofile_low\tprofile_high\tbootstrap_low\tbootstrap_"
-              "high\trecords\n",
-              f);
+    if (!o->quiet && c->n < FEW)
+        fprintf(stderr, "loadstats: %s %s %s: fitted to %d value(s), expected %d or more\n",
+                r->series->part[part], r->series->signal[signal], view_name(w), c->n, FEW);
 }
 
-static void warn(const struct result *r, const struct options *o, int32_t p, int32_t s, int w,
-                 const extreme_sample *c, double span)
+static void warn_extrapolation(const struct options *o, double span)
 {
-    const char *part = r->s->part[p], *signal = r->s->signal[s];
-    if (o->quiet) return;
-    if (c->n < FEW)
-        fprintf(stderr, "loadstats: %s %s %s: laws are fitted to %d value(s), %d or more are expected\n",
-                part, signal, view_name(w), c->n, FEW);
-    for (int32_t k = 0; o->table == TABLE_LEVELS && k < o->returns; k++)
-        if (o->period[k] > REACH * span && s == 0 && p == 0 && w == 0)
-            fprintf(
-                stderr,
-                "loadstats: a return period of %.6g s is %.3g times the record of %.6g s, beyond %g times "
-                "it rests on the law alone\n",
-                o->period[k], o->period[k] / span, span, REACH);
+    for (int32_t k = 0; !o->quiet && k < o->returns; k++)
+        if (o->period[k] > REACH * span)
+            fprintf(stderr,
+                    "loadstats: a return period of %.6g s is %.3g times the record of %.6g s, beyond %g "
+                    "times it is an extrapolation\n",
+                    o->period[k], o->period[k] / span, span, REACH);
 }
 
-int fits_write(FILE *f, const struct result *r, const struct options *o, int32_t part, int32_t signal, int w,
-               fl_err *err)
+int fits_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
+              int w, fl_err *err)
 {
-    const fl_signal_view *v = view_of(r, part, signal, w);
+    extreme_sample s = {0};
+    law *l = fl_alloc(FL_DISTS, sizeof *l, err);
+    int rc = l ? extreme_sample_make(&s, find_view(r, part, signal, w), o, err) : -1;
+    if (rc == 0) warn_few(r, o, part, signal, w, &s);
+    if (rc == 0) rc = make_laws(l, &s, o, 0, err);
+    if (rc == 0) rc = write_fits(f, r, o, part, signal, w, &s, l, err);
+    free(s.x);
+    free(l);
+    return rc;
+}
+
+int levels_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
+                int w, fl_err *err)
+{
+    const fl_signal_view *v = find_view(r, part, signal, w);
     const double span = v->edge[v->n] - v->edge[0];
     extreme_sample s = {0};
     law *l = fl_alloc(FL_DISTS, sizeof *l, err);
     int rc = l ? extreme_sample_make(&s, v, o, err) : -1;
-    if (rc == 0) warn(r, o, part, signal, w, &s, span);
-    if (rc == 0) rc = make_laws(l, &s, o, err);
-    if (rc == 0 && o->table == TABLE_FITS) rc = fits(f, r, o, part, signal, w, &s, l, err);
-    if (rc == 0 && o->table == TABLE_LEVELS) levels(f, r, o, part, signal, w, &s, l, span);
+    if (rc == 0) warn_few(r, o, part, signal, w, &s);
+    if (rc == 0 && part == 0 && signal == 0 && w == 0) warn_extrapolation(o, span);
+    if (rc == 0) rc = make_laws(l, &s, o, o->returns, err);
+    if (rc == 0) write_levels(f, r, o, part, signal, w, &s, l, span);
     free(s.x);
     free(l);
     return rc;

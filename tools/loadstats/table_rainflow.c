@@ -3,15 +3,8 @@
 #include "stat/rainflow_matrix.h"
 #include "table_rainflow.h"
 
-/* Exponents of the equivalent range where no S-N line is given: those of welds below and above the knee. */
-static const fl_sn_curve USUAL[] = {{.m = 3.0, .a = NAN}, {.m = 5.0, .a = NAN}};
-
-void rainflow_header(FILE *f, const struct options *o)
-{
-    if (o->table == TABLE_RAINFLOW)
-        fputs("\trule\tresidue\trange_from\trange_to\tmean_from\tmean_to\tcycles\n", f);
-    else fputs("\trule\tresidue\tcycles\trange_max\tm\ta\tm2\tknee\tequivalent\tdamage\tlife[s]\n", f);
-}
+/* Exponents of the equivalent range without an S-N curve: those of welds below and above the knee. */
+static const fl_sn_curve DEFAULT_CURVES[] = {{.m = 3.0, .a = NAN}, {.m = 5.0, .a = NAN}};
 
 void rainflow_write_rule(FILE *f, int rule, int residue)
 {
@@ -44,32 +37,33 @@ static void damage_row(FILE *f, const damage_case *c, const struct options *o, c
 
 void damage_write(FILE *f, const damage_case *c, const struct options *o)
 {
-    const int usual = o->sns == 0, n = usual ? (int)(sizeof USUAL / sizeof *USUAL) : (int)o->sns;
-    for (int k = 0; k < n; k++) damage_row(f, c, o, usual ? &USUAL[k] : &o->sn[k]);
+    const int use_default = o->sn_curves == 0,
+              n = use_default ? (int)(sizeof DEFAULT_CURVES / sizeof *DEFAULT_CURVES) : (int)o->sn_curves;
+    for (int k = 0; k < n; k++) damage_row(f, c, o, use_default ? &DEFAULT_CURVES[k] : &o->sn[k]);
 }
 
 /* Cycles of every view of a signal. */
-static int count(fl_rainflow c[2], const struct result *r, const struct options *o, int32_t p, int32_t s,
-                 fl_err *err)
+static int count_cycles(fl_rainflow c[2], const struct record_views *r, const struct options *o, int32_t p,
+                        int32_t s, fl_err *err)
 {
-    for (int w = 0; w < r->each; w++) {
-        const fl_signal_view *v = view_of(r, p, s, w);
+    for (int w = 0; w < r->view_count; w++) {
+        const fl_signal_view *v = find_view(r, p, s, w);
         if (fl_rainflow_count(&c[w], o->rule, o->residue, v->n, v->x, err)) return -1;
     }
     return 0;
 }
 
-static int matrix_rows(FILE *f, const struct result *r, const struct options *o, int32_t p, int32_t s,
+static int matrix_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t p, int32_t s,
                        const fl_rainflow c[2], fl_err *err)
 {
     double largest = 0.0, lo = INFINITY, hi = -INFINITY;
-    for (int w = 0; w < r->each; w++) {
-        const fl_descriptive_stats *d = &view_of(r, p, s, w)->stats;
+    for (int w = 0; w < r->view_count; w++) {
+        const fl_descriptive_stats *d = &find_view(r, p, s, w)->stats;
         lo = fmin(lo, d->min);
         hi = fmax(hi, d->max);
         for (int32_t k = 0; k < c[w].cycles; k++) largest = fmax(largest, c[w].cycle[k].range);
     }
-    for (int w = 0; w < r->each; w++) {
+    for (int w = 0; w < r->view_count; w++) {
         fl_rainflow_matrix m;
         if (fl_rainflow_matrix_make(&m, o->bins, largest, lo, hi, c[w].cycles, c[w].cycle, err)) return -1;
         for (int32_t k = 0; k < m.cells; k++) {
@@ -87,17 +81,27 @@ static int matrix_rows(FILE *f, const struct result *r, const struct options *o,
     return 0;
 }
 
-int rainflow_write(FILE *f, const struct result *r, const struct options *o, int32_t part, int32_t signal,
-                   fl_err *err)
+int rainflow_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part,
+                  int32_t signal, fl_err *err)
 {
     fl_rainflow c[2] = {{0}, {0}};
-    int rc = count(c, r, o, part, signal, err);
-    if (rc == 0 && o->table == TABLE_RAINFLOW) rc = matrix_rows(f, r, o, part, signal, c, err);
-    for (int w = 0; rc == 0 && o->table == TABLE_DAMAGE && w < r->each; w++) {
-        const fl_signal_view *v = view_of(r, part, signal, w);
-        const damage_case load = {.part = r->s->part[part],
-                                  .signal = r->s->signal[signal],
-                                  .unit = r->s->unit[signal],
+    int rc = count_cycles(c, r, o, part, signal, err);
+    if (rc == 0) rc = matrix_rows(f, r, o, part, signal, c, err);
+    fl_rainflow_free(&c[0]);
+    fl_rainflow_free(&c[1]);
+    return rc;
+}
+
+int damage_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
+                fl_err *err)
+{
+    fl_rainflow c[2] = {{0}, {0}};
+    const int rc = count_cycles(c, r, o, part, signal, err);
+    for (int w = 0; rc == 0 && w < r->view_count; w++) {
+        const fl_signal_view *v = find_view(r, part, signal, w);
+        const damage_case load = {.part = r->series->part[part],
+                                  .signal = r->series->signal[signal],
+                                  .unit = r->series->unit[signal],
                                   .view = view_name(w),
                                   .rule = o->rule,
                                   .residue = o->residue,

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* table_rainflow.h -- the tables rainflow and damage: load cycles by range and mean, and the fatigue they do. */
+/* table_rainflow.h -- rows of the tables rainflow and damage: load cycles by range and mean, and their
+ * fatigue damage. */
 #ifndef LOADSTATS_TABLE_RAINFLOW_H
 #define LOADSTATS_TABLE_RAINFLOW_H
 #include "stat/rainflow.h"
-#include "table_stats.h"
+#include "cell.h"
+#include "settings.h"
 
-/* The names of the columns after those that all tables have. */
-void rainflow_header(FILE *f, const struct options *o);
+/* Rows of all views of a signal.  The views share the classes of the matrix.  0, or -1 with FL_SYSTEM in
+ * err. */
+int rainflow_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part,
+                  int32_t signal, fl_err *err);
+int damage_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
+                fl_err *err);
 
-/* The rows of one signal of one part in all its views, of TABLE_RAINFLOW or TABLE_DAMAGE; both views of a
- * signal share the classes of the matrix.  0, or -1 with FL_SYSTEM in err. */
-int rainflow_write(FILE *f, const struct result *r, const struct options *o, int32_t part, int32_t signal,
-                   fl_err *err);
-
-/* The rule and what became of the residue, as all tables of cycles name them: the residue of ASTM is half
- * cycles. */
+/* The cells rule and residue of all tables of cycles; the residue of ASTM is half cycles. */
 void rainflow_write_rule(FILE *f, int rule, int residue);
 
-/* Rows of the table damage for cycles that are known, after their labels, one for each S-N line:
- *   span   how long it took to come to them [s] */
+/* Rows of the table damage for known cycles, one for each S-N curve.
+ *   span   duration of the cycles [s] */
 typedef struct {
     const char *part, *signal, *unit, *view;
     int rule, residue;

@@ -5,20 +5,10 @@
 #include "stat/resample.h"
 #include "table_spectrum.h"
 
-void spectrum_header(FILE *f, const struct options *o)
-{
-    fputs("\twindow\tsegment[s]\tsegments", f);
-    if (o->table == TABLE_SPECTRUM) fputs("\tf[Hz]\tpsd[unit^2/Hz]\tpsd_low\tpsd_high\n", f);
-    else
-        fputs("\tdf[Hz]\tenbw[Hz]\tdof\tvariance\tpower\tf[Hz]\tpsd[unit^2/Hz]\tshare\tcrossings[Hz]"
-              "\tlength[m]\n",
-              f);
-}
-
-int spectrum_make(fl_power_spectrum *s, const struct result *r, const struct options *o, int32_t part,
+int spectrum_make(fl_power_spectrum *s, const struct record_views *r, const struct options *o, int32_t part,
                   int32_t signal, int w, fl_err *err)
 {
-    const fl_signal_view *v = view_of(r, part, signal, w);
+    const fl_signal_view *v = find_view(r, part, signal, w);
     const double fs = v->n / (v->edge[v->n] - v->edge[0]), rows = o->segment * fs;
     const int even = fl_resample_common_interval(v->n, v->edge) > 0.0;
     fl_err own = {0};
@@ -35,12 +25,13 @@ int spectrum_make(fl_power_spectrum *s, const struct result *r, const struct opt
     }
     const int rc = fl_power_spectrum_make(s, v->n, even ? v->x : x, fs, length, o->taper, &own);
     free(x);
-    if (rc) fl_fail(err, own.code, "%s of %s: %s", r->s->signal[signal], r->s->part[part], own.text);
+    if (rc)
+        fl_fail(err, own.code, "%s of %s: %s", r->series->signal[signal], r->series->part[part], own.text);
     return rc;
 }
 
-static void put_start(FILE *f, const struct result *r, int32_t part, int32_t signal, int w,
-                      const fl_power_spectrum *s)
+static void write_first_cells(FILE *f, const struct record_views *r, int32_t part, int32_t signal, int w,
+                              const fl_power_spectrum *s)
 {
     write_labels(f, r, part, signal, w);
     fprintf(f, "\t%s", fl_taper_name(s->taper));
@@ -48,8 +39,27 @@ static void put_start(FILE *f, const struct result *r, int32_t part, int32_t sig
     fprintf(f, "\t%d", s->segments);
 }
 
-static void frequency_row(FILE *f, const fl_signal_view *v, const struct options *o,
-                          const fl_power_spectrum *s)
+int spectrum_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part,
+                  int32_t signal, int w, fl_err *err)
+{
+    fl_power_spectrum s;
+    if (spectrum_make(&s, r, o, part, signal, w, err)) return -1;
+    for (int32_t k = 0; k < s.n; k++) {
+        double low, high;
+        fl_power_spectrum_interval(&s, k, &low, &high);
+        write_first_cells(f, r, part, signal, w, &s);
+        write_cell(f, k * s.df);
+        write_cell(f, s.psd[k]);
+        write_cell(f, low);
+        write_cell(f, high);
+        putc('\n', f);
+    }
+    fl_power_spectrum_free(&s);
+    return 0;
+}
+
+static void write_frequency_cells(FILE *f, const fl_signal_view *v, const struct options *o,
+                                  const fl_power_spectrum *s)
 {
     int32_t at;
     const double dominant = fl_power_spectrum_dominant(s, &at);
@@ -66,25 +76,13 @@ static void frequency_row(FILE *f, const fl_signal_view *v, const struct options
     putc('\n', f);
 }
 
-int spectrum_write(FILE *f, const struct result *r, const struct options *o, int32_t part, int32_t signal,
-                   int w, fl_err *err)
+int frequency_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part,
+                   int32_t signal, int w, fl_err *err)
 {
     fl_power_spectrum s;
     if (spectrum_make(&s, r, o, part, signal, w, err)) return -1;
-    if (o->table == TABLE_FREQUENCY) {
-        put_start(f, r, part, signal, w, &s);
-        frequency_row(f, view_of(r, part, signal, w), o, &s);
-    }
-    for (int32_t k = 0; o->table == TABLE_SPECTRUM && k < s.n; k++) {
-        double low, high;
-        fl_power_spectrum_interval(&s, k, &low, &high);
-        put_start(f, r, part, signal, w, &s);
-        write_cell(f, k * s.df);
-        write_cell(f, s.psd[k]);
-        write_cell(f, low);
-        write_cell(f, high);
-        putc('\n', f);
-    }
+    write_first_cells(f, r, part, signal, w, &s);
+    write_frequency_cells(f, find_view(r, part, signal, w), o, &s);
     fl_power_spectrum_free(&s);
     return 0;
 }

@@ -1,15 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* table_summary.h -- what loadstats does in constant memory: summaries of runs, what they add up to, and tables of
- * them, for many files or while a record grows. */
+/* table_summary.h -- rows of tables from the summaries of runs: stats, histogram, fits, levels, damage,
+ * cycles, ensemble. */
 #ifndef LOADSTATS_TABLE_SUMMARY_H
 #define LOADSTATS_TABLE_SUMMARY_H
-#include "base/err.h"
-#include "options.h"
+#include <stdio.h>
+#include "stat/summary.h"
+#include "settings.h"
 
-/* Is this work for summary_run()? */
-int summary_selected(const struct options *o);
+/* Mean and largest value of each run, in the order of the files. */
+typedef struct {
+    int32_t runs, cap, signals;
+    double *x; /* [runs][signals][2] */
+} ensemble;
 
-/* Read all inputs and print the table that was asked for.  0, or -1 with err. */
-int summary_run(const struct options *o, fl_err *err);
+/* The summary of all runs.  Its multisets are sorted before rows are printed. */
+struct run_set {
+    fl_summary all;
+    ensemble e; /* of the table ensemble */
+};
+
+/* Add one run.  0, or -1 with FL_INPUT (a summary of several runs, other parts or signals) or FL_SYSTEM in
+ * err. */
+int ensemble_add(ensemble *e, const fl_summary *all, const fl_summary *one, const char *name, fl_err *err);
+
+/* Rows of one entry of the summary; fits_of_runs() prints fits or levels.  0, or -1 with FL_INPUT (no maxima
+ * of blocks) or FL_SYSTEM in err. */
+int stats_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o, fl_err *err);
+int histogram_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o,
+                      fl_err *err);
+int fits_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o, fl_err *err);
+int cycles_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o, fl_err *err);
+int damage_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o, fl_err *err);
+int ensemble_rows(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o, fl_err *err);
 
 #endif

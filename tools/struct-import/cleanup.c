@@ -10,8 +10,8 @@
 #include "shim/cgal_remesh.h"
 #include "shim/cgal_simplify.h"
 
-static const double BLUR = 1e-9; /* of the diagonal: to this distances are told */
-enum { TRIALS = 5 };
+static const double DISTANCE_ACCURACY = 1e-9; /* share of the diagonal: accuracy of measured distances */
+enum { MAX_TRIALS = 5 };
 
 static int to_soup(const fl_part *p, fl_soup *s, fl_err *err)
 {
@@ -27,7 +27,8 @@ static int to_soup(const fl_part *p, fl_soup *s, fl_err *err)
     return 0;
 }
 
-/* What was cut along branched edges is joined, and vertices are put back into the order of their use. */
+/* Copy a soup to a part.  Welding joins vertices that were duplicated along branched edges and restores the
+ * order of first use. */
 static int from_soup(fl_part *p, const fl_soup *s, fl_err *err)
 {
     fl_weld w;
@@ -43,14 +44,14 @@ static int from_soup(fl_part *p, const fl_soup *s, fl_err *err)
     return fl_part_weld(p, 0.0, &w, err);
 }
 
-/* A part as a soup that is only looked at: coordinates and corners lie one behind the other in both. */
-static fl_soup seen_as(const fl_part *p)
+/* A read-only soup that shares the arrays of a part: coordinates and corners are contiguous in both. */
+static fl_soup view_as_soup(const fl_part *p)
 {
     return (fl_soup){p->nv, p->nt, p->nv ? &p->v[0].x : NULL, p->nt ? p->t[0].v : NULL};
 }
 
-/* Is there anything that needs a mesh of CGAL?  Sound surfaces of one patch, and open ones, do not. */
-static int ailing(const fl_mesh_quality *q, const struct options *o)
+/* True if the part needs repair by CGAL.  Open surfaces and sound closed ones of one patch do not. */
+static int needs_repair(const fl_mesh_quality *q, const struct options *o)
 {
     const int fill = o->fill_holes > 0 || o->fill > 0.0;
     return q->branched || q->degenerate || (q->closed && (q->patches > 1 || q->volume == 0.0)) ||
@@ -68,7 +69,7 @@ static void add_repair(fl_repair *sum, const fl_repair *more)
     sum->bounding = more->bounding;
 }
 
-static int repair(fl_part *p, int32_t holes, double size, fl_repair *did, fl_err *err)
+static int repair_part(fl_part *p, int32_t holes, double size, fl_repair *done_steps, fl_err *err)
 {
     fl_soup s = {0};
     fl_orient_counts again;
@@ -77,60 +78,60 @@ static int repair(fl_part *p, int32_t holes, double size, fl_repair *did, fl_err
     int rc = -1;
     if (to_soup(p, &s, err) == 0 && fl_cgal_repair(&s, holes, size, &more, err) == 0 &&
         from_soup(p, &s, err) == 0) {
-        add_repair(did, &more);
+        add_repair(done_steps, &more);
         rc = more.bounding
                  ? 0
-                 : fl_part_orient(p, &was, &again, err); /* a cavity looks inward, and is right so */
+                 : fl_part_orient(p, &was, &again, err); /* a cavity must keep its inward orientation */
     }
     fl_soup_free(&s);
     return rc;
 }
 
-/* With closed, only where all bodies are. */
-static int untangle(fl_part *p, int closed, struct mended *m, fl_err *err)
+/* Resolve bodies and patches that cross.  With closed, only if all bodies are closed. */
+static int untangle_part(fl_part *p, int closed, struct cleanup *m, fl_err *err)
 {
     fl_soup s = {0};
-    fl_untangle did = {0};
+    fl_untangle done_steps = {0};
     int32_t *shell = fl_alloc(p->nt, sizeof *shell, err), odd;
     int rc = -1;
     if (!shell || fl_part_connected(p, shell, &odd, err)) goto done;
-    rc = closed && odd ? 0 : to_soup(p, &s, err) || fl_cgal_untangle(&s, shell, &did, err);
-    /* new corners were rounded, which may leave triangles of one line */
-    if (rc == 0 && did.joined + did.rebuilt > 0)
-        rc = from_soup(p, &s, err) || repair(p, 0, 0.0, &m->repair, err) ||
-             fl_part_crossings(p, &m->meet, err) || fl_part_measure(p, &m->left, err);
-    m->untangle.joined += did.joined;
-    m->untangle.rebuilt += did.rebuilt;
-    m->untangle.changed = fmax(m->untangle.changed, did.changed);
-    m->untangle.failed = did.failed;
+    rc = closed && odd ? 0 : to_soup(p, &s, err) || fl_cgal_untangle(&s, shell, &done_steps, err);
+    /* new corners are rounded, which may leave degenerate triangles */
+    if (rc == 0 && done_steps.joined + done_steps.rebuilt > 0)
+        rc = from_soup(p, &s, err) || repair_part(p, 0, 0.0, &m->repair, err) ||
+             fl_part_crossings(p, &m->crossing, err) || fl_part_measure(p, &m->quality, err);
+    m->untangle.joined += done_steps.joined;
+    m->untangle.rebuilt += done_steps.rebuilt;
+    m->untangle.changed = fmax(m->untangle.changed, done_steps.changed);
+    m->untangle.failed = done_steps.failed;
 done:
     free(shell);
     fl_soup_free(&s);
     return rc ? -1 : 0;
 }
 
-/* Bounds of the distance of either from the other. */
-static int both_ways(const fl_soup *a, const fl_soup *b, double blur, double *strays, double *misses,
-                     fl_err *err)
+/* Upper bounds of the distance of either surface from the other. */
+static int measure_distances(const fl_soup *a, const fl_soup *b, double accuracy, double *deviation,
+                             double *source_deviation, fl_err *err)
 {
     double least;
-    return fl_cgal_distance(a, b, blur, &least, strays, err) ||
-                   fl_cgal_distance(b, a, blur, &least, misses, err)
+    return fl_cgal_distance(a, b, accuracy, &least, deviation, err) ||
+                   fl_cgal_distance(b, a, accuracy, &least, source_deviation, err)
                ? -1
                : 0;
 }
 
-/* The envelope holds for the result alone; where the source then lies too far from that, a narrower one is
- * tried. */
-static int simplify(fl_part *p, double distance, double blur, int32_t *gone, fl_err *err)
+/* The envelope bounds only the distance of the result from the source.  If the source is then too far from
+ * the result, the step is repeated with half the envelope. */
+static int simplify_part(fl_part *p, double distance, double accuracy, int32_t *gone, fl_err *err)
 {
-    const fl_soup before = seen_as(p);
-    double within = distance, strays, misses;
-    for (int k = 0; k < TRIALS; k++, within *= 0.5) {
+    const fl_soup before = view_as_soup(p);
+    double within = distance, deviation, source_deviation;
+    for (int k = 0; k < MAX_TRIALS; k++, within *= 0.5) {
         fl_soup s = {0};
         int rc = to_soup(p, &s, err) || fl_cgal_simplify(&s, within, gone, err) || s.nt == 0 ||
-                 both_ways(&s, &before, blur, &strays, &misses, err);
-        if (rc == 0 && fmax(strays, misses) <= distance) {
+                 measure_distances(&s, &before, accuracy, &deviation, &source_deviation, err);
+        if (rc == 0 && fmax(deviation, source_deviation) <= distance) {
             rc = from_soup(p, &s, err);
             fl_soup_free(&s);
             return rc;
@@ -143,19 +144,19 @@ static int simplify(fl_part *p, double distance, double blur, int32_t *gone, fl_
     return 0;
 }
 
-static int remesh(fl_part *p, const struct options *o, double blur, fl_err *err)
+static int remesh_part(fl_part *p, const struct options *o, double accuracy, fl_err *err)
 {
-    const fl_soup before = seen_as(p);
+    const fl_soup before = view_as_soup(p);
     fl_soup s = {0};
-    double strays, misses;
+    double deviation, source_deviation;
     int rc = -1;
     if (to_soup(p, &s, err) || fl_cgal_remesh(&s, o->remesh, err)) goto done;
-    if (s.nt == 0 || both_ways(&s, &before, blur, &strays, &misses, err)) goto done;
-    if (fmax(strays, misses) > o->remesh_within) {
+    if (s.nt == 0 || measure_distances(&s, &before, accuracy, &deviation, &source_deviation, err)) goto done;
+    if (fmax(deviation, source_deviation) > o->remesh_within) {
         fl_fail(err, FL_NUMERIC,
-                "part \"%.60s\": triangles of %g m stray up to %g m from it, %g m were allowed: a smaller "
-                "length or a larger distance is expected",
-                p->name, o->remesh, fmax(strays, misses), o->remesh_within);
+                "part \"%.60s\": triangles of %g m deviate up to %g m, %g m are allowed: choose a smaller "
+                "length or a larger distance",
+                p->name, o->remesh, fmax(deviation, source_deviation), o->remesh_within);
         goto done;
     }
     rc = from_soup(p, &s, err);
@@ -164,93 +165,97 @@ done:
     return rc;
 }
 
-/* Everything behind welding and turning. */
-static int cure(fl_part *p, const struct options *o, struct mended *m, double blur, fl_err *err)
+/* Repair, simplify and remesh a part that is welded and oriented. */
+static int repair_and_refine(fl_part *p, const struct options *o, struct cleanup *m, double accuracy,
+                             fl_err *err)
 {
-    /* before triangles that two bodies have in common are taken for doubles of one */
-    if (o->repair && m->left.branched && !m->left.open && !m->left.degenerate &&
-        (fl_part_crossings(p, &m->meet, err) || (m->meet.crossings && untangle(p, 1, m, err))))
+    /* before triangles that two bodies share are dropped as duplicates */
+    if (o->repair && m->quality.branched && !m->quality.open && !m->quality.degenerate &&
+        (fl_part_crossings(p, &m->crossing, err) || (m->crossing.crossings && untangle_part(p, 1, m, err))))
         return -1;
-    if (ailing(&m->left, o) && repair(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
-    if (fl_part_crossings(p, &m->meet, err)) return -1;
-    if (o->repair && m->meet.crossings && untangle(p, 0, m, err)) return -1;
+    if (needs_repair(&m->quality, o) && repair_part(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
+    if (fl_part_crossings(p, &m->crossing, err)) return -1;
+    if (o->repair && m->crossing.crossings && untangle_part(p, 0, m, err)) return -1;
     if (p->nt == 0 || (o->simplify <= 0.0 && o->remesh <= 0.0)) return 0;
-    if (o->simplify > 0.0 && simplify(p, o->simplify, blur, &m->simplified, err)) return -1;
-    if (o->remesh > 0.0 && remesh(p, o, blur, err)) return -1;
-    return fl_part_crossings(p, &m->meet, err);
+    if (o->simplify > 0.0 && simplify_part(p, o->simplify, accuracy, &m->simplified, err)) return -1;
+    if (o->remesh > 0.0 && remesh_part(p, o, accuracy, err)) return -1;
+    return fl_part_crossings(p, &m->crossing, err);
 }
 
-/* Without them what is left may have another outside. */
-static int drop_fins(fl_part *p, struct mended *m, fl_err *err)
+/* The part is oriented again, since without the fins another side may be outside. */
+static int drop_fins(fl_part *p, struct cleanup *m, fl_err *err)
 {
     fl_orient_counts again;
     if (fl_part_drop_fins(p, &m->fins, err)) return -1;
     if (m->fins == 0) return 0;
-    if (fl_part_orient(p, &m->left, &again, err)) return -1;
+    if (fl_part_orient(p, &m->quality, &again, err)) return -1;
     again.triangles += m->orient.triangles;
     again.patches += m->orient.patches;
     m->orient = again;
-    return fl_part_measure(p, &m->left, err);
+    return fl_part_measure(p, &m->quality, err);
 }
 
-/* Can anything but welding have moved the surface? */
+/* True if a step other than welding may have moved the surface. */
 static int may_move(const fl_mesh_quality *q, const struct options *o)
 {
-    return ailing(q, o) || o->repair || o->simplify > 0.0 || o->remesh > 0.0;
+    return needs_repair(q, o) || o->repair || o->simplify > 0.0 || o->remesh > 0.0;
 }
 
-/* *same becomes 1 where the triangles are those that came, to the last bit of their corners. */
-static int mend_triangles(fl_part *p, const struct options *o, struct mended *m, int *same, fl_err *err)
+/* *same is set to 1 if the triangles are unchanged to the last bit of their corners. */
+static int clean_triangles(fl_part *p, const struct options *o, struct cleanup *m, int *same, fl_err *err)
 {
     const fl_aabb box = fl_part_aabb(p);
-    const double blur = BLUR * v3_norm(v3_sub(box.hi, box.lo));
+    const double accuracy = DISTANCE_ACCURACY * v3_norm(v3_sub(box.hi, box.lo));
     fl_soup source = {0};
     int rc = -1;
     if (fl_part_weld(p, o->weld, &m->weld, err)) return -1;
     if (p->nt == 0 && p->nc == 0)
-        return fl_fail(err, FL_INPUT, "part \"%.60s\": each of its triangles is a point or a line", p->name);
-    if (o->raw ? fl_part_measure(p, &m->left, err) : fl_part_orient(p, &m->left, &m->orient, err)) return -1;
-    m->came_closed = m->left.closed;
-    m->strays = m->misses = m->weld.moved;
+        return fl_fail(err, FL_INPUT, "part \"%.60s\": all of its triangles are degenerate", p->name);
+    if (o->raw ? fl_part_measure(p, &m->quality, err) : fl_part_orient(p, &m->quality, &m->orient, err))
+        return -1;
+    m->was_closed = m->quality.closed;
+    m->deviation = m->source_deviation = m->weld.moved;
     *same = m->weld.moved == 0.0 && m->weld.collapsed == 0;
     if (p->nt == 0 || o->raw) return 0;
     *same = *same && m->orient.triangles + m->orient.patches == 0;
-    if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->left, err)) return -1;
-    if (m->left.branched && drop_fins(p, m, err)) return -1;
+    if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->quality, err)) return -1;
+    if (m->quality.branched && drop_fins(p, m, err)) return -1;
     *same = *same && !m->fins;
-    if (o->repair && m->left.branched &&
-        (fl_part_drop_inner_walls(p, &m->walls, err) || fl_part_measure(p, &m->left, err)))
+    if (o->repair && m->quality.branched &&
+        (fl_part_drop_inner_walls(p, &m->walls, err) || fl_part_measure(p, &m->quality, err)))
         return -1;
-    if (may_move(&m->left, o) && to_soup(p, &source, err)) return -1;
+    if (may_move(&m->quality, o) && to_soup(p, &source, err)) return -1;
     *same = *same && !source.nt;
-    if (cure(p, o, m, blur, err)) goto done;
+    if (repair_and_refine(p, o, m, accuracy, err)) goto done;
     if (p->nt == 0 && p->nc == 0) {
         fl_fail(err, FL_INPUT, "part \"%.60s\": nothing is left after repair", p->name);
         goto done;
     }
     if (source.nt && p->nt) {
-        const fl_soup now = seen_as(p);
-        if (both_ways(&now, &source, blur, &m->strays, &m->misses, err)) goto done;
-        m->strays += m->weld.moved;
-        m->misses += m->weld.moved;
+        const fl_soup now = view_as_soup(p);
+        if (measure_distances(&now, &source, accuracy, &m->deviation, &m->source_deviation, err)) goto done;
+        m->deviation += m->weld.moved;
+        m->source_deviation += m->weld.moved;
     }
-    rc = source.nt ? fl_part_measure(p, &m->left, err) : 0;
+    rc = source.nt ? fl_part_measure(p, &m->quality, err) : 0;
 done:
     fl_soup_free(&source);
     return rc;
 }
 
-int mend(fl_part *p, const struct options *o, struct mended *m, fl_err *err)
+int clean_part(fl_part *p, const struct options *o, struct cleanup *m, fl_err *err)
 {
-    *m = (struct mended){
-        .came_triangles = p->nt, .came = fl_moments_of(p, 1), .came_closed = 1, .doubled = p->duplicates};
+    *m = (struct cleanup){.triangles_before = p->nt,
+                          .before = fl_moments_of(p, 1),
+                          .was_closed = 1,
+                          .duplicates = p->duplicates};
     int same = 0;
     fl_err why = {0};
-    if (p->nt ? mend_triangles(p, o, m, &same, &why) : fl_part_measure(p, &m->left, &why)) {
+    if (p->nt ? clean_triangles(p, o, m, &same, &why) : fl_part_measure(p, &m->quality, &why)) {
         const int named = strncmp(why.text, "part ", 5) == 0;
         return named ? fl_fail(err, why.code, "%s", why.text)
                      : fl_fail(err, why.code, "part \"%.60s\": %s", p->name, why.text);
     }
-    m->went = same ? m->came : fl_moments_of(p, 1);
+    m->after = same ? m->before : fl_moments_of(p, 1);
     return 0;
 }

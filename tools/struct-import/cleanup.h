@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* cleanup.h -- from what a file holds to what ice can meet: weld, orient, repair, simplify, measure. */
+/* cleanup.h -- cleanup of an imported part: weld, orient, repair, simplify, remesh, measure. */
 #ifndef STRUCT_IMPORT_CLEANUP_H
 #define STRUCT_IMPORT_CLEANUP_H
 #include "geom/moments.h"
@@ -10,25 +10,27 @@
 #include "shim/cgal_repair.h"
 #include "shim/cgal_untangle.h"
 
-struct mended {
-    fl_moments came, went; /* as read and placed; as written */
-    int came_closed;
-    int32_t came_triangles;
-    int32_t doubled; /* elements that stood on others, and did not come */
+struct cleanup {
+    fl_moments before, after; /* as read and placed; as written */
+    int was_closed;
+    int32_t triangles_before;
+    int32_t duplicates; /* elements of the file dropped as duplicates */
     fl_weld weld;
     fl_orient_counts orient;
     fl_repair repair;
     fl_untangle untangle;
-    int32_t fins;       /* triangles of plates with two sides that went */
-    int32_t walls;      /* triangles inside that went */
-    int32_t simplified; /* triangles less */
-    fl_crossing meet;   /* what is left */
-    fl_mesh_quality left;
-    int fits;              /* its open edges are those of other parts, and all of these close together */
-    double strays, misses; /* no point of the result is farther from the source, and the other way [m] */
+    int32_t fins;         /* triangles dropped from two-sided plates that stand on other triangles */
+    int32_t walls;        /* inner triangles dropped */
+    int32_t simplified;   /* decrease of the number of triangles */
+    fl_crossing crossing; /* in the result */
+    fl_mesh_quality quality;
+    int closes_jointly; /* its open edges match those of other parts, and together these parts are closed */
+    double deviation;   /* [m] largest distance of the result from the source */
+    double source_deviation; /* [m] largest distance of the source from the result */
 };
 
-/* Mend a part in place, as far as o asks for it.  0, or -1 with FL_INPUT, FL_NUMERIC or FL_SYSTEM in err. */
-int mend(fl_part *p, const struct options *o, struct mended *m, fl_err *err);
+/* Clean up a part in place, with the steps that o requests.  0, or -1 with FL_INPUT, FL_NUMERIC or FL_SYSTEM
+ * in err. */
+int clean_part(fl_part *p, const struct options *o, struct cleanup *m, fl_err *err);
 
 #endif

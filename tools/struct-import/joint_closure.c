@@ -3,10 +3,10 @@
 #include "base/array.h"
 #include "joint_closure.h"
 
-static int is_open(const struct mended *m) { return m->left.triangles > 0 && m->left.open > 0; }
+static int is_open(const struct cleanup *m) { return m->quality.triangles > 0 && m->quality.open > 0; }
 
-/* The triangles of all open parts, one part behind the other. */
-static int gather(fl_part *all, const fl_surface *s, const struct mended *m, fl_err *err)
+/* Collect the triangles of all open parts, in the order of the parts. */
+static int gather_open(fl_part *all, const fl_surface *s, const struct cleanup *m, fl_err *err)
 {
     for (int32_t i = 0; i < s->n; i++) {
         const fl_part *p = &s->part[i];
@@ -22,8 +22,10 @@ static int gather(fl_part *all, const fl_surface *s, const struct mended *m, fl_
     return 0;
 }
 
-/* Turn the triangles of the parts whose second vertex has become their third. */
-static int turn_back(fl_surface *s, struct mended *m, const fl_part *all, const int32_t *second, fl_err *err)
+/* Reverse the triangles of the parts that the joint orientation reversed: their second vertex is then the
+ * third. */
+static int reverse_triangles(fl_surface *s, struct cleanup *m, const fl_part *all, const int32_t *second,
+                             fl_err *err)
 {
     int32_t at = 0;
     for (int32_t i = 0; i < s->n; i++) {
@@ -38,14 +40,14 @@ static int turn_back(fl_surface *s, struct mended *m, const fl_part *all, const 
             v[2] = keep;
             turned++;
         }
-        m[i].fits = 1;
+        m[i].closes_jointly = 1;
         m[i].orient.triangles += turned;
-        if (turned && fl_part_measure(p, &m[i].left, err)) return -1;
+        if (turned && fl_part_measure(p, &m[i].quality, err)) return -1;
     }
     return 0;
 }
 
-int unite(fl_surface *s, struct mended *m, fl_err *err)
+int close_jointly(fl_surface *s, struct cleanup *m, fl_err *err)
 {
     fl_part all = {0};
     fl_weld w;
@@ -55,14 +57,16 @@ int unite(fl_surface *s, struct mended *m, fl_err *err)
     int rc = -1;
     for (int32_t i = 0; i < s->n; i++) parts += is_open(&m[i]);
     if (parts < 2) return 0;
-    if (gather(&all, s, m, err) || !(second = fl_alloc(all.nt, sizeof *second, err))) goto done;
+    if (gather_open(&all, s, m, err) || !(second = fl_alloc(all.nt, sizeof *second, err))) goto done;
     triangles = all.nt;
     if (fl_part_weld(&all, -1.0, &w, err)) goto done;
     rc = 0;
-    if (all.nt < triangles) goto done; /* some are smaller than the tolerance: nobody knows which is which */
+    if (all.nt < triangles)
+        goto done; /* some triangles are smaller than the tolerance and cannot be matched */
     for (int32_t t = 0; t < all.nt; t++) second[t] = all.t[t].v[1];
     rc = fl_part_orient(&all, &q, &o, err) || fl_part_measure(&all, &q, err) ? -1 : 0;
-    if (rc == 0 && q.closed && q.open == 0 && q.branched == 0) rc = turn_back(s, m, &all, second, err);
+    if (rc == 0 && q.closed && q.open == 0 && q.branched == 0)
+        rc = reverse_triangles(s, m, &all, second, err);
 done:
     fl_part_free(&all);
     free(second);

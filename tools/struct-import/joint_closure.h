@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* joint_closure.h -- parts that are open, each by itself, and close together: as the plates of a hull. */
+/* joint_closure.h -- open parts that are closed together, as the plates of a hull. */
 #ifndef STRUCT_IMPORT_JOINT_CLOSURE_H
 #define STRUCT_IMPORT_JOINT_CLOSURE_H
 #include "cleanup.h"
 
-/* Where the open parts among m[s->n] bound a body together, their vertices being one within the tolerance of
- * welding, turn their triangles outward as the flood over all of them says, and set m[i].fits for each; what
- * is turned is counted.  Anything else is left as it is.  0, or -1 with FL_SYSTEM. */
-int unite(fl_surface *s, struct mended *m, fl_err *err);
+/* Find out whether the open parts among m[s->n] together bound a body, with vertices joined within the
+ * tolerance of welding.  If so, orient their triangles outward by a flood fill over all of them, count the
+ * reversed triangles, and set m[i].closes_jointly for each part.  Otherwise nothing changes.  0, or -1 with
+ * FL_SYSTEM. */
+int close_jointly(fl_surface *s, struct cleanup *m, fl_err *err);
 
 #endif

@@ -20,10 +20,10 @@
 #include "quality_report.h"
 #include "joint_closure.h"
 
-/* Of a round solid in a format that knows triangles only; 0.2 % of its volume is lost. */
+/* Facets of a round solid in a format without cones; 0.2 % of its volume is lost. */
 enum { ROUND_FACETS = 64 };
 
-/* A file of one part takes the name; the parts of one of several put it before theirs. */
+/* Apply --name: the only part of a file gets the name, several parts get it as a prefix. */
 static int rename_parts(fl_surface *s, int32_t first, const char *name, fl_err *err)
 {
     const int32_t n = s->n - first;
@@ -38,9 +38,8 @@ static int rename_parts(fl_surface *s, int32_t first, const char *name, fl_err *
             whole[len] = '.';
             memcpy(whole + len + 1, own, more - 1);
         }
-        s->part[i].name[0] = '\0'; /* the part may well take the name it has */
-        k = fl_surface_add(s, whole, len + more,
-                           err); /* cleans the name and keeps it apart from the others */
+        s->part[i].name[0] = '\0';                     /* the new name may equal the old one */
+        k = fl_surface_add(s, whole, len + more, err); /* makes the name valid and unique */
         free(whole);
         if (k < 0) return -1;
         free(s->part[i].name);
@@ -63,7 +62,7 @@ static int read_file(const struct options *o, const struct item *it, fl_import_o
     return 0;
 }
 
-static int make(const struct item *it, fl_surface *s, fl_err *err)
+static int add_solid(const struct item *it, fl_surface *s, fl_err *err)
 {
     static const char *const kind[] = {"", "cylinder", "cone", "box"};
     const char *name = it->name ? it->name : kind[it->kind];
@@ -73,8 +72,8 @@ static int make(const struct item *it, fl_surface *s, fl_err *err)
     return fl_surface_cone(&s->part[i], it->cone, err);
 }
 
-/* Give facets to the cones of a part. */
-static int facet(fl_part *p, int32_t n, fl_err *err)
+/* Replace the cones of a part by triangles. */
+static int facet_cones(fl_part *p, int32_t n, fl_err *err)
 {
     for (int32_t c = 0; c < p->nc; c++)
         if (fl_facet_cone(p, &p->cone[c], n, err)) return -1;
@@ -82,7 +81,7 @@ static int facet(fl_part *p, int32_t n, fl_err *err)
     return 0;
 }
 
-/* What is read as g_struct(5) must not be refused there. */
+/* Names that a reader of g_struct(5) rejects are rejected here. */
 static int check_names(const fl_surface *s, fl_err *err)
 {
     for (int32_t i = 0; i < s->n; i++)
@@ -94,24 +93,24 @@ static int check_names(const fl_surface *s, fl_err *err)
     return 0;
 }
 
-static int collect(const struct options *o, fl_surface *s, fl_err *err)
+static int collect_parts(const struct options *o, fl_surface *s, fl_err *err)
 {
     const int32_t facets = o->facets ? o->facets : o->to == TO_G_STRUCT ? 0 : ROUND_FACETS;
-    struct chosen c = {0};
-    int bad = chosen_start(&c, o, err);
+    struct selection c = {0};
+    int bad = selection_start(&c, o, err);
     for (int32_t k = 0; !bad && k < o->items; k++) {
         const struct item *it = &o->item[k];
-        bad = it->kind == ITEM_FILE ? read_file(o, it, &c.w, s, err) : make(it, s, err);
+        bad = it->kind == ITEM_FILE ? read_file(o, it, &c.opt, s, err) : add_solid(it, s, err);
     }
-    if (!bad) bad = chosen_check(&c, err);
-    chosen_free(&c);
+    if (!bad) bad = selection_check(&c, err);
+    selection_free(&c);
     if (bad || rename_all(o, s, err) || (o->to == TO_G_STRUCT && check_names(s, err))) return -1;
     for (int32_t i = 0; facets && i < s->n; i++)
-        if (facet(&s->part[i], facets, err)) return -1;
+        if (facet_cones(&s->part[i], facets, err)) return -1;
     return 0;
 }
 
-static int write_as(enum format to, FILE *f, const fl_surface *s, const fl_history_line *by, fl_err *err)
+static int write_format(enum format to, FILE *f, const fl_surface *s, const fl_history_line *by, fl_err *err)
 {
     switch (to) {
     case TO_STL: fl_stl_write_ascii(f, s); return 0;
@@ -131,31 +130,31 @@ static int write_out(const struct options *o, const fl_surface *s, fl_err *err)
     int rc = -1;
     options_by(o, &by);
     if (fl_out_open(&out, o->out, o->gzip, err)) goto done;
-    if (write_as(o->to, out.f, s, &by, err)) goto done;
+    if (write_format(o->to, out.f, s, &by, err)) goto done;
     rc = fl_out_close(&out, err);
 done:
     fl_out_abort(&out);
     return rc;
 }
 
-/* With --strict the answer is no when a part does not bound a body, by itself or together with others. */
-static int judge(const fl_surface *s, const struct mended *m, fl_err *err)
+/* With --strict, fail if a part does not bound a body by itself or together with others. */
+static int check_strict(const fl_surface *s, const struct cleanup *m, fl_err *err)
 {
     for (int32_t i = 0; i < s->n; i++) {
-        const fl_mesh_quality *q = &m[i].left;
-        if ((q->open && !m[i].fits) || q->branched || q->incoherent)
+        const fl_mesh_quality *q = &m[i].quality;
+        if ((q->open && !m[i].closes_jointly) || q->branched || q->incoherent)
             return fl_fail(err, FL_NO,
-                           "part \"%.60s\" is left with %d open, %d non-manifold and %d twisted edges",
+                           "part \"%.60s\" still has %d open, %d non-manifold and %d twisted edges",
                            s->part[i].name, q->open, q->branched, q->incoherent);
-        if (q->degenerate || m[i].meet.crossings)
+        if (q->degenerate || m[i].crossing.crossings)
             return fl_fail(err, FL_NO,
-                           "part \"%.60s\" is left with %d triangles without area and %d pairs that cross",
-                           s->part[i].name, q->degenerate, m[i].meet.crossings);
+                           "part \"%.60s\" still has %d triangles without area and %d pairs that cross",
+                           s->part[i].name, q->degenerate, m[i].crossing.crossings);
     }
     return 0;
 }
 
-static int check_targets(const struct options *o, fl_err *err)
+static int check_output(const struct options *o, fl_err *err)
 {
     const fl_named_path out = {"--output", o->out};
     for (int32_t k = 0; k < o->items; k++)
@@ -166,19 +165,19 @@ static int check_targets(const struct options *o, fl_err *err)
 static int run(const struct options *o, fl_err *err)
 {
     fl_surface s = {0};
-    struct mended *m = NULL;
+    struct cleanup *m = NULL;
     int rc = -1;
-    if (check_targets(o, err)) return -1;
+    if (check_output(o, err)) return -1;
     if (o->threads) omp_set_num_threads(o->threads);
-    if (collect(o, &s, err)) goto done;
+    if (collect_parts(o, &s, err)) goto done;
     m = fl_alloc(s.n, sizeof *m, err);
     if (!m) goto done;
     for (int32_t i = 0; i < s.n; i++)
-        if (mend(&s.part[i], o, &m[i], err)) goto done;
-    if (!o->raw && unite(&s, m, err)) goto done;
-    if (report(o, &s, m, err) || write_out(o, &s, err)) goto done;
-    if (o->plot && views(&s, o->plot, err)) goto done;
-    rc = o->strict ? judge(&s, m, err) : 0;
+        if (clean_part(&s.part[i], o, &m[i], err)) goto done;
+    if (!o->raw && close_jointly(&s, m, err)) goto done;
+    if (print_report(o, &s, m, err) || write_out(o, &s, err)) goto done;
+    if (o->plot && draw_views(&s, o->plot, err)) goto done;
+    rc = o->strict ? check_strict(&s, m, err) : 0;
 done:
     free(m);
     fl_surface_free(&s);

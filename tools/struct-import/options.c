@@ -12,7 +12,7 @@ static const char USAGE[] =
     "usage: struct-import [options] [FILE ...]\n"
     "Turn meshes and ready-made solids into a structure file (g_struct) for dem-solve.\n"
     "FILE is STL, OBJ, OFF, PLY, VTK, g_struct, or a mesh of finite elements: Abaqus, ANSYS, Gmsh, Nastran,\n"
-    "recognised by its content; - or nothing is standard input.\n"
+    "recognised by content; - or nothing is standard input.\n"
     "\n";
 
 static const struct unit {
@@ -20,9 +20,9 @@ static const struct unit {
     double metres;
 } UNIT[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}};
 
-static const double FAR = 1e9; /* [m] no structure reaches farther; squares and cubes stay exact in range */
+static const double FAR = 1e9; /* [m] largest coordinate; its square and cube stay exact in range */
 
-/* least .. most numbers divided by commas.  Their count, or -1. */
+/* Parse least .. most numbers separated by commas.  Returns their count, or -1. */
 static int numbers(const char *option, const char *text, int least, int most, double *x, fl_err *err)
 {
     char expected[80];
@@ -39,7 +39,7 @@ static int numbers(const char *option, const char *text, int least, int most, do
     return n;
 }
 
-/* The part that comes next gets the name that waits. */
+/* Add an item; it gets the pending name. */
 static int add_item(struct options *o, struct item it, fl_err *err)
 {
     if (fl_grow(&o->item, &o->item_cap, (int64_t)o->items + 1, sizeof *o->item, err)) return -1;
@@ -90,13 +90,13 @@ static int unit(void *options, const char *text, fl_err *err)
 static int pattern(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
-    if (*text == '\0') return fl_fail(err, FL_USAGE, "--part is empty, a pattern is expected");
+    if (*text == '\0') return fl_fail(err, FL_USAGE, "--part is empty, expected a pattern");
     if (fl_grow(&o->part, &o->part_cap, (int64_t)o->parts + 1, sizeof *o->part, err)) return -1;
     o->part[o->parts++] = text;
     return 0;
 }
 
-/* OLD=NEW, divided at the last "=": names in decks hold any byte, new ones are the user's own. */
+/* OLD=NEW, divided at the last "=": names in decks contain any character, new names are chosen by the user. */
 static int rename_as(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
@@ -113,14 +113,14 @@ static int rename_as(void *options, const char *text, fl_err *err)
     return 0;
 }
 
-/* Kept as text too: the history says what was given. */
+/* The text is kept for the history. */
 static int rotate(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
     double x[4] = {0};
     if (numbers("rotate", text, 4, 4, x, err) < 0) return -1;
     if (!(v3_norm(v3(x[0], x[1], x[2])) > 0.0))
-        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", expected an axis of some length", text);
+        return fl_fail(err, FL_USAGE, "--rotate is \"%.60s\", expected an axis of non-zero length", text);
     if (o->turns == TURNS) return fl_fail(err, FL_USAGE, "--rotate is given more than %d times", TURNS);
     const fl_mat3 r = fl_affine_rotation(v3(x[0], x[1], x[2]), x[3]);
     o->rotate[o->turns++] = text;
@@ -128,7 +128,7 @@ static int rotate(void *options, const char *text, fl_err *err)
     return 0;
 }
 
-/* The axis is turned and mirrored before the turns of --rotate, whatever order they were given in. */
+/* --up and --mirror apply before the turns of --rotate, whatever the order of the options. */
 static void place_first(struct options *o)
 {
     static const fl_mat3 y_up = {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
@@ -180,9 +180,8 @@ static int set_name(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
     if (o->next_name)
-        return fl_fail(err, FL_USAGE,
-                       "--name %.60s is followed by --name %.60s, expected a part between them", o->next_name,
-                       text);
+        return fl_fail(err, FL_USAGE, "--name %.60s is followed by --name %.60s without a part between them",
+                       o->next_name, text);
     if (*text == '\0') return fl_fail(err, FL_USAGE, "--name is empty");
     o->next_name = text;
     return 0;
@@ -246,26 +245,26 @@ static const fl_option OPTION[] = {
     {.word = "name",
      .letter = 'n',
      .argument = "NAME",
-     .help = "name of the part that comes next; at the end, of the last one",
+     .help = "name of the next part; at the end, of the last one",
      .kind = FL_OPTION_CALL,
      .call = set_name},
     {.word = "part",
      .argument = "PATTERN",
-     .help = "import only the parts and sets that match it, * and ? stand for bytes",
+     .help = "import only parts and sets that match; * and ? are wildcards",
      .kind = FL_OPTION_CALL,
      .call = pattern},
     {.word = "rename",
      .argument = "OLD=NEW",
-     .help = "rename what matches the pattern OLD to NEW; equal names join",
+     .help = "rename parts that match the pattern OLD; equal names are joined",
      .kind = FL_OPTION_CALL,
      .call = rename_as},
     {.word = "subdivide",
-     .help = "quadratic faces become 4, 6 or 8 triangles instead of 1 or 2",
+     .help = "split quadratic faces into 4, 6 or 8 triangles instead of 1 or 2",
      .at = AT(subdivide)},
     {.word = "facets",
      .letter = 'f',
      .argument = "N",
-     .help = "make cylinders and cones of triangles, N round the circle",
+     .help = "replace cylinders and cones by triangles, N per circle",
      .kind = FL_OPTION_INTEGER,
      .at = AT(facets),
      .lo = 3,
@@ -302,7 +301,7 @@ static const fl_option OPTION[] = {
     {.word = "translate",
      .letter = 't',
      .argument = "X,Y,Z",
-     .help = "then move what the files hold [m]",
+     .help = "then move the contents of the files [m]",
      .kind = FL_OPTION_CALL,
      .call = set_translation},
     {.word = "weld",
@@ -333,18 +332,18 @@ static const fl_option OPTION[] = {
      .at = AT(repair)},
     {.word = "simplify",
      .argument = "DISTANCE",
-     .help = "fewer triangles, within DISTANCE [m] both ways",
+     .help = "reduce triangles within DISTANCE [m] both ways",
      .kind = FL_OPTION_NUMBER,
      .at = AT(simplify),
      LENGTH,
      .expected = "a length above 0"},
     {.word = "remesh",
      .argument = "LENGTH[,D]",
-     .help = "triangles of sides of about LENGTH [m], within D (LENGTH / 10) both ways",
+     .help = "edges of about LENGTH [m], within D (LENGTH / 10) both ways",
      .kind = FL_OPTION_CALL,
      .call = remesh},
-    {.word = "raw", .help = "no mending: weld only", .at = AT(raw)},
-    {.word = "strict", .help = "status 1 when anything is left unmended", .at = AT(strict)},
+    {.word = "raw", .help = "no cleanup: weld only", .at = AT(raw)},
+    {.word = "strict", .help = "status 1 if a defect remains", .at = AT(strict)},
     {.word = "to",
      .argument = "FORMAT",
      .help = "g_struct, stl (ASCII), stl-binary, obj, off, ply or vtp (g_struct)",
@@ -357,32 +356,32 @@ static const fl_option OPTION[] = {
      .kind = FL_OPTION_CALL,
      .call = set_plot},
     FL_COMMON_OPTIONS(struct options, "write there, - is standard output", "compress the output",
-                      "threads of the search for crossings; the result is the same for any number",
-                      "no table and no warnings on standard error", "more about what was mended"),
+                      "threads of the search for crossings; does not affect the result",
+                      "no table and no warnings on standard error", "more details of the cleanup"),
 };
 
 static const fl_option_table TABLE = {"struct-import", USAGE, OPTION, add_file, 1};
 
-/* The last word on names and input, once everything was read. */
+/* Checks between options, after all have been read. */
 static int finish(struct options *o, fl_err *err)
 {
-    const char *const waiting = o->next_name;
+    const char *const pending = o->next_name;
     int32_t streams = 0;
     if (o->items == 0) {
         if (add_item(o, (struct item){.kind = ITEM_FILE, .path = "-"}, err)) return -1;
-    } else if (waiting) {
+    } else if (pending) {
         struct item *last = &o->item[o->items - 1];
         if (last->name)
-            return fl_fail(err, FL_USAGE, "--name %.60s stands behind a part that is called %.60s", waiting,
+            return fl_fail(err, FL_USAGE, "--name %.60s follows a part that is called %.60s", pending,
                            last->name);
-        last->name = waiting;
+        last->name = pending;
     }
     for (int32_t k = 0; k < o->items; k++)
         streams += o->item[k].kind == ITEM_FILE && !strcmp(o->item[k].path, "-");
     if (streams > 1) return fl_fail(err, FL_USAGE, "standard input is named %d times", streams);
-    if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes do not go together");
+    if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes exclude each other");
     if (o->raw && (o->fill > 0.0 || o->repair || o->simplify > 0.0 || o->remesh > 0.0))
-        return fl_fail(err, FL_USAGE, "--raw does not go together with what it leaves undone");
+        return fl_fail(err, FL_USAGE, "--raw excludes --fill, --repair, --simplify and --remesh");
     o->map.s *= o->factor;
     place_first(o);
     return 0;

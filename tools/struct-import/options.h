@@ -12,40 +12,40 @@ enum { TURNS = 16 };
 enum item_kind { ITEM_FILE, ITEM_CYLINDER, ITEM_CONE, ITEM_BOX };
 enum format { TO_G_STRUCT, TO_STL, TO_STL_BINARY, TO_OBJ, TO_OFF, TO_PLY, TO_VTP, FORMATS };
 
-/* One thing of the command line that becomes parts, in the order given. */
+/* An item of the command line that becomes parts, in the given order. */
 struct item {
     enum item_kind kind;
-    const char *path, *name; /* borrowed; name is NULL when none was given */
-    const char *text;        /* the numbers of a ready-made one, as given */
+    const char *path, *name; /* borrowed; name is NULL if none was given */
+    const char *text;        /* the numbers of a ready-made solid, as given */
     fl_cone cone;
     fl_aabb box;
 };
 
-/* What is like the pattern old becomes name. */
+/* Parts whose names match the pattern old are renamed. */
 struct alias {
     char *old;
     const char *name, *text; /* borrowed */
 };
 
 struct options {
-    struct item *item; /* [items]; standard input when none was given */
+    struct item *item; /* [items]; standard input if none was given */
     int32_t items, item_cap;
-    const char **part; /* [parts] borrowed patterns of the parts that are taken; none takes all */
+    const char **part; /* [parts] borrowed patterns of selected parts; none selects all */
     int32_t parts, part_cap;
     struct alias *alias; /* [aliases] */
     int32_t aliases, alias_cap;
-    const char *out, *unit;       /* borrowed; unit is NULL when unknown */
-    const char *next_name;        /* of --name, for the part that comes next; NULL: none */
+    const char *out, *unit;       /* borrowed; unit is NULL if unknown */
+    const char *next_name;        /* of --name, for the next part; NULL: none */
     int to;                       /* enum format */
-    int32_t facets;               /* 0: round solids stay what they are */
-    int32_t fill_holes;           /* rims of up to this many edges are closed */
-    double fill;                  /* and those whose box has a diagonal of up to this [m] */
+    int32_t facets;               /* per circle; 0 keeps round solids */
+    int32_t fill_holes;           /* largest number of edges of a hole to close */
+    double fill;                  /* [m] largest diagonal of the box of a hole to close */
     double simplify;              /* [m]; 0 for none */
-    double remesh, remesh_within; /* length of edges, 0 for none, and how far they may stray [m] */
+    double remesh, remesh_within; /* [m] length of edges, 0 for none, and their largest deviation */
     int repair;
     const char *plot; /* borrowed; NULL for none */
-    fl_affine map;    /* of what files hold: --up, --mirror, --unit and --scale, --rotate, --translate */
-    double factor;    /* --scale alone, 1 when not given */
+    fl_affine map;    /* applied to files: --up, --mirror, --unit and --scale, --rotate, --translate */
+    double factor;    /* of --scale alone */
     const char *rotate[TURNS]; /* [turns] borrowed, as given */
     int turns, mirror;         /* bits 0, 1, 2 of mirror: x, y, z */
     double weld;               /* [m]; < 0: automatic */
@@ -54,11 +54,12 @@ struct options {
     int ended; /* --help or --version was answered */
 };
 
-/* Defaults, then the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with options_free(). */
+/* Set defaults and parse the command line.  0, or -1 with FL_USAGE or FL_SYSTEM in err.  Free with
+ * options_free(). */
 int options_parse(struct options *o, int argc, char **argv, fl_err *err);
 void options_free(struct options *o);
 
-/* The history line: what bears on the result; files by their base names. */
+/* The history line: all options that affect the result; files by their base names. */
 void options_by(const struct options *o, fl_history_line *by);
 
 #endif

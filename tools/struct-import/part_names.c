@@ -5,22 +5,22 @@
 #include "base/array.h"
 #include "part_names.h"
 
-int chosen_start(struct chosen *c, const struct options *o, fl_err *err)
+int selection_start(struct selection *c, const struct options *o, fl_err *err)
 {
-    *c = (struct chosen){.w = {.pattern = o->part, .patterns = o->parts, .subdivide = o->subdivide}};
-    c->w.available = &c->seen;
-    c->w.matched = fl_alloc(o->parts, 1, err);
-    return c->w.matched ? 0 : -1;
+    *c = (struct selection){.opt = {.pattern = o->part, .patterns = o->parts, .subdivide = o->subdivide}};
+    c->opt.available = &c->available;
+    c->opt.matched = fl_alloc(o->parts, 1, err);
+    return c->opt.matched ? 0 : -1;
 }
 
-void chosen_free(struct chosen *c)
+void selection_free(struct selection *c)
 {
-    fl_string_table_free(&c->seen);
-    free(c->w.matched);
-    *c = (struct chosen){0};
+    fl_string_table_free(&c->available);
+    free(c->opt.matched);
+    *c = (struct selection){0};
 }
 
-/* "a, b, c, ...": as many names as a sentence holds. */
+/* A list like "a, b, c, ...", as long as a message allows. */
 static void add_name(char text[300], const char *name)
 {
     const size_t len = strlen(text), more = strlen(name) + 2;
@@ -28,19 +28,19 @@ static void add_name(char text[300], const char *name)
     else if (len < 4 || strcmp(text + len - 3, "...") != 0) strcpy(text + len, ", ...");
 }
 
-int chosen_check(const struct chosen *c, fl_err *err)
+int selection_check(const struct selection *c, fl_err *err)
 {
     char names[300] = "";
-    for (int32_t k = 0; k < c->seen.n; k++) add_name(names, c->seen.name[k]);
-    for (int32_t k = 0; k < c->w.patterns; k++)
-        if (!c->w.matched[k])
-            return fl_fail(err, FL_INPUT, "--part %.100s: no part or set is like it; there are %s",
-                           c->w.pattern[k], names[0] ? names : "none");
+    for (int32_t k = 0; k < c->available.n; k++) add_name(names, c->available.name[k]);
+    for (int32_t k = 0; k < c->opt.patterns; k++)
+        if (!c->opt.matched[k])
+            return fl_fail(err, FL_INPUT, "--part %.100s: no part or set matches; there are %s",
+                           c->opt.pattern[k], names[0] ? names : "none");
     return 0;
 }
 
 /* Append q to p. */
-static int join(fl_part *p, const fl_part *q, fl_err *err)
+static int append_part(fl_part *p, const fl_part *q, fl_err *err)
 {
     const int32_t had = p->nv;
     if ((int64_t)p->nv + q->nv > INT32_MAX || (int64_t)p->nt + q->nt > INT32_MAX)
@@ -64,16 +64,17 @@ static const struct alias *alias_of(const struct options *o, const char *name)
     return NULL;
 }
 
-static int each_is_met(const struct options *o, const fl_surface *s, fl_err *err)
+static int check_patterns(const struct options *o, const fl_surface *s, fl_err *err)
 {
     char names[300] = "";
     for (int32_t i = 0; i < s->n; i++) add_name(names, s->part[i].name);
     for (int32_t k = 0; k < o->aliases; k++) {
-        int met = 0;
-        for (int32_t i = 0; !met && i < s->n; i++) met = fl_pattern_matches(o->alias[k].old, s->part[i].name);
-        if (!met)
-            return fl_fail(err, FL_INPUT, "--rename %.100s: no part is like it; there are %s",
-                           o->alias[k].text, names[0] ? names : "none");
+        int matched = 0;
+        for (int32_t i = 0; !matched && i < s->n; i++)
+            matched = fl_pattern_matches(o->alias[k].old, s->part[i].name);
+        if (!matched)
+            return fl_fail(err, FL_INPUT, "--rename %.100s: no part matches; there are %s", o->alias[k].text,
+                           names[0] ? names : "none");
     }
     return 0;
 }
@@ -83,13 +84,13 @@ int rename_all(const struct options *o, fl_surface *s, fl_err *err)
     fl_surface to = {0};
     int rc = -1;
     if (o->aliases == 0) return 0;
-    if (each_is_met(o, s, err)) return -1;
+    if (check_patterns(o, s, err)) return -1;
     for (int32_t i = 0; i < s->n; i++) {
         const struct alias *a = alias_of(o, s->part[i].name);
         const char *name = a ? a->name : s->part[i].name;
         int32_t at = fl_surface_find(&to, name, strlen(name));
         if (at >= 0) {
-            if (join(&to.part[at], &s->part[i], err)) goto done;
+            if (append_part(&to.part[at], &s->part[i], err)) goto done;
             fl_part_free(&s->part[i]);
             continue;
         }

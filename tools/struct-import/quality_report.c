@@ -3,87 +3,87 @@
 #include <string.h>
 #include "quality_report.h"
 
-static const double LARGEST = 1000.0, SMALLEST = 0.01; /* [m] sides of a box that are likely another unit */
-static const double MUCH = 0.01;      /* change of a patch that was rebuilt, of its area or volume */
-static const double ROUNDING = 1e-12; /* of the diagonal: thousands of roundings of 1e-16 */
+static const double LARGEST = 1000.0, SMALLEST = 0.01; /* [m] sizes of a box that suggest a wrong unit */
+static const double LARGE_CHANGE = 0.01; /* relative change of area or volume of a rebuilt patch */
+static const double ROUNDING = 1e-12;    /* of the diagonal: thousands of roundings of 1e-16 */
 
-/* A coordinate of the centroid, without the rounding left where the parts of a symmetric body cancel. */
-static double shown(double x, const fl_aabb *b)
+/* A coordinate of the centroid; rounding errors of a symmetric body are set to 0. */
+static double without_rounding(double x, const fl_aabb *b)
 {
     return fabs(x) > ROUNDING * v3_norm(v3_sub(b->hi, b->lo)) ? x : 0.0;
 }
 
-static void shape_row(const char *name, int width, const fl_mesh_quality *q)
+static void print_shape(const char *name, int width, const fl_mesh_quality *q)
 {
     char volume[40] = "-";
     if (q->closed) snprintf(volume, sizeof volume, "%.9g", q->volume);
     fprintf(stderr, "%-*s %9d %5d %13s %13.9g   %.6g %.6g %.6g   %.6g %.6g %.6g .. %.6g %.6g %.6g\n", width,
-            name, q->triangles, q->cones, volume, q->area, shown(q->centroid.x, &q->box),
-            shown(q->centroid.y, &q->box), shown(q->centroid.z, &q->box), q->box.lo.x, q->box.lo.y,
-            q->box.lo.z, q->box.hi.x, q->box.hi.y, q->box.hi.z);
+            name, q->triangles, q->cones, volume, q->area, without_rounding(q->centroid.x, &q->box),
+            without_rounding(q->centroid.y, &q->box), without_rounding(q->centroid.z, &q->box), q->box.lo.x,
+            q->box.lo.y, q->box.lo.z, q->box.hi.x, q->box.hi.y, q->box.hi.z);
 }
 
-static void mesh_row(const char *name, int width, const struct mended *m)
+static void print_mesh(const char *name, int width, const struct cleanup *m)
 {
-    const fl_mesh_quality *q = &m->left;
+    const fl_mesh_quality *q = &m->quality;
     fprintf(stderr, "%-*s %7d %10d %9d %7d %7d %7d %5d %12d %7d %7d %8d %8d\n", width, name, m->weld.merged,
-            m->weld.collapsed + m->repair.degenerate, m->doubled + m->repair.duplicates, m->orient.patches,
+            m->weld.collapsed + m->repair.degenerate, m->duplicates + m->repair.duplicates, m->orient.patches,
             m->orient.triangles, q->patches, q->open, q->branched, q->incoherent, q->degenerate,
-            m->meet.crossings, m->meet.touching);
+            m->crossing.crossings, m->crossing.touching);
 }
 
-static void add(struct mended *sum, const struct mended *m)
+static void add_counts(struct cleanup *sum, const struct cleanup *m)
 {
     sum->weld.merged += m->weld.merged;
     sum->weld.collapsed += m->weld.collapsed;
     sum->repair.degenerate += m->repair.degenerate;
-    sum->doubled += m->doubled;
+    sum->duplicates += m->duplicates;
     sum->repair.duplicates += m->repair.duplicates;
-    sum->meet.crossings += m->meet.crossings;
-    sum->meet.touching += m->meet.touching;
+    sum->crossing.crossings += m->crossing.crossings;
+    sum->crossing.touching += m->crossing.touching;
     sum->orient.patches += m->orient.patches;
     sum->orient.triangles += m->orient.triangles;
 }
 
-/* Share by which a number grew, its sign apart: a body inside out becomes one outward. */
-static void put_change(int width, double came, double went)
+/* Print the relative change of a magnitude; the sign is ignored, since a body may have been inside out. */
+static void put_change(int width, double before, double after)
 {
-    if (came == 0.0) fprintf(stderr, " %*s", width, went == 0.0 ? "0" : "-");
-    else fprintf(stderr, " %*.3g", width, (fabs(went) - fabs(came)) / fabs(came));
+    if (before == 0.0) fprintf(stderr, " %*s", width, after == 0.0 ? "0" : "-");
+    else fprintf(stderr, " %*.3g", width, (fabs(after) - fabs(before)) / fabs(before));
 }
 
-/* Of the largest element of the tensor of inertia. */
-static double inertia_change(const fl_moments *came, const fl_moments *went)
+/* Largest change of an element of the inertia tensor, relative to its largest element. */
+static double inertia_change(const fl_moments *before, const fl_moments *after)
 {
-    const double turn = came->volume * went->volume < 0.0 ? -1.0 : 1.0;
+    const double turn = before->volume * after->volume < 0.0 ? -1.0 : 1.0;
     double most = 0.0, size = 0.0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            most = fmax(most, fabs(turn * went->inertia.m[i][j] - came->inertia.m[i][j]));
-            size = fmax(size, fabs(came->inertia.m[i][j]));
+            most = fmax(most, fabs(turn * after->inertia.m[i][j] - before->inertia.m[i][j]));
+            size = fmax(size, fabs(before->inertia.m[i][j]));
         }
     return size > 0.0 ? most / size : 0.0;
 }
 
-static void cost_row(const char *name, int width, const struct mended *m)
+static void print_changes(const char *name, int width, const struct cleanup *m)
 {
-    const int solid = m->came_closed && m->left.closed && m->came.volume != 0.0;
-    fprintf(stderr, "%-*s %9d %9d %6d %6d %7d", width, name, m->came_triangles, m->left.triangles,
+    const int solid = m->was_closed && m->quality.closed && m->before.volume != 0.0;
+    fprintf(stderr, "%-*s %9d %9d %6d %6d %7d", width, name, m->triangles_before, m->quality.triangles,
             m->repair.holes, m->untangle.joined, m->untangle.rebuilt);
     if (solid) {
-        put_change(10, m->came.volume, m->went.volume);
-        put_change(10, m->came.area, m->went.area);
-        fprintf(stderr, " %10.3g %11.3g", v3_norm(v3_sub(m->went.centroid, m->came.centroid)),
-                inertia_change(&m->came, &m->went));
+        put_change(10, m->before.volume, m->after.volume);
+        put_change(10, m->before.area, m->after.area);
+        fprintf(stderr, " %10.3g %11.3g", v3_norm(v3_sub(m->after.centroid, m->before.centroid)),
+                inertia_change(&m->before, &m->after));
     } else {
         fprintf(stderr, " %10s", "-");
-        put_change(10, m->came.area, m->went.area);
+        put_change(10, m->before.area, m->after.area);
         fprintf(stderr, " %10s %11s", "-", "-");
     }
-    fprintf(stderr, " %9.3g %9.3g\n", m->strays, m->misses);
+    fprintf(stderr, " %9.3g %9.3g\n", m->deviation, m->source_deviation);
 }
 
-static void details(const fl_part *p, const struct mended *m)
+static void print_details(const fl_part *p, const struct cleanup *m)
 {
     const char *name = p->name;
     if (p->nt == 0) return;
@@ -92,43 +92,42 @@ static void details(const fl_part *p, const struct mended *m)
     if (m->repair.stitched) fprintf(stderr, "%s: %d pairs of rim edges stitched\n", name, m->repair.stitched);
     if (m->repair.holes)
         fprintf(stderr, "%s: %d holes closed by %d triangles\n", name, m->repair.holes, m->repair.patched);
-    if (m->walls) fprintf(stderr, "%s: %d triangles of walls inside left out\n", name, m->walls);
+    if (m->walls) fprintf(stderr, "%s: %d triangles of inner walls dropped\n", name, m->walls);
     if (m->simplified) fprintf(stderr, "%s: %d triangles fewer\n", name, m->simplified);
-    if (m->repair.bounding && m->left.inverted)
-        fprintf(stderr, "%s: %d patches bound cavities and look inward\n", name, m->left.inverted);
+    if (m->repair.bounding && m->quality.inverted)
+        fprintf(stderr, "%s: %d patches bound cavities and face inward\n", name, m->quality.inverted);
 }
 
-static void warn(const char *name, const struct mended *m)
+static void print_warnings(const char *name, const struct cleanup *m)
 {
     const int32_t twisted = m->orient.one_sided, rimmed = m->orient.kept_side;
-    if (rimmed && m->left.open && !m->fits)
+    if (rimmed && m->quality.open && !m->closes_jointly)
         fprintf(stderr,
-                "struct-import: warning: %s: open patches have no outside: but for flat convex ones they are "
-                "felt on one side "
-                "alone, the one that most of their area had\n",
+                "struct-import: warning: %s: open patches have no outside: except for flat convex ones, ice "
+                "meets them on one side only, the side of most of their area\n",
                 name);
     if (m->fins)
         fprintf(stderr,
-                "struct-import: warning: %s: %d triangles of plates with two sides that stand on others were "
-                "left out: as a part of its own such a plate is felt\n",
+                "struct-import: warning: %s: %d triangles of two-sided plates that stand on others were "
+                "skipped: ice meets such a plate only as a part of its own\n",
                 name, m->fins);
     if (m->untangle.failed)
         fprintf(stderr, "struct-import: warning: %s: %d patches or pairs of them still cross\n", name,
                 m->untangle.failed);
-    if (m->untangle.changed > MUCH)
+    if (m->untangle.changed > LARGE_CHANGE)
         fprintf(stderr,
                 "struct-import: warning: %s: a patch that passed through itself was rebuilt with %.3g of its "
-                "area or volume more or less: look at it\n",
+                "area or volume more or less: check it\n",
                 name, m->untangle.changed);
     if (twisted)
         fprintf(stderr, "struct-import: warning: %s: %d patches have one side only and cannot be oriented\n",
                 name, twisted);
-    if (m->left.degenerate)
+    if (m->quality.degenerate)
         fprintf(stderr, "struct-import: warning: %s: %d triangles without area are left\n", name,
-                m->left.degenerate);
+                m->quality.degenerate);
 }
 
-static void warn_size(const struct options *o, fl_aabb box)
+static void check_size(const struct options *o, fl_aabb box)
 {
     const fl_vec3 side = v3_sub(box.hi, box.lo);
     const double largest = fmax(side.x, fmax(side.y, side.z));
@@ -138,54 +137,54 @@ static void warn_size(const struct options *o, fl_aabb box)
             o->unit ? "is the unit right?" : "the unit is unknown and was taken as m, --unit sets it");
 }
 
-/* Parts that are open by themselves and close together have a volume together. */
-static int32_t close_together(const fl_surface *s, const struct mended *m, fl_mesh_quality *sum)
+/* Measure the joint volume of open parts that are closed together. */
+static int32_t measure_jointly(const fl_surface *s, const struct cleanup *m, fl_mesh_quality *sum)
 {
-    int32_t fits = 0, open = 0;
+    int32_t joint = 0, open = 0;
     for (int32_t i = 0; i < s->n; i++) {
-        fits += m[i].fits;
-        open += !m[i].left.closed;
+        joint += m[i].closes_jointly;
+        open += !m[i].quality.closed;
     }
-    if (fits && fits == open) {
+    if (joint && joint == open) {
         const fl_moments all = fl_moments_of(s->part, s->n);
         sum->closed = 1;
         sum->volume = all.volume;
         sum->centroid = all.centroid;
     }
-    return fits;
+    return joint;
 }
 
-int report(const struct options *o, const fl_surface *s, const struct mended *m, fl_err *err)
+int print_report(const struct options *o, const fl_surface *s, const struct cleanup *m, fl_err *err)
 {
-    struct mended sum = {0};
+    struct cleanup sum = {0};
     int width = 5; /* of "total" */
-    if (s->n == 1) sum.left = m[0].left;
-    else if (fl_surface_measure(s, &sum.left, err)) return -1;
+    if (s->n == 1) sum.quality = m[0].quality;
+    else if (fl_surface_measure(s, &sum.quality, err)) return -1;
     if (o->quiet) return 0;
-    const int32_t fits = close_together(s, m, &sum.left);
+    const int32_t joint = measure_jointly(s, m, &sum.quality);
     for (int32_t i = 0; i < s->n; i++)
         if ((int)strlen(s->part[i].name) > width) width = (int)strlen(s->part[i].name);
     fprintf(stderr, "%-*s %9s %5s %13s %13s   %s   %s\n", width, "part", "triangles", "cones", "volume[m3]",
             "area[m2]", "centroid[m]", "box[m]");
-    for (int32_t i = 0; i < s->n; i++) shape_row(s->part[i].name, width, &m[i].left);
-    if (s->n > 1) shape_row("total", width, &sum.left);
+    for (int32_t i = 0; i < s->n; i++) print_shape(s->part[i].name, width, &m[i].quality);
+    if (s->n > 1) print_shape("total", width, &sum.quality);
     fprintf(stderr, "\n%-*s %7s %10s %9s %7s %7s %7s %5s %12s %7s %7s %8s %8s\n", width, "part", "welded",
             "degenerate", "duplicate", "flipped", "turned", "patches", "open", "non-manifold", "twisted",
             "slivers", "crossing", "touching");
     for (int32_t i = 0; i < s->n; i++) {
-        mesh_row(s->part[i].name, width, &m[i]);
-        add(&sum, &m[i]);
+        print_mesh(s->part[i].name, width, &m[i]);
+        add_counts(&sum, &m[i]);
     }
-    if (s->n > 1) mesh_row("total", width, &sum);
+    if (s->n > 1) print_mesh("total", width, &sum);
     fprintf(stderr, "\n%-*s %9s %9s %6s %6s %7s %10s %10s %10s %11s %9s %9s\n", width, "part", "came", "went",
             "filled", "joined", "rebuilt", "volume[1]", "area[1]", "centre[m]", "inertia[1]", "strays[m]",
             "misses[m]");
-    for (int32_t i = 0; i < s->n; i++) cost_row(s->part[i].name, width, &m[i]);
+    for (int32_t i = 0; i < s->n; i++) print_changes(s->part[i].name, width, &m[i]);
     for (int32_t i = 0; i < s->n; i++) {
-        if (o->verbose) details(&s->part[i], &m[i]);
-        warn(s->part[i].name, &m[i]);
+        if (o->verbose) print_details(&s->part[i], &m[i]);
+        print_warnings(s->part[i].name, &m[i]);
     }
-    if (fits) fprintf(stderr, "struct-import: %d open parts fit one another: together they close\n", fits);
-    warn_size(o, sum.left.box);
+    if (joint) fprintf(stderr, "struct-import: %d open parts form a closed surface together\n", joint);
+    check_size(o, sum.quality.box);
     return 0;
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* quality_report.h -- what struct-import says on standard error. */
+/* quality_report.h -- the report of struct-import on standard error. */
 #ifndef STRUCT_IMPORT_QUALITY_REPORT_H
 #define STRUCT_IMPORT_QUALITY_REPORT_H
 #include "cleanup.h"
 #include "options.h"
 
-/* The quality tables of s, whose part i was mended as m[i], with a row for all of it when there are several
- * parts; then the warnings. */
-int report(const struct options *o, const fl_surface *s, const struct mended *m, fl_err *err);
+/* Print the quality tables of s, whose part i has the cleanup m[i], with a total if there are several parts;
+ * then the warnings. */
+int print_report(const struct options *o, const fl_surface *s, const struct cleanup *m, fl_err *err);
 
 #endif

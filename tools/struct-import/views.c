@@ -13,12 +13,22 @@
 #include "geom/raster.h"
 #include "views.h"
 
-/* [pixels] of the picture; panels share one scale, and stand so that equal coordinates line up. */
-enum { ROOM_U = 900, ROOM_V = 700, LEFT = 78, BETWEEN = 96, RIGHT = 24, TOP = 50, BOTTOM = 68, FINE = 2 };
-enum { ROUND = 180, SHOWN = 14, COLOURS = 8 };
-static const double BEND = 25.0; /* degrees: a polygon of 14 sides and fewer has edges */
-static const double FLAT = 0.12; /* of the largest side: room that a flat structure gets across */
-static const double EDGE = 0.05; /* of each side: room around */
+/* [pixels] of the picture; all panels have one scale and are aligned */
+enum {
+    MAX_WIDTH = 900,
+    MAX_HEIGHT = 700,
+    LEFT = 78,
+    BETWEEN = 96,
+    RIGHT = 24,
+    TOP = 50,
+    BOTTOM = 68,
+    FINE = 2
+};
+enum { FACETS = 180, MAX_NAMES = 14, COLOURS = 8 };
+static const double BEND =
+    25.0; /* [degrees] edges that bend more are drawn; a polygon of 14 sides or fewer shows its edges */
+static const double FLAT = 0.12; /* minimum extent of a flat structure, relative to the largest */
+static const double EDGE = 0.05; /* margin relative to each extent */
 
 static const unsigned char COLOUR[COLOURS][3] = {{86, 180, 233},  {230, 159, 0},  {0, 158, 115},
                                                  {204, 121, 167}, {240, 228, 66}, {0, 114, 178},
@@ -32,8 +42,8 @@ struct panel {
     double lo[2], hi[2];
 };
 
-/* The same structure from triangles alone. */
-static int facets(const fl_surface *s, fl_surface *out, fl_err *err)
+/* Copy a structure with its cones replaced by triangles. */
+static int facet_surface(const fl_surface *s, fl_surface *out, fl_err *err)
 {
     for (int32_t i = 0; i < s->n; i++) {
         const fl_part *p = &s->part[i];
@@ -46,13 +56,13 @@ static int facets(const fl_surface *s, fl_surface *out, fl_err *err)
         for (int32_t t = 0; t < p->nt; t++)
             if (fl_surface_triangle(q, p->t[t].v[0], p->t[t].v[1], p->t[t].v[2], err)) return -1;
         for (int32_t c = 0; c < p->nc; c++)
-            if (fl_facet_cone(q, &p->cone[c], ROUND, err)) return -1;
+            if (fl_facet_cone(q, &p->cone[c], FACETS, err)) return -1;
     }
     return 0;
 }
 
-/* Where the panels stand: the front beside the side, the top above it.  Returns metres per pixel. */
-static double lay_out(struct panel p[3], fl_aabb box, int *width, int *height)
+/* Place the panels: the front beside the side, the top above it.  Returns metres per pixel. */
+static double place_panels(struct panel p[3], fl_aabb box, int *width, int *height)
 {
     const double lo[3] = {box.lo.x, box.lo.y, box.lo.z}, hi[3] = {box.hi.x, box.hi.y, box.hi.z};
     double from[3], size[3], largest = 0.0, pixel;
@@ -62,7 +72,7 @@ static double lay_out(struct panel p[3], fl_aabb box, int *width, int *height)
         size[k] = fmax((1.0 + 2.0 * EDGE) * (hi[k] - lo[k]), FLAT * largest);
         from[k] = 0.5 * (lo[k] + hi[k] - size[k]);
     }
-    pixel = fmax((size[0] + size[1]) / ROOM_U, (size[1] + size[2]) / ROOM_V);
+    pixel = fmax((size[0] + size[1]) / MAX_WIDTH, (size[1] + size[2]) / MAX_HEIGHT);
     for (int k = 0; k < 3; k++) n[k] = (int)ceil(size[k] / pixel);
     p[0] =
         (struct panel){{0, 1, 2, 1}, "top, from above", LEFT, BOTTOM + n[2] + BETWEEN, n[0], n[1], {0}, {0}};
@@ -87,7 +97,7 @@ static double lay_out(struct panel p[3], fl_aabb box, int *width, int *height)
     return pixel;
 }
 
-/* The mean colour of FINE x FINE points makes a pixel; rows from the lowest up. */
+/* A pixel is the mean colour of FINE x FINE points; rows from the bottom up. */
 static void put_pixels(FILE *f, const fl_raster *r)
 {
     for (int32_t v = 0; v < r->h; v += FINE)
@@ -110,7 +120,7 @@ static int put_panel(FILE *f, const fl_surface *s, const struct panel *p, double
                      fl_err *err)
 {
     static const char *const axis[3] = {"x", "y", "z"};
-    const int mirrored = p->axes.toward == 0; /* seen from -x, y grows to the left */
+    const int mirrored = p->axes.toward == 0; /* seen from -x, y increases to the left */
     fl_raster r;
     if (fl_raster_start(&r, p->axes, FINE * p->w, FINE * p->h, p->lo[0], p->lo[1], pixel / FINE, err))
         return -1;
@@ -142,7 +152,7 @@ static int put_panel(FILE *f, const fl_surface *s, const struct panel *p, double
     return 0;
 }
 
-/* A text in a gnuplot script, between single quotes. */
+/* Write a text between single quotes for gnuplot. */
 static void put_quoted(FILE *f, const char *text)
 {
     putc('\'', f);
@@ -153,15 +163,15 @@ static void put_quoted(FILE *f, const char *text)
     putc('\'', f);
 }
 
-/* A square and a name for each part, above the front view. */
+/* Draw a square and a name for each part, above the front view. */
 static void put_names(FILE *f, const fl_surface *s, const struct panel *p, int width, int height)
 {
     const int x = p->x, top = height - TOP;
     fputs("unset label\n", f);
-    for (int32_t i = 0; i < s->n && i <= SHOWN; i++) {
+    for (int32_t i = 0; i < s->n && i <= MAX_NAMES; i++) {
         const double v = (top - 10.0 - 20.0 * i) / height;
         const unsigned char *c = COLOUR[i % COLOURS];
-        if (i == SHOWN) {
+        if (i == MAX_NAMES) {
             fprintf(f, "set label 'and %d more' at screen %.6f, screen %.6f\n", s->n - i, (double)x / width,
                     v);
             break;
@@ -176,11 +186,11 @@ static void put_names(FILE *f, const fl_surface *s, const struct panel *p, int w
     }
 }
 
-static int draw(FILE *f, const fl_surface *s, const char *path, int svg, fl_err *err)
+static int write_script(FILE *f, const fl_surface *s, const char *path, int svg, fl_err *err)
 {
     struct panel p[3];
     int width, height;
-    const double pixel = lay_out(p, fl_surface_aabb(s), &width, &height);
+    const double pixel = place_panels(p, fl_surface_aabb(s), &width, &height);
     fprintf(f, "set terminal %s noenhanced size %d,%d font '%s,%d' background '#ffffff'\n",
             svg ? "svg" : "pngcairo", width, height, svg ? "sans-serif" : "Sans", svg ? 13 : 10);
     fputs("set encoding utf8\nset output ", f);
@@ -203,8 +213,8 @@ static int ends_in(const char *path, const char *end)
     return n > m && strcmp(path + n - m, end) == 0;
 }
 
-/* The file to draw, and the name it has until it is complete. */
-static int names(const char *where, char **path, char **tmp, fl_err *err)
+/* The file to draw, and its temporary name. */
+static int output_names(const char *where, char **path, char **tmp, fl_err *err)
 {
     const int file = ends_in(where, ".png") || ends_in(where, ".svg");
     const size_t room = strlen(where) + 60;
@@ -220,14 +230,14 @@ static int names(const char *where, char **path, char **tmp, fl_err *err)
     return 0;
 }
 
-/* gnuplot reads the script, with the pixels in it, from a pipe; its complaint would come between ours. */
-static int run(const fl_surface *s, const char *tmp, int svg, fl_err *err)
+/* gnuplot reads the script and the pixels in it from a pipe; its messages are discarded. */
+static int run_gnuplot(const fl_surface *s, const char *tmp, int svg, fl_err *err)
 {
     void (*const before)(int) = signal(SIGPIPE, SIG_IGN);
     FILE *f = popen("exec gnuplot -d >/dev/null 2>&1", "w");
     int rc, status;
     if (!f) return fl_fail(err, FL_SYSTEM, "gnuplot could not be started: %s", strerror(errno));
-    rc = draw(f, s, tmp, svg, err);
+    rc = write_script(f, s, tmp, svg, err);
     status = pclose(f);
     signal(SIGPIPE, before);
     if (rc) return -1;
@@ -236,13 +246,13 @@ static int run(const fl_surface *s, const char *tmp, int svg, fl_err *err)
     return status == 0 ? 0 : fl_fail(err, FL_SYSTEM, "gnuplot failed on the picture");
 }
 
-int views(const fl_surface *s, const char *where, fl_err *err)
+int draw_views(const fl_surface *s, const char *where, fl_err *err)
 {
     fl_surface all = {0};
     char *path = NULL, *tmp = NULL;
     int rc = -1;
-    if (names(where, &path, &tmp, err) || facets(s, &all, err)) goto done;
-    if (run(&all, tmp, ends_in(path, ".svg"), err)) {
+    if (output_names(where, &path, &tmp, err) || facet_surface(s, &all, err)) goto done;
+    if (run_gnuplot(&all, tmp, ends_in(path, ".svg"), err)) {
         remove(tmp);
         goto done;
     }

@@ -1,45 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* certificate_table.h -- the certificate as a table: what was asked, what was achieved, how far the two are apart. */
+/* certificate_table.h -- certificate of a field: requested values, achieved values and their distance. */
 #ifndef VORONOI_ICE_CERTIFICATE_TABLE_H
 #define VORONOI_ICE_CERTIFICATE_TABLE_H
 #include <math.h>
 #include "base/err.h"
 #include "base/tool.h"
 
-enum { CERTIFY_ROWS = 64 };
+enum { CERTIFICATE_ROWS = 64 };
 
-/* Columns for which there is nothing to say. */
-#define NOT_ASKED NAN
+/* Empty columns. */
+#define NOT_REQUESTED NAN
 #define NO_DISTANCE NAN
 
-struct certify_row {
-    char what[48];                    /* "area, smallest [m2]"                                  */
-    double asked, achieved, distance; /* NAN: none                                              */
-    int digits;                       /* of achieved on the terminal; the file has all of them  */
-    char word[200];                   /* asked, where it is no number: "power:2,1,100,..."      */
-    char note[160];                   /* behind it on the terminal, last in the file            */
+struct certificate_row {
+    char quantity[48];                    /* "area, smallest [m2]" */
+    double requested, achieved, distance; /* NAN: none */
+    int digits;                           /* of achieved on the terminal; the file has all of them */
+    char text[200];                       /* requested, if it is no number: "power:2,1,100,..." */
+    char note[160];                       /* last column */
 };
 
-struct certify {
+struct certificate_table {
     int n;
-    struct certify_row row[CERTIFY_ROWS];
+    struct certificate_row row[CERTIFICATE_ROWS];
 };
 
-/* Add a row; note may be NULL, else it is a format.  More than CERTIFY_ROWS are a defect of the caller. */
-void certify_add(struct certify *c, const char *what, double asked, double achieved, double distance,
-                 int digits, const char *note, ...) __attribute__((format(printf, 7, 8)));
+/* Append a row; note is a format, or NULL.  The caller adds at most CERTIFICATE_ROWS rows. */
+void certificate_add(struct certificate_table *c, const char *quantity, double requested, double achieved,
+                     double distance, int digits, const char *note, ...)
+    __attribute__((format(printf, 7, 8)));
 
-/* Add a row that asked for something that is no number; others tell how near to it the field has come. */
-void certify_add_word(struct certify *c, const char *what, const char *asked, const char *note, ...)
-    __attribute__((format(printf, 4, 5)));
+/* Append a row with a request that is no number; other rows give its distance. */
+void certificate_add_text(struct certificate_table *c, const char *quantity, const char *requested,
+                          const char *note, ...) __attribute__((format(printf, 4, 5)));
 
-/* The table, to standard error. */
-void certify_print(const struct certify *c);
+/* Print the table to standard error. */
+void certificate_print(const struct certificate_table *c);
 
-/* The same as a table of kind "certificate":
+/* Write a table of kind "certificate":
  *     quantity  unit  asked  achieved  distance  note
- * in which what[] gives quantity and unit, blanks are written "-" within a word and "-" stands for nothing.
+ * quantity and unit come from quantity[].  A blank within a word is written "-", an empty field as well.
  * Returns 0, or -1 with FL_SYSTEM. */
-int certify_write(const struct certify *c, const char *path, const fl_history_line *by, fl_err *err);
+int certificate_write(const struct certificate_table *c, const char *path, const fl_history_line *by,
+                      fl_err *err);
 
 #endif

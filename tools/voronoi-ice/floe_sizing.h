@@ -1,41 +1,42 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* floe_sizing.h -- floes of asked sizes: how many, which one gets which, and how near the field has come. */
+/* floe_sizing.h -- floes of prescribed sizes (--sizes): their number, the area of each, and the achieved
+ * distribution. */
 #ifndef VORONOI_ICE_FLOE_SIZING_H
 #define VORONOI_ICE_FLOE_SIZING_H
-#include "ice/power_cells.h"
 #include "ice/floes.h"
 #include "ice/sizes.h"
 #include "certificate_table.h"
-#include "options.h"
+#include "recipe.h"
 
-struct sizing {
+struct floe_sizing {
     fl_sizes law;
-    double mean;        /* area of a floe, concentration times the area of the field over the number   [m2] */
-    double factor;      /* on lengths, by which the sizes asked for were scaled; NAN: they had no scale     */
-    double *area;       /* [floes] asked of floe i                                                     [m2] */
-    double least, most; /* diameters asked of the smallest and the largest [m] */
-    double *got;        /* [floes] ascending, achieved                                                 [m2] */
-    double worst;       /* largest |achieved - asked| / asked                                               */
-    double largest_missed; /* area asked of the largest of those that missed [m2] */
-    int32_t missed; /* floes off by more than SIZING_MISSED of what was asked                           */
+    double mean;   /* area of a floe: concentration x area of the field / number                [m2] */
+    double factor; /* on lengths, by which the sizes were scaled; NAN: the law has no scale          */
+    double *area;  /* [floes] requested area of floe i                                          [m2] */
+    double min_diameter, max_diameter; /* requested                                              [m] */
+    double *achieved;                  /* [floes] areas, ascending                              [m2] */
+    double max_error;                  /* largest |achieved - requested| / requested                 */
+    double largest_missed;             /* largest requested area among the floes that missed    [m2] */
+    int32_t n_missed;                  /* floes with an error above FLOE_SIZING_MISSED               */
 };
 
-/* A floe off by more than this counts as missed: what is wrong by less moves no distribution by 0.01. */
-#define SIZING_MISSED 0.01
+/* A floe with a larger error counts as missed; smaller errors move no distribution by 0.01. */
+#define FLOE_SIZING_MISSED 0.01
 
-/* Read the sizes asked for, when they are in a file, and settle what was left open: without --floes there are
- * as many as a list has, or as a law that has a scale needs to cover the concentration; without both --floes
- * and --concentration a list is taken as it is.  The area is that of the field [m2].
- * Floe i gets the size whose rank is that of a random number of i among those of all.
- * Returns 0, or -1 with FL_INPUT (the sizes do not fit the field) or FL_SYSTEM. */
-int sizing_ask(struct sizing *s, struct options *o, double area, fl_err *err);
+/* Read the sizes, if they are in a file, and set open values of the recipe.  Without --floes the number is
+ * that of the list, or that which a law with a scale needs for the concentration.  Without --floes and
+ * --concentration a list is taken unscaled.  area is that of the field [m2]. The rank of the size of floe
+ * i is the rank of a random number of i among those of all floes. Returns 0, or -1 with FL_INPUT (the
+ * sizes do not fit the field) or FL_SYSTEM. */
+int floe_sizing_assign(struct floe_sizing *s, struct recipe *o, double area, fl_err *err);
 
 /* Measure the floes. */
-int sizing_measure(struct sizing *s, const fl_floes *floes, fl_err *err);
+int floe_sizing_measure(struct floe_sizing *s, const fl_floes *floes, fl_err *err);
 
-/* inset: of the cells, half of the gap between two floes [m] */
-void sizing_certify(const struct sizing *s, const struct options *o, double inset, struct certify *t);
+/* Add the rows of the sizes to the certificate.  inset: half of the gap between two floes [m]. */
+void floe_sizing_certify(const struct floe_sizing *s, const struct recipe *o, double inset,
+                         struct certificate_table *t);
 
-void sizing_free(struct sizing *s); /* accepts a zeroed struct, leaves one */
+void floe_sizing_free(struct floe_sizing *s); /* accepts a zeroed struct, leaves a zeroed one */
 
 #endif

@@ -1,35 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* floe_thickness.h -- how thick each floe is and how deep it floats. */
+/* floe_thickness.h -- thickness and draft of the floes of a field. */
 #ifndef VORONOI_ICE_FLOE_THICKNESS_H
 #define VORONOI_ICE_FLOE_THICKNESS_H
 #include "ice/thickness.h"
 #include "certificate_table.h"
-#include "options.h"
+#include "recipe.h"
 
-struct depth {
+struct floe_thickness {
     fl_thickness law;
-    double least;                       /* what a floe must be thicker than                       [m] */
-    double ratio;                       /* of the draft to the thickness                              */
-    double most;                        /* the largest of ids 0 .. 2 floes, or of the law when known [m] */
-    int32_t n;                          /* measured floes                                             */
-    double mean, thin, thick, distance; /* [m], and the Kolmogorov-Smirnov distance          */
-    int64_t again;                      /* numbers that were too small                                */
-    double volume;                      /* of the ice [m3] */
+    double min;               /* a floe must be thicker than this                             [m] */
+    double draft_ratio;       /* draft over thickness                                             */
+    double max;               /* largest of ids 0 .. 2 floes, or of a constant law            [m] */
+    int32_t n;                /* measured floes                                                   */
+    double mean;              /*                                                              [m] */
+    double smallest, largest; /*                                                              [m] */
+    double ks_distance;       /* Kolmogorov-Smirnov distance to the law                           */
+    int64_t redraws;          /* draws that were too thin                                         */
+    double volume;            /* of the ice                                                  [m3] */
 };
 
-/* Read the law.  Returns 0, or -1 with FL_USAGE, FL_INPUT (the file; all of the law is too thin for the
+/* Read the law.  Returns 0, or -1 with FL_USAGE, FL_INPUT (the file; most of the law is too thin for the
  * dilation radius) or FL_SYSTEM. */
-int depth_make(struct depth *d, struct options *o, fl_err *err);
+int floe_thickness_read(struct floe_thickness *d, struct recipe *o, fl_err *err);
 
-/* The thickness of the floe with that id [m]. */
-double depth_of(const struct depth *d, const struct options *o, int32_t id);
+/* Thickness of the floe with that id [m]. */
+double floe_thickness_at(const struct floe_thickness *d, const struct recipe *o, int32_t id);
 
-/* Measure n floes by their ids; area[n] [m2].  Returns 0, or -1 with FL_SYSTEM. */
-int depth_measure(struct depth *d, const struct options *o, int32_t n, const int32_t *id, const double *area,
-                  fl_err *err);
+/* Compute the statistics of n floes with these ids; area[n] [m2].  Returns 0, or -1 with FL_SYSTEM. */
+int floe_thickness_measure(struct floe_thickness *d, const struct recipe *o, int32_t n, const int32_t *id,
+                           const double *area, fl_err *err);
 
-void depth_certify(const struct depth *d, const struct options *o, struct certify *t);
+/* Add the rows of thickness and draft to the certificate. */
+void floe_thickness_certify(const struct floe_thickness *d, const struct recipe *o,
+                            struct certificate_table *t);
 
-void depth_free(struct depth *d); /* accepts a zeroed struct, leaves one */
+void floe_thickness_free(struct floe_thickness *d); /* accepts a zeroed struct, leaves a zeroed one */
 
 #endif

@@ -9,35 +9,35 @@
 #include "mesh/gstruct.h"
 #include "open_water.h"
 
-/* The cells of a domain are made in a box larger than its own by this part, so that no side of a cell lies on
- * a side of the domain. */
-#define CLEAR 0.05
+/* Margin of the box of the cells over the size of the domain: no side of a cell lies on a side of the
+ * domain. */
+#define BOX_MARGIN 0.05
 
-enum { DISC_LEAST = 24, DISC_MOST = 720 };
+enum { DISC_MIN_SIDES = 24, DISC_MAX_SIDES = 720 };
 
-/* --- what the options name ------------------------------------------------------------------------------ */
+/* --- rings of the domain -------------------------------------------------------------------------------- */
 
-/* A regular polygon of the area of the disc, with sides of about half a floe. */
-static int add_disc(fl_domain *d, const struct options *o, fl_err *err)
+/* A regular polygon with the area of the disc and sides of about half a floe. */
+static int add_disc(fl_domain *d, const struct recipe *o, fl_err *err)
 {
     const double r = o->disc[0], floe = sqrt(PI / o->floes) * r;
-    const int want = (int)fmin(DISC_MOST, ceil(2.0 * PI * r / (0.5 * floe)));
-    const int n = want < DISC_LEAST ? DISC_LEAST : want;
+    const int want = (int)fmin(DISC_MAX_SIDES, ceil(2.0 * PI * r / (0.5 * floe)));
+    const int n = want < DISC_MIN_SIDES ? DISC_MIN_SIDES : want;
     const double out = r * sqrt(2.0 * PI / (n * sin(2.0 * PI / n)));
-    fl_vec2 v[DISC_MOST];
+    fl_vec2 v[DISC_MAX_SIDES];
     for (int k = 0; k < n; k++)
         v[k] = (fl_vec2){o->disc[1] + out * cos(2.0 * PI * k / n), o->disc[2] + out * sin(2.0 * PI * k / n)};
     return fl_domain_add(d, n, v, err);
 }
 
-static int add_rectangle(fl_domain *d, const struct options *o, fl_err *err)
+static int add_rectangle(fl_domain *d, const struct recipe *o, fl_err *err)
 {
     const fl_vec2 lo = o->origin, hi = {lo.x + o->size.x, lo.y + o->size.y};
     const fl_vec2 v[4] = {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}};
     return fl_domain_add(d, 4, v, err);
 }
 
-/* A strip of water between two points, its ends square. */
+/* A strip of open water between two points, with square ends. */
 static int add_lead(fl_domain *d, const double *x, fl_err *err)
 {
     const double l = hypot(x[2] - x[0], x[3] - x[1]);
@@ -47,26 +47,27 @@ static int add_lead(fl_domain *d, const double *x, fl_err *err)
     return fl_domain_add(d, 4, v, err);
 }
 
-/* What ice of thickness h would touch: the structure from the bottom of the ice to its top. */
-static int add_structure(struct water *w, fl_domain *d, const struct options *o, double h, const char *path,
-                         fl_err *err)
+/* The part of the structure between the bottom and the top of ice of thickness h. */
+static int add_structure(struct open_water *w, fl_domain *d, const struct recipe *o, double h,
+                         const char *path, fl_err *err)
 {
     const double draft = h * (o->ice_density / o->water_density);
-    const double coarse = WATER_COARSE * sqrt(o->size.x * o->size.y / o->floes);
+    const double coarse = OPEN_WATER_COARSE * sqrt(o->size.x * o->size.y / o->floes);
     fl_surface s = {0};
     int32_t kept = 0;
     int rc;
     if (fl_gstruct_read(&s, path, err)) return -1;
     rc = fl_waterplane_keep_out(d, &s, -draft, h - draft, o->margin, coarse, &kept, err);
-    w->kept += kept;
+    w->structures += kept;
     fl_surface_free(&s);
     return rc;
 }
 
-/* The field is made round the origin, where numbers are finest, and shifted when it is done. */
-static void centre(struct water *w, struct options *o)
+/* Move the domain to the origin, where coordinates have the finest resolution; the field is shifted back
+ * at the end. */
+static void centre_domain(struct open_water *w, struct recipe *o)
 {
-    fl_domain *d = &w->d;
+    fl_domain *d = &w->domain;
     o->origin = d->lo;
     o->size = (fl_vec2){d->hi.x - d->lo.x, d->hi.y - d->lo.y};
     w->shift = (fl_vec2){0.5 * (d->lo.x + d->hi.x), 0.5 * (d->lo.y + d->hi.y)};
@@ -78,12 +79,13 @@ static void centre(struct water *w, struct options *o)
     d->hi = (fl_vec2){d->hi.x - w->shift.x, d->hi.y - w->shift.y};
 }
 
-/* What is not ice in the field. */
-static int add_open(struct water *w, fl_domain *d, const struct options *o, double h, fl_err *err)
+/* Add the rings of leads, ridges and structures. */
+static int add_kept_out_rings(struct open_water *w, fl_domain *d, const struct recipe *o, double h,
+                              fl_err *err)
 {
     for (int k = 0; k < o->leads; k++)
         if (add_lead(d, o->lead[k], err)) return -1;
-    for (int k = 0; k < o->ridges; k++) { /* the floes make room for sail and keel */
+    for (int k = 0; k < o->ridges; k++) { /* strip for sail and keel */
         const double *r = o->ridge[k], x[5] = {r[0], r[1], r[2], r[3], fmax(r[5], r[7])};
         if (add_lead(d, x, err)) return -1;
     }
@@ -92,65 +94,67 @@ static int add_open(struct water *w, fl_domain *d, const struct options *o, doub
     return 0;
 }
 
-int water_make(struct water *w, struct options *o, double h, fl_err *err)
+int open_water_make(struct open_water *w, struct recipe *o, double h, fl_err *err)
 {
     const int open = o->leads || o->ridges || o->structures;
-    w->on = o->outline || o->disc[0] > 0.0 || (open && !o->sizes);
+    w->is_domain = o->outline || o->disc[0] > 0.0 || (open && !o->sizes);
     w->area = o->size.x * o->size.y;
     w->shift = (fl_vec2){o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
-    if (!w->on) return open ? add_open(w, &w->gone, o, h, err) : 0;
-    if (o->outline         ? fl_domain_read(&w->d, o->outline, err)
-        : o->disc[0] > 0.0 ? add_disc(&w->d, o, err)
-                           : add_rectangle(&w->d, o, err))
+    if (!w->is_domain) return open ? add_kept_out_rings(w, &w->removed, o, h, err) : 0;
+    if (o->outline         ? fl_domain_read(&w->domain, o->outline, err)
+        : o->disc[0] > 0.0 ? add_disc(&w->domain, o, err)
+                           : add_rectangle(&w->domain, o, err))
         return -1;
-    o->size = (fl_vec2){w->d.hi.x - w->d.lo.x, w->d.hi.y - w->d.lo.y};
-    if (add_open(w, o->sizes ? &w->gone : &w->d, o, h, err)) return -1;
-    centre(w, o);
-    if (fl_domain_build(&w->d, err)) return -1;
-    if (fl_domain_is_convex(&w->d)) w->area = fl_polygon_area(w->d.corners, w->d.v);
+    o->size = (fl_vec2){w->domain.hi.x - w->domain.lo.x, w->domain.hi.y - w->domain.lo.y};
+    if (add_kept_out_rings(w, o->sizes ? &w->removed : &w->domain, o, h, err)) return -1;
+    centre_domain(w, o);
+    if (fl_domain_build(&w->domain, err)) return -1;
+    if (fl_domain_is_convex(&w->domain)) w->area = fl_polygon_area(w->domain.corners, w->domain.v);
     else if (o->sizes) return fl_fail(err, FL_INPUT, "--sizes needs water whose outline is convex");
     return 0;
 }
 
-int water_takes(const struct water *w, int32_t n, const fl_vec2 *v)
+int open_water_removes(const struct open_water *w, int32_t n, const fl_vec2 *v)
 {
-    for (int32_t r = 0; r < w->gone.rings; r++) {
-        const int32_t first = w->gone.first[r], m = w->gone.first[r + 1] - first;
+    for (int32_t r = 0; r < w->removed.rings; r++) {
+        const int32_t first = w->removed.first[r], m = w->removed.first[r + 1] - first;
         fl_vec2 ring[FL_WATERPLANE_MAX_SIDES];
-        const int turned = fl_polygon_area(m, w->gone.v + first) < 0.0; /* all but the first are */
-        for (int32_t k = 0; k < m; k++) ring[k] = w->gone.v[first + (turned ? m - 1 - k : k)];
+        const int reversed =
+            fl_polygon_area(m, w->removed.v + first) < 0.0; /* all rings but the first are clockwise */
+        for (int32_t k = 0; k < m; k++) ring[k] = w->removed.v[first + (reversed ? m - 1 - k : k)];
         if (!fl_polygon_is_apart(n, v, m, ring)) return 1;
     }
     return 0;
 }
 
-fl_outline water_outline(const struct water *w, const struct options *o)
+fl_outline open_water_outline(const struct open_water *w, const struct recipe *o)
 {
     const fl_vec2 hi = {0.5 * o->size.x, 0.5 * o->size.y};
     fl_outline in = {.lo = {-hi.x, -hi.y}, .hi = hi};
-    if (w->on) {
-        in.n = w->d.corners;
-        in.v = w->d.v;
+    if (w->is_domain) {
+        in.n = w->domain.corners;
+        in.v = w->domain.v;
     }
     return in;
 }
 
 /* --- cells ---------------------------------------------------------------------------------------------- */
 
-static int divide(const struct water *w, const struct options *o, const fl_vec2 *site, double least,
-                  fl_pieces *out, fl_err *err)
+static int cut_cells(const struct open_water *w, const struct recipe *o, const fl_vec2 *site, double least,
+                     fl_pieces *out, fl_err *err)
 {
-    const double m = CLEAR * (w->d.hi.x - w->d.lo.x + w->d.hi.y - w->d.lo.y);
-    const fl_vec2 lo = {w->d.lo.x - m, w->d.lo.y - m}, hi = {w->d.hi.x + m, w->d.hi.y + m};
+    const double m = BOX_MARGIN * (w->domain.hi.x - w->domain.lo.x + w->domain.hi.y - w->domain.lo.y);
+    const fl_vec2 lo = {w->domain.lo.x - m, w->domain.lo.y - m},
+                  hi = {w->domain.hi.x + m, w->domain.hi.y + m};
     fl_power_cells cells = {0};
     int rc;
     if (fl_power_cells_build(&cells, o->floes, site, lo, hi, err)) return -1;
-    rc = fl_domain_cut(out, &cells, &w->d, least, err);
+    rc = fl_domain_cut(out, &cells, &w->domain, least, err);
     fl_power_cells_free(&cells);
     return rc;
 }
 
-static void to_centroids(const fl_pieces *p, fl_vec2 *site)
+static void move_to_centroids(const fl_pieces *p, fl_vec2 *site)
 {
     for (int32_t k = 0; k < p->largest; k++) {
         const int32_t first = p->cells.first[k];
@@ -158,33 +162,35 @@ static void to_centroids(const fl_pieces *p, fl_vec2 *site)
     }
 }
 
-int water_cells(struct water *w, const struct options *o, fl_power_cells *cells, fl_err *err)
+int open_water_cells(struct open_water *w, const struct recipe *o, fl_power_cells *cells, fl_err *err)
 {
     fl_vec2 *site = fl_alloc(o->floes, sizeof *site, err);
     fl_pieces p = {0};
     double least;
     int rc = -1;
-    if (!site || fl_domain_sites(o->floes, o->seed, &w->d, site, err) || divide(w, o, site, 0.0, &p, err))
+    if (!site || fl_domain_sites(o->floes, o->seed, &w->domain, site, err) ||
+        cut_cells(w, o, site, 0.0, &p, err))
         goto done;
-    /* a core needs room inside the dilation radius as well */
-    least = fmax(WATER_SLIVER * sqrt(p.area / o->floes), 1.5 * o->radius);
+    /* a core needs room in addition to the dilation radius */
+    least = fmax(OPEN_WATER_SLIVER * sqrt(p.area / o->floes), 1.5 * o->radius);
     for (int k = 0; k < o->smooth; k++) {
-        to_centroids(&p, site);
+        move_to_centroids(&p, site);
         fl_pieces_free(&p);
-        if (divide(w, o, site, 0.0, &p, err)) goto done;
+        if (cut_cells(w, o, site, 0.0, &p, err)) goto done;
     }
     fl_pieces_free(&p);
-    if (divide(w, o, site, least, &p, err)) goto done;
+    if (cut_cells(w, o, site, least, &p, err)) goto done;
     if (p.cells.n == 0) {
-        fl_fail(err, FL_INPUT, "no piece of the water has room for a floe: more floes or a smaller radius");
+        fl_fail(err, FL_INPUT,
+                "no piece of the water has room for a floe: more floes or a smaller radius is needed");
         goto done;
     }
     w->id = fl_alloc(p.cells.n, sizeof *w->id, err);
     if (!w->id) goto done;
     for (int32_t k = 0; k < p.cells.n; k++) w->id[k] = k < p.largest ? p.parent[k] : o->floes + k - p.largest;
     w->area = p.area;
-    w->lost = p.dropped_area;
-    w->dropped = p.dropped;
+    w->sliver_area = p.dropped_area;
+    w->slivers = p.dropped;
     *cells = p.cells;
     p.cells = (fl_power_cells){0};
     rc = 0;
@@ -194,28 +200,31 @@ done:
     return rc;
 }
 
-/* --- the rest ------------------------------------------------------------------------------------------- */
+/* --- the certificate ------------------------------------------------------------------------------------ */
 
-void water_certify(const struct water *w, const struct options *o, struct certify *t)
+void open_water_certify(const struct open_water *w, const struct recipe *o, struct certificate_table *t)
 {
-    if (o->structures && !w->on)
-        certify_add(t, "parts of structures kept out", NOT_ASKED, w->kept, NO_DISTANCE, 10, NULL);
-    if (!w->on) return;
-    if (o->disc[0] > 0.0 && w->d.rings == 1) {
-        const double asked = PI * o->disc[0] * o->disc[0];
-        certify_add(t, "water [m2]", asked, w->area, fabs(w->area - asked) / asked, 10, NULL);
+    if (o->structures && !w->is_domain)
+        certificate_add(t, "parts of structures kept out", NOT_REQUESTED, w->structures, NO_DISTANCE, 10,
+                        NULL);
+    if (!w->is_domain) return;
+    if (o->disc[0] > 0.0 && w->domain.rings == 1) {
+        const double requested = PI * o->disc[0] * o->disc[0];
+        certificate_add(t, "water [m2]", requested, w->area, fabs(w->area - requested) / requested, 10, NULL);
     } else {
-        certify_add(t, "water [m2]", NOT_ASKED, w->area, NO_DISTANCE, 10, NULL);
+        certificate_add(t, "water [m2]", NOT_REQUESTED, w->area, NO_DISTANCE, 10, NULL);
     }
     if (o->structures)
-        certify_add(t, "parts of structures kept out", NOT_ASKED, w->kept, NO_DISTANCE, 10, NULL);
-    certify_add(t, "slivers left open [m2]", NOT_ASKED, w->lost, NO_DISTANCE, 4, "%d", w->dropped);
+        certificate_add(t, "parts of structures kept out", NOT_REQUESTED, w->structures, NO_DISTANCE, 10,
+                        NULL);
+    certificate_add(t, "slivers left open [m2]", NOT_REQUESTED, w->sliver_area, NO_DISTANCE, 4, "%d",
+                    w->slivers);
 }
 
-void water_free(struct water *w)
+void open_water_free(struct open_water *w)
 {
-    fl_domain_free(&w->d);
-    fl_domain_free(&w->gone);
+    fl_domain_free(&w->domain);
+    fl_domain_free(&w->removed);
     free(w->id);
-    *w = (struct water){0};
+    *w = (struct open_water){0};
 }

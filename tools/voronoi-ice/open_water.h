@@ -1,48 +1,49 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* open_water.h -- the water that floes are to cover, as the options say: an outline, leads, structures. */
+/* open_water.h -- the water that floes may cover: an outline without leads, ridges and structures. */
 #ifndef VORONOI_ICE_OPEN_WATER_H
 #define VORONOI_ICE_OPEN_WATER_H
-#include "ice/power_cells.h"
 #include "ice/domain.h"
+#include "ice/power_cells.h"
 #include "certificate_table.h"
-#include "options.h"
+#include "recipe.h"
 
-/* Pieces of cells with an inscribed circle smaller than this part of the root of a floe's area are slivers;
- * that of a mean round floe is half of it. */
-#define WATER_SLIVER 0.1
-/* A polygon round a structure may stand off from it by this part of the root of a floe's area. */
-#define WATER_COARSE 0.1
+/* A piece of a cell is a sliver if its inscribed radius is below this fraction of the square root of the mean
+ * floe area; that of a mean round floe is about half of the square root. */
+#define OPEN_WATER_SLIVER 0.1
+/* Largest distance of a polygon round a structure from it, over the square root of the mean floe area. */
+#define OPEN_WATER_COARSE 0.1
 
-struct water {
-    int on;         /* 0: it is the rectangle */
-    fl_domain d;    /* about the origin, see middle           */
-    fl_vec2 shift;  /* to where it lies                   [m] */
-    fl_domain gone; /* with --sizes: convex rings, where they lie; floes that meet one are taken out */
-    double area;    /* open to ice                       [m2] */
-    int32_t kept;   /* groups of structures that it leaves out */
-    int32_t *id;    /* [cells] of the pieces, when on          */
-    double lost;    /* slivers                           [m2] */
-    int32_t dropped;
+struct open_water {
+    int is_domain;      /* 0: the water is the rectangle                                           */
+    fl_domain domain;   /* about the origin, see shift                                         [m] */
+    fl_vec2 shift;      /* from the origin to the centre of the field                          [m] */
+    fl_domain removed;  /* with --sizes: convex rings at their place; floes that meet one are removed */
+    double area;        /* open to ice                                                        [m2] */
+    int32_t structures; /* connected parts of structures that are kept out                         */
+    int32_t *id;        /* [cells] of the pieces, if is_domain                                     */
+    double sliver_area; /* [m2] */
+    int32_t slivers;    /* pieces that were dropped */
 };
 
-/* Read and put together what the options name; an outline settles o->size and o->origin.  The area is not
- * known yet.  Floes of given sizes are not cut: leads, ridges and structures take them out whole.  h is how
- * thick the ice is at most [m].  Returns 0, or -1 with FL_INPUT or FL_SYSTEM. */
-int water_make(struct water *w, struct options *o, double h, fl_err *err);
+/* Build the water from the recipe; an outline sets o->size and o->origin.  The area is not known yet.
+ * Floes of prescribed sizes are not cut: leads, ridges and structures remove them whole.  h: largest
+ * thickness of the ice [m].  Returns 0, or -1 with FL_INPUT or FL_SYSTEM. */
+int open_water_make(struct open_water *w, struct recipe *o, double h, fl_err *err);
 
-/* What sites and power diagrams are made in: the rectangle, or the outline when it is convex and whole. */
-fl_outline water_outline(const struct water *w, const struct options *o);
+/* The region of sites and power diagrams: the rectangle, or the outline if it is convex and whole. */
+fl_outline open_water_outline(const struct open_water *w, const struct recipe *o);
 
-/* 1 when a floe, convex, counter-clockwise and where it lies, meets what is taken out. */
-int water_takes(const struct water *w, int32_t n, const fl_vec2 *v);
+/* 1 if a floe (convex, counter-clockwise, at its place) meets a removed ring. */
+int open_water_removes(const struct open_water *w, int32_t n, const fl_vec2 *v);
 
-/* Voronoi cells of random sites, smoothed, cut down to the water: every site moves to the centroid of the
- * largest piece of its cell.  Settles area, id, lost and dropped.  Returns 0, or -1 with FL_INPUT or
- * FL_SYSTEM; cells is untouched then. */
-int water_cells(struct water *w, const struct options *o, fl_power_cells *cells, fl_err *err);
+/* Voronoi cells of random sites, smoothed and cut to the water.  In each smoothing step a site moves to the
+ * centroid of the largest piece of its cell.  Sets area, id, sliver_area and slivers.
+ * Returns 0, or -1 with FL_INPUT or FL_SYSTEM; cells is unchanged then. */
+int open_water_cells(struct open_water *w, const struct recipe *o, fl_power_cells *cells, fl_err *err);
 
-void water_certify(const struct water *w, const struct options *o, struct certify *t);
+/* Add the rows of the water to the certificate. */
+void open_water_certify(const struct open_water *w, const struct recipe *o, struct certificate_table *t);
 
-void water_free(struct water *w); /* accepts a zeroed struct, leaves one */
+void open_water_free(struct open_water *w); /* accepts a zeroed struct, leaves a zeroed one */
 
 #endif

@@ -1,184 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <getopt.h>
+#include "options.h"
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 #include "base/number_text.h"
 #include "base/option.h"
+#include "base/tool.h"
 #include "ice/pancakes.h"
-#include "options.h"
+#include "generator_table.h"
 
-static const char HELP[] =
+static const char USAGE[] =
     "usage: voronoi-ice [options]\n"
     "A field of ice floes of a given concentration, none of which overlaps another, to a g-polys file.\n"
-    "Lengths are in metres; what each number came to goes to standard error.\n"
-    "\n"
-    "      --size AxB          sides of the field along x and y (50x50)\n"
-    "      --origin X,Y        its corner of least x and y (such that the field is centred on 0,0)\n"
-    "      --floes N           number of floes (200)\n"
-    "      --sizes LAW         uniform (as they come), equal, lognormal:CV or weibull:K of areas,\n"
-    "                          power:EXP,DMIN,DMAX[,number|area,cumulative|density] of diameters, or a FILE\n"
-    "                          of sizes or of polygons (uniform)\n"
-    "      --concentration C   part of the field that floes cover, between 0 and 1 (0.8)\n"
-    "      --thickness H       of the ice (0.5); uniform:A,B, lognormal:MEAN,CV or a file of thicknesses\n"
-    "      --radius R          dilation radius, the roundness of edges, below H/2 (0.05)\n"
-    "      --seed N            another number, another field (1)\n"
-    "      --smooth N          steps of Lloyd's smoothing; 0 leaves Poisson-Voronoi cells (2)\n"
-    "      --material NAME     material of the floes (ice)\n"
-    "      --ice-density RHO   kg/m3, sets the draft together with (900)\n"
-    "      --water-density RHO kg/m3 (1025)\n"
-    "      --velocity VX,VY    of all floes at the start, m/s (0,0)\n"
-    "      --keep-out SHAPE    take out floes that meet circle:X,Y,R or box:X0,Y0,X1,Y1; may be given 16 "
-    "times\n"
-    "                          or files as in g_struct(5): their waterline, with the margin, is cut out\n"
-    "      --margin M          open water round the structures of --keep-out (0)\n"
-    "      --outline SHAPE     of the field instead of a rectangle: disc:R, disc:R,X,Y or a file of corners\n"
-    "      --lead X0,Y0,X1,Y1,WIDTH  a strip of open water; may be given 16 times\n"
-    "      --grade DIR:C0,C1   concentration rising from C0 to C1 along DIR: x, y or degrees; or DIR:FILE\n"
-    "      --periodic x|y|xy   what leaves at one side comes in at the other: copies fit without a seam\n"
-    "      --pancakes SIDES    floes round in plan, of that many sides\n"
-    "      --rubble            blocks that fill the field from bottom to top, C being their part of its "
-    "volume\n"
-    "      --ridge X0,Y0,X1,Y1,HS,WS,HK,WK,WB  a ridge along that line, of blocks: height and width of its\n"
-    "                          sail, depth and width of its keel and that at its bottom; up to 4 times\n"
-    "      --block L           size of the blocks of ridges (the thickness)\n"
-    "      --porosity P        part of ridges that is no ice (0.3)\n"
-    "      --bonded            no gaps, and a bond candidate for every face that two bodies share\n"
-    "      --lattice KIND      spheres in close packing in place of floes: hcp, hex or square\n"
-    "      --layers N          layers of the lattice, or of rafted floes (1)\n"
-    "      --diameter D        of the spheres of the lattice (0.25)\n"
-    "      --certificate FILE  what was asked and what was achieved as a table, - is standard output\n"
-    "      --id NAME           of the field, for its line of history; auto makes one of the bodies\n"
-    "      --plot DIR          pictures of the field and of its sizes, by gnuplot, into the folder\n"
-    "      --format FORMAT     of the pictures, svg or png (svg)\n"
-    "  -o, --output FILE       write there, - is standard output\n"
-    "  -z, --gzip              compress the file\n"
-    "  -j, --threads N         threads (one per processor)\n"
-    "  -q, --quiet             no certificate\n"
-    "  -v, --verbose           say what is being done\n"
-    "  -h, --help              this text\n"
-    "      --version           the version\n";
+    "Lengths are in metres; the certificate goes to standard error.\n"
+    "\n";
 
-enum {
-    SIZE = 256,
-    ORIGIN,
-    FLOES,
-    SIZES,
-    CONCENTRATION,
-    THICKNESS,
-    RADIUS,
-    SEED,
-    SMOOTH,
-    MATERIAL,
-    ICE_DENSITY,
-    WATER_DENSITY,
-    VELOCITY,
-    KEEP_OUT,
-    CERTIFICATE,
-    MARGIN,
-    OUTLINE,
-    LEAD,
-    ID,
-    PLOT,
-    FORMAT,
-    GRADE,
-    PERIODIC,
-    PANCAKES,
-    RUBBLE,
-    RIDGE,
-    BLOCK,
-    POROSITY,
-    BONDED,
-    LATTICE,
-    LAYERS,
-    DIAMETER,
-    VERSION
-};
-
-static const struct option LONG[] = {{"size", required_argument, NULL, SIZE},
-                                     {"origin", required_argument, NULL, ORIGIN},
-                                     {"floes", required_argument, NULL, FLOES},
-                                     {"sizes", required_argument, NULL, SIZES},
-                                     {"concentration", required_argument, NULL, CONCENTRATION},
-                                     {"thickness", required_argument, NULL, THICKNESS},
-                                     {"radius", required_argument, NULL, RADIUS},
-                                     {"seed", required_argument, NULL, SEED},
-                                     {"smooth", required_argument, NULL, SMOOTH},
-                                     {"material", required_argument, NULL, MATERIAL},
-                                     {"ice-density", required_argument, NULL, ICE_DENSITY},
-                                     {"water-density", required_argument, NULL, WATER_DENSITY},
-                                     {"velocity", required_argument, NULL, VELOCITY},
-                                     {"keep-out", required_argument, NULL, KEEP_OUT},
-                                     {"margin", required_argument, NULL, MARGIN},
-                                     {"outline", required_argument, NULL, OUTLINE},
-                                     {"lead", required_argument, NULL, LEAD},
-                                     {"grade", required_argument, NULL, GRADE},
-                                     {"periodic", required_argument, NULL, PERIODIC},
-                                     {"pancakes", required_argument, NULL, PANCAKES},
-                                     {"rubble", no_argument, NULL, RUBBLE},
-                                     {"ridge", required_argument, NULL, RIDGE},
-                                     {"block", required_argument, NULL, BLOCK},
-                                     {"porosity", required_argument, NULL, POROSITY},
-                                     {"bonded", no_argument, NULL, BONDED},
-                                     {"lattice", required_argument, NULL, LATTICE},
-                                     {"layers", required_argument, NULL, LAYERS},
-                                     {"diameter", required_argument, NULL, DIAMETER},
-                                     {"certificate", required_argument, NULL, CERTIFICATE},
-                                     {"id", required_argument, NULL, ID},
-                                     {"plot", required_argument, NULL, PLOT},
-                                     {"format", required_argument, NULL, FORMAT},
-                                     {"output", required_argument, NULL, 'o'},
-                                     {"gzip", no_argument, NULL, 'z'},
-                                     {"threads", required_argument, NULL, 'j'},
-                                     {"quiet", no_argument, NULL, 'q'},
-                                     {"verbose", no_argument, NULL, 'v'},
-                                     {"help", no_argument, NULL, 'h'},
-                                     {"version", no_argument, NULL, VERSION},
-                                     {NULL, 0, NULL, 0}};
-
-/* The farthest a shape may lie, as FL_ICE_FIELD_MAX_COORD; the longest field, where an ulp is a tenth of a nanometre;
- * and the shortest length [m]. */
+/* Largest coordinate of a shape, as FL_ICE_FIELD_MAX_COORD; longest field, where an ulp is a tenth of a
+ * nanometre; shortest length [m]. */
 #define FAR 1e9
 #define LONGEST 1e6
 #define SHORTEST 1e-6
 
-/* Exactly n numbers behind `skip` characters, divided by `by`; wanted says how they should look. */
-static int numbers(const char *option, const char *text, int skip, char by, int n, double lo, double hi,
-                   double *x, const char *wanted, fl_err *err)
+/* Exactly n numbers, separated by `divide`; expected describes them for the message. */
+static int parse_numbers(const char *option, const char *text, char divide, int n, double lo, double hi,
+                         double *x, const char *expected, fl_err *err)
 {
-    char word[64];
-    const char *p = text + skip;
-    for (int k = 0; k < n; k++) {
-        const char *end = k + 1 < n ? strchr(p, by) : p + strlen(p);
-        const size_t len = end ? (size_t)(end - p) : sizeof word;
-        if (len >= sizeof word) goto bad;
-        memcpy(word, p, len);
-        word[len] = '\0';
-        if (fl_number_f64(word, &x[k]) || !(x[k] >= lo && x[k] <= hi)) goto bad;
-        p = end + 1;
-    }
-    return 0;
-bad:
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", %s is expected", option, text, wanted);
+    int count;
+    return fl_option_numbers(option, text, divide, n, n, lo, hi, expected, x, &count, err);
 }
 
-static int number(const char *option, const char *text, double lo, double hi, double *x, const char *wanted,
-                  fl_err *err)
-{
-    return numbers(option, text, 0, ',', 1, lo, hi, x, wanted, err);
-}
-
-static int pair(const char *option, const char *text, char by, double lo, double hi, fl_vec2 *out,
-                const char *wanted, fl_err *err)
+static int parse_pair(const char *option, const char *text, char divide, double lo, double hi, fl_vec2 *out,
+                      const char *expected, fl_err *err)
 {
     double x[2] = {0.0, 0.0};
-    if (numbers(option, text, 0, by, 2, lo, hi, x, wanted, err)) return -1;
+    if (parse_numbers(option, text, divide, 2, lo, hi, x, expected, err)) return -1;
     *out = (fl_vec2){x[0], x[1]};
     return 0;
 }
 
-static int sizes(struct options *o, const char *text, fl_err *err)
+static int parse_sizes(void *options, const char *text, fl_err *err)
 {
+    struct recipe *const o = options;
     o->sizes = NULL;
     o->sizes_file = 0;
     if (strcmp(text, "uniform") == 0) return 0;
@@ -186,95 +47,72 @@ static int sizes(struct options *o, const char *text, fl_err *err)
     if (!o->sizes_file && fl_sizes_parse(&o->law, o->sizes_name, text, err)) return -1;
     if (o->sizes_file && (text[0] == '\0' || strlen(text) > 1000 || strpbrk(text, " \t\r\n\f\v")))
         return fl_fail(err, FL_USAGE,
-                       "--sizes is \"%.60s\", a law or the name of a file without blanks is expected", text);
+                       "--sizes is \"%.60s\", expected a law or the name of a file without blanks", text);
     o->sizes = o->sizes_file ? text : o->sizes_name;
     return 0;
 }
 
-/* A name is one word of the file. */
-static int name(const char *option, const char *text, const char **out, fl_err *err)
+static int parse_keep_out(void *options, const char *text, fl_err *err)
 {
-    if (text[0] == '\0' || strlen(text) > 200 || strpbrk(text, " \t\r\n\f\v"))
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", one word of up to 200 bytes is expected", option,
-                       text);
-    *out = text;
-    return 0;
-}
-
-/* A file that is named in the history must be one word of it. */
-static int file(const char *option, const char *text, const char **out, fl_err *err)
-{
-    if (text[0] == '\0' || strlen(text) > 1000 || strpbrk(text, " \t\r\n\f\v"))
-        return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", the name of a file without blanks is expected",
-                       option, text);
-    *out = text;
-    return 0;
-}
-
-int options_there(const char *option, const char *text, const char *wanted, fl_err *err)
-{
-    if (strcmp(text, "-") == 0 || access(text, F_OK) == 0) return 0;
-    return fl_fail(err, FL_INPUT, "--%s is \"%.60s\", %s or a file that is there is expected", option, text,
-                   wanted);
-}
-
-static int shape(struct options *o, const char *text, fl_err *err)
-{
-    static const char wanted[] = "circle:X,Y,R or box:X0,Y0,X1,Y1 in metres";
+    struct recipe *const o = options;
+    static const char expected[] = "circle:X,Y,R or box:X0,Y0,X1,Y1 in metres";
     const size_t word = strcspn(text, ":/");
     struct keep_out k = {0};
     double x[4] = {0};
-    if (text[word] != ':') { /* "a/b:c" is a file, and so can any be */
+    if (text[word] != ':') { /* "a/b:c" is a file */
         if (o->structures == KEEP_OUT_MAX)
             return fl_fail(err, FL_USAGE, "more than %d files to keep out", KEEP_OUT_MAX);
-        if (file("keep-out", text, &o->structure[o->structures], err)) return -1;
+        if (fl_option_file("keep-out", text, &o->structure[o->structures], err)) return -1;
         o->structures++;
         return 0;
     }
     if (o->keep_outs == KEEP_OUT_MAX)
         return fl_fail(err, FL_USAGE, "more than %d shapes to keep out", KEEP_OUT_MAX);
     if (strncmp(text, "circle:", 7) == 0) {
-        if (numbers("keep-out", text, 7, ',', 3, -FAR, FAR, x, wanted, err)) return -1;
+        if (parse_numbers("keep-out", text + 7, ',', 3, -FAR, FAR, x, expected, err)) return -1;
         k = (struct keep_out){.circle = 1, .lo = {x[0], x[1]}, .r = x[2]};
-        if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", R above 0 is expected", text);
+        if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", expected R above 0", text);
     } else if (strncmp(text, "box:", 4) == 0) {
-        if (numbers("keep-out", text, 4, ',', 4, -FAR, FAR, x, wanted, err)) return -1;
+        if (parse_numbers("keep-out", text + 4, ',', 4, -FAR, FAR, x, expected, err)) return -1;
         k = (struct keep_out){.lo = {x[0], x[1]}, .hi = {x[2], x[3]}};
         if (!(x[0] < x[2] && x[1] < x[3]))
-            return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", X0 < X1 and Y0 < Y1 is expected", text);
+            return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", expected X0 < X1 and Y0 < Y1", text);
     } else {
-        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", %s is expected", text, wanted);
+        return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", expected %s", text, expected);
     }
     o->keep_out[o->keep_outs++] = k;
     return 0;
 }
 
-static int the_outline(struct options *o, const char *text, fl_err *err)
+static int parse_outline(void *options, const char *text, fl_err *err)
 {
-    static const char wanted[] = "disc:R or disc:R,X,Y in metres, or the name of a file,";
+    struct recipe *const o = options;
+    static const char expected[] = "disc:R or disc:R,X,Y in metres, or the name of a file,";
     const int centred = strncmp(text, "disc:", 5) == 0 && !strchr(text, ',');
     o->outline = NULL;
     o->disc[0] = o->disc[1] = o->disc[2] = 0.0;
-    if (strncmp(text, "disc:", 5) != 0) return file("outline", text, &o->outline, err);
-    if (numbers("outline", text, 5, ',', centred ? 1 : 3, -LONGEST, LONGEST, o->disc, wanted, err)) return -1;
+    if (strncmp(text, "disc:", 5) != 0) return fl_option_file("outline", text, &o->outline, err);
+    if (parse_numbers("outline", text + 5, ',', centred ? 1 : 3, -LONGEST, LONGEST, o->disc, expected, err))
+        return -1;
     if (o->disc[0] >= SHORTEST) return 0;
-    return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", R of %g at least is expected", text, SHORTEST);
+    return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", expected R of %g at least", text, SHORTEST);
 }
 
-static int lead(struct options *o, const char *text, fl_err *err)
+static int parse_lead(void *options, const char *text, fl_err *err)
 {
+    struct recipe *const o = options;
     double *x = o->lead[o->leads];
     if (o->leads == LEAD_MAX) return fl_fail(err, FL_USAGE, "--lead is given more than %d times", LEAD_MAX);
-    if (numbers("lead", text, 0, ',', 5, -FAR, FAR, x, "X0,Y0,X1,Y1,WIDTH in metres", err)) return -1;
+    if (parse_numbers("lead", text, ',', 5, -FAR, FAR, x, "X0,Y0,X1,Y1,WIDTH in metres", err)) return -1;
     if (!(x[4] >= SHORTEST && fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST))
-        return fl_fail(err, FL_USAGE, "--lead is \"%.60s\", a length and a width of %g at least are expected",
+        return fl_fail(err, FL_USAGE, "--lead is \"%.60s\", expected a length and a width of %g at least",
                        text, SHORTEST);
     o->leads++;
     return 0;
 }
 
-/* "80%", "8/10" and "0.8" are the same. */
-static int concentration(const char *option, const char *text, double *out, fl_err *err)
+/* "80%", "8/10" and "0.8" are equal. */
+static int parse_concentration(const char *option, const char *text, double *out, fl_err *err)
 {
     char word[64];
     const size_t len = strlen(text);
@@ -288,20 +126,21 @@ static int concentration(const char *option, const char *text, double *out, fl_e
             word[len - 3] = '\0';
             part = 10.0;
         }
-        /* the bounds themselves are no concentration of floes with water between them */
+        /* 0 and 1 are no concentrations of floes with water between them */
         if (fl_number_f64(word, out) == 0 && *out / part > 0.0 && *out / part < 1.0) {
             *out /= part;
             return 0;
         }
     }
     return fl_fail(err, FL_USAGE,
-                   "--%s is \"%.60s\", a number between 0 and 1, as 0.8, 80%% or 8/10, is expected", option,
+                   "--%s is \"%.60s\", expected a number between 0 and 1, as 0.8, 80%% or 8/10", option,
                    text);
 }
 
 /* DIR:C0,C1 or DIR:FILE. */
-static int grade(struct options *o, const char *text, fl_err *err)
+static int parse_grade(void *options, const char *text, fl_err *err)
 {
+    struct recipe *const o = options;
     char word[64];
     const char *rest = strchr(text, ':'), *second;
     const size_t len = rest ? (size_t)(rest - text) : 0;
@@ -315,306 +154,435 @@ static int grade(struct options *o, const char *text, fl_err *err)
     o->grade_file = NULL;
     rest++;
     second = strchr(rest, ',');
-    if (!second) return file("grade", rest, &o->grade_file, err);
+    if (!second) return fl_option_file("grade", rest, &o->grade_file, err);
     if ((size_t)(second - rest) >= sizeof word) goto bad;
     memcpy(word, rest, (size_t)(second - rest));
     word[second - rest] = '\0';
-    return concentration("grade", word, &o->grade[0], err) ||
-                   concentration("grade", second + 1, &o->grade[1], err)
+    return parse_concentration("grade", word, &o->grade[0], err) ||
+                   parse_concentration("grade", second + 1, &o->grade[1], err)
                ? -1
                : 0;
 bad:
     return fl_fail(err, FL_USAGE,
-                   "--grade is \"%.60s\", DIR:C0,C1 or DIR:FILE with DIR x, y or degrees is expected", text);
+                   "--grade is \"%.60s\", expected DIR:C0,C1 or DIR:FILE with DIR x, y or degrees", text);
 }
 
-static int periodic(const char *text, int *out, fl_err *err)
+static int parse_periodic(void *options, const char *text, fl_err *err)
 {
+    int *const out = ((struct recipe *)options)->periodic;
     out[0] = strcmp(text, "x") == 0 || strcmp(text, "xy") == 0;
     out[1] = strcmp(text, "y") == 0 || strcmp(text, "xy") == 0;
     if (out[0] || out[1]) return 0;
-    return fl_fail(err, FL_USAGE, "--periodic is \"%.60s\", x, y or xy is expected", text);
+    return fl_fail(err, FL_USAGE, "--periodic is \"%.60s\", expected x, y or xy", text);
 }
 
-static int ridge(struct options *o, const char *text, fl_err *err)
+static int parse_ridge(void *options, const char *text, fl_err *err)
 {
-    static const char wanted[] = "X0,Y0,X1,Y1,HS,WS,HK,WK,WB in metres";
+    struct recipe *const o = options;
+    static const char expected[] = "X0,Y0,X1,Y1,HS,WS,HK,WK,WB in metres";
     double *x = o->ridge[o->ridges];
     if (o->ridges == RIDGE_MAX)
         return fl_fail(err, FL_USAGE, "--ridge is given more than %d times", RIDGE_MAX);
-    if (numbers("ridge", text, 0, ',', 9, -LONGEST, LONGEST, x, wanted, err)) return -1;
+    if (parse_numbers("ridge", text, ',', 9, -LONGEST, LONGEST, x, expected, err)) return -1;
     for (int k = 4; k < 8; k++)
         if (!(x[k] >= SHORTEST))
-            return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", heights and widths above 0 are expected",
-                           text);
+            return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", expected heights and widths above 0", text);
     if (!(fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST) || !(x[8] >= 0.0 && x[8] <= x[7]))
-        return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", a length and a WB from 0 to WK are expected",
-                       text);
+        return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", expected a length and a WB from 0 to WK", text);
     o->ridges++;
     return 0;
 }
 
-static const char *const LATTICES[] = {"hcp", "hex", "square"};
+/* --- one function for each option that has a form of its own ------------------------------------ */
 
-static int lattice(const char *text, int *out, fl_err *err)
+static int set_size(void *options, const char *text, fl_err *err)
 {
-    for (int k = 0; k < 3; k++)
-        if (strcmp(text, LATTICES[k]) == 0) {
-            *out = k;
-            return 0;
-        }
-    return fl_fail(err, FL_USAGE, "--lattice is \"%.60s\", hcp, hex or square is expected", text);
+    return parse_pair("size", text, 'x', SHORTEST, LONGEST, &((struct recipe *)options)->size,
+                      "AxB in metres, as 50x50", err);
 }
 
-/* Options that say nothing where another one stands must not look as if they did. */
-static int useless(const struct options *o, const char *beside, int n, const int *without, fl_err *err)
+static int set_origin(void *options, const char *text, fl_err *err)
 {
-    for (int k = 0; k < n; k++)
-        if (o->given >> (without[k] - SIZE) & 1)
-            for (const struct option *l = LONG; l->name; l++)
-                if (l->val == without[k])
-                    return fl_fail(err, FL_USAGE, "--%s means nothing %s, it was not wanted", l->name,
-                                   beside);
+    return parse_pair("origin", text, ',', -LONGEST, LONGEST, &((struct recipe *)options)->origin,
+                      "X,Y in metres", err);
+}
+
+static int set_velocity(void *options, const char *text, fl_err *err)
+{
+    return parse_pair("velocity", text, ',', -1e3, 1e3, &((struct recipe *)options)->velocity, "VX,VY in m/s",
+                      err);
+}
+
+static int set_concentration(void *options, const char *text, fl_err *err)
+{
+    return parse_concentration("concentration", text, &((struct recipe *)options)->concentration, err);
+}
+
+static int set_porosity(void *options, const char *text, fl_err *err)
+{
+    return parse_concentration("porosity", text, &((struct recipe *)options)->porosity, err);
+}
+
+static int set_seed(void *options, const char *text, fl_err *err)
+{
+    if (fl_number_u64(text, &((struct recipe *)options)->seed) == 0) return 0;
+    return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", expected a whole number from 0 to 2^64 - 1", text);
+}
+
+static int set_format(void *options, const char *text, fl_err *err)
+{
+    static const char *const FORMATS[] = {"svg", "png", NULL};
+    int k;
+    if (fl_option_choice("format", text, FORMATS, &k, err)) return -1;
+    ((struct recipe *)options)->format = FORMATS[k];
     return 0;
 }
 
-static int check_lattice(const struct options *o, fl_err *err)
+/* --- the table --------------------------------------------------------------------------------- */
+
+#define AT(member) offsetof(struct recipe, member)
+
+/* The options of all generators; those that select one of them are put before the output options. */
+static const fl_option FIELD_OPTION[] = {
+    {.word = "size",
+     .argument = "AxB",
+     .help = "sides of the field along x and y (50x50)",
+     .kind = FL_OPTION_CALL,
+     .call = set_size},
+    {.word = "origin",
+     .argument = "X,Y",
+     .help = "its corner of least x and y (such that the field is centred on 0,0)",
+     .kind = FL_OPTION_CALL,
+     .call = set_origin},
+    {.word = "floes",
+     .argument = "N",
+     .help = "number of floes (200)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(floes),
+     .lo = 1,
+     .hi = FLOES_MAX},
+    {.word = "sizes",
+     .argument = "LAW",
+     .help = "uniform (Voronoi cells), equal, lognormal:CV or weibull:K of areas,\n"
+             "power:EXP,DMIN,DMAX[,number|area,cumulative|density] of diameters, or a FILE\n"
+             "of sizes or of polygons (uniform)",
+     .kind = FL_OPTION_CALL,
+     .call = parse_sizes},
+    {.word = "concentration",
+     .argument = "C",
+     .help = "fraction of the field that floes cover, between 0 and 1 (0.8)",
+     .kind = FL_OPTION_CALL,
+     .call = set_concentration},
+    {.word = "thickness",
+     .argument = "H",
+     .help = "of the ice (0.5); uniform:A,B, lognormal:MEAN,CV or a file of thicknesses",
+     .kind = FL_OPTION_FILE,
+     .at = AT(thickness_law)},
+    {.word = "radius",
+     .argument = "R",
+     .help = "dilation radius, the roundness of edges, below H/2 (0.05)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(radius),
+     .lo = 0.0,
+     .hi = LONGEST,
+     .expected = "a length not below 0"},
+    {.word = "seed",
+     .argument = "N",
+     .help = "seed of the random numbers (1)",
+     .kind = FL_OPTION_CALL,
+     .call = set_seed},
+    {.word = "smooth",
+     .argument = "N",
+     .help = "steps of Lloyd's smoothing; 0 leaves Poisson-Voronoi cells (2)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(smooth),
+     .lo = 0,
+     .hi = 10000},
+    {.word = "material",
+     .argument = "NAME",
+     .help = "material of the floes (ice)",
+     .kind = FL_OPTION_WORD,
+     .at = AT(material)},
+    {.word = "ice-density",
+     .argument = "RHO",
+     .help = "kg/m3, sets the draft together with the next (900)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(ice_density),
+     .lo = 1.0,
+     .hi = 1e5,
+     .expected = "a density in kg/m3"},
+    {.word = "water-density",
+     .argument = "RHO",
+     .help = "kg/m3 (1025)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(water_density),
+     .lo = 1.0,
+     .hi = 1e5,
+     .expected = "a density in kg/m3"},
+    {.word = "velocity",
+     .argument = "VX,VY",
+     .help = "of all floes at the start, m/s (0,0)",
+     .kind = FL_OPTION_CALL,
+     .call = set_velocity},
+    {.word = "keep-out",
+     .argument = "SHAPE",
+     .help = "remove floes that meet circle:X,Y,R or box:X0,Y0,X1,Y1; may be given 16 times\n"
+             "or files as in g_struct(5): their waterline, with the margin, is cut out",
+     .kind = FL_OPTION_CALL,
+     .call = parse_keep_out},
+    {.word = "margin",
+     .argument = "M",
+     .help = "open water round the structures of --keep-out (0)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(margin),
+     .lo = 0.0,
+     .hi = LONGEST,
+     .expected = "a length not below 0"},
+    {.word = "outline",
+     .argument = "SHAPE",
+     .help = "of the field instead of a rectangle: disc:R, disc:R,X,Y or a file of corners",
+     .kind = FL_OPTION_CALL,
+     .call = parse_outline},
+    {.word = "lead",
+     .argument = "X0,Y0,X1,Y1,WIDTH",
+     .help = "a strip of open water; may be given 16 times",
+     .kind = FL_OPTION_CALL,
+     .call = parse_lead},
+    {.word = "grade",
+     .argument = "DIR:C0,C1",
+     .help = "concentration rising from C0 to C1 along DIR: x, y or degrees; or DIR:FILE",
+     .kind = FL_OPTION_CALL,
+     .call = parse_grade},
+    {.word = "periodic",
+     .argument = "x|y|xy",
+     .help = "periodic field: its copies fit side by side without a seam",
+     .kind = FL_OPTION_CALL,
+     .call = parse_periodic},
+    {.word = "pancakes",
+     .argument = "SIDES",
+     .help = "floes round in plan, of that many sides",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(pancakes),
+     .lo = FL_PANCAKES_MIN_SIDES,
+     .hi = FL_PANCAKES_MAX_SIDES},
+    {.word = "ridge",
+     .argument = "X0,Y0,X1,Y1,HS,WS,HK,WK,WB",
+     .help = "a ridge along that line, of blocks: height and width of its\n"
+             "sail, depth and width of its keel and that at its bottom; up to 4 times",
+     .kind = FL_OPTION_CALL,
+     .call = parse_ridge},
+    {.word = "block",
+     .argument = "L",
+     .help = "size of the blocks of ridges (the thickness)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(block),
+     .lo = SHORTEST,
+     .hi = LONGEST,
+     .expected = "a length"},
+    {.word = "porosity",
+     .argument = "P",
+     .help = "fraction of ridges without ice (0.3)",
+     .kind = FL_OPTION_CALL,
+     .call = set_porosity},
+    {.word = "bonded",
+     .help = "no gaps, and a bond candidate for every face that two bodies share",
+     .at = AT(bonded)},
+};
+
+static const fl_option OUTPUT_OPTION[] = {
+    {.word = "layers",
+     .argument = "N",
+     .help = "layers of the lattice, or of rafted floes (1)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(layers),
+     .lo = 1,
+     .hi = 1000},
+    {.word = "diameter",
+     .argument = "D",
+     .help = "of the spheres of the lattice (0.25)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(diameter),
+     .lo = SHORTEST,
+     .hi = LONGEST,
+     .expected = "a length"},
+    {.word = "certificate",
+     .argument = "FILE",
+     .help = "requested and achieved values as a table, - is standard output",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(certificate)},
+    {.word = "id",
+     .argument = "NAME",
+     .help = "name of the field in its history line; auto computes it from the bodies",
+     .kind = FL_OPTION_WORD,
+     .at = AT(id)},
+    {.word = "plot",
+     .argument = "DIR",
+     .help = "pictures of the field and of its sizes, by gnuplot, into the folder",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(plot)},
+    {.word = "format",
+     .argument = "FORMAT",
+     .help = "of the pictures, svg or png (svg)",
+     .kind = FL_OPTION_CALL,
+     .call = set_format},
+    FL_COMMON_OPTIONS(struct recipe, "write there, - is standard output", "compress the file",
+                      "threads (one per processor)", "no certificate", "print the stages of the work"),
+};
+
+enum {
+    FIELD_OPTIONS = sizeof FIELD_OPTION / sizeof *FIELD_OPTION,
+    OUTPUT_OPTIONS = sizeof OUTPUT_OPTION / sizeof *OUTPUT_OPTION,
+    GENERATORS_MAX = 20
+};
+
+/* What was given on the command line, by the rows of a table. */
+struct command_line {
+    fl_option option[FIELD_OPTIONS + GENERATORS_MAX + OUTPUT_OPTIONS];
+    fl_option_table table;
+    unsigned char given[FIELD_OPTIONS + GENERATORS_MAX + OUTPUT_OPTIONS];
+};
+
+/* The option of each generator with a name: it stores the argument, or that it was given. */
+static void list_options(struct command_line *c)
 {
-    static const int without[] = {FLOES,    SIZES,    CONCENTRATION, THICKNESS, RADIUS, SEED,
-                                  SMOOTH,   KEEP_OUT, OUTLINE,       LEAD,      PLOT,   GRADE,
-                                  PERIODIC, PANCAKES, RUBBLE,        RIDGE};
-    static const int within[] = {DIAMETER};
-    if (o->lattice >= 0) return useless(o, "beside --lattice", 16, without, err);
-    return useless(o, "without --lattice", 1, within, err);
+    int n = FIELD_OPTIONS;
+    *c = (struct command_line){.table = {"voronoi-ice", USAGE, NULL, NULL, 0}};
+    memcpy(c->option, FIELD_OPTION, sizeof FIELD_OPTION);
+    for (int k = 0; k < generator_count && k < GENERATORS_MAX; k++) {
+        const struct generator *g = &generator_table[k];
+        if (!g->name) continue;
+        c->option[n++] = (fl_option){.word = g->name,
+                                     .argument = g->argument,
+                                     .help = g->help,
+                                     .kind = g->argument ? FL_OPTION_TEXT : FL_OPTION_FLAG,
+                                     .at = g->argument ? AT(generator_argument) : AT(generator_given)};
+    }
+    memcpy(c->option + n, OUTPUT_OPTION, sizeof OUTPUT_OPTION);
+    c->table.option = c->option;
 }
 
-static int check_water(const struct options *o, fl_err *err)
+/* --- checks between options ----------------------------------------------------------------------------- */
+
+static int is_given(const struct command_line *c, const char *option)
 {
-    static const int without[] = {SIZE, ORIGIN}, within[] = {MARGIN};
+    return c->given[fl_option_row(&c->table, option)];
+}
+
+/* Reject the options, which have no effect as `why` says; the list ends with NULL. */
+static int reject_options(const struct command_line *c, const char *why, const char *const *rejected,
+                          fl_err *err)
+{
+    for (; *rejected; rejected++)
+        if (is_given(c, *rejected)) return fl_fail(err, FL_USAGE, "--%s has no effect %s", *rejected, why);
+    return 0;
+}
+
+/* Select the generator that was given first in the table, and reject options that it does not read. */
+static int select_generator(struct recipe *o, const struct command_line *c, fl_err *err)
+{
+    int row = 0;
+    while (row < generator_count - 1 && !is_given(c, generator_table[row].name)) row++;
+    const struct generator *const g = o->generator = &generator_table[row];
+    if (g->name && g->check && g->check(o->generator_argument, err)) return -1;
+    for (int k = 0; c->option[k].word; k++) {
+        const char *word = c->option[k].word;
+        if (!c->given[k] || c->option[k].letter || (g->name && strcmp(word, g->name) == 0)) continue;
+        if (generator_reads(g, word)) continue;
+        if (g->name) return fl_fail(err, FL_USAGE, "--%s has no effect beside --%s", word, g->name);
+        for (int j = 0; j < generator_count; j++)
+            if (generator_reads(&generator_table[j], word))
+                return fl_fail(err, FL_USAGE, "--%s has no effect without --%s", word,
+                               generator_table[j].name);
+    }
+    return 0;
+}
+
+static int check_water(const struct recipe *o, const struct command_line *c, fl_err *err)
+{
+    static const char *const without[] = {"size", "origin", NULL}, *const within[] = {"margin", NULL};
     if (o->outline || o->disc[0] > 0.0) {
-        if (useless(o, "beside --outline", 2, without, err)) return -1;
+        if (reject_options(c, "beside --outline", without, err)) return -1;
         if (o->outline && strcmp(o->outline, "-") == 0)
             return fl_fail(err, FL_USAGE,
-                           "--outline is \"-\", a file is expected: a pipe cannot be named again");
+                           "--outline is \"-\", expected a file: a pipe cannot be named again");
     }
-    return o->structures ? 0 : useless(o, "without the file of a structure", 1, within, err);
+    return o->structures ? 0 : reject_options(c, "without the file of a structure", within, err);
 }
 
-static int check_graded(const struct options *o, fl_err *err)
+static int check_graded(const struct recipe *o, const struct command_line *c, fl_err *err)
 {
-    static const int without[] = {CONCENTRATION, SIZES, BONDED}, none[] = {SIZES, BONDED, OUTLINE, LEAD};
-    static const int round[] = {SIZES, BONDED, GRADE};
-    if (o->pancakes && useless(o, "beside --pancakes", 3, round, err)) return -1;
-    if (o->graded && useless(o, "beside --grade", 3, without, err)) return -1;
+    static const char *const without[] = {"concentration", "sizes", "bonded", NULL}, *const none[] = {
+                                                                                         "sizes", "bonded",
+                                                                                         "outline", "lead",
+                                                                                         NULL};
+    static const char *const round[] = {"sizes", "bonded", "grade", NULL};
+    if (o->pancakes && reject_options(c, "beside --pancakes", round, err)) return -1;
+    if (o->graded && reject_options(c, "beside --grade", without, err)) return -1;
     if (!o->periodic[0] && !o->periodic[1]) return 0;
     if (o->structures)
         return fl_fail(err, FL_USAGE,
-                       "--keep-out of a file means nothing beside --periodic, a shape is expected");
-    return useless(o, "beside --periodic", 4, none, err);
+                       "--keep-out of a file has no effect beside --periodic, expected a shape");
+    return reject_options(c, "beside --periodic", none, err);
 }
 
-static int check_piles(const struct options *o, fl_err *err)
+static int check_ridges(const struct recipe *o, const struct command_line *c, fl_err *err)
 {
-    static const int without[] = {SIZES,  KEEP_OUT, OUTLINE,  LEAD,  GRADE,
-                                  BONDED, PLOT,     PERIODIC, RIDGE, PANCAKES};
-    static const int ridged[] = {SIZES, PERIODIC}, within[] = {BLOCK, POROSITY};
-    static const int rafted[] = {SIZES, BONDED, RIDGE, RUBBLE};
-    if (o->layers > 1 && o->lattice < 0) {
-        if (o->structures)
-            return fl_fail(err, FL_USAGE, "--keep-out of a file means nothing beside --layers");
-        if (useless(o, "beside --layers", 4, rafted, err)) return -1;
-    }
-    if (o->rubble && useless(o, "beside --rubble", 10, without, err)) return -1;
-    if (!o->ridges) return useless(o, "without --ridge", 2, within, err);
-    return useless(o, "beside --ridge", 2, ridged, err);
+    static const char *const with_ridge[] = {"sizes", "periodic", NULL}, *const without_ridge[] = {
+                                                                             "block", "porosity", NULL};
+    if (!o->ridges) return reject_options(c, "without --ridge", without_ridge, err);
+    return reject_options(c, "beside --ridge", with_ridge, err);
 }
 
-static int check_bonded(const struct options *o, fl_err *err)
+/* Layers of floes; those of a lattice have no such limits. */
+static int check_layers(const struct recipe *o, const struct command_line *c, fl_err *err)
 {
-    static const int without[] = {CONCENTRATION};
-    return o->bonded ? useless(o, "beside --bonded, which fills the field", 1, without, err) : 0;
+    static const char *const with_layers[] = {"sizes", "bonded", "ridge", NULL};
+    if (o->layers == 1 || o->generator->name) return 0;
+    if (o->structures) return fl_fail(err, FL_USAGE, "--keep-out of a file has no effect beside --layers");
+    return reject_options(c, "beside --layers", with_layers, err);
 }
 
-static int apply(struct options *o, int c, const char *arg, fl_err *err)
+static int check_bonded(const struct recipe *o, const struct command_line *c, fl_err *err)
 {
-    switch (c) {
-    case SIZE: return pair("size", arg, 'x', SHORTEST, LONGEST, &o->size, "AxB in metres, as 50x50,", err);
-    case ORIGIN:
-        o->has_origin = 1;
-        return pair("origin", arg, ',', -LONGEST, LONGEST, &o->origin, "X,Y in metres", err);
-    case FLOES: o->has_floes = 1; return fl_option_whole("floes", arg, 1, FLOES_MOST, &o->floes, err);
-    case SIZES: return sizes(o, arg, err);
-    case CONCENTRATION:
-        o->has_concentration = 1;
-        return concentration("concentration", arg, &o->concentration, err);
-    case THICKNESS: return file("thickness", arg, &o->thickness_law, err);
-    case RADIUS: return number("radius", arg, 0.0, LONGEST, &o->radius, "a length not below 0", err);
-    case SEED:
-        if (fl_number_u64(arg, &o->seed) == 0) return 0;
-        return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", a whole number from 0 to 2^64 - 1 is expected",
-                       arg);
-    case SMOOTH: return fl_option_whole("smooth", arg, 0, 10000, &o->smooth, err);
-    case MATERIAL: return name("material", arg, &o->material, err);
-    case ICE_DENSITY: return number("ice-density", arg, 1.0, 1e5, &o->ice_density, "kg/m3", err);
-    case WATER_DENSITY: return number("water-density", arg, 1.0, 1e5, &o->water_density, "kg/m3", err);
-    case VELOCITY: return pair("velocity", arg, ',', -1e3, 1e3, &o->velocity, "VX,VY in m/s", err);
-    case KEEP_OUT: return shape(o, arg, err);
-    case MARGIN: return number("margin", arg, 0.0, LONGEST, &o->margin, "a length not below 0", err);
-    case OUTLINE: return the_outline(o, arg, err);
-    case LEAD: return lead(o, arg, err);
-    case GRADE: return grade(o, arg, err);
-    case PERIODIC: return periodic(arg, o->periodic, err);
-    case PANCAKES:
-        return fl_option_whole("pancakes", arg, FL_PANCAKES_MIN_SIDES, FL_PANCAKES_MAX_SIDES, &o->pancakes,
-                               err);
-    case RUBBLE: o->rubble = 1; return 0;
-    case RIDGE: return ridge(o, arg, err);
-    case BLOCK: return number("block", arg, SHORTEST, LONGEST, &o->block, "a length", err);
-    case POROSITY: return concentration("porosity", arg, &o->porosity, err);
-    case BONDED: o->bonded = 1; return 0;
-    case LATTICE: return lattice(arg, &o->lattice, err);
-    case LAYERS: return fl_option_whole("layers", arg, 1, 1000, &o->layers, err);
-    case DIAMETER: return number("diameter", arg, SHORTEST, LONGEST, &o->diameter, "a length", err);
-    case CERTIFICATE: o->certificate = arg; return 0;
-    case ID: return name("id", arg, &o->id, err);
-    case PLOT: o->plot = arg; return 0;
-    case FORMAT:
-        o->format = arg;
-        if (strcmp(arg, "svg") == 0 || strcmp(arg, "png") == 0) return 0;
-        return fl_fail(err, FL_USAGE, "--format is \"%.60s\", svg or png is expected", arg);
-    case 'o': o->out = arg; return 0;
-    case 'z': o->gzip = 1; return 0;
-    case 'j': return fl_option_whole("threads", arg, 1, 1024, &o->threads, err);
-    case 'q': o->quiet = 1; return 0;
-    case 'v': o->verbose = 1; return 0;
-    case 'h':
-        fputs(HELP, stdout);
-        o->ended = 1;
-        return 0;
-    case VERSION:
-        fl_tool_version("voronoi-ice");
-        o->ended = 1;
-        return 0;
-    default: return fl_fail(err, FL_USAGE, "see voronoi-ice --help");
-    }
+    static const char *const without[] = {"concentration", NULL};
+    return o->bonded ? reject_options(c, "beside --bonded, which fills the field", without, err) : 0;
 }
 
-int options_parse(struct options *o, int argc, char **argv, fl_err *err)
+int options_parse(struct recipe *o, int *ended, int argc, char **argv, fl_err *err)
 {
-    int c;
-    *o = (struct options){.out = "-",
-                          .format = "svg",
-                          .material = "ice",
-                          .size = {50.0, 50.0},
-                          .floes = 200,
-                          .smooth = 2,
-                          .concentration = 0.8,
-                          .porosity = 0.3,
-                          .thickness_law = "0.5",
-                          .radius = 0.05,
-                          .lattice = -1,
-                          .layers = 1,
-                          .diameter = 0.25,
-                          .ice_density = 900.0,
-                          .water_density = 1025.0,
-                          .seed = 1};
-    opterr = 0;
-    while (!o->ended && (c = getopt_long(argc, argv, ":o:zj:qvh", LONG, NULL)) != -1) {
-        if (c == ':' || c == '?')
-            return fl_option_unknown("voronoi-ice", LONG, c, optopt, argv[optind - 1], err);
-        if (c >= SIZE) o->given |= UINT64_C(1) << (c - SIZE);
-        if (apply(o, c, optarg, err)) return -1;
-    }
-    if (o->ended) return 0;
-    if (optind < argc)
-        return fl_fail(err, FL_USAGE, "\"%.60s\" was not expected, voronoi-ice reads no file", argv[optind]);
+    struct command_line c;
+    *ended = 0;
+    *o = (struct recipe){.out = "-",
+                         .format = "svg",
+                         .material = "ice",
+                         .size = {50.0, 50.0},
+                         .floes = 200,
+                         .smooth = 2,
+                         .concentration = 0.8,
+                         .porosity = 0.3,
+                         .thickness_law = "0.5",
+                         .radius = 0.05,
+                         .layers = 1,
+                         .diameter = 0.25,
+                         .ice_density = 900.0,
+                         .water_density = 1025.0,
+                         .seed = 1};
+    list_options(&c);
+    if (fl_options_read(&c.table, o, c.given, argc, argv, err)) return -1;
+    *ended = o->ended;
+    if (*ended) return 0;
+    o->has_origin = is_given(&c, "origin");
+    o->has_floes = is_given(&c, "floes");
+    o->has_concentration = is_given(&c, "concentration");
     if (o->certificate && strcmp(o->certificate, "-") == 0 && strcmp(o->out, "-") == 0)
         return fl_fail(err, FL_USAGE,
-                       "--certificate - and the field both go to standard output: -o is wanted");
+                       "--certificate - and the field both go to standard output: expected -o");
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
-    if (check_lattice(o, err) || check_water(o, err) || check_graded(o, err) || check_piles(o, err) ||
-        check_bonded(o, err))
+    if (select_generator(o, &c, err) || check_water(o, &c, err) || check_graded(o, &c, err) ||
+        check_layers(o, &c, err) || check_ridges(o, &c, err) || check_bonded(o, &c, err))
         return -1;
     if (!(o->ice_density < o->water_density))
         return fl_fail(err, FL_USAGE, "--ice-density %g is not below --water-density %g: the floes sink",
                        o->ice_density, o->water_density);
     return 0;
-}
-
-static void add_numbers(fl_history_line *by, const char *option, char divide, int n, const double *x)
-{
-    char text[9][FL_NUMBER_LEN], all[9 * (FL_NUMBER_LEN + 1) + 1] = "";
-    for (int k = 0; k < n; k++) {
-        const size_t at = strlen(all);
-        snprintf(all + at, sizeof all - at, "%s%.1s", fl_number_text(x[k], text[k]),
-                 k + 1 < n ? &divide : "");
-    }
-    fl_history_line_add(by, "%s%s", option, all);
-}
-
-static void add_pair(fl_history_line *by, const char *option, char divide, fl_vec2 p)
-{
-    add_numbers(by, option, divide, 2, (const double[]){p.x, p.y});
-}
-
-void options_id(struct options *o, const fl_ice_field *field)
-{
-    if (!o->id || strcmp(o->id, "auto") != 0) return;
-    snprintf(o->id_made, sizeof o->id_made, "%016llx", (unsigned long long)fl_ice_field_hash(field));
-    o->id = o->id_made;
-}
-
-static void add_grade(fl_history_line *by, const struct options *o)
-{
-    char text[FL_NUMBER_LEN], option[FL_NUMBER_LEN + 16];
-    snprintf(option, sizeof option, "--grade %s:", fl_number_text(o->grade_angle, text));
-    if (o->grade_file) fl_history_line_word(by, option, o->grade_file);
-    else add_numbers(by, option, ',', 2, o->grade);
-}
-
-void options_by(const struct options *o, fl_history_line *by)
-{
-    fl_history_line_start(by, "voronoi-ice");
-    if (o->id) fl_history_line_add(by, "--id %s", o->id);
-    if (o->outline) fl_history_line_word(by, "--outline ", o->outline);
-    else if (o->disc[0] > 0.0) add_numbers(by, "--outline disc:", ',', 3, o->disc);
-    else {
-        add_pair(by, "--size ", 'x', o->size);
-        add_pair(by, "--origin ", ',', o->origin);
-    }
-    if (o->lattice >= 0) {
-        fl_history_line_add(by, "--lattice %s --layers %d", LATTICES[o->lattice], o->layers);
-        add_numbers(by, "--diameter ", ',', 1, &o->diameter);
-    } else {
-        fl_history_line_add(by, "--floes %d", o->floes);
-        if (o->sizes) fl_history_line_word(by, "--sizes ", o->sizes);
-        if (o->graded) add_grade(by, o);
-        else if (!o->bonded) add_numbers(by, "--concentration ", ',', 1, &o->concentration);
-        fl_history_line_word(by, "--thickness ", o->thickness_law);
-        add_numbers(by, "--radius ", ',', 1, &o->radius);
-        fl_history_line_add(by, "--seed %llu", (unsigned long long)o->seed);
-        fl_history_line_add(by, "--smooth %d", o->smooth);
-    }
-    if (o->lattice < 0 && o->layers > 1) fl_history_line_add(by, "--layers %d", o->layers);
-    if (o->rubble) fl_history_line_add(by, "--rubble");
-    for (int k = 0; k < o->ridges; k++) add_numbers(by, "--ridge ", ',', 9, o->ridge[k]);
-    if (o->ridges && o->block > 0.0) add_numbers(by, "--block ", ',', 1, &o->block);
-    if (o->ridges) add_numbers(by, "--porosity ", ',', 1, &o->porosity);
-    if (o->pancakes) fl_history_line_add(by, "--pancakes %d", o->pancakes);
-    if (o->bonded) fl_history_line_add(by, "--bonded");
-    if (o->periodic[0] || o->periodic[1])
-        fl_history_line_add(by, "--periodic %s%s", o->periodic[0] ? "x" : "", o->periodic[1] ? "y" : "");
-    fl_history_line_add(by, "--material %s", o->material);
-    add_numbers(by, "--ice-density ", ',', 1, &o->ice_density);
-    add_numbers(by, "--water-density ", ',', 1, &o->water_density);
-    add_pair(by, "--velocity ", ',', o->velocity);
-    for (int k = 0; k < o->keep_outs; k++) {
-        const struct keep_out *s = &o->keep_out[k];
-        if (s->circle)
-            add_numbers(by, "--keep-out circle:", ',', 3, (const double[]){s->lo.x, s->lo.y, s->r});
-        else add_numbers(by, "--keep-out box:", ',', 4, (const double[]){s->lo.x, s->lo.y, s->hi.x, s->hi.y});
-    }
-    for (int k = 0; k < o->leads; k++) add_numbers(by, "--lead ", ',', 5, o->lead[k]);
-    for (int k = 0; k < o->structures; k++) fl_history_line_word(by, "--keep-out ", o->structure[k]);
-    if (o->structures) add_numbers(by, "--margin ", ',', 1, &o->margin);
 }

@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ridge.h"
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
 #include "base/stream.h"
-#include "ridge.h"
-
-/* Sites of part k are the entities from (k + 1) 2^32 on: none is a floe's. */
-#define PART ((int64_t)1 << 32)
+#include "block_field.h"
 
 enum { BLOCKS_MOST = 1000000 };
 
 /* --- regions -------------------------------------------------------------------------------------------- */
 
-/* A cross-section (s, z), counter-clockwise seen against the line, drawn along the line from x[0..1] to
- * x[2..3]; s is counted to the left of it. */
+/* Extrude a cross-section along the line from x[0..1] to x[2..3].  The section has corners (s, z) with s
+ * to the left of the line, counter-clockwise as seen against its direction. */
 static int extrude(fl_poly *p, const double *x, int32_t n, const fl_vec2 *section, fl_err *err)
 {
     const double l = hypot(x[2] - x[0], x[3] - x[1]), ux = (x[2] - x[0]) / l, uy = (x[3] - x[1]) / l;
@@ -36,8 +34,8 @@ static int extrude(fl_poly *p, const double *x, int32_t n, const fl_vec2 *sectio
     return fl_poly_make(p, 2 * n, v, n + 2, first, loop, err);
 }
 
-/* -1 with FL_INPUT where there are too many. */
-static int32_t blocks_in(const fl_poly *region, double block, fl_err *err)
+/* Number of blocks of that size in the region, or -1 with FL_INPUT if it is too large. */
+static int32_t count_blocks(const fl_poly *region, double block, fl_err *err)
 {
     const double n = fmax(1.0, floor(fl_blocks_volume(region) / (block * block * block) + 0.5));
     if (n <= BLOCKS_MOST) return (int32_t)n;
@@ -45,7 +43,7 @@ static int32_t blocks_in(const fl_poly *region, double block, fl_err *err)
                    BLOCKS_MOST);
 }
 
-static int make_part(struct pile *p, const struct options *o, const double *x, int32_t n,
+static int make_part(struct ridges *p, const struct recipe *o, const double *x, int32_t n,
                      const fl_vec2 *section, const char *what, fl_err *err)
 {
     fl_blocks *b = &p->part[p->n];
@@ -54,8 +52,10 @@ static int make_part(struct pile *p, const struct options *o, const double *x, i
     int64_t pairs;
     int rc = -1;
     if (extrude(&region, x, n, section, &why)) goto done;
-    const int32_t many = blocks_in(&region, o->block, &why);
-    if (many < 0 || fl_blocks_cells(b, &region, many, o->seed, (p->n + 1) * PART, o->smooth, &why)) goto done;
+    const int32_t many = count_blocks(&region, o->block, &why);
+    if (many < 0 ||
+        fl_blocks_cells(b, &region, many, o->seed, (p->n + 1) * BLOCK_FIELD_FIRST_SITE, o->smooth, &why))
+        goto done;
     p->n++;
     if (fl_blocks_shrink(b, 1.0 - o->porosity, o->radius, &why) ||
         fl_blocks_overlaps(b, o->radius, &pairs, &why))
@@ -68,7 +68,7 @@ done:
     return rc;
 }
 
-static void strip(const double *x, fl_vec2 *v)
+static void strip_of(const double *x, fl_vec2 *v)
 {
     const double l = hypot(x[2] - x[0], x[3] - x[1]), half = 0.5 * fmax(x[5], x[7]);
     const double nx = -half * (x[3] - x[1]) / l, ny = half * (x[2] - x[0]) / l;
@@ -78,14 +78,14 @@ static void strip(const double *x, fl_vec2 *v)
     v[3] = (fl_vec2){x[0] + nx, x[1] + ny};
 }
 
-/* Blocks of two ridges are apart when their strips are. */
-static int check_apart(const struct options *o, fl_err *err)
+/* Check that the strips of all ridges are apart; their blocks are apart then. */
+static int check_apart(const struct recipe *o, fl_err *err)
 {
     fl_vec2 a[4], b[4];
     for (int i = 0; i < o->ridges; i++)
         for (int j = 0; j < i; j++) {
-            strip(o->ridge[i], a);
-            strip(o->ridge[j], b);
+            strip_of(o->ridge[i], a);
+            strip_of(o->ridge[j], b);
             if (!fl_polygon_is_apart(4, a, 4, b))
                 return fl_fail(err, FL_INPUT, "ridges %d and %d meet, ridges that are apart are expected",
                                j + 1, i + 1);
@@ -93,7 +93,7 @@ static int check_apart(const struct options *o, fl_err *err)
     return 0;
 }
 
-int pile_make(struct pile *p, const struct options *o, fl_err *err)
+int ridges_make(struct ridges *p, const struct recipe *o, fl_err *err)
 {
     if (check_apart(o, err)) return -1;
     for (int k = 0; k < o->ridges; k++) {
@@ -113,38 +113,19 @@ int pile_make(struct pile *p, const struct options *o, fl_err *err)
 
 /* --- the field ------------------------------------------------------------------------------------------ */
 
-static int add_blocks(const fl_blocks *b, const struct options *o, int64_t *id, fl_vec3 shift,
-                      fl_ice_field *out, fl_err *err)
-{
-    for (int32_t i = 0; i < b->n; i++) {
-        const fl_mat3 same = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-        fl_poly core = {0};
-        if (b->core[i].nv == 0) continue;
-        if (*id > INT32_MAX) return fl_fail(err, FL_INPUT, "more blocks than there are ids");
-        if (fl_poly_copy(&core, &b->core[i], err)) return -1;
-        if (v3_nonzero(shift)) fl_poly_to_frame(&core, v3_neg(shift), same);
-        if (fl_ice_field_add(out, (int32_t)(*id)++, o->radius, &core, o->material, NULL,
-                             v3(o->velocity.x, o->velocity.y, 0.0), v3(0, 0, 0), err)) {
-            fl_poly_free(&core);
-            return -1;
-        }
-    }
-    return 0;
-}
-
-int pile_add(const struct pile *p, const struct options *o, fl_ice_field *out, fl_err *err)
+int ridges_add(const struct ridges *p, const struct recipe *o, fl_ice_field *out, fl_err *err)
 {
     int64_t id = 0;
     for (int32_t i = 0; i < out->n; i++)
         if (out->id[i] >= id) id = (int64_t)out->id[i] + 1;
     for (int k = 0; k < p->n; k++)
-        if (add_blocks(&p->part[k], o, &id, v3(0, 0, 0), out, err)) return -1;
+        if (block_field_add(&p->part[k], o, &id, v3(0, 0, 0), out, err)) return -1;
     return 0;
 }
 
 /* --- the certificate ------------------------------------------------------------------------------------ */
 
-void pile_certify(const struct pile *p, const struct options *o, struct certify *t)
+void ridges_certify(const struct ridges *p, const struct recipe *o, struct certificate_table *t)
 {
     double region = 0.0, solid = 0.0, keel = 0.0;
     int32_t blocks = 0, lost = 0;
@@ -156,71 +137,18 @@ void pile_certify(const struct pile *p, const struct options *o, struct certify 
         blocks += p->part[k].n - p->part[k].blockless;
         lost += p->part[k].blockless;
     }
-    certify_add(t, "ridges, blocks", NOT_ASKED, blocks, NO_DISTANCE, 10, NULL);
-    if (lost) certify_add(t, "ridges, cells without a block", NOT_ASKED, lost, NO_DISTANCE, 10, NULL);
-    certify_add(t, "ridges, porosity", o->porosity, 1.0 - solid / region,
-                fabs(1.0 - solid / region - o->porosity), 8, NULL);
-    certify_add(t, "ridges, overlaps", 0, (double)p->overlaps, (double)p->overlaps, 10, NULL);
-    certify_add(t, "ridges, ice [m3]", NOT_ASKED, solid, NO_DISTANCE, 6, NULL);
-    certify_add(t, "ridges, weight over buoyancy", 1, o->ice_density * solid / (o->water_density * keel),
-                fabs(o->ice_density * solid / (o->water_density * keel) - 1.0), 6, NULL);
+    certificate_add(t, "ridges, blocks", NOT_REQUESTED, blocks, NO_DISTANCE, 10, NULL);
+    if (lost) certificate_add(t, "ridges, cells without a block", NOT_REQUESTED, lost, NO_DISTANCE, 10, NULL);
+    certificate_add(t, "ridges, porosity", o->porosity, 1.0 - solid / region,
+                    fabs(1.0 - solid / region - o->porosity), 8, NULL);
+    certificate_add(t, "ridges, overlaps", 0, (double)p->overlaps, (double)p->overlaps, 10, NULL);
+    certificate_add(t, "ridges, ice [m3]", NOT_REQUESTED, solid, NO_DISTANCE, 6, NULL);
+    certificate_add(t, "ridges, weight over buoyancy", 1, o->ice_density * solid / (o->water_density * keel),
+                    fabs(o->ice_density * solid / (o->water_density * keel) - 1.0), 6, NULL);
 }
 
-void pile_free(struct pile *p)
+void ridges_free(struct ridges *p)
 {
     for (int k = 0; k < p->n; k++) fl_blocks_free(&p->part[k]);
-    *p = (struct pile){0};
-}
-
-/* --- rubble --------------------------------------------------------------------------------------------- */
-
-static void certify_rubble(const struct options *o, const fl_blocks *b, double draft, struct certify *t)
-{
-    certify_add(t, "blocks", o->floes, b->n - b->blockless, b->blockless, 10, NULL);
-    certify_add(t, "solid part", o->concentration, b->solid_volume / b->region_volume,
-                fabs(b->solid_volume / b->region_volume - o->concentration), 8, NULL);
-    certify_add(t, "overlaps", 0, 0, 0, 10, NULL);
-    certify_add(t, "draft [m]", NOT_ASKED, draft, NO_DISTANCE, 6, NULL);
-    certify_add(t, "block, mean volume [m3]", NOT_ASKED, b->solid_volume / (b->n - b->blockless), NO_DISTANCE,
-                6, NULL);
-    certify_add(t, "inset of the cells [m]", NOT_ASKED, b->inset, NO_DISTANCE, 6, NULL);
-}
-
-int rubble_run(struct options *o, fl_err *err)
-{
-    const double draft = o->thickness * (o->ice_density / o->water_density);
-    const fl_vec3 middle = {o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y,
-                            0.5 * o->thickness - draft};
-    struct certify table = {0};
-    fl_poly region = {0};
-    fl_blocks b = {0};
-    fl_ice_field out = {0};
-    fl_out file = {0};
-    fl_history_line by;
-    int64_t pairs, id = 0;
-    int rc = -1;
-    if (fl_poly_box(&region, (fl_vec3){0.5 * o->size.x, 0.5 * o->size.y, 0.5 * o->thickness}, err) ||
-        fl_blocks_cells(&b, &region, o->floes, o->seed, PART, o->smooth, err) ||
-        fl_blocks_shrink(&b, o->concentration, o->radius, err) ||
-        fl_blocks_overlaps(&b, o->radius, &pairs, err))
-        goto done;
-    if (pairs) {
-        fl_fail(err, FL_NUMERIC, "%lld pairs of blocks overlap: nothing is written", (long long)pairs);
-        goto done;
-    }
-    if (add_blocks(&b, o, &id, middle, &out, err)) goto done;
-    options_id(o, &out);
-    options_by(o, &by);
-    if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
-    fl_ice_field_write(file.f, &out, &by);
-    if (fl_out_close(&file, err)) goto done;
-    certify_rubble(o, &b, draft, &table);
-    if (o->certificate && certify_write(&table, o->certificate, &by, err)) goto done;
-    if (!o->quiet) certify_print(&table);
-    rc = 0;
-done:
-    fl_poly_free(&region);
-    fl_blocks_free(&b);
-    fl_ice_field_free(&out);
-    return rc;
+    *p = (struct ridges){0};
 }

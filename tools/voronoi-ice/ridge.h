@@ -1,31 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ridge.h -- ice in blocks: --rubble in place of floes, and --ridge between them. */
+/* ridge.h -- pressure ridges (--ridge): sail and keel of ice blocks between the floes of a field. */
 #ifndef VORONOI_ICE_RIDGE_H
 #define VORONOI_ICE_RIDGE_H
 #include "ice/blocks.h"
-#include "scene/ice_field.h"
 #include "certificate_table.h"
-#include "options.h"
+#include "recipe.h"
 
-/* Sail and keel of every ridge, in this order. */
-struct pile {
-    int n;
+/* Sail and keel of each ridge, in this order. */
+struct ridges {
+    int n; /* parts */
     fl_blocks part[2 * RIDGE_MAX];
-    int64_t overlaps;
+    int64_t overlaps; /* pairs of blocks that overlap */
 };
 
-/* Make the blocks of the ridges, if there are any.  0, or -1 with FL_INPUT, FL_NUMERIC or FL_SYSTEM. */
-int pile_make(struct pile *p, const struct options *o, fl_err *err);
+/* Make the blocks of all ridges.  Returns 0, or -1 with FL_INPUT, FL_NUMERIC or FL_SYSTEM. */
+int ridges_make(struct ridges *p, const struct recipe *o, fl_err *err);
 
-/* Add them to a field; they are numbered from the highest id on.  Returns 0, or -1 with FL_INPUT (no ids are
- * left) or FL_SYSTEM. */
-int pile_add(const struct pile *p, const struct options *o, fl_ice_field *out, fl_err *err);
+/* Append the blocks to a field; their ids follow the highest id.  Returns 0, or -1 with FL_INPUT (ids are
+ * exhausted) or FL_SYSTEM. */
+int ridges_add(const struct ridges *p, const struct recipe *o, fl_ice_field *out, fl_err *err);
 
-void pile_certify(const struct pile *p, const struct options *o, struct certify *t);
+/* Add the rows of the ridges to the certificate. */
+void ridges_certify(const struct ridges *p, const struct recipe *o, struct certificate_table *t);
 
-void pile_free(struct pile *p); /* accepts a zeroed struct, leaves one */
-
-/* --rubble: fill the field with blocks, write it and its certificate.  0, or -1 with err. */
-int rubble_run(struct options *o, fl_err *err);
+void ridges_free(struct ridges *p); /* accepts a zeroed struct, leaves a zeroed one */
 
 #endif

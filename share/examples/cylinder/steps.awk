@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# steps.awk -- the same field at other softenings and in other steps: the table of README.md, a row a case.
+# steps.awk -- the same field at other stiffness factors and steps: the table of README.md, a row a case.
 #     awk -v from=13 -v filter=2 -f steps.awk 0.025-0.5.report 0.025-0.5.stats 0.025-0.5.loads ...
 #
 # The impulse is that of the whole record, the sum of force times interval; mean and largest load are those of
@@ -36,7 +36,7 @@ function kilo(x, format) { return sprintf(format, x / 1000) }
 END {
     if (!cases) { print "steps.awk: reports, stats and loads are expected" >"/dev/stderr"; exit 3 }
     row = "| %9s | %7s | %7s | %7s | %8s | %14s | %18s | %13s | %8s |\n"
-    printf row, "softening", "step", "steps", "overlap", "impulse", "mean from " from " s",
+    printf row, "s_k", "step", "steps", "overlap", "impulse", "mean from " from " s",
         "largest below " filter " Hz", "hit at 1.95 s", "residual"
     print "|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
     for (c = 1; c <= cases; c++) {

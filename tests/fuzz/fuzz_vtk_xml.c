@@ -2,4 +2,4 @@
 #include "support/fuzz.h"
 #include "support/mesh.h"
 
-int main(int argc, char **argv) { return fuzz_main(argc, argv, "vtx", mesh_fuzz); }
+int main(int argc, char **argv) { return fuzz_main(argc, argv, "vtk_xml", mesh_fuzz); }

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "warnings.h"
 #include <inttypes.h>
 #include <string.h>
-#include "structure/mesh_contact.h"
-#include "run.h"
 #include "sim/energy_balance.h"
-#include "sphere/contact_list.h"
 #include "sim/moving_structure.h"
-#include "sim/step.h"
+#include "sphere/contact_list.h"
+#include "structure/mesh_contact.h"
 
-/* A hull whose mass and centre are off by less than this, of its displacement and size, is at rest. */
-#define RESTS 1e-3
+/* A hull is at rest if mass and centre differ by less than this from its displacement, relative to
+ * displacement and size. */
+#define AT_REST 1e-3
 
-/* Bodies that stand in one another at the start are pushed apart, with loads that belong to no case. A run
- * may take hours: this is said before it.  By more than all their radii what is round cannot overlap. */
+/* Bodies that overlap at the start are pushed apart, with loads that belong to no case.  A run may take
+ * hours, so this is said before it.  Rounded edges cannot overlap by more than the sum of the radii. */
 static void warn_overlaps(const struct run *r)
 {
     const fl_world *w = r->w;
@@ -34,8 +34,8 @@ static void warn_overlaps(const struct run *r)
     fprintf(stderr, "body %d and %s; they will be pushed apart\n", w->id[i], other);
 }
 
-/* Inside a shell and clear of its skin, like air in a hull. */
-static int stands_inside(const fl_world *w, int32_t i, int32_t k)
+/* 1 if body i is inside piece k, a mesh, without touching it. */
+static int is_inside(const fl_world *w, int32_t i, int32_t k)
 {
     const fl_piece *piece = &w->structure.piece[k];
     const int32_t j = w->n + k;
@@ -48,37 +48,37 @@ static int stands_inside(const fl_world *w, int32_t i, int32_t k)
     return 1;
 }
 
-/* It would stay there, and no load tells. */
-static void warn_held(const struct run *r)
+/* Bodies inside the structure stay there, and the loads do not show it. */
+static void warn_inside(const struct run *r)
 {
     const fl_world *w = r->w;
     int32_t found = 0, body = -1, part = -1;
     for (int32_t k = 0; k < w->structure.n; k++)
         for (int32_t i = 0; i < w->n; i++) {
-            if (!stands_inside(w, i, k) || found++) continue;
+            if (!is_inside(w, i, k) || found++) continue;
             body = i;
             part = w->structure.piece[k].part;
         }
     if (found)
         fprintf(stderr,
-                "dem-solve: warning: %d %s inside the structure, first body %d in part %s, and will not feel "
-                "it before it reaches its skin\n",
-                found, found == 1 ? "body stands" : "bodies stand", w->id[body], r->surface->part[part].name);
+                "dem-solve: warning: %d %s inside the structure, first body %d in part %s; it feels the "
+                "structure only where it reaches the surface\n",
+                found, found == 1 ? "body is" : "bodies are", w->id[body], r->surface->part[part].name);
 }
 
-/* A sheet of any other outline than a convex one is a surface like that of a hull, which has an inside. */
+/* A flat sheet with an outline that is not convex is a surface with an inside, like a hull. */
 static void warn_sheets(const struct run *r)
 {
     const fl_structure *s = &r->w->structure;
     for (int32_t k = 0; k < s->n; k++)
         if (s->piece[k].one_sided)
             fprintf(stderr,
-                    "dem-solve: warning: part %s is a flat sheet whose outline is not convex: it is felt on "
-                    "the side that its normals point to alone\n",
+                    "dem-solve: warning: part %s is a flat sheet whose outline is not convex: bodies feel it "
+                    "only on the side of its normals\n",
                     r->surface->part[s->piece[k].part].name);
 }
 
-/* A hull that does not float as it stands: told once, since its motion is one about that pose. */
+/* A hull that does not float in its pose: its motion is one about that pose. */
 static void warn_hulls(const struct run *r)
 {
     const fl_world *w = r->w;
@@ -88,13 +88,13 @@ static void warn_hulls(const struct run *r)
         const double water = w->scene->water.density * f->volume, size = cbrt(f->volume);
         const char *name = fl_mover_name(w, k);
         if (f->volume == 0.0) continue;
-        if (m->mass > 0.0 && fabs(m->mass - water) > RESTS * water)
+        if (m->mass > 0.0 && fabs(m->mass - water) > AT_REST * water)
             fprintf(stderr,
                     "dem-solve: warning: %s has %.6g kg and displaces %.6g kg of water: at rest it would lie "
                     "%.3g m %s\n",
                     name, m->mass, water, fabs(m->mass - water) / (w->scene->water.density * f->area),
                     m->mass < water ? "higher" : "deeper");
-        if (hypot(f->buoyancy_centre.x, f->buoyancy_centre.y) > RESTS * size)
+        if (hypot(f->buoyancy_centre.x, f->buoyancy_centre.y) > AT_REST * size)
             fprintf(
                 stderr,
                 "dem-solve: warning: the buoyancy of %s acts %.3g m in x and %.3g m in y from its reference "
@@ -107,7 +107,7 @@ static void warn_hulls(const struct run *r)
     }
 }
 
-/* A wave that would break is no linear one, and its loads are not those of any sea. */
+/* A wave that would break is not linear. */
 static void warn_waves(const struct run *r)
 {
     const fl_scene_water *s = &r->scene->water;
@@ -115,14 +115,15 @@ static void warn_waves(const struct run *r)
     if (!r->w->sea.waves) return;
     const double steep = fl_wave_steepness(s->height, s->period, s->depth, r->w->sea.wave.gravity, &breaking);
     if (steep > breaking)
-        fprintf(stderr,
-                "dem-solve: warning: waves of height over length %.3g, and they break above %.3g: such a sea "
-                "there is not\n",
-                steep, breaking);
+        fprintf(
+            stderr,
+            "dem-solve: warning: waves of height over length %.3g, but waves break above %.3g: no such sea "
+            "exists\n",
+            steep, breaking);
 }
 
-/* A material that the scene itself gives, and nothing is of, is likely one that is misspelt; of what it
- * includes it takes what it needs.  What comes in later may be of any. */
+/* A material of the scene file itself that nothing uses is likely misspelt.  Included files may have more
+ * materials than needed, and floes that come in later may use any. */
 static void warn_materials(const struct run *r)
 {
     const fl_world *w = r->w;
@@ -144,42 +145,42 @@ void warn_at_start(const struct run *r)
 {
     warn_materials(r);
     warn_overlaps(r);
-    warn_held(r);
+    warn_inside(r);
     warn_waves(r);
     warn_hulls(r);
     warn_sheets(r);
 }
 
-/* What a body is thick, seen along the normals of its faces, dilated. */
-static double thickness(const fl_poly *p, double radius)
+/* Thickness of a dilated body: smallest extent along the normals of its faces. */
+static double thickness_of(const fl_poly *p, double radius)
 {
-    double least = p->nf ? INFINITY : 0.0;
+    double smallest = p->nf ? INFINITY : 0.0;
     for (int32_t f = 0; f < p->nf; f++) {
         double lo = INFINITY, hi = -INFINITY;
         for (int32_t v = 0; v < p->nv; v++) {
             const double h = v3_dot(p->n[f], p->v[v]);
             lo = fmin(lo, h), hi = fmax(hi, h);
         }
-        least = fmin(least, hi - lo);
+        smallest = fmin(smallest, hi - lo);
     }
-    return least + 2.0 * radius;
+    return smallest + 2.0 * radius;
 }
 
-/* Two bodies that each move by less than they are thick do not pass each other between two looks. */
+/* Two bodies that move by less than their thickness in a step cannot pass each other. */
 void warn_at_row(struct run *r, double t)
 {
     const fl_world *w = r->w;
-    for (int32_t i = 0; i < w->n && !r->swift; i++) {
-        const double way = w->dt * v3_norm(w->b.v[i]);
-        if (!(way > 2.0 * w->b.radius[i]) || fl_body_absent(w, i)) continue;
-        const double thick = thickness(&w->b.core[i], w->b.radius[i]);
-        if (!(way > thick) || isinf(way)) continue;
-        r->swift = 1;
+    for (int32_t i = 0; i < w->n && !r->warned_fast; i++) {
+        const double distance = w->dt * v3_norm(w->b.v[i]);
+        if (!(distance > 2.0 * w->b.radius[i]) || fl_body_absent(w, i)) continue;
+        const double body_thickness = thickness_of(&w->b.core[i], w->b.radius[i]);
+        if (!(distance > body_thickness) || isinf(distance)) continue;
+        r->warned_fast = 1;
         fprintf(
             stderr,
             "dem-solve: warning: body %d moves by %.3g m in a step at t = %.6g s and is %.3g m thick: it may "
-            "pass through what is thin; a shorter run.dt is wanted\n",
-            w->id[i], way, t, thick);
+            "pass through thin bodies; use a shorter run.dt\n",
+            w->id[i], distance, t, body_thickness);
     }
 }
 
@@ -200,40 +201,43 @@ static void warn_energy(const fl_world *w)
 {
     if (!fl_energy_unbalanced(w)) return;
     fprintf(stderr,
-            "dem-solve: warning: the energy balance is off by %.2g of the throughput (%.3g J of %.3g J), and "
-            "above %g the loads should not be used: a shorter step or another contact.law is wanted\n",
+            "dem-solve: warning: the energy residual is %.2g of the throughput (%.3g J of %.3g J); above %g "
+            "the loads should not be used: use a shorter step or another contact.law\n",
             fl_energy_error(w), w->ledger.residual, w->ledger.throughput, FL_ENERGY_ERROR_USABLE);
 }
 
-/* An error that was asked for and is not kept is told: no shorter step need do any better. */
+/* The goal of run.error is not reached; a shorter step need not help. */
 static void warn_budget(const struct run *r)
 {
-    double apart;
+    double difference;
     const fl_error_budget *g = r->budget;
-    const double off = fl_error_budget_run_error(g, &apart), windows = fl_error_budget_estimate(g, r->w->dt);
+    const double error = fl_error_budget_run_error(g, &difference),
+                 windows = fl_error_budget_estimate(g, r->w->dt);
     if (!isfinite(windows))
         fprintf(
             stderr,
-            "dem-solve: warning: run.error: windows fail in any step that was tried, and nothing is known "
-            "of what the loads are off by: another contact.law, stiffer contacts or bodies that do not "
-            "begin in one another are wanted\n");
+            "dem-solve: warning: run.error: windows fail with every step that was tried, and the error of "
+            "the "
+            "loads is unknown: use another contact.law, stiffer contacts, or bodies that do not overlap at "
+            "the start\n");
     else if (windows > FL_COMPANION_TOLERANCE * g->goal)
         fprintf(stderr,
-                "dem-solve: warning: run.error: %.2g was asked for, and windows are off by about %.2g in any "
-                "step "
-                "that was tried: what meets in them parts faster than a step can tell; shorter rows "
-                "(output.loads_every) are shorter windows\n",
+                "dem-solve: warning: run.error: the goal is %.2g, and the error of windows is about %.2g "
+                "with every "
+                "step that was tried: states diverge within a window; shorter rows (output.loads_every) make "
+                "shorter windows\n",
                 g->goal, windows);
     if (g->companion.exceeded_since < 0.0) return;
-    fprintf(stderr,
-            "dem-solve: warning: run.error: %.2g was asked for, and the load as a whole is off by about %.2g "
-            "from t = %.4g s on: hits make more of what any step is off by, so that it holds for the time "
-            "from one to the next alone; of such a load the mean of several runs is what can be told\n",
-            g->goal, off, g->companion.exceeded_since);
+    fprintf(
+        stderr,
+        "dem-solve: warning: run.error: the goal is %.2g, and the error of the whole load is about %.2g from "
+        "t = %.4g s on: impacts amplify the error of any step, so the goal holds between two impacts only; "
+        "use the mean load of several runs\n",
+        g->goal, error, g->companion.exceeded_since);
 }
 
-/* Whether gravity g pulls body i away from all there is for good, and has by its own size. */
-static int falls(const fl_world *w, int32_t i, double g)
+/* 1 if gravity g has accelerated body i over its own size, away from everything. */
+static int is_falling(const fl_world *w, int32_t i, double g)
 {
     const fl_bodies *b = &w->b;
     const fl_vec3 down = v3_scale(1.0 / g, w->gravity);
@@ -243,24 +247,25 @@ static int falls(const fl_world *w, int32_t i, double g)
         if (v3_dot(v3_sub(b->x[i], b->x[k]), down) <=
             b->bounding_radius[i] + b->bounding_radius[k] + b->radius[i])
             return 0;
-    for (int32_t k = w->pieces; k < w->structure.n; k++) /* a wall that it goes towards */
+    for (int32_t k = w->pieces; k < w->structure.n; k++) /* a wall below it */
         if (v3_dot(q_rotate(w->structure.piece[k].q, v3(0, 0, 1)), down) < -0.1) return 0;
     return 1;
 }
 
-/* Whoever forgets the water is told: floes fall through all of a run, and its loads are those of none. */
+/* Without water floes fall for the whole run, and the loads are worthless. */
 static void warn_fallen(const fl_world *w)
 {
     const double g = v3_norm(w->gravity);
-    int32_t many = 0, first = 0;
+    int32_t n_falling = 0, first = 0;
     if (w->sea.water || w->cell.periodic || !(g > 0.0)) return;
     for (int32_t i = w->n - 1; i >= 0; i--)
-        if (falls(w, i, g)) many++, first = w->id[i];
-    if (many)
+        if (is_falling(w, i, g)) n_falling++, first = w->id[i];
+    if (n_falling)
         fprintf(stderr,
-                "dem-solve: warning: %d of %d bodies fall in the end, and there is nothing below them, first "
-                "body %d: a section [water], a wall of [boundary] or gravity = 0 may be wanted\n",
-                many, w->n, first);
+                "dem-solve: warning: %d of %d bodies fall at the end with nothing below them, first body %d: "
+                "is a "
+                "section [water], a wall of [boundary] or gravity = 0 missing?\n",
+                n_falling, w->n, first);
 }
 
 void warn_at_end(const struct run *r, int failed)
@@ -268,5 +273,5 @@ void warn_at_end(const struct run *r, int failed)
     if (!failed) warn_fallen(r->w);
     warn_overlapped(r->w);
     if (!failed && r->budget) warn_budget(r);
-    if (!failed) warn_energy(r->w); /* else the failure has been told */
+    if (!failed) warn_energy(r->w); /* else the failure is reported */
 }

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "table_rows.h"
+#include "contact/bond_list.h"
+#include "contact/pair_geometry.h"
+#include "contact/panel_load.h"
+#include "out/frames.h"
+#include "out/tables.h"
+#include "sim/energy_balance.h"
+#include "sim/moving_structure.h"
+#include "sphere/contact_list.h"
+
+fl_poses poses_of(const struct run *r)
+{
+    return (fl_poses){&r->w->b, r->w->id, r->w->q0, r->order, &r->w->cell, r->w->inflow.absent};
+}
+
+static int32_t bodies_touching(const fl_world *w, int32_t part)
+{
+    int32_t touching = 0;
+    for (int32_t k = 0; k < w->pieces; k++) {
+        const int32_t j = w->n + k;
+        if (w->structure.piece[k].part != part) continue;
+        for (int64_t c = w->first_pair_of_body[j]; c < w->first_pair_of_body[j + 1]; c++)
+            touching += w->pair[w->pairs_of_body[c]].touching > 0;
+    }
+    return touching;
+}
+
+void write_loads(struct run *r, FILE *f, double t, double interval)
+{
+    fl_world *w = r->w;
+    const enum fl_loads_motion_kind moving = fl_motion_columns(w);
+    for (int32_t p = 0; p < w->parts; p++) {
+        fl_loads_row row = {.part = r->surface->part[p].name,
+                            .force = v3_scale(1.0 / interval, w->part_impulse[p]),
+                            .moment = v3_scale(1.0 / interval, w->part_moment[p]),
+                            .peak = w->part_peak[p],
+                            .contacts = bodies_touching(w, p)};
+        if (moving) fl_part_motion(w, p, t, &row.motion);
+        fl_table_write_row(f, &fl_loads_table, moving, t, &row);
+        w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
+        w->part_peak[p] = 0.0;
+    }
+}
+
+/* Panels are numbered within their part; their centroids move with it. */
+void write_panels(struct run *r, FILE *f, double t, double interval)
+{
+    fl_world *w = r->w;
+    const fl_panel_loads *s = &w->panel_load;
+    for (int32_t k = 0; k < s->panels; k++) {
+        const fl_load_panel *p = &s->panel[k];
+        if (!(p->area > 0.0)) continue; /* a triangle without area has no pressure */
+        fl_panels_row row = {.panel = {r->surface->part[p->part].name, k - s->first[p->part] + 1},
+                             .centroid = p->centroid,
+                             .area = p->area,
+                             .force = v3_scale(1.0 / interval, s->impulse[k])};
+        if (w->moving.movers.n && w->moving.mover_of_part[p->part] >= 0)
+            row.centroid = fl_part_point(w, p->part, p->centroid);
+        fl_table_write_row(f, &fl_panels_table, 0, t, &row);
+    }
+    fl_panels_end_interval(w);
+}
+
+/* A row of contacts: `force` acts on body i. */
+static void write_contact(FILE *f, double t, int32_t i, int32_t j, const fl_contact *c, fl_vec3 force)
+{
+    const double normal = v3_dot(force, c->n);
+    const fl_contacts_row row = {.i = i,
+                                 .j = j,
+                                 .mode = fl_mode_name(c->mode),
+                                 .gap = c->gap,
+                                 .n = c->n,
+                                 .p = c->p,
+                                 .length = c->length,
+                                 .area = c->area,
+                                 .normal = normal,
+                                 .tangential = v3_madd(force, -normal, c->n)};
+    fl_table_write_row(f, &fl_contacts_table, 0, t, &row);
+}
+
+void write_events(struct run *r, FILE *f, double t, double interval)
+{
+    fl_world *w = r->w;
+    for (int32_t k = 0; k < w->panel_load.events; k++) {
+        const fl_load_event *e = &w->panel_load.event[k];
+        const fl_vec3 force = v3_scale(-1.0 / interval, e->impulse); /* on the floe */
+        fl_contact c = {.gap = -e->max_overlap, .n = v3_unit(e->normal_impulse)};
+        if (e->impulse_sum > 0.0) {
+            c.p = v3_scale(1.0 / e->impulse_sum, e->impulse_point);
+            c.area = e->impulse_area / e->impulse_sum;
+        }
+        if (!(v3_norm2(c.n) > 0.5)) c.n = v3_unit(force);
+        if (!(v3_norm2(c.n) > 0.5)) continue; /* no force at all */
+        write_contact(f, t, e->id, -1 - e->part, &c, force);
+    }
+    fl_events_end_interval(w);
+}
+
+void write_state(struct run *r, FILE *f, double t, double interval)
+{
+    const fl_poses now = poses_of(r);
+    (void)interval;
+    fl_state_write_rows(f, t, &now);
+}
+
+void write_energy(struct run *r, FILE *f, double t, double interval)
+{
+    (void)interval;
+    fl_energy_update(r->w);
+    fl_table_write_row(f, &fl_energy_table, fl_energy_table_options(r->w), t, &r->w->ledger);
+}
+
+void write_contacts(struct run *r, FILE *f, double t, double interval)
+{
+    fl_world *w = r->w;
+    fl_pair_iterator at = {.w = w};
+    (void)interval;
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
+        fl_contact k;
+        if (p->touching == 0 || !fl_pair_probe(w, p, 0.0, &k)) continue;
+        write_contact(f, t, w->id[p->i], fl_world_id(w, p->j), &k, p->force);
+    }
+}
+
+void write_near_pairs(struct run *r, FILE *f, double within)
+{
+    fl_world *w = r->w;
+    fl_pair_iterator at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
+        fl_contact k;
+        if (!fl_pair_probe(w, p, within, &k)) continue;
+        fl_contacts_row row = {.i = w->id[p->i],
+                               .j = fl_world_id(w, p->j),
+                               .mode = fl_mode_name(k.mode),
+                               .gap = k.gap,
+                               .n = k.n,
+                               .p = k.p,
+                               .length = k.length,
+                               .area = k.area};
+        fl_table_write_row(f, &fl_contacts_table, 0, 0.0, &row);
+    }
+}
+
+void write_hash(struct run *r, FILE *f, double t, double interval)
+{
+    const fl_hash_row row = {fl_state_hash(r->w)};
+    (void)interval;
+    fl_table_write_row(f, &fl_hash_table, 0, t, &row);
+}
+
+void write_bonds(struct run *r, FILE *f, double t, double interval)
+{
+    static const char *const STATE[] = {"whole", "damaged", "broken", "ended"};
+    const fl_world *w = r->w;
+    (void)interval;
+    for (int32_t k = 0; k < w->bonds.n; k++) {
+        const fl_bond *c = &w->bonds.bond[k];
+        const fl_bond_load q = fl_bond_list_load(w, k);
+        if (fl_body_absent(w, c->i) || fl_body_absent(w, c->j)) continue;
+        const fl_bonds_row row = {.i = w->id[c->i],
+                                  .j = w->id[c->j],
+                                  .state = STATE[c->state],
+                                  .damage = fl_bond_mean_damage(c),
+                                  .tension = q.tension,
+                                  .shear = q.shear,
+                                  .moment = q.moment,
+                                  .area = c->area,
+                                  .x = q.x};
+        fl_table_write_row(f, &fl_bonds_table, 0, t, &row);
+    }
+}
+
+/* 1 if the structure as a whole translates: frames then have its displacement, else the pose of each part. */
+static int only_translates(const fl_world *w)
+{
+    return w->moving.movers.n == 1 && w->scene->n_part == 0 && fl_motion_columns(w) == FL_LOADS_TRANSLATION;
+}
+
+static fl_vec3 displacement_of(const fl_world *w)
+{
+    if (!only_translates(w)) return v3(0, 0, 0);
+    return v3_sub(w->moving.movers.b.x[0], w->moving.movers.motion[0].reference);
+}
+
+static void write_part_poses(const struct run *r, FILE *f)
+{
+    const fl_rigid_motions *v = &r->w->moving.movers;
+    if (v->n == 0 || only_translates(r->w)) return;
+    for (int32_t p = 0; p < r->w->parts; p++) {
+        const int32_t m = r->w->moving.mover_of_part[p];
+        if (m < 0) continue;
+        fl_frames_part_pose(f, r->surface->part[p].id,
+                            v3_sub(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v->motion[m].reference)),
+                            v->b.q[m]);
+    }
+}
+
+void write_frame(const struct run *r, FILE *f, double t, int ice, int64_t since)
+{
+    const fl_inflow_state *in = &r->w->inflow;
+    const fl_poses now = poses_of(r);
+    for (int32_t i = 0; i < r->w->n && since >= 0; i++)
+        if (!in->absent[i] && in->entry_step[i] > 0 && in->entry_step[i] >= since)
+            fl_frames_shape(f, &now, i);
+    fl_frames_frame(f, t, &now, displacement_of(r->w), ice);
+    write_part_poses(r, f);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* table_rows.h -- the rows of each table, from the state of the world at time t. */
+#ifndef DEM_SOLVE_TABLE_ROWS_H
+#define DEM_SOLVE_TABLE_ROWS_H
+#include "out/poses.h"
+#include "run_context.h"
+
+/* The bodies in the order of the tables. */
+fl_poses poses_of(const struct run *r);
+
+/* interval: length of the interval that ends at t; its sums are cleared. */
+void write_loads(struct run *r, FILE *f, double t, double interval);
+void write_panels(struct run *r, FILE *f, double t, double interval);
+void write_events(struct run *r, FILE *f, double t, double interval);
+
+void write_state(struct run *r, FILE *f, double t, double interval);
+void write_energy(struct run *r, FILE *f, double t, double interval);
+void write_contacts(struct run *r, FILE *f, double t, double interval);
+void write_hash(struct run *r, FILE *f, double t, double interval);
+void write_bonds(struct run *r, FILE *f, double t, double interval);
+
+/* The contacts of all pairs nearer than `within` [m], with force 0: --probe. */
+void write_near_pairs(struct run *r, FILE *f, double within);
+
+/* One frame; shapes of floes that came in from step `since` on first, -1: none. */
+void write_frame(const struct run *r, FILE *f, double t, int ice, int64_t since);
+
+#endif

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/array.h"
+#include "base/stream.h"
+#include "stat/power_spectrum.h"
+#include "stat/resample.h"
+#include "analyse_record.h"
+#include "history_line.h"
+#include "html_report.h"
+#include "plot.h"
+#include "table_kind.h"
+
+/* --- views ---------------------------------------------------------------------------------------------- */
+
+/* One view of a signal, where the signal exists for the part. */
+static int make_view(fl_signal_view *v, const fl_series *s, const struct options *o, int each, int64_t k,
+                     fl_err *err)
+{
+    const int32_t pair = (int32_t)(k / each), part = pair / s->signals, signal = pair % s->signals;
+    const fl_signal_view_settings settings = {.filter = k % each ? o->filter : 0.0,
+                                              .upper = o->upper,
+                                              .kind = o->filter_kind,
+                                              .order = o->order,
+                                              .ratio = o->separation,
+                                              .threshold = o->threshold,
+                                              .quantiles = o->quantiles,
+                                              .p = o->quantile};
+    if (!s->x[pair]) return 0;
+    return fl_signal_view_make(v, s, part, signal, &settings, err);
+}
+
+/* Views are independent.  The reported failure is that of the first view, for any order of the threads. */
+static int make_views(fl_signal_view *v, const fl_series *s, const struct options *o, int each, fl_err *err)
+{
+    const int64_t n = (int64_t)s->parts * s->signals * each;
+    int64_t failed = n;
+#pragma omp parallel for schedule(dynamic)
+    for (int64_t k = 0; k < n; k++) {
+        fl_err own = {0};
+        if (make_view(&v[k], s, o, each, k, &own) == 0) continue;
+#pragma omp critical
+        if (k < failed) {
+            failed = k;
+            *err = own;
+        }
+    }
+    return failed < n ? -1 : 0;
+}
+
+static void print_notes(const fl_series *s, const struct options *o)
+{
+    if (o->quiet) return;
+    const double span = s->edge[s->n] - s->edge[0];
+    if (o->verbose)
+        fprintf(stderr, "loadstats: %d rows from %.10g s to %.10g s\n", s->n, s->edge[0], s->edge[s->n]);
+    if (o->skips)
+        fprintf(stderr, "loadstats: dropped until %.10g s, when the ice front has passed %g diameters\n",
+                s->edge[0], o->skip[0]);
+    if (o->filter > 0.0 && o->filter_kind != FL_FILTER_MEAN &&
+        fl_resample_common_interval(s->n, s->edge) <= 0.0)
+        fprintf(stderr,
+                "loadstats: the intervals are not equal, the filter works on %d equal ones of %.10g s\n",
+                s->n, span / s->n);
+}
+
+/* --- table, pictures, report ---------------------------------------------------------------------------- */
+
+static void write_intro(FILE *f, const void *what)
+{
+    const struct record_views *r = what;
+    const fl_series *s = r->series;
+    double share = 0.0;
+    fprintf(f, "%d rows of the %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
+    if (strcmp(s->kind, "loads") == 0)
+        fputs(" A row is the mean over its interval; every mean is the impulse divided by the time.", f);
+    for (int64_t k = 0; r->loss && k < (int64_t)s->parts * s->signals; k++) {
+        const fl_signal_view *v = &r->views[k * r->view_count];
+        if (v->n && v->stats.std > 0.0)
+            share = fmax(share, r->loss[k].rms / hypot(r->loss[k].rms, v->stats.std));
+    }
+    if (r->loss)
+        fprintf(
+            f,
+            " The record was resampled to equal steps, which removes up to %.3g %% of a standard deviation.",
+            100.0 * share);
+    if (r->view_count > 1)
+        fputs(" The raw view is shown beside the filtered one, because a filter hides spikes.", f);
+}
+
+/* The loss of --step stands above the column names. */
+static void write_loss(FILE *f, const struct record_views *r, const struct options *o)
+{
+    for (int32_t p = 0; r->loss && p < r->series->parts; p++) {
+        for (int32_t s = 0; s < r->series->signals; s++) {
+            const fl_resampling_loss *l = &r->loss[(int64_t)p * r->series->signals + s];
+            if (!find_view(r, p, s, 0)) continue;
+            fprintf(f, "# steps of %g s: %s of %s loses %.6g rms, %.6g at most\n", o->step,
+                    r->series->signal[s], r->series->part[p], l->rms, l->largest);
+        }
+    }
+}
+
+static int write_table(FILE *f, const void *what, const struct options *o, fl_err *err)
+{
+    const struct record_views *r = what;
+    const struct table *t = o->table;
+    const int32_t parts = r->series->parts, signals = r->series->signals;
+    fl_history_line by;
+    history_line_run(o, &by);
+    fl_write_file_header(f, t->name, 1, r->series->history, &by);
+    write_loss(f, r, o);
+    table_write_columns(f, o);
+    for (int32_t k = 0; k < parts * signals; k++) {
+        const int32_t p = t->by_signal ? k % parts : k / signals, s = t->by_signal ? k / parts : k % signals;
+        if (!find_view(r, p, s, 0)) continue;
+        if (t->signal_rows && t->signal_rows(f, r, o, p, s, err)) return -1;
+        for (int w = 0; t->view_rows && w < r->view_count; w++)
+            if (t->view_rows(f, r, o, p, s, w, err)) return -1;
+    }
+    return 0;
+}
+
+static int draw_pictures(const void *what, const struct options *o, fl_err *err)
+{
+    fl_history_line by;
+    history_line_run(o, &by);
+    return plot_record(what, o, &by, err);
+}
+
+static int write_report(const struct record_views *r, const struct options *o, fl_err *err)
+{
+    const fl_series *s = r->series;
+    const report_source from = {.what = r,
+                                .title = strcmp(s->kind, "loads") == 0 ? "Ice loads" : "Statistics",
+                                .history = s->history,
+                                .legs = s->parts > 2,
+                                .spectra = s->n >= FL_SPECTRUM_SHORTEST_SEGMENT,
+                                .span = s->edge[s->n] - s->edge[0],
+                                .intro = write_intro,
+                                .table = write_table,
+                                .draw = draw_pictures};
+    return html_report_write(&from, o, err);
+}
+
+int analyse_record(const struct options *o, fl_err *err)
+{
+    fl_series s = {0};
+    fl_signal_view *views = NULL;
+    fl_resampling_loss *loss = NULL;
+    fl_out out = {0};
+    const int each = o->filter > 0.0 ? 2 : 1;
+    const fl_record_selection selection = {.signal = o->signal,
+                                           .signals = o->signals,
+                                           .part = o->part,
+                                           .from = settings_from(o),
+                                           .to = o->to,
+                                           .last = o->window,
+                                           .after_first_load = settings_after_first_load(o),
+                                           .reduction = o->over,
+                                           .where = o->where,
+                                           .wheres = o->wheres};
+    int rc = -1;
+    int64_t n = 0;
+    if (o->threads) omp_set_num_threads(o->threads);
+    if (fl_series_read(&s, o->in, &selection, err)) goto done;
+    loss = fl_alloc((int64_t)s.parts * s.signals, sizeof *loss, err);
+    if (!loss || (o->step > 0.0 && fl_resample_uniform(&s, o->step, loss, err))) goto done;
+    n = (int64_t)s.parts * s.signals * each;
+    views = fl_alloc(n, sizeof *views, err);
+    if (!views || make_views(views, &s, o, each, err)) goto done;
+    print_notes(&s, o);
+    const struct record_views r = {&s, views, each, o->step > 0.0 ? loss : NULL};
+    if (fl_out_open(&out, o->out, o->gzip, err) || write_table(out.f, &r, o, err) || fl_out_close(&out, err))
+        goto done;
+    if (o->plot && draw_pictures(&r, o, err)) goto done;
+    rc = o->report ? write_report(&r, o, err) : 0;
+done:
+    fl_out_abort(&out);
+    for (int64_t k = 0; views && k < n; k++) fl_signal_view_free(&views[k]);
+    free(views);
+    free(loss);
+    fl_series_free(&s);
+    return rc;
+}
