@@ -4,7 +4,8 @@
  *     near      0.15 mm to 0.6 m apart, as the gaps of a field of 80 %
  *     flush     standing on one plane, side face to side face
  *     touching  the dilated shapes overlap by 5 % of the radii
- *     large     two ellipsoids of growing vertex counts, rotating past each other by 1e-4 rad per frame: warm along their edges, cold, and warm over all vertices
+ *     large     two ellipsoids of growing vertex counts, rotating past each other by 1e-4 rad per frame:
+ *               warm along their edges, cold, and warm over all vertices
  * Errors of `large`: distance less the gap between the planes normal to the direction found, in long
  * double, which is no less than the true error.  Other errors: largest error of distance (or depth of the
  * dilated shapes) against brute force in long double [m], and of the direction [rad].  Times are thread

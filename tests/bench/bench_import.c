@@ -439,7 +439,7 @@ static int measure_format(const struct format *k, const struct torus *t, double 
     return gib < LIMIT && error < 1e-8 /* the table prints nine digits */ && parts->crossings == 0;
 }
 
-/* A cone with a tip and a base: every sliver of its side lies in the bounding boxes of thousands of others. */
+/* A cone with a tip and a base: each sliver of its side lies in the bounding boxes of thousands. */
 static int measure_cone(int n, const char *stem, struct parts *parts)
 {
     char mesh[PATH + 20], out[PATH + 20], log[PATH + 20];

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* bench_parse.c -- speed of reading a table of decimal text, with the error of the numbers, and `wc -l` on
  * the same file in the same run.  The table is a loads table of 10 columns whose numbers have 15 to 17
- * digits.  Rates are of text over elapsed time, the best of a few rounds; compare them within one run only. */
+ * digits.  Rates are of text over elapsed time, the best of a few rounds; compare them within one
+ * run only. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,11 +2,12 @@
 /* bench_scale.c -- cost of a contact, a body and a search among 1 000, 10 000 and 100 000 floes at 80 %,
  * dry, which eddies have stirred for the same time, until there is a contact for five floes: law patch, one
  * thread.
- *     ns a contact   all contacts once, in the order of a step and after a step, with the cache as the bodies have left it; pairs that do not touch sleep then and are skipped
+ *     ns a contact   all contacts once, in the order of a step and after a step, with the
+ *                    cache as the bodies have left it; pairs that do not touch sleep then and are skipped
  *     emptied        the same with the cache filled with other data
  *     ns a body      the rest of a step; it includes evaluations of pairs that came near
  *     ns a search    all of a search, per body: boxes, near pairs, their lists
- *     bytes          the lists of a search, of a floe with its pairs
+ *     bytes          permanent memory of a floe with its pairs
  *     over           ns a contact over that of the first row
  * Further columns: energy residual over the throughput, largest overlap, hash of the state.  Rows take
  * turns.  Times are processor times and the least of all turns; that of a body is the median of

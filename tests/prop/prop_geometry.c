@@ -99,7 +99,7 @@ static double cut_tolerance(const fl_poly *p, fl_vec3 n, double c, double volume
     return (vertex_beside_plane(p, n, c) ? 1e-9 : 1e-14) * p->size * area_of(p) / volume;
 }
 
-/* The two parts of a cut add up to the whole: volume, first and second moments, surface less twice the cut. */
+/* The parts of a cut add up to the whole: volume, first and second moments, surface less twice the cut. */
 static void parts_add_up_to_the_whole(void **state)
 {
     (void)state;

@@ -125,7 +125,7 @@ static void every_contact_is_detected(void **state)
     for (int sea = DRY; sea <= WAVES; sea += 1 + (sea == STILL)) {
         lab l;
         make_floes(&l, (enum sea)sea, 1.2, 0.5, test_seed() + (uint64_t)sea, 1e-4);
-        for (int look = 0; look < 24; look++) {
+        for (int sample = 0; sample < 24; sample++) {
             uint8_t live[FLOES][FLOES] = {{0}};
             assert_int_equal(lab_run(&l, 41), 0);
             for (int32_t c = 0; c < l.w.n_touching; c++) {

@@ -172,11 +172,11 @@ static void a_summary_agrees_with_the_record(void **state)
         if (fl_series_read(&s, path, &ask, &err)) { /* a record too short for the filter */
             assert_int_equal(err.code, FL_INPUT);
             fl_run r = {0};
-            fl_err told = {0};
-            assert_int_equal(fl_run_open(&r, path, &ask, &how, &told), 0);
-            assert_int_equal(fl_run_next(&r, &told), 0);
-            assert_int_equal(fl_run_finish(&r, "", &told), -1);
-            assert_int_equal(told.code, FL_INPUT);
+            fl_err refusal = {0};
+            assert_int_equal(fl_run_open(&r, path, &ask, &how, &refusal), 0);
+            assert_int_equal(fl_run_next(&r, &refusal), 0);
+            assert_int_equal(fl_run_finish(&r, "", &refusal), -1);
+            assert_int_equal(refusal.code, FL_INPUT);
             fl_run_close(&r);
             err = (fl_err){0};
             unlink(path);

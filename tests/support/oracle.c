@@ -55,7 +55,7 @@ real oracle_room(const fl_solid *a, const fl_solid *b, fl_vec3 n)
 
 typedef struct {
     const fl_solid *a, *b;
-    int pass; /* 0 searches the least distance, 1 the direction among the nearest pairs, 2 the direction closest to n */
+    int pass; /* search: 0 least distance, 1 direction of the nearest pairs, 2 direction closest to n */
     int thorough;
     real least2, near2, best_room, best_slack, unsure, off;
     real_vec3 n;

@@ -26,7 +26,7 @@ void scene_of_surrogates(lab *l, int32_t side, const char *law);
 /* Spheres of two sizes in such a cell, one body in nine a box; laws as above. */
 void scene_of_spheres(lab *l, int32_t side, const char *law);
 
-/* side + 1 by side by side - 1 boxes and spheres that are bonded and break apart at once; periodic along x. */
+/* side + 1 by side by side - 1 boxes and spheres bonded and breaking apart at once; periodic along x. */
 void scene_of_bonds(lab *l, int32_t side, const char *law);
 
 /* The same without boundaries along x: floes leave there at once, and copies of the field flow in. */

@@ -31,7 +31,7 @@ void lab_wall(lab *l, fl_vec3 lo, fl_vec3 hi, int n);
 void lab_cone(lab *l, fl_cone c);
 /* A part that is an upright prism over any simple polygon (counter-clockwise, z ignored). */
 void lab_prism(lab *l, int n, const fl_vec3 *xy, double z0, double z1);
-/* Builds the world and sets the step: dt > 0, or 0 for the automatic one.  The state is then that of t = 0. */
+/* Builds the world and sets the step: dt > 0, or 0: automatic.  Then the state is that of t = 0. */
 void lab_make(lab *l, double dt);
 /* Runs steps; returns 0, or the code of the error that ended them. */
 int lab_run(lab *l, int64_t steps);

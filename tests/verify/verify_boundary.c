@@ -95,7 +95,7 @@ static void oscillate_on_floor(void)
     lab_free(&l);
 }
 
-/* Boxes, needles and spheres that tumble between elastic walls keep their energy, with an error of order 2. */
+/* Boxes, needles and spheres that tumble between elastic walls keep their energy; its error is of order 2. */
 static void tumble_between_walls(void)
 {
     enum { STEPS = 3 };
@@ -394,7 +394,7 @@ static void unobstructed_inflow(void)
 {
     const double speed = 1.0;
     double tile = 0.0, covered = 0.0;
-    int64_t looks = 0;
+    int64_t samples = 0;
     int32_t most = 0;
     lab l;
     make_sheet(&l, speed);
@@ -407,7 +407,7 @@ static void unobstructed_inflow(void)
         for (int32_t i = 0; i < l.w.n; i++)
             if (!fl_body_absent(&l.w, i) && fabs(l.w.b.x[i].x) <= 20.0) covered += l.w.b.m[i] / (900.0 * 0.5);
         most = fl_floes_in_domain(&l.w) > most ? fl_floes_in_domain(&l.w) : most;
-        looks++;
+        samples++;
     }
     const fl_inflow_state *t = &l.w.inflow;
     verify_note("%lld floes came in and %lld left in 300 s; %d at a time, capacity %d",
@@ -416,7 +416,7 @@ static void unobstructed_inflow(void)
     verify_row("B04", "mass that came in per time, over speed x concentration x width x thickness x density",
                t->mass_entered / fl_world_time(&l.w) / flux, 1.0, 1.0 / (20.0 * ALONG), VERIFY_ABS);
     verify_row("B04", "concentration in the long run over that of the sheet",
-               covered / (double)looks / (40.0 * WIDTH) / (area / (PITCH * WIDTH)), 1.0, 1e-3, VERIFY_ABS);
+               covered / (double)samples / (40.0 * WIDTH) / (area / (PITCH * WIDTH)), 1.0, 1e-3, VERIFY_ABS);
     verify_row("B04", "floes that could not enter because of an overlap", (double)t->n_blocked, 0, 0,
                VERIFY_ABS);
     verify_below("B04", "nothing touches: energy of contacts [J]",
@@ -522,7 +522,8 @@ static double residual_against_cylinder(double dy, double safety, double seconds
 /* Energy balance of the sheet.  The push of a sheet has no limit, and the floes that it jams against the
  * cylinder overlap core in core, where the energy has a kink: the order is not exactly 2.  The residual of
  * one run is a matter of chance: a shift of a millimetre changes it by a factor of three.  So the root mean
- * square of several runs is compared; over forty runs, at half of the default step, it is 3.5e-6 to 3.8e-6. */
+ * square of several runs is compared; over forty runs, at half of the default step, it is 3.5e-6 to
+ * 3.8e-6. */
 static void sheet_against_cylinder(void)
 {
     enum { STEPS = 3, NEIGHBOURS = 5 };

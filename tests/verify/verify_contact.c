@@ -592,7 +592,7 @@ static void box_on_slope(void)
     lab_run(&l, 20000);
     const double settled = l.w.b.x[0].x;
     lab_run(&l, steps);
-    /* k_t is `tangential` times the normal stiffness of the contact: at least that of the face, 2 c sqrt(A) */
+    /* k_t is tangential_ratio times the normal stiffness: at least that of the face, 2 c sqrt(A) */
     const fl_pair *p = l.w.pair[0].contact;
     const double kt = 2.0 * p->k * sqrt(1.8 * 0.8) * p->law->tangential_ratio,
                  bound = mu * 900 * 2 * G * cos(angle) / kt + 1e-6;

@@ -224,7 +224,7 @@ static void wave_through_row(void)
         }
         if (pass == 0) lab_free(&l);
     }
-    /* the faces in contact are those of 1.9 x 1.8 m of the core; patch has k sqrt(a/A) between faces a of A */
+    /* faces in contact: 1.9 x 1.8 m of the core; patch has k sqrt(a/A) between faces a of A */
     const double k = k_face * sqrt(1.9 * 1.8 / (1.9 * 1.9)), fastest = sqrt(k / l.w.b.m[0]);
     const double speed = (N - 2 - N / 2) / (arrived[N - 2] - arrived[N / 2]);
     verify_row("H27", "stress wave through a row: floes per second", speed, fastest, 0.05, VERIFY_REL);

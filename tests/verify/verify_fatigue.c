@@ -107,7 +107,7 @@ static void cyclic_record(void)
     verify_below("F20", "repeated residue: damage against the cut", worst, 1e-13);
 }
 
-/* Constant amplitude: n cycles of range S do damage n / N(S) on either side of a knee, and N is continuous. */
+/* Constant amplitude: n cycles of range S do damage n / N(S) on both sides of a knee; N is continuous. */
 static void constant_amplitude(void)
 {
     /* EN 1993-1-9, category 71: 2e6 cycles at 71 MPa, slopes 3 and 5, knee at 5e6, cut-off at 1e8 cycles. */

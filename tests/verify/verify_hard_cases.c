@@ -477,7 +477,7 @@ static void contact_after_bond(int round)
             last = f;
             seen[c->state] = 1;
             if (c->state == was || c->state != FL_BOND_ENDED) continue;
-            /* here the contact replaces the bond: no force may act, neither now nor at its first evaluation */
+            /* here the contact replaces the bond: no force may act now or at its first evaluation */
             const fl_vec3 v = l.w.b.v[1];
             l.w.b.v[1] = ZERO;
             if (lab_run(&l, 2)) exit(1);

@@ -384,7 +384,7 @@ static void galilean_invariance(void)
         impulse[k] = l.w.part_impulse[0];
         lab_free(&l);
     }
-    verify_row("told", "relative change of the impulse by the frame",
+    verify_row("frame", "relative change of the impulse by the frame",
                v3_norm(v3_sub(impulse[1], impulse[0])) / v3_norm(impulse[0]), 0.0, 1e-9, VERIFY_ABS);
 }
 
@@ -472,22 +472,22 @@ static double drive_through_ice(double safety, int spin)
 
 static void ledger_of_moving_structure(void)
 {
-    double h[3], sprung[3], damped[3], told_to[3];
+    double h[3], sprung[3], damped[3], prescribed[3];
     const double closed = 5e-6; /* of the throughput, at the automatic step */
     verify_note("eight floes with restitution 0.4 and the box: residual of the ledger over the throughput");
     for (int k = 0; k < 3; k++) {
         h[k] = 0.2 / (1 << k);
         sprung[k] = rms_residual(h[k], 0);
         damped[k] = rms_residual(h[k], 1);
-        told_to[k] = drive_through_ice(h[k], 0);
+        prescribed[k] = drive_through_ice(h[k], 0);
     }
     verify_below("ledger", "on springs, 6 degrees of freedom, automatic step", sprung[1], closed);
     verify_order("ledger", "on springs", h, sprung, 3, 2.0, 0.5);
     verify_below("ledger", "damped, its anchor moving, automatic step", damped[1], closed);
     verify_order("ledger", "damped, its anchor moving", h, damped, 3, 2.0, 0.5);
     /* of either sign, for no loss has one sign here */
-    verify_below("ledger", "prescribed motion, automatic step", told_to[1], closed);
-    verify_below("ledger", "told to go, half of it", told_to[2], 0.5 * closed);
+    verify_below("ledger", "prescribed motion, automatic step", prescribed[1], closed);
+    verify_below("ledger", "prescribed motion, half of it", prescribed[2], 0.5 * closed);
     /* here cores overlap for a while, where the energy has a kink */
     verify_below("ledger", "prescribed motion and rotation, automatic step", drive_through_ice(0.1, 1), 1e-4);
 }

@@ -52,7 +52,7 @@ static void sudden_load(void)
     const int failed = fl_oscillator_solve(&o, 2, edge, x, &r, NULL, &err);
     verify_row("R11", "overshoot, steps halved until it stands", failed ? (double)NAN : r.largest, 1.854468,
                FL_OSCILLATOR_TOLERANCE, VERIFY_REL);
-    verify_row("R11", "the error that is told", r.error, fabs(r.largest - want) / want, 1e-5, VERIFY_ABS);
+    verify_row("R11", "the reported error", r.error, fabs(r.largest - want) / want, 1e-5, VERIFY_ABS);
 }
 
 /* A rectangular pulse of length d on an undamped oscillator: 2 sin(pi d / T) below T/2, 2 above. */

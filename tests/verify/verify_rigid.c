@@ -347,7 +347,9 @@ static void stand_on_slopes(void)
 /* --- rocking ------------------------------------------------------------------------------------------ */
 
 /* A block of 2b x 2h = 0.5 x 2 m, tilted about its right foot at x = 0; depth 0.5 m.
- *     bars  it stands on two bars with its outermost 2 mm, not on a plane.  Housner's landing is an impulse at the other foot; a base that closes over its whole width is hit along all of it, and loses less */
+ *     bars  it stands on two bars with its outermost 2 mm, not on a plane.  Housner's landing is an
+ *           impulse at the other foot; a base that closes over its whole width is hit along all of it, and
+ *           loses less */
 static void rocking(lab *l, double tilt, double restitution, int bars)
 {
     const double b = 0.25, h = 1.0, r = 1e-4, foot = 2e-3;

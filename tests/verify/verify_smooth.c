@@ -50,8 +50,8 @@ static double off_gradient(lab *l, fl_vec3 x, fl_quat q, double step)
                 w[s] = d < 3 ? evaluate_at(l, v3_madd(x, h, e), q).energy
                              : evaluate_at(l, x, q_mul(q_of_vector(v3_scale(h / arm, e)), q)).energy;
             }
-            const double told = d < 3 ? v3_dot(now.force, e) : v3_dot(now.torque_i, e) / arm;
-            worst = fmax(worst, fabs((w[0] - w[1]) / (2.0 * step) + told) / size);
+            const double derivative = d < 3 ? v3_dot(now.force, e) : v3_dot(now.torque_i, e) / arm;
+            worst = fmax(worst, fabs((w[0] - w[1]) / (2.0 * step) + derivative) / size);
         }
         best = fmin(best, worst);
     }

@@ -499,7 +499,7 @@ static void settling_packing(const char *id)
 static void single_impact(const char *id, double safety)
 {
     enum { RUNS = 32 };
-    int told = 0;
+    int reported = 0;
     char what[80];
     for (int k = 0; k < RUNS; k++) {
         lab l;
@@ -509,11 +509,11 @@ static void single_impact(const char *id, double safety)
         lab_sphere(&l, v3(0.501, 0, 0), 0.5, v3(-1, 0, 0), v3(0, 0, 0));
         lab_make(&l, 0.0);
         const int rc = lab_run(&l, (int64_t)(0.03 / l.w.dt));
-        told += rc == 0 && l.w.b.v[0].x < 0.0 && l.w.dt > 0.5 * safety * l.w.dt_critical;
+        reported += rc == 0 && l.w.b.v[0].x < 0.0 && l.w.dt > 0.5 * safety * l.w.dt_critical;
         lab_free(&l);
     }
     snprintf(what, sizeof what, "safety %g: runs of one impact that report it", safety);
-    verify_row(id, what, told, RUNS, 0.0, VERIFY_ABS);
+    verify_row(id, what, reported, RUNS, 0.0, VERIFY_ABS);
 }
 
 int main(void)
