@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Edges over lines and points, against the same integrals by very many points. */
+#include "patch/patch_points.h"
 #include "support/near.h"
 #include <math.h>
 #include <stdio.h>

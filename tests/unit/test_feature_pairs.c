@@ -5,6 +5,7 @@
 #include "base/pi.h"
 #include "base/rng.h"
 #include "patch/feature_pairs.h"
+#include "patch/patch_points.h"
 #include "narrow/overlap.h"
 #include "support/near.h"
 #include "support/shapes.h"

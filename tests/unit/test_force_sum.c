@@ -4,6 +4,7 @@
 #include "base/array.h"
 #include "base/rng.h"
 #include "patch/force_sum.h"
+#include "patch/patch_points.h"
 #include "support/near.h"
 
 static fl_vec3 some(fl_rng *g) { return v3(fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g)); }

@@ -3,6 +3,8 @@
 #include <math.h>
 #include "base/pi.h"
 #include "base/rng.h"
+#include "patch/patch_law.h"
+#include "patch/plane_distances.h"
 #include "structure/mesh_contact.h"
 #include "support/near.h"
 
@@ -135,7 +137,7 @@ static void it_is_the_same(void **state)
                 assert_near_of(v3_norm(v3_sub(fast.m, slow.m)), 0.0, 1.0, off);
                 saved += w.n - places;
             }
-            fl_feature_pairs_free(&l);
+            fl_mesh_under_face_free_pairs(&l);
             fl_poly_free(&box);
         }
         fl_structure_free(&st);
@@ -182,8 +184,8 @@ static void lists_leave_no_trace(void **state)
         moved += old.n != new.n;
         assert_int_equal(places[0], places[1]);
         assert_memory_equal(&seen[0], &seen[1], sizeof seen[0]);
-        fl_feature_pairs_free(&old);
-        fl_feature_pairs_free(&new);
+        fl_mesh_under_face_free_pairs(&old);
+        fl_mesh_under_face_free_pairs(&new);
     }
     assert_true(moved > 0); /* or nothing has been shown */
     fl_poly_free(&box);

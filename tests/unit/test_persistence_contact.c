@@ -44,7 +44,7 @@ static void end(bench *b)
     fl_structure_free(&b->st);
     fl_patch_points_free(&b->w);
     fl_mesh_contact_work_free(&b->near);
-    fl_feature_pairs_free(&b->l);
+    fl_mesh_under_face_free_pairs(&b->l);
     fl_poly_free(&b->point);
 }
 
