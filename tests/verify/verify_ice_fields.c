@@ -249,7 +249,7 @@ int main(void)
 {
     const int q = verify_quick();
     fl_err err = {0};
-    verify_begin("ice in every water");
+    verify_begin("ice fields in water domains of every kind");
     if (level_ice(q ? 500 : 20000, &err) || periodic_field(q ? 300 : 5000, &err) ||
         lake(q ? 150 : 3000, &err) || sheets(&err) || round_floes(q ? 300 : 5000, &err) ||
         piles(q ? 60 : 1000, &err) || thicknesses(q ? 5000 : 200000, &err))

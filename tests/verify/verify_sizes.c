@@ -84,7 +84,7 @@ int main(int argc, char **argv)
     double *area = fl_alloc(10000, sizeof *area, &err);
     (void)argc;
     fl_parallel_limit_spin(argv);
-    verify_begin("Floes of asked sizes");
+    verify_begin("floes of prescribed sizes");
     for (int k = 0; area && k < (verify_quick() ? 1 : 2); k++) {
         const int32_t n = size[k].n;
         fl_sizes lognormal = {.kind = FL_SIZES_LOGNORMAL, .mean = 1.0}, weibull = {.kind = FL_SIZES_WEIBULL};
