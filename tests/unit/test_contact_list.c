@@ -336,7 +336,7 @@ static void chunk_sums_match_pair_sums(void **state)
 {
     lab l;
     (void)state;
-    scene_of_balls(&l, 9, "patch"); /* 729 bodies: three chunks */
+    scene_of_spheres(&l, 9, "patch"); /* 729 bodies: three chunks */
     lab_make(&l, 0);
     assert_int_equal(lab_run(&l, 60), 0);
     fl_world *w = &l.w;
@@ -494,7 +494,7 @@ static void results_do_not_depend_on_the_shares(void **state)
     (void)state;
     for (int threads = 1; threads <= 3; threads++) {
         lab l;
-        scene_of_balls(&l, 10, "patch"); /* 1000 bodies: four chunks */
+        scene_of_spheres(&l, 10, "patch"); /* 1000 bodies: four chunks */
         lab_setf(&l, "run.threads=%d", threads);
         lab_make(&l, 0);
         assert_int_equal(lab_run(&l, 15), 0);
@@ -561,7 +561,7 @@ static void allocation_failure_is_reported(void **state)
     for (long n = 0; n < 1000; n++) {
         lab l;
         fl_err err = {0};
-        scene_of_balls(&l, 4, "patch");
+        scene_of_spheres(&l, 4, "patch");
         lab_make(&l, 0);
         l.w.skin *= 2.0, l.w.last_search_step = -1;
         fl_alloc_fail_after(n);

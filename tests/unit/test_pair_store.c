@@ -242,7 +242,7 @@ static void non_convex_parts_use_law_patch(void **state)
         lab_prism(&l, 4, arrow, -2.0, 2.0);
         lab_box(&l, v3(-0.49, 0, 0), v3(0.5, 0.8, 0.3), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_make(&l, 1e-6);
-        const fl_pair p = lab_look(&l.w, 0, 1);
+        const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
         assert_int_equal(p.touching, 1);
         assert_true(p.points == FL_POINTS_PATCH && p.force.x < 0.0);
         f[k] = p.force;

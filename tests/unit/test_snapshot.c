@@ -126,11 +126,11 @@ static void each_layout_has_a_version_number(void **state)
     (void)state;
     scene_of_everything(&l, 2, NULL), lab_set(&l, "run.sleep=1e-3"), collect_state(&all, &l, 0);
     scene_of_seas(&l, 2, NULL), collect_state(&all, &l, 0);
-    scene_of_glances(&l, 2, NULL), collect_state(&all, &l, 0);
-    scene_of_traffic(&l, 2, NULL), collect_state(&all, &l, 0);
-    scene_of_wraps(&l, 3, NULL), collect_state(&all, &l, 1);
-    scene_of_balls(&l, 3, NULL), collect_state(&all, &l, 1);
-    scene_of_balls(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), collect_state(&all, &l, 0);
+    scene_of_sea_interval(&l, 2, NULL), collect_state(&all, &l, 0);
+    scene_of_inflow(&l, 2, NULL), collect_state(&all, &l, 0);
+    scene_of_periodic_cell(&l, 3, NULL), collect_state(&all, &l, 1);
+    scene_of_spheres(&l, 3, NULL), collect_state(&all, &l, 1);
+    scene_of_spheres(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), collect_state(&all, &l, 0);
     scene_of_bonds(&l, 3, NULL), collect_state(&all, &l, 1);
     scene_of_surrogates(&l, 2, NULL), collect_state(&all, &l, 0);
     collect_budget(&all);

@@ -39,7 +39,7 @@ static void make_two_boxes(lab *l, int kind)
     double lo = 0.0, hi = 3.0; /* of the height: too deep, and not deep enough */
     for (int k = 0; k < 60; k++) {
         l->w.b.x[1].z = 0.5 * (lo + hi);
-        if (lab_look(&l->w, 0, 1).overlap > DEPTH) lo = l->w.b.x[1].z;
+        if (lab_evaluate_pair(&l->w, 0, 1).overlap > DEPTH) lo = l->w.b.x[1].z;
         else hi = l->w.b.x[1].z;
     }
 }
@@ -139,7 +139,7 @@ static double prediction_error(placed_pair *l)
 {
     fl_world *w = &l->l.w;
     const fl_surrogate_value t = predict(l);
-    const fl_pair p = lab_look(w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(w, 0, 1);
     const fl_mat3 R = fl_body_axes(&w->b, 1);
     const fl_vec3 f = m3_mul(R, t.gradient.f);
     const fl_vec3 at = v3_add(w->b.x[1], m3_mul(R, t.point)), arm = v3_sub(at, w->b.x[0]);
@@ -216,7 +216,7 @@ static void the_stiffness_is_predicted(void **state)
         for (int k = 0; k < 50; k++) {
             move_along(&l, random_path(&g), 0.05 * DEPTH);
             const fl_surrogate_value t = predict(&l);
-            const double now = lab_look(&l.l.w, 0, 1).springs.k;
+            const double now = lab_evaluate_pair(&l.l.w, 0, 1).springs.k;
             deviation += fabs(t.slope / l.p.surrogate->slope * first - now);
             changed += fabs(now - first);
         }
@@ -313,7 +313,7 @@ static void damping_force(placed_pair *l, fl_vec3 *predicted, fl_vec3 *evaluated
     l->p.surrogate->reach = FL_SURROGATE_MAX_REACH;
     fl_pair_evaluate(&l->l.w, &l->p, 0, 0.0, 0);
     assert_true(l->p.surrogate->used);
-    const fl_pair p = lab_look(&l->l.w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(&l->l.w, 0, 1);
     const double each = 1.0 / v3_norm(v3_sub(v3_sub(p.force, p.force_damping), p.force_friction));
     *predicted = v3_scale(each, l->p.force_damping), *evaluated = v3_scale(each, p.force_damping);
 }
