@@ -589,14 +589,14 @@ int fl_feature_pairs_transform(fl_patch_points *w, const fl_feature_pairs *l, co
 {
     if (fl_patch_points_reserve_core(w, a)) return -1;
     w->M = M, w->o = o;
-    const void *integer_writer = fl_feature_pairs_integers(l);
+    const void *integers = fl_feature_pairs_integers(l);
     const int32_t from = l->vertices[0] + l->vertices[1];
     for (int32_t k = from; k < from + l->used_vertices; k++) {
-        const int32_t v = fl_feature_integer(integer_writer, l->width, k);
+        const int32_t v = fl_feature_integer(integers, l->width, k);
         w->va[v] = v3_add(m3_mul(M, a->v[v]), o);
     }
     for (int32_t k = from + l->used_vertices; k < from + l->used_vertices + l->used_faces; k++) {
-        const int32_t f = fl_feature_integer(integer_writer, l->width, k);
+        const int32_t f = fl_feature_integer(integers, l->width, k);
         w->na[f] = m3_mul(M, a->n[f]);
     }
     return 0;

@@ -314,12 +314,13 @@ FL_SIMD_VERSIONS void fl_under_face_sum_edges(const fl_under_face *g, const fl_u
         FL_SIMD_UNROLL
         for (int l = 0; l < FL_SIMD_WIDTH; l++) q[l] = sqrt(q[l]);
         const fl_simd_mask some = p + q > 0.0;
-        const fl_simd over = FL_SIMD_MASKED(some, 1.0 / (p + q)), part = hi - lo,
-                      share = 2.0 * factor * part * over;
+        const fl_simd over = FL_SIMD_MASKED(some, 1.0 / (p + q)), length = hi - lo,
+                      share = 2.0 * factor * length * over;
         fl_line_integrals r;
         fl_line_integrate(&p, &q, &r);
         const fl_simd force = 4.5 * share, f = force * r.du, Dx = v1[X] - v0[X], Dy = v1[Y] - v0[Y];
-        const fl_simd x = v0[X] + lo * Dx, y = v0[Y] + lo * Dy, dx = over * part * Dx, dy = over * part * Dy;
+        const fl_simd x = v0[X] + lo * Dx, y = v0[Y] + lo * Dy;
+        const fl_simd dx = over * length * Dx, dy = over * length * Dy;
         const fl_simd f1 = force * r.first, f2 = force * r.second, fx = f * x + f1 * dx, fy = f * y + f1 * dy;
         /* of the force times the position along the edge, times x and y */
         const fl_simd gx = f1 * x + f2 * dx, gy = f1 * y + f2 * dy;
