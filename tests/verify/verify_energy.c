@@ -60,7 +60,7 @@ static void elastic_gas(void)
     }
     if (!verify_quick()) verify_order("gas", "largest |E/E(0) - 1| of patch", h, e, levels, 2.0, 0.6);
     for (int k = 3; k <= 4; k++) {
-        char what[80];
+        char what[120];
         double surrogate_share;
         const double tolerance = pow(10.0, -k),
                      off = energy_error_of_gas("patch", 0.1, time, tolerance, &surrogate_share);
