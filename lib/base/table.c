@@ -6,7 +6,7 @@
 #include "base/number_text.h"
 #include "base/table.h"
 
-/* "#start T" [s] above the names; the first interval needs it when the record does not begin at 0. */
+/* Reads "#start T" [s] above the column names: start of the first interval, for records that do not begin at 0. */
 static int read_start(fl_table *t, fl_err *err)
 {
     const char *word = t->text.line + strlen("#start");
@@ -38,8 +38,8 @@ static int check_names(fl_table *t, fl_err *err)
     return rc;
 }
 
-/* Keep the row of names, which the next row would overwrite; "fx[N]" becomes "fx" and "N". */
-static int keep_names(fl_table *t, fl_err *err)
+/* Copies the row of column names, which the next row would overwrite, and splits "fx[N]" into "fx" and "N". */
+static int store_names(fl_table *t, fl_err *err)
 {
     int64_t bytes = 0;
     char *to;
@@ -85,7 +85,7 @@ int fl_table_open(fl_table *t, const char *path, const char *kind, int newest, f
                      t->text.kind);
         goto fail;
     }
-    if (keep_names(t, err)) goto fail;
+    if (store_names(t, err)) goto fail;
     return 0;
 fail:
     fl_table_close(t);

@@ -14,7 +14,7 @@ using namespace shim;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int32_t>;
 
-enum meeting { APART = FL_APART, TOUCH = FL_TOUCHES, CROSS = FL_CROSSES };
+enum relation { APART = FL_APART, TOUCH = FL_TOUCHES, CROSS = FL_CROSSES };
 
 /* Three corners, those in common with the other triangle first. */
 struct corners {
@@ -32,8 +32,8 @@ corners corners_of(const fl_soup *s, int32_t t)
     return c;
 }
 
-/* Bring the corners in common to the front of both; their number. */
-int common(corners &a, corners &b)
+/* Moves the common corners to the front of both.  Returns their number. */
+int move_common_first(corners &a, corners &b)
 {
     int n = 0;
     for (int i = 0; i < 3; i++)
@@ -49,8 +49,8 @@ int common(corners &a, corners &b)
 
 enum { ABOVE = 1, BELOW = 2, ON = 4 };
 
-/* On which sides of the plane of a the corners of b from k on lie. */
-int sides(const corners &a, const corners &b, int k)
+/* The sides of the plane of a on which the corners of b from k on lie. */
+int plane_sides(const corners &a, const corners &b, int k)
 {
     int seen = 0;
     for (; k < 3; k++) {
@@ -62,22 +62,22 @@ int sides(const corners &a, const corners &b, int k)
 
 bool straddles(int seen) { return (seen & ABOVE) && (seen & BELOW); }
 
-Exact::Triangle_3 exactly(const corners &c)
+Exact::Triangle_3 exact_triangle(const corners &c)
 {
     Exact::Point_3 p[3];
     for (int k = 0; k < 3; k++) p[k] = Exact::Point_3(c.p[k].x(), c.p[k].y(), c.p[k].z());
     return Exact::Triangle_3(p[0], p[1], p[2]);
 }
 
-meeting meet(corners a, corners b)
+relation relation_of(corners a, corners b)
 {
-    const int shared = common(a, b);
-    if (shared == 3) return CROSS; /* one on the other */
-    const int b_at = sides(a, b, shared);
-    if (b_at == ABOVE || b_at == BELOW) return APART; /* but for what they share */
+    const int shared = move_common_first(a, b);
+    if (shared == 3) return CROSS; /* the triangles coincide */
+    const int b_at = plane_sides(a, b, shared);
+    if (b_at == ABOVE || b_at == BELOW) return APART; /* apart but for the common corners */
     if (shared == 2)                                  /* and b_at == ON */
         return CGAL::coplanar_orientation(a.p[0], a.p[1], a.p[2], b.p[2]) == CGAL::POSITIVE ? CROSS : APART;
-    const int a_at = sides(b, a, shared);
+    const int a_at = plane_sides(b, a, shared);
     if (a_at == ABOVE || a_at == BELOW) return APART;
     const Kernel::Triangle_3 ta(a.p[0], a.p[1], a.p[2]), tb(b.p[0], b.p[1], b.p[2]);
     if (shared == 1) {
@@ -89,7 +89,7 @@ meeting meet(corners a, corners b)
     }
     const bool flat = b_at == ON;
     if (!flat && !(straddles(a_at) && straddles(b_at))) return TOUCH;
-    const auto both = CGAL::intersection(exactly(a), exactly(b));
+    const auto both = CGAL::intersection(exact_triangle(a), exact_triangle(b));
     if (!both || boost::get<Exact::Point_3>(&*both)) return TOUCH;
     if (boost::get<Exact::Segment_3>(&*both)) return flat ? TOUCH : CROSS;
     return CROSS;
@@ -100,20 +100,20 @@ corners corners_at(const double *x)
     return corners{{Point(x[0], x[1], x[2]), Point(x[3], x[4], x[5]), Point(x[6], x[7], x[8])}};
 }
 
-bool without_area(const corners &c) { return CGAL::collinear(c.p[0], c.p[1], c.p[2]); }
+bool is_degenerate(const corners &c) { return CGAL::collinear(c.p[0], c.p[1], c.p[2]); }
 
-int count(const fl_soup *s, fl_crossing *c)
+int count_crossings(const fl_soup *s, fl_crossing *c)
 {
     std::vector<Box> boxes;
     boxes.reserve(static_cast<std::size_t>(s->nt));
     for (int32_t t = 0; t < s->nt; t++) {
         const corners k = corners_of(s, t);
-        if (without_area(k)) continue;
+        if (is_degenerate(k)) continue;
         boxes.emplace_back(k.p[0].bbox() + k.p[1].bbox() + k.p[2].bbox(), t);
     }
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box &x, const Box &y) {
         const int32_t t = std::min(x.info(), y.info()), u = std::max(x.info(), y.info());
-        const meeting m = meet(corners_of(s, t), corners_of(s, u));
+        const relation m = relation_of(corners_of(s, t), corners_of(s, u));
         c->crossings += m == CROSS;
         c->touching += m == TOUCH;
     });
@@ -124,13 +124,13 @@ int count(const fl_soup *s, fl_crossing *c)
 extern "C" int fl_cgal_crossings(const fl_soup *s, fl_crossing *c, fl_err *err)
 {
     *c = fl_crossing{0, 0};
-    return guarded("search for crossings", s->nt, err, [&] { return count(s, c); });
+    return guarded("search for crossings", s->nt, err, [&] { return count_crossings(s, c); });
 }
 
 extern "C" int fl_cgal_classify_triangles(const double *a, const double *b, fl_err *err)
 {
     return caught("meeting", 2, err, [&]() -> int {
         const corners p = corners_at(a), q = corners_at(b);
-        return without_area(p) || without_area(q) ? APART : meet(p, q);
+        return is_degenerate(p) || is_degenerate(q) ? APART : relation_of(p, q);
     });
 }

@@ -18,16 +18,16 @@ using Triangle = Plain::Triangle_3;
 using Primitive = CGAL::AABB_triangle_primitive<Plain, std::vector<Triangle>::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Plain, Primitive>>;
 
-const double SHARE = 0.01; /* of the distance, to which it is told */
-const double GAIN = 0.9;   /* a cut that leaves a bound above so much of what it was has told little, */
-const int PATIENCE = 4;    /* and so many of them in a row are the last before one in the middle */
+const double RELATIVE_TOL = 0.01; /* relative tolerance of the distance */
+const double GAIN = 0.9;   /* a cut that leaves a bound above this fraction of its parent's was useless */
+const int MAX_VAIN_CUTS = 4;    /* after this many useless cuts in a row the piece is halved */
 
 using Vec = Plain::Vector_3;
 
 struct piece {
     Vec x[3];
-    double bound; /* no point of it is farther */
-    int vain;     /* cuts in a row that told little of it */
+    double bound; /* upper bound of the distance of its points */
+    int vain;     /* useless cuts in a row */
 };
 
 Vec vec(const Plain::Point_3 &p) { return p - CGAL::ORIGIN; }
@@ -49,15 +49,15 @@ std::vector<Triangle> triangles_of(const fl_soup *s)
     return list;
 }
 
-double apart(const Vec &x, const Triangle &t) { return std::sqrt(CGAL::squared_distance(point(x), t)); }
+double distance_to(const Vec &x, const Triangle &t) { return std::sqrt(CGAL::squared_distance(point(x), t)); }
 
-double farthest(const piece &p, const Triangle &t)
+double max_corner_distance(const piece &p, const Triangle &t)
 {
-    return std::max({apart(p.x[0], t), apart(p.x[1], t), apart(p.x[2], t)});
+    return std::max({distance_to(p.x[0], t), distance_to(p.x[1], t), distance_to(p.x[2], t)});
 }
 
-/* A convex polygon cut in two by a plane through o, n outward: in keeps what lies behind it, out the rest. */
-void cut(const std::vector<Vec> &whole, const Vec &o, const Vec &n, std::vector<Vec> &in,
+/* Cuts a convex polygon by the plane through o with outward normal n: `in` gets the part behind it, `out` the rest. */
+void cut_polygon(const std::vector<Vec> &whole, const Vec &o, const Vec &n, std::vector<Vec> &in,
          std::vector<Vec> &out)
 {
     const std::size_t count = whole.size();
@@ -77,12 +77,12 @@ void cut(const std::vector<Vec> &whole, const Vec &o, const Vec &n, std::vector<
             out.push_back(x);
         }
     }
-    if (!before) out.clear(); /* what only lies in the plane is behind it */
+    if (!before) out.clear(); /* a polygon in the plane is behind it */
     else if (!behind) in.clear();
 }
 
-/* Best first: the piece of the largest bound is looked at next, so that at any time the largest bound left
- * is one for all. */
+/* Branch and bound: the piece with the largest bound is split next, so that the largest bound left always bounds
+ * all pieces. */
 class search
 {
   public:
@@ -117,7 +117,7 @@ class search
 
     static bool lower(const piece &p, const piece &q) { return p.bound < q.bound; }
 
-    /* The triangle nearest to x; what is attained there raises `least`. */
+    /* The triangle nearest to x.  The distance of x is a lower bound and updates `least`. */
     const Triangle &nearest(const Vec &x)
     {
         const auto found = tree.closest_point_and_primitive(point(x));
@@ -125,7 +125,7 @@ class search
         return *found.second;
     }
 
-    bool settled(double bound) const { return bound <= least + tol + SHARE * least; }
+    bool settled(double bound) const { return bound <= least + tol + RELATIVE_TOL * least; }
 
     void push(piece p)
     {
@@ -134,14 +134,14 @@ class search
         const double before = p.bound;
         double corner = 0.0, size = 0.0;
         made++;
-        p.bound = std::min(p.bound, farthest(p, s));
+        p.bound = std::min(p.bound, max_corner_distance(p, s));
         for (int k = 0; k < 3 && !settled(p.bound); k++) {
             const Triangle &c = nearest(p.x[k]);
-            p.bound = std::min(p.bound, farthest(p, c));
-            corner = std::max(corner, apart(p.x[k], c));
+            p.bound = std::min(p.bound, max_corner_distance(p, c));
+            corner = std::max(corner, distance_to(p.x[k], c));
             size = std::max(size, length(p.x[k] - middle));
-            /* no point is farther from all corners than the middle is from one, and distances grow no
-             * faster than lengths */
+            /* no point is farther from all corners than the middle is from one, and the distance function has
+             * Lipschitz constant 1 */
             if (k == 2) p.bound = std::min(p.bound, corner + size);
         }
         if (settled(p.bound)) {
@@ -176,11 +176,11 @@ class search
         push({{m, b, c}, p.bound, 0});
     }
 
-    /* Cut along the prism over the triangle nearest to the middle, or in two where that does not cut, or
-     * where such cuts only nibble, as slivers and small triangles do at what is far from all of them. */
+    /* Cuts along the prism over the triangle nearest to the middle.  Halves the piece where this does not cut it, or
+     * where such cuts only trim it, as slivers and small triangles do with distant pieces. */
     void split(const piece &p)
     {
-        if (p.vain >= PATIENCE) {
+        if (p.vain >= MAX_VAIN_CUTS) {
             halve(p);
             return;
         }
@@ -191,8 +191,8 @@ class search
         std::vector<std::vector<Vec>> outside;
         double bound = 0.0;
         for (int k = 0; k < 3; k++) {
-            cut(rest, a[k], CGAL::cross_product(a[(k + 1) % 3] - a[k], n), in, out);
-            if (in.size() < 3) { /* nothing of it is over the triangle */
+            cut_polygon(rest, a[k], CGAL::cross_product(a[(k + 1) % 3] - a[k], n), in, out);
+            if (in.size() < 3) { /* no part of it is over the triangle */
                 halve(p);
                 return;
             }
@@ -203,7 +203,7 @@ class search
             halve(p);
             return;
         }
-        for (const Vec &x : rest) bound = std::max(bound, apart(x, s));
+        for (const Vec &x : rest) bound = std::max(bound, distance_to(x, s));
         fan(rest, std::min(bound, p.bound), p.vain + 1);
         for (const auto &polygon : outside) fan(polygon, p.bound, p.vain + 1);
     }

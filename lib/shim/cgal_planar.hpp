@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* cgal_planar.hpp -- what the .cpp files that triangulate the plane share: who is whose neighbour.  C++, for
- * the shim alone. */
+/* cgal_planar.hpp -- neighbour lists of planar triangulations.  C++, for the shims only. */
 #ifndef FL_SHIM_CGAL_PLANAR_HPP
 #define FL_SHIM_CGAL_PLANAR_HPP
 #include <stdint.h>
@@ -13,9 +12,9 @@ extern "C" {
 namespace shim
 {
 
-/* Of a triangulation whose vertices carry the numbers 0 to n - 1: the neighbours of i are (*near)[first[i]]
- * to (*near)[first[i + 1] - 1], by their names.  CGAL inserts in an order that it draws at random; sorting
- * makes the lists a function of the sites.  -1 when memory runs out. */
+/* Neighbours in a triangulation whose vertices carry the numbers 0 .. n - 1: those of i are
+ * (*near)[first[i] .. first[i + 1]), sorted by name.  CGAL inserts in a random order; sorting makes the lists a
+ * function of the sites.  -1 if memory runs out. */
 template <class Triangulation>
 int neighbours(const Triangulation &t, int32_t n, const int32_t *name, int32_t *first, int32_t **near,
                fl_err *err)
@@ -31,7 +30,7 @@ int neighbours(const Triangulation &t, int32_t n, const int32_t *name, int32_t *
         first[a]++;
         first[b]++;
     }
-    for (int32_t i = 0, sum = 0; i <= n; i++) { /* counts to ends: each list is filled from behind */
+    for (int32_t i = 0, sum = 0; i <= n; i++) { /* counts become ends: each list is filled backwards */
         sum += first[i];
         first[i] = sum;
     }

@@ -16,8 +16,8 @@ using namespace shim;
 enum { ROUNDS = 5 };
 constexpr double BEND = 30.0; // degrees
 
-/* Does the surface come to a point, with angles that fall short of a full turn by BEND or more? */
-bool pointed(const Mesh &mesh, Mesh::Vertex_index v)
+/* True if the angles of the surface at v miss a full turn by BEND or more. */
+bool is_apex(const Mesh &mesh, Mesh::Vertex_index v)
 {
     double sum = 0.0;
     for (const auto h : CGAL::halfedges_around_target(v, mesh)) {
@@ -41,7 +41,7 @@ int remesh(fl_soup *s, double length, fl_err *err)
     }
     PMP::split_long_edges(edges, length, mesh, CGAL::parameters::edge_is_constrained_map(kept));
     auto held = mesh.add_property_map<Mesh::Vertex_index, bool>("v:held", false).first;
-    for (const auto v : mesh.vertices()) held[v] = pointed(mesh, v);
+    for (const auto v : mesh.vertices()) held[v] = is_apex(mesh, v);
     PMP::isotropic_remeshing(
         mesh.faces(), length, mesh,
         CGAL::parameters::number_of_iterations(ROUNDS).protect_constraints(true).edge_is_constrained_map(

@@ -20,7 +20,7 @@ namespace
 {
 using namespace shim;
 
-/* Diagonal of the box of a rim, and its number of edges. */
+/* Diagonal of the box of a boundary cycle, and its number of edges. */
 double rim_size(const Mesh &mesh, Mesh::Halfedge_index rim, std::size_t &edges)
 {
     CGAL::Bbox_3 box;
@@ -54,7 +54,7 @@ int32_t count_degenerate(const Mesh &mesh)
     return n;
 }
 
-/* An edge is flipped or collapsed for each, so the number of faces may or may not change. */
+/* Each face is removed by a flip or a collapse, so the number of faces does not tell how many. */
 void remove_degenerate(Mesh &mesh, fl_repair &did)
 {
     const int32_t found = count_degenerate(mesh);
@@ -64,9 +64,9 @@ void remove_degenerate(Mesh &mesh, fl_repair &did)
     did.degenerate = found - did.stuck;
 }
 
-/* Where the surface was cut along a branched edge, two of its vertices are in one place, and which of the
- * pieces lies inside the other has no sure answer. */
-bool cut_somewhere(const Mesh &mesh)
+/* Where the surface was cut along a branched edge, two of its vertices coincide, and no reliable test tells which
+ * piece lies inside the other. */
+bool has_branched_cut(const Mesh &mesh)
 {
     std::vector<Point> place;
     place.reserve(mesh.number_of_vertices());
@@ -89,9 +89,9 @@ int repair(fl_soup *s, int32_t holes, double size, fl_repair *did, fl_err *err)
     if (holes > 0 || size > 0.0) close_holes(mesh, static_cast<std::size_t>(holes), size, *did);
     const bool closed = mesh.number_of_faces() > 0 && CGAL::is_closed(mesh);
     if (write_back(s, mesh, err)) return -1;
-    if (did->stuck || !closed) return 0; /* a triangle without a plane has no exact answer */
+    if (did->stuck || !closed) return 0; /* without a plane there is no exact answer */
     if (fl_cgal_crossings(s, &meet, err)) return -1;
-    if (meet.crossings || meet.touching || cut_somewhere(mesh)) return 0;
+    if (meet.crossings || meet.touching || has_branched_cut(mesh)) return 0;
     PMP::orient_to_bound_a_volume(mesh);
     did->bounding = 1;
     return write_back(s, mesh, err);

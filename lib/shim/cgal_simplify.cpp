@@ -17,13 +17,13 @@ namespace
 {
 using namespace shim;
 
-struct rims {
+struct border_edges {
     using key_type = Mesh::Edge_index;
     using value_type = bool;
     using reference = bool;
     using category = boost::readable_property_map_tag;
     const Mesh *mesh;
-    friend bool get(const rims &r, key_type e) { return r.mesh->is_border(e); }
+    friend bool get(const border_edges &r, key_type e) { return r.mesh->is_border(e); }
 };
 
 int simplify(fl_soup *s, double distance, int32_t *gone, fl_err *err)
@@ -31,8 +31,8 @@ int simplify(fl_soup *s, double distance, int32_t *gone, fl_err *err)
     Mesh mesh;
     const int32_t before = s->nt;
     if (to_mesh(s, mesh, err)) return -1;
-    const rims fixed = {&mesh};
-    const SMS::Constrained_placement<SMS::LindstromTurk_placement<Mesh>, rims> placement(fixed);
+    const border_edges fixed = {&mesh};
+    const SMS::Constrained_placement<SMS::LindstromTurk_placement<Mesh>, border_edges> placement(fixed);
     const SMS::Polyhedral_envelope_filter<Kernel> filter(distance);
     SMS::edge_collapse(mesh, SMS::Count_stop_predicate<Mesh>(0),
                        CGAL::parameters::edge_is_constrained_map(fixed)

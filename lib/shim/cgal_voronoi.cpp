@@ -22,7 +22,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int32_t, Kernel>;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex>>;
 
-/* A site that CGAL took for another one has no vertex of its own: told is the one of least name. */
+/* A site equal to another one has no vertex of its own.  The one of least name is reported. */
 int coincident(const Delaunay &dt, int32_t n, const fl_vec2 *site, const int32_t *name, fl_err *err)
 {
     std::vector<char> has(static_cast<size_t>(n), 0);
@@ -64,5 +64,5 @@ extern "C" int fl_cgal_orientation(fl_vec2 a, fl_vec2 b, fl_vec2 c)
 try {
     return CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y), Kernel::Point_2(c.x, c.y));
 } catch (...) {
-    return 0; /* no memory for the exact number: "cannot tell left from right" is the cautious answer */
+    return 0; /* no memory for exact arithmetic: 0 is the conservative answer */
 }
