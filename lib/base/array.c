@@ -26,8 +26,8 @@ static int refuse_allocation(void)
 }
 
 /* Blocks as large as several huge pages are placed in huge pages where the system has them.  With 100 000
- * spheres the neighbour search then takes a third less time; a step takes the same.  Blocks are not aligned to
- * huge pages: arrays that are traversed together would compete for the same cache lines. */
+ * spheres the neighbour search then takes a third less time; a step takes the same.  Blocks are not aligned
+ * to huge pages: arrays that are traversed together would compete for the same cache lines. */
 enum { PAGE = 4096, LARGE = 2 * (1 << 21) };
 
 static void *allocate_aligned(size_t bytes)

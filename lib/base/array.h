@@ -14,8 +14,8 @@ void *fl_alloc(int64_t n, size_t size, fl_err *err);
 /* A copy of a text.  NULL with FL_SYSTEM if memory runs out. */
 char *fl_alloc_text(const char *text, fl_err *err);
 
-/* Grows the array *(T **)array of capacity *cap to at least `want` elements.  The capacity at least doubles; new
- * elements are not initialised.  The array is untouched on failure.
+/* Grows the array *(T **)array of capacity *cap to at least `want` elements.  The capacity at least doubles;
+ * new elements are not initialised.  The array is untouched on failure.
  * Returns 0, or -1 with FL_SYSTEM. */
 int fl_grow(void *array, int32_t *cap, int64_t want, size_t size, fl_err *err);
 

@@ -3,9 +3,9 @@
 #include "base/barrier.h"
 
 /* [ns] Longest spin, about the cost of falling asleep and waking; increment after a useful spin; length of a
- * wait for which spinning is useless; divisor of the spin time after such a wait.  Measured with 200 bodies and
- * four other busy processes on two processors: a step of two threads takes 2 to 7 times the time of one thread.
- * With WAIT_LONG = 5 SPIN_MAX and a divisor of 2 it took up to 17 times. */
+ * wait for which spinning is useless; divisor of the spin time after such a wait.  Measured with 200 bodies
+ * and four other busy processes on two processors: a step of two threads takes 2 to 7 times the time of one
+ * thread.  With WAIT_LONG = 5 SPIN_MAX and a divisor of 2 it took up to 17 times. */
 enum { SPIN_MAX = 20000, SPIN_STEP = 200, WAIT_LONG = 5 * SPIN_MAX, SPIN_DIVISOR = 8 };
 
 /* Number of checks between two readings of the clock. */
@@ -93,6 +93,8 @@ void fl_barrier_wait(fl_barrier *g, int n, void (*alone)(void *arg), void *arg)
         sleep_until_open(g, before);
         wasted = now_ns() - start > WAIT_LONG;
     }
-    spin_ns = wasted ? spin_ns / SPIN_DIVISOR : spin_ns < SPIN_MAX - SPIN_STEP ? spin_ns + SPIN_STEP : SPIN_MAX;
+    spin_ns = wasted                           ? spin_ns / SPIN_DIVISOR
+              : spin_ns < SPIN_MAX - SPIN_STEP ? spin_ns + SPIN_STEP
+                                               : SPIN_MAX;
     __atomic_store_n(&g->spin_ns, spin_ns, __ATOMIC_RELAXED);
 }

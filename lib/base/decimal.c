@@ -32,7 +32,8 @@ static power leading_bits(const uint64_t *word, int n, int32_t e)
     return p;
 }
 
-/* 5^308 has 716 bits.  2^1280 / 5^342 keeps 485 bits, and what a division drops never reaches the leading ones:
+/* 5^308 has 716 bits.  2^1280 / 5^342 keeps 485 bits, and what a division drops never reaches the leading
+ * ones:
  * floor(floor(a/5)/5) = floor(a/25). */
 __attribute__((constructor)) static void make_powers(void)
 {
@@ -70,7 +71,8 @@ static int nearest_bits(uint64_t w, int64_t q, uint64_t *bits)
     const int drop = (int)(product >> 127) + 127 - MANTISSA;
     const uint64_t mantissa = (uint64_t)(product >> drop);
     const uint128 rest = product & (((uint128)1 << drop) - 1), half = (uint128)1 << (drop - 1);
-    /* w 10^q lies above (mantissa + rest / 2^drop) 2^e by less than one unit of rest (exact) or two (else). */
+    /* w 10^q lies above (mantissa + rest / 2^drop) 2^e by less than one unit of rest (exact) or two
+     * (else). */
     const int64_t e = drop + 64 + p->e - shift + q, exponent = e + MANTISSA - 1 + BIAS;
     uint64_t up;
     if (exponent < 1 || exponent > 2 * BIAS - 1) return 0; /* subnormal, or near the largest */
@@ -166,9 +168,9 @@ int fl_decimal_scaled(uint64_t m, int e, int q, uint64_t *whole, uint64_t *fract
     const int shift = __builtin_clzll(m);
     m <<= shift;
     const uint128 low = (uint128)m * p->lo, product = (uint128)m * p->hi + (low >> 64);
-    /* x 10^q lies in (product .. product + 2) 2^-point: one unit for the dropped low word, one for the rest of the
-     * power.  With at least 65 bits below the point both together are one unit of fraction; the truncation of
-     * fraction is the second. */
+    /* x 10^q lies in (product .. product + 2) 2^-point: one unit for the dropped low word, one for the rest
+     * of the power.  With at least 65 bits below the point both together are one unit of fraction; the
+     * truncation of fraction is the second. */
     const int point = -(64 + p->e + e - shift + q);
     if (point < 65 || point > 127 || product >> point >> 62 || product >> point < (uint128)1 << 50) return 0;
     *whole = (uint64_t)(product >> point);

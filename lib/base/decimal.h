@@ -14,8 +14,8 @@
  *
  * With w the first 19 digits and q the exponent of ten, w 10^q = (w 5^q) 2^q is formed from w and the leading
  * 128 bits of 5^q.  The product is known to 128 bits with an error below two units in the last place.  These
- * bits decide unless a halfway point between two doubles lies within the error.  The remaining cases (about one
- * text in 2^73, exact ties with q < 0, subnormal numbers) use strtod().
+ * bits decide unless a halfway point between two doubles lies within the error.  The remaining cases (about
+ * one text in 2^73, exact ties with q < 0, subnormal numbers) use strtod().
  * Source: the idea of D. Lemire and M. Eisel, Software: Practice and Experience 51 (2021) 1700. */
 const char *fl_decimal_read(const char *s, double *x);
 

@@ -12,8 +12,8 @@ typedef struct {
 
 /* Records a failure.  Only the first failure is kept.
  *   code  FL_NO .. FL_NUMERIC
- *   fmt   one sentence without a full stop; fl_tool_end() puts the program's name before it.  Control characters
- *         in quoted text become "?", so that the message stays one line
+ *   fmt   one sentence without a full stop; fl_tool_end() puts the program's name before it.  Control
+ *         characters in quoted text become "?", so that the message stays one line
  * Returns -1, so that "return fl_fail(...)" ends a function. */
 int fl_fail(fl_err *err, int code, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
 

@@ -46,8 +46,8 @@ double fl_exp(double x)
     return (1.0 + (r + r * r * p)) * power_of_two(half) * power_of_two(n - half);
 }
 
-/* x = 2^k m, sqrt(1/2) < m <= sqrt 2; ln m = 2 artanh u, u = (m - 1) / (m + 1), |u| < 0.1716.  Series to u^21;
- * the next term is below 1e-17 of the sum. */
+/* x = 2^k m, sqrt(1/2) < m <= sqrt 2; ln m = 2 artanh u, u = (m - 1) / (m + 1), |u| < 0.1716.  Series to
+ * u^21; the next term is below 1e-17 of the sum. */
 double fl_log(double x)
 {
     uint64_t bits;

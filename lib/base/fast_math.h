@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* fast_math.h -- exponential, logarithm, power, sine and cosine for the time step.  They are fixed polynomials in
- * IEEE operations, so the bits do not depend on the C library. */
+/* fast_math.h -- exponential, logarithm, power, sine and cosine for the time step.  They are fixed
+ * polynomials in IEEE operations, so the bits do not depend on the C library. */
 #ifndef FL_BASE_FAST_MATH_H
 #define FL_BASE_FAST_MATH_H
 
-/* e^x, error up to 2 units in the last place.  0 below -708, where the result is not a normal number; infinite
- * above 709.78.  x is not NaN. */
+/* e^x, error up to 2 units in the last place.  0 below -708, where the result is not a normal number;
+ * infinite above 709.78.  x is not NaN. */
 double fl_exp(double x);
 
 /* ln x, error up to 2 units in the last place; x > 0, normal and finite. */

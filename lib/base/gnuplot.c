@@ -10,7 +10,8 @@
 
 enum { PATH_LEN = 4096 };
 
-/* Runs gnuplot in the folder dir.  message receives its stderr.  Returns the exit status of gnuplot, or -1. */
+/* Runs gnuplot in the folder dir.  message receives its stderr.  Returns the exit status of gnuplot, or
+ * -1. */
 static int run_gnuplot(const char *dir, const char *setting, const char *script, char *message, size_t size)
 {
     int pipe_fd[2], status = 0;
@@ -72,7 +73,8 @@ int fl_gnuplot_draw(const char *dir, const char *stem, const char *format, fl_er
     if (status == 127) return fl_fail(err, FL_SYSTEM, "gnuplot was not found, it draws what --plot asks for");
     if (status != 0 || stat(part, &st) != 0 || st.st_size == 0) {
         unlink(part);
-        return fl_fail(err, FL_SYSTEM, "gnuplot failed on %s/%s: %.200s", dir, script, last_error_line(message));
+        return fl_fail(err, FL_SYSTEM, "gnuplot failed on %s/%s: %.200s", dir, script,
+                       last_error_line(message));
     }
     return rename(part, path) == 0 ? 0 : fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
 }

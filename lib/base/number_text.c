@@ -100,9 +100,9 @@ static void write_decimal(char *p, int minus, uint64_t d, int digits, int ten)
     *p = '\0';
 }
 
-/* Does d, without the last `unit` of whole, read back as x = m 2^e, given as whole and fraction?  It does within
- * half the distance between doubles, whole / 2 m, known here to a few 2^-53 of itself.  Returns 1, 0, or -1
- * where the margin is too small or where the doubles below x lie closer. */
+/* Does d, without the last `unit` of whole, read back as x = m 2^e, given as whole and fraction?  It does
+ * within half the distance between doubles, whole / 2 m, known here to a few 2^-53 of itself.  Returns 1, 0,
+ * or -1 where the margin is too small or where the doubles below x lie closer. */
 static inline int digits_read_back(uint64_t d, uint64_t unit, uint64_t whole, uint64_t fraction, uint64_t m)
 {
     static const double CLOSE = 1e-9; /* millions of these units */
@@ -112,8 +112,8 @@ static inline int digits_read_back(uint64_t d, uint64_t unit, uint64_t whole, ui
     return m != UINT64_C(1) << 52 && off < half - CLOSE * (half + 1.0) ? 1 : -1;
 }
 
-/* Writes x with the given number of digits if that reads back.  Returns 1, 0 if it does not, -1 if 128 bits do
- * not decide. */
+/* Writes x with the given number of digits if that reads back.  Returns 1, 0 if it does not, -1 if 128 bits
+ * do not decide. */
 static inline int try_digits(double x, uint64_t whole, uint64_t fraction, int exact, uint64_t m, int ten,
                              int digits, uint64_t unit, char *buf)
 {

@@ -49,8 +49,8 @@ int fl_same_file(const char *a, const char *b)
     return identify_file(a, STDOUT_FILENO, &p) && identify_file(b, STDOUT_FILENO, &q) && is_same_file(&p, &q);
 }
 
-/* Fills p with the files that an output occupies: the file itself and its unfinished PATH.part.  Returns their
- * number. */
+/* Fills p with the files that an output occupies: the file itself and its unfinished PATH.part.  Returns
+ * their number. */
 static int identify_output(const char *path, file_id p[2])
 {
     if (!identify_file(path, STDOUT_FILENO, &p[0])) return 0;

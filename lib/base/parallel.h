@@ -7,11 +7,11 @@
 /* Sum of x[0 .. n): blocks of 1024 in ascending order, then the block sums in order. */
 double fl_parallel_sum(const double *x, int64_t n);
 
-/* Limits the time that threads spin at the end of a parallel loop to a few microseconds.  GNU OpenMP spins for
- * milliseconds, which makes two threads tens of times slower than one on a busy machine (200 bodies, four other
- * busy processes: 14.4 s against 0.35 s).  The OpenMP library reads its environment before main(), so the program
- * restarts itself with GOMP_SPINCOUNT set.  Nothing happens if GOMP_SPINCOUNT or OMP_WAIT_POLICY is set, or if
- * the restart fails.  Call first in main(). */
+/* Limits the time that threads spin at the end of a parallel loop to a few microseconds.  GNU OpenMP spins
+ * for milliseconds, which makes two threads tens of times slower than one on a busy machine (200 bodies, four
+ * other busy processes: 14.4 s against 0.35 s).  The OpenMP library reads its environment before main(), so
+ * the program restarts itself with GOMP_SPINCOUNT set.  Nothing happens if GOMP_SPINCOUNT or OMP_WAIT_POLICY
+ * is set, or if the restart fails.  Call first in main(). */
 void fl_parallel_limit_spin(char **argv);
 
 /* 64-bit FNV-1a over bytes, eight at a time.  Start from FL_HASH_START and chain. */

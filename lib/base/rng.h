@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rng.h -- counter-based random numbers: a function of (seed, entity, purpose).  The order of use is free, and a
- * further entity does not change the numbers of the others.
+/* rng.h -- counter-based random numbers: a function of (seed, entity, purpose).  The order of use is free,
+ * and a further entity does not change the numbers of the others.
  * Source: Philox4x32-10, Salmon, Moraes, Dror & Shaw, SC11 (2011). */
 #ifndef FL_BASE_RNG_H
 #define FL_BASE_RNG_H

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* simd.h -- SIMD registers of four doubles.
  *
- * The compiler splits fl_simd into the registers of the machine.  Every lane does IEEE 754 arithmetic by itself,
- * and -ffp-contract=off keeps products and sums apart, so the bits are the same for any width. */
+ * The compiler splits fl_simd into the registers of the machine.  Every lane does IEEE 754 arithmetic by
+ * itself, and -ffp-contract=off keeps products and sums apart, so the bits are the same for any width. */
 #ifndef FL_BASE_SIMD_H
 #define FL_BASE_SIMD_H
 #include <stdint.h>
@@ -50,8 +50,8 @@ typedef double fl_simd2 __attribute__((vector_size(2 * sizeof(double)), aligned(
 #define FL_SIMD_UNROLL _Pragma("GCC unroll 8")
 #endif
 
-/* By lanes: a where m, else 0;  a where m, else b.  Macros, since a function with arguments in registers that the
- * machine may lack has no fixed calling convention. */
+/* By lanes: a where m, else 0; a where m, else b.  Macros, since a function with arguments in registers that
+ * the machine may lack has no fixed calling convention. */
 #define FL_SIMD_MASKED(m, a) ((fl_simd)((m) & (fl_simd_mask)(a)))
 #define FL_SIMD_SELECT(m, a, b) ((fl_simd)(((m) & (fl_simd_mask)(a)) | (~(m) & (fl_simd_mask)(b))))
 

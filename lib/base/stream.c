@@ -18,9 +18,9 @@ enum { CHUNK = 1 << 16 };
 struct fl_in {
     int fd, gzip, ended;
     const char *name;           /* borrowed */
-    double follow_seconds;            /* [s] */
+    double follow_seconds;      /* [s] */
     const unsigned char *bytes; /* data in memory instead of fd, borrowed */
-    int64_t bytes_left;               /* bytes not yet copied to buf */
+    int64_t bytes_left;         /* bytes not yet copied to buf */
     z_stream z;
     int64_t buf_len, buf_pos;
     unsigned char buf[CHUNK];
@@ -155,7 +155,8 @@ void fl_in_close(fl_in *in)
 
 /* --- output ------------------------------------------------------------------------------------ */
 
-/* fl_out.gz points to this.  A gzip member starts with the first byte written after the previous member ended. */
+/* fl_out.gz points to this.  A gzip member starts with the first byte written after the previous member
+ * ended. */
 typedef struct {
     gzFile gz; /* NULL between members */
     int fd, level;
@@ -205,8 +206,8 @@ fail:
 
 static int fd_of(const fl_out *out) { return out->gz ? ((gzip_writer *)out->gz)->fd : fileno(out->f); }
 
-/* Resolves the names for path.  Renaming onto a link or a device (/dev/null, /dev/stdout) would replace it with
- * a plain file.  *direct is set where path is not a plain file. */
+/* Resolves the names for path.  Renaming onto a link or a device (/dev/null, /dev/stdout) would replace it
+ * with a plain file.  *direct is set where path is not a plain file. */
 static int resolve_names(fl_out *out, const char *path, int *direct, fl_err *err)
 {
     struct stat st;
@@ -231,7 +232,8 @@ char *fl_out_part_path(const char *path)
     return out.tmp;
 }
 
-/* Reports that a file could not be created.  A missing folder is named, since the file itself does not exist. */
+/* Reports that a file could not be created.  A missing folder is named, since the file itself does not
+ * exist. */
 static void report_create_error(const char *path, fl_err *err)
 {
     const int why = errno;
@@ -246,7 +248,8 @@ static void report_create_error(const char *path, fl_err *err)
 
 /* Opens tmp for a single writer; creates it if `make`.  The lock ends with the last descriptor, however the
  * program ends, and stays with the file through a rename.  When the lock is obtained the name may belong to
- * another file; that file is tried next.  File systems without locks get none.  Returns the descriptor or -1. */
+ * another file; that file is tried next.  File systems without locks get none.  Returns the descriptor or
+ * -1. */
 static int open_locked(fl_out *out, int make, fl_err *err)
 {
     for (;;) {
@@ -331,7 +334,10 @@ static int flush_stream(fl_out *out)
     return fflush(out->f) != 0 || ferror(out->f) ? -1 : 0;
 }
 
-int fl_out_flush(fl_out *out, fl_err *err) { return flush_stream(out) ? report_write_error(out, errno, err) : 0; }
+int fl_out_flush(fl_out *out, fl_err *err)
+{
+    return flush_stream(out) ? report_write_error(out, errno, err) : 0;
+}
 
 /* Truncates the file after its last complete line. */
 static void truncate_to_line(int fd)
@@ -362,7 +368,8 @@ int fl_out_close(fl_out *out, fl_err *err)
     const int plain = !out->gz;
     if (!out->f) return 0;
     int bad = flush_to_disk(out) != 0, why = errno;
-    const int lock_fd = out->tmp ? dup(fd_of(out)) : -1; /* holds the lock until the file has its final name */
+    const int lock_fd = out->tmp ? dup(fd_of(out)) : -1; /* holds the lock until the file has its final
+                                                          * name */
     gzip_writer *z = out->gz;
     if (out->f != stdout && fclose(out->f) != 0 && !bad) bad = 1, why = errno;
     out->f = NULL;

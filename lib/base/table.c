@@ -6,7 +6,8 @@
 #include "base/number_text.h"
 #include "base/table.h"
 
-/* Reads "#start T" [s] above the column names: start of the first interval, for records that do not begin at 0. */
+/* Reads "#start T" [s] above the column names: start of the first interval, for records that do not begin at
+ * 0. */
 static int read_start(fl_table *t, fl_err *err)
 {
     const char *word = t->text.line + strlen("#start");
@@ -38,7 +39,8 @@ static int check_names(fl_table *t, fl_err *err)
     return rc;
 }
 
-/* Copies the row of column names, which the next row would overwrite, and splits "fx[N]" into "fx" and "N". */
+/* Copies the row of column names, which the next row would overwrite, and splits "fx[N]" into "fx" and
+ * "N". */
 static int store_names(fl_table *t, fl_err *err)
 {
     int64_t bytes = 0;

@@ -20,7 +20,10 @@ static int begin_text(fl_text *t, fl_in *in, fl_err *err)
     return -1;
 }
 
-int fl_text_open(fl_text *t, const char *path, fl_err *err) { return begin_text(t, fl_in_open(path, err), err); }
+int fl_text_open(fl_text *t, const char *path, fl_err *err)
+{
+    return begin_text(t, fl_in_open(path, err), err);
+}
 
 int fl_text_open_bytes(fl_text *t, const char *name, const void *data, int64_t n, fl_err *err)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* text.h -- rows of a text file: kind and version, history, comments, fields, and errors with file and line. */
+/* text.h -- rows of a text file: kind and version, history, comments, fields, and errors with file and
+ * line. */
 #ifndef FL_BASE_TEXT_H
 #define FL_BASE_TEXT_H
 #include <stdint.h>
@@ -39,8 +40,8 @@ int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err);
  * 1, or 0 at the end of the file, or -1 with err (too long, a nul byte, read error). */
 int fl_text_line(fl_text *t, fl_err *err);
 
-/* Splits the line just read into field[0 .. n) at blanks and tabs, up to a "#", and sets next = 0.  A "#by" line
- * is added to the history.  1, or 0 if the line is empty, or -1 with err. */
+/* Splits the line just read into field[0 .. n) at blanks and tabs, up to a "#", and sets next = 0.  A "#by"
+ * line is added to the history.  1, or 0 if the line is empty, or -1 with err. */
 int fl_text_split(fl_text *t, fl_err *err);
 
 /* Reads the next row: skips blank lines and comments (collecting "#by" lines), splits at blanks and tabs into

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread_count.h -- chooses the number of threads of a step by measurement, where the scene leaves it open.
  *
- * A second thread saves up to half of the time if there is enough work and a free processor.  In a small scene it
- * gains nothing.  On a busy machine a team waits for the thread that does not run, up to twenty times the step
- * time of one thread.  Steps are therefore timed in short windows, with the present number of threads and with
- * half or twice as many; a change is kept if it is faster by a thirtieth.  While nothing changes, trials become
- * rarer, down to one step in 250.  A step that takes half as long again as before starts a trial at once.
- * Results do not depend on the number of threads. */
+ * A second thread saves up to half of the time if there is enough work and a free processor.  In a small
+ * scene it gains nothing.  On a busy machine a team waits for the thread that does not run, up to twenty
+ * times the step time of one thread.  Steps are therefore timed in short windows, with the present number of
+ * threads and with half or twice as many; a change is kept if it is faster by a thirtieth.  While nothing
+ * changes, trials become rarer, down to one step in 250.  A step that takes half as long again as before
+ * starts a trial at once.  Results do not depend on the number of threads. */
 #ifndef FL_BASE_THREAD_COUNT_H
 #define FL_BASE_THREAD_COUNT_H
 #include <stdint.h>
@@ -20,7 +20,8 @@ typedef struct {
     int32_t n_before;                   /* n before the trial */
     int64_t timed_steps, untimed_steps; /* steps of the present window; steps until the next window */
     int64_t windows_left,
-        windows_between; /* windows until the next trial; windows between trials, doubled as long as none wins */
+        windows_between; /* windows until the next trial; windows between trials, doubled as long as none
+                          * wins */
     double step_start, window_time; /* start of the step, time of the window [s] */
     double step_time;               /* smoothed step time with n threads [s]; 0: unknown */
     double reference_time;          /* step time at the last trial, or the best since [s] */

@@ -33,8 +33,8 @@ void fl_tool_version(const char *program);
  * (ulimit -f) becomes a failed write instead of the end of the program. */
 void fl_tool_begin(void);
 
-/* End of main: flushes standard output, prints "program: message" to stderr if anything failed, and returns the
- * exit status: 0, or the code in err.  A run that could not write its output ends with FL_SYSTEM. */
+/* End of main: flushes standard output, prints "program: message" to stderr if anything failed, and returns
+ * the exit status: 0, or the code in err.  A run that could not write its output ends with FL_SYSTEM. */
 int fl_tool_end(const char *program, int rc, fl_err *err);
 
 #endif

@@ -48,7 +48,7 @@ static void select_median(const fl_aabb *box, int axis, int32_t *order, int32_t 
 static int32_t nodes_below(int32_t n, int32_t *other)
 {
     int32_t less, more; /* of n / 2 and n / 2 + 1 boxes */
-    if (n < LEAF_MAX) {     /* also n + 1 <= LEAF_MAX */
+    if (n < LEAF_MAX) { /* also n + 1 <= LEAF_MAX */
         *other = 0;
         return 0;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bvh.h -- bounding volume hierarchy over n boxes: finds those that overlap a given box.  The ratio of box sizes
- * does not matter, since a large box lies high in the tree and is not copied into small cells. */
+/* bvh.h -- bounding volume hierarchy over n boxes: finds those that overlap a given box.  The ratio of box
+ * sizes does not matter, since a large box lies high in the tree and is not copied into small cells. */
 #ifndef FL_BROAD_BVH_H
 #define FL_BROAD_BVH_H
 #include <stdint.h>

@@ -3,7 +3,8 @@
 #include "base/array.h"
 #include "broad/pairs.h"
 
-/* Block size of the parallel loop; largest number of periodic images to each side; code of the central image. */
+/* Block size of the parallel loop; largest number of periodic images to each side; code of the central
+ * image. */
 enum { BLOCK = 64, IMAGES_MAX = 15, IMAGE_CENTRE = 16 << 10 | 16 << 5 | 16 };
 
 static int compare_keys(const void *a, const void *b)
@@ -22,8 +23,8 @@ typedef struct {
 } pair_scratch;
 
 /* Adds the boxes of the tree that overlap q, with the given image. */
-static int add_overlapping(const fl_pairs *p, const fl_aabb *box, fl_aabb q, int32_t i, int32_t image, pair_scratch *s,
-                   fl_err *err)
+static int add_overlapping(const fl_pairs *p, const fl_aabb *box, fl_aabb q, int32_t i, int32_t image,
+                           pair_scratch *s, fl_err *err)
 {
     int32_t hit = fl_bvh_query(&p->tree, box, q, s->hit, s->hit_cap);
     if (hit > s->hit_cap) {
@@ -38,7 +39,7 @@ static int add_overlapping(const fl_pairs *p, const fl_aabb *box, fl_aabb q, int
 
 /* Range of images along one direction: shifts of the tree's box by e periods that overlap [lo, hi]. */
 static void image_range(double period, double lo, double hi, double tree_lo, double tree_hi, int *from,
-                         int *to)
+                        int *to)
 {
     *from = *to = 0;
     if (!(period > 0.0)) return;
@@ -47,8 +48,8 @@ static void image_range(double period, double lo, double hi, double tree_lo, dou
 }
 
 /* Finds the partners of i, sorted by (j, image). */
-static int find_partners(const fl_pairs *p, const fl_aabb *box, int32_t i, int32_t total, int32_t wide, pair_scratch *s,
-                    fl_err *err)
+static int find_partners(const fl_pairs *p, const fl_aabb *box, int32_t i, int32_t total, int32_t wide,
+                         pair_scratch *s, fl_err *err)
 {
     const fl_vec3 L = p->period;
     const fl_aabb b = box[i];
@@ -80,10 +81,10 @@ static int find_partners(const fl_pairs *p, const fl_aabb *box, int32_t i, int32
     return 0;
 }
 
-/* Finds the partners of the bodies of block b, in order, and writes their counts to p->first.  Returns NULL when
- * memory runs out, here or before. */
-static int64_t *find_block_partners(fl_pairs *p, const fl_aabb *box, int32_t b, int32_t n, int32_t total, int32_t wide,
-                           pair_scratch *s, fl_err *err)
+/* Finds the partners of the bodies of block b, in order, and writes their counts to p->first.  Returns NULL
+ * when memory runs out, here or before. */
+static int64_t *find_block_partners(fl_pairs *p, const fl_aabb *box, int32_t b, int32_t n, int32_t total,
+                                    int32_t wide, pair_scratch *s, fl_err *err)
 {
     int64_t *keys = NULL;
     s->alls = 0;
@@ -114,7 +115,8 @@ int fl_pairs_find(fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total, int
         pair_scratch s = {0};
         fl_err lost = {0};
 #pragma omp for schedule(dynamic)
-        for (int32_t b = 0; b < blocks; b++) found[b] = find_block_partners(p, box, b, n, total, wide, &s, &lost);
+        for (int32_t b = 0; b < blocks; b++)
+            found[b] = find_block_partners(p, box, b, n, total, wide, &s, &lost);
         free(s.hit), free(s.key), free(s.all);
         if (lost.code) {
 #pragma omp atomic write

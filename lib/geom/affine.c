@@ -5,8 +5,8 @@ static const double RADIANS = 0.01745329251994329577; /* radians per degree */
 
 fl_affine fl_affine_identity(void) { return (fl_affine){.q = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, .s = 1.0}; }
 
-/* Cosine and sine of an angle in degrees.  The C library gets at most an eighth of a turn: the rest after whole
- * quarter turns, which fmod() and a subtraction remove exactly. */
+/* Cosine and sine of an angle in degrees.  The C library gets at most an eighth of a turn: the rest after
+ * whole quarter turns, which fmod() and a subtraction remove exactly. */
 static void cos_sin_degrees(double degrees, double *c, double *s)
 {
     const double turn = fmod(degrees, 360.0), quarters = nearbyint(turn / 90.0);

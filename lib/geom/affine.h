@@ -5,8 +5,8 @@
 #include "geom/mat3.h"
 #include "geom/surface.h"
 
-/* x becomes t + s Q x, Q orthogonal.  Lengths scale by s, volumes by s^3, moments of inertia at density one by s^5,
- * for any Q and t. */
+/* x becomes t + s Q x, Q orthogonal.  Lengths scale by s, volumes by s^3, moments of inertia at density one
+ * by s^5, for any Q and t. */
 typedef struct {
     fl_mat3 q;
     double s;  /* > 0 */
@@ -16,11 +16,11 @@ typedef struct {
 /* The identity. */
 fl_affine fl_affine_identity(void);
 
-/* Rotation by an angle in degrees, counter-clockwise seen against the axis, which is not zero and need not be a
- * unit vector:
+/* Rotation by an angle in degrees, counter-clockwise seen against the axis, which is not zero and need not be
+ * a unit vector:
  *     R = c 1 + (1 - c) a a^T + s [a]x,  a = axis / |axis|,  c, s = cosine, sine
- * Multiples of 90 degrees about a coordinate axis have elements 0, 1 and -1 exactly; else R is orthogonal to a few
- * 1e-16.  Source: Rodrigues 1840. */
+ * Multiples of 90 degrees about a coordinate axis have elements 0, 1 and -1 exactly; else R is orthogonal to
+ * a few 1e-16.  Source: Rodrigues 1840. */
 fl_mat3 fl_affine_rotation(fl_vec3 axis, double degrees);
 
 /* a b */

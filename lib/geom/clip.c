@@ -6,9 +6,10 @@
 #include "geom/clip.h"
 #include "geom/mass.h"
 
-/* Distance from the plane, relative to the size, below which a vertex lies on it: a plane through given vertices
- * misses them by a few roundings.  A vertex slightly farther away may leave a face too narrow for
- * fl_poly_make().  Then larger tolerances are tried, up to half the allowed deviation of a face from its plane. */
+/* Distance from the plane, relative to the size, below which a vertex lies on it: a plane through given
+ * vertices misses them by a few roundings.  A vertex slightly farther away may leave a face too narrow for
+ * fl_poly_make().  Then larger tolerances are tried, up to half the allowed deviation of a face from its
+ * plane. */
 enum { ON_TRIES = 3 };
 static const double ON_TOL[ON_TRIES] = {1e-12, 5e-11, 5e-10};
 /* Corners closer than this (relative to the size) are merged: twice the limit of fl_poly_make(). */
@@ -105,13 +106,14 @@ static int cut_scratch_alloc(struct cut_scratch *w, int32_t nv, int32_t nl, fl_e
     w->s = (double *)(void *)at;
     w->next = (int32_t *)(void *)(w->s + nv);
     w->place = w->next + most;
-    w->split =
-        (struct split_table){w->place + most, w->place + most + slots, w->place + most + 2 * slots, slots - 1};
+    w->split = (struct split_table){w->place + most, w->place + most + slots, w->place + most + 2 * slots,
+                                    slots - 1};
     for (int64_t k = 0; k < most; k++) w->next[k] = -1;
     return 0;
 }
 
-/* Collects the cap, starting at its lowest corner.  The links must form one ring.  Returns its length or -1. */
+/* Collects the cap, starting at its lowest corner.  The links must form one ring.  Returns its length or
+ * -1. */
 static int32_t close_cap(struct shape *to, int32_t at, const int32_t *next, int32_t most, int32_t links)
 {
     int32_t start = 0, n = 0;
@@ -184,7 +186,8 @@ static int cut_shape(struct shape *a, struct plane pl, int32_t tag, double tol, 
             const int32_t u = to.loop[k], x = to.loop[k + 1 < at ? k + 1 : begin];
             const int on = (u >= a->nv || w.s[u] >= 0.0) && (x >= a->nv || w.s[x] >= 0.0);
             if (!on) continue;
-            /* This side runs from u to x on the plane, the cap from x to u.  Two faces that share the side need no cap. */
+            /* This side runs from u to x on the plane, the cap from x to u.  Two faces that share the side
+             * need no cap. */
             if (w.next[u] == x) {
                 w.next[u] = -1;
                 links--;
@@ -322,8 +325,8 @@ int fl_poly_cut(fl_poly *p, fl_vec3 n, double c, fl_err *err)
     return 0;
 }
 
-/* The smallest step d with n_k.d = miss_k for the n planes at a corner, by least squares.  Directions in which
- * the planes do not differ are left alone. */
+/* The smallest step d with n_k.d = miss_k for the n planes at a corner, by least squares.  Directions in
+ * which the planes do not differ are left alone. */
 static fl_vec3 solve_corner(int32_t n, const struct plane *pl, const double *miss)
 {
     fl_vec3 rhs = {0}, d = {0};
@@ -368,7 +371,7 @@ static int reserve_corner(struct corner_planes *c, int32_t n, fl_err *err)
 
 /* The faces at each vertex: face[first[v] .. first[v + 1]). */
 static int faces_at_vertices(int32_t nv, int32_t nf, const int32_t *first, const int32_t *loop, int32_t **out,
-                 int32_t **face, fl_err *err)
+                             int32_t **face, fl_err *err)
 {
     const int32_t nl = first[nf];
     int32_t *at = fl_alloc((int64_t)nv + 2 + nl, sizeof *at, err);
@@ -441,7 +444,8 @@ done:
     return rc;
 }
 
-/* Moves each vertex to the intersection of its planes: cuts of a large box leave it off by roundings of the box. */
+/* Moves each vertex to the intersection of its planes: cuts of a large box leave it off by roundings of the
+ * box. */
 static int refine_vertices(struct shape *s, const struct plane *pl, fl_err *err)
 {
     int32_t *first = NULL, *face;

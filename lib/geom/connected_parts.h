@@ -4,9 +4,9 @@
 #define FL_GEOM_CONNECTED_PARTS_H
 #include "geom/surface.h"
 
-/* Joins triangles across edges of two.  Where bodies share an edge, its triangles are joined in pairs in their
- * order, since the triangles of a body are consecutive in its file.  Edges with an odd number of triangles above
- * one join nothing.
+/* Joins triangles across edges of two.  Where bodies share an edge, its triangles are joined in pairs in
+ * their order, since the triangles of a body are consecutive in its file.  Edges with an odd number of
+ * triangles above one join nothing.
  *   shell  [p->nt] out: the lowest triangle of its body
  *   odd    out: number of edges with an odd number of triangles; 0: each body is closed
  * 0, or -1 with FL_SYSTEM. */

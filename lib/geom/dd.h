@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dd.h -- double-double numbers of 106 bits, the unevaluated sum of two doubles, and vectors of them, by value.
- * For the few places where a difference of nearly equal products decides.  Requires IEEE doubles rounded to
- * nearest and no contraction.  Relative error of one operation below 2^-102 without overflow or underflow.
+/* dd.h -- double-double numbers of 106 bits, the unevaluated sum of two doubles, and vectors of them, by
+ * value.  For the few places where a difference of nearly equal products decides.  Requires IEEE doubles
+ * rounded to nearest and no contraction.  Relative error of one operation below 2^-102 without overflow or
+ * underflow.
  * Source: Dekker 1971; Joldes, Muller & Popescu, ACM TOMS 44 (2017). */
 #ifndef FL_GEOM_DD_H
 #define FL_GEOM_DD_H

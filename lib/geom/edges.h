@@ -4,8 +4,8 @@
 #define FL_GEOM_EDGES_H
 #include "geom/surface.h"
 
-/* A side of a triangle.  The ends of an edge are ordered by index; the half-edge lies in the bucket of the lower
- * end. */
+/* A side of a triangle.  The ends of an edge are ordered by index; the half-edge lies in the bucket of the
+ * lower end. */
 typedef struct {
     int32_t hi, t; /* the higher end, and the triangle */
     int8_t k, up;  /* side k of the triangle; up = 1: it runs from the lower end */
@@ -16,7 +16,8 @@ typedef struct {
     fl_half_edge *side; /* [3 nt]; those of an edge are consecutive, in the order of triangles */
 } fl_edges;
 
-/* Builds the edges of all triangles without a repeated index.  0, or -1 with FL_SYSTEM and nothing to free. */
+/* Builds the edges of all triangles without a repeated index.  0, or -1 with FL_SYSTEM and nothing to
+ * free. */
 int fl_edges_make(fl_edges *e, const fl_part *p, fl_err *err);
 void fl_edges_free(fl_edges *e); /* accepts a zeroed struct, leaves one */
 

@@ -4,8 +4,8 @@
 #include "base/array.h"
 #include "geom/facet.h"
 
-/* A quadrilateral is flat if its corners deviate less than this from a plane, relative to its diagonal.  float32
- * coordinates deviate by 1e-7 of their size, panels modelled as warped by 1e-3 and more. */
+/* A quadrilateral is flat if its corners deviate less than this from a plane, relative to its diagonal.
+ * float32 coordinates deviate by 1e-7 of their size, panels modelled as warped by 1e-3 and more. */
 static const double FLAT_TOL = 1e-6;
 
 /* Sides that turn by less than this [rad] are straight.  Rounding turns the sides of a panel of 1 m by up to
@@ -14,18 +14,19 @@ static const double STRAIGHT_TOL = 1e-9;
 
 static const double TWO_PI = 6.283185307179586477;
 
-/* Corner k of n on the unit circle.  The angle is reduced to an eighth of a turn before the C library is called,
- * so that opposite corners are opposite to the last bit. */
+/* Corner k of n on the unit circle.  The angle is reduced to an eighth of a turn before the C library is
+ * called, so that opposite corners are opposite to the last bit. */
 static void circle_corner(int32_t k, int32_t n, double *c, double *s)
 {
-    const int64_t eighth = 8 * (int64_t)k / n; /* 0 .. 7 */
-    const int64_t twice_area = (eighth + 1) / 2;     /* quarter turns to subtract, 0 .. 4 */
+    const int64_t eighth = 8 * (int64_t)k / n;   /* 0 .. 7 */
+    const int64_t twice_area = (eighth + 1) / 2; /* quarter turns to subtract, 0 .. 4 */
     const double a = TWO_PI * (double)(4 * (int64_t)k - twice_area * n) / (4.0 * n), x = cos(a), y = sin(a);
     *c = twice_area % 4 == 0 ? x : twice_area % 4 == 1 ? -y : twice_area % 4 == 2 ? -x : y;
     *s = twice_area % 4 == 0 ? y : twice_area % 4 == 1 ? x : twice_area % 4 == 2 ? -y : -x;
 }
 
-/* Closes an end with the disc of n corners from `first` on; a point needs none.  A polygon is used, not a fan:
+/* Closes an end with the disc of n corners from `first` on; a point needs none.  A polygon is used, not a
+ * fan:
  * ten thousand triangles at one corner make every neighbour search quadratic. */
 static int close_end(fl_part *p, int32_t first, int32_t n, int reverse, fl_err *err)
 {
@@ -150,7 +151,9 @@ static int is_ear(const ring *r, int32_t k)
     for (int32_t m = r->next[j]; m != i; m = r->next[m]) {
         const fl_vec3 y = r->x[r->loop[m]];
         if (!r->concave[m] || same_point(y, a) || same_point(y, b) || same_point(y, c)) continue;
-        if (twice_area(r->n, a, b, y) >= rim && twice_area(r->n, b, c, y) >= rim && twice_area(r->n, c, a, y) >= rim) return 0;
+        if (twice_area(r->n, a, b, y) >= rim && twice_area(r->n, b, c, y) >= rim &&
+            twice_area(r->n, c, a, y) >= rim)
+            return 0;
     }
     return 1;
 }

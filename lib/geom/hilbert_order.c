@@ -6,9 +6,9 @@
 
 enum { LEVELS = 16, DIGIT = 11, DIGITS = 1 << DIGIT };
 
-/* The quarters of a square come in the order lower left, upper left, upper right, lower right.  In the first the
- * axes of the curve are exchanged; in the last they are exchanged and reversed.  Both states are masks of all
- * bits or none, since a branch on a coordinate bit is mispredicted half of the time. */
+/* The quarters of a square come in the order lower left, upper left, upper right, lower right.  In the first
+ * the axes of the curve are exchanged; in the last they are exchanged and reversed.  Both states are masks of
+ * all bits or none, since a branch on a coordinate bit is mispredicted half of the time. */
 uint32_t fl_hilbert_index(uint32_t x, uint32_t y)
 {
     uint32_t index = 0, swap = 0, flip = 0;

@@ -48,7 +48,7 @@ static void find_sheets(const fl_part *p, const fl_edges *e, const int32_t *twin
 
 /* Marks the paired triangles of sets with all properties `of` and none of `nothing_of`. */
 static int mark_twins(const fl_part *p, const fl_edges *e, unsigned of, unsigned nothing_of, uint8_t *wall,
-                    fl_err *err)
+                      fl_err *err)
 {
     int32_t *twin = fl_alloc(p->nt, sizeof *twin, err), *set = twin ? fl_union_find_make(p->nt, err) : NULL;
     uint8_t *is = set ? fl_alloc(p->nt, 1, err) : NULL;
@@ -84,7 +84,7 @@ static int find_single_walls(const fl_part *p, const fl_edges *e, uint8_t *wall,
 
 /* Removes the triangles that `find` marks. */
 static int drop_marked(fl_part *p, int (*find)(const fl_part *, const fl_edges *, uint8_t *, fl_err *),
-                int32_t *gone, fl_err *err)
+                       int32_t *gone, fl_err *err)
 {
     fl_edges e = {0};
     uint8_t *wall = fl_alloc(p->nt, 1, err);
@@ -102,7 +102,8 @@ int fl_part_drop_inner_walls(fl_part *p, int32_t *gone, fl_err *err)
 {
     fl_weld w;
     *gone = 0;
-    if (drop_marked(p, find_double_walls, gone, err) || drop_marked(p, find_single_walls, gone, err)) return -1;
+    if (drop_marked(p, find_double_walls, gone, err) || drop_marked(p, find_single_walls, gone, err))
+        return -1;
     return *gone ? fl_part_weld(p, 0.0, &w, err) : 0;
 }
 

@@ -3,10 +3,11 @@
 #include "base/pi.h"
 #include "geom/mass.h"
 
-/* Second moments are sums of some tens of terms of the size of the trace, each accurate to DBL_EPSILON / 2. */
+/* Second moments are sums of some tens of terms of the size of the trace, each accurate to DBL_EPSILON /
+ * 2. */
 static const double OFF_TOL = 1e-15;
-/* Eigenvalues this close, relative to the trace, differ by rounding only.  They count as equal, so that a square
- * body keeps its axes. */
+/* Eigenvalues this close, relative to the trace, differ by rounding only.  They count as equal, so that a
+ * square body keeps its axes. */
 static const double TIE_TOL = 1e-14;
 
 /* Moments about the working origin: int dV, int x dV, int x x^T dV. */
@@ -29,8 +30,8 @@ static void add_symmetric(fl_mat3 *m, double s, fl_vec3 a, fl_vec3 b)
     add_outer(m, s, b, a);
 }
 
-/* Adds face f, split into fan triangles: the tetrahedra from the working origin o and the slab of thickness r.
- * For a simplex with corners x_k and volume v in d dimensions
+/* Adds face f, split into fan triangles: the tetrahedra from the working origin o and the slab of thickness
+ * r.  For a simplex with corners x_k and volume v in d dimensions
  *     int x x^T = v / ((d+1)(d+2)) (sum_k x_k x_k^T + s s^T),   s = sum_k x_k */
 static void add_face(struct moment_sums *t, const fl_poly *p, int32_t f, fl_vec3 o, double r)
 {
@@ -59,8 +60,8 @@ static void add_face(struct moment_sums *t, const fl_poly *p, int32_t f, fl_vec3
     add_outer(&t->xx, r * r * r * area / 3.0, n, n);
 }
 
-/* Adds the sector of angle t along edge e, and the edge's part of the spherical sectors at its ends (all but the
- * terms of the solid angle). */
+/* Adds the sector of angle t along edge e, and the edge's part of the spherical sectors at its ends (all but
+ * the terms of the solid angle). */
 static void add_edge(struct moment_sums *s, const fl_poly *p, int32_t e, fl_vec3 o, double r)
 {
     const fl_edge g = p->edge[e];
@@ -109,7 +110,8 @@ static struct moment_sums sum_body(const fl_poly *p, fl_vec3 o, double r)
     for (int32_t f = 0; f < p->nf; f++) add_face(&s, p, f, o, r);
     if (!(r > 0.0)) return s;
     for (int32_t e = 0; e < p->ne; e++) add_edge(&s, p, e, o, r);
-    /* A vertex starts with 2 pi (4 pi if it is the only one); the angles of its faces are subtracted one by one. */
+    /* A vertex starts with 2 pi (4 pi if it is the only one); the angles of its faces are subtracted one by
+     * one. */
     for (int32_t v = 0; v < p->nv; v++)
         add_solid_angle(&s, v3_sub(p->v[v], o), p->nv == 1 ? 4.0 * PI : 2.0 * PI, r);
     for (int32_t f = 0; f < p->nf; f++)
@@ -130,8 +132,8 @@ int fl_mass_of(fl_mass *m, const fl_poly *p, double r, fl_err *err)
     if (!(r > 0.0) && p->nf < 4) return fl_fail(err, FL_INPUT, "a body without volume has no mass");
     for (int32_t v = 0; v < p->nv; v++) o = v3_add(o, v3_sub(p->v[v], p->v[0]));
     o = v3_madd(p->v[0], 1.0 / p->nv, o);
-    /* First about the mean vertex, to find the centroid, then about the centroid: subtracting V d d^T at the end
-     * would cost a slender body its small moments. */
+    /* First about the mean vertex, to find the centroid, then about the centroid: subtracting V d d^T at the
+     * end would cost a slender body its small moments. */
     s = sum_body(p, o, r);
     o = v3_madd(o, 1.0 / s.v, s.x);
     s = sum_body(p, o, r);

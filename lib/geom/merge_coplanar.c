@@ -15,10 +15,11 @@ typedef struct {
     const fl_vec3 *normal;
     int32_t nt;
     double tol;
-    int32_t *next, *prev, *twin; /* [3 nt] next, previous: round a face; opposite half-edge: -1 on the boundary and where joined */
-    int32_t *parent;               /* [nt] union-find of the triangles of a face */
+    int32_t *next, *prev, *twin; /* [3 nt] next, previous: round a face; opposite half-edge: -1 on the
+                                  * boundary and where joined */
+    int32_t *parent;             /* [nt] union-find of the triangles of a face */
     int32_t *work;               /* [3 nt] the current loop */
-    uint8_t *joined;               /* [3 nt] half-edges removed by joining */
+    uint8_t *joined;             /* [3 nt] half-edges removed by joining */
     fl_merged_faces out;
 } face_mesh;
 
@@ -39,9 +40,10 @@ static double offset_from_line(const face_mesh *m, int32_t a, int32_t b, int32_t
     return v3_dot(n, v3_cross(v3_sub(m->v[b], m->v[a]), along)) / size;
 }
 
-/* Removes the straight corners of loop[0 .. n).  Returns the number of corners left, at least 3.  note counts the
- * removed corners by vertex, or is NULL. */
-static int32_t drop_straight_corners(const face_mesh *m, int32_t *loop, int32_t n, fl_vec3 normal, int32_t *note)
+/* Removes the straight corners of loop[0 .. n).  Returns the number of corners left, at least 3.  note counts
+ * the removed corners by vertex, or is NULL. */
+static int32_t drop_straight_corners(const face_mesh *m, int32_t *loop, int32_t n, fl_vec3 normal,
+                                     int32_t *note)
 {
     for (int32_t k = 0, kept = 0; n > 3 && kept < n;) {
         const int32_t a = loop[(k + n - 1) % n], b = loop[k], c = loop[(k + 1) % n];
@@ -60,7 +62,8 @@ static int32_t drop_straight_corners(const face_mesh *m, int32_t *loop, int32_t 
     return n;
 }
 
-/* True if every corner lies on the inner side of every side and the loop turns once: its area equals `area`. */
+/* True if every corner lies on the inner side of every side and the loop turns once: its area equals
+ * `area`. */
 static int is_convex(const face_mesh *m, const int32_t *loop, int32_t n, fl_vec3 normal, double area)
 {
     double twice = 0.0, length = 0.0;
@@ -82,10 +85,13 @@ static double triangle_area(const face_mesh *m, int32_t t)
                         v3_cross(v3_sub(m->v[v[1]], m->v[v[0]]), v3_sub(m->v[v[2]], m->v[v[0]])));
 }
 
-static int point_less(fl_vec3 a, fl_vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
+static int point_less(fl_vec3 a, fl_vec3 b)
+{
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
 
-/* Appends a convex loop as one face, or as several of FL_MERGED_SIDES_MAX sides.  The loop starts at its lowest
- * corner, so that it does not depend on the order of the triangles. */
+/* Appends a convex loop as one face, or as several of FL_MERGED_SIDES_MAX sides.  The loop starts at its
+ * lowest corner, so that it does not depend on the order of the triangles. */
 static int32_t append_face(face_mesh *m, int32_t region, int32_t *loop, int32_t n)
 {
     fl_merged_faces *o = &m->out;
@@ -115,8 +121,8 @@ static int32_t collect_loop(const face_mesh *m, int32_t h)
     return n;
 }
 
-/* Appends the region of boundary half-edge h as one face; rims is its number of boundary half-edges.  Returns -1
- * where it is not convex. */
+/* Appends the region of boundary half-edge h as one face; rims is its number of boundary half-edges.  Returns
+ * -1 where it is not convex. */
 static int32_t append_whole_region(face_mesh *m, int32_t h, int32_t rims, double area)
 {
     const fl_vec3 normal = m->normal[m->region[h / 3]];
@@ -162,7 +168,8 @@ static int join_faces(face_mesh *m, int32_t h)
     const int32_t ga = m->twin[ha], gb = m->twin[hb]; /* ga ends where ha begins */
     const int32_t before = m->prev[ha], after = m->next[ga], back = m->prev[gb], on = m->next[hb];
     const int32_t a = origin(m, ha), b = origin(m, on);
-    const double low = -0.1 * m->tol; /* several deviations must not add up to tol; tested when all faces are joined */
+    const double low = -0.1 * m->tol; /* several deviations must not add up to tol; tested when all faces are
+                                       * joined */
     if (offset_from_line(m, origin(m, before), a, origin(m, m->next[after]), n) < low ||
         offset_from_line(m, origin(m, back), b, origin(m, m->next[on]), n) < low)
         return 0;

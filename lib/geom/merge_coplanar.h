@@ -19,16 +19,16 @@ typedef struct {
         *straight_corners; /* [nv] number of faces that have a corner of 180 degrees here, left out of loop */
 } fl_merged_faces;
 
-/* Makes convex faces that cover each region once.  A region with one convex boundary becomes one face, whatever
- * its triangles.  In other regions neighbours are joined while their union is convex; without inner vertices this
- * gives at most four times the minimum number.  A face of more than FL_MERGED_SIDES_MAX sides is cut by chords.
- * Corners are convex, or straight, within tol.
+/* Makes convex faces that cover each region once.  A region with one convex boundary becomes one face,
+ * whatever its triangles.  In other regions neighbours are joined while their union is convex; without inner
+ * vertices this gives at most four times the minimum number.  A face of more than FL_MERGED_SIDES_MAX sides
+ * is cut by chords.  Corners are convex, or straight, within tol.
  *   nv, v         vertices                                                              [m]
  *   nt, t         triangles
  *   region[nt]    region of each triangle, connected over `across`; -1 for none
  *   normal[]      unit normal of each region
- *   across[3 nt]  triangle across side k of triangle t at 3 t + k, -1 for none; side k runs from corner k to the
- *                 next.  A neighbour of another region counts as none
+ *   across[3 nt]  triangle across side k of triangle t at 3 t + k, -1 for none; side k runs from corner k to
+ *                 the next.  A neighbour of another region counts as none
  *   tol           distance below which a corner is straight                             [m]
  * Time O(nt log nt), plus the square of the number of corners of a boundary.  0, or -1 with FL_SYSTEM, out
  * untouched.  Source: Hertel & Mehlhorn, FCT 1983, LNCS 158, 207. */

@@ -5,11 +5,12 @@
 #include "geom/outer_skin.h"
 #include "geom/mesh_patch.h"
 
-/* Rounding leaves up to about 4 x 2^-53 of the longest side squared in a cross product that should be zero. */
+/* Rounding leaves up to about 4 x 2^-53 of the longest side squared in a cross product that should be
+ * zero. */
 static const double NO_AREA = 1e-15, NO_VOLUME = 1e-10;
 
-/* across[3 t + k]: the triangle across side k of t, -1 for none; coherent[3 t + k]: both run along the side in
- * opposite directions. */
+/* across[3 t + k]: the triangle across side k of t, -1 for none; coherent[3 t + k]: both run along the side
+ * in opposite directions. */
 typedef struct {
     int32_t *across, *queue;
     int8_t *coherent;
@@ -67,7 +68,7 @@ static int adjacency_make(adjacency *w, const fl_part *p, fl_edges *edges, fl_er
 
 /* Properties of a patch after traversal. */
 typedef struct {
-    int32_t n;        /* triangles, w->queue[0 .. n)      */
+    int32_t n;                 /* triangles, w->queue[0 .. n)      */
     int has_rim, is_one_sided; /* has a boundary; signs cannot be made consistent */
 } patch_walk;
 
@@ -95,9 +96,9 @@ static patch_walk walk_patch(adjacency *w, int32_t t0)
     return g;
 }
 
-/* Sums over the signed triangles of a patch: volume, area kept, area turned.  The volume is taken about a corner
- * of the patch and divided by the sum of the absolute terms.  A value below NO_VOLUME may be rounding, whose
- * sign depends on the order of the triangles. */
+/* Sums over the signed triangles of a patch: volume, area kept, area turned.  The volume is taken about a
+ * corner of the patch and divided by the sum of the absolute terms.  A value below NO_VOLUME may be rounding,
+ * whose sign depends on the order of the triangles. */
 static void sum_patch(const fl_part *p, const adjacency *w, int32_t n, double sum[3])
 {
     double sizes = 0.0;
@@ -144,7 +145,8 @@ static void add_part(measure_sums *s, fl_mesh_quality *q, const fl_part *p, fl_v
         const fl_vec3 ab = v3_sub(b, a), ac = v3_sub(c, a), middle = v3_add(a, v3_add(b, c));
         const double twice = v3_norm(v3_cross(ab, ac)), six = v3_dot(a, v3_cross(b, c));
         const double l0 = v3_norm2(ab), l1 = v3_norm2(v3_sub(c, b)), l2 = v3_norm2(ac);
-        q->degenerate += fl_tri_repeats_vertex(&p->t[t]) || twice <= NO_AREA * -smaller_of(-l0, smaller_of(-l1, -l2));
+        q->degenerate +=
+            fl_tri_repeats_vertex(&p->t[t]) || twice <= NO_AREA * -smaller_of(-l0, smaller_of(-l1, -l2));
         least = smaller_of(least, smaller_of(l0, smaller_of(l1, l2)));
         s->volume += six / 6.0;
         s->vc = v3_madd(s->vc, six / 24.0, middle);
@@ -155,9 +157,10 @@ static void add_part(measure_sums *s, fl_mesh_quality *q, const fl_part *p, fl_v
     for (int32_t c = 0; c < p->nc; c++) add_cone(s, &p->cone[c], o);
 }
 
-/* Turns the triangles of a traversed patch.  outer: outward sides of the triangles, NULL without branched edges. */
-static void orient_patch(fl_part *p, const adjacency *w, const patch_walk *g, const double sum[3], const uint8_t *outer,
-                 fl_orient_counts *o)
+/* Turns the triangles of a traversed patch.  outer: outward sides of the triangles, NULL without branched
+ * edges. */
+static void orient_patch(fl_part *p, const adjacency *w, const patch_walk *g, const double sum[3],
+                         const uint8_t *outer, fl_orient_counts *o)
 {
     const double volume = sum[0], kept = sum[1], turned = sum[2];
     const int skin = g->has_rim && !g->is_one_sided && outer ? outer[w->queue[0]] : FL_OUTER_BOTH;
@@ -180,8 +183,8 @@ static void orient_patch(fl_part *p, const adjacency *w, const patch_walk *g, co
 }
 
 /* If o is given, finds the outward sides of a part with branched edges; *outer stays NULL for other parts. */
-static int find_outer_sides(const adjacency *w, const fl_part *p, const fl_edges *edges, const fl_orient_counts *o,
-                      uint8_t **outer, fl_err *err)
+static int find_outer_sides(const adjacency *w, const fl_part *p, const fl_edges *edges,
+                            const fl_orient_counts *o, uint8_t **outer, fl_err *err)
 {
     *outer = NULL;
     if (!o || !w->branched) return 0;
@@ -191,7 +194,7 @@ static int find_outer_sides(const adjacency *w, const fl_part *p, const fl_edges
 
 /* Traverses all patches and counts edges and patches.  If o is given, each patch is then oriented. */
 static int walk_patches(fl_mesh_quality *q, const fl_part *p, fl_part *to_turn, fl_orient_counts *o,
-                    fl_err *err)
+                        fl_err *err)
 {
     adjacency w;
     fl_edges edges;
@@ -219,8 +222,8 @@ static int walk_patches(fl_mesh_quality *q, const fl_part *p, fl_part *to_turn, 
 }
 
 /* Measures n parts.  If o is given, n is 1 and the part is oriented. */
-static int measure_parts(const fl_part *p, int32_t n, fl_part *to_turn, fl_mesh_quality *q, fl_orient_counts *o,
-                   fl_err *err)
+static int measure_parts(const fl_part *p, int32_t n, fl_part *to_turn, fl_mesh_quality *q,
+                         fl_orient_counts *o, fl_err *err)
 {
     const fl_surface all = {.n = n, .part = (fl_part *)p};
     measure_sums s = {0};

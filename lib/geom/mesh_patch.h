@@ -6,9 +6,9 @@
 
 /* For triangles with corners a, b, c about the centre o of the box, and for cones in closed form:
  *     V = sum a.(b x c) / 6,   A = sum |(b - a) x (c - a)| / 2,   C = o + sum (a + b + c) a.(b x c) / (24 V)
- * Taking o inside keeps precision far from the origin.  Cones and triangles are added as if they did not overlap.
- * Edges are identified by vertex indices, so weld first; a triangle with a repeated index has none.  A patch is a
- * set of triangles connected across edges of two triangles. */
+ * Taking o inside keeps precision far from the origin.  Cones and triangles are added as if they did not
+ * overlap.  Edges are identified by vertex indices, so weld first; a triangle with a repeated index has none.
+ * A patch is a set of triangles connected across edges of two triangles. */
 typedef struct {
     int32_t vertices, triangles, cones;
     int32_t open;       /* edges of one triangle */
@@ -33,15 +33,16 @@ int fl_surface_measure(const fl_surface *s, fl_mesh_quality *q, fl_err *err);
 typedef struct {
     int32_t triangles; /* turned one by one, to agree with the larger area of their patch */
     int32_t patches;   /* turned as a whole: negative volume, or a skin facing inward */
-    int32_t kept_side; /* open patches with the outside on both sides: they keep the side of most of their area */
+    int32_t kept_side; /* open patches with the outside on both sides: they keep the side of most of their
+                        * area */
     int32_t one_sided; /* one-sided patches (Moebius), which cannot be coherent */
 } fl_orient_counts;
 
 /* Makes each patch coherent by flood fill across edges of two triangles.  Then closed patches are turned to
- * positive volume, and patches that end in branched edges are turned outward (outer_skin.h) if only one of their
- * sides is outside.  Inner walls keep the side that most of their area had.  Cones need no orientation.
- *   came   the measures of the part as it came, as by fl_part_measure().  If nothing is turned (o->triangles and
- *          o->patches are 0), they still hold
+ * positive volume, and patches that end in branched edges are turned outward (outer_skin.h) if only one of
+ * their sides is outside.  Inner walls keep the side that most of their area had.  Cones need no orientation.
+ *   came   the measures of the part as it came, as by fl_part_measure().  If nothing is turned (o->triangles
+ *          and o->patches are 0), they still hold
  * Returns 0, or -1 with FL_SYSTEM. */
 int fl_part_orient(fl_part *p, fl_mesh_quality *came, fl_orient_counts *o, fl_err *err);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* moments.h -- volume, area, centroid and inertia of the solid enclosed by triangles and cones.  Sums have 106
- * bits. */
+/* moments.h -- volume, area, centroid and inertia of the solid enclosed by triangles and cones.  Sums have
+ * 106 bits. */
 #ifndef FL_GEOM_MOMENTS_H
 #define FL_GEOM_MOMENTS_H
 #include "geom/mat3.h"
@@ -12,8 +12,8 @@
  *     int x x^T dV = sum D / 120 (a a^T + b b^T + c c^T + (a + b + c)(a + b + c)^T)
  * and the tensor of inertia about the centroid, density one, J = tr(S) 1 - S, S = int (x - C)(x - C)^T dV.
  * Parts and cones are added as if they did not overlap.  Each term is a double with a relative error of a few
- * 1e-16, since the sides of small triangles are exact differences.  The sums have 106 bits, so millions of terms
- * lose no more than one does.  If the triangles are not closed, V, C and J are mere sums. */
+ * 1e-16, since the sides of small triangles are exact differences.  The sums have 106 bits, so millions of
+ * terms lose no more than one does.  If the triangles are not closed, V, C and J are mere sums. */
 typedef struct {
     double volume;    /* [m^3] */
     double area;      /* [m^2] */

@@ -14,8 +14,9 @@ static fl_vec3 twice_area_vector(const fl_part *p, int32_t t)
 
 /* --- cells ------------------------------------------------------------------------------------- */
 
-/* A triangle at an edge.  turn measures the angle about the edge, 0 to 4 for a full turn.  Of triangles on the
- * same three corners the lowest comes first, seen in the direction of rising corners: the same one at each edge. */
+/* A triangle at an edge.  turn measures the angle about the edge, 0 to 4 for a full turn.  Of triangles on
+ * the same three corners the lowest comes first, seen in the direction of rising corners: the same one at
+ * each edge. */
 typedef struct {
     double turn;
     int32_t t, rank, third; /* third corner */
@@ -67,12 +68,13 @@ static int sort_about_edge(const fl_part *p, int32_t lo, const fl_half_edge *s, 
 /* Joins the sides about the edge from vertex lo that face the same cell; "ahead" is the direction of growing
  * angle.  Returns 0 where the triangles have no order. */
 static int join_cells_at_edge(const fl_part *p, int32_t lo, const fl_half_edge *s, int64_t n, edge_side *fan,
-                      int32_t *cell)
+                              int32_t *cell)
 {
     int ordered = 1;
     for (int64_t k = 0; k < n; k++) fan[k] = (edge_side){.t = s[k].t, .up = s[k].up};
     if (n > 2) ordered = sort_about_edge(p, lo, s, n, fan);
-    for (int64_t k = 0; k < n; k++) fl_union_find_join(cell, side_ahead(&fan[k]), side_behind(&fan[(k + 1) % n]));
+    for (int64_t k = 0; k < n; k++)
+        fl_union_find_join(cell, side_ahead(&fan[k]), side_behind(&fan[(k + 1) % n]));
     return ordered;
 }
 
@@ -89,9 +91,11 @@ static int find_cells(const fl_part *p, const fl_edges *e, int32_t *cell, int32_
     for (int32_t v = 0; v < p->nv; v++)
         for (int64_t from = e->first[v], to; from < e->first[v + 1]; from = to) {
             to = fl_edge_end(e, v, from);
-            if (!join_cells_at_edge(p, v, e->side + from, to - from, fan, cell)) kind[e->side[from].t] |= UNORDERED;
+            if (!join_cells_at_edge(p, v, e->side + from, to - from, fan, cell))
+                kind[e->side[from].t] |= UNORDERED;
             if ((to - from) % 2) kind[e->side[from].t] |= HAS_ODD_EDGE;
-            for (int64_t k = from + 1; k < to; k++) fl_union_find_join(component, e->side[from].t, e->side[k].t);
+            for (int64_t k = from + 1; k < to; k++)
+                fl_union_find_join(component, e->side[from].t, e->side[k].t);
         }
     free(fan);
     for (int32_t t = 0; t < p->nt; t++) kind[fl_union_find_root(component, t)] |= kind[t];
@@ -127,7 +131,8 @@ static int winding_sign(const fl_tri *t)
 /* Of the triangles of all[0 .. n) on the same corners as t, the one seen from the direction of the normal. */
 static int32_t frontmost_triangle(const fl_part *p, const int32_t *all, int32_t n, int32_t t, fl_vec3 normal)
 {
-    const int way = v3_dot(twice_area_vector(p, t), normal) < 0.0 ? -winding_sign(&p->t[t]) : winding_sign(&p->t[t]);
+    const int way =
+        v3_dot(twice_area_vector(p, t), normal) < 0.0 ? -winding_sign(&p->t[t]) : winding_sign(&p->t[t]);
     const int32_t *v = p->t[t].v;
     for (int32_t k = 0; k < n; k++) {
         const int32_t *u = p->t[all[k]].v;
@@ -143,7 +148,8 @@ static int32_t frontmost_triangle(const fl_part *p, const int32_t *all, int32_t 
 static int32_t first_side_hit(const fl_part *p, const int32_t *all, int32_t n, int32_t t, int *sure)
 {
     const fl_vec3 normal = v3_unit(twice_area_vector(p, t)),
-                  x = v3_scale(1.0 / 3.0, v3_add(corner_of(p, t, 0), v3_add(corner_of(p, t, 1), corner_of(p, t, 2))));
+                  x = v3_scale(1.0 / 3.0,
+                               v3_add(corner_of(p, t, 0), v3_add(corner_of(p, t, 1), corner_of(p, t, 2))));
     double farthest = 0.0, doubtful = -INFINITY;
     int32_t met = t;
     for (int32_t k = 0; k < n; k++) {
@@ -159,7 +165,8 @@ static int32_t first_side_hit(const fl_part *p, const int32_t *all, int32_t n, i
     return 2 * met + (v3_dot(twice_area_vector(p, met), normal) < 0.0);
 }
 
-/* The unbounded cell of all[0 .. n).  Tries the largest triangle of each sample until the result is certain. */
+/* The unbounded cell of all[0 .. n).  Tries the largest triangle of each sample until the result is
+ * certain. */
 static int32_t find_outer_cell(const fl_part *p, const int32_t *all, int32_t n, int32_t *cell)
 {
     enum { SAMPLES = 16 };
@@ -195,7 +202,8 @@ int fl_part_outer_sides(const fl_part *p, const fl_edges *e, uint8_t *side, fl_e
     for (int32_t from = 0, to; from < p->nt; from = to) { /* each offset has advanced to the next group */
         const int32_t root = fl_union_find_root(component, all[from]);
         to = first[root];
-        const int32_t outer = kind[root] == HAS_ODD_EDGE ? find_outer_cell(p, all + from, to - from, cell) : -1;
+        const int32_t outer =
+            kind[root] == HAS_ODD_EDGE ? find_outer_cell(p, all + from, to - from, cell) : -1;
         for (int32_t k = from; k < to; k++) {
             const int32_t t = all[k];
             side[t] = (uint8_t)((fl_union_find_root(cell, 2 * t) == outer ? FL_OUTER_FRONT : 0) |

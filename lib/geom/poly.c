@@ -6,8 +6,8 @@
 #include "base/pi.h"
 #include "geom/poly.h"
 
-/* Planes may miss their vertices, and vertices lie outside planes, by this fraction of the size: the rounding of
- * input written with ten digits. */
+/* Planes may miss their vertices, and vertices lie outside planes, by this fraction of the size: the rounding
+ * of input written with ten digits. */
 static const double FLAT_TOL = 1e-9;
 /* Shorter edges and narrower faces have no reliable direction: with vertices accurate to DBL_EPSILON size the
  * normal of a face of this width is accurate to 1e-5 rad. */
@@ -198,8 +198,8 @@ static int fail_open(struct build *b, int32_t i, int32_t j, int32_t f, const cha
                    twice ? " (some vertices coincide)" : "");
 }
 
-/* Pairs the half-edges by two stable counting sorts, by the larger end and then by the smaller.  This brings the
- * halves of an edge together and puts the edges in (a, b) order, in linear time. */
+/* Pairs the half-edges by two stable counting sorts, by the larger end and then by the smaller.  This brings
+ * the halves of an edge together and puts the edges in (a, b) order, in linear time. */
 static int pair_edges(struct build *b, fl_err *err)
 {
     fl_poly *p = &b->p;
@@ -287,8 +287,8 @@ static int check_edges_convex(const struct build *b, fl_err *err)
     for (int32_t e = 0; e < p->ne; e++) {
         const fl_edge s = p->edge[e];
         const fl_vec3 along = v3_unit(v3_sub(p->v[s.b], p->v[s.a]));
-        /* Convex: the left normal turns into the right one about `along`.  The sine of the bend times the extent of
-         * the smaller face bounds how far that face lies outside the other's plane. */
+        /* Convex: the left normal turns into the right one about `along`.  The sine of the bend times the
+         * extent of the smaller face bounds how far that face lies outside the other's plane. */
         const double bend = v3_dot(v3_cross(p->n[s.left], p->n[s.right]), along);
         if (bend >= 0.0 && v3_dot(p->n[s.left], p->n[s.right]) > -1.0) continue;
         for (int side = 0; side < 2; side++) {

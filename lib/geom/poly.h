@@ -18,51 +18,52 @@ typedef struct {
     int32_t nv, nf, ne;
     int16_t shared;      /* first, loop, edge, neighbour_first and neighbour are borrowed (topology.h) */
     int16_t kept_angles; /* number of angles stored where bend and defect are NULL */
-    fl_vec3 *v;     /* [nv] vertices; start of the block that holds all arrays that are not shared [m] */
-    fl_vec3 *n;     /* [nf] outward unit normals */
-    double *c;      /* [nf] plane offsets, n.x = c, largest over the face's vertices [m]; or NULL */
-    int32_t *first; /* [nf + 1] offsets into loop */
-    int32_t *loop;  /* [first[nf]] vertices of each face, counter-clockwise from outside */
-    fl_edge *edge;  /* [ne] sorted by (a, b) */
-    double *bend;   /* [ne] exterior dihedral angle, between the outward normals of the two faces, in [0, pi]; 2 pi for a
-                     * segment [rad]; or NULL */
-    double *defect; /* [nv] solid angle of the normal cone: 2 pi less the angles of the faces at the vertex (angle defect);
-                     * 2 pi for the end of a segment, 4 pi for a point [sr]; NULL if bend is */
+    fl_vec3 *v;          /* [nv] vertices; start of the block that holds all arrays that are not shared [m] */
+    fl_vec3 *n;          /* [nf] outward unit normals */
+    double *c;           /* [nf] plane offsets, n.x = c, largest over the face's vertices [m]; or NULL */
+    int32_t *first;      /* [nf + 1] offsets into loop */
+    int32_t *loop;       /* [first[nf]] vertices of each face, counter-clockwise from outside */
+    fl_edge *edge;       /* [ne] sorted by (a, b) */
+    double *bend;   /* [ne] exterior dihedral angle, between the outward normals of the two faces, in [0, pi];
+                     * 2 pi for a segment [rad]; or NULL */
+    double *defect; /* [nv] solid angle of the normal cone: 2 pi less the angles of the faces at the vertex
+                     * (angle defect); 2 pi for the end of a segment, 4 pi for a point [sr]; NULL if bend
+                     * is */
     int32_t *neighbour_first; /* [nv + 1] offsets into neighbour */
     int32_t *neighbour;       /* [neighbour_first[nv]] other ends of the edges of each vertex, ascending */
     double size;              /* largest side of the bounding box [m] */
-    int32_t *
-        concave_face; /* nonconvex surfaces only (structure/structure.h), borrowed: [first[nf]] the face across the side that
-                       * begins at loop[k], if the two form a concave edge of less than 60 degrees, else -1; NULL: none */
-    uint8_t *saddle; /* nonconvex surfaces only, borrowed: [neighbour_first[nv]] 1 where the edge to neighbour[k] is convex
-                      * but its vertex is not; NULL: none */
+    int32_t *concave_face; /* nonconvex surfaces only (structure/structure.h), borrowed: [first[nf]] the face
+                       * across the side that begins at loop[k], if the two form a concave edge of less than
+                       * 60 degrees, else -1; NULL: none */
+    uint8_t *saddle;       /* nonconvex surfaces only, borrowed: [neighbour_first[nv]] 1 where the edge to
+                      * neighbour[k] is convex but its vertex is not; NULL: none */
 } fl_poly;
 
-/* Builds a polyhedron from copied input; derives planes, edges and size.  The tolerance is 1e-9 size, and at least
- * the rounding of doubles at that distance from the origin.  Checks:
+/* Builds a polyhedron from copied input; derives planes, edges and size.  The tolerance is 1e-9 size, and at
+ * least the rounding of doubles at that distance from the origin.  Checks:
  *   - every face has three distinct vertices and an area, is flat and convex, and faces outward
  *   - edges pair up, once in each direction (closed); every vertex is used
  *   - one surface of the topology of a sphere (V - E + F = 2) that covers its body once
  *   - convexity: no vertex lies outside any face by more than the tolerance
- * Above 65536 vertex-face pairs convexity is tested edge by edge: no edge is concave by more than the tolerance, an
- * inner point lies behind every face, and a ray from it leaves through one face only.  For exact planes this
- * proves convexity in linear time (Mehlhorn et al., Computational Geometry 12, 1999).  With the tolerance, a
- * vertex may lie outside a distant face by as many tolerances as there are faces between.
- * Adjacent faces may share a plane, and corners may be straight.  nv = 1 and nv = 2 require nf = 0, first and loop
- * are not read; a flat polygon has two faces.
+ * Above 65536 vertex-face pairs convexity is tested edge by edge: no edge is concave by more than the
+ * tolerance, an inner point lies behind every face, and a ray from it leaves through one face only.  For
+ * exact planes this proves convexity in linear time (Mehlhorn et al., Computational Geometry 12, 1999).  With
+ * the tolerance, a vertex may lie outside a distant face by as many tolerances as there are faces between.
+ * Adjacent faces may share a plane, and corners may be straight.  nv = 1 and nv = 2 require nf = 0, first and
+ * loop are not read; a flat polygon has two faces.
  *   v[nv]                            [m]
  *   first[nf + 1], loop[first[nf]]   as in fl_poly
- * Returns 0, or -1 with FL_SYSTEM, or FL_INPUT and a message ("face 3 is turned inside out", "vertex 5 lies 0.02 m
- * outside face 2: the core is not convex", ...); p is untouched on failure. */
+ * Returns 0, or -1 with FL_SYSTEM, or FL_INPUT and a message ("face 3 is turned inside out", "vertex 5 lies
+ * 0.02 m outside face 2: the core is not convex", ...); p is untouched on failure. */
 int fl_poly_make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int32_t *first,
                  const int32_t *loop, fl_err *err);
 
 /* The box |x| <= h.x, |y| <= h.y, |z| <= h.z; h > 0. */
 int fl_poly_box(fl_poly *p, fl_vec3 h, fl_err *err);
 
-/* The prism over a convex polygon xy[n] (counter-clockwise; z ignored) between z0 < z1.  Vertices 0 .. n-1 are the
- * lower ones, n .. 2n-1 the upper.  Face 0 is the bottom, face 1 the top, face 2 + k stands on the side from
- * corner k to k + 1.  Fails as fl_poly_make(). */
+/* The prism over a convex polygon xy[n] (counter-clockwise; z ignored) between z0 < z1.  Vertices 0 .. n-1
+ * are the lower ones, n .. 2n-1 the upper.  Face 0 is the bottom, face 1 the top, face 2 + k stands on the
+ * side from corner k to k + 1.  Fails as fl_poly_make(). */
 int fl_poly_prism(fl_poly *p, int32_t n, const fl_vec3 *xy, double z0, double z1, fl_err *err);
 
 /* A deep copy; to is overwritten, not freed.  -1 with FL_SYSTEM, to untouched. */
@@ -78,18 +79,19 @@ fl_vec3 fl_poly_face_area_vector(const fl_poly *p, int32_t f);
 /* Area of the largest face, 0 without faces [m^2]. */
 double fl_poly_largest_face_area(const fl_poly *p);
 
-/* Computes bend, defect, neighbour_first and neighbour from the rest.  On nonconvex surfaces bend is negative for
- * concave edges, and pi for edges with one face. */
+/* Computes bend, defect, neighbour_first and neighbour from the rest.  On nonconvex surfaces bend is negative
+ * for concave edges, and pi for edges with one face. */
 void fl_poly_angles(fl_poly *p);
 
 /* bend[e], computed from the planes. */
 double fl_poly_compute_bend(const fl_poly *p, int32_t e);
 
-/* Changes the frame in place: x becomes transpose(axes) (x - o).  o becomes the origin; the columns of axes, which
- * must be a rotation, become the axes. */
+/* Changes the frame in place: x becomes transpose(axes) (x - o).  o becomes the origin; the columns of axes,
+ * which must be a rotation, become the axes. */
 void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
 
-/* Contact uses how blunt an edge or a vertex is; sharper ones, with angles above these limits, all count alike. */
+/* Contact uses how blunt an edge or a vertex is; sharper ones, with angles above these limits, all count
+ * alike. */
 #define FL_POLY_BLUNT_EDGE 0.25  /* [rad] */
 #define FL_POLY_BLUNT_CORNER 0.5 /* [sr]  */
 

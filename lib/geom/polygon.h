@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* polygon.h -- convex polygons in the plane, as corners and as sides.  Side k runs from v[k] to v[k + 1], the last
- * one back to v[0], counter-clockwise.  Offsets and cuts use the lines in side[]: a side knows its line better
- * than two nearly coincident corners do. */
+/* polygon.h -- convex polygons in the plane, as corners and as sides.  Side k runs from v[k] to v[k + 1], the
+ * last one back to v[0], counter-clockwise.  Offsets and cuts use the lines in side[]: a side knows its line
+ * better than two nearly coincident corners do. */
 #ifndef FL_GEOM_POLYGON_H
 #define FL_GEOM_POLYGON_H
 #include <stdint.h>
@@ -38,8 +38,8 @@ static inline double fl_polygon_side_half_tan(fl_polygon_side a, fl_polygon_side
 /* Intersection of the lines of a and b, both moved inward by d; fl_polygon_side_sin(a, b) != 0. */
 fl_vec2 fl_polygon_side_intersect(fl_polygon_side a, fl_polygon_side b, double d);
 
-/* Area (positive when counter-clockwise) and perimeter of v[n].  Products are taken from v[0], to keep precision
- * far from the origin. */
+/* Area (positive when counter-clockwise) and perimeter of v[n].  Products are taken from v[0], to keep
+ * precision far from the origin. */
 double fl_polygon_area(int32_t n, const fl_vec2 *v);
 double fl_polygon_perimeter(int32_t n, const fl_vec2 *v);
 double fl_polygon_side_length(int32_t n, const fl_vec2 *v, int32_t k); /* of side k */
@@ -52,13 +52,13 @@ void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_polygon_side *s
  * Returns the number of sides left, 0 if none. */
 int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_polygon_side *side, fl_polygon_side h);
 
-/* Corners of the polygon with its sides moved inward by d: v[k] is the intersection of side[k - 1] and side[k].
- * Adjacent sides must turn left by less than pi. */
+/* Corners of the polygon with its sides moved inward by d: v[k] is the intersection of side[k - 1] and
+ * side[k].  Adjacent sides must turn left by less than pi. */
 void fl_polygon_corners(int32_t n, const fl_polygon_side *side, double d, fl_vec2 *v);
 
 /* Moves all sides inward by d >= 0 and drops those that vanish.  While the polygon shrinks by t, side k loses
- * t (tan(a/2) + tan(b/2)),  where a and b are the turning angles at its ends.  The side that first reaches length
- * zero is removed, its neighbours then meet, and so on (the straight skeleton of a convex polygon).
+ * t (tan(a/2) + tan(b/2)),  where a and b are the turning angles at its ends.  The side that first reaches
+ * length zero is removed, its neighbours then meet, and so on (the straight skeleton of a convex polygon).
  *   v      in: corners at t = 0.  out: corners at t = d, of the sides left
  *   side   in and out; c stays that of t = 0
  *   depth  out: d, or the radius of the largest inscribed circle if that is smaller
@@ -71,12 +71,12 @@ void fl_polygon_outset(int32_t n, const fl_vec2 *v, double r, fl_vec2 *out);
 /* Distance of p from the filled polygon v[n], 0 inside. */
 double fl_polygon_point_distance(int32_t n, const fl_vec2 *v, fl_vec2 p);
 
-/* 1 if a side of one polygon has all of the other strictly beyond it, within the rounding of one product: convex
- * polygons that neither overlap nor touch (separating axis). */
+/* 1 if a side of one polygon has all of the other strictly beyond it, within the rounding of one product:
+ * convex polygons that neither overlap nor touch (separating axis). */
 int fl_polygon_is_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
 
-/* Distance between two polygons without a point inside each other: the least from a corner of one to a side of
- * the other.  O(m n). */
+/* Distance between two polygons without a point inside each other: the least from a corner of one to a side
+ * of the other.  O(m n). */
 double fl_polygon_distance(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b);
 
 #endif

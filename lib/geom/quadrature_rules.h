@@ -3,8 +3,8 @@
 #ifndef FL_GEOM_QUADRATURE_RULES_H
 #define FL_GEOM_QUADRATURE_RULES_H
 
-/* Nodes of a triangle in barycentric coordinates, exact for polynomials of degree 5: the centroid and two triples
- * (1 - 2a, a, a).  Source: Dunavant, Int. J. Numer. Meth. Eng. 21 (1985) 1129. */
+/* Nodes of a triangle in barycentric coordinates, exact for polynomials of degree 5: the centroid and two
+ * triples (1 - 2a, a, a).  Source: Dunavant, Int. J. Numer. Meth. Eng. 21 (1985) 1129. */
 enum { FL_TRIANGLE_NODES = 7 };
 #define FL_TRIANGLE_A 0.47014206410511508977
 #define FL_TRIANGLE_B 0.10128650732345633880

@@ -4,7 +4,8 @@
  * With s = a, b, c at the corners they are complete symmetric sums h_k of degree k; nothing is subtracted:
  *     mean s^k = 2 k!/(k+2)! h_k(a, b, c),   mean s^k l_a = 2 k!/(k+3)! h_k(a, b, c, a),
  *     mean s^k l_a l_b = 2 k!/(k+4)! h_k(a, b, c, a, b),
- * where l_a is the barycentric coordinate of the first corner, etc.; h_k(.., b) = h_k(..) + b h_(k-1)(.., b). */
+ * where l_a is the barycentric coordinate of the first corner, etc.; h_k(.., b) = h_k(..) + b h_(k-1)(..,
+ * b). */
 #ifndef FL_GEOM_QUADRATURE_TRIANGLE_H
 #define FL_GEOM_QUADRATURE_TRIANGLE_H
 #include "base/simd.h"
@@ -32,7 +33,8 @@ typedef struct {
     fl_simd x, y, xx, xy, yy;
 } fl_triangle_moments;
 
-/* p, q, r: x and y of the corners.  sum w_i x_i^2 - sum w_ij (x_i - x_j)^2, where w_i is the sum of all w_ij. */
+/* p, q, r: x and y of the corners.  sum w_i x_i^2 - sum w_ij (x_i - x_j)^2, where w_i is the sum of all
+ * w_ij. */
 FL_SIMD_INLINE void fl_triangle_moments_of(const fl_triangle_means *k, const fl_simd *p, const fl_simd *q,
                                            const fl_simd *r, fl_triangle_moments *out)
 {

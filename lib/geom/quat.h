@@ -35,8 +35,8 @@ static inline fl_vec3 q_rotate(fl_quat q, fl_vec3 v) { return m3_mul(q_matrix(q)
 /* The quaternion of the rotation matrix a.  Source: Shepperd's choice of the largest element. */
 fl_quat q_of_matrix(fl_mat3 a);
 
-/* 1 - cos x, without cancellation, and sin(x)/x, from x^2.  The first omitted term of these series is below 1e-18
- * for x^2 up to Q_HALF_ANGLE2_SMALL, which nearly all steps satisfy, */
+/* 1 - cos x, without cancellation, and sin(x)/x, from x^2.  The first omitted term of these series is below
+ * 1e-18 for x^2 up to Q_HALF_ANGLE2_SMALL, which nearly all steps satisfy, */
 #define Q_HALF_ANGLE2_SMALL 4e-4
 static inline double q_versine_small(double x2)
 {
@@ -69,8 +69,9 @@ static inline double q_sinc(double x2)
     return 1.0 - x2 * f;
 }
 
-/* Rotation by |r| about r, r in rad.  Half-angle sine and cosine come from a fixed polynomial (quat.c), so the bits
- * do not depend on the C library.  Error below 2e-16 for |r| <= 1/2, growing slowly beyond (2e-15 at 10 rad). */
+/* Rotation by |r| about r, r in rad.  Half-angle sine and cosine come from a fixed polynomial (quat.c), so
+ * the bits do not depend on the C library.  Error below 2e-16 for |r| <= 1/2, growing slowly beyond (2e-15 at
+ * 10 rad). */
 fl_quat q_of_vector(fl_vec3 r);
 /* Same about body axis k = 0, 1, 2 by angle a [rad], at half the cost. */
 fl_quat q_about_axis(int k, double a);

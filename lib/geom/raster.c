@@ -64,7 +64,8 @@ static void fill_triangle(fl_raster *r, int32_t part, fl_vec3 a, fl_vec3 b, fl_v
     if (area == 0.0) return;
     for (int32_t v = clamp_pixel(ceil(fmin(a.y, fmin(b.y, c.y))), r->h); v <= v1; v++)
         for (int32_t u = clamp_pixel(ceil(fmin(a.x, fmin(b.x, c.x))), r->w); u <= u1; u++) {
-            const double p = twice_area(b, c, u, v) / area, q = twice_area(c, a, u, v) / area, s = 1.0 - p - q;
+            const double p = twice_area(b, c, u, v) / area, q = twice_area(c, a, u, v) / area,
+                         s = 1.0 - p - q;
             const int64_t k = (int64_t)v * r->w + u;
             const double depth = (p * a.z + q * b.z + s * c.z) * r->pixel;
             if (p < 0.0 || q < 0.0 || s < 0.0 || !(depth > r->depth[k] + TIE * r->pixel)) continue;
@@ -131,7 +132,9 @@ static int draw_part_lines(fl_raster *r, const fl_part *p, double flat, fl_err *
     qsort(s, (size_t)n, sizeof *s, compare_ends);
     for (int64_t from = 0, to; from < n; from = to) {
         for (to = from + 1; to < n && s[to].lo == s[from].lo && s[to].hi == s[from].hi;) to++;
-        if (to - from == 2 && fabs(v3_dot(triangle_normal(p, s[from].t), triangle_normal(p, s[from + 1].t))) > flat) continue;
+        if (to - from == 2 &&
+            fabs(v3_dot(triangle_normal(p, s[from].t), triangle_normal(p, s[from + 1].t))) > flat)
+            continue;
         draw_line(r, to_pixels(r, p->v[s[from].lo]), to_pixels(r, p->v[s[from].hi]));
     }
     free(s);

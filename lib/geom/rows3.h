@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rows3.h -- 3 x 3 matrices by their rows, for loops over lanes, where compilers handle arrays by value badly. */
+/* rows3.h -- 3 x 3 matrices by their rows, for loops over lanes, where compilers handle arrays by value
+ * badly. */
 #ifndef FL_GEOM_ROWS3_H
 #define FL_GEOM_ROWS3_H
 #include "base/simd.h"

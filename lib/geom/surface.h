@@ -13,8 +13,8 @@ typedef struct {
     int32_t v[3]; /* vertices, counter-clockwise from outside; the normal is outward */
 } fl_tri;
 
-/* The convex hull of the disc of radius r0 about p0 and the disc of radius r1 about p1, both normal to p1 - p0.
- * r0 = r1 is a cylinder, one of them 0 a pointed cone. */
+/* The convex hull of the disc of radius r0 about p0 and the disc of radius r1 about p1, both normal to p1 -
+ * p0.  r0 = r1 is a cylinder, one of them 0 a pointed cone. */
 typedef struct {
     fl_vec3 p0, p1; /* [m] */
     double r0, r1;  /* [m] */
@@ -34,22 +34,21 @@ typedef struct {
 
 typedef struct {
     int32_t n, cap;
-    fl_part *part; /* [n]; moves when a part is added */
-    char *history; /* the "#by ..." lines of its file, NULL for none */
-    fl_string_table
-        given_names;      /* names given by fl_surface_add(); other names are not in use */
-    int32_t *given_index; /* [given_names.n] last known index of the part of that name */
+    fl_part *part;               /* [n]; moves when a part is added */
+    char *history;               /* the "#by ..." lines of its file, NULL for none */
+    fl_string_table given_names; /* names given by fl_surface_add(); other names are not in use */
+    int32_t *given_index;        /* [given_names.n] last known index of the part of that name */
     int32_t *next_suffix; /* [given_names.n] smallest suffix number to try for the name; 0: not used yet */
     int32_t given_cap, suffix_cap;
     int32_t n_after_add, ids_counted,
         next_id; /* n at the last addition; next_id is above the ids of parts 0 .. ids_counted */
 } fl_surface;
 
-/* Thousands of parts are found quickly if fl_surface_add() gives their names.  Parts may be removed, exchanged and
- * renamed.  The id of a part may be set before the next one is added. */
+/* Thousands of parts are found quickly if fl_surface_add() gives their names.  Parts may be removed,
+ * exchanged and renamed.  The id of a part may be set before the next one is added. */
 
-/* Adds an empty part; its id is the largest so far plus one (0 first).  Of name[0 .. len) every byte up to the
- * blank, and a leading '#', becomes '_'; an empty name becomes "part"; a name in use gets "_2", "_3", ...
+/* Adds an empty part; its id is the largest so far plus one (0 first).  Of name[0 .. len) every byte up to
+ * the blank, and a leading '#', becomes '_'; an empty name becomes "part"; a name in use gets "_2", "_3", ...
  * Returns the index of the part, or -1 with FL_SYSTEM. */
 int32_t fl_surface_add(fl_surface *s, const char *name, size_t len, fl_err *err);
 

@@ -91,7 +91,8 @@ enum { KEPT_ANGLES_MAX = 8 };
 
 /* Collects the angles below the blunt limits and the edge or vertex of each.  Returns KEPT_ANGLES_MAX + 1 if
  * there are more. */
-static int16_t collect_blunt_angles(const fl_poly *p, double angle[KEPT_ANGLES_MAX], int32_t of[KEPT_ANGLES_MAX])
+static int16_t collect_blunt_angles(const fl_poly *p, double angle[KEPT_ANGLES_MAX],
+                                    int32_t of[KEPT_ANGLES_MAX])
 {
     int16_t n = 0;
     for (int32_t k = 0; k < p->ne + p->nv; k++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* topology.h -- shared storage of the edges and faces of polyhedra with equal topology: boxes, prisms over polygons
- * with equal numbers of corners, points. */
+/* topology.h -- shared storage of the edges and faces of polyhedra with equal topology: boxes, prisms over
+ * polygons with equal numbers of corners, points. */
 #ifndef FL_GEOM_TOPOLOGY_H
 #define FL_GEOM_TOPOLOGY_H
 #include "geom/poly.h"

@@ -19,14 +19,16 @@ static uint64_t hash_point(fl_vec3 x)
     const double c[3] = {x.x + 0.0, x.y + 0.0, x.z + 0.0}; /* -0 becomes 0 */
     uint64_t u[3];
     memcpy(u, c, sizeof u);
-    return mix_bits(u[0] * UINT64_C(0x9e3779b97f4a7c15) + mix_bits(u[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + mix_bits(u[2])));
+    return mix_bits(u[0] * UINT64_C(0x9e3779b97f4a7c15) +
+                    mix_bits(u[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + mix_bits(u[2])));
 }
 
-/* Cell size in tolerances, where edges are longer: most points then have all neighbours within tol in one cell,
- * and few vertices share a cell. */
+/* Cell size in tolerances, where edges are longer: most points then have all neighbours within tol in one
+ * cell, and few vertices share a cell. */
 static const double CELL_TOLERANCES = 64.0;
 
-/* Kept vertices by their cell, and merged vertices by their coordinates if no kept vertex has the same ones. */
+/* Kept vertices by their cell, and merged vertices by their coordinates if no kept vertex has the same
+ * ones. */
 typedef struct {
     fl_vec3 lo;
     double cells_per_length; /* 0 when only equal coordinates are merged */
@@ -54,8 +56,9 @@ static int64_t cell_index(double x, double lo, double cells_per_length)
 static uint64_t slot_of_point(const vertex_grid *g, fl_vec3 x)
 {
     if (g->cells_per_length == 0.0) return hash_point(x) & g->mask;
-    return slot_of_cell(g, cell_index(x.x, g->lo.x, g->cells_per_length), cell_index(x.y, g->lo.y, g->cells_per_length),
-                cell_index(x.z, g->lo.z, g->cells_per_length));
+    return slot_of_cell(g, cell_index(x.x, g->lo.x, g->cells_per_length),
+                        cell_index(x.y, g->lo.y, g->cells_per_length),
+                        cell_index(x.z, g->lo.z, g->cells_per_length));
 }
 
 static int same_point(fl_vec3 x, fl_vec3 y) { return x.x == y.x && x.y == y.y && x.z == y.z; }
@@ -71,9 +74,12 @@ static int32_t find_equal(const int32_t *head, const vertex_grid *g, uint64_t k,
 /* The nearest kept vertex within tol of x, the lowest index on a tie; -1 for none. */
 static int32_t nearest_kept(const vertex_grid *g, const fl_part *p, fl_vec3 x, double tol, double *distance)
 {
-    const int64_t x0 = cell_index(x.x - tol, g->lo.x, g->cells_per_length), x1 = cell_index(x.x + tol, g->lo.x, g->cells_per_length);
-    const int64_t y0 = cell_index(x.y - tol, g->lo.y, g->cells_per_length), y1 = cell_index(x.y + tol, g->lo.y, g->cells_per_length);
-    const int64_t z0 = cell_index(x.z - tol, g->lo.z, g->cells_per_length), z1 = cell_index(x.z + tol, g->lo.z, g->cells_per_length);
+    const int64_t x0 = cell_index(x.x - tol, g->lo.x, g->cells_per_length),
+                  x1 = cell_index(x.x + tol, g->lo.x, g->cells_per_length);
+    const int64_t y0 = cell_index(x.y - tol, g->lo.y, g->cells_per_length),
+                  y1 = cell_index(x.y + tol, g->lo.y, g->cells_per_length);
+    const int64_t z0 = cell_index(x.z - tol, g->lo.z, g->cells_per_length),
+                  z1 = cell_index(x.z + tol, g->lo.z, g->cells_per_length);
     int32_t best = -1;
     double least = tol;
     for (int64_t i = x0; i <= x1; i++)
@@ -103,7 +109,8 @@ static int record_merged(vertex_grid *g, int32_t v, fl_vec3 x, fl_err *err)
     return 0;
 }
 
-static int merge_vertex(vertex_grid *g, const fl_part *p, int32_t v, uint64_t own, int32_t *to, fl_weld *w, fl_err *err)
+static int merge_vertex(vertex_grid *g, const fl_part *p, int32_t v, uint64_t own, int32_t *to, fl_weld *w,
+                        fl_err *err)
 {
     const fl_vec3 x = p->v[v];
     int32_t u = find_equal(g->head, g, own, p, x);
@@ -122,8 +129,8 @@ static int merge_vertex(vertex_grid *g, const fl_part *p, int32_t v, uint64_t ow
     return record_merged(g, v, x, err);
 }
 
-/* to[v]: the vertex that v becomes: that of the first vertex with the same coordinates, else the nearest earlier
- * vertex within tol, else v. */
+/* to[v]: the vertex that v becomes: that of the first vertex with the same coordinates, else the nearest
+ * earlier vertex within tol, else v. */
 static int merge_vertices(const fl_part *p, int32_t *to, fl_vec3 lo, double edge, fl_weld *w, fl_err *err)
 {
     enum { AHEAD = 8 }; /* the chain heads are scattered in memory and are prefetched */

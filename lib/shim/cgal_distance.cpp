@@ -19,8 +19,8 @@ using Primitive = CGAL::AABB_triangle_primitive<Plain, std::vector<Triangle>::co
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Plain, Primitive>>;
 
 const double RELATIVE_TOL = 0.01; /* relative tolerance of the distance */
-const double GAIN = 0.9;   /* a cut that leaves a bound above this fraction of its parent's was useless */
-const int MAX_VAIN_CUTS = 4;    /* after this many useless cuts in a row the piece is halved */
+const double GAIN = 0.9;     /* a cut that leaves a bound above this fraction of its parent's was useless */
+const int MAX_VAIN_CUTS = 4; /* after this many useless cuts in a row the piece is halved */
 
 using Vec = Plain::Vector_3;
 
@@ -56,9 +56,10 @@ double max_corner_distance(const piece &p, const Triangle &t)
     return std::max({distance_to(p.x[0], t), distance_to(p.x[1], t), distance_to(p.x[2], t)});
 }
 
-/* Cuts a convex polygon by the plane through o with outward normal n: `in` gets the part behind it, `out` the rest. */
+/* Cuts a convex polygon by the plane through o with outward normal n: `in` gets the part behind it, `out` the
+ * rest. */
 void cut_polygon(const std::vector<Vec> &whole, const Vec &o, const Vec &n, std::vector<Vec> &in,
-         std::vector<Vec> &out)
+                 std::vector<Vec> &out)
 {
     const std::size_t count = whole.size();
     bool before = false, behind = false; /* strictly */
@@ -81,8 +82,8 @@ void cut_polygon(const std::vector<Vec> &whole, const Vec &o, const Vec &n, std:
     else if (!behind) in.clear();
 }
 
-/* Branch and bound: the piece with the largest bound is split next, so that the largest bound left always bounds
- * all pieces. */
+/* Branch and bound: the piece with the largest bound is split next, so that the largest bound left always
+ * bounds all pieces. */
 class search
 {
   public:
@@ -176,8 +177,8 @@ class search
         push({{m, b, c}, p.bound, 0});
     }
 
-    /* Cuts along the prism over the triangle nearest to the middle.  Halves the piece where this does not cut it, or
-     * where such cuts only trim it, as slivers and small triangles do with distant pieces. */
+    /* Cuts along the prism over the triangle nearest to the middle.  Halves the piece where this does not cut
+     * it, or where such cuts only trim it, as slivers and small triangles do with distant pieces. */
     void split(const piece &p)
     {
         if (p.vain >= MAX_VAIN_CUTS) {

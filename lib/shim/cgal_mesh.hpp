@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* cgal_mesh.hpp -- common parts of the mesh shims: conversion between a soup and a CGAL mesh, and the boundary that
- * no exception and no printed message crosses.  C++, for the shims only. */
+/* cgal_mesh.hpp -- common parts of the mesh shims: conversion between a soup and a CGAL mesh, and the
+ * boundary that no exception and no printed message crosses.  C++, for the shims only. */
 #ifndef FL_SHIM_CGAL_MESH_HPP
 #define FL_SHIM_CGAL_MESH_HPP
 #include <stddef.h>
@@ -52,7 +52,8 @@ int catch_errors(const char *what, int32_t n, fl_err *err, Work work)
         return work();
     } catch (const std::bad_alloc &) {
         return fl_fail(err, FL_SYSTEM, "out of memory in the %s of %d triangles", what, n);
-    } catch (const CGAL::Failure_exception &e) { /* its message names lines of CGAL, which are of no use here */
+    } catch (const CGAL::Failure_exception &e) { /* its message names lines of CGAL, which are of no use
+                                                  * here */
         return fl_fail(err, FL_NUMERIC, "%s of %d triangles: they are not what CGAL counts on, \"%.80s\"",
                        what, n, e.expression().c_str());
     } catch (const std::exception &e) { /* its first line only */
@@ -63,7 +64,8 @@ int catch_errors(const char *what, int32_t n, fl_err *err, Work work)
     }
 }
 
-/* Same with CGAL's messages silenced.  The handlers are global: not for functions called from several threads. */
+/* Same with CGAL's messages silenced.  The handlers are global: not for functions called from several
+ * threads. */
 template <class Work>
 int run_guarded(const char *what, int32_t n, fl_err *err, Work work)
 {
@@ -86,7 +88,8 @@ inline void to_vectors(const fl_soup *s, std::vector<Point> &points, std::vector
     }
 }
 
-/* Converts a soup to a mesh; the surface is cut along edges of more than two triangles.  0, or -1 with FL_NUMERIC. */
+/* Converts a soup to a mesh; the surface is cut along edges of more than two triangles.  0, or -1 with
+ * FL_NUMERIC. */
 inline int to_mesh(std::vector<Point> &points, std::vector<Corners> &triangles, Mesh &mesh, fl_err *err)
 {
     namespace PMP = CGAL::Polygon_mesh_processing;

@@ -12,9 +12,9 @@ extern "C" {
 namespace shim
 {
 
-/* Neighbours in a triangulation whose vertices carry the numbers 0 .. n - 1: those of i are
- * (*near)[first[i] .. first[i + 1]), sorted by name.  CGAL inserts in a random order; sorting makes the lists a
- * function of the sites.  -1 if memory runs out. */
+/* Neighbours in a triangulation whose vertices carry the numbers 0 .. n - 1: those of i are (*near)[first[i]
+ * .. first[i + 1]), sorted by name.  CGAL inserts in a random order; sorting makes the lists a function of
+ * the sites.  -1 if memory runs out. */
 template <class Triangulation>
 int neighbours(const Triangulation &t, int32_t n, const int32_t *name, int32_t *first, int32_t **near,
                fl_err *err)

@@ -11,9 +11,9 @@
 extern "C" {
 #endif
 
-/* The neighbours of each site in the regular triangulation, the dual of the power diagram: the cell of site i is
- * the intersection of all half-planes of less power to i than to a neighbour.  A site with an empty cell has no
- * neighbours, nor has a single site.
+/* The neighbours of each site in the regular triangulation, the dual of the power diagram: the cell of site i
+ * is the intersection of all half-planes of less power to i than to a neighbour.  A site with an empty cell
+ * has no neighbours, nor has a single site.
  *   site[n]      finite                                                              [m]
  *   weight[n]    finite; only differences matter                                    [m2]
  *   name[n]      distinct names of the sites

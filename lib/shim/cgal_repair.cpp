@@ -64,8 +64,8 @@ void remove_degenerate(Mesh &mesh, fl_repair &did)
     did.degenerate = found - did.stuck;
 }
 
-/* Where the surface was cut along a branched edge, two of its vertices coincide, and no reliable test tells which
- * piece lies inside the other. */
+/* Where the surface was cut along a branched edge, two of its vertices coincide, and no reliable test tells
+ * which piece lies inside the other. */
 bool has_branched_cut(const Mesh &mesh)
 {
     std::vector<Point> place;

@@ -72,8 +72,8 @@ bool rebuild(Mesh &m, fl_untangle *did)
     return false;
 }
 
-/* Where surfaces nearly touch, a union has triangles that rounding inverts.  Removes edges shorter than tol, and
- * corners closer than tol to an edge. */
+/* Where surfaces nearly touch, a union has triangles that rounding inverts.  Removes edges shorter than tol,
+ * and corners closer than tol to an edge. */
 void remove_short_edges(Mesh &m, double tol)
 {
     constexpr double STRAIGHT = -1.0 + 1e-12,
@@ -113,8 +113,8 @@ double next_random(uint32_t &state)
     return static_cast<double>(state >> 8) / 8388608.0 - 1.0;
 }
 
-/* Enlarges a body by about eps about its centre and rotates it by less.  Corners that coincided with others, or
- * nearly, then do not, and bodies that lay side by side overlap. */
+/* Enlarges a body by about eps about its centre and rotates it by less.  Corners that coincided with others,
+ * or nearly, then do not, and bodies that lay side by side overlap. */
 void swell(Mesh &m, double eps, uint32_t &state)
 {
     const CGAL::Bbox_3 box = PMP::bbox(m);
@@ -129,8 +129,8 @@ void swell(Mesh &m, double eps, uint32_t &state)
     }
 }
 
-/* True if the halfedges are linked as those of closed triangles.  No links are followed in loops, which need not
- * end: a non-manifold union may have inconsistent links. */
+/* True if the halfedges are linked as those of closed triangles.  No links are followed in loops, which need
+ * not end: a non-manifold union may have inconsistent links. */
 template <class Any>
 bool has_valid_links(const Any &m)
 {
@@ -171,8 +171,8 @@ bool has_corner_in_plane(const std::array<Point, 3> &p, const std::array<Point, 
     });
 }
 
-/* True if a corner of one lies on the other or faces coincide: the union may be non-manifold, and its computation
- * may not end. */
+/* True if a corner of one lies on the other or faces coincide: the union may be non-manifold, and its
+ * computation may not end. */
 bool has_coplanar_contact(const Mesh &a, const Mesh &b)
 {
     using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Mesh::Face_index>;
@@ -187,7 +187,8 @@ bool has_coplanar_contact(const Mesh &a, const Mesh &b)
     CGAL::box_intersection_d(of[0].begin(), of[0].end(), of[1].begin(), of[1].end(),
                              [&](const Box &x, const Box &y) {
                                  const auto p = corners_of(a, x.info()), q = corners_of(b, y.info());
-                                 if (found || !(has_corner_in_plane(p, q) || has_corner_in_plane(q, p))) return;
+                                 if (found || !(has_corner_in_plane(p, q) || has_corner_in_plane(q, p)))
+                                     return;
                                  found = CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]),
                                                             Kernel::Triangle_3(q[0], q[1], q[2]));
                              });
@@ -240,11 +241,12 @@ void unite_all(std::vector<Mesh> &patch, double tol, fl_untangle *did)
         }
     }
     for (std::size_t i = 0; i < patch.size(); i++)
-        for (std::size_t j = i + 1; j < patch.size(); j++) did->failed += bodies_intersect(patch[i], patch[j]);
+        for (std::size_t j = i + 1; j < patch.size(); j++)
+            did->failed += bodies_intersect(patch[i], patch[j]);
 }
 
-/* Converts each shell separately, so that none is cut where others share its edges.  Closed patches are oriented
- * outward. */
+/* Converts each shell separately, so that none is cut where others share its edges.  Closed patches are
+ * oriented outward. */
 int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Mesh> &patch, double &diagonal,
                fl_err *err)
 {

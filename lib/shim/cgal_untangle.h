@@ -6,8 +6,8 @@
 
 /* Edges of a union shorter than this, relative to the diagonal of the box of all bodies, are removed. */
 #define FL_UNTANGLE_SHORT_EDGE 1e-6
-/* Largest relative enlargement of a body whose corners nearly coincide with those of another, so that rounding
- * would make the union intersect itself. */
+/* Largest relative enlargement of a body whose corners nearly coincide with those of another, so that
+ * rounding would make the union intersect itself. */
 #define FL_UNTANGLE_SWELL 1e-6
 
 typedef struct {
@@ -17,11 +17,11 @@ typedef struct {
     double changed;  /* largest relative change of area or volume by a rebuilt patch */
 } fl_untangle;
 
-/* Closed bodies that intersect are replaced by their union, whose surface is that of both but for new edges along
- * the intersection.  Unions are computed exactly, two bodies at a time, then rounded, rid of short edges and
- * checked.  If the result is not valid, one of the bodies is enlarged slightly first (FL_UNTANGLE_SHORT_EDGE,
- * FL_UNTANGLE_SWELL).  A self-intersecting patch loses the triangles concerned and some around them, and the hole
- * is filled.  Open patches that intersect others are not changed.
+/* Closed bodies that intersect are replaced by their union, whose surface is that of both but for new edges
+ * along the intersection.  Unions are computed exactly, two bodies at a time, then rounded, rid of short
+ * edges and checked.  If the result is not valid, one of the bodies is enlarged slightly first
+ * (FL_UNTANGLE_SHORT_EDGE, FL_UNTANGLE_SWELL).  A self-intersecting patch loses the triangles concerned and
+ * some around them, and the hole is filled.  Open patches that intersect others are not changed.
  *   s      x and t from malloc() or fl_alloc(); replaced if something was done
  *   shell  [s->nt] number of the body of each triangle: a body is not cut where others share its edges
  * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM, and s unchanged.
