@@ -32,9 +32,8 @@ static power leading_bits(const uint64_t *word, int n, int32_t e)
     return p;
 }
 
-/* 5^308 has 716 bits.  2^1280 / 5^342 keeps 485 bits, and what a division drops never reaches the leading
- * ones:
- * floor(floor(a/5)/5) = floor(a/25). */
+/* 5^308 has 716 bits.  2^1280 / 5^342 keeps 485 bits.  The remainder that a division drops never reaches the
+ * leading ones: floor(floor(a/5)/5) = floor(a/25). */
 __attribute__((constructor)) static void make_powers(void)
 {
     enum { UP = 13, DOWN = 21 };
@@ -71,8 +70,7 @@ static int nearest_bits(uint64_t w, int64_t q, uint64_t *bits)
     const int drop = (int)(product >> 127) + 127 - MANTISSA;
     const uint64_t mantissa = (uint64_t)(product >> drop);
     const uint128 rest = product & (((uint128)1 << drop) - 1), half = (uint128)1 << (drop - 1);
-    /* w 10^q lies above (mantissa + rest / 2^drop) 2^e by less than one unit of rest (exact) or two
-     * (else). */
+    /* w 10^q exceeds (mantissa + rest / 2^drop) 2^e by less than one unit of rest if exact, else two. */
     const int64_t e = drop + 64 + p->e - shift + q, exponent = e + MANTISSA - 1 + BIAS;
     uint64_t up;
     if (exponent < 1 || exponent > 2 * BIAS - 1) return 0; /* subnormal, or near the largest */

@@ -14,8 +14,7 @@ double fl_log(double x);
 /* x^y = e^(y ln x), x >= 0, y > 0; 0^y is 0.  Relative error below 4e-16 (1 + |y ln x|). */
 double fl_pow(double x, double y);
 
-/* cos x and sin x, x in rad, |x| <= 1e6.  Error 2e-16, and 1e-16 |x| for large |x| (x itself is no more
- * accurate). */
+/* cos x and sin x, x in rad, |x| <= 1e6.  Error 2e-16, and 1e-16 |x| for large |x|, as that of x itself. */
 void fl_cos_sin(double x, double *c, double *s);
 
 #endif

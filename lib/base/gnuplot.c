@@ -10,8 +10,7 @@
 
 enum { PATH_LEN = 4096 };
 
-/* Runs gnuplot in the folder dir.  message receives its stderr.  Returns the exit status of gnuplot, or
- * -1. */
+/* Runs gnuplot in the folder dir.  message receives its stderr.  Returns its exit status, or -1. */
 static int run_gnuplot(const char *dir, const char *setting, const char *script, char *message, size_t size)
 {
     int pipe_fd[2], status = 0;
@@ -70,7 +69,7 @@ int fl_gnuplot_draw(const char *dir, const char *stem, const char *format, fl_er
         return fl_fail(err, FL_SYSTEM, "the name of a picture in %.100s is too long", dir);
     snprintf(part, sizeof part, "%s/%s.%s.part", dir, stem, format);
     const int status = run_gnuplot(dir, setting, script, message, sizeof message);
-    if (status == 127) return fl_fail(err, FL_SYSTEM, "gnuplot was not found, it draws what --plot asks for");
+    if (status == 127) return fl_fail(err, FL_SYSTEM, "gnuplot was not found: --plot needs it");
     if (status != 0 || stat(part, &st) != 0 || st.st_size == 0) {
         unlink(part);
         return fl_fail(err, FL_SYSTEM, "gnuplot failed on %s/%s: %.200s", dir, script,

@@ -22,7 +22,7 @@ static char *format_by_library(double x, char *buf)
     return buf;
 }
 
-/* --- decimal digits by integer arithmetic ---------------------------------------------------------------- */
+/* --- decimal digits by integer arithmetic --------------------------------------------------------------- */
 
 enum { MOST_DIGITS = 17 };
 static const uint64_t TEN_16 = UINT64_C(10000000000000000);

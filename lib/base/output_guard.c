@@ -78,8 +78,7 @@ int fl_output_guard_check(const fl_named_path *out, size_t outs, const fl_named_
                 return fl_fail(err, FL_USAGE, "%s is \"%.200s\", which is an input, %.200s", out[k].what,
                                out[k].path, in[i].path);
             if (share_part_name(p, n, q, 1))
-                return fl_fail(err, FL_USAGE,
-                               "%s is \"%.200s\", which until it is whole is %.200s, and that is an input",
+                return fl_fail(err, FL_USAGE, "%s is \"%.200s\", whose unfinished file %.200s is an input",
                                out[k].what, out[k].path, in[i].path);
         }
         for (size_t i = 0; n && i < k; i++) {
@@ -90,8 +89,7 @@ int fl_output_guard_check(const fl_named_path *out, size_t outs, const fl_named_
             if (m && share_part_name(p, n, q, m))
                 return fl_fail(
                     err, FL_USAGE,
-                    "%s is \"%.200s\" and %s \"%.200s\": with .part behind it, one of them is what "
-                    "the other is called until it is whole",
+                    "%s is \"%.200s\" and %s \"%.200s\": one is the unfinished file (.part) of the other",
                     out[k].what, out[k].path, out[i].what, out[i].path);
         }
     }

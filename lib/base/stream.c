@@ -155,8 +155,7 @@ void fl_in_close(fl_in *in)
 
 /* --- output ------------------------------------------------------------------------------------ */
 
-/* fl_out.gz points to this.  A gzip member starts with the first byte written after the previous member
- * ended. */
+/* The target of fl_out.gz.  A gzip member starts with the first byte written after the previous one ended. */
 typedef struct {
     gzFile gz; /* NULL between members */
     int fd, level;
@@ -232,8 +231,7 @@ char *fl_out_part_path(const char *path)
     return out.tmp;
 }
 
-/* Reports that a file could not be created.  A missing folder is named, since the file itself does not
- * exist. */
+/* Reports that a file could not be created.  A missing folder is named instead of the file. */
 static void report_create_error(const char *path, fl_err *err)
 {
     const int why = errno;
@@ -248,8 +246,8 @@ static void report_create_error(const char *path, fl_err *err)
 
 /* Opens tmp for a single writer; creates it if `make`.  The lock ends with the last descriptor, however the
  * program ends, and stays with the file through a rename.  When the lock is obtained the name may belong to
- * another file; that file is tried next.  File systems without locks get none.  Returns the descriptor or
- * -1. */
+ * another file; that file is tried next.  File systems without locks
+ * get none.  Returns the descriptor or -1. */
 static int open_locked(fl_out *out, int make, fl_err *err)
 {
     for (;;) {
@@ -261,7 +259,7 @@ static int open_locked(fl_out *out, int make, fl_err *err)
         }
         if (flock(fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK) {
             fl_fail(err, FL_SYSTEM,
-                    "%s: something else writes it already, another run or another output of this one",
+                    "%s: it is already being written, by another run or another output of this one",
                     out->path);
             close(fd);
             return -1;
@@ -271,7 +269,7 @@ static int open_locked(fl_out *out, int make, fl_err *err)
             return fd;
         close(fd);
         if (!make) {
-            fl_fail(err, FL_SYSTEM, "%s: it was taken away while it was opened", out->path);
+            fl_fail(err, FL_SYSTEM, "%s: it was removed while it was being opened", out->path);
             return -1;
         }
     }
@@ -368,8 +366,7 @@ int fl_out_close(fl_out *out, fl_err *err)
     const int plain = !out->gz;
     if (!out->f) return 0;
     int bad = flush_to_disk(out) != 0, why = errno;
-    const int lock_fd = out->tmp ? dup(fd_of(out)) : -1; /* holds the lock until the file has its final
-                                                          * name */
+    const int lock_fd = out->tmp ? dup(fd_of(out)) : -1; /* lock until the rename */
     gzip_writer *z = out->gz;
     if (out->f != stdout && fclose(out->f) != 0 && !bad) bad = 1, why = errno;
     out->f = NULL;

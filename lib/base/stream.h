@@ -45,16 +45,14 @@ enum { FL_FILE_MARK_TAIL = 4096 };
 
 /* Opens path for writing ("-" is standard output).  gzip 1 compresses, 2 faster and less.  A link is
  * followed; a device or a pipe (/dev/null, a fifo) is written directly.  The unfinished file PATH.part is
- * locked; a file that is being written by something else is refused and left alone.  -1 with FL_SYSTEM on
- * failure. */
+ * locked; a file that is being written by something else is refused and left alone.  -1 with FL_SYSTEM. */
 int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err);
 
 /* Flushes to the operating system, as after a row.  -1 with FL_SYSTEM if this or an earlier write failed; the
  * message names the unfinished file if that is kept. */
 int fl_out_flush(fl_out *out, fl_err *err);
 
-/* The name PATH.part of the unfinished file, to be freed.  NULL for a device or a pipe, and if memory runs
- * out. */
+/* Name PATH.part of the unfinished file, to be freed.  NULL for a device or a pipe, or without memory. */
 char *fl_out_part_path(const char *path);
 
 /* Flushes, syncs and renames the file to its final name, and syncs the folder.  -1 with FL_SYSTEM if any data

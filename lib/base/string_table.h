@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* string_table.h -- hash table of strings: each distinct string gets a number, from 0 in order of
- * appearance. */
+/* string_table.h -- hash table of strings.  Distinct strings are numbered from 0 in order of appearance. */
 #ifndef FL_BASE_STRING_TABLE_H
 #define FL_BASE_STRING_TABLE_H
 #include <stdint.h>

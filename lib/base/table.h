@@ -25,8 +25,7 @@ typedef struct {
 } fl_table;
 
 /* Opens a table and reads up to the column names.  kind NULL accepts any kind.
- * 0, or -1 with FL_INPUT (missing, other kind, newer version, no column names, a repeated name) or
- * FL_SYSTEM. */
+ * 0, or -1 with FL_INPUT (missing, other kind, newer, no column names, a repeated name) or FL_SYSTEM. */
 int fl_table_open(fl_table *t, const char *path, const char *kind, int newest, fl_err *err);
 
 /* Index of the column called name, with or without its unit ("fx" or "fx[N]"); -1 if there is none. */

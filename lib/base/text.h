@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* text.h -- rows of a text file: kind and version, history, comments, fields, and errors with file and
- * line. */
+/* text.h -- rows of a text file: kind and version, history, comments, fields; errors name file and line. */
 #ifndef FL_BASE_TEXT_H
 #define FL_BASE_TEXT_H
 #include <stdint.h>

@@ -4,8 +4,8 @@
 
 /* A window has at least WINDOW_STEPS_MIN steps and takes at least WINDOW_TIME [s].  UNTIMED_PER_TIMED times
  * as many steps follow without timing.  Trials are at most PAUSE_MAX windows apart.  A trial wins if its step
- * time is below GAIN_FACTOR of the present one.  A step time above SLOWER_FACTOR of the reference starts a
- * trial. */
+ * time is below GAIN_FACTOR of the present one.  A step time above SLOWER_FACTOR of the
+ * reference starts a trial. */
 enum { WINDOW_STEPS_MIN = 4, UNTIMED_PER_TIMED = 7, PAUSE_MAX = 32 };
 #define WINDOW_TIME 2e-3
 #define GAIN_FACTOR 0.97

@@ -20,8 +20,7 @@ typedef struct {
     int32_t n_before;                   /* n before the trial */
     int64_t timed_steps, untimed_steps; /* steps of the present window; steps until the next window */
     int64_t windows_left,
-        windows_between; /* windows until the next trial; windows between trials, doubled as long as none
-                          * wins */
+        windows_between; /* windows until the next trial; between trials, doubled while none wins */
     double step_start, window_time; /* start of the step, time of the window [s] */
     double step_time;               /* smoothed step time with n threads [s]; 0: unknown */
     double reference_time;          /* step time at the last trial, or the best since [s] */

@@ -48,9 +48,7 @@ void fl_tool_begin(void)
         if (fcntl(fd, F_GETFD) >= 0 || errno != EBADF) continue;
         /* opened with the opposite access: reads and writes fail with EBADF, as on a closed descriptor */
         const int filled = open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-        if (filled >= 0 && filled != fd)
-            close(filled); /* a lower descriptor was closed and could not be
-                                                         * filled */
+        if (filled >= 0 && filled != fd) close(filled); /* a lower descriptor could not be filled */
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* work_share.h -- loop distribution with work stealing.  Each thread owns a range of the loop and takes
+/* work_share.h -- loops with work stealing.  Each thread owns a range of the loop and takes
  * blocks from its front; when it is used up, it takes blocks from the ranges of others.  Threads with little
  * work help the others, and from loop to loop most elements stay with the thread that has them in its
  * cache. */

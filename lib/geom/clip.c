@@ -260,7 +260,7 @@ static int build_result(struct shape *s, double tol, fl_poly *out, fl_err *err)
     if (solid && nf < 4) return CUT_ALL;
     if (fl_poly_make(out, s->nv, s->v, s->nf, s->first, s->loop, &why) == 0) return CUT_SOME;
     if (why.code == FL_SYSTEM) return fl_fail(err, FL_SYSTEM, "%s", why.text);
-    return fl_fail(err, FL_NUMERIC, "what the cut leaves is too thin: %s", why.text);
+    return fl_fail(err, FL_NUMERIC, "the rest of the cut is too thin: %s", why.text);
 }
 
 static int copy_to_shape(struct shape *s, const fl_poly *p, fl_err *err)
@@ -387,7 +387,7 @@ static int faces_at_vertices(int32_t nv, int32_t nf, const int32_t *first, const
 
 static int fail_too_far(double r, double most, fl_err *err)
 {
-    return fl_fail(err, FL_INPUT, "a corner is so sharp that moving the faces by %g m throws it beyond %g m",
+    return fl_fail(err, FL_INPUT, "a corner is so sharp that moving the faces by %g m moves it beyond %g m",
                    r, most);
 }
 

@@ -12,10 +12,8 @@
  * Vertices within 1e-12 size of the plane lie on it: they are neither cut off nor split.  Corners of the
  * result closer than 2e-10 size are merged, since fl_poly_make() could not distinguish them.  Where a face
  * would become too narrow for it, vertices within 5e-10 size count as on the plane.
- * Returns 0.  If only points of the plane are left, or a slice without volume, p is freed and zeroed (nv =
- * 0).
- * -1, p untouched, with FL_SYSTEM, or with FL_NUMERIC if the rest is too thin to have faces but does not
- * vanish. */
+ * Returns 0.  If only points of the plane or a slice without volume are left, p is freed and zeroed (nv = 0).
+ * -1, p untouched, with FL_SYSTEM, or with FL_NUMERIC if the rest is too thin to have faces. */
 int fl_poly_cut(fl_poly *p, fl_vec3 n, double c, fl_err *err);
 
 /* The intersection of the half-spaces n_f.x <= c_f + r of the faces of in: each face moves outward by r > 0

@@ -44,9 +44,7 @@ static void fill_buckets(const fl_part *p, int64_t *first, fl_half_edge *s)
             const int32_t a = p->t[t].v[k], b = p->t[t].v[(k + 1) % 3];
             s[first[lower_end(&p->t[t], k)]++] = (fl_half_edge){a < b ? b : a, t, (int8_t)k, a < b};
         }
-    for (int32_t v = p->nv; v > 0; v--)
-        first[v] = first[v - 1]; /* each offset has advanced to the next
-                                                                  * bucket */
+    for (int32_t v = p->nv; v > 0; v--) first[v] = first[v - 1]; /* restore the starts */
     first[0] = 0;
     for (int32_t v = 0; v < p->nv; v++) sort_bucket(s + first[v], first[v + 1] - first[v]);
 }

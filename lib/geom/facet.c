@@ -145,14 +145,14 @@ static int is_ear(const ring *r, int32_t k)
 {
     const int32_t i = r->prev[k], j = r->next[k];
     const fl_vec3 a = r->x[r->loop[i]], b = r->x[r->loop[k]], c = r->x[r->loop[j]];
-    const double rim = -turn_tolerance(a, b, c);
+    const double tol = -turn_tolerance(a, b, c);
     if (r->concave[k]) return 0;
     if (r->n_concave == 0) return 1;
     for (int32_t m = r->next[j]; m != i; m = r->next[m]) {
         const fl_vec3 y = r->x[r->loop[m]];
         if (!r->concave[m] || same_point(y, a) || same_point(y, b) || same_point(y, c)) continue;
-        if (twice_area(r->n, a, b, y) >= rim && twice_area(r->n, b, c, y) >= rim &&
-            twice_area(r->n, c, a, y) >= rim)
+        if (twice_area(r->n, a, b, y) >= tol && twice_area(r->n, b, c, y) >= tol &&
+            twice_area(r->n, c, a, y) >= tol)
             return 0;
     }
     return 1;

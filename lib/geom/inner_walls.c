@@ -84,7 +84,7 @@ static int find_single_walls(const fl_part *p, const fl_edges *e, uint8_t *wall,
 
 /* Removes the triangles that `find` marks. */
 static int drop_marked(fl_part *p, int (*find)(const fl_part *, const fl_edges *, uint8_t *, fl_err *),
-                       int32_t *gone, fl_err *err)
+                       int32_t *removed, fl_err *err)
 {
     fl_edges e = {0};
     uint8_t *wall = fl_alloc(p->nt, 1, err);
@@ -92,25 +92,25 @@ static int drop_marked(fl_part *p, int (*find)(const fl_part *, const fl_edges *
     int32_t kept = 0;
     for (int32_t t = 0; rc == 0 && t < p->nt; t++)
         if (!wall[t]) p->t[kept++] = p->t[t];
-    if (rc == 0) *gone += p->nt - kept, p->nt = kept;
+    if (rc == 0) *removed += p->nt - kept, p->nt = kept;
     fl_edges_free(&e);
     free(wall);
     return rc;
 }
 
-int fl_part_drop_inner_walls(fl_part *p, int32_t *gone, fl_err *err)
+int fl_part_drop_inner_walls(fl_part *p, int32_t *removed, fl_err *err)
 {
     fl_weld w;
-    *gone = 0;
-    if (drop_marked(p, find_double_walls, gone, err) || drop_marked(p, find_single_walls, gone, err))
+    *removed = 0;
+    if (drop_marked(p, find_double_walls, removed, err) || drop_marked(p, find_single_walls, removed, err))
         return -1;
-    return *gone ? fl_part_weld(p, 0.0, &w, err) : 0;
+    return *removed ? fl_part_weld(p, 0.0, &w, err) : 0;
 }
 
-int fl_part_drop_fins(fl_part *p, int32_t *gone, fl_err *err)
+int fl_part_drop_fins(fl_part *p, int32_t *removed, fl_err *err)
 {
     fl_weld w;
-    *gone = 0;
-    if (drop_marked(p, find_fins, gone, err)) return -1;
-    return *gone ? fl_part_weld(p, 0.0, &w, err) : 0;
+    *removed = 0;
+    if (drop_marked(p, find_fins, removed, err)) return -1;
+    return *removed ? fl_part_weld(p, 0.0, &w, err) : 0;
 }

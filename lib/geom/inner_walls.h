@@ -11,12 +11,12 @@
  *                 a two-sided sheet has no such boundary and stays
  *   single walls, of which neither side faces outward (outer_skin.h)
  *   gone  out: number of removed triangles.  0, or -1 with FL_SYSTEM. */
-int fl_part_drop_inner_walls(fl_part *p, int32_t *gone, fl_err *err);
+int fl_part_drop_inner_walls(fl_part *p, int32_t *removed, fl_err *err);
 
 /* Removes fins: sheets whose triangles all have a twin facing them from behind, which end in free edges and
  * stand on triangles without a twin.  Both sides are removed, so that every remaining edge keeps the balance
  * of its two directions; removing one side would open a closed body.  A two-sided sheet that stands alone
- * stays.  gone as above. */
-int fl_part_drop_fins(fl_part *p, int32_t *gone, fl_err *err);
+ * stays.  removed as above. */
+int fl_part_drop_fins(fl_part *p, int32_t *removed, fl_err *err);
 
 #endif

@@ -30,8 +30,7 @@ FL_SIMD_INLINE fl_rows3 fl_lane_axes(const fl_lane *q, int k)
 /* The consecutive doubles of an object. */
 static inline const double *fl_lane_column(const void *at) { return at; }
 
-/* Loads the numbers of eight objects, of[FL_LANE_COUNT], into rows; the number of rows is a multiple of
- * four. */
+/* Loads the numbers of eight objects, of[FL_LANE_COUNT], into rows, a multiple of four. */
 FL_SIMD_INLINE void fl_lanes_load(fl_lane *row, const double *const *of, int rows)
 {
     for (int k = 0; k < FL_LANE_COUNT; k += FL_SIMD_WIDTH)

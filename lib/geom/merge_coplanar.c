@@ -5,7 +5,7 @@
 #include "base/array.h"
 
 /* Boundaries with more corners are not tested as one polygon: the test takes quadratic time. */
-enum { RIM_CORNERS = 4096 };
+enum { BOUNDARY_MAX = 4096 };
 
 /* Side k of triangle t is half-edge 3 t + k. */
 typedef struct {
@@ -15,8 +15,7 @@ typedef struct {
     const fl_vec3 *normal;
     int32_t nt;
     double tol;
-    int32_t *next, *prev, *twin; /* [3 nt] next, previous: round a face; opposite half-edge: -1 on the
-                                  * boundary and where joined */
+    int32_t *next, *prev, *twin; /* [3 nt] round a face; twin: -1 on the boundary and where joined */
     int32_t *parent;             /* [nt] union-find of the triangles of a face */
     int32_t *work;               /* [3 nt] the current loop */
     uint8_t *joined;             /* [3 nt] half-edges removed by joining */
@@ -121,20 +120,20 @@ static int32_t collect_loop(const face_mesh *m, int32_t h)
     return n;
 }
 
-/* Appends the region of boundary half-edge h as one face; rims is its number of boundary half-edges.  Returns
- * -1 where it is not convex. */
-static int32_t append_whole_region(face_mesh *m, int32_t h, int32_t rims, double area)
+/* Appends the region of boundary half-edge h as one face; n_boundary is its number of boundary half-edges.
+ * Returns -1 where it is not convex. */
+static int32_t append_whole_region(face_mesh *m, int32_t h, int32_t n_boundary, double area)
 {
     const fl_vec3 normal = m->normal[m->region[h / 3]];
     int32_t n = 0, k = h;
-    if (rims > RIM_CORNERS) return -1;
+    if (n_boundary > BOUNDARY_MAX) return -1;
     do {
-        if (n == rims) return -1;
+        if (n == n_boundary) return -1;
         m->work[n++] = origin(m, k);
         k = m->next[k];
         while (m->twin[k] >= 0) k = m->next[m->twin[k]];
     } while (k != h);
-    if (n < rims) return -1; /* the region has holes */
+    if (n < n_boundary) return -1; /* the region has holes */
     n = drop_straight_corners(m, m->work, n, normal, NULL);
     if (!is_convex(m, m->work, n, normal, area)) return -1;
     /* repeated now that the region is known to be convex, to count the straight corners */
@@ -168,8 +167,8 @@ static int join_faces(face_mesh *m, int32_t h)
     const int32_t ga = m->twin[ha], gb = m->twin[hb]; /* ga ends where ha begins */
     const int32_t before = m->prev[ha], after = m->next[ga], back = m->prev[gb], on = m->next[hb];
     const int32_t a = origin(m, ha), b = origin(m, on);
-    const double low = -0.1 * m->tol; /* several deviations must not add up to tol; tested when all faces are
-                                       * joined */
+    const double low =
+        -0.1 * m->tol; /* several deviations must not add up to tol; final test after joining */
     if (offset_from_line(m, origin(m, before), a, origin(m, m->next[after]), n) < low ||
         offset_from_line(m, origin(m, back), b, origin(m, m->next[on]), n) < low)
         return 0;
@@ -256,24 +255,26 @@ static int build_half_edges(face_mesh *m, int32_t nv, const int32_t *across, fl_
 /* Makes a face of each region with a convex boundary.  done[region] is its index, -1 for the others. */
 static int whole_regions(face_mesh *m, int32_t regions, int32_t *finished, fl_err *err)
 {
-    int32_t *rims = fl_alloc(regions, sizeof *rims, err), *rim = fl_alloc(regions, sizeof *rim, err);
+    int32_t *n_boundary = fl_alloc(regions, sizeof *n_boundary, err),
+            *boundary = fl_alloc(regions, sizeof *boundary, err);
     double *area = fl_alloc(regions, sizeof *area, err);
-    const int ok = rims && rim && area;
+    const int ok = n_boundary && boundary && area;
     if (ok) {
-        for (int32_t r = 0; r < regions; r++) rims[r] = 0, rim[r] = -1, area[r] = 0.0, finished[r] = -1;
+        for (int32_t r = 0; r < regions; r++)
+            n_boundary[r] = 0, boundary[r] = -1, area[r] = 0.0, finished[r] = -1;
         for (int32_t t = 0; t < m->nt; t++) {
             if (m->region[t] < 0) continue;
             area[m->region[t]] += triangle_area(m, t);
             for (int k = 0; k < 3; k++) {
                 if (m->twin[3 * t + k] >= 0) continue;
-                rims[m->region[t]]++;
-                if (rim[m->region[t]] < 0) rim[m->region[t]] = 3 * t + k;
+                n_boundary[m->region[t]]++;
+                if (boundary[m->region[t]] < 0) boundary[m->region[t]] = 3 * t + k;
             }
         }
         for (int32_t r = 0; r < regions; r++)
-            if (rim[r] >= 0) finished[r] = append_whole_region(m, rim[r], rims[r], area[r]);
+            if (boundary[r] >= 0) finished[r] = append_whole_region(m, boundary[r], n_boundary[r], area[r]);
     }
-    free(rims), free(rim), free(area);
+    free(n_boundary), free(boundary), free(area);
     return ok ? 0 : -1;
 }
 

@@ -11,12 +11,11 @@ enum { FL_MERGED_SIDES_MAX = 64 }; /* sides of a face: a contact test examines a
 
 typedef struct {
     int32_t n;
-    int32_t *first;       /* [n + 1] offsets into loop */
-    int32_t *loop;        /* [first[n]] vertices of each face, counter-clockwise about its normal */
-    int32_t *region;      /* [n] region of each face */
-    int32_t *face_of_tri; /* [nt] face of each triangle, -1 outside all regions */
-    int32_t
-        *straight_corners; /* [nv] number of faces that have a corner of 180 degrees here, left out of loop */
+    int32_t *first;            /* [n + 1] offsets into loop */
+    int32_t *loop;             /* [first[n]] vertices of each face, counter-clockwise about its normal */
+    int32_t *region;           /* [n] region of each face */
+    int32_t *face_of_tri;      /* [nt] face of each triangle, -1 outside all regions */
+    int32_t *straight_corners; /* [nv] faces with a corner of 180 degrees here, left out of loop */
 } fl_merged_faces;
 
 /* Makes convex faces that cover each region once.  A region with one convex boundary becomes one face,
@@ -35,6 +34,6 @@ typedef struct {
 int fl_merge_coplanar(fl_merged_faces *out, int32_t nv, const fl_vec3 *v, int32_t nt, const fl_tri *t,
                       const int32_t *region, const fl_vec3 *normal, const int32_t *across, double tol,
                       fl_err *err);
-void fl_merged_faces_free(fl_merged_faces *tiles);
+void fl_merged_faces_free(fl_merged_faces *faces);
 
 #endif

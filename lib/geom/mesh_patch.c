@@ -5,8 +5,7 @@
 #include "geom/outer_skin.h"
 #include "geom/mesh_patch.h"
 
-/* Rounding leaves up to about 4 x 2^-53 of the longest side squared in a cross product that should be
- * zero. */
+/* Rounding leaves up to 4 x 2^-53 of the longest side squared in a cross product that should be zero. */
 static const double NO_AREA = 1e-15, NO_VOLUME = 1e-10;
 
 /* across[3 t + k]: the triangle across side k of t, -1 for none; coherent[3 t + k]: both run along the side
@@ -136,6 +135,7 @@ static void add_cone(measure_sums *s, const fl_cone *c, fl_vec3 o)
 
 static double smaller_of(double a, double b) { return a < b ? a : b; }
 
+/* Adds part p to s, and its degenerate triangles and shortest edge to q. */
 static void add_part(measure_sums *s, fl_mesh_quality *q, const fl_part *p, fl_vec3 o)
 {
     double least = INFINITY; /* length of an edge, squared */
@@ -163,13 +163,14 @@ static void orient_patch(fl_part *p, const adjacency *w, const patch_walk *g, co
                          const uint8_t *outer, fl_orient_counts *o)
 {
     const double volume = sum[0], kept = sum[1], turned = sum[2];
-    const int skin = g->has_rim && !g->is_one_sided && outer ? outer[w->queue[0]] : FL_OUTER_BOTH;
+    const int outward = g->has_rim && !g->is_one_sided && outer ? outer[w->queue[0]] : FL_OUTER_BOTH;
     int flip = turned > kept, inward = 0;
-    o->kept_side += g->has_rim && skin == FL_OUTER_BOTH;
+    o->kept_side += g->has_rim && outward == FL_OUTER_BOTH;
     o->one_sided += g->is_one_sided;
     for (int32_t k = 0; k < g->n; k++) o->triangles += (w->sign[w->queue[k]] < 0) != flip;
     if (!g->has_rim && !g->is_one_sided) inward = (flip ? -volume : volume) < -0.5 * NO_VOLUME;
-    else if (skin == FL_OUTER_FRONT || skin == FL_OUTER_BACK) inward = flip != (skin == FL_OUTER_BACK);
+    else if (outward == FL_OUTER_FRONT || outward == FL_OUTER_BACK)
+        inward = flip != (outward == FL_OUTER_BACK);
     o->patches += inward;
     flip ^= inward;
     for (int32_t k = 0; k < g->n; k++) {

@@ -33,8 +33,7 @@ int fl_surface_measure(const fl_surface *s, fl_mesh_quality *q, fl_err *err);
 typedef struct {
     int32_t triangles; /* turned one by one, to agree with the larger area of their patch */
     int32_t patches;   /* turned as a whole: negative volume, or a skin facing inward */
-    int32_t kept_side; /* open patches with the outside on both sides: they keep the side of most of their
-                        * area */
+    int32_t kept_side; /* open patches, outside on both sides: oriented by most of their area */
     int32_t one_sided; /* one-sided patches (Moebius), which cannot be coherent */
 } fl_orient_counts;
 

@@ -4,8 +4,7 @@
 #include "geom/dd.h"
 #include "geom/moments.h"
 
-/* Volume, area, first moments, and second moments xx yy zz xy yz zx, each in 106 bits; one more fills the
- * SIMD lanes. */
+/* Volume, area, first moments, second moments xx yy zz xy yz zx, in 106 bits; one more fills the lanes. */
 enum { VOLUME, AREA, FIRST, SECOND = FIRST + 3, TERMS = 12 };
 
 struct moment_sums {
@@ -49,8 +48,7 @@ FL_SIMD_VERSIONS static void add_triangles(struct moment_sums *to, const fl_part
     *to = s;
 }
 
-/* About the centre of its first disc p0, with axis u: along = int z^2 dV, across = int y^2 dV, first = V
- * z_C. */
+/* About p0, the centre of the first disc, axis u: along = int z^2 dV, across = int y^2 dV, first = V z_C. */
 static void add_cone(struct moment_sums *s, const fl_cone *c)
 {
     const fl_vec3 p = v3_sub(c->p0, s->o), axis = v3_sub(c->p1, c->p0), u = v3_unit(axis);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* moments.h -- volume, area, centroid and inertia of the solid enclosed by triangles and cones.  Sums have
- * 106 bits. */
+/* moments.h -- volume, area, centroid and inertia of solids of triangles and cones, summed in 106 bits. */
 #ifndef FL_GEOM_MOMENTS_H
 #define FL_GEOM_MOMENTS_H
 #include "geom/mat3.h"

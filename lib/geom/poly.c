@@ -56,7 +56,7 @@ static int32_t check_loops(int32_t nv, int32_t nf, const int32_t *first, const i
         return fl_fail(err, FL_INPUT, "face 0 starts at %d of the index list, not at 0", first[0]);
     for (int32_t f = 0; f < nf; f++) {
         if ((int64_t)first[f + 1] - first[f] < 3)
-            return fl_fail(err, FL_INPUT, "face %d has %lld vertices, at least 3 are wanted", f,
+            return fl_fail(err, FL_INPUT, "face %d has %lld vertices, at least 3 are expected", f,
                            (long long)first[f + 1] - first[f]);
         for (int32_t k = first[f]; k < first[f + 1]; k++)
             if (loop[k] < 0 || loop[k] >= nv)
@@ -223,7 +223,7 @@ static int pair_edges(struct build *b, fl_err *err)
         const int32_t i = p->loop[h], j = next_vertex(p, b->face[h], h), k = p->loop[t],
                       l = next_vertex(p, b->face[t], t);
         if (i == k && j == l)
-            return fail_open(b, i, j, b->face[h], "runs the same way round another face", err);
+            return fail_open(b, i, j, b->face[h], "has the same direction in another face", err);
         if (i != l || j != k)
             return fail_open(b, i, j, b->face[h], "has no second face: the core is not closed", err);
         if (s + 2 < nh) {
@@ -261,11 +261,11 @@ static int check_topology(struct build *b, fl_err *err)
         else up[l] = r;
     }
     if (pieces > 1)
-        return fl_fail(err, FL_INPUT, "the faces form %d separate surfaces, one is wanted", pieces);
+        return fl_fail(err, FL_INPUT, "the faces form %d separate surfaces, one is expected", pieces);
     if (p->nv - p->ne + p->nf != 2)
         return fl_fail(err, FL_INPUT,
-                       "%d vertices, %d edges and %d faces close to no sphere: V - E + F = %d, not 2", p->nv,
-                       p->ne, p->nf, p->nv - p->ne + p->nf);
+                       "%d vertices, %d edges and %d faces do not form a sphere: V - E + F = %d, not 2",
+                       p->nv, p->ne, p->nf, p->nv - p->ne + p->nf);
     return 0;
 }
 

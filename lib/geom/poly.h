@@ -14,6 +14,12 @@ typedef struct {
     int32_t left, right; /* faces: a to b runs counter-clockwise about left; -1 for the edge of a segment */
 } fl_edge;
 
+/* bend     angle between the outward normals of the two faces of an edge
+ * defect   2 pi less the angles of the faces at the vertex (Gauss); 2 pi for the end of a segment, 4 pi for a
+ *          point
+ * concave_face[k]: for the side that begins at loop[k], if the two faces bend inward by less than 60 degrees
+ * saddle[k]: for the edge to neighbour[k].  Both borrowed; nonconvex surfaces only
+ * (structure/structure.h). */
 typedef struct {
     int32_t nv, nf, ne;
     int16_t shared;      /* first, loop, edge, neighbour_first and neighbour are borrowed (topology.h) */
@@ -24,19 +30,13 @@ typedef struct {
     int32_t *first;      /* [nf + 1] offsets into loop */
     int32_t *loop;       /* [first[nf]] vertices of each face, counter-clockwise from outside */
     fl_edge *edge;       /* [ne] sorted by (a, b) */
-    double *bend;   /* [ne] exterior dihedral angle, between the outward normals of the two faces, in [0, pi];
-                     * 2 pi for a segment [rad]; or NULL */
-    double *defect; /* [nv] solid angle of the normal cone: 2 pi less the angles of the faces at the vertex
-                     * (angle defect); 2 pi for the end of a segment, 4 pi for a point [sr]; NULL if bend
-                     * is */
+    double *bend;        /* [ne] exterior dihedral angle, 0 .. pi; 2 pi for a segment [rad]; or NULL */
+    double *defect;      /* [nv] solid angle of the normal cone, the angle defect [sr]; NULL if bend is */
     int32_t *neighbour_first; /* [nv + 1] offsets into neighbour */
     int32_t *neighbour;       /* [neighbour_first[nv]] other ends of the edges of each vertex, ascending */
     double size;              /* largest side of the bounding box [m] */
-    int32_t *concave_face; /* nonconvex surfaces only (structure/structure.h), borrowed: [first[nf]] the face
-                       * across the side that begins at loop[k], if the two form a concave edge of less than
-                       * 60 degrees, else -1; NULL: none */
-    uint8_t *saddle;       /* nonconvex surfaces only, borrowed: [neighbour_first[nv]] 1 where the edge to
-                      * neighbour[k] is convex but its vertex is not; NULL: none */
+    int32_t *concave_face;    /* [first[nf]] the face across a concave side, or -1; NULL: none */
+    uint8_t *saddle;          /* [neighbour_first[nv]] 1: a convex edge at a nonconvex vertex; NULL: none */
 } fl_poly;
 
 /* Builds a polyhedron from copied input; derives planes, edges and size.  The tolerance is 1e-9 size, and at
@@ -90,7 +90,7 @@ double fl_poly_compute_bend(const fl_poly *p, int32_t e);
  * which must be a rotation, become the axes. */
 void fl_poly_to_frame(fl_poly *p, fl_vec3 o, fl_mat3 axes);
 
-/* Contact uses how blunt an edge or a vertex is; sharper ones, with angles above these limits, all count
+/* Contact depends on the angle of blunt edges and vertices.  All with larger angles than these count
  * alike. */
 #define FL_POLY_BLUNT_EDGE 0.25  /* [rad] */
 #define FL_POLY_BLUNT_CORNER 0.5 /* [sr]  */

@@ -131,7 +131,7 @@ int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d,
 {
     double t = 0.0;
     while (n >= 3) {
-        int32_t gone = 0;
+        int32_t vanishing = 0;
         double next_event = INFINITY;
         for (int32_t k = 0; k < n; k++) {
             const fl_polygon_side before = side[k ? k - 1 : n - 1], after = side[k + 1 < n ? k + 1 : 0];
@@ -141,7 +141,7 @@ int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d,
                                           fl_polygon_side_half_tan(side[k], after));
             if (left < next_event) {
                 next_event = left;
-                gone = k;
+                vanishing = k;
             }
         }
         if (next_event > d - t) {
@@ -151,9 +151,10 @@ int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d,
         }
         if (next_event > 0.0) t += next_event; /* rounding may make the length of a side slightly negative */
         n--;
-        for (int32_t k = gone; k < n; k++) side[k] = side[k + 1];
+        for (int32_t k = vanishing; k < n; k++) side[k] = side[k + 1];
         /* The neighbours are parallel, or the corner has passed them: nothing is left between. */
-        if (n < 3 || fl_polygon_side_sin(side[gone ? gone - 1 : n - 1], side[gone < n ? gone : 0]) <= 0.0)
+        if (n < 3 || fl_polygon_side_sin(side[vanishing ? vanishing - 1 : n - 1],
+                                         side[vanishing < n ? vanishing : 0]) <= 0.0)
             break;
         fl_polygon_corners(n, side, t, v);
     }

@@ -4,7 +4,7 @@
  * With s = a, b, c at the corners they are complete symmetric sums h_k of degree k; nothing is subtracted:
  *     mean s^k = 2 k!/(k+2)! h_k(a, b, c),   mean s^k l_a = 2 k!/(k+3)! h_k(a, b, c, a),
  *     mean s^k l_a l_b = 2 k!/(k+4)! h_k(a, b, c, a, b),
- * where l_a is the barycentric coordinate of the first corner, etc.; h_k(.., b) = h_k(..) + b h_(k-1)(..,
+ * where l_a is the barycentric coordinate of corner a; h_k(.., b) = h_k(..) + b h_(k-1)(..,
  * b). */
 #ifndef FL_GEOM_QUADRATURE_TRIANGLE_H
 #define FL_GEOM_QUADRATURE_TRIANGLE_H

@@ -18,8 +18,7 @@ typedef struct {
     double u0, v0, pixel; /* lower left corner, side of a pixel [m] */
     int32_t *part;        /* [w h] row 0 lowest: visible part, FL_RASTER_NONE, or FL_RASTER_LINE on an edge */
     double *depth;        /* [w h] coordinate along the view, nearer is larger [m]; -INFINITY for none */
-    float *light;         /* [w h] 0 .. 1: brightness by the cosine between normal and light, for either side
-                           * of a face */
+    float *light;         /* [w h] brightness 0 .. 1: cosine of normal and light, for both sides */
 } fl_raster;
 
 /* Makes an empty picture.  -1 with FL_SYSTEM. */

@@ -5,8 +5,7 @@
 #include "base/array.h"
 #include "geom/surface.h"
 
-/* Names appear in tables that are split at blanks and where '#' opens a comment.  Bytes above ASCII are
- * kept. */
+/* Names appear in tables that are split at blanks and where '#' opens a comment.  Other bytes stay. */
 static char clean_char(const char *name, size_t k)
 {
     return (unsigned char)name[k] <= ' ' || name[k] == 0x7f || (k == 0 && name[k] == '#') ? '_' : name[k];

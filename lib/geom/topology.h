@@ -20,13 +20,12 @@ typedef struct {
 } fl_topologies;
 
 enum {
-    FL_KEEP_ANGLES = 1, /* keep the blunt angles if they are at most eight, else all: fl_poly_edge_angle() and
-                         * fl_poly_corner_angle() return them.  Without this flag no angle may be used */
-    FL_KEEP_OFFSETS = 2 /* keep c; without this flag c becomes NULL */
+    FL_KEEP_ANGLES = 1, /* the blunt angles if at most eight, else all; without it no angle may be used */
+    FL_KEEP_OFFSETS = 2 /* c, which else becomes NULL */
 };
 
 /* Replaces first, loop, edge, neighbour_first and neighbour of p by those of t, which must outlive p.
- *   keep  FL_KEEP_...
+ *   keep  FL_KEEP_...: what to keep.  fl_poly_edge_angle() and fl_poly_corner_angle() read the kept angles
  * -1 with FL_SYSTEM, p unchanged. */
 int fl_topologies_share(fl_topologies *t, fl_poly *p, unsigned keep, fl_err *err);
 

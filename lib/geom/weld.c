@@ -190,10 +190,10 @@ static double shortest_edge(const fl_part *p)
 static int choose_tol(const fl_part *p, double tol, double diagonal, double edge, fl_weld *w, fl_err *err)
 {
     if (tol > edge)
-        return fl_fail(
-            err, FL_INPUT,
-            "part \"%.60s\": the welding tolerance %g m is above the shortest edge, %g m: less is expected",
-            p->name ? p->name : "", tol, edge);
+        return fl_fail(err, FL_INPUT,
+                       "part \"%.60s\": the welding tolerance %g m is above the shortest edge, %g m: a "
+                       "smaller one is expected",
+                       p->name ? p->name : "", tol, edge);
     w->tol = tol >= 0.0 ? tol : fmin(SHARE * diagonal, 0.5 * edge);
     if (w->tol < NO_TOL * diagonal) w->tol = 0.0;
     return 0;

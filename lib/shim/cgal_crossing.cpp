@@ -124,12 +124,12 @@ int count_crossings(const fl_soup *s, fl_crossing *c)
 extern "C" int fl_cgal_crossings(const fl_soup *s, fl_crossing *c, fl_err *err)
 {
     *c = fl_crossing{0, 0};
-    return guarded("search for crossings", s->nt, err, [&] { return count_crossings(s, c); });
+    return run_guarded("search for crossings", s->nt, err, [&] { return count_crossings(s, c); });
 }
 
 extern "C" int fl_cgal_classify_triangles(const double *a, const double *b, fl_err *err)
 {
-    return caught("meeting", 2, err, [&]() -> int {
+    return catch_errors("meeting", 2, err, [&]() -> int {
         const corners p = corners_at(a), q = corners_at(b);
         return is_degenerate(p) || is_degenerate(q) ? APART : relation_of(p, q);
     });

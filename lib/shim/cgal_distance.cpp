@@ -224,5 +224,5 @@ int distance(const fl_soup *a, const fl_soup *b, double tol, double *least, doub
 extern "C" int fl_cgal_distance(const fl_soup *a, const fl_soup *b, double tol, double *least, double *most,
                                 fl_err *err)
 {
-    return shim::guarded("distance", a->nt, err, [&] { return distance(a, b, tol, least, most); });
+    return shim::run_guarded("distance", a->nt, err, [&] { return distance(a, b, tol, least, most); });
 }

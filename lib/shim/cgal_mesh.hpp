@@ -52,9 +52,8 @@ int catch_errors(const char *what, int32_t n, fl_err *err, Work work)
         return work();
     } catch (const std::bad_alloc &) {
         return fl_fail(err, FL_SYSTEM, "out of memory in the %s of %d triangles", what, n);
-    } catch (const CGAL::Failure_exception &e) { /* its message names lines of CGAL, which are of no use
-                                                  * here */
-        return fl_fail(err, FL_NUMERIC, "%s of %d triangles: they are not what CGAL counts on, \"%.80s\"",
+    } catch (const CGAL::Failure_exception &e) { /* its message names lines of CGAL */
+        return fl_fail(err, FL_NUMERIC, "%s of %d triangles: they violate an assumption of CGAL, \"%.80s\"",
                        what, n, e.expression().c_str());
     } catch (const std::exception &e) { /* its first line only */
         return fl_fail(err, FL_NUMERIC, "%s of %d triangles: %.*s", what, n,
@@ -119,7 +118,7 @@ inline int write_back(fl_soup *s, Mesh &mesh, fl_err *err)
     if (nv > INT32_MAX || nt > INT32_MAX)
         return fl_fail(err, FL_SYSTEM, "more than 2^31 vertices after repair");
     if (!CGAL::is_triangle_mesh(mesh))
-        return fl_fail(err, FL_NUMERIC, "a face that is no triangle came of %d triangles", s->nt);
+        return fl_fail(err, FL_NUMERIC, "a face that is not a triangle resulted from %d triangles", s->nt);
     auto x = static_cast<double *>(fl_alloc(3 * nv, sizeof(double), err));
     auto t = x ? static_cast<int32_t *>(fl_alloc(3 * nt, sizeof(int32_t), err)) : nullptr;
     if (!t) {

@@ -52,5 +52,5 @@ int remesh(fl_soup *s, double length, fl_err *err)
 
 extern "C" int fl_cgal_remesh(fl_soup *s, double length, fl_err *err)
 {
-    return guarded("remeshing", s->nt, err, [&] { return remesh(s, length, err); });
+    return run_guarded("remeshing", s->nt, err, [&] { return remesh(s, length, err); });
 }

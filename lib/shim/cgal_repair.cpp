@@ -21,11 +21,11 @@ namespace
 using namespace shim;
 
 /* Diagonal of the box of a boundary cycle, and its number of edges. */
-double rim_size(const Mesh &mesh, Mesh::Halfedge_index rim, std::size_t &edges)
+double cycle_size(const Mesh &mesh, Mesh::Halfedge_index cycle, std::size_t &edges)
 {
     CGAL::Bbox_3 box;
     edges = 0;
-    for (const auto h : CGAL::halfedges_around_face(rim, mesh)) {
+    for (const auto h : CGAL::halfedges_around_face(cycle, mesh)) {
         box += mesh.point(mesh.target(h)).bbox();
         edges++;
     }
@@ -35,13 +35,13 @@ double rim_size(const Mesh &mesh, Mesh::Halfedge_index rim, std::size_t &edges)
 
 void close_holes(Mesh &mesh, std::size_t most, double size, fl_repair &did)
 {
-    std::vector<Mesh::Halfedge_index> rims;
-    PMP::extract_boundary_cycles(mesh, std::back_inserter(rims));
-    for (const auto rim : rims) {
+    std::vector<Mesh::Halfedge_index> cycles;
+    PMP::extract_boundary_cycles(mesh, std::back_inserter(cycles));
+    for (const auto cycle : cycles) {
         std::size_t edges;
         std::vector<Mesh::Face_index> made;
-        if (!(rim_size(mesh, rim, edges) <= size) && edges > most) continue;
-        PMP::triangulate_hole(mesh, rim, std::back_inserter(made));
+        if (!(cycle_size(mesh, cycle, edges) <= size) && edges > most) continue;
+        PMP::triangulate_hole(mesh, cycle, std::back_inserter(made));
         did.holes += !made.empty();
         did.patched += static_cast<int32_t>(made.size());
     }
@@ -80,7 +80,7 @@ int repair(fl_soup *s, int32_t holes, double size, fl_repair *did, fl_err *err)
     std::vector<Point> points;
     std::vector<Corners> triangles;
     Mesh mesh;
-    fl_crossing meet = {0, 0};
+    fl_crossing crossing = {0, 0};
     to_vectors(s, points, triangles);
     did->duplicates = static_cast<int32_t>(PMP::merge_duplicate_polygons_in_polygon_soup(points, triangles));
     if (to_mesh(points, triangles, mesh, err)) return -1;
@@ -90,8 +90,8 @@ int repair(fl_soup *s, int32_t holes, double size, fl_repair *did, fl_err *err)
     const bool closed = mesh.number_of_faces() > 0 && CGAL::is_closed(mesh);
     if (write_back(s, mesh, err)) return -1;
     if (did->stuck || !closed) return 0; /* without a plane there is no exact answer */
-    if (fl_cgal_crossings(s, &meet, err)) return -1;
-    if (meet.crossings || meet.touching || has_branched_cut(mesh)) return 0;
+    if (fl_cgal_crossings(s, &crossing, err)) return -1;
+    if (crossing.crossings || crossing.touching || has_branched_cut(mesh)) return 0;
     PMP::orient_to_bound_a_volume(mesh);
     did->bounding = 1;
     return write_back(s, mesh, err);
@@ -101,7 +101,7 @@ int repair(fl_soup *s, int32_t holes, double size, fl_repair *did, fl_err *err)
 extern "C" int fl_cgal_repair(fl_soup *s, int32_t holes, double size, fl_repair *did, fl_err *err)
 {
     *did = fl_repair{};
-    return guarded("repair", s->nt, err, [&] { return repair(s, holes, size, did, err); });
+    return run_guarded("repair", s->nt, err, [&] { return repair(s, holes, size, did, err); });
 }
 
 extern "C" void fl_soup_free(fl_soup *s)

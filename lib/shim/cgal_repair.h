@@ -18,15 +18,14 @@ typedef struct {
     int32_t stuck;      /* same, but not removable */
     int32_t holes;      /* boundary cycles closed by new triangles */
     int32_t patched;    /* number of these triangles */
-    int32_t bounding;   /* 1: all patches are closed, no two intersect, and they are oriented so that the
-                         * whole bounds a volume: cavities face inward */
+    int32_t bounding;   /* 1: all patches are closed, none intersect, and they bound a volume */
 } fl_repair;
 
 /* Repairs s in place: drops duplicate triangles, orients patches, stitches boundaries, removes triangles of
  * collinear corners, fills holes, and orients closed surfaces that do not intersect so that they bound a
- * volume.  Predicates are exact.  Where more than two triangles meet in an edge, the surface is cut there
- * into manifold pieces, whose vertices have equal coordinates: weld with tolerance 0 afterwards to restore
- * the edge.
+ * volume (cavities face inward).  Predicates are exact.  Where more than two triangles meet in an edge, the
+ * surface is cut there into manifold pieces, whose vertices have equal coordinates: weld with tolerance 0
+ * afterwards to restore the edge.
  *   s      x and t from malloc() or fl_alloc(); replaced
  *   holes  boundary cycles of at most this many edges are filled; 0 for none
  *   size   and cycles whose box has a diagonal of at most this [m]; 0 for none

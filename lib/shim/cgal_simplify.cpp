@@ -26,7 +26,7 @@ struct border_edges {
     friend bool get(const border_edges &r, key_type e) { return r.mesh->is_border(e); }
 };
 
-int simplify(fl_soup *s, double distance, int32_t *gone, fl_err *err)
+int simplify(fl_soup *s, double distance, int32_t *removed, fl_err *err)
 {
     Mesh mesh;
     const int32_t before = s->nt;
@@ -40,13 +40,13 @@ int simplify(fl_soup *s, double distance, int32_t *gone, fl_err *err)
                            .get_placement(placement)
                            .filter(filter));
     if (write_back(s, mesh, err)) return -1;
-    *gone = before - s->nt;
+    *removed = before - s->nt;
     return 0;
 }
 } // namespace
 
-extern "C" int fl_cgal_simplify(fl_soup *s, double distance, int32_t *gone, fl_err *err)
+extern "C" int fl_cgal_simplify(fl_soup *s, double distance, int32_t *removed, fl_err *err)
 {
-    *gone = 0;
-    return guarded("simplification", s->nt, err, [&] { return simplify(s, distance, gone, err); });
+    *removed = 0;
+    return run_guarded("simplification", s->nt, err, [&] { return simplify(s, distance, removed, err); });
 }

@@ -9,10 +9,10 @@
  * distance, from s to the result, is not bounded: measure it with fl_cgal_distance().
  *   s          x and t from malloc() or fl_alloc(); replaced
  *   distance   > 0                                           [m]
- *   gone       out: number of removed triangles
+ *   removed  out: number of removed triangles
  * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM, and s unchanged.
  * Source: Lindstrom & Turk, IEEE Visualization 1998, cost; Wang et al., ACM ToG 39 (2020) 41, envelope; both
  * as of CGAL 5.5. */
-int fl_cgal_simplify(fl_soup *s, double distance, int32_t *gone, fl_err *err);
+int fl_cgal_simplify(fl_soup *s, double distance, int32_t *removed, fl_err *err);
 
 #endif

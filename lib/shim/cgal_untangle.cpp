@@ -298,5 +298,5 @@ int untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
 extern "C" int fl_cgal_untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
 {
     *did = fl_untangle{0, 0, 0, 0.0};
-    return guarded("repair of crossings", s->nt, err, [&] { return untangle(s, shell, did, err); });
+    return run_guarded("repair of crossings", s->nt, err, [&] { return untangle(s, shell, did, err); });
 }

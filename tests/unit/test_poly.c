@@ -143,7 +143,7 @@ static void each_fault_has_its_sentence(void **state)
             break;
         case 10:
             first[3] = first[2] + 2;
-            say = "face 2 has 2 vertices, at least 3 are wanted";
+            say = "face 2 has 2 vertices, at least 3 are expected";
             break;
         case 11:
             first[0] = 1;
@@ -155,7 +155,7 @@ static void each_fault_has_its_sentence(void **state)
             break;
         case 13:
             first[4] = INT32_MIN;
-            say = "face 3 has -2147483660 vertices, at least 3 are wanted";
+            say = "face 3 has -2147483660 vertices, at least 3 are expected";
             break;
         }
         if (fault == 2) { /* the digits are not the point */
@@ -243,7 +243,7 @@ static void two_bodies_are_not_one(void **state)
         loop[24 + k] = 8 + cube_loop[k];
     }
     for (int k = 0; k < 13; k++) first[k] = 4 * k;
-    refused(16, v, 12, first, loop, "the faces form 2 separate surfaces, one is wanted");
+    refused(16, v, 12, first, loop, "the faces form 2 separate surfaces, one is expected");
     /* one cube, its top face given twice */
     memcpy(loop, cube_loop, sizeof cube_loop);
     memcpy(loop + 24, cube_loop + 4, 4 * sizeof *loop);
