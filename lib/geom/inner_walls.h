@@ -10,7 +10,7 @@
  *                 connected sets with the walls of both bodies continuing along the whole boundary;
  *                 a two-sided sheet has no such boundary and stays
  *   single walls, of which neither side faces outward (outer_skin.h)
- *   gone  out: number of removed triangles.  0, or -1 with FL_SYSTEM. */
+ *   removed  out: number of removed triangles.  0, or -1 with FL_SYSTEM. */
 int fl_part_drop_inner_walls(fl_part *p, int32_t *removed, fl_err *err);
 
 /* Removes fins: sheets whose triangles all have a twin facing them from behind, which end in free edges and
