@@ -239,7 +239,7 @@ static void corners_may_move_only_so_far(void **state)
     assert_int_equal(fl_poly_offset(&q, &p, 0.05, &err), -1); /* 100 km */
     assert_int_equal(err.code, FL_INPUT);
     assert_string_equal(err.text,
-                        "a corner is so sharp that moving the faces by 0.05 m throws it beyond 10500 m");
+                        "a corner is so sharp that moving the faces by 0.05 m moves it beyond 10500 m");
     fl_poly_free(&p);
     err = (fl_err){0};
     assert_int_equal(fl_poly_make(&p, 4, needle, 4, first, loop, &err), 0);

@@ -221,7 +221,7 @@ static void errors_are_reported(void **state)
         {HEAD "1 a nan 1 1 1 1\n", 4, "fx is \"nan\", a finite number is expected"},
         {HEAD "1 a 1e101 1 1 1 1\n", 4, "fx is 1e+101, expected at most 1e+100"},
         {HEAD "inf a 1 1 1 1 1\n", 4, "t is \"inf\", a finite number is expected"},
-        {HEAD "1 a 1 1\n", 4, "4 fields, 7 are expected as there are columns"},
+        {HEAD "1 a 1 1\n", 4, "4 fields, expected 7, one for each column"},
         {HEAD "1 a 1 1 1 1 1\n1 total 1 1 1 1 1\n", 0,
          "a part is called total, the name of the sum over the parts"},
         {"#loads 1\nt part fx fz\n1 a 1 1\n", 2, "no column fy in this loads table, the nearest is fx"},

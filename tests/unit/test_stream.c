@@ -554,11 +554,11 @@ static void one_writer_at_a_time(void **state)
         assert_int_equal(fl_out_mark(&first, &mark, &none), 0);
         assert_int_equal(fl_out_open(&second, path, gz, &err), -1);
         assert_int_equal(err.code, FL_SYSTEM);
-        assert_non_null(strstr(err.text, "something else writes it already"));
+        assert_non_null(strstr(err.text, "it is already being written"));
         err = (fl_err){0};
         assert_int_equal(fl_out_resume(&second, path, gz, &mark, &fresh, &err), -1);
         assert_int_equal(err.code, FL_SYSTEM);
-        assert_non_null(strstr(err.text, "something else writes it already"));
+        assert_non_null(strstr(err.text, "it is already being written"));
         fwrite(sample + 5000, 1, 5000, first.f);
         assert_int_equal(fl_out_close(&first, &none), 0);
         expect_contents(path, 10000);
@@ -566,7 +566,7 @@ static void one_writer_at_a_time(void **state)
         assert_int_equal(fl_out_resume(&second, path, gz, &mark, &fresh, &none), 0);
         err = (fl_err){0};
         assert_int_equal(fl_out_open(&third, path, gz, &err), -1);
-        assert_non_null(strstr(err.text, "something else writes it already"));
+        assert_non_null(strstr(err.text, "it is already being written"));
         fwrite(sample + 5000, 1, 50, second.f);
         assert_int_equal(fl_out_close(&second, &none), 0);
         expect_contents(path, 5050);
