@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* vectors.c -- replaces __cpu_model: a program linked with this file uses the functions of base/simd.h for the
- * vector instructions that WIDTH names, 0 none, 1 << 10 AVX2. */
+/* vectors.c -- replaces __cpu_model: a program linked with this file uses the functions of base/simd.h for
+ * the vector instructions that WIDTH names, 0 none, 1 << 10 AVX2. */
 struct processor {
     unsigned vendor, type, subtype, features[1];
 };

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* option.h -- the command line of a program, read by a table with one row for each option.
  *
- * A row names the option, its argument and its line of --help, and says where its value goes: the parser converts
- * the value, checks its range, and stores it into the options of the program at the offset of the row.  What no
- * kind covers is converted by a function of the program.  --help and --version are answered here. */
+ * A row names the option, its argument and its line of --help, and says where its value goes: the parser
+ * converts the value, checks its range, and stores it into the options of the program at the offset of the
+ * row.  A function of the program converts what no kind covers.  --help and --version are answered here. */
 #ifndef FL_BASE_OPTION_H
 #define FL_BASE_OPTION_H
 #include <stddef.h>
@@ -48,8 +48,8 @@ typedef struct {
     int in_order;            /* operands are read between options, not after them     */
 } fl_option_table;
 
-/* The options that every program has.  T is its struct of options, with the members out, gzip, threads, quiet,
- * verbose and ended; the texts say what they do in this program. */
+/* The options that every program has.  T is its struct of options, with the members out, gzip, threads,
+ * quiet, verbose and ended; the texts say what they do in this program. */
 #define FL_COMMON_OPTIONS(T, OUT, GZIP, THREADS, QUIET, VERBOSE)                                             \
     {.word = "output",                                                                                       \
      .letter = 'o',                                                                                          \
@@ -90,7 +90,7 @@ int fl_option_row(const fl_option_table *t, const char *word);
 /* Prints the text of --help to standard output: usage, then two columns of options and texts. */
 void fl_options_help(const fl_option_table *t);
 
-/* The conversions, for FL_OPTION_CALL.  Each returns 0, or -1 with FL_USAGE and a sentence that names --word. */
+/* The conversions, for FL_OPTION_CALL.  Each returns 0, or -1 with FL_USAGE and a sentence that names it. */
 int fl_option_integer(const char *word, const char *text, int32_t lo, int32_t hi, int32_t *x, fl_err *err);
 int fl_option_number(const char *word, const char *text, double lo, double hi, const char *expected,
                      double *x, fl_err *err);
@@ -99,7 +99,7 @@ int fl_option_choice(const char *word, const char *text, const char *const *choi
 int fl_option_word(const char *word, const char *text, const char **out, fl_err *err);
 int fl_option_file(const char *word, const char *text, const char **out, fl_err *err);
 
-/* From `least` to `most` numbers in [lo, hi], divided by the character `divide`; *n: how many there are. */
+/* From `least` to `most` numbers in [lo, hi], divided by the character `divide`; *n: their count. */
 int fl_option_numbers(const char *word, const char *text, char divide, int least, int most, double lo,
                       double hi, const char *expected, double *x, int *n, fl_err *err);
 

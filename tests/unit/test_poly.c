@@ -143,7 +143,7 @@ static void each_fault_has_its_message(void **state)
             break;
         case 10:
             first[3] = first[2] + 2;
-            message = "face 2 has 2 vertices, at least 3 are wanted";
+            message = "face 2 has 2 vertices, at least 3 are expected";
             break;
         case 11:
             first[0] = 1;
@@ -155,7 +155,7 @@ static void each_fault_has_its_message(void **state)
             break;
         case 13:
             first[4] = INT32_MIN;
-            message = "face 3 has -2147483660 vertices, at least 3 are wanted";
+            message = "face 3 has -2147483660 vertices, at least 3 are expected";
             break;
         }
         if (fault == 2) { /* the digits are not compared */
@@ -244,7 +244,7 @@ static void two_bodies_are_not_one(void **state)
         loop[24 + k] = 8 + cube_loop[k];
     }
     for (int k = 0; k < 13; k++) first[k] = 4 * k;
-    expect_refusal(16, v, 12, first, loop, "the faces form 2 separate surfaces, one is wanted");
+    expect_refusal(16, v, 12, first, loop, "the faces form 2 separate surfaces, one is expected");
     /* one cube, its top face given twice */
     memcpy(loop, cube_loop, sizeof cube_loop);
     memcpy(loop + 24, cube_loop + 4, 4 * sizeof *loop);

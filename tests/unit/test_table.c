@@ -111,7 +111,7 @@ static void fields_must_match_columns(void **state)
     assert_int_equal(open_table(&t, "loads", "#loads 1\nt part fx\n1 a 2\n2 a\n"), 0);
     assert_int_equal(fl_table_row(&t, &err), 1);
     assert_int_equal(fl_table_row(&t, &err), -1);
-    expect_message(4, "2 fields, 3 are expected as there are columns");
+    expect_message(4, "2 fields, expected 3, one for each column");
     fl_table_close(&t);
 }
 
@@ -125,7 +125,7 @@ static void too_many_columns_are_refused(void **state)
     n = sprintf(data, "#loads 1\n");
     for (int k = 0; k <= FL_TABLE_COLUMNS_MAX; k++) n += sprintf(data + n, "c%d ", k);
     assert_int_equal(open_table(&t, "loads", data), -1);
-    expect_message(2, "4097 columns, at most 4096 were expected");
+    expect_message(2, "4097 columns, at most 4096 are expected");
     free(data);
 }
 
