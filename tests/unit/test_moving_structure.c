@@ -134,9 +134,9 @@ static void invalid_motions_are_reported(void **state)
     static const struct {
         const char *set[4], *message;
     } wrong[] = {
-        {{"structure.free=x"}, "structure.mass: free directions have a mass, and none is given"},
-        {{"structure.mass=1"}, "a mass bears on free directions, and none of x y z is free"},
-        {{"structure.free=rx"}, "every free turn has an inertia, above 0 is expected"},
+        {{"structure.free=x"}, "structure.mass: free directions need a mass, and none is given"},
+        {{"structure.mass=1"}, "a mass applies to free directions, and none of x y z is free"},
+        {{"structure.free=rx"}, "every free rotation needs an inertia above 0"},
         {{"structure.free=x", "structure.mass=1", "structure.stiffness=0 1 0"},
          "a direction has a value that is not among the free ones"},
         {{"structure.free=x", "structure.mass=1", "structure.damping=-1 0 0"}, "a value is below 0"},
@@ -148,12 +148,13 @@ static void invalid_motions_are_reported(void **state)
           "structure.damping_ratio=0.1 0.1 0"},
          "damping_ratio: a direction without a spring has no critical damping"},
         {{"structure.free=z", "structure.mass=1", "structure.period=0 0 1", "structure.hydrostatic=mesh"},
-         "period: the sea draws it back along z as well, a stiffness is expected"},
-        {{"structure.free=x", "structure.mass=1", "structure.spin=0 0 1"}, "what is free is not spun"},
+         "period: hydrostatic stiffness acts along z as well: a stiffness is expected"},
+        {{"structure.free=x", "structure.mass=1", "structure.spin=0 0 1"}, "a body with free directions has no prescribed spin"},
         {{"structure.track=a", "structure.velocity=1 0 0"}, "velocity and spin are given as well"},
-        {{"structure.free=x", "structure.mass=1", "structure.hydrostatic=mesh"}, "it bears on z, rx and ry"},
+        {{"structure.free=x", "structure.mass=1", "structure.hydrostatic=mesh"},
+         "it applies to z, rx and ry"},
         {{"structure.free=z", "structure.mass=1", "structure.hydrostatic=mesh"}, "[water] is expected"},
-        {{"structure.free=x", "structure.mass=1", "structure.coupling=1 0 0"}, "it bears on z, rx and ry"},
+        {{"structure.free=x", "structure.mass=1", "structure.coupling=1 0 0"}, "it applies to z, rx and ry"},
     };
     (void)state;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
