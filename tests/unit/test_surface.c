@@ -425,8 +425,8 @@ static void welding_refuses_destructive_tolerances(void **state)
     assert_int_equal(fl_part_weld(p, 0.3, &w, &e), -1);
     assert_int_equal(e.code, FL_INPUT);
     assert_string_equal(e.text,
-                        "part \"p\": the welding tolerance 0.3 m is above the shortest edge, 0.25 m: less "
-                        "is expected");
+                        "part \"p\": the welding tolerance 0.3 m is above the shortest edge, 0.25 m: a "
+                        "smaller one is expected");
     assert_int_equal(p->nt, 12);
     p->v[0].x = 1e200;
     e = (fl_err){0};
