@@ -55,14 +55,14 @@ INLINE fl_vec3 relative_velocity(const fl_bodies *b, const fl_pair *p, fl_vec3 a
 typedef struct {
     fl_predictor_step step;
     fl_vec3 lag; /* fl_pair_rotation_lag() [m/s] */
-    fl_predicted_velocity change;
+    fl_predicted_change_of_pair change;
     fl_previous_force before;
 } prediction;
 
 static prediction prediction_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, double dt)
 {
     const fl_vec3 lag = fl_pair_rotation_lag(&w->b, p, r->off, dt);
-    return (prediction){fl_predictor_step_of(w, dt), lag, fl_predicted_velocity_of(w, p, lag),
+    return (prediction){fl_predictor_step_of(w, dt), lag, fl_predict_change_of_pair(w, p, lag),
                         fl_previous_force_of(p)};
 }
 
@@ -80,7 +80,7 @@ INLINE fl_vec3 mean_velocity(const fl_bodies *b, const fl_pair *p, const predict
 
 INLINE fl_vec3 end_velocity(const fl_bodies *b, const fl_pair *p, const prediction *a, fl_vec3 ai, fl_vec3 aj)
 {
-    return v3_add(mean_velocity(b, p, a, ai, aj), fl_predicted_velocity_at(&a->change, ai, aj));
+    return v3_add(mean_velocity(b, p, a, ai, aj), fl_predicted_change_at(&a->change, ai, aj));
 }
 
 /* Sums over the contact points that friction needs. */
@@ -136,7 +136,7 @@ static void add_friction(fl_world *w, fl_pair *p, const pressure *q, double chi,
                  turned = v3_dot(a->change.wi, c.n) - v3_dot(a->change.wj, c.n);
     const fl_vec3 v = mean_velocity(b, p, a, ai, aj);
     const fl_friction_motion by = {v,
-                                   v3_add(v, fl_predicted_velocity_at(&a->change, ai, aj)),
+                                   v3_add(v, fl_predicted_change_at(&a->change, ai, aj)),
                                    wi - wj,
                                    wi - wj + turned,
                                    0.5 * (wi + wj),
