@@ -17,8 +17,8 @@
  * follows from W W''/W'^2 = (p - 1)/p along the force.  Then z is nearly the overlap over that of the exact
  * evaluation and nearly linear in q, so the error is of high order in the curvature of z alone.
  *
- * Second order H.  The patch points give one part of H (fl_force_sum_springs()).  The rest comes from
- * points that move along the surfaces.  It is learnt from the slopes of z at the last exact evaluations, and
+ * Second order H.  The patch points give one part of H (fl_force_sum_springs()).  The rest comes from points
+ * that move along the surfaces.  It is learnt from the slopes of z at the last exact evaluations, and
  * so is the third order t.  Bodies continue nearly along one line, with the direction e.  The last path was
  * h e, the one before it h' e.  Along them the slopes changed by r h and r' h' more than H predicts.  Where H
  * changes linearly
@@ -105,7 +105,7 @@ typedef struct {
     fl_vec3 first_point; /* first patch point, frame of B                                 [m] */
     fl_vec3 centre;      /* from there to the centre of the force, in its plane           [m] */
     fl_vec3 other_force; /* part of the force that is not pressure                        [N] */
-    double pressure;     /* sum of the pressures                                                    [N] */
+    double pressure;     /* sum of the pressures                                      [N] */
     double inv_mass;     /* as in fl_exact_contact                                     [1/kg] */
     fl_sym3 compliance;
     double turn_compliance;                     /*                              [1/(kg m2)] */
