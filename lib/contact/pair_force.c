@@ -438,10 +438,10 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
                         approach_correction(a, q.pressure_rate / q.pressure, size, chi * size, compliance);
     fl_force_sum_damping(s, chi, more, &q);
     fl_stiffness si, sj;
-    fl_spring_sums springs;
-    if (survey || has_surrogate) fl_force_sum_springs(s, &springs);
+    fl_spring_sums point_springs;
+    if (survey || has_surrogate) fl_force_sum_springs(s, &point_springs);
     survey |= has_surrogate && (!t || stiffness_is_due(w));
-    if (survey) add_patch_stiffness(w, p, &springs, R, ai, aj, exact.scale, q.u, &si, &sj);
+    if (survey) add_patch_stiffness(w, p, &point_springs, R, ai, aj, exact.scale, q.u, &si, &sj);
     if (t && fl_surrogate_in_double_range(p->surrogate, t) && fabs(exact.slope - t->slope) < 0.5 * t->slope)
         fl_tangent_rescale(&p->springs, exact.slope / t->slope, exact.slope < p->surrogate->slope);
     const pressure all =
@@ -449,7 +449,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     if (survey) bound_stiffness(w, p, &all, r, &si, &sj);
     if (has_surrogate) {
         const double speed = v3_dot(v3_unit(elastic), relative_velocity(b, p, ai, aj));
-        exact.springs = &springs;
+        exact.springs = &point_springs;
         exact.v = v, exact.spin = turn, exact.impact_damping = chi, exact.speed_offset = more;
         /* the force at the energy of the motion, since W grows as its square */
         exact.motion_force = sqrt(1.0 + 0.5 * mass * speed * speed / p->energy);
