@@ -3,7 +3,9 @@
  *
  * A row names the option, its argument and its line of --help, and says where its value goes: the parser
  * converts the value, checks its range, and stores it into the options of the program at the offset of the
- * row.  A function of the program converts what no kind covers.  --help and --version are answered here. */
+ * row.  A function of the program converts what no kind covers.  --help and --version are answered here.
+ *
+ * To add an option: a member of struct options (options.h or settings.h) and a row. */
 #ifndef FL_BASE_OPTION_H
 #define FL_BASE_OPTION_H
 #include <stddef.h>
@@ -11,7 +13,7 @@
 #include "base/err.h"
 
 enum fl_option_kind {
-    FL_OPTION_FLAG,    /* int: set to 1; takes no argument                          */
+    FL_OPTION_FLAG,    /* int: set to 1; no argument.  0: a row without kind is a flag */
     FL_OPTION_TEXT,    /* const char *: the argument, borrowed from argv            */
     FL_OPTION_WORD,    /* const char *: the same, one word of up to 200 bytes       */
     FL_OPTION_FILE,    /* const char *: the same, a file name without blanks        */
@@ -20,7 +22,7 @@ enum fl_option_kind {
     FL_OPTION_TIME,    /* double > 0 [s]: a number, or one with s, min, h, d or a   */
     FL_OPTION_CHOICE,  /* int: index into `choice`                                  */
     FL_OPTION_CALL,    /* converted by `call`                                       */
-    FL_OPTION_HELP,    /* prints the help; *flag = 1, and parsing ends              */
+    FL_OPTION_HELP,    /* prints the help; sets the int at `at` to 1; parsing ends  */
     FL_OPTION_VERSION  /* the same for the version                                  */
 };
 
@@ -44,11 +46,14 @@ typedef struct {
 typedef struct {
     const char *program, *usage; /* usage: the text of --help above the options          */
     const fl_option *option;
-    fl_option_call *operand; /* an argument that is no option, NULL: none is expected */
-    int in_order;            /* operands are read between options, not after them     */
+    /* operand: called for each argument that is no option; NULL: such an argument is an error.
+     * in_order: called in the order of the line, else after all options. */
+    fl_option_call *operand;
+    int in_order;
 } fl_option_table;
 
-/* The options that every program has.  T is its struct of options, with the members out, gzip, threads,
+/* The options that every program has, and the row that ends the table: it must stand last.  FLAG is 0: a row
+ * without kind is a flag.  T is the struct of options of the program, with the members out, gzip, threads,
  * quiet, verbose and ended; the texts say what they do in this program. */
 #define FL_COMMON_OPTIONS(T, OUT, GZIP, THREADS, QUIET, VERBOSE)                                             \
     {.word = "output",                                                                                       \

@@ -9,8 +9,8 @@
 #include "contact/surrogate_batch.h"
 #include "world/access.h"
 
-/* Near pairs that a thread takes at a time, of which about one is due; more where bodies may sleep. */
-enum { BLOCK = 16, BLOCK_WITH_SLEEP = 64 };
+/* Near pairs that a thread takes at a time; about one of 16 is due.  More with sleep, where fewer are due. */
+enum { PAIRS_AT_A_TIME = 16, PAIRS_AT_A_TIME_WITH_SLEEP = 64 };
 
 void fl_share_active_pairs(fl_world *w)
 {
@@ -26,7 +26,7 @@ void fl_share_active_pairs(fl_world *w)
     memset(w->body_touches, 0, (size_t)w->b.total);
 }
 
-/* Sets a flag that several threads may set at once; that of a wall is mostly set already. */
+/* Sets a flag.  The flag of a wall is set by many threads: read before writing. */
 static void set_flag(uint8_t *flag)
 {
     uint8_t is_set;
@@ -57,70 +57,69 @@ void fl_evaluate_neighbour_pair(fl_world *w, int32_t c, int32_t thread, const fl
     fl_neighbour_pair *q = &w->pair[c];
     fl_pair made, *p = q->contact;
     if (fl_pair_still_apart(w, q)) {
-        if (p) fl_neighbour_pair_store(w, q, p); /* releases a record that is no longer needed */
+        if (p) fl_neighbour_pair_put_back(w, q, p);
         return;
     }
     if (!p) fl_neighbour_pair_expand(w, q, p = &made);
     p->index = c;
     fl_pair_evaluate_exact(w, p, thread, t, dt, survey);
-    if (fl_neighbour_pair_store(w, q, p)) {
+    if (fl_neighbour_pair_put_back(w, q, p)) {
 #pragma omp atomic write
         w->failed = 1;
     }
 }
 
 /* Evaluates pair c exactly and sets its flags. */
-static void evaluate_exactly(fl_world *w, const thread_work *h, int32_t c, const fl_surrogate_value *t)
+static void evaluate_exactly(fl_world *w, const thread_work *work, int32_t c, const fl_surrogate_value *t)
 {
     const fl_neighbour_pair *const p = &w->pair[c];
-    fl_evaluate_neighbour_pair(w, c, h->thread, t, h->dt, h->survey);
+    fl_evaluate_neighbour_pair(w, c, work->thread, t, work->dt, work->survey);
     fl_set_next_check(w, c);
     w->pair_touches[c] = p->touching;
     if (p->touching) set_flag(&w->body_touches[p->i]), set_flag(&w->body_touches[p->j]);
 }
 
 /* Evaluates the queue by surrogates, and exactly those that have moved too far. */
-static void evaluate_queue(fl_world *w, thread_work *h)
+static void evaluate_queue(fl_world *w, thread_work *work)
 {
-    surrogate_queue *const q = &h->queue;
+    surrogate_queue *const q = &work->queue;
     uint8_t done[FL_SURROGATE_BATCH];
     fl_surrogate_value t[FL_SURROGATE_BATCH];
-    if (q->n) fl_surrogate_batch_evaluate(w, q->pair, q->n, h->dt, h->survey, done, t);
+    if (q->n) fl_surrogate_batch_evaluate(w, q->pair, q->n, work->dt, work->survey, done, t);
     for (int k = 0; k < q->n; k++) {
         const fl_pair *const p = q->pair[k];
-        if (!done[k]) evaluate_exactly(w, h, p->index, &t[k]);
+        if (!done[k]) evaluate_exactly(w, work, p->index, &t[k]);
         else
-            w->surrogate_counts[h->thread].hits++, set_flag(&w->body_touches[p->i]),
+            w->surrogate_counts[work->thread].hits++, set_flag(&w->body_touches[p->i]),
                 set_flag(&w->body_touches[p->j]);
     }
     q->n = 0;
 }
 
 /* Evaluates pair c, which is due, or appends it to the queue. */
-static void process_pair(fl_world *w, thread_work *h, int32_t c)
+static void process_pair(fl_world *w, thread_work *work, int32_t c)
 {
     const fl_neighbour_pair *const p = &w->pair[c];
     if (fl_pair_is_resting(w, p)) {
         set_flag(&w->body_touches[p->i]), set_flag(&w->body_touches[p->j]); /* the forces do not change */
     } else if (p->contact && fl_surrogate_applies(w, p->contact)) {
         p->contact->index = c;
-        h->queue.pair[h->queue.n++] = p->contact;
-        if (h->queue.n == FL_SURROGATE_BATCH) evaluate_queue(w, h);
+        work->queue.pair[work->queue.n++] = p->contact;
+        if (work->queue.n == FL_SURROGATE_BATCH) evaluate_queue(w, work);
     } else {
-        evaluate_exactly(w, h, c, NULL);
+        evaluate_exactly(w, work, c, NULL);
     }
 }
 
 /* Processes the due pairs of [from, to); the others did not touch and still cannot. */
-static void process_range(fl_world *w, thread_work *h, int32_t from, int32_t to)
+static void process_range(fl_world *w, thread_work *work, int32_t from, int32_t to)
 {
     for (int32_t c = from; c < to; c++)
-        if (!fl_next_check_pending(w, c)) process_pair(w, h, c);
+        if (fl_pair_may_touch(w, c)) process_pair(w, work, c);
 }
 
-/* The same where bodies may sleep: pairs that are due are flagged, and eight that are not are skipped at a
- * time. */
-static void process_flagged(fl_world *w, thread_work *h, int32_t from, int32_t to)
+/* With sleep: pair_due marks the due pairs; eight unmarked ones are skipped at a time. */
+static void process_flagged(fl_world *w, thread_work *work, int32_t from, int32_t to)
 {
     uint8_t *const due = w->sleep.pair_due;
     for (int32_t c = from; c < to;) {
@@ -130,7 +129,7 @@ static void process_flagged(fl_world *w, thread_work *h, int32_t from, int32_t t
         for (; eight && c < end; c++) {
             if (!due[c]) continue;
             due[c] = 0;
-            process_pair(w, h, c);
+            process_pair(w, work, c);
         }
         c = end;
     }
@@ -139,16 +138,16 @@ static void process_flagged(fl_world *w, thread_work *h, int32_t from, int32_t t
 void fl_evaluate_active_pairs(fl_world *w, double dt, int survey)
 {
     const int32_t thread = omp_get_thread_num();
-    thread_work h; /* large: not cleared */
-    const int32_t block = w->sleep.state ? BLOCK_WITH_SLEEP : BLOCK;
-    h.thread = thread, h.dt = dt, h.survey = survey, h.queue.n = 0;
+    thread_work work; /* large: not cleared */
+    const int32_t pairs = w->sleep.state ? PAIRS_AT_A_TIME_WITH_SLEEP : PAIRS_AT_A_TIME;
+    work.thread = thread, work.dt = dt, work.survey = survey, work.queue.n = 0;
     for (int32_t k = 0; k < w->team.n; k++) {
         fl_work_share *const s = &w->pair_share[(thread + k) % w->team.n];
-        for (int32_t c = fl_work_share_take(s, block); c < s->end; c = fl_work_share_take(s, block))
-            (w->sleep.state ? process_flagged : process_range)(w, &h, c,
-                                                               s->end < c + block ? s->end : c + block);
+        for (int32_t c = fl_work_share_take(s, pairs); c < s->end; c = fl_work_share_take(s, pairs))
+            (w->sleep.state ? process_flagged : process_range)(w, &work, c,
+                                                               s->end < c + pairs ? s->end : c + pairs);
     }
-    evaluate_queue(w, &h);
+    evaluate_queue(w, &work);
 }
 
 /* Few pairs touch: eight that do not are skipped at a time. */

@@ -55,14 +55,14 @@ INLINE fl_vec3 relative_velocity(const fl_bodies *b, const fl_pair *p, fl_vec3 a
 typedef struct {
     fl_predictor_step step;
     fl_vec3 lag; /* fl_pair_rotation_lag() [m/s] */
-    fl_predicted_velocity change;
+    fl_predicted_change_of_pair change;
     fl_previous_force before;
 } prediction;
 
 static prediction prediction_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, double dt)
 {
     const fl_vec3 lag = fl_pair_rotation_lag(&w->b, p, r->off, dt);
-    return (prediction){fl_predictor_step_of(w, dt), lag, fl_predicted_velocity_of(w, p, lag),
+    return (prediction){fl_predictor_step_of(w, dt), lag, fl_predict_change_of_pair(w, p, lag),
                         fl_previous_force_of(p)};
 }
 
@@ -80,7 +80,7 @@ INLINE fl_vec3 mean_velocity(const fl_bodies *b, const fl_pair *p, const predict
 
 INLINE fl_vec3 end_velocity(const fl_bodies *b, const fl_pair *p, const prediction *a, fl_vec3 ai, fl_vec3 aj)
 {
-    return v3_add(mean_velocity(b, p, a, ai, aj), fl_predicted_velocity_at(&a->change, ai, aj));
+    return v3_add(mean_velocity(b, p, a, ai, aj), fl_predicted_change_at(&a->change, ai, aj));
 }
 
 /* Sums over the contact points that friction needs. */
@@ -136,7 +136,7 @@ static void add_friction(fl_world *w, fl_pair *p, const pressure *q, double chi,
                  turned = v3_dot(a->change.wi, c.n) - v3_dot(a->change.wj, c.n);
     const fl_vec3 v = mean_velocity(b, p, a, ai, aj);
     const fl_friction_motion by = {v,
-                                   v3_add(v, fl_predicted_velocity_at(&a->change, ai, aj)),
+                                   v3_add(v, fl_predicted_change_at(&a->change, ai, aj)),
                                    wi - wj,
                                    wi - wj + turned,
                                    0.5 * (wi + wj),
@@ -438,10 +438,10 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
                         approach_correction(a, q.pressure_rate / q.pressure, size, chi * size, compliance);
     fl_force_sum_damping(s, chi, more, &q);
     fl_stiffness si, sj;
-    fl_spring_sums springs;
-    if (survey || has_surrogate) fl_force_sum_springs(s, &springs);
+    fl_spring_sums point_springs;
+    if (survey || has_surrogate) fl_force_sum_springs(s, &point_springs);
     survey |= has_surrogate && (!t || stiffness_is_due(w));
-    if (survey) add_patch_stiffness(w, p, &springs, R, ai, aj, exact.scale, q.u, &si, &sj);
+    if (survey) add_patch_stiffness(w, p, &point_springs, R, ai, aj, exact.scale, q.u, &si, &sj);
     if (t && fl_surrogate_in_double_range(p->surrogate, t) && fabs(exact.slope - t->slope) < 0.5 * t->slope)
         fl_tangent_rescale(&p->springs, exact.slope / t->slope, exact.slope < p->surrogate->slope);
     const pressure all =
@@ -449,7 +449,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     if (survey) bound_stiffness(w, p, &all, r, &si, &sj);
     if (has_surrogate) {
         const double speed = v3_dot(v3_unit(elastic), relative_velocity(b, p, ai, aj));
-        exact.springs = &springs;
+        exact.springs = &point_springs;
         exact.v = v, exact.spin = turn, exact.impact_damping = chi, exact.speed_offset = more;
         /* the force at the energy of the motion, since W grows as its square */
         exact.motion_force = sqrt(1.0 + 0.5 * mass * speed * speed / p->energy);

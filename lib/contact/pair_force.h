@@ -5,7 +5,7 @@
 #include "world/world.h"
 
 /* Evaluates pair p at the present positions and velocities, by its surrogate if that applies.  A pair that
- * cannot touch yet, fl_next_check_pending(), need not be evaluated.
+ * cannot touch yet, !fl_pair_may_touch(), need not be evaluated.
  *   thread   index of the scratch memory to use
  *   dt       the step whose drift is done, in which the contact has slipped [s]; 0 at the start
  *   survey   also compute omega2_i and omega2_j

@@ -65,8 +65,8 @@ static int take_record(fl_world *w, fl_neighbour_pair *q, const fl_pair *p)
 #pragma omp critical(fl_pair_store)
     {
         if (!s->free && !fl_grow(&s->block, &s->cap, (int64_t)s->blocks + 1, sizeof *s->block, &lost)) {
-            fl_pair_slot *block = fl_alloc(FL_PAIR_BLOCK, sizeof *block, &lost);
-            for (int k = 0; block && k < FL_PAIR_BLOCK; k++) block[k].next = s->free, s->free = &block[k];
+            fl_pair_slot *block = fl_alloc(FL_PAIR_SLOTS, sizeof *block, &lost);
+            for (int k = 0; block && k < FL_PAIR_SLOTS; k++) block[k].next = s->free, s->free = &block[k];
             if (block) s->block[s->blocks++] = block;
         }
         slot = s->free;
@@ -133,7 +133,7 @@ static int needs_record(const fl_world *w, const fl_pair *p)
            w->b.core[p->j].nv > UINT8_MAX;
 }
 
-int fl_neighbour_pair_store(fl_world *w, fl_neighbour_pair *q, fl_pair *p)
+int fl_neighbour_pair_put_back(fl_world *w, fl_neighbour_pair *q, fl_pair *p)
 {
     if (!p->touching) /* with or without a record: a checkpoint stores only one of the two */
         p->axis = v3(round_to_float(p->axis.x), round_to_float(p->axis.y), round_to_float(p->axis.z));

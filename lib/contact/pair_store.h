@@ -19,10 +19,10 @@ void fl_neighbour_pair_init(fl_neighbour_pair *q, int32_t i, int32_t j, const in
 /* Makes the pair p of a near pair q that has no contact record. */
 void fl_neighbour_pair_expand(const fl_world *w, const fl_neighbour_pair *q, fl_pair *p);
 
-/* Stores p, as it is now, in q: in a contact record if it needs one, else in q itself.  p is the contact
- * record of q or was made by fl_neighbour_pair_expand().  Any thread may call it.  -1 when memory runs out;
- * p is then freed. */
-int fl_neighbour_pair_store(fl_world *w, fl_neighbour_pair *q, fl_pair *p);
+/* Puts p, as it is now, back into q: into a contact record if it needs one, else into q itself, which
+ * releases the record.  p is the contact record of q or was made by fl_neighbour_pair_expand().  Any thread
+ * may call it.  -1 when memory runs out; p is then freed. */
+int fl_neighbour_pair_put_back(fl_world *w, fl_neighbour_pair *q, fl_pair *p);
 
 /* Frees the contact record of q. */
 void fl_neighbour_pair_free(fl_world *w, fl_neighbour_pair *q);

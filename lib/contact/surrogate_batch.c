@@ -21,7 +21,7 @@ typedef struct {
     fl_lane off[3], u[3];                    /* from A's centre to B's; v_A - v_B with the lag */
     fl_lane wi[3], wj[3];                    /* angular velocities */
     fl_lane lag_dt;                          /* dt of fl_pair_rotation_lag(), 0 for spheres */
-    fl_lane du[3], dwi[3], dwj[3], count;    /* fl_predicted_velocity */
+    fl_lane du[3], dwi[3], dwj[3], count;    /* fl_predicted_change_of_pair */
     fl_lane previous[PREVIOUS];              /* results of the last step, from force on */
     fl_lane mass, reduced, max_approach;     /* of the pair */
     fl_lane slow_factor, impact_damping, friction, tangential; /* of its law */
@@ -89,11 +89,11 @@ static void load_batch(batch *b, const fl_world *w, fl_pair *const *p, int n, do
         fl_lane3_set(b->u, k, v3_sub(o->v[i], o->v[j]));
         fl_lane3_set(b->wi, k, o->w[i]);
         fl_lane3_set(b->wj, k, o->w[j]);
-        const fl_predicted_velocity lead = fl_predicted_velocity_of(w, c, v3(0, 0, 0));
-        fl_lane3_set(b->du, k, lead.v);
-        fl_lane3_set(b->dwi, k, lead.wi);
-        fl_lane3_set(b->dwj, k, lead.wj);
-        b->count.a[k] = lead.contact_count;
+        const fl_predicted_change_of_pair change = fl_predict_change_of_pair(w, c, v3(0, 0, 0));
+        fl_lane3_set(b->du, k, change.v);
+        fl_lane3_set(b->dwi, k, change.wi);
+        fl_lane3_set(b->dwj, k, change.wj);
+        b->count.a[k] = change.contact_count;
         b->mass.a[k] = b->reduced.a[k] = c->mass, b->max_approach.a[k] = c->max_approach_speed;
         b->slow_factor.a[k] = c->law->slow_damping_factor, b->impact_damping.a[k] = c->law->impact_damping;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential_ratio;
@@ -123,9 +123,9 @@ FL_SIMD_INLINE fl_vec3 mean_velocity(const batch *b, int k, fl_vec3 aj)
 /* Predicted change of that velocity until the end of the step. */
 FL_SIMD_INLINE fl_vec3 predicted_change(const batch *b, int k, fl_vec3 aj)
 {
-    const fl_predicted_velocity lead = {
+    const fl_predicted_change_of_pair change = {
         .v = fl_lane3(b->du, k), .wi = fl_lane3(b->dwi, k), .wj = fl_lane3(b->dwj, k)};
-    return fl_predicted_velocity_at(&lead, v3_add(aj, fl_lane3(b->off, k)), aj);
+    return fl_predicted_change_at(&change, v3_add(aj, fl_lane3(b->off, k)), aj);
 }
 
 /* Relative poses, velocities with the lag, and compliances in world axes. */

@@ -2,9 +2,9 @@
 /* velocity_predictor.h -- predicts the relative velocity of a contact at the end of the current step.
  *
  * Forces are evaluated at the end of a step, but velocities are known in its middle (kick, drift, kick).
- * The second half of the step changes a velocity by the same amount as the first half did, by forces and by
- * drag, except for the change of forces between the steps.  With that the velocity at the end is predicted
- * to order 2.
+ * The second half changes a velocity as the first did, by forces and drag, but for the change of the forces
+ * during the step.  That change is corrected separately, fl_predict_approach().  With both the velocity at
+ * the end is predicted to order 2.
  *
  *     v_end = v + dv - lag
  *
@@ -22,11 +22,12 @@
 #include "law/damping.h"
 #include "world/access.h"
 
+/* Predicted changes of the velocities of a pair from the middle of the step to its end. */
 typedef struct {
     fl_vec3 v;            /* dv - lag of A's centre against B's [m/s] */
     fl_vec3 wi, wj;       /* changes of the angular velocities of A and B [rad/s] */
     double contact_count; /* contacts that damp the two bodies, fl_effective_contact_count() */
-} fl_predicted_velocity;
+} fl_predicted_change_of_pair;
 
 /* A force on A and its moment about the midpoint of the two centres, from the torques ti and tj about the
  * centres.  The wrench on B is the opposite one, so the result does not depend on which body is A. */
@@ -75,8 +76,8 @@ static inline fl_predictor_step fl_predictor_step_of(const fl_world *w, double d
     return dt > 0.0 ? (fl_predictor_step){dt, 0.5 * dt, 0.0} : (fl_predictor_step){dt, 0.5 * w->dt, 1.0};
 }
 
-/* Approach speed at the end of the step, fl_damping_end_speed() [m/s].  It uses the sizes of forces, since
- * their direction turns with the contact.
+/* Approach speed at the end of the step, fl_damping_end_speed() [m/s].  Magnitudes are compared, not
+ * vectors: the direction turns with the contact.
  *   c           predicted approach speed [m/s]
  *   elastic     size of the elastic force now [N]
  *   C           damping coefficient [N s/m]
@@ -92,9 +93,8 @@ FL_SIMD_INLINE double fl_predict_approach(double c, double elastic, double C, do
                                 known * damped, by.at_start);
 }
 
-/* Weight of the correction by fl_predict_approach().  Where the pressures of a contact oppose each other,
- * as in a slot, its force is less than their sum, and its change says little about them.  The weight is 1
- * while the force is at least half of the sum, then (2 F/sum)^2. */
+/* Weight of the correction by fl_predict_approach().  Where pressures oppose each other (a slot) the net
+ * force F says little, so the correction is reduced: weight 1 while F >= sum/2, else (2F/sum)^2. */
 FL_SIMD_INLINE double fl_predictor_share(double elastic, double pressure)
 {
     const double part = 4.0 * elastic * elastic, sum = pressure * pressure;
@@ -104,7 +104,7 @@ FL_SIMD_INLINE double fl_predictor_share(double elastic, double pressure)
 /* Damping with its part across the force held back, so that it does not oscillate.
  *
  * fl_damping_end_speed() covers only the component along the force.  The rest of the damping acts on the
- * predicted motion and is held back like that of many contacts, as if its inverse mass were twice that of M.
+ * predicted motion and is held back like that of many contacts, with the inverse mass 2/M.
  *   elastic, damping  wrenches now
  *   pressure          sum of the pressures [N]
  *   y                 C dt/M of the pressures, twice the y of fl_damping_implicit_weight()
@@ -137,7 +137,7 @@ static inline int32_t fl_previous_contact_count(const fl_world *w, int32_t k, in
 }
 
 /* Inverse mass of body or piece k [1/kg], fl_body_inverse_mass().  A part of the structure that only
- * rotates has no mass; it gets y, that of the other body. */
+ * rotates has no mass; y, the inverse mass of the other body, is used for it. */
 static inline double fl_predictor_inverse_mass(const fl_world *w, int32_t k, double y)
 {
     if (k < w->n) return fl_body_inverse_mass(&w->b, k);
@@ -147,7 +147,8 @@ static inline double fl_predictor_inverse_mass(const fl_world *w, int32_t k, dou
 }
 
 /* Prediction for pair p; lag: fl_pair_rotation_lag() of the step [m/s]. */
-static inline fl_predicted_velocity fl_predicted_velocity_of(const fl_world *w, const fl_pair *p, fl_vec3 lag)
+static inline fl_predicted_change_of_pair fl_predict_change_of_pair(const fl_world *w, const fl_pair *p,
+                                                                    fl_vec3 lag)
 {
     const int32_t ni = fl_sums_before(w, p->i)->contacts, nj = fl_sums_before(w, p->j)->contacts;
     const int32_t mi = fl_previous_contact_count(w, p->i, ni), mj = fl_previous_contact_count(w, p->j, nj);
@@ -157,11 +158,11 @@ static inline fl_predicted_velocity fl_predicted_velocity_of(const fl_world *w, 
     const fl_velocity_change none = {{0, 0, 0}, {0, 0, 0}};
     const fl_velocity_change i = ni ? *fl_predicted_change(w, p->i) : none,
                              j = nj ? *fl_predicted_change(w, p->j) : none;
-    return (fl_predicted_velocity){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, n};
+    return (fl_predicted_change_of_pair){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, n};
 }
 
 /* Predicted change of A's velocity against B at the arms ai and aj [m/s]. */
-static inline fl_vec3 fl_predicted_velocity_at(const fl_predicted_velocity *l, fl_vec3 ai, fl_vec3 aj)
+static inline fl_vec3 fl_predicted_change_at(const fl_predicted_change_of_pair *l, fl_vec3 ai, fl_vec3 aj)
 {
     return v3_add(l->v, v3_sub(v3_cross(l->wi, ai), v3_cross(l->wj, aj)));
 }

@@ -19,7 +19,8 @@ int fl_bdf_is(const fl_bytes *b);
  *     CTRIA3 CTRIAR CTRIA6 CPLSTN3 CPLSTS3     CQUAD4 CQUADR CQUAD8 CQUAD CSHEAR CPLSTN4 CPLSTS4
  *     CTETRA CPYRAM CPENTA CHEXA        of 4, 5, 6, 8 nodes or 10, 13, 15, 20
  *     CBAR CBEAM CROD CTUBE CONROD      with the radius of PTUBE, PBARL and PBEAML (ROD, TUBE, TUBE2), or
- *                                       that of a circle of the area of PROD and CONROD
+ *                                       that of a circle of the area of PROD and CONROD.  PBAR, PBEAM and
+ *                                       other sections give none: skipped with a remark
  *     INCLUDE, BEGIN BULK, ENDDATA      BEGIN BULK may be absent; nothing behind ENDDATA is read
  *
  * Other elements are counted, other entries ignored.  BEGIN SUPER, replication (=) and undefined references

@@ -6,26 +6,29 @@
  *
  *     W = c sqrt(U),     c = E* beta / sqrt(pi),     U = sum over the features of both cores of
  *
- *     face       1/2 m int s^4 dA       over each face of the other core
- *     edge       w L (256/315) sqrt(2 rho) int s^(9/2) dl
- *     vertex     w L (2 pi/5) rho s^5
+ *     face       1/2 m int g s^4 dA                         face_integral.h
+ *                over each pair of faces, once from either side; hence 1/2
+ *     edge       w L (256/315) sqrt(2 rho) int s^(9/2) dl   edge_integral.h
+ *     vertex     w L (2 pi/5) rho s^5                       fl_patch_points_add_vertex()
  *
  *     W, U   energy [J], its integral [m6]
  *     E*     contact modulus [Pa]
  *     beta   shape factor of a polygonal punch, FL_PATCH_BETA;  L = 32/45 / beta^2
- *     m      (1 - 4 sin^2)^2 of the angle between the two faces, 0 from 30 degrees on
+ *     m      of a pair of faces, (1 - 4 sin^2)^2 of the angle between them, 0 from 30 degrees on
+ *     g      1, falling linearly to 0 towards the rim of the other face over a width of at most
+ *            FL_PATCH_RIM_WIDTH R
  *     rho    dilation radius of the core that has the feature, of the other core where that is 0 [m]
  *     w      1, and less for edges and vertices that are nearly flat: FL_PATCH_EDGE_WEIGHT, .._CORNER_WEIGHT
  *
  * Force and torque on A are the negative gradient of W over the pose of A.
  *
- * The three terms are one integral int s^4 dA, over the contact of a flat, of a cylinder and of a sphere of
- * radius rho.  Properties:
+ * All three are int s^4 dA, evaluated for a flat, a cylinder and a sphere of radius rho.  The factor L makes
+ * the last one Hertz' contact.  Properties:
  *   - s is the distance from a whole convex body, so no contact has to be classified.  The gradient of W is
  *     continuous from vertex to edge to face and over every border.
- *   - A face has the stiffness of a flat punch, K = 2 E* beta sqrt(A/pi), eq. (25) of the manual.  Its
- *     rocking stiffness is 9/8 of a punch's: (3/4) a^2 K instead of (2/3) a^2 K.  Only the power 4 gives the
- *     first with the root, and it nearly gives the second.
+ *   - A face has the stiffness of a flat punch, K = 2 E* beta sqrt(A/pi), eq. (25) of the DilatedDEM
+ *     manual (2016).  Under the square root only s^4 gives this K; the rocking stiffness then follows within
+ *     9/8, (3/4) a^2 K instead of a punch's (2/3) a^2 K.
  *   - A vertex on a face is Hertz' contact, exactly: (8/15) E* sqrt(rho) s^(5/2).
  *   - Every pressure is positive, and more contact never lowers the energy.
  *   - U is a sum over pieces of surface: a wall of 2 triangles and one of 20 000 give the same.
@@ -34,8 +37,8 @@
  *   - Long line contacts are too soft, as sqrt(length): at 1 m length, 50 mm radius and 1 mm overlap 3 times
  *     softer than a rigid strip on a half-space.
  *   - Two crossing edges and two vertices count from both sides: up to 1.7 and 1.4 times as stiff as Hertz.
- *   - A face that leaves the rim of another one has a jump of the tangential force, s/(4 sqrt A) of the
- *     normal force: beyond the rim its strip, sqrt(2 R s) wide, belongs to the edge. */
+ *   - When a face slides off the rim of another, the tangential force jumps by s/(4 sqrt A) of the normal
+ *     force, because the strip beyond the rim, sqrt(2 R s) wide, is then an edge. */
 #ifndef FL_PATCH_PATCH_LAW_H
 #define FL_PATCH_PATCH_LAW_H
 #include "patch/patch_types.h"

@@ -19,7 +19,7 @@
 #define MAX_ENERGY_RATIO 50.0 /* largest ratio of the energies of two evaluations that are compared */
 #define STRAIGHT_COSINE 0.9   /* cosine between two paths that count as one line */
 #define MIN_LENGTH_RATIO 0.1  /* smallest ratio of their lengths */
-#define LENGTH_STEP 2.0       /* factor by which the length a grows with the contact */
+#define LENGTH_STEP 2.0       /* factor by which the length l grows with the contact */
 #define FREE_TURN_SHARE 0.03  /* of the radii: so much nearer may a corner without pressure come */
 #define MIN_CORRECTION 1e-9   /* of the pressures: a smaller correction is rounding */
 #define MIN_NET_FORCE 0.5     /* least force over the sum of pressures: below it they oppose each other */
@@ -120,7 +120,7 @@ FL_SIMD_VERSIONS static void compute_displacement(fl_surrogate_lanes *restrict b
                       w = v3(0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy));
         const fl_vec3 at = v3_add(fl_lane3(b->o, k), v3(v3_dot(x, own), v3_dot(y, own), v3_dot(z, own)));
         const fl_vec3 by = v3_sub(at, fl_lane3(OF(point), k));
-        const double slides = OF(in_plane)->a[k];
+        const double slides = OF(counts_along_plane)->a[k];
         const fl_vec3 u = v3(slides * by.x, slides * by.y, by.z);
         fl_lane3_set(b->point, k, at);
         fl_lane3_set(b->w, k, w);
@@ -162,7 +162,7 @@ FL_SIMD_INLINE double trend_factor(double c, double s)
 
 FL_SIMD_VERSIONS static void compute_force(fl_surrogate_lanes *restrict b, const fl_lane *restrict J)
 {
-    const fl_lane *e = OF(path), *t = OF(third_order);
+    const fl_lane *e = OF(path_direction), *t = OF(third_order);
 #pragma omp simd
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         const fl_vec3 u = fl_lane3(b->q, k), w = fl_lane3(b->q + 3, k);
@@ -267,7 +267,7 @@ static void rotate_slope(fl_vec6 out, const fl_vec6 slope, fl_vec3 w)
 static int has_third_order(const fl_surrogate *s)
 {
     double sum = 0.0;
-    for (int k = 0; k < 6; k++) sum += s->path[k] * s->path[k];
+    for (int k = 0; k < 6; k++) sum += s->path_direction[k] * s->path_direction[k];
     return sum > 0.0;
 }
 
@@ -281,24 +281,25 @@ static double path_factor(const fl_surrogate *s, double part)
 }
 
 /* s = e.q */
-static double path_along(const fl_surrogate *s, const fl_surrogate_value *t)
+static double path_along(const fl_surrogate *s, const fl_surrogate_value *value)
 {
     double sum = 0.0;
-    for (int k = 0; k < 6; k++) sum += s->path[k] * t->q[k];
+    for (int k = 0; k < 6; k++) sum += s->path_direction[k] * value->q[k];
     return sum;
 }
 
 /* Error of s relative to the exact slope, about the same point, and the new reach. */
-static double update_reach(fl_surrogate *s, const fl_surrogate_value *t, fl_surrogate_record *last,
+static double update_reach(fl_surrogate *s, const fl_surrogate_value *value, fl_surrogate_record *last,
                            const fl_vec6 slope, double force, double toward, double tolerance)
 {
-    const double most = toward * (force > s->force ? force : s->force), pull = s->power * t->energy / t->z;
-    const double back = 2.0 * s->defect_return * path_along(s, t); /* intended, not an error */
+    const double most = toward * (force > s->force ? force : s->force),
+                 pull = s->power * value->energy / value->z;
+    const double back = 2.0 * s->defect_return * path_along(s, value); /* intended, not an error */
     fl_vec6 far;
-    rotate_slope(far, slope, t->w);
-    for (int k = 0; k < 6; k++) far[k] -= pull * (t->slope_z[k] - back * s->path[k]);
-    const double off = t->z > 0.0 ? sqrt(dot6(far, far)) / most : 1.0,
-                 past = t->path / (s->reach * s->overlap);
+    rotate_slope(far, slope, value->w);
+    for (int k = 0; k < 6; k++) far[k] -= pull * (value->slope_z[k] - back * s->path_direction[k]);
+    const double off = value->z > 0.0 ? sqrt(dot6(far, far)) / most : 1.0,
+                 past = value->path / (s->reach * s->overlap);
     double longer = off > 0.0 ? path_factor(s, TARGET_SHARE * tolerance / off) * past : MAX_STEP_FACTOR;
     if (off > NEW_CONTACT * tolerance) {
         memset(s->learnt, 0, sizeof s->learnt);
@@ -367,7 +368,7 @@ static void learn_curvature(fl_surrogate *s, fl_vec6 *springs, const fl_vec6 g,
         if (dot6(e, d) > STRAIGHT_COSINE && hd > MIN_LENGTH_RATIO * h && h > MIN_LENGTH_RATIO * hd) {
             const double each = 2.0 / (h + hd);
             for (int k = 0; k < 6; k++) {
-                s->third_order[k] = each * (r[k] - rd[k]), s->path[k] = e[k];
+                s->third_order[k] = each * (r[k] - rd[k]), s->path_direction[k] = e[k];
                 r[k] += 0.5 * h * s->third_order[k];
             }
         }
@@ -387,7 +388,7 @@ static void start_surrogate(fl_surrogate *s, const fl_exact_contact *seen, const
     s->point_a = m3_tmul(*seen->M, v3_sub(centre, seen->o));
 }
 
-/* Lets the length a grow: a contact that began at a corner may be one of faces now. */
+/* Lets the length l grow: a contact that began at a corner may be one of faces now. */
 static void grow_length(fl_surrogate *s, fl_surrogate_record *last, double spread)
 {
     const double part = s->length / spread;
@@ -422,7 +423,8 @@ FL_SIMD4_VERSIONS static void compute_curvature(fl_surrogate *s, const fl_exact_
     }
     add_symmetric(H, -0.5 * (p - 1.0), g, g);
     if (last) {
-        memset(s->path, 0, sizeof s->path), memset(s->third_order, 0, sizeof s->third_order);
+        memset(s->path_direction, 0, sizeof s->path_direction),
+            memset(s->third_order, 0, sizeof s->third_order);
         if (last->energy > 0.0) learn_curvature(s, H, g, last, each * force);
         if (!has_third_order(s)) s->slope_trend = 0.0;
         s->previous = *last;
@@ -432,7 +434,7 @@ FL_SIMD4_VERSIONS static void compute_curvature(fl_surrogate *s, const fl_exact_
         for (int c = r; c < 6; c++) s->H[FL_UPPER[r][c]] = H[r][c];
 }
 
-/* Slope of W over (u, a w) about the point; returns the size of the force. */
+/* Slope of W over (u, l w) about the point; returns the size of the force. */
 static double slope_of_energy(const fl_surrogate *s, const fl_exact_contact *seen, fl_vec6 slope)
 {
     const fl_vec3 at = v3_add(seen->o, m3_mul(*seen->M, s->point_a));
@@ -520,7 +522,7 @@ static void set_from_evaluation(fl_surrogate *s, const fl_exact_contact *seen,
     if (!(s->force > 0.0 && seen->slope > 0.0 && pressing->pressure > 0.0)) return;
     s->M = *seen->M, s->o = seen->o, s->point = v3_add(s->o, m3_mul(s->M, s->point_a));
     s->first_point = seen->points->point[0].p;
-    s->in_plane = seen->b_is_plane ? 0.0 : 1.0;
+    s->counts_along_plane = seen->b_is_plane ? 0.0 : 1.0;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope, s->inv_mass = seen->inv_mass,
     s->compliance = seen->compliance, s->turn_compliance = seen->turn_compliance;
     set_free_travel(s, seen);
@@ -535,7 +537,8 @@ static void set_from_evaluation(fl_surrogate *s, const fl_exact_contact *seen,
 static void add_defect_return(fl_surrogate *s)
 {
     for (int r = 0; r < 6; r++)
-        for (int c = r; c < 6; c++) s->H[FL_UPPER[r][c]] += 2.0 * s->defect_return * s->path[r] * s->path[c];
+        for (int c = r; c < 6; c++)
+            s->H[FL_UPPER[r][c]] += 2.0 * s->defect_return * s->path_direction[r] * s->path_direction[c];
 }
 
 void fl_surrogate_set(fl_surrogate *s, const fl_exact_contact *seen)
@@ -547,13 +550,13 @@ void fl_surrogate_set(fl_surrogate *s, const fl_exact_contact *seen)
 }
 
 /* Relative error of dF/ds. */
-static double slope_error(const fl_surrogate *s, const fl_surrogate_value *t, double slope)
+static double slope_error(const fl_surrogate *s, const fl_surrogate_value *value, double slope)
 {
-    const double more = trend_factor(s->slope_trend, path_along(s, t)) * slope / t->slope - 1.0;
+    const double more = trend_factor(s->slope_trend, path_along(s, value)) * slope / value->slope - 1.0;
     return fabs(more) < 0.5 ? more : 0.0;
 }
 
-/* Slope trend c, from that error over the path, in the present length a. */
+/* Slope trend c, from that error over the path, in the present length l. */
 static void set_slope_trend(fl_surrogate *s, const fl_surrogate_record *last, double more)
 {
     const double way = sqrt(dot6(last->path, last->path));
@@ -561,21 +564,21 @@ static void set_slope_trend(fl_surrogate *s, const fl_surrogate_record *last, do
 }
 
 /* Record of the evaluation that was the last until now, and the path since then. */
-static fl_surrogate_record record_of(const fl_surrogate *s, const fl_surrogate_value *t)
+static fl_surrogate_record record_of(const fl_surrogate *s, const fl_surrogate_value *value)
 {
     fl_surrogate_record b = {.energy = s->energy};
-    for (int k = 0; k < 6; k++) b.slope[k] = s->power * s->energy * s->g[k], b.path[k] = t->q[k];
+    for (int k = 0; k < 6; k++) b.slope[k] = s->power * s->energy * s->g[k], b.path[k] = value->q[k];
     return b;
 }
 
 /* Error of z at the end of a path, without the returned part, over the fourth power of the path in overlaps:
  * the omitted terms are of that order.  0 for short paths, which something else has ended. */
-static double jump_coefficient(const fl_surrogate *s, const fl_surrogate_value *t, double energy)
+static double jump_coefficient(const fl_surrogate *s, const fl_surrogate_value *value, double energy)
 {
-    const double g = path_along(s, t), way = t->path / s->overlap, w2 = way * way,
-                 pull = s->power * t->energy / t->z;
-    return has_third_order(s) && way > MIN_PATH * s->reach && way > MIN_RECORD_PATH && t->z > 0.0
-               ? ((energy - t->energy) / pull + s->defect_return * g * g) / (w2 * w2)
+    const double g = path_along(s, value), way = value->path / s->overlap, w2 = way * way,
+                 pull = s->power * value->energy / value->z;
+    return has_third_order(s) && way > MIN_PATH * s->reach && way > MIN_RECORD_PATH && value->z > 0.0
+               ? ((energy - value->energy) / pull + s->defect_return * g * g) / (w2 * w2)
                : 0.0;
 }
 
@@ -589,7 +592,7 @@ static void set_defect_return(fl_surrogate *s, double runs, double part)
     s->defect_return = !s->valid || !has_third_order(s) ? 0.0 : b > most ? most : b < -most ? -most : b;
 }
 
-double fl_surrogate_update(fl_surrogate *s, const fl_surrogate_value *t, const fl_exact_contact *seen,
+double fl_surrogate_update(fl_surrogate *s, const fl_surrogate_value *value, const fl_exact_contact *seen,
                            double tolerance)
 {
     fl_vec6 slope;
@@ -597,13 +600,13 @@ double fl_surrogate_update(fl_surrogate *s, const fl_surrogate_value *t, const f
     fl_pressure_moments pressing;
     double off = 0.0, runs = 0.0;
     fl_force_sum_pressure(seen->points, &pressing);
-    if (t) {
+    if (value) {
         const double force = slope_of_energy(s, seen, slope);
-        last = record_of(s, t);
-        if (s->used && t->z > 0.0) s->energy_defect += seen->energy - t->energy;
-        runs = jump_coefficient(s, t, seen->energy);
-        if (force > 0.0) off = update_reach(s, t, &last, slope, force, seen->motion_force, tolerance);
-        const double more = slope_error(s, t, seen->slope);
+        last = record_of(s, value);
+        if (s->used && value->z > 0.0) s->energy_defect += seen->energy - value->energy;
+        runs = jump_coefficient(s, value, seen->energy);
+        if (force > 0.0) off = update_reach(s, value, &last, slope, force, seen->motion_force, tolerance);
+        const double more = slope_error(s, value, seen->slope);
         grow_length(s, &last, pressing.radius);
         set_slope_trend(s, &last, more);
     } else {

@@ -7,46 +7,50 @@
  * expansion is a potential too and conserves energy as the law does, but for the jump of W at the next exact
  * evaluation.  In the frame of B:
  *
- *     q = (u, a w)       u: path of a point of A in the contact since the exact evaluation, w: rotation of A,
- *                        half the skew part of D = M M0^T, a: a length of the contact                  [m]
+ *     q = (u, l w)       u: path of a point of A in the contact since the exact evaluation, w: rotation of A,
+ *                        half the skew part of D = M M0^T, l: a length of the contact                  [m]
  *     z = 1 + g.q + q.H q/2 + s^2 (t.q)/2 - s^3 (e.t)/3 + b s^2,     s = e.q,     W = W0 z^p
+ *     e                  direction of the path, a unit vector;  t: third order along it;  W0: W at q = 0
  *     force on A -dW/du,  moment about the point -J^T dW/dw,  J = (tr D - D)/2 maps rotations to w
  *
  * Power p.  W grows with the power p of the overlap: 2 under a face, 9/4 along an edge, 5/2 at a corner.  It
  * follows from W W''/W'^2 = (p - 1)/p along the force.  Then z is nearly the overlap over that of the exact
  * evaluation and nearly linear in q, so the error is of high order in the curvature of z alone.
  *
- * Second order H.  The patch points give one part of H (fl_force_sum_springs()).  The other part is how the
- * points move over the two bodies as these slide and rotate.  It is learnt from the slopes of z at the last
- * exact evaluations, and so is the third order t.  Bodies continue nearly along one line, with the direction
- * e.  Over the path h e to the last evaluation, and h' e to it from the one before, slopes changed by r h and
- * r' h' more than H predicts.  Where H changes linearly
+ * Second order H.  The patch points give one part of H (fl_force_sum_springs()).  The rest comes from points
+ * that move along the surfaces.  It is learnt from the slopes of z at the last exact evaluations, and
+ * so is the third order t.  Bodies continue nearly along one line, with the direction e.  The last path was
+ * h e, the one before it h' e.  Along them the slopes changed by r h and r' h' more than H predicts.  Where H
+ * changes linearly
  *     t = 2 (r - r')/(h + h'),     H e lacks r + h t/2.
  * The third-order term above is the smallest symmetric tensor that maps (e, e) to t.  The smallest symmetric
  * matrix that maps e to what is lacking, r e^T + e r^T - (r.e) e e^T, is added to H (Powell 1970, in Rosen,
  * Mangasarian & Ritter, Nonlinear Programming, 31).  Where the two paths are not along one line t = 0 and H
  * lacks r.
  *
- * Range.  The path until the next exact evaluation follows from the error found at the last one.  The force
- * error grows as the third power of the path, so reach = path (0.15 tolerance / error)^(3/8), 3/8 for 1/3; as
- * its square where t is not known, then with 1/2.  error: that of force and moment over a, over the force;
- * while the bodies approach or separate, over the force that the energy of this motion would give.  It is
- * measured at the end of each path, where it is largest.  Besides:
+ * Range.  The path until the next exact evaluation follows from the error found at the last one.  The next
+ * path may be reach s0 long, s0 the overlap at its start.  The force error grows as path^3, so
+ *     reach = (path/s0) (0.15 tolerance/error)^(3/8),
+ * path and s0 of the last path.  3/8 stands for 1/3 because it needs square roots only.  Where t is not known
+ * the error grows as path^2 and the exponent is 1/2.  One evaluation changes reach by a factor from 0.2 to 3.
+ *     error: (force error, moment error / l), divided by the force.  While the bodies approach or separate,
+ *            divided by the force at the energy of the contact plus that of this motion.
+ * The error is measured at the end of each path, where it is largest.  Besides:
  *   - z changes by 3/2 tolerance^(1/4) at most.
- *   - A rotation brings a corner without pressure nearer by at most a small part of the radii.  Sliding
- *     convex bodies have no point deeper than predicted; rotating ones may have.
+ *   - A rotation brings a corner without pressure nearer by at most FREE_TURN_SHARE (surrogate.c) of the
+ *     radii.  Sliding convex bodies have no point deeper than predicted; rotating ones may have.
  *   - A path along a plane does not count: it changes nothing.
  *   - Where an error is far above the tolerance the contact has become another one: what was learnt is
- *     dropped, and the earlier evaluations too, unless the path was far beyond its range.
+ *     dropped, and the earlier evaluations too, unless the error is explained by a path beyond the range.
  *   - A contact has no surrogate where its pressures oppose each other, as in a slot: their sum is not their
  *     force.
  *
  * Energy defect.  At an exact evaluation W jumps by the error of the surrogate, as a rule with the same sign
  * in every impact, since the omitted terms are of even order.  The jumps since the bodies touched are
  * returned over the next path, together with the jump expected at its end (from the last path, by the fourth
- * power): b = defect/(p W0 reach^2), limited to half of the tolerance of the force.  At the step of an exact
- * evaluation no force of the surrogate acts, so for a path of n steps the defect is counted too large by 2/n
- * of it.
+ * power): b = defect/(p W0 (reach s0)^2), limited to half of the tolerance of the force.  The surrogate gives
+ * no force at the step of an exact evaluation.  In a path of n steps this overstates the defect by the
+ * fraction 2/n.
  *
  * Stiffness for friction.  dF/ds = p (p - 1) W (dz/ds)^2/z^2 along the force and F = p W (dz/ds)/z, so dF/ds
  * goes as F^2/W.  It is multiplied by 1 + c s, at least 1/2, c from the error found at the last exact
@@ -54,8 +58,8 @@
  * loss over a path does not shrink with the number of evaluations.
  *
  * Damping and friction use the points of the last exact evaluation, with all their pressures times one factor
- * that gives the surrogate's force.  They rotate with the force, and shift to where force and moment put its
- * centre.  Damping is then linear in the motion of A, six by six numbers, unless it would turn pressures into
+ * that gives the surrogate's force.  These points rotate with the force and move to its line of action.
+ * Damping is then linear in the motion of A, six by six numbers, unless it would turn pressures into
  * tension.  For that correction mean and variance are known; width and skewness of the distribution are those
  * of the exact evaluation (no_tension.h). */
 #ifndef FL_PATCH_SURROGATE_H
@@ -89,29 +93,29 @@ typedef struct {
     int valid; /* may be evaluated */
     int used;  /* has been evaluated since the last exact evaluation */
     /* Of the last exact evaluation.  Doubles only from here on, which fl_surrogate_pack() reads in a row. */
-    double g[6], H[21];             /* H: upper triangle                         [1/m], [1/m2] */
-    double path[6], third_order[6]; /* e, t                                        [1], [1/m3] */
-    double slope_trend;             /* c                                                 [1/m] */
-    fl_mat3 M;                      /* axes of A                                               */
-    fl_vec3 o;                      /* origin of A                                         [m] */
-    fl_vec3 point;                  /* point of A in the contact, frame of B               [m] */
-    double in_plane; /* weight of the path along x and y: 0 where B is a plane across z, else 1 */
+    double g[6], H[21];                       /* H: upper triangle                         [1/m], [1/m2] */
+    double path_direction[6], third_order[6]; /* e, t                                        [1], [1/m3] */
+    double slope_trend;                       /* c                                                 [1/m] */
+    fl_mat3 M;                                /* axes of A                                               */
+    fl_vec3 o;                                /* origin of A                                         [m] */
+    fl_vec3 point;                            /* point of A in the contact, frame of B               [m] */
+    double counts_along_plane; /* 1, or 0 where B is a plane: then the path along it does not count */
     double overlap, energy, force, slope; /* largest overlap [m], W [J], |dW/du| [N], dF/ds [N/m] */
     double power;                         /* p                                                       */
     fl_vec3 first_point; /* first patch point, frame of B                                 [m] */
     fl_vec3 centre;      /* from there to the centre of the force, in its plane           [m] */
     fl_vec3 other_force; /* part of the force that is not pressure                        [N] */
-    double pressure;     /* sum of e                                                      [N] */
+    double pressure;     /* sum of the pressures                                      [N] */
     double inv_mass;     /* as in fl_exact_contact                                     [1/kg] */
     fl_sym3 compliance;
     double turn_compliance;                     /*                              [1/(kg m2)] */
     fl_vec3 direction, torque;                  /* as in fl_pressure_moments, times dW/dU  */
     double damping[FL_PRESSURE_MATRIX], radius; /* likewise                                */
     fl_vec3 centre_offset;       /* of the mean of the pressures from where they act      [m] */
-    double half_width, skewness; /* of no_tension.h: a over the standard deviation, skewness  */
+    double half_width, skewness; /* of no_tension.h; half width over the standard deviation */
     /* Since the bodies touched. */
     fl_vec3 point_a;                 /* the point, frame of A                             [m] */
-    double length;                   /* a                                                 [m] */
+    double length;                   /* l                                                 [m] */
     double reach;                    /* largest path until the next exact evaluation, over the overlap */
     double max_change;               /* largest change of z                                   */
     double stiffness_i, stiffness_j; /* as in fl_pair, over the slope, when last computed [1/kg] */
@@ -121,14 +125,14 @@ typedef struct {
     double energy_defect;         /* sum of the jumps of W not yet returned               [J] */
     double defect_return;         /* b                                                 [1/m2] */
     double free_path;             /* path before another wall of B may carry load         [m] */
-    double free_turn;             /* a |w| before another corner of A may touch           [m] */
+    double free_turn;             /* l |w| before another corner of A may touch           [m] */
 } fl_surrogate;
 
 /* Value of a surrogate in one pose. */
 typedef struct {
     fl_vec6 q, slope_z; /* q [m]; dz/dq [1/m] */
-    double path;        /* |u| + FL_SURROGATE_TURN_WEIGHT a |w| [m] */
-    double turn;        /* a |w| [m] */
+    double path;        /* |u| + FL_SURROGATE_TURN_WEIGHT l |w| [m] */
+    double turn;        /* l |w| [m] */
     double z;
     fl_vec3 point, w;
     fl_wrench gradient;         /* force and moment on A, about `point`, frame of B */
@@ -177,7 +181,7 @@ typedef struct {
 
 /* Statistics, one for each thread. */
 typedef struct {
-    _Alignas(64) int64_t hits; /* contact-steps by the surrogate */
+    _Alignas(64) int64_t hits; /* evaluations by the surrogate */
     int64_t checks;            /* exact evaluations within twice the reach */
     int64_t misses;            /* checks with an error above the tolerance */
     double worst_error;        /* largest error of a check */
@@ -215,16 +219,16 @@ static inline int fl_surrogate_in_range(const fl_surrogate *s, double path, doub
 }
 
 /* True if the error of this value allows an estimate of the error within the range. */
-static inline int fl_surrogate_in_double_range(const fl_surrogate *s, const fl_surrogate_value *t)
+static inline int fl_surrogate_in_double_range(const fl_surrogate *s, const fl_surrogate_value *value)
 {
-    return fl_surrogate_in_range(s, t->path, t->turn, t->z, 2.0);
+    return fl_surrogate_in_range(s, value->path, value->turn, value->z, 2.0);
 }
 
 /* Updates the surrogate after an exact evaluation.
- *   t           value of s in this pose, NULL where it was not valid
+ *   value       of s in this pose, NULL where it was not valid
  *   tolerance   of the force, relative
- * Returns the error of t, relative to the force. */
-double fl_surrogate_update(fl_surrogate *s, const fl_surrogate_value *t, const fl_exact_contact *seen,
+ * Returns the error of the value, relative to the force. */
+double fl_surrogate_update(fl_surrogate *s, const fl_surrogate_value *value, const fl_exact_contact *seen,
                            double tolerance);
 
 /* Sets the members that follow from the exact evaluation alone.  point_a, length, reach, what was learnt,

@@ -172,7 +172,7 @@ static int init_after_bond(fl_world *w, fl_neighbour_pair *q)
     fl_pair p;
     fl_neighbour_pair_expand(w, q, &p);
     fl_bond_list_init_pair(w, &p);
-    return fl_neighbour_pair_store(w, q, &p);
+    return fl_neighbour_pair_put_back(w, q, &p);
 }
 
 /* Free the boxes and their tree after the search. */

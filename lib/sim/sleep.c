@@ -173,7 +173,7 @@ static void mark_pairs(fl_world *w, int32_t k)
     fl_sleep *s = &w->sleep;
     for (int64_t i = w->first_pair_of_body[k]; i < w->first_pair_of_body[k + 1]; i++) {
         const int32_t c = w->pairs_of_body[i];
-        if (fl_next_check_pending(w, c)) continue;
+        if (!fl_pair_may_touch(w, c)) continue;
 #pragma omp atomic write
         s->pair_due[c] = 1;
         set_waking(&s->phase[w->next_check[c].i]);
@@ -580,7 +580,7 @@ static void start_sleepers(fl_world *w, int32_t from, int32_t n)
 static void shorten_skip(fl_world *w, int32_t k)
 {
     for (int64_t c = w->first_pair_of_body[k]; c < w->first_pair_of_body[k + 1]; c++)
-        if (!fl_next_check_pending(w, w->pairs_of_body[c])) w->sleep.phase_end[k] = w->step + 1;
+        if (fl_pair_may_touch(w, w->pairs_of_body[c])) w->sleep.phase_end[k] = w->step + 1;
 }
 
 static void shorten_skips(fl_world *w, int32_t from, int32_t n)

@@ -90,8 +90,8 @@ static int is_possible(const fl_surrogate *s)
                          s->half_width + s->skewness);
     for (int k = 0; k < 6; k++)
         zero += 0.0 * (s->third_order[k] + s->previous.slope[k] + s->previous.path[k]);
-    return zero == 0.0 && is_unit_or_zero(s->path) && s->previous.energy >= 0.0 && s->half_width >= 0.0 &&
-           s->skewness >= 0.0;
+    return zero == 0.0 && is_unit_or_zero(s->path_direction) && s->previous.energy >= 0.0 &&
+           s->half_width >= 0.0 && s->skewness >= 0.0;
 }
 
 /* Memory of the surrogate of its last exact evaluation; the rest follows from the relative pose of that
@@ -114,7 +114,7 @@ static void exchange_surrogate(fl_state_io *t, const fl_pair *p, fl_surrogate *s
             s->learnt[k][r] = s->learnt[r][k];
         }
     for (int k = 0; k < 6; k++) {
-        fl_state_io_real(t, &s->path[k]);
+        fl_state_io_real(t, &s->path_direction[k]);
         fl_state_io_real(t, &s->third_order[k]);
         fl_state_io_real(t, &s->previous.slope[k]);
         fl_state_io_real(t, &s->previous.path[k]);
@@ -181,7 +181,7 @@ void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
     fl_state_io_close(t);
     if (!t->in || t->err->code) return;
     fl_neighbour_pair_init(near, i, j, p->image);
-    if (fl_neighbour_pair_store(w, near, p))
+    if (fl_neighbour_pair_put_back(w, near, p))
         fl_fail(t->err, FL_SYSTEM, "out of memory for pair %d and %d", i, j);
     else if (surrogate.valid) rebuild_surrogate(w, near->contact, &surrogate, t->err);
 }

@@ -24,7 +24,7 @@
 #include "sphere/contact_list.h"
 #include "world/access.h"
 
-/* dt_safe as a fraction of the critical step of any contact that may occur: the default of run.safety. */
+/* dt_safe is at most this share of the predicted critical step; equal to the default of run.safety. */
 #define SAFE_SHARE 0.2
 
 enum {
@@ -40,12 +40,12 @@ typedef struct {
     double dt;
     int update_stiffness;
     int first_half;   /* run the first half kick and the drift before the contacts */
-    int needs_search; /* the team ended after these: the neighbour list must be updated first */
+    int needs_search; /* the team stopped after the drift: the neighbour list must be updated first */
     int failed;
     fl_err *err;
 } step_context;
 
-/* Complete the drift: pieces and walls that are no movers, the step count, the time of the water. */
+/* End of the drift: move pieces and walls without a mover, count the step, set the time of the water. */
 static void advance_time(fl_world *w)
 {
     const int moves = w->moving.movers.n > 0;
@@ -184,7 +184,7 @@ static void run_step_in_team(step_context *q)
     fl_barrier_wait(&w->barrier, threads, NULL, NULL);
 }
 
-/* A parallel region of one thread costs as much as a step of three floes: it is skipped. */
+/* A parallel region costs as much as a step of three floes, so a team of one runs without it. */
 static int run_step(step_context *q)
 {
     const int32_t team = q->w->team.n;
@@ -252,7 +252,8 @@ static int add_loads(fl_world *w, double h, fl_err *err)
     return w->panel_load.panels && fl_panels_accumulate(w, h, err) ? -1 : 0;
 }
 
-/* Add (sign = 1) or take out (-1) the works of the half kick to come. */
+/* Works of the next half kick are booked ahead (fl_work_ahead()); when dt changes they are taken out and
+ * booked anew.  sign: 1 to book, -1 to take out. */
 static void book_work_ahead(fl_world *w, double sign)
 {
     const fl_work a = fl_work_ahead(w);
@@ -400,7 +401,7 @@ int fl_step(fl_world *w, fl_err *err)
     return 0;
 }
 
-/* The works of the half kick to come are booked already, and get another length. */
+/* The works of the next half kick, booked ahead, are taken out and booked anew with the new dt. */
 void fl_step_set_size(fl_world *w, double dt, double t)
 {
     book_work_ahead(w, -1.0);

@@ -18,8 +18,7 @@ int fl_step_start(fl_world *w, fl_err *err);
  *     a number is not finite,
  *     the step is above the critical step, or
  *     an overlap above FL_DEEP_OVERLAP creates energy: the residual is more than 1 % of the throughput plus
- *     the
- *     energy stored in contacts. */
+ *         the energy stored in contacts. */
 int fl_step(fl_world *w, fl_err *err);
 
 /* Use steps of dt from now on.  t: the time now without the rounding of fl_world_time() [s]. */

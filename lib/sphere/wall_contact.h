@@ -1,7 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* wall_contact.h -- contacts of spheres with rigid walls of the boundary, stored like those of two spheres
  * (world/sphere_contacts.h) with the wall as j.  For law/sphere_batch.h a wall is a sphere of radius 0 at
- * the foot of the centre x_i: D = z n, with the height z of the centre over the wall and its normal n. */
+ * the foot of the centre x_i: D = z n, with the height z of the centre over the wall and its normal n.
+ *
+ * Other contacts of a floe with a wall or with the structure are evaluated as pairs:
+ *   elastic wall                        contact/pair_force.c, evaluate_elastic_wall()
+ *   flat or convex piece                contact/pair_geometry.c, then evaluate_points() or evaluate_patch()
+ *   mesh                                structure/mesh_contact.c, for a sphere persistence_contact.c
+ *   laws manual and manual-si           contact/pair_force.c, evaluate_features() */
 #ifndef FL_SPHERE_WALL_CONTACT_H
 #define FL_SPHERE_WALL_CONTACT_H
 #include "world/world.h"

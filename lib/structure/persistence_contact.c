@@ -231,7 +231,8 @@ static int collect_tiles(fl_persistence_work *k, const fl_poly *p, const fl_near
     return 0;
 }
 
-/* A saddle is never nearer than the tiles that it joins; the margin keeps rounding from separating pieces. */
+/* A saddle is never nearer than the tiles that it joins; the margin keeps rounding from separating
+ * components. */
 static fl_closest_point saddle_of(const fl_tile_seams *s, const fl_persistence_work *k,
                                   const fl_persistence_link *l, fl_vec3 x)
 {
@@ -276,16 +277,16 @@ int fl_persistence_is_single(const fl_tile_seams *s, fl_persistence_work *k, con
                              const fl_near_tiles *near, fl_vec3 x, double r)
 {
     if (collect_tiles(k, p, near, x, r, NULL, -1) || collect_links(s, k, x, r)) return -1;
-    int32_t pieces = k->tiles;
-    if (pieces < 2) return 1;
+    int32_t components = k->tiles;
+    if (components < 2) return 1;
     for (int32_t i = 0; i < k->tiles; i++)
         if (has_rim_within(s, p, k->tile[i].tile, x, r)) return 0;
     for (int32_t c = 0; c < k->links; c++) {
         const int32_t i = root_of(k, k->link[c].i), j = root_of(k, k->link[c].j);
         if (s->seam[k->link[c].seam].concave) return 0;
-        if (i != j) k->tile[i].parent = j, pieces--;
+        if (i != j) k->tile[i].parent = j, components--;
     }
-    return pieces == 1;
+    return components == 1;
 }
 
 static int compare_links(const void *a, const void *b)
@@ -295,7 +296,8 @@ static int compare_links(const void *a, const void *b)
     return x->seam < y->seam ? -1 : x->seam > y->seam;
 }
 
-/* Overlapping tiles have one point twice. True if the minimum of piece i is that of a nearer piece. */
+/* Overlapping tiles have one point twice. True if the minimum of component i is that of a nearer
+ * component. */
 static int is_repeated(const fl_tile_seams *s, fl_persistence_work *k, int32_t i)
 {
     const fl_persistence_tile *const it = &k->tile[i];
@@ -327,7 +329,7 @@ int fl_persistence_points(const fl_tile_seams *s, fl_persistence_work *k, fl_pat
     if (collect_links(s, k, x, radius)) return -1;
     if (k->links > 1) qsort(k->link, (size_t)k->links, sizeof *k->link, compare_links);
     const int32_t first = index_of_tile(k, of);
-    for (int32_t c = 0; c < k->links; c++) { /* roots are the minima of their pieces */
+    for (int32_t c = 0; c < k->links; c++) { /* roots are the minima of their components */
         const fl_persistence_link *const l = &k->link[c];
         int32_t old = root_of(k, l->i), young = root_of(k, l->j);
         if (old == young) continue;

@@ -2,30 +2,31 @@
 /* persistence_contact.h -- contact of a sphere with a surface that is not convex, by persistent homology.
  *
  * On a convex surface the nearest point alone bears load. In a groove two walls do, and a groove that is
- * filled up gradually turns into a plane, on which one does. Neither "the nearest point" nor "all walls" is
- * right, and any count of walls jumps somewhere. Here the energy of a sphere about x of radius R counts the
- * pieces that smaller spheres cut out of the surface S. With the energy H(R - d) of one wall at distance d,
+ * filled up gradually turns into a plane, on which one does. Neither holds in between, and any rule that
+ * counts walls makes the force jump. Here the energy of a sphere about x of radius R sums over r <= R the
+ * number n(x, r) of connected components of the surface S inside the sphere of radius r about x. With the
+ * energy H(R - d) of one wall at distance d,
  *
- *     W(x) = int pieces(S, x, r) dH(R - r)  =  sum over minima H(R - d) - sum over saddles H(R - d),
+ *     W(x) = int n(x, r) dH(R - r)  =  sum over minima H(R - d) - sum over saddles H(R - d).
  *
- * pieces being the number of connected parts of S within r of x. A piece begins at a minimum of the distance
- * from x. Two pieces join at the saddle between them, the lowest point of the way from one to the other: the
- * walls of a groove join at its bottom. Where a wall ends, its minimum and the saddle coincide, and the two
- * terms cancel to first order. So W is continuous wherever x moves in front of the surface. So is the force,
- * its gradient, unless two saddles are equal. W is a sum over the persistence diagram of the distance, which
- * moves by no more than x does: Cohen-Steiner, Edelsbrunner and Harer, Discrete Comput Geom 37 (2007) 103. It
- * follows:
+ * A component begins at a minimum of the distance from x. Two components join at the saddle between them,
+ * the lowest point of the way from one to the other: the walls of a groove join at its bottom. Where a
+ * wall ends, its minimum and the saddle coincide, and the two terms cancel to first order. So W is
+ * continuous wherever x moves in front of the surface. So is the force, its gradient, unless two saddles
+ * are equal. W is a sum over the persistence diagram of the distance, which moves by no more than x does:
+ * Cohen-Steiner, Edelsbrunner and Harer, Discrete Comput Geom 37 (2007) 103.
+ * Consequences:
  *   - a convex surface has one minimum: exactly Hertz' contact;
  *   - walls that meet farther away than R act independently: in a corner of a box W = H + H + H;
  *   - the division of the surface into tiles has no effect.
  *
- * Limits. A hollow meshed more coarsely than the overlap of the sphere is a polyhedron, and more than one
- * facet bears load. Sheets one behind another, nearer than the overlap, bear load each, as do both sides of a
- * gap wider than tol. If x is behind the surface, the nearest point alone bears load.
+ * Limits. A hollow whose facets are longer than the overlap acts as a polyhedron: several facets bear
+ * load. Sheets one behind another, nearer than the overlap, bear load each, as do both sides of a gap
+ * wider than tol. If x is behind the surface, the nearest point alone bears load.
  *
- * Tiles are convex, so the distance from x has one minimum in each. The pieces are the components of a graph:
+ * Tiles are convex, so the distance from x has one minimum in each. The components are those of a graph:
  * tiles nearer than r, and the seams where two of them meet. Its minimum spanning forest contains the
- * saddles. Of a tile that faces away from x only the rim counts. */
+ * saddles. A tile seen from behind counts by its rim only. */
 #ifndef FL_STRUCTURE_PERSISTENCE_CONTACT_H
 #define FL_STRUCTURE_PERSISTENCE_CONTACT_H
 #include "broad/bvh.h"
@@ -59,7 +60,7 @@ void fl_tile_seams_free(fl_tile_seams *s);
 /* A tile within reach; scratch. */
 typedef struct {
     int32_t tile;   /* tile */
-    int32_t parent; /* parent in the union-find forest of pieces, an index into the scratch */
+    int32_t parent; /* parent in the union-find forest of components, an index into the scratch */
     fl_closest_point nearest;
 } fl_persistence_tile;
 
@@ -83,15 +84,14 @@ typedef struct {
     int32_t n;
 } fl_near_tiles;
 
-/* True if a sphere of at most the radius r about x can touch one wall only, as far as can be decided without
- * computing the points: 1, 0, or -1 when memory runs out. near: all tiles nearer than r, and possibly others.
- */
+/* How many walls a sphere of at most the radius r about x can touch, without computing the points. 1: at most
+ * one wall can touch; 0: more may; -1: out of memory. near: all tiles nearer than r, and possibly others. */
 int fl_persistence_is_single(const fl_tile_seams *s, fl_persistence_work *k, const fl_poly *core,
                              const fl_near_tiles *near, fl_vec3 x, double r);
 
 /* Contact points of a sphere on the surface, by fl_patch_points_add_plain(); their du is 1 for minima and -1
- * for saddles. The first is q, the nearest point of all with its sign, in tile `of`. near: all tiles nearer
- * than the radius, and possibly others. Returns -1 when memory runs out. */
+ * for saddles. point[0] is q, the nearest of all, in tile `of`; its distance is negative behind the surface.
+ * near: all tiles nearer than the radius, and possibly others. Returns -1 when memory runs out. */
 int fl_persistence_points(const fl_tile_seams *s, fl_persistence_work *k, fl_patch_points *w,
                           const fl_poly *core, const fl_near_tiles *near, fl_vec3 x, double radius,
                           const fl_closest_point *q, int32_t of);

@@ -42,11 +42,11 @@ static inline void fl_set_next_check(fl_world *w, int32_t c)
     w->next_check[c] = (fl_next_check){p->i, p->j, p->touching ? -INFINITY : p->free_travel};
 }
 
-/* 1 while near pair c cannot touch: the two have not moved far enough since its last evaluation. */
-static inline int fl_next_check_pending(const fl_world *w, int32_t c)
+/* 0 while near pair c cannot touch: the two have not moved far enough since its last evaluation. */
+static inline int fl_pair_may_touch(const fl_world *w, int32_t c)
 {
     const fl_next_check q = w->next_check[c];
-    return w->b.odometer[q.i] + w->b.odometer[q.j] < q.free_travel;
+    return !(w->b.odometer[q.i] + w->b.odometer[q.j] < q.free_travel);
 }
 
 /* 1 if place i < n of the arrays is empty: its floe has left, or has not come in. */

@@ -31,7 +31,7 @@ typedef struct {
     int32_t literal2, literal18;
 } fl_pair_law;
 
-/* A contact of two bodies; body i moves, i < j.
+/* A contact of two bodies: i is a floe; j a floe, piece or wall; i < j.
  * A new member that lasts from step to step must be added to snapshot_pair.c (and what is new in fl_world to
  * snapshot.c): prop_restart finds it missing once it changes a bit.  What lasts while the two do not touch
  * must be added to fl_neighbour_pair too. */
@@ -50,14 +50,14 @@ typedef struct {
     int32_t has_axis;           /* axis is set */
     fl_vec3 axis;               /* from j to i, axes of j: separates the cores, now or at an earlier time */
     double free_travel;         /* the two cannot touch while the sum of their odometers is below this [m] */
-    double k;                   /* stiffness of one point [N/m^n]; of `patch`, c of W = c sqrt(U) [N/m2] */
-    double exponent;            /* n; 0 with FL_POINTS_PATCH */
-    double mass;                /* reduced mass [kg] */
-    double max_approach_speed;  /* largest of this contact so far [m/s] */
-    int32_t points;             /* enum fl_contact_points: what is evaluated */
-    int32_t bond;               /* 1 + index of the bond that was here, 0: none; bond_list.h */
-    double radius_factor;       /* multiplies both radii: 1, but less after a bond */
-    const fl_pair_law *law;     /* borrowed */
+    double k;        /* FL_POINTS_PATCH: c of W = c sqrt(U) [N/m2]; else stiffness of one point [N/m^n] */
+    double exponent; /* n; 0 with FL_POINTS_PATCH */
+    double mass;     /* reduced mass [kg] */
+    double max_approach_speed; /* largest of this contact so far [m/s] */
+    int32_t points;            /* enum fl_contact_points: what is evaluated */
+    int32_t bond;              /* 1 + index of the bond that was here, 0: none; bond_list.h */
+    double radius_factor;      /* multiplies both radii: 1, but less after a bond */
+    const fl_pair_law *law;    /* borrowed */
     /* results of the last evaluation: world axes, torques about the two centres, forces on i (-f on j) */
     fl_vec3 force, torque_i, torque_j;
     fl_vec3 force_damping, torque_i_damping, torque_j_damping;    /* the part of damping */
@@ -76,7 +76,8 @@ _Static_assert(offsetof(fl_pair, omega2_j) ==
                "the results are consecutive");
 
 /* An entry of the neighbour list.  It keeps what must last while the two bodies do not touch, which is most
- * of the time; `contact` is set while they touch, shortly after, and where a bond was. */
+ * of the time.  `contact` is set while they touch, shortly after, and where a bond was.  While set, read its
+ * members, except touching, cores_overlap, free_travel: these are kept here too. */
 typedef struct {
     int32_t i, j;
     int32_t image[3]; /* like all members below, as in fl_pair */
@@ -85,7 +86,7 @@ typedef struct {
     double free_travel;
     float axis[3];                  /* length at most 1, so that gaps along it are lower bounds */
     uint8_t cache_a[4], cache_b[4]; /* vertices of the cache */
-    fl_pair *contact; /* or NULL; its members win, but for touching, cores_overlap, free_travel */
+    fl_pair *contact;               /* or NULL */
 } fl_neighbour_pair;
 
 /* The members of a near pair that every step reads, kept together. */
@@ -101,11 +102,11 @@ typedef union fl_pair_slot {
 } fl_pair_slot;
 
 typedef struct {
-    fl_pair_slot **block; /* [blocks] of FL_PAIR_BLOCK slots each */
+    fl_pair_slot **block; /* [blocks] of FL_PAIR_SLOTS slots each */
     fl_pair_slot *free;
     int32_t blocks, cap;
 } fl_pair_store;
 
-enum { FL_PAIR_BLOCK = 32 };
+enum { FL_PAIR_SLOTS = 32 };
 
 #endif

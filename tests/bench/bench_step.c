@@ -105,7 +105,7 @@ static int contact_step(fl_world *w, int ordered)
     if (fl_neighbour_list_update(w, &err)) return -1;
 #pragma omp parallel for schedule(dynamic, 16)
     for (int32_t c = 0; c < w->n_pair; c++) {
-        if (fl_next_check_pending(w, c)) continue;
+        if (!fl_pair_may_touch(w, c)) continue;
         fl_evaluate_neighbour_pair(w, c, omp_get_thread_num(), NULL, w->dt, 0);
         fl_set_next_check(w, c);
         w->pair_touches[c] = w->pair[c].touching;

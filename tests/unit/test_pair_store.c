@@ -49,7 +49,7 @@ static void storage_is_kept_only_while_pairs_touch(void **state)
     assert_int_equal(l.w.pair_store.blocks, 1);
     int32_t spare = 0;
     for (const fl_pair_slot *s = l.w.pair_store.free; s; s = s->next) spare++;
-    assert_int_equal(spare, FL_PAIR_BLOCK);
+    assert_int_equal(spare, FL_PAIR_SLOTS);
     lab_free(&l);
 }
 
@@ -65,7 +65,7 @@ static void touching_pairs_keep_their_history(void **state)
     assert_null(near->contact);
     assert_true(near->has_axis);
     fl_neighbour_pair_expand(&l.w, near, &p);
-    assert_int_equal(fl_neighbour_pair_store(&l.w, near, &p), 0);
+    assert_int_equal(fl_neighbour_pair_put_back(&l.w, near, &p), 0);
     assert_null(near->contact);
     fl_neighbour_pair_expand(&l.w, near, &q);
     assert_memory_equal(&p.axis, &q.axis, sizeof p.axis);
@@ -73,7 +73,7 @@ static void touching_pairs_keep_their_history(void **state)
     assert_true(p.free_travel == q.free_travel && p.k == q.k && p.mass == q.mass && p.law == q.law);
     assert_int_equal(p.has_axis, q.has_axis);
     p.touching = 1, p.overlap = 0.25;
-    assert_int_equal(fl_neighbour_pair_store(&l.w, near, &p), 0);
+    assert_int_equal(fl_neighbour_pair_put_back(&l.w, near, &p), 0);
     assert_non_null(near->contact);
     assert_true(near->contact->overlap == 0.25);
     fl_neighbour_pair_free(&l.w, near);
@@ -102,7 +102,7 @@ static void rolling_state_is_freed_with_the_contact(void **state)
     fl_pair gone = *p;
     gone.touching = 0;
     p->rolling = NULL;
-    assert_int_equal(fl_neighbour_pair_store(&l.w, q, &gone), 0);
+    assert_int_equal(fl_neighbour_pair_put_back(&l.w, q, &gone), 0);
     if (gone.rolling) free(roll);
     assert_null(q->contact);
     assert_null(gone.rolling);
