@@ -185,16 +185,44 @@ static int list_near_features(fl_feature_set *r, const fl_poly *core, const fl_p
     return 0;
 }
 
+static fl_vec3 middle_of(const fl_vec3 *v, int32_t n)
+{
+    fl_vec3 middle = v3(0, 0, 0);
+    for (int32_t k = 0; k < n; k++) middle = v3_madd(middle, 1.0 / n, v[k]);
+    return middle;
+}
+
+/* True if the straight way from a to b leads through the surface, from its front to its back; -1 when memory
+ * runs out. */
+static int leads_through(fl_feature_set *r, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 a, fl_vec3 b)
+{
+    r->faces = query_boxes(&sh->tree, sh->box, aabb_add((fl_aabb){a, a}, b), &r->face, &r->face_cap);
+    for (int32_t k = 0; k < r->faces; k++) {
+        const int32_t f = r->face[k];
+        const double ha = v3_dot(p->n[f], a) - p->c[f], hb = v3_dot(p->n[f], b) - p->c[f];
+        if (ha <= 0.0 || hb > 0.0) continue;
+        if (fl_closest_on_face(p, f, v3_madd(a, ha / (ha - hb), v3_sub(b, a))).d <= EDGE_TOL * p->size) return 1;
+    }
+    return r->faces < 0 ? -1 : 0;
+}
+
 /* Evaluates the vertices of the core that may be behind the surface. Adds the contact points of those behind,
- * and sets *behind if there are any. */
-static int add_vertices_behind(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B,
-                               const fl_piece_mesh *sh, const fl_feature_pairs *l, double ra, int *behind)
+ * and sets *behind if there are any. An open surface has gone into the core if it lies between its middle and
+ * the vertex; else the vertex has come round the rim, or the core from the back. */
+static int add_vertices_behind(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
+                               const fl_patch_core *B, const fl_piece_mesh *sh, const fl_feature_pairs *l,
+                               double ra, int *behind)
 {
     *behind = 0;
     for (int32_t k = 0; k < l->candidates; k++) {
         const int32_t v = l->candidate[k];
         const fl_closest_point q = signed_nearest(B->p, sh, w->va[v]);
         if (q.d >= 0.0) continue;
+        if (!sh->closed) {
+            const int through = leads_through(&near->of_mesh, B->p, sh, middle_of(w->va, A->p->nv), w->va[v]);
+            if (through < 0) return -1;
+            if (!through) continue;
+        }
         *behind = 1;
         if (fl_patch_points_add_vertex(w, A, 0.0, v, q.n, ra - q.d)) return -1;
     }
@@ -292,7 +320,7 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
         return 0;
     }
     *distance = ra; /* a face is near: no bound is claimed */
-    if (add_vertices_behind(w, &A, &B, &b->mesh, l, ra, &behind)) return -1;
+    if (add_vertices_behind(w, near, &A, &B, &b->mesh, l, ra, &behind)) return -1;
     if (behind) { /* a vertex farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
         if (bound_distance(w, near, a, &b->mesh, ra, &beside)) return -1;

@@ -176,8 +176,8 @@ static void jacket(fl_part *p, fl_rng *g, double r, int n, double gap)
     for (int k = 0; k < 4; k++)
         for (int way = 0; way < 2; way++) {
             const int m = (k + 1) % 4;
-            const fl_vec3 a = v3_madd(foot[k], way ? 0.1 : 0.9, v3_sub(head[k], foot[k])),
-                          b = v3_madd(foot[m], way ? 0.42 : 0.58, v3_sub(head[m], foot[m]));
+            const fl_vec3 a = v3_madd(foot[k], way ? 0.15 : 0.9, v3_sub(head[k], foot[k])),
+                          b = v3_madd(foot[m], way ? 0.35 : 0.75, v3_sub(head[m], foot[m]));
             const fl_vec3 u = v3_unit(v3_sub(b, a));
             tube(p, g, v3_madd(a, 1.3 * r + gap, u), v3_madd(b, -1.3 * r - gap, u), 0.5 * r, n);
         }
