@@ -201,7 +201,8 @@ static int leads_through(fl_feature_set *r, const fl_poly *p, const fl_piece_mes
         const int32_t f = r->face[k];
         const double ha = v3_dot(p->n[f], a) - p->c[f], hb = v3_dot(p->n[f], b) - p->c[f];
         if (ha <= 0.0 || hb > 0.0) continue;
-        if (fl_closest_on_face(p, f, v3_madd(a, ha / (ha - hb), v3_sub(b, a))).d <= EDGE_TOL * p->size) return 1;
+        if (fl_closest_on_face(p, f, v3_madd(a, ha / (ha - hb), v3_sub(b, a))).d <= EDGE_TOL * p->size)
+            return 1;
     }
     return r->faces < 0 ? -1 : 0;
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "geom/mass.h"
+#include "patch/patch_law.h"
 #include "patch/patch_points.h"
 #include "structure/mesh_contact.h"
 #include "support/hulls.h"
@@ -11,12 +12,12 @@
 
 /* Poses of a floe and points for each structure; FLOE_TIMES=1000 makes a million of them. */
 enum { POSES = 28, POINTS = 60 };
-static const double RADIUS = 0.05;
+enum { MM = 50 };
+static const double RADIUS = 1e-3 * MM;
 /* A mesh is known to the tolerance of its planes, 1e-6 of the size. */
 static const double PLANE_TOL = 1e-6;
-/* The overlap of a point of an edge is that of its part of the edge, which the quadrature may take longer than it
- * is: up to 0.01 radii more were seen. */
-static const double EDGE_EXCESS = 0.02;
+/* A face acts in its rim too, beyond its edge, where its plane may be deeper by the width of the rim. */
+static const double RIM = FL_PATCH_RIM_WIDTH * 1e-3 * MM;
 
 typedef struct {
     fl_surface surface;
@@ -78,7 +79,8 @@ static void every_point_is_inside_once_or_not_at_all(void **state)
         for (long c = 0; c < 100 && s.closed; c++) {
             fl_rng g = fl_rng_of(test_seed(), 10000 * k + c, FL_RNG_TEST);
             const double w = hull_winding(s.part, point_near(&s, &g));
-            if (fabs(w) > 1e-6 && fabs(w - 1.0) > 1e-6) fail_msg("%s %d: winding number %g", hull_name(k), k, w);
+            if (fabs(w) > 1e-6 && fabs(w - 1.0) > 1e-6)
+                fail_msg("%s %d: winding number %g", hull_name(k), k, w);
         }
         end(&s);
     }
@@ -100,7 +102,8 @@ static void a_point_is_inside_where_the_winding_number_says_so(void **state)
             if (hull_point_distance(s.part, x) < 1e-6 * s.piece->core.size) continue;
             if (!wrong++)
                 print_error("seed %llu: %s %d, point %ld: %.17g %.17g %.17g is %s\n",
-                            (unsigned long long)test_seed(), hull_name(k), k, c, x.x, x.y, x.z, in ? "in" : "out");
+                            (unsigned long long)test_seed(), hull_name(k), k, c, x.x, x.y, x.z,
+                            in ? "in" : "out");
         }
         end(&s);
     }
@@ -152,7 +155,7 @@ static int check_floe(const structure *s, const fl_poly *core, fl_patch_points *
     assert_true(found >= 0);
     if (d > 0.0 && !in) {
         n->clear += d >= RADIUS, n->near += d < RADIUS;
-        if (most > RADIUS - d + EDGE_EXCESS * RADIUS + PLANE_TOL * size)
+        if (most > RADIUS - d + RIM + PLANE_TOL * size)
             wrong = sprintf(why, "%g deep, and clear by %g", most, d);
         else if (s->closed && w->n == 0 && d < RADIUS - PLANE_TOL * size)
             wrong = sprintf(why, "no contact at a distance of %g", d);
@@ -168,7 +171,8 @@ static int check_floe(const structure *s, const fl_poly *core, fl_patch_points *
         else if (s->closed && most > 2.0 * RADIUS + deepest + PLANE_TOL * size)
             wrong = sprintf(why, "%g deep, and no corner is deeper than %g", most, deepest);
     }
-    if (wrong == 0 && distance > fmax(RADIUS, d + PLANE_TOL * size)) wrong = sprintf(why, "bound %g of %g", distance, d);
+    if (wrong == 0 && distance > fmax(RADIUS, d + PLANE_TOL * size))
+        wrong = sprintf(why, "bound %g of %g", distance, d);
     fl_mesh_under_face_free_pairs(&l);
     return wrong != 0;
 }
@@ -190,8 +194,8 @@ static void a_floe_is_as_far_from_a_structure_as_brute_force_finds(void **state)
             char why[200];
             random_floe(&core, &s, &g);
             if (check_floe(&s, &core, &w, &near, &n, why) && here++ < 3)
-                print_error("seed %llu: %s %d, pose %ld: %s\n", (unsigned long long)test_seed(), hull_name(k), k, c,
-                            why);
+                print_error("seed %llu: %s %d, pose %ld: %s\n", (unsigned long long)test_seed(), hull_name(k),
+                            k, c, why);
             fl_poly_free(&core);
         }
         wrong += here;

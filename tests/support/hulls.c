@@ -79,7 +79,10 @@ static void ship(fl_part *p, fl_rng *g, double flare, double bulb, int open)
                          wide = 4.0 * full * (0.25 + 0.75 * sqrt(h)) + flare * u * h * h * (1.0 - 0.8 * u) +
                                 bulb * exp(-30.0 * (u - 0.9) * (u - 0.9)) * h * (1 - h) * (h < 0.5) + 0.03;
             vertex(p, -15.0 + 30.0 * u + 5.0 * flare * u * u * h + bulb * u * u * (h < 0.5) * h,
-                   level == 0 ? 0.0 : port ? wide : -wide, z);
+                   level == 0 ? 0.0
+                   : port     ? wide
+                              : -wide,
+                   z);
         }
     }
     for (int s = 0; s + 1 < STATIONS; s++)
@@ -216,17 +219,20 @@ static void open_sheet(fl_part *p, fl_rng *g, double bend, double rough)
             else vertex(p, 6 * u, 6 * v, 6 * (r - 1.0));
         }
     for (int j = 0; j + 1 < N; j++)
-        for (int i = 0; i + 1 < N; i++) quad(p, g, j * N + i, j * N + i + 1, (j + 1) * N + i + 1, (j + 1) * N + i);
+        for (int i = 0; i + 1 < N; i++)
+            quad(p, g, j * N + i, j * N + i + 1, (j + 1) * N + i + 1, (j + 1) * N + i);
 }
 
 static const fl_vec3 ANGLE[3] = {{-6, 0, 0}, {0, 0, 0}, {4, 7, 0}},
                      CHANNEL[4] = {{-5, 6, 0}, {-5, -2, 0}, {5, -2, 0}, {5, 6, 0}},
-                     ZIGZAG[7] = {{-9, 0, 0}, {-6, 2, 0}, {-3, -1, 0}, {0, 2, 0}, {3, -1, 0}, {6, 2, 0}, {9, 0, 0}};
+                     ZIGZAG[7] = {{-9, 0, 0}, {-6, 2, 0}, {-3, -1, 0}, {0, 2, 0},
+                                  {3, -1, 0}, {6, 2, 0},  {9, 0, 0}};
 
 const char *hull_name(int k)
 {
-    static const char *const NAME[] = {"raked bow", "ship",       "barge with a moonpool", "folded plate", "jacket",
-                                       "bumpy ball", "hollow ball", "tank",                 "open ship",    "open sheet"};
+    static const char *const NAME[] = {"raked bow", "ship",       "barge with a moonpool", "folded plate",
+                                       "jacket",    "bumpy ball", "hollow ball",           "tank",
+                                       "open ship", "open sheet"};
     static const int FIRST[] = {0, 8, 13, 16, 22, 25, 30, 31, 32, 33};
     int m = 9;
     while (k < FIRST[m]) m--;
