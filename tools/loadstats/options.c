@@ -26,6 +26,7 @@ static const char *const CYCLE_RULE[] = {"astm", "iso", NULL};          /* as fl
 static const char *const RESIDUES[] = {"half", "repeat", "none", NULL}; /* as fl_residue_name() */
 static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none", NULL}; /* as fl_taper_name() */
 static const char *const FILTERS[] = {"low", "high", "band", "mean", NULL};        /* as fl_filter_name() */
+static const char *const PEAKS[] = {"max", "min", "abs", NULL}; /* as fl_peak_side_name() */
 static const char *const FORMATS[] = {"svg", "png", NULL};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 #define TINY 1e-300
@@ -433,14 +434,20 @@ static const fl_option OPTION[] = {
      .lo = 0.0,
      .hi = 1.0,
      .expected = "a number from 0 to 1"},
+    {.word = "peaks",
+     .argument = "WHAT",
+     .help = "peaks of the signal, max, of its negative, min, or of its absolute value, abs (max)",
+     .kind = FL_OPTION_CHOICE,
+     .at = AT(peaks),
+     .choice = PEAKS},
     {.word = "threshold",
      .argument = "X",
      .help = "only peaks above X, in the unit of the signal (0)",
      .kind = FL_OPTION_NUMBER,
      .at = AT(threshold),
-     .lo = 0.0,
+     .lo = -HUGE_NUMBER,
      .hi = HUGE_NUMBER,
-     .expected = "a number not below 0"},
+     .expected = "a number"},
     {.word = "bins",
      .letter = 'b',
      .argument = "N",
@@ -651,6 +658,8 @@ static int check_summary(struct options *o, fl_err *err)
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
     const int pictures = (o->plot || o->report) && !o->table->draw_runs;
+    if (o->peaks)
+        return fl_fail(err, FL_USAGE, "--peaks %s needs the whole record, not --%s", PEAKS[o->peaks], how);
     const int first = o->skips && isnan(o->skip[2]); /* the first load is not known in advance */
     const char *whole = first             ? "skip without GAP"
                         : o->step > 0.0   ? "step"
@@ -697,6 +706,12 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
     if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
         return fl_fail(err, FL_USAGE, "--sample blocks needs --block");
+    if (o->threshold < 0.0 && o->sample != SAMPLE_POT)
+        return fl_fail(
+            err, FL_USAGE,
+            "--threshold %g is below 0, which separate peaks are not: --peaks min has those of a negative "
+            "load, and --sample pot takes any threshold",
+            o->threshold);
     if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue needs --rule iso");
     if (o->report && strcmp(o->report, "-") == 0 && strcmp(o->out, "-") == 0)
         return fl_fail(err, FL_USAGE, "--report - needs --output for the table");
