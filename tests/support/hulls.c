@@ -51,9 +51,10 @@ static void fan(fl_part *p, int n, int32_t ring, int last)
 }
 
 /* The ten points of a barge with a sharp raked bow; the sides of the bow are bent quadrilaterals. */
-static void raked_bow(fl_part *p, fl_rng *g, double rake, double flare, double beam)
+static void raked_bow(fl_part *p, fl_rng *g, double entrance, double rake, double flare, double beam)
 {
-    const double x[2][3] = {{-20, 8, 8 + beam}, {-20 - flare, 8, 8 + beam + rake}}, z[2] = {-4.5, 2.5};
+    const double x[2][3] = {{-20, 8, 8 + entrance}, {-20 - flare, 8, 8 + entrance + rake}},
+                 z[2] = {-4.5, 2.5};
     for (int k = 0; k < 2; k++) {
         const double b = beam + (k ? 0.3 * flare : 0.0);
         vertex(p, x[k][0], -b, z[k]), vertex(p, x[k][1], -b, z[k]), vertex(p, x[k][2], 0, z[k]);
@@ -245,8 +246,8 @@ int hull_make(fl_surface *s, int k)
     fl_rng rng = fl_rng_of(77, k, FL_RNG_TEST), *g = &rng;
     must(fl_surface_add(s, "hull", 4, &err) < 0);
     fl_part *p = &s->part[s->n - 1];
-    if (k == 0) raked_bow(p, g, 6, 0, 6);
-    else if (k < 8) raked_bow(p, g, fl_rng_in(g, -4, 10), k % 3, fl_rng_in(g, 3, 9));
+    if (k == 0) raked_bow(p, g, 9, 6, 0, 6);
+    else if (k < 8) raked_bow(p, g, fl_rng_in(g, 5, 15), fl_rng_in(g, -4, 10), k % 3, fl_rng_in(g, 3, 9));
     else if (k < 13) ship(p, g, fl_rng_in(g, 0, 3), k % 2 ? fl_rng_in(g, 1, 4) : 0.0, 0);
     else if (k < 16) moonpool(p, g, k - 13, 4.0 - (k - 13));
     else if (k < 18) folded_plate(p, g, 3, ANGLE, k == 16 ? 0.4 : 0.02, 1.0);
