@@ -116,7 +116,7 @@ typedef struct {
     double dt_critical_contacts; /* smallest 2/omega by contacts alone, without bonds [s] */
     double dt_safe;        /* fl_automatic_step() at the start, at most 0.2 of 2/omega; a longer step updates
                      * stiffnesses more often [s] */
-    int automatic_dt; /* dt is that of fl_automatic_step(): overlaps at the start may shorten it */
+    int automatic_dt;      /* dt is that of fl_automatic_step(): overlaps at the start may shorten it */
     int32_t critical_body; /* body of dt_critical; b.total + mover for a mover; -1: none */
     int64_t step;
     double t0; /* time of step step0; from there on steps are of dt [s] */
