@@ -32,8 +32,8 @@ void lab_cone(lab *l, fl_cone c);
 void lab_prism(lab *l, int n, const fl_vec3 *xy, double z0, double z1);
 /* Build, and choose the step: dt > 0, or 0 for the automatic one.  Then the state is that of t = 0. */
 void lab_make(lab *l, double dt);
-/* Steps; returns 0, or the code of the error that ended them. A contact that begins deeper than its bodies moved
- * in the step ends the program, but in the first step, before which lab_pose() may have been called. */
+/* Steps; returns 0, or the code of the error that ended them. A contact that begins deeper than its bodies
+ * moved in the step ends the program, but in the first step, before which lab_pose() may have been called. */
 int lab_run(lab *l, int64_t steps);
 double lab_energy(lab *l); /* all stores */
 /* A world of its own: 196 square floes of 1.6 to 2.5 m that fly about between four walls without friction and
