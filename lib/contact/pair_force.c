@@ -21,8 +21,8 @@
 
 /* An overlap below this fraction of the coordinates it results from is rounding error. */
 #define ROUNDING 3e-14
-/* A contact that begins deeper than this multiple of the motion in the step is sudden: speeds are those of now, and
- * a predicted rotation is longer than its chord. */
+/* A contact that begins deeper than this multiple of the motion in the step is sudden: speeds are those of
+ * now, and a predicted rotation is longer than its chord. */
 #define SUDDEN 2.0
 
 #define INLINE static inline __attribute__((always_inline)) /* vectors by value go through memory */
@@ -587,8 +587,8 @@ static double step_motion(const fl_bodies *b, int32_t k, double reach, double dt
     return dt * (v3_norm(b->v[k]) + v3_norm(b->w[k]) * reach);
 }
 
-/* Records a contact that begins deeper than the bodies moved in the step, but for the rim of faces, which may be
- * so much deeper, and for rounding. */
+/* Records a contact that begins deeper than the bodies moved in the step, but for the rim of faces, which may
+ * be so much deeper, and for rounding. */
 static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pose *r, double dt)
 {
     const fl_bodies *b = &w->b;

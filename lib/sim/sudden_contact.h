@@ -6,8 +6,8 @@
 
 enum { FL_SUDDEN_TEXT = 512 };
 
-/* One sentence on the first sudden contact of w, w->sudden.n > 0, and on what to check: the surface of a mesh,
- * or the bodies. Returns text. */
+/* One sentence on the first sudden contact of w, w->sudden.n > 0, and on what to check: the surface of a
+ * mesh, or the bodies. Returns text. */
 const char *fl_sudden_contact_text(const fl_world *w, char text[FL_SUDDEN_TEXT]);
 
 #endif

@@ -37,7 +37,8 @@
 #define FL_DEEP_OVERLAP 0.5
 
 /* Contacts that began deeper than the two bodies moved in the step. No motion makes one, so the surface of a
- * part is not what it seems: it crosses itself, its normals are mixed, or it is open and ice comes from behind. */
+ * part is not what it seems: it crosses itself, its normals are mixed, or it is open and ice comes from
+ * behind. */
 typedef struct {
     int64_t n;             /* such contacts so far */
     int64_t step;          /* of the first; of several in one step the one of the lowest bodies */

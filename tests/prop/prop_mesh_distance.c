@@ -13,7 +13,7 @@
 /* Poses of a floe and points for each structure; FLOE_TIMES=1000 makes a million of them. */
 enum { POSES = 28, POINTS = 60 };
 
-/* A structure of few triangles is tried at more points: where the planes of a corner mislead is seldom hit. */
+/* A structure of few triangles is tried at more points: places where planes mislead are rare. */
 enum { TRIANGLE_POINTS = 80000 };
 enum { MM = 50 };
 static const double RADIUS = 1e-3 * MM;
@@ -67,8 +67,8 @@ static fl_vec3 away_from_corner(const fl_part *p, int32_t corner, fl_rng *g)
     return way;
 }
 
-/* A point of the structure, on a corner, an edge or a face as often each (mostly corners if there are few), and where and how far from there to
- * look. */
+/* A point of the structure, on a corner, an edge or a face as often each (mostly corners if there are few),
+ * and where and how far from there to look. */
 static fl_vec3 point_on(const structure *s, fl_rng *g, fl_vec3 *way, double *far)
 {
     const fl_part *p = s->part;
@@ -236,8 +236,8 @@ static void a_floe_is_as_far_from_a_structure_as_brute_force_finds(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* Spheres have a law of their own. On a closed mesh one touches if its centre is within the radius of the surface
- * or inside by less, with the overlap of the signed distance. */
+/* Spheres have a law of their own. On a closed mesh one touches if its centre is within the radius of the
+ * surface or inside by less, with the overlap of the signed distance. */
 static void a_sphere_overlaps_by_its_signed_distance(void **state)
 {
     (void)state;

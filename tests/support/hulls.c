@@ -39,7 +39,7 @@ static void strip(fl_part *p, fl_rng *g, int n, int32_t a, int32_t b)
     for (int k = 0; k < n; k++) quad(p, g, a + k, a + (k + 1) % n, b + (k + 1) % n, b + k);
 }
 
-/* A fan over a ring from a point of its own, facing as the strip to the next ring would if the ring shrank. */
+/* A fan over a ring from a point of its own, facing as the strip to the next ring would if it shrank. */
 static void fan(fl_part *p, int n, int32_t ring, int last)
 {
     fl_vec3 mid = v3(0, 0, 0);
@@ -97,7 +97,7 @@ static void ship(fl_part *p, fl_rng *g, double flare, double bulb, int open)
     fan(p, RING, (STATIONS - 1) * RING, 1);
 }
 
-/* An upright prism over a simple polygon with a hole of as many corners, or over the strip between two lines. */
+/* An upright prism over a simple polygon with a hole of as many corners. */
 static void ring_prism(fl_part *p, fl_rng *g, int n, const fl_vec3 *outer, const fl_vec3 *inner, double low,
                        double high)
 {

@@ -10,8 +10,8 @@ enum { HULLS = 36 };
 
 /* Adds the k-th structure, 0 <= k < HULLS, as one part: raked bows of few triangles, ships with flare and
  * bulb, barges with moonpools, thin fins, jackets of many tubes, bumpy balls, a hull with a cavity, a tank,
- * and open shells, in several proportions and with random diagonals of their quadrilaterals. Returns 1 if it is
- * closed, 0 if it is an open shell. */
+ * and open shells, in several proportions and with random diagonals of their quadrilaterals. Returns 1 if it
+ * is closed, 0 if it is an open shell. */
 int hull_make(fl_surface *s, int k);
 const char *hull_name(int k);
 
