@@ -16,10 +16,14 @@
 #include "law/material.h"
 #include "law/normal.h"
 #include "patch/force_sum.h"
+#include "patch/patch_law.h"
 #include "patch/stiffness_bound.h"
 
 /* An overlap below this fraction of the coordinates it results from is rounding error. */
 #define ROUNDING 3e-14
+/* A contact that begins deeper than this multiple of the motion in the step is sudden: speeds are those of
+ * now, and a predicted rotation is longer than its chord. */
+#define SUDDEN 2.0
 
 #define INLINE static inline __attribute__((always_inline)) /* vectors by value go through memory */
 
@@ -577,6 +581,30 @@ void fl_pair_evaluate(fl_world *w, fl_pair *p, int32_t thread, double dt, int su
     else fl_pair_evaluate_exact(w, p, thread, known ? &t : NULL, dt, survey);
 }
 
+/* Farthest that any point of body k can have moved in this step. */
+static double step_motion(const fl_bodies *b, int32_t k, double reach, double dt)
+{
+    return dt * (v3_norm(b->v[k]) + v3_norm(b->w[k]) * reach);
+}
+
+/* Records a contact that begins deeper than the bodies moved in the step, but for the rim of faces, which may
+ * be so much deeper, and for rounding. */
+static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pose *r, double dt)
+{
+    const fl_bodies *b = &w->b;
+    const double rho = b->bounding_radius[p->i], apart = v3_norm(r->off) + rho,
+                 moved = step_motion(b, p->i, rho, dt) + step_motion(b, p->j, apart, dt),
+                 radii = b->radius[p->i] + b->radius[p->j];
+    if (w->step == 0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii) return;
+#pragma omp critical(fl_sudden_contacts)
+    {
+        fl_sudden_contacts *const s = &w->sudden;
+        if (s->n++ == 0 || (s->step == w->step && (p->i < s->i || (p->i == s->i && p->j < s->j))))
+            s->step = w->step, s->i = p->i, s->j = p->j, s->overlap = p->overlap, s->moved = moved,
+            s->time = fl_world_time(w);
+    }
+}
+
 void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_surrogate_value *t, double dt,
                             int survey)
 {
@@ -584,6 +612,7 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     const double R = b->radius[p->i] + b->radius[p->j];
     const int first =
         p->bond && p->radius_factor == 0.0 && p->touching == 0; /* evaluation since its bond ended */
+    const int begins = !p->touching;
     const fl_relative_pose r = fl_relative_pose_of(w, p);
     const prediction a = prediction_of(w, p, &r, dt);
     fl_patch_points *s = &w->scratch[thread];
@@ -617,6 +646,7 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     fl_pair_set_free_travel(w, p, distance, R);
     return;
 touches:
+    if (begins) check_beginning(w, p, &r, dt);
     if (first) fl_bond_list_first_contact(w, p);
     return;
 failed:

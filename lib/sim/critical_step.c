@@ -369,7 +369,8 @@ fl_predicted_limit fl_predict_step_limit(const fl_world *w)
     int32_t body;
     damping_shares shares;
     const double largest = find_stiffest(w, 0, 1.0, &body, &shares);
-    if (largest == 0.0) return (fl_predicted_limit){.critical = INFINITY, .contact_share = 1.0};
+    if (largest == 0.0)
+        return (fl_predicted_limit){.critical = INFINITY, .contact_share = share_of(w, &shares)};
     fl_predicted_limit f = {.critical = 2.0 / sqrt(largest), .contact_share = share_of(w, &shares)};
     const double same = f.contact_share * f.critical, dt = fl_automatic_step(w, &body);
     if (w->bonds.n) f.bond_relief = 1.0 / (same * same) - 1.0 / (dt * dt);
@@ -380,6 +381,17 @@ double fl_longest_step(const fl_predicted_limit *f, double seen)
 {
     const double same = f->contact_share * seen;
     return seen < f->critical ? same / sqrt(1.0 - f->bond_relief * same * same) : INFINITY;
+}
+
+int fl_shorten_step_at_start(fl_world *w)
+{
+    if (!isfinite(w->dt_critical)) return 0;
+    const fl_predicted_limit limit = fl_predict_step_limit(w);
+    const double longest = fl_longest_step(&limit, w->dt_critical), every = w->scene->output.loads_every;
+    if (w->dt <= longest) return 0;
+    w->dt_safe = fmin(w->dt_safe, longest);
+    w->dt = every / ceil(every / longest * (1.0 - 1e-12));
+    return 1;
 }
 
 double fl_damped_share(const fl_world *w)

@@ -43,6 +43,12 @@ fl_predicted_limit fl_predict_step_limit(const fl_world *w);
  * limits then. */
 double fl_longest_step(const fl_predicted_limit *f, double seen);
 
+/* Shorten w->dt, an automatic step, to the longest step for the contacts that there are at the start, rounded
+ * so that rows of the loads are whole steps apart. Needs the stiffnesses of the present contacts,
+ * w->dt_critical. A scene whose bodies overlap by more than an impact would, or that are at rest with nothing
+ * to drive them, has stiffer contacts than predicted. Returns 1 if the step changed. */
+int fl_shorten_step_at_start(fl_world *w);
+
 /* 2/omega by prediction, without damping [s]. */
 double fl_critical_step(const fl_world *w);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/energy_balance.h"
+#include "sim/sudden_contact.h"
 #include <math.h>
 #include "base/parallel.h"
 #include "body/integrate.h"
@@ -74,6 +75,12 @@ int fl_energy_check(fl_world *w, fl_err *err)
         return fl_fail(err, FL_NUMERIC, "the energy is not a finite number in step %lld (t = %g s)",
                        (long long)w->step, fl_world_time(w));
     if (!w->deep_overlap_steps || !(g->residual > FL_ENERGY_ERROR_USABLE * scale)) return 0;
+    if (w->sudden.n) {
+        char text[FL_SUDDEN_TEXT];
+        return fl_fail(err, FL_NUMERIC, "%s; it created energy, %.3g J of %.3g J until step %lld (t = %g s)",
+                       fl_sudden_contact_text(w, text), g->residual, scale, (long long)w->step,
+                       fl_world_time(w));
+    }
     return fl_fail(
         err, FL_NUMERIC,
         "body %d and %d: they overlapped by more than half of their radii at t = %g s, and the contacts "

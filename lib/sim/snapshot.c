@@ -39,6 +39,13 @@ static void exchange_ledger(fl_state_io *t, fl_world *w)
     fl_state_io_int(t, -INT32_MAX, INT32_MAX, &w->deep_overlap_i);
     fl_state_io_int(t, -INT32_MAX, INT32_MAX, &w->deep_overlap_j);
     fl_state_io_real(t, &w->deep_overlap_time);
+    fl_state_io_count(t, &w->sudden.n);
+    fl_state_io_count(t, &w->sudden.step);
+    fl_state_io_int(t, -1, INT32_MAX, &w->sudden.i);
+    fl_state_io_int(t, -1, INT32_MAX, &w->sudden.j);
+    fl_state_io_real(t, &w->sudden.overlap);
+    fl_state_io_real(t, &w->sudden.moved);
+    fl_state_io_real(t, &w->sudden.time);
     fl_state_io_count(t, &w->contact_steps);
     fl_state_io_count(t, &w->searches);
     fl_state_io_count(t, &w->overlapping_cores);

@@ -342,6 +342,15 @@ int fl_step_start(fl_world *w, fl_err *err)
     }
     /* critical step */
     fl_stiffness_update(w);
+    if (w->automatic_dt && fl_shorten_step_at_start(w)) { /* damping and friction depend on the step */
+        if (w->panel_load.panels) fl_panels_clear(w);
+        if (run_step(&q)) return -1;
+        if (w->moving.movers.n) {
+            fl_moving_structure_set_step(w);
+            fl_moving_structure_second_half(w, 0.0, 0.0);
+        }
+        fl_stiffness_update(w);
+    }
     if (check_state(w, 1, err)) return -1;
 
     /* reference of the energy ledger */

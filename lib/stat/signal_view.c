@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
@@ -11,6 +12,12 @@ const char *fl_filter_name(int kind)
 {
     static const char *const name[FL_FILTER_KINDS] = {"low", "high", "band", "mean"};
     return name[kind];
+}
+
+const char *fl_peak_side_name(int side)
+{
+    static const char *const name[FL_PEAK_SIDES] = {"max", "min", "abs"};
+    return name[side];
 }
 
 static int design_filter(fl_butterworth *f, double fs, const fl_signal_view_settings *settings, fl_err *err)
@@ -64,15 +71,29 @@ static int compute_stats(fl_signal_view *v, const fl_signal_view_settings *setti
     return rc;
 }
 
+/* Sets y, the signal whose maxima are the peaks. */
+static int turn_signal(fl_signal_view *v, int side, fl_err *err)
+{
+    v->y = v->x;
+    if (side == FL_PEAK_MAX) return 0;
+    v->turned = fl_alloc(v->n, sizeof *v->turned, err);
+    if (!v->turned) return -1;
+    for (int32_t k = 0; k < v->n; k++) v->turned[k] = side == FL_PEAK_ABS ? fabs(v->x[k]) : -v->x[k];
+    v->y = v->turned;
+    return 0;
+}
+
 static int rank_peaks(fl_signal_view *v, const fl_signal_view_settings *settings, fl_err *err)
 {
-    if (fl_peaks_rayleigh(v->n, v->x, settings->ratio, settings->threshold, &v->peaks, err)) return -1;
+    if (turn_signal(v, settings->side, err) ||
+        fl_peaks_rayleigh(v->n, v->y, settings->ratio, fmax(settings->threshold, 0.0), &v->peaks, err))
+        return -1;
     const int32_t n = v->peaks.n;
     double *value = fl_alloc(n, sizeof *value, err);
     v->peak_rank = value ? fl_alloc(n, sizeof *v->peak_rank, err) : NULL;
     v->peak_value = v->peak_rank ? fl_alloc(n, sizeof *v->peak_value, err) : NULL;
     int rc = v->peak_value ? 0 : -1;
-    for (int32_t k = 0; rc == 0 && k < n; k++) value[k] = v->x[v->peaks.row[k]];
+    for (int32_t k = 0; rc == 0 && k < n; k++) value[k] = v->y[v->peaks.row[k]];
     if (rc == 0) rc = fl_rank_descending(n, value, v->peak_rank, err);
     for (int32_t k = 0; rc == 0 && k < n; k++) v->peak_value[k] = value[v->peak_rank[k]];
     free(value);
@@ -95,6 +116,7 @@ int fl_signal_view_make(fl_signal_view *v, const fl_series *s, int32_t part, int
 void fl_signal_view_free(fl_signal_view *v)
 {
     free(v->owned);
+    free(v->turned);
     fl_peaks_free(&v->peaks);
     free(v->peak_rank);
     free(v->peak_value);

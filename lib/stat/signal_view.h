@@ -12,10 +12,12 @@ typedef struct {
     int32_t n;
     const double *t, *edge, *x; /* [n], [n + 1], [n]: borrowed from the series, or in owned */
     double *owned;              /* memory of a filtered view, or NULL */
+    const double *y;            /* [n] the signal whose maxima are the peaks: x, or turned */
+    double *turned;             /* memory of y where it is not x, or NULL */
     fl_descriptive_stats stats;
     fl_peaks peaks;
     int32_t *peak_rank; /* [peaks.n] peak_rank[0] is the index in peaks.row of the largest */
-    double *peak_value; /* [peaks.n] the peaks in descending order */
+    double *peak_value; /* [peaks.n] the peaks, of y, in descending order */
     double *quantile;   /* [quantiles] */
 } fl_signal_view;
 
@@ -25,17 +27,25 @@ enum fl_filter_kind { FL_FILTER_LOW, FL_FILTER_HIGH, FL_FILTER_BAND, FL_FILTER_M
 /* "low", "high", "band", "mean" */
 const char *fl_filter_name(int kind);
 
+/* What counts as a peak: the maxima of y = x, of y = -x, or of y = |x|. */
+enum fl_peak_side { FL_PEAK_MAX, FL_PEAK_MIN, FL_PEAK_ABS, FL_PEAK_SIDES };
+
+/* "max", "min", "abs" */
+const char *fl_peak_side_name(int side);
+
 /* Settings of a view.
  *   filter       -3 dB frequency of one pass, or the lower one of a band [Hz], or the length of a moving mean
  *                [s]; 0 for the raw view
  *   kind, upper  fl_filter_kind; the upper frequency of a band [Hz]
  *   order        of a Butterworth filter
- *   ratio, threshold   of fl_peaks_rayleigh()
+ *   ratio, threshold   of fl_peaks_rayleigh(), for y; a threshold below 0 is 0 there
+ *   side         fl_peak_side
  *   p[quantiles] in 0 .. 1 */
 typedef struct {
     double filter, upper;
     int kind, order;
     double ratio, threshold;
+    int side;
     int32_t quantiles;
     const double *p;
 } fl_signal_view_settings;

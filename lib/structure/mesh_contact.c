@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "structure/mesh_contact.h"
+#include "structure/mesh_side.h"
 #include "narrow/closest_point.h"
 #include "patch/patch_law.h"
 #include "patch/plane_distances.h"
@@ -55,20 +56,34 @@ static inline void try_face(nearest_search *b, const fl_poly *p, int32_t f, fl_v
     if (q.d < b->at.d - b->same || fabs(s) > fabs(b->front)) b->at = q, b->front = s, b->of = f;
 }
 
+/* Normals that differ by less are of one plane: the tolerance of the planes over the smallest side of a tile
+ * that matters. More planes than there are only take the longer way. */
+#define SAME_NORMAL 1e-9
+
 /* Height of x in front of the surface: the largest among the faces that meet in the nearest point, seen from
- * that point, since the plane of a face may miss its corners. */
+ * that point, since the plane of a face may miss its corners. If more than two planes meet there and x is in
+ * front of one and behind another, the corner as a whole decides the side. */
 static double height_in_front(const nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
     const fl_vec3 r = v3_sub(x, b->at.p);
     const double same = EDGE_TOL * p->size;
-    double most = v3_dot(p->n[b->of], r);
+    const fl_vec3 first = p->n[b->of];
+    fl_vec3 second = first;
+    double most = v3_dot(first, r), low = most, high = most;
+    int planes = 1;
     if (fabs(most) > NORMAL_COSINE * b->at.d) return most;
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, b->at.p);
     for (int32_t f; (f = fl_bvh_walk_next(&at, same)) >= 0;) {
         const double s = v3_dot(p->n[f], r);
-        if (fabs(s) > fabs(most) && fl_closest_on_face(p, f, b->at.p).d <= same) most = s;
+        if (fl_closest_on_face(p, f, b->at.p).d > same) continue;
+        if (fabs(s) > fabs(most)) most = s;
+        low = fmin(low, s), high = fmax(high, s);
+        if (v3_norm2(v3_sub(p->n[f], first)) <= SAME_NORMAL * SAME_NORMAL) continue;
+        if (planes == 1) second = p->n[f], planes = 2;
+        else if (v3_norm2(v3_sub(p->n[f], second)) > SAME_NORMAL * SAME_NORMAL) planes = 3;
     }
-    return most;
+    if (planes < 3 || low * high >= 0.0) return most;
+    return fl_mesh_side(p, sh, x, b->at.p, same) < 0.0 ? -fabs(most) : fabs(most);
 }
 
 /* Signs the distance: a point nearest to a rim is beside the surface, not behind it. */
@@ -170,16 +185,45 @@ static int list_near_features(fl_feature_set *r, const fl_poly *core, const fl_p
     return 0;
 }
 
+static fl_vec3 middle_of(const fl_vec3 *v, int32_t n)
+{
+    fl_vec3 middle = v3(0, 0, 0);
+    for (int32_t k = 0; k < n; k++) middle = v3_madd(middle, 1.0 / n, v[k]);
+    return middle;
+}
+
+/* True if the straight way from a to b leads through the surface, from its front to its back; -1 when memory
+ * runs out. */
+static int leads_through(fl_feature_set *r, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 a, fl_vec3 b)
+{
+    r->faces = query_boxes(&sh->tree, sh->box, aabb_add((fl_aabb){a, a}, b), &r->face, &r->face_cap);
+    for (int32_t k = 0; k < r->faces; k++) {
+        const int32_t f = r->face[k];
+        const double ha = v3_dot(p->n[f], a) - p->c[f], hb = v3_dot(p->n[f], b) - p->c[f];
+        if (ha <= 0.0 || hb > 0.0) continue;
+        if (fl_closest_on_face(p, f, v3_madd(a, ha / (ha - hb), v3_sub(b, a))).d <= EDGE_TOL * p->size)
+            return 1;
+    }
+    return r->faces < 0 ? -1 : 0;
+}
+
 /* Evaluates the vertices of the core that may be behind the surface. Adds the contact points of those behind,
- * and sets *behind if there are any. */
-static int add_vertices_behind(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B,
-                               const fl_piece_mesh *sh, const fl_feature_pairs *l, double ra, int *behind)
+ * and sets *behind if there are any. An open surface has gone into the core if it lies between its middle and
+ * the vertex; else the vertex has come round the rim, or the core from the back. */
+static int add_vertices_behind(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
+                               const fl_patch_core *B, const fl_piece_mesh *sh, const fl_feature_pairs *l,
+                               double ra, int *behind)
 {
     *behind = 0;
     for (int32_t k = 0; k < l->candidates; k++) {
         const int32_t v = l->candidate[k];
         const fl_closest_point q = signed_nearest(B->p, sh, w->va[v]);
         if (q.d >= 0.0) continue;
+        if (!sh->closed) {
+            const int through = leads_through(&near->of_mesh, B->p, sh, middle_of(w->va, A->p->nv), w->va[v]);
+            if (through < 0) return -1;
+            if (!through) continue;
+        }
         *behind = 1;
         if (fl_patch_points_add_vertex(w, A, 0.0, v, q.n, ra - q.d)) return -1;
     }
@@ -277,7 +321,7 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
         return 0;
     }
     *distance = ra; /* a face is near: no bound is claimed */
-    if (add_vertices_behind(w, &A, &B, &b->mesh, l, ra, &behind)) return -1;
+    if (add_vertices_behind(w, near, &A, &B, &b->mesh, l, ra, &behind)) return -1;
     if (behind) { /* a vertex farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
         if (bound_distance(w, near, a, &b->mesh, ra, &beside)) return -1;
@@ -353,9 +397,7 @@ int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const
 
 int fl_mesh_contact_contains(const fl_piece *b, fl_vec3 x)
 {
-    for (int32_t e = 0; e < b->core.ne; e++)
-        if (b->core.edge[e].left < 0 || b->core.edge[e].right < 0) return 0;
-    return signed_nearest(&b->core, &b->mesh, x).d < 0.0;
+    return b->mesh.closed && signed_nearest(&b->core, &b->mesh, x).d < 0.0;
 }
 
 int fl_mesh_contact_gap(fl_mesh_contact_work *near, const fl_vec3 *v, const fl_poly *a, const fl_piece *b,

@@ -6,8 +6,9 @@
  * less than 60 degrees, points and edges count over the nearer of its faces (feature_pairs.c). In a sharper
  * inner corner every wall acts independently. A vertex behind the surface has one distance, to the nearest
  * face. A point whose nearest point lies on the rim of an open surface is beside it, not behind. An open
- * surface is one-sided: a core that has come round to its back overlaps it by its distance. Spheres have a
- * law of their own (persistence_contact.h). */
+ * surface is one-sided: a vertex is behind it if the surface lies between it and the middle of the core. One
+ * that has come round the rim, or from the back, is not. Spheres have a law of their own
+ * (persistence_contact.h). */
 #ifndef FL_STRUCTURE_MESH_CONTACT_H
 #define FL_STRUCTURE_MESH_CONTACT_H
 #include "structure/structure.h"

@@ -437,6 +437,18 @@ static int32_t find_inward_body(const fl_coplanar_regions *f, fl_err *err)
     return inward;
 }
 
+/* A mesh without a rim, and whether it is solid inside or, as a tank, outside. */
+static void find_solid_side(fl_piece *piece, const fl_part *p)
+{
+    fl_piece_mesh *mesh = &piece->mesh;
+    double volume = 0.0;
+    mesh->closed = 1;
+    for (int32_t e = 0; e < piece->core.ne; e++)
+        if (piece->core.edge[e].left < 0 || piece->core.edge[e].right < 0) mesh->closed = 0;
+    for (int32_t t = 0; t < p->nt; t++) volume += six_volumes(p, t, piece->x);
+    mesh->outer_winding = volume < 0.0 ? -1.0 : 0.0;
+}
+
 static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)
 {
     fl_coplanar_regions f = {0};
@@ -451,6 +463,7 @@ static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err
     else if (check_orientation(&f, err)) goto done;
     else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_mesh(piece, &f, err);
     piece->one_sided = flat && !plate;
+    if (rc == 0 && piece->kind == FL_PIECE_MESH) find_solid_side(piece, p);
     if (rc == 0 && f.closed && piece->kind == FL_PIECE_MESH &&
         (piece->inward_triangle = find_inward_body(&f, err)) < 0)
         rc = -1;

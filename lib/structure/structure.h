@@ -35,6 +35,8 @@ typedef struct {
     int32_t *concave_face; /* core.concave_face */
     uint8_t *saddle;       /* core.saddle */
     fl_tile_seams seams;   /* only after fl_structure_prepare_spheres() */
+    int closed;            /* no rim: every edge has a face on both sides */
+    double outer_winding;  /* winding number of what is in front: 0, or -1 if all outside is solid */
 } fl_piece_mesh;
 
 typedef struct {

@@ -36,6 +36,17 @@
  * the cores meet. */
 #define FL_DEEP_OVERLAP 0.5
 
+/* Contacts that began deeper than the two bodies moved in the step. No motion makes one, so the surface of a
+ * part is not what it seems: it crosses itself, its normals are mixed, or it is open and ice comes from
+ * behind. */
+typedef struct {
+    int64_t n;             /* such contacts so far */
+    int64_t step;          /* of the first; of several in one step the one of the lowest bodies */
+    int32_t i, j;          /* its bodies */
+    double overlap, moved; /* its overlap, and the way of the two in that step [m] */
+    double time;           /* [s] */
+} fl_sudden_contacts;
+
 typedef struct {
     const fl_scene *scene; /* borrowed */
 
@@ -106,6 +117,7 @@ typedef struct {
     double dt_critical_contacts; /* smallest 2/omega by contacts alone, without bonds [s] */
     double dt_safe;        /* fl_automatic_step() at the start, at most 0.2 of 2/omega; a longer step updates
                      * stiffnesses more often [s] */
+    int automatic_dt;      /* dt is that of fl_automatic_step(): overlaps at the start may shorten it */
     int32_t critical_body; /* body of dt_critical; b.total + mover for a mover; -1: none */
     int64_t step;
     double t0; /* time of step step0; from there on steps are of dt [s] */
@@ -127,6 +139,7 @@ typedef struct {
     int64_t deep_overlap_steps;             /* steps with an overlap above FL_DEEP_OVERLAP */
     int32_t deep_overlap_i, deep_overlap_j; /* ids of the first two with such an overlap */
     double deep_overlap_time;               /* and its time [s] */
+    fl_sudden_contacts sudden;              /* contacts that begin deeper than the bodies moved */
     int64_t contact_steps;                  /* sum over steps of the number of contacts */
     int64_t searches, overlapping_cores;    /* neighbour searches; evaluations with overlapping cores */
     fl_penetration_count penetration_count;

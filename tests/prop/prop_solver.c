@@ -194,6 +194,7 @@ static uint64_t hash_about_sheet(int64_t seed, int every)
         assert_int_equal(
             fl_surface_triangle(&l.surface.part[0], TRIANGLE[k][0], TRIANGLE[k][1], TRIANGLE[k][2], &err), 0);
     lab_make(&l, 5e-5);
+    l.through = 1;
     const int rc = lab_run(&l, 2000);
     const uint64_t hash = fl_state_hash(&l.w) + (uint64_t)rc;
     lab_free(&l);

@@ -10,6 +10,7 @@
 #include "scene/scene_read.h"
 #include "sim/energy_balance.h"
 #include "sim/setup.h"
+#include "sim/sudden_contact.h"
 #include "sphere/contact_list.h"
 #include "sim/critical_step.h"
 #include "contact/pair_force.h"
@@ -188,11 +189,17 @@ void lab_make(lab *l, double dt)
 int lab_run(lab *l, int64_t steps)
 {
     fl_err err = {0};
+    int64_t sudden = l->w.sudden.n;
     for (int64_t k = 0; k < steps; k++) {
         if (fl_step(&l->w, &err)) {
             printf("lab: %s\n", err.text);
             return err.code;
         }
+        if (k == 0) sudden = l->w.sudden.n; /* bodies may have been put elsewhere before */
+        if (l->through || l->w.sudden.n == sudden) continue;
+        char text[FL_SUDDEN_TEXT];
+        printf("lab: %s\n", fl_sudden_contact_text(&l->w, text));
+        exit(1);
     }
     return 0;
 }

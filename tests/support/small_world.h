@@ -10,6 +10,7 @@ typedef struct {
     fl_surface surface;
     fl_world w;
     int made;
+    int through; /* bodies are put through surfaces: contacts may begin deeper than bodies move */
 } lab;
 
 /* No gravity, no damping, no friction, one thread; keys as for --set ("material.ice.young=1 GPa").  A
@@ -33,7 +34,8 @@ void lab_cone(lab *l, fl_cone c);
 void lab_prism(lab *l, int n, const fl_vec3 *xy, double z0, double z1);
 /* Builds the world and sets the step: dt > 0, or 0: automatic.  Then the state is that of t = 0. */
 void lab_make(lab *l, double dt);
-/* Runs steps; returns 0, or the code of the error that ended them. */
+/* Runs steps; returns 0, or the code of the error that ended them.  A contact that begins deeper than its
+ * bodies moved in the step ends the program, but in the first step, before which lab_pose() may be called. */
 int lab_run(lab *l, int64_t steps);
 double lab_energy(lab *l); /* all stores */
 /* A world of its own: 196 square floes of 1.6 to 2.5 m that move between four walls without friction and

@@ -9,6 +9,7 @@
 #include "sim/neighbour_list.h"
 #include "sim/step.h"
 #include "sphere/contact_list.h"
+#include "step_choice.h"
 #include "table_rows.h"
 #include "warnings.h"
 #include "water/force_table.h"
@@ -100,9 +101,10 @@ int print_plan(struct run *r, FILE *f, fl_err *err)
     const double begun = wall_clock();
     double spent = 0.0;
     char water[FL_WATER_FORCES_MAX][FL_FORCE_TEXT];
+    const double chosen = w->dt;
     const int bad = fl_step_start(w, err);
     if (!bad || err->code == FL_NUMERIC) warn_at_start(r); /* as before the run itself */
-    if (bad) return -1;
+    if (bad || update_chosen_step(r, chosen, err)) return -1;
     describe_forces(w, water);
     while (w->step < r->steps && (spent = wall_clock() - begun) < 0.5)
         if (fl_step(w, err)) return -1;

@@ -102,9 +102,10 @@ static int follow_run(struct run *r, fl_err *err)
 
 static int start_run(struct run *r, struct outputs *u, fl_err *err)
 {
+    const double chosen = r->w->dt;
     const int bad = fl_step_start(r->w, err);
     if (!bad || err->code == FL_NUMERIC) warn_at_start(r); /* it may explain why the step is too long */
-    if (bad) return -1;
+    if (bad || update_chosen_step(r, chosen, err)) return -1;
     warn_at_row(r, 0.0);
     return write_due(r, u, err);
 }

@@ -83,5 +83,19 @@ void choose_step(struct run *r)
         dt = every / ceil(every / dt * (1.0 - 1e-12));
     }
     r->w->dt = dt;
+    r->w->automatic_dt = !r->budget && r->scene->run.dt <= 0.0;
     count_steps(r);
+}
+
+int update_chosen_step(struct run *r, double chosen, fl_err *err)
+{
+    const fl_world *w = r->w;
+    char name[64];
+    if (w->dt == chosen) return 0;
+    snprintf(r->step_by, sizeof r->step_by, "overlaps at the start, %.3g of the critical %.4g s of %s",
+             w->dt / w->dt_critical, w->dt_critical, body_name(w, w->critical_body, name));
+    r->step_body = w->critical_body;
+    r->critical = w->dt_critical;
+    count_steps(r);
+    return check_step_count(r, err);
 }

@@ -11,6 +11,10 @@
  * interval of the loads.  Sets r->w->dt, critical, step_body, step_by and steps. */
 void choose_step(struct run *r);
 
+/* After fl_step_start(), which may have shortened the automatic step: counts the steps anew and says so.
+ * `chosen` is the step of choose_step(). -1 with FL_INPUT if there are too many. */
+int update_chosen_step(struct run *r, double chosen, fl_err *err);
+
 /* First step at or after time t; a step that differs from t by rounding alone counts as at t. */
 int64_t step_at(const fl_world *w, double t);
 

@@ -4,6 +4,7 @@
 #include <string.h>
 #include "sim/energy_balance.h"
 #include "sim/moving_structure.h"
+#include "sim/sudden_contact.h"
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
 
@@ -184,6 +185,15 @@ void warn_at_row(struct run *r, double t)
     }
 }
 
+static void warn_sudden(const fl_world *w)
+{
+    char text[FL_SUDDEN_TEXT];
+    if (!w->sudden.n) return;
+    fprintf(stderr, "dem-solve: warning: %" PRId64 " %s deeper than the bodies moved, first: %s\n",
+            w->sudden.n, w->sudden.n == 1 ? "contact begins" : "contacts begin",
+            fl_sudden_contact_text(w, text));
+}
+
 static void warn_overlapped(const fl_world *w)
 {
     if (!w->deep_overlap_steps) return;
@@ -271,6 +281,7 @@ static void warn_fallen(const fl_world *w)
 void warn_at_end(const struct run *r, int failed)
 {
     if (!failed) warn_fallen(r->w);
+    warn_sudden(r->w);
     warn_overlapped(r->w);
     if (!failed && r->budget) warn_budget(r);
     if (!failed) warn_energy(r->w); /* else the failure is reported */

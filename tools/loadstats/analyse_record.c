@@ -26,6 +26,7 @@ static int make_view(fl_signal_view *v, const fl_series *s, const struct options
                                               .order = o->order,
                                               .ratio = o->separation,
                                               .threshold = o->threshold,
+                                              .side = o->peaks,
                                               .quantiles = o->quantiles,
                                               .p = o->quantile};
     if (!s->x[pair]) return 0;

@@ -101,7 +101,8 @@ void history_line_run(const struct options *o, fl_history_line *by)
         return;
     }
     add_number(by, "separation", o->separation);
-    if (o->threshold > 0.0) add_number(by, "threshold", o->threshold);
+    if (o->peaks) fl_history_line_add(by, "--peaks %s", fl_peak_side_name(o->peaks));
+    if (o->threshold != 0.0) add_number(by, "threshold", o->threshold);
     if ((uses & USES_BINS) && !settings_many_runs(o)) fl_history_line_add(by, "--bins %d", o->bins);
     if ((uses & USES_QUANTILES) && o->quantiles_text)
         fl_history_line_add(by, "--quantiles %s", o->quantiles_text);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include "options_check.h"
+#include "stat/peaks.h"
 #include "table_list.h"
 
 /* Tables of contacts or panels have no signals. */
@@ -48,6 +49,9 @@ static int check_summary(struct options *o, fl_err *err)
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
     const int pictures = (o->plot || o->report) && !o->table->draw_runs;
+    if (o->peaks)
+        return fl_fail(err, FL_USAGE, "--peaks %s needs the whole record, not --%s",
+                       fl_peak_side_name((enum fl_peak_side)o->peaks), how);
     const int first = o->skips && isnan(o->skip[2]); /* the first load is not known in advance */
     const char *whole = first             ? "skip without GAP"
                         : o->step > 0.0   ? "step"
@@ -71,6 +75,11 @@ int options_check(struct options *o, fl_err *err)
         return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
     if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
         return fl_fail(err, FL_USAGE, "--sample blocks needs --block");
+    if (o->threshold < 0.0 && o->sample != SAMPLE_POT)
+        return fl_fail(err, FL_USAGE,
+                       "--threshold %g is below 0, which separate peaks are not: --peaks min has those of a "
+                       "negative load, and --sample pot takes any threshold",
+                       o->threshold);
     if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue needs --rule iso");
     if (o->report && strcmp(o->report, "-") == 0 && strcmp(o->out, "-") == 0)
         return fl_fail(err, FL_USAGE, "--report - needs --output for the table");

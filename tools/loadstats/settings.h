@@ -38,6 +38,7 @@ struct options {
     double filter, upper;    /* [Hz], length of a moving mean [s]; 0 for none; upper limit of a band */
     int filter_kind, order;  /* fl_filter_kind */
     double separation, threshold;
+    int peaks; /* fl_peak_side */
     int32_t bins;
     double quantile[QUANTILES_MAX];
     int32_t quantiles;

@@ -27,7 +27,7 @@ static int sorted_values(extreme_sample *s, const fl_signal_view *v, const fl_pe
     s->x = rank ? fl_alloc(p->n, sizeof *s->x, err) : NULL;
     int rc = s->x ? 0 : -1;
     s->n = p->n;
-    for (int32_t k = 0; rc == 0 && k < p->n; k++) x[k] = v->x[p->row[k]];
+    for (int32_t k = 0; rc == 0 && k < p->n; k++) x[k] = v->y[p->row[k]];
     if (rc == 0) rc = fl_rank_descending(p->n, x, rank, err);
     for (int32_t k = 0; rc == 0 && k < p->n; k++) s->x[k] = x[rank[k]];
     free(x);
@@ -45,10 +45,10 @@ int extreme_sample_make(extreme_sample *s, const fl_signal_view *v, const struct
     if (o->sample == SAMPLE_PEAKS) {
         rc = sorted_values(s, v, &v->peaks, err);
     } else if (o->sample == SAMPLE_POT) {
-        rc = fl_sample_peaks_over_threshold(v->n, v->x, v->edge, o->threshold, o->gap, &p, err);
+        rc = fl_sample_peaks_over_threshold(v->n, v->y, v->edge, o->threshold, o->gap, &p, err);
         if (rc == 0) rc = sorted_values(s, v, &p, err);
     } else {
-        rc = fl_sample_block_maxima(v->n, v->x, v->edge, o->block, &p, &blocks, err);
+        rc = fl_sample_block_maxima(v->n, v->y, v->edge, o->block, &p, &blocks, err);
         if (rc == 0) rc = sorted_values(s, v, &p, err);
     }
     /* A block without rows has no maximum, which lowers the rate of the others. */

@@ -19,7 +19,7 @@ int legs_rows(FILE *f, const struct record_views *r, const struct options *o, in
     const double level = o->level * d->max;
     double rise = 0.0, duration = 0.0;
     for (int32_t k = 0; k < n; k++) {
-        const fl_event e = fl_event_of(v->n, v->x, v->edge, &v->peaks, k, o->level);
+        const fl_event e = fl_event_of(v->n, v->y, v->edge, &v->peaks, k, o->level);
         rise += e.rise / n;
         duration += e.duration / n;
     }
@@ -51,10 +51,10 @@ int events_rows(FILE *f, const struct record_views *r, const struct options *o, 
     (void)err;
     const fl_signal_view *v = find_view(r, part, signal, w);
     for (int32_t k = 0; k < v->peaks.n; k++) {
-        const fl_event e = fl_event_of(v->n, v->x, v->edge, &v->peaks, k, o->level);
+        const fl_event e = fl_event_of(v->n, v->y, v->edge, &v->peaks, k, o->level);
         write_labels(f, r, part, signal, w);
         write_cell(f, v->t[e.peak]);
-        write_cell(f, v->x[e.peak]);
+        write_cell(f, v->y[e.peak]);
         write_cell(f, v->edge[e.first]);
         write_cell(f, v->edge[e.last + 1]);
         write_cell(f, e.rise);

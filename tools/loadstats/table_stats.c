@@ -41,7 +41,7 @@ int peaks_rows(FILE *f, const struct record_views *r, const struct options *o, i
     for (int32_t k = 0; k < v->peaks.n; k++) {
         write_labels(f, r, part, signal, w);
         write_cell(f, v->t[v->peaks.row[k]]);
-        write_cell(f, v->x[v->peaks.row[k]]);
+        write_cell(f, v->y[v->peaks.row[k]]);
         putc('\n', f);
     }
     return 0;
@@ -73,6 +73,7 @@ int histogram_rows(FILE *f, const struct record_views *r, const struct options *
         const fl_signal_view *v = find_view(r, part, signal, w);
         lo = fmin(lo, v->stats.min);
         hi = fmax(hi, v->stats.max);
+        if (v->y != v->x && v->peaks.n) hi = fmax(hi, v->peak_value[0]);
     }
     for (int w = 0; w < r->view_count && rc == 0; w++) {
         const fl_signal_view *v = find_view(r, part, signal, w);

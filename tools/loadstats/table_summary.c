@@ -157,7 +157,7 @@ int fits_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struc
                               .signal = &signal,
                               .unit = &unit,
                               .x = &x};
-    const fl_signal_view view = {.n = (int32_t)n, .t = edge, .edge = edge, .x = x};
+    const fl_signal_view view = {.n = (int32_t)n, .t = edge, .edge = edge, .x = x, .y = x};
     const struct record_views r = {.series = &series, .views = &view, .view_count = 1};
     const int rc = o->table->view_rows(f, &r, &own, 0, 0, 0, err);
     free(x);
