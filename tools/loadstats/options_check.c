@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 #include "options_check.h"
-#include "stat/peaks.h"
+#include "stat/signal_view.h"
 #include "table_list.h"
 
 /* Tables of contacts or panels have no signals. */
@@ -51,7 +51,7 @@ static int check_summary(struct options *o, fl_err *err)
     const int pictures = (o->plot || o->report) && !o->table->draw_runs;
     if (o->peaks)
         return fl_fail(err, FL_USAGE, "--peaks %s needs the whole record, not --%s",
-                       fl_peak_side_name((enum fl_peak_side)o->peaks), how);
+                       fl_peak_side_name(o->peaks), how);
     const int first = o->skips && isnan(o->skip[2]); /* the first load is not known in advance */
     const char *whole = first             ? "skip without GAP"
                         : o->step > 0.0   ? "step"
