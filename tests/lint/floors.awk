@@ -2,7 +2,7 @@
 # floors.awk -- the rules of the house that can be read from the text of a file.  Files are named as arguments, paths
 # from the root of the tree.  Prints "file:line: complaint"; status 1 when there was one.
 BEGIN {
-    n = split("base geom shim mesh broad ice stat law scene body narrow patch water bond structure out world contact sphere sim", floor)
+    n = split("base geom shim mesh broad ice stat law scene body narrow patch water bond member structure out world contact sphere sim", floor)
     for (k = 1; k <= n; k++) rank[floor[k]] = k
     # Spelt so that this file does not hold them.
     marks = "(^|[^A-Za-z_])(TO" "DO|FIX" "ME|XX" "X)([^A-Za-z_]|$)"
