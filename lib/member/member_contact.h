@@ -61,7 +61,7 @@ static inline double fl_member_arcsine(double s2)
     /* Coefficients of the series of asin(s)/s; the first term left out is below 1e-17 up to s2 = 0.0125. */
     static const double c[] = {1.0 / 6,     3.0 / 40,      5.0 / 112,      35.0 / 1152,
                                63.0 / 2816, 231.0 / 13312, 143.0 / 10240, 6435.0 / 557056};
-    if (s2 <= 0.0125)
+    if (!(s2 > 0.0125)) /* a number that is none ends here too */
         return c[0] + s2 * (c[1] + s2 * (c[2] + s2 * (c[3] + s2 * (c[4] + s2 * (c[5] + s2 * (c[6] + s2 * c[7]))))));
     /* Half the angle: sin(t/4)2 = s2/(2(1 + w)), t/2 = 2 asin(sin(t/4)); down to where the series holds. */
     double factor = 1.0, q2 = s2, s = sqrt(s2);

@@ -9,7 +9,7 @@ enum {
     NEGATIVE_MOST = 10, /* successive steps without a root */
     SLOW_FACTOR = 10,   /* kinetic damping is given up at that many times the steps of the last point */
     SLOW_LEAST = 500,
-    STEPS_LEAST = 200, /* wanted for a point, of a small structure */
+    STEPS_LEAST = 200, /* wanted for a point at least */
     STEPS_FAIL = 200   /* times the wanted steps: the point is given up */
 };
 /* Smallest dl, over that which a point began with. */
@@ -120,10 +120,10 @@ typedef struct {
     int64_t steps, negative;
 } relaxation_run;
 
+/* Steps that a point may take before dl becomes smaller: the first point tells how slow the structure is. */
 static double wanted_steps(const fl_path *p)
 {
-    const double n = 8.0 * p->chain->balls;
-    return n < STEPS_LEAST ? STEPS_LEAST : n;
+    return fmax(STEPS_LEAST, fmax(8.0 * p->chain->balls, 2.0 * (double)p->first_steps));
 }
 
 /* Unit of forces: loads, or what imposed displacements need. */
@@ -219,7 +219,11 @@ static double chord_share(fl_path *p, double dl, relaxation_run *r)
         r->target = p->w[n] / c->load_norm + dl;
         x = dl / ((p->w[n] - p->w[n - 1]) / c->load_norm);
         break;
-    case FL_ARC_LOAD: x = dl / (p->lambda[n] - p->lambda[n - 1]); break;
+    case FL_ARC_LOAD:
+        dl = copysign(dl, p->options.first);
+        if ((p->options.last - p->lambda[n]) * (p->options.last - p->lambda[n] - dl) < 0.0) dl = p->options.last - p->lambda[n];
+        x = dl / (p->lambda[n] - p->lambda[n - 1]);
+        break;
     }
     r->lambda = p->lambda[n] + x * (p->lambda[n] - p->lambda[n - 1]);
     return x;
@@ -333,6 +337,8 @@ static int accept_point(fl_path *p, const relaxation_run *r, fl_err *err)
     const int n = p->known;
     t->work = work + (n < 3 ? 0.5 * (p->lambda[n - 1] + p->lambda[n - 2]) * (p->w[n - 1] - p->w[n - 2])
                             : fl_arc_work(&p->s[n - 3], &p->lambda[n - 3], &p->w[n - 3]));
+    p->energy_most = fmax(p->energy_most, fmax(fabs(t->energy), fabs(t->work)));
+    t->balance = p->energy_most > 0.0 ? (t->work - t->energy) / p->energy_most : 0.0;
     find_limit(p);
     if (number > 1 && cosine < KINK) t->hint |= FL_PATH_HINT_KINK;
     p->lambda_most = fmax(p->lambda_most, fabs(r->lambda));
@@ -363,6 +369,7 @@ static int first_point(fl_path *p, fl_err *err)
     }
     if (accept_point(p, &r, err)) return -1;
     const double l = p->point.length;
+    p->first_steps = r.steps;
     p->dl = p->options.dl > 0.0 ? p->options.dl
             : p->options.dl_first > 0.0 ? p->options.dl_first
             : p->options.constraint == FL_ARC_LOAD ? p->options.first

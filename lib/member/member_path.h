@@ -29,6 +29,7 @@ typedef struct {
     double dl;      /* increment; 0: chosen, and changed from point to point */
     double dl_most; /* 0: no limit */
     double dl_first; /* of the second point where dl = 0; 0: that of the first point */
+    double last;     /* of load control: load factor that a point is made at, 0: none */
     enum fl_arc_constraint constraint;
     enum fl_path_predictor predictor;
     double load_step; /* detP/P0 */
@@ -50,6 +51,7 @@ typedef struct {
     double along;                    /* P0.d/|P0| with moments by their rotation */
     double residual;                 /* reached, over |P0| max |lambda| */
     double energy, work;             /* elastic energy; integral of lambda P0 along the path */
+    double balance;                  /* work - energy, over the greatest of both so far */
     int hint;                        /* of a critical point between the last two points and this, bits */
     double limit, limit_error, limit_arc; /* load factor at the maximum or minimum, and where it is */
 } fl_path_point;
@@ -65,8 +67,8 @@ typedef struct {
     enum fl_relaxation_kind damping; /* in use */
     fl_path_state last, before;      /* the last point and the one before */
     fl_path_point point;             /* the last */
-    double dl, lambda_most;
-    int64_t last_steps, total_steps;
+    double dl, lambda_most, energy_most; /* greatest |lambda|, energy and work so far */
+    int64_t first_steps, last_steps, total_steps;
     int known;                  /* points in the arrays, the start included */
     double s[4], lambda[4], w[4]; /* arc, load factor and P0.d of the last four, the last one at known - 1 */
 } fl_path;

@@ -124,12 +124,10 @@ int fl_path_table_add(fl_path_table *t, const fl_path *p, const fl_member_model 
     for (int k = 0; k < t->watches; k++) t->value[t->known][k] = fl_path_watch_value(&t->watch[k], p->chain);
     t->known++;
     if (a->number == 0) return 0;
-    /* Work and energy differ by what the interpolation between points leaves out, over the larger of both so far. */
-    const double most = fmax(fabs(a->energy), fabs(a->work));
     if (add_text(t, err, "%" PRId64, a->number) || add_number(t, a->lambda, err) || add_number(t, a->arc, err) ||
         add_number(t, a->length, err) || add_number(t, a->along, err) ||
         add_text(t, err, "\t%" PRId64 "\t%" PRId64, a->steps, a->negative) || add_number(t, a->residual, err) ||
-        add_number(t, a->energy, err) || add_number(t, most > 0.0 ? (a->work - a->energy) / most : 0.0, err) ||
+        add_number(t, a->energy, err) || add_number(t, a->balance, err) ||
         add_text(t, err, "\t%s", hint_word(a->hint)))
         return -1;
     for (int k = 0; k < t->watches; k++)

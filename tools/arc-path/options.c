@@ -277,6 +277,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     o->path.predictor = (enum fl_path_predictor)o->predictor;
     o->path.load_steps = o->load_steps;
     o->path.max_steps = o->max_steps;
+    for (int k = 0; k < o->untils; k++)
+        if (strcmp(o->until[k].name, "lambda") == 0) o->path.last = o->until[k].value;
     if (!o->model) return fl_fail(err, FL_USAGE, "no model, expected a file of kind members");
     if (o->reference && !o->plot) return fl_fail(err, FL_USAGE, "--reference needs --plot, the folder of the picture");
     if (o->shapes && !o->plot) return fl_fail(err, FL_USAGE, "--shapes needs --plot, the folder of the pictures");
