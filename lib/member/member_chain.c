@@ -201,6 +201,13 @@ failed:
     return -1;
 }
 
+int fl_member_chain_has_force(const fl_member_chain *c)
+{
+    for (int32_t k = 0; k < c->loads; k++)
+        if (v3_nonzero(c->load[k].force)) return 1;
+    return 0;
+}
+
 void fl_member_chain_free(fl_member_chain *c)
 {
     free(c->ball);

@@ -67,6 +67,9 @@ typedef struct {
 int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt, fl_err *err);
 void fl_member_chain_free(fl_member_chain *c); /* accepts a zeroed struct, leaves one */
 
+/* Whether a load moves a free translation, as lengths of arcs need. */
+int fl_member_chain_has_force(const fl_member_chain *c);
+
 /* Internal forces of the present state into resist, the former ones into last. */
 void fl_member_chain_forces(fl_member_chain *c);
 

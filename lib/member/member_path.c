@@ -102,6 +102,8 @@ int fl_path_start(fl_path *p, fl_member_chain *chain, const fl_path_options *opt
     return 0;
 }
 
+void fl_path_return(fl_path *p) { restore_state(p->chain, &p->last); }
+
 void fl_path_free(fl_path *p)
 {
     free_state(&p->last);

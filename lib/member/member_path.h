@@ -82,4 +82,7 @@ void fl_path_free(fl_path *p); /* accepts a zeroed struct, leaves one */
  * turned by more than FL_MEMBER_ROTATION_MAX. */
 int fl_path_next(fl_path *p, fl_err *err);
 
+/* Puts the chain back into the state of the last point, at rest. */
+void fl_path_return(fl_path *p);
+
 #endif

@@ -5,8 +5,11 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/output_guard.h"
 #include "base/stream.h"
-#include "member/path_table.h"
+#include "member/imperfection.h"
+#include "member/path_state.h"
+#include "path_plot.h"
 
 static volatile sig_atomic_t stop_signal;
 static void note_signal(int number)
@@ -64,21 +67,89 @@ static int reached(const struct run *r)
     return 0;
 }
 
-static int follow(struct run *r, FILE *f, fl_err *err)
+/* Shapes that were asked for. */
+static int draw_shape(const struct run *r, fl_err *err)
+{
+    const struct options *o = r->o;
+    for (int k = 0; k < o->shapes; k++)
+        if (o->shape_at[k] == r->path.point.number)
+            return path_plot_shape(o, &r->model, &r->chain, r->path.point.number, err);
+    return 0;
+}
+
+static void tell_point(const struct run *r)
+{
+    const fl_path_point *p = &r->path.point;
+    fprintf(stderr, "point %lld: lambda %g, along %g, %lld steps, dl %g\n", (long long)p->number, p->lambda, p->along,
+            (long long)p->steps, r->path.dl);
+}
+
+static int follow(struct run *r, fl_out *out, fl_err *err)
 {
     int64_t written = 0;
-    if (fl_path_table_add(&r->table, &r->path, &r->model, err)) return -1;
-    while (r->path.point.number < r->o->points && !stop_signal) {
-        if (fl_path_next(&r->path, err)) return -1;
-        if (fl_path_table_add(&r->table, &r->path, &r->model, err)) return -1;
-        fwrite(r->table.text + written, 1, (size_t)(r->table.len - written), f);
+    if (r->o->resume ? fl_path_state_read(&r->path, &r->table, r->o->resume, err)
+                     : fl_path_table_add(&r->table, &r->path, &r->model, err))
+        return -1;
+    for (;;) {
+        fwrite(r->table.text + written, 1, (size_t)(r->table.len - written), out->f);
         written = r->table.len;
-        if (r->o->verbose)
-            fprintf(stderr, "point %lld: lambda %g, along %g, %lld steps, dl %g\n", (long long)r->path.point.number,
-                    r->path.point.lambda, r->path.point.along, (long long)r->path.point.steps, r->path.dl);
-        if (reached(r)) break;
+        if (fl_out_flush(out, err)) return -1;
+        if (r->path.point.number >= r->o->points || stop_signal || (r->path.point.number > 0 && reached(r))) return 0;
+        if (fl_path_next(&r->path, err) || fl_path_table_add(&r->table, &r->path, &r->model, err)) return -1;
+        if (draw_shape(r, err)) return -1;
+        if (r->o->verbose) tell_point(r);
     }
-    return 0;
+}
+
+static void tell_summary(const struct run *r)
+{
+    const fl_path_point *p = &r->path.point;
+    fprintf(stderr, "%lld points, %lld steps of %d contacts, %d maxima and minima; load factor %g, energy balance %.1e\n",
+            (long long)p->number, (long long)r->path.total_steps, (int)r->chain.contacts, r->table.limits, p->lambda, p->balance);
+    if (r->path.damping != r->o->path.damping)
+        fputs("kinetic damping did not settle, adaptive damping took its place\n", stderr);
+}
+
+/* What was reached is written, whatever ended the path. */
+static int finish(struct run *r, fl_out *out, int rc, fl_err *err)
+{
+    const struct options *o = r->o;
+    fl_err more = {0};
+    int failed = 0;
+    if (rc && err->code != FL_NO && err->code != FL_INPUT) {
+        fl_out_abort(out);
+        return rc;
+    }
+    if (fl_out_close(out, &more)) failed = 1;
+    if (!failed && o->checkpoint && r->path.point.number > 0 && fl_path_state_write(&r->path, &r->table, o->checkpoint, &more))
+        failed = 1;
+    if (!failed && o->plot && r->path.point.number > 0 && path_plot_curve(o, &r->table, &more)) failed = 1;
+    if (!o->quiet) tell_summary(r);
+    if (failed && rc == 0) return fl_fail(err, more.code, "%s", more.text);
+    return rc;
+}
+
+static int check_files(const struct options *o, fl_err *err)
+{
+    const fl_named_path out[] = {{"--output", o->out}, {"--checkpoint", o->checkpoint}};
+    const fl_named_path in[] = {{.path = o->model}, {.path = o->shape}, {.path = o->reference}};
+    return fl_output_guard_check(out, 2, in, 3, err);
+}
+
+static int prepare(struct run *r, fl_err *err)
+{
+    const struct options *o = r->o;
+    if (check_files(o, err) || fl_member_model_read(&r->model, o->model, err) || find_columns(r, err)) return -1;
+    if (o->scatter > 0.0) fl_member_scatter(&r->model, o->scatter, o->seed);
+    if (o->shape && fl_member_add_shape(&r->model, o->shape, o->amplitude, err)) return -1;
+    if (fl_member_chain_make(&r->chain, &r->model, 1.0, err)) return -1;
+    r->chain.threads = omp_get_max_threads();
+    if (!(r->chain.load_norm > 0.0) && r->chain.moves == 0)
+        return fl_fail(err, FL_INPUT, "%s: no load acts on a free node", o->model);
+    if (o->path.constraint != FL_ARC_LOAD && !fl_member_chain_has_force(&r->chain))
+        return fl_fail(err, FL_USAGE, "--constraint: the loads are moments or imposed displacements, expected load");
+    if (o->plot && path_plot_begin(o, err)) return -1;
+    return fl_path_start(&r->path, &r->chain, &o->path, err);
 }
 
 int path_run(const struct options *o, fl_err *err)
@@ -86,22 +157,14 @@ int path_run(const struct options *o, fl_err *err)
     struct run r = {.o = o};
     fl_history_line by;
     fl_out out = {0};
-    int rc = fl_member_model_read(&r.model, o->model, err);
-    if (rc == 0) rc = find_columns(&r, err);
-    if (rc == 0) rc = fl_member_chain_make(&r.chain, &r.model, 1.0, err);
-    if (rc == 0) {
-        r.chain.threads = omp_get_max_threads();
-        rc = fl_path_start(&r.path, &r.chain, &o->path, err);
-    }
+    int rc = prepare(&r, err);
     if (rc == 0) rc = fl_out_open(&out, o->out, o->gzip, err);
     if (rc == 0) {
         signal(SIGINT, note_signal);
         signal(SIGTERM, note_signal);
         options_by(o, &by);
         fl_path_table_header(out.f, &r.table, &r.model, &by);
-        rc = follow(&r, out.f, err);
-        fl_err closing = {0};
-        if (fl_out_close(&out, &closing) && rc == 0) rc = fl_fail(err, closing.code, "%s", closing.text);
+        rc = finish(&r, &out, follow(&r, &out, err), err);
     }
     fl_path_table_free(&r.table);
     fl_path_free(&r.path);
