@@ -6,7 +6,8 @@ static const double CRITICAL_SHARE = 0.7, LARGEST = 0.5, KEPT = 0.98;
 
 fl_relaxation fl_relaxation_start(enum fl_relaxation_kind kind, double c)
 {
-    return (fl_relaxation){.kind = kind, .c = kind == FL_RELAXATION_VISCOUS ? c : 0.0, .fresh = 1, .rests = 1};
+    return (fl_relaxation){
+        .kind = kind, .c = kind == FL_RELAXATION_VISCOUS ? c : 0.0, .fresh = 1, .rests = 1};
 }
 
 void fl_relaxation_adapt(fl_relaxation *r, double work, double inertia, double dt)

@@ -3,14 +3,15 @@
  *
  * The step of a freedom with mass m, force f and velocity v, of which the next displacement is dt v:
  *     v <- c1 v + c2 dt f/m,    c1 = (1 - c/2)/(1 + c/2),    c2 = 1/(1 + c/2)
- * The first step from rest takes half of c2, since velocities stand half a step after positions.  Without that the steps
- * of kinetic damping, which often begins from rest, are unstable at 0.7 of the largest step of the free motion.
+ * The first step from rest takes half of c2, since velocities stand half a step after positions.  Without
+ * that the steps of kinetic damping, which often begins from rest, are unstable at 0.7 of the largest step
+ * of the free motion.
  *
- *   kinetic   c = 0; all velocities become 0 whenever the kinetic energy falls.  Needs no setting; does not settle
- *             where the iteration has complex eigenvalues, as the arc length near a snap-back.
+ *   kinetic   c = 0; all velocities become 0 whenever the kinetic energy falls.  Needs no setting; does not
+ *             settle where the iteration has complex eigenvalues, as the arc length near a snap-back.
  *   adaptive  c = 2 a dt sqrt(u.dF / u.M u), u the last displacement and dF the change of the internal force
- *             over it: a times the critical damping of the frequency that the motion has, at most 1/2, smoothed
- *             0.98 : 0.02 (Underwood, Dynamic relaxation, 1983).  a = 0.7.
+ *             over it: a times the critical damping of the frequency that the motion has, at most 1/2,
+ *             smoothed 0.98 : 0.02 (Underwood, Dynamic relaxation, 1983).  a = 0.7.
  *   viscous   c constant.
  *
  * Masses are fictitious: any that keep every frequency below 2/dt lead to the same rest. */

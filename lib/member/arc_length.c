@@ -44,7 +44,8 @@ double fl_arc_cubic(const double s[4], const double y[4], double *at)
 {
     fl_arc_parabola(s + 1, y + 1, at);
     /* y = p + c (x - s1)(x - s2)(x - s3), p the parabola of the last three. */
-    const double c = (y[0] - fl_arc_polynomial(3, s + 1, y + 1, s[0])) / ((s[0] - s[1]) * (s[0] - s[2]) * (s[0] - s[3]));
+    const double c =
+        (y[0] - fl_arc_polynomial(3, s + 1, y + 1, s[0])) / ((s[0] - s[1]) * (s[0] - s[2]) * (s[0] - s[3]));
     for (int k = 0; k < 20; k++) {
         const double u = *at - s[1], v = *at - s[2], w = *at - s[3];
         const double slope = parabola_slope(s + 1, y + 1, *at) + c * (u * v + v * w + w * u);
@@ -61,6 +62,7 @@ double fl_arc_work(const double s[3], const double x[3], const double y[3])
     /* Simpson's rule is exact: the integrand is a cubic. */
     const double mid = 0.5 * (s[1] + s[2]), h = s[2] - s[1];
     return h / 6.0 *
-           (x[1] * parabola_slope(s, y, s[1]) + 4.0 * fl_arc_polynomial(3, s, x, mid) * parabola_slope(s, y, mid) +
+           (x[1] * parabola_slope(s, y, s[1]) +
+            4.0 * fl_arc_polynomial(3, s, x, mid) * parabola_slope(s, y, mid) +
             x[2] * parabola_slope(s, y, s[2]));
 }

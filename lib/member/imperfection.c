@@ -13,7 +13,8 @@ void fl_member_scatter(fl_member_model *m, double a, uint64_t seed)
         fl_rng g = fl_rng_of(seed, k, FL_RNG_OFFSET);
         fl_member_node *n = &m->node[k];
         const double x = a * fl_rng_normal(&g), y = a * fl_rng_normal(&g), z = a * fl_rng_normal(&g);
-        n->offset = v3_add(n->offset, v3(n->fixed & 1 ? 0.0 : x, n->fixed & 2 ? 0.0 : y, n->fixed & 4 ? 0.0 : z));
+        n->offset =
+            v3_add(n->offset, v3(n->fixed & 1 ? 0.0 : x, n->fixed & 2 ? 0.0 : y, n->fixed & 4 ? 0.0 : z));
     }
 }
 
@@ -46,7 +47,8 @@ int fl_member_add_shape(fl_member_model *m, const char *path, double a, fl_err *
     int rc = d ? read_shape(m, path, d, err) : -1;
     for (int32_t k = 0; k < m->node_name.n && rc == 0; k++) most = fmax(most, v3_norm(d[k]));
     if (rc == 0 && !(most > 0.0)) rc = fl_fail(err, FL_INPUT, "%s: no node is displaced", path);
-    for (int32_t k = 0; k < m->node_name.n && rc == 0; k++) m->node[k].offset = v3_madd(m->node[k].offset, a / most, d[k]);
+    for (int32_t k = 0; k < m->node_name.n && rc == 0; k++)
+        m->node[k].offset = v3_madd(m->node[k].offset, a / most, d[k]);
     free(d);
     return rc;
 }

@@ -22,7 +22,8 @@ static int allocate(fl_member_chain *c, const fl_member_model *m, fl_err *err)
         contacts += m->member[k].pieces;
     }
     if (balls > INT32_MAX / 4 || contacts > INT32_MAX / 4)
-        return fl_fail(err, FL_INPUT, "%s: %lld pieces, expected %d at most", m->file, (long long)contacts, INT32_MAX / 4);
+        return fl_fail(err, FL_INPUT, "%s: %lld pieces, expected %d at most", m->file, (long long)contacts,
+                       INT32_MAX / 4);
     c->balls = (int32_t)balls;
     c->contacts = (int32_t)contacts;
     c->nodes = m->node_name.n;
@@ -49,8 +50,7 @@ static void make_node_balls(fl_member_chain *c, const fl_member_model *m)
             c->ball[k].load = c->loads;
             c->load[c->loads++] = (fl_member_load){.ball = k, .force = n->force, .moment = n->moment};
         }
-        if (n->imposed)
-            c->move[c->moves++] = (fl_member_move){k, n->imposed, n->move, n->turn};
+        if (n->imposed) c->move[c->moves++] = (fl_member_move){k, n->imposed, n->move, n->turn};
     }
 }
 
@@ -74,8 +74,8 @@ static void make_contact(fl_member_contact *c, const fl_member_section *s, const
     }
 }
 
-static int make_member(fl_member_chain *c, const fl_member_model *m, int32_t k, int32_t *ball, int32_t *contact,
-                       fl_err *err)
+static int make_member(fl_member_chain *c, const fl_member_model *m, int32_t k, int32_t *ball,
+                       int32_t *contact, fl_err *err)
 {
     const fl_member *b = &m->member[k];
     const fl_member_section *s = &m->section[b->section];
@@ -104,8 +104,8 @@ static int make_member(fl_member_chain *c, const fl_member_model *m, int32_t k, 
                                  : FL_MEMBER_BEAM;
         const fl_vec3 d = v3_sub(c->ball[next].x0, c->ball[last].x0);
         if (!(v3_norm(d) > 0.0))
-            return fl_fail(err, FL_INPUT, "%s:%lld: a piece of member %s has no length", m->file, (long long)b->line,
-                           m->member_name.name[k]);
+            return fl_fail(err, FL_INPUT, "%s:%lld: a piece of member %s has no length", m->file,
+                           (long long)b->line, m->member_name.name[k]);
         make_contact(out, s, e, d);
         last = next;
     }
@@ -128,20 +128,26 @@ static void link_contacts(fl_member_chain *c)
     c->first[0] = 0;
 }
 
-static void share_out_masses(fl_member_chain *c)
+static inline double evaluate(const fl_member_chain *c, int32_t k, fl_member_force *out, double *energy);
+
+void fl_member_chain_masses(fl_member_chain *c, double margin)
 {
     const double s = MASS_SHARE * c->dt * c->dt;
+    for (int32_t b = 0; b < c->balls; b++) c->ball[b].over_m = c->ball[b].over_i = 0.0;
     for (int32_t k = 0; k < c->contacts; k++) {
         const fl_member_contact *e = &c->contact[k];
-        const double l2 = e->length * e->length;
-        const double shear = e->kind == FL_MEMBER_BEAM ? fmax(e->shear[0], e->shear[1]) : fmax(e->shear[0], e->shear[1]) / l2;
-        const double m = s * fmax(e->axial, shear);
+        const int beam = e->kind == FL_MEMBER_BEAM;
+        const double l2 = e->length * e->length, bend = fmax(e->shear[0], e->shear[1]);
+        const double m = s * fmax(e->axial, beam ? bend : bend / l2);
         double inertia[2] = {0, 0};
-        if (e->kind == FL_MEMBER_BEAM)
-            inertia[0] = inertia[1] =
-                s * (fmax(e->turn[0], fmax(e->turn[1], e->turn[2])) + 0.25 * l2 * shear);
-        if (e->kind == FL_MEMBER_HINGE_I) inertia[1] = s * fmax(e->shear[0], e->shear[1]);
-        if (e->kind == FL_MEMBER_HINGE_J) inertia[0] = s * fmax(e->shear[0], e->shear[1]);
+        if (beam) {
+            fl_member_force f;
+            const double sine2 = 0.25 * evaluate(c, k, &f, NULL);
+            const double twist = fmax(e->turn[0], fmax(e->turn[1], e->turn[2]));
+            inertia[0] = inertia[1] = s * (twist + 0.25 * l2 * (bend + margin * sine2 * e->axial));
+        } else if (e->kind != FL_MEMBER_BAR) {
+            inertia[e->kind == FL_MEMBER_HINGE_I] = s * bend;
+        }
         c->ball[e->i].over_m += m;
         c->ball[e->j].over_m += m;
         c->ball[e->i].over_i += inertia[0];
@@ -149,7 +155,8 @@ static void share_out_masses(fl_member_chain *c)
     }
     for (int32_t b = 0; b < c->balls; b++) {
         fl_member_ball *a = &c->ball[b];
-        a->over_m = (a->fixed & FL_MEMBER_TRANSLATIONS) == FL_MEMBER_TRANSLATIONS ? 0.0 : 1.0 / a->over_m;
+        const int held = (a->fixed & FL_MEMBER_TRANSLATIONS) == FL_MEMBER_TRANSLATIONS;
+        a->over_m = held ? 0.0 : 1.0 / a->over_m;
         a->over_i = a->over_i > 0.0 && (a->fixed >> 3) != FL_MEMBER_TRANSLATIONS ? 1.0 / a->over_i : 0.0;
     }
 }
@@ -193,7 +200,7 @@ int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt
     for (int32_t k = 0; k < m->member_name.n; k++)
         if (make_member(c, m, k, &ball, &contact, err)) goto failed;
     link_contacts(c);
-    share_out_masses(c);
+    fl_member_chain_masses(c, 0.0);
     sum_scales(c);
     return 0;
 failed:
@@ -385,8 +392,8 @@ static inline fl_vec3 counted(const fl_member_chain *c, int32_t b, const fl_vec3
     return a->fixed ? free_part(d, a->fixed & FL_MEMBER_TRANSLATIONS) : d;
 }
 
-static void free_group(fl_member_chain *c, int32_t begin, int32_t end, double c1, double c2, const fl_vec3 *from,
-                       double *out)
+static void free_group(fl_member_chain *c, int32_t begin, int32_t end, double c1, double c2,
+                       const fl_vec3 *from, double *out)
 {
     const double dt = c->dt;
     double aa = 0.0, kinetic = 0.0;
@@ -441,7 +448,8 @@ fl_member_half fl_member_chain_free_step(fl_member_chain *c, double c1, double c
         const double b = weight * a->over_m;
         h.ab += b * v3_dot(v3_madd(counted(c, p->ball, from), dt, a->v), p->force);
         h.bb += b * b * v3_norm2(p->force);
-        h.work_a += v3_dot(v3_madd(a->d, dt, a->v), p->force) + v3_dot(v3_madd(p->turned, dt, a->w), p->moment);
+        h.work_a +=
+            v3_dot(v3_madd(a->d, dt, a->v), p->force) + v3_dot(v3_madd(p->turned, dt, a->w), p->moment);
         h.work_b += b * v3_norm2(p->force) + weight * a->over_i * v3_norm2(p->moment);
     }
     return h;
@@ -491,6 +499,7 @@ double fl_member_chain_work(const fl_member_chain *c)
 {
     double sum = 0.0;
     for (int32_t k = 0; k < c->loads; k++)
-        sum += v3_dot(c->ball[c->load[k].ball].d, c->load[k].force) + v3_dot(c->load[k].turned, c->load[k].moment);
+        sum += v3_dot(c->ball[c->load[k].ball].d, c->load[k].force) +
+               v3_dot(c->load[k].turned, c->load[k].moment);
     return sum;
 }

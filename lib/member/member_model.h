@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* member_model.h -- a structure of bars and beams as the file of kind `members` states it, members(5): nodes, sections,
- * members, supports, loads, imperfections.  member_chain.h makes the chain of balls of it. */
+/* member_model.h -- a structure of bars and beams as the file of kind `members` states it, members(5):
+ * nodes, sections, members, supports, loads, imperfections.  member_chain.h makes the chain of balls of it.
+ * */
 #ifndef FL_MEMBER_MEMBER_MODEL_H
 #define FL_MEMBER_MEMBER_MODEL_H
 #include <stdint.h>
@@ -30,9 +31,9 @@ typedef struct {
     int32_t end[2], section, pieces, part;
     int released[2]; /* the end transmits no moment */
     int has_ref;
-    fl_vec3 ref;       /* lies in the plane of e1 and e3 */
-    double bow;        /* amplitude of a half sine wave without stress */
-    int bow_axis;      /* 1: along e2, 2: along e3 */
+    fl_vec3 ref;  /* lies in the plane of e1 and e3 */
+    double bow;   /* amplitude of a half sine wave without stress */
+    int bow_axis; /* 1: along e2, 2: along e3 */
     int64_t line;
 } fl_member;
 
@@ -45,8 +46,9 @@ typedef struct {
     char *file; /* that it was read from, for messages */
 } fl_member_model;
 
-/* Frame of a member from end to end: e[0] along it, e[2] the part of `ref` at right angles to it, which is z where
- * none was given, and x for a member along z.  0, or -1 with FL_INPUT: no length, or ref along the member. */
+/* Frame of a member from end to end: e[0] along it, e[2] the part of `ref` at right angles to it, which is z
+ * where none was given, and x for a member along z.  0, or -1 with FL_INPUT: no length, or ref along the
+ * member. */
 int fl_member_frame(const fl_member_model *m, int32_t k, fl_vec3 e[3], double *length, fl_err *err);
 
 /* Reads a model.  -1 with FL_INPUT or FL_SYSTEM; the model is then free. */

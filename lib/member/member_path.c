@@ -14,6 +14,8 @@ enum {
 };
 /* Smallest dl, over that which a point began with. */
 static const double DL_LEAST = 1e-4;
+/* Of the lever of axial forces, so that a piece may be bent further while a point is found. */
+static const double MASS_MARGIN = 2.0;
 static const double GROW_MOST = 1.5, SHRINK_MOST = 0.25, STRAIGHT = 0.9, KINK = 0.5;
 
 fl_path_options fl_path_defaults(void)
@@ -134,7 +136,8 @@ static double load_scale(const fl_member_chain *c)
     return c->load_norm > 0.0 ? c->load_norm : c->move_norm;
 }
 
-static double step_lambda(const fl_path *p, relaxation_run *r, const fl_member_half *h, double balanced, int *root)
+static double step_lambda(const fl_path *p, relaxation_run *r, const fl_member_half *h, double balanced,
+                          int *root)
 {
     double lambda = r->lambda;
     *root = 1;
@@ -157,7 +160,8 @@ static int relax_chain(fl_path *p, relaxation_run *r)
 {
     fl_member_chain *c = p->chain;
     const double scale = load_scale(c), norm2 = c->load_norm * c->load_norm;
-    const int64_t most = p->options.max_steps ? p->options.max_steps : (int64_t)(STEPS_FAIL * wanted_steps(p));
+    const int64_t most =
+        p->options.max_steps ? p->options.max_steps : (int64_t)(STEPS_FAIL * wanted_steps(p));
     const int64_t slow = SLOW_FACTOR * (p->last_steps > SLOW_LEAST ? p->last_steps : SLOW_LEAST);
     fl_relaxation damping = fl_relaxation_start(p->damping, p->options.c);
     int successive = 0;
@@ -176,7 +180,8 @@ static int relax_chain(fl_path *p, relaxation_run *r)
             return 0;
         }
         if (r->steps > 0) fl_relaxation_adapt(&damping, s.work, s.inertia, c->dt);
-        if (damping.kind == FL_RELAXATION_KINETIC && r->steps == slow) { /* it does not settle: damp it from here on */
+        if (damping.kind == FL_RELAXATION_KINETIC &&
+            r->steps == slow) { /* it does not settle: damp it from here on */
             p->damping = FL_RELAXATION_ADAPTIVE;
             damping = fl_relaxation_start(p->damping, 0.0);
             fl_member_chain_rest(c);
@@ -223,7 +228,8 @@ static double chord_share(fl_path *p, double dl, relaxation_run *r)
         break;
     case FL_ARC_LOAD:
         dl = copysign(dl, p->options.first);
-        if ((p->options.last - p->lambda[n]) * (p->options.last - p->lambda[n] - dl) < 0.0) dl = p->options.last - p->lambda[n];
+        if ((p->options.last - p->lambda[n]) * (p->options.last - p->lambda[n] - dl) < 0.0)
+            dl = p->options.last - p->lambda[n];
         x = dl / (p->lambda[n] - p->lambda[n - 1]);
         break;
     }
@@ -351,7 +357,8 @@ static int accept_point(fl_path *p, const relaxation_run *r, fl_err *err)
     save_state(&p->last, c);
     fl_member_chain_rest(c);
     if (c->largest_rotation2 > FL_MEMBER_ROTATION_MAX * FL_MEMBER_ROTATION_MAX)
-        return fl_fail(err, FL_INPUT, "a piece is bent or twisted by more than %g rad at point %lld, more pieces are needed",
+        return fl_fail(err, FL_INPUT,
+                       "a piece is bent or twisted by more than %g rad at point %lld, more pieces are needed",
                        FL_MEMBER_ROTATION_MAX, (long long)number);
     return 0;
 }
@@ -364,18 +371,20 @@ static int first_point(fl_path *p, fl_err *err)
     p->total_steps += r.steps;
     if (failed) {
         restore_state(p->chain, &p->last);
-        return fl_fail(err, FL_NO,
-                       "the first point does not come to rest in %lld steps: the structure is a mechanism, or a load "
-                       "factor of %g is above its limit; try a smaller --first",
-                       (long long)r.steps, r.lambda);
+        return fl_fail(
+            err, FL_NO,
+            "the first point does not come to rest in %lld steps: the structure is a mechanism, or a load "
+            "factor of %g is above its limit; try a smaller --first",
+            (long long)r.steps, r.lambda);
     }
     if (accept_point(p, &r, err)) return -1;
     const double l = p->point.length;
     p->first_steps = r.steps;
-    p->dl = p->options.dl > 0.0 ? p->options.dl
-            : p->options.dl_first > 0.0 ? p->options.dl_first
-            : p->options.constraint == FL_ARC_LOAD ? p->options.first
-            : p->options.constraint == FL_ARC_DISPLACEMENT ? fabs(p->point.along) : l;
+    p->dl = p->options.dl > 0.0                            ? p->options.dl
+            : p->options.dl_first > 0.0                    ? p->options.dl_first
+            : p->options.constraint == FL_ARC_LOAD         ? p->options.first
+            : p->options.constraint == FL_ARC_DISPLACEMENT ? fabs(p->point.along)
+                                                           : l;
     if (p->options.dl_most > 0.0 && p->dl > p->options.dl_most) p->dl = p->options.dl_most;
     return 0;
 }
@@ -385,7 +394,7 @@ int fl_path_next(fl_path *p, fl_err *err)
     relaxation_run r;
     if (p->point.number == 0) return first_point(p, err);
     const double least = DL_LEAST * p->dl;
-    for (;;) {
+    for (double margin = MASS_MARGIN;; margin *= 2.0) {
         double share = 0.0;
         if (p->options.predictor == FL_PATH_LOAD_STEPS) {
             predict_by_load_steps(p, &r);
@@ -396,6 +405,7 @@ int fl_path_next(fl_path *p, fl_err *err)
             fl_member_chain_impose(p->chain, r.lambda);
         }
         const double guess = r.lambda;
+        fl_member_chain_masses(p->chain, margin);
         const int failed = relax_chain(p, &r);
         p->total_steps += r.steps;
         if (!failed) {
@@ -409,7 +419,8 @@ int fl_path_next(fl_path *p, fl_err *err)
         if (p->dl < least || p->options.predictor == FL_PATH_LOAD_STEPS) break;
     }
     return fl_fail(err, FL_NO,
-                   "the arc cannot advance beyond point %lld, load factor %g: try another --constraint, --damping adaptive "
+                   "the arc cannot advance beyond point %lld, load factor %g: try another --constraint, "
+                   "--damping adaptive "
                    "or a smaller --dl",
                    (long long)p->point.number, p->point.lambda);
 }

@@ -42,7 +42,8 @@ static int read_new_name(fl_string_table *names, fl_text *in, const char *what, 
     return *k < 0 ? -1 : 0;
 }
 
-static int read_known_name(const fl_string_table *names, fl_text *in, const char *what, int32_t *k, fl_err *err)
+static int read_known_name(const fl_string_table *names, fl_text *in, const char *what, int32_t *k,
+                           fl_err *err)
 {
     const char *word;
     if (fl_text_word(in, what, &word, err)) return -1;
@@ -80,9 +81,9 @@ static int read_shape(fl_member_section *s, const char *shape, fl_text *in, fl_e
 {
     const int pipe = strcmp(shape, "pipe") == 0;
     double a, b, e, g, rho = 0.0;
-    if (read_positive(in, pipe ? "diameter" : "width", &a, err) || read_positive(in, pipe ? "wall" : "height", &b, err) ||
-        read_positive(in, "E", &e, err) || read_positive(in, "G", &g, err) ||
-        (in->next < in->n && read_number(in, "density", 0.0, &rho, err)))
+    if (read_positive(in, pipe ? "diameter" : "width", &a, err) ||
+        read_positive(in, pipe ? "wall" : "height", &b, err) || read_positive(in, "E", &e, err) ||
+        read_positive(in, "G", &g, err) || (in->next < in->n && read_number(in, "density", 0.0, &rho, err)))
         return -1;
     if (pipe && !(b <= 0.5 * a))
         return fl_text_fail(in, err, "the wall is %g, expected half the diameter %g at most", b, a);
@@ -96,7 +97,8 @@ static int read_section(fl_member_model *m, fl_text *in, fl_err *err)
     int32_t k;
     double number, rho = 0.0;
     const char *shape;
-    if (read_new_name(&m->section_name, in, "section", &k, err) || fl_text_word(in, "form of the section", &shape, err))
+    if (read_new_name(&m->section_name, in, "section", &k, err) ||
+        fl_text_word(in, "form of the section", &shape, err))
         return -1;
     if (fl_number_f64(shape, &number) == 0) {
         in->next--;
@@ -133,7 +135,8 @@ static int read_member_word(fl_member *b, fl_text *in, fl_err *err)
         return read_vector(in, xyz, &b->ref, err);
     }
     if (strcmp(word, "bow") == 0) {
-        if (read_number(in, "amplitude", -FAR, &b->bow, err) || fl_text_word(in, "y or z", &axis, err)) return -1;
+        if (read_number(in, "amplitude", -FAR, &b->bow, err) || fl_text_word(in, "y or z", &axis, err))
+            return -1;
         if (strcmp(axis, "y") != 0 && strcmp(axis, "z") != 0)
             return fl_text_fail(in, err, "bow along \"%s\", expected y or z", axis);
         b->bow_axis = axis[0] == 'y' ? 1 : 2;
@@ -181,15 +184,16 @@ static int read_fix(fl_member_model *m, fl_text *in, fl_err *err)
         if (strcmp(word, "pinned") == 0) bits = FL_MEMBER_TRANSLATIONS;
         if (strcmp(word, "clamped") == 0) bits = FL_MEMBER_ALL;
         if (!bits)
-            return fl_text_fail(in, err, "freedom \"%s\", expected x, y, z, rx, ry, rz, pinned or clamped", word);
+            return fl_text_fail(in, err, "freedom \"%s\", expected x, y, z, rx, ry, rz, pinned or clamped",
+                                word);
         m->node[k].fixed |= bits;
     } while (in->next < in->n);
     return 0;
 }
 
 /* load, move: three numbers and perhaps three more, which are added to those of the node. */
-static int read_six(fl_member_model *m, fl_text *in, const char *const what[6], int32_t *k, fl_vec3 *a, fl_vec3 *b,
-                    fl_err *err)
+static int read_six(fl_member_model *m, fl_text *in, const char *const what[6], int32_t *k, fl_vec3 *a,
+                    fl_vec3 *b, fl_err *err)
 {
     if (read_known_name(&m->node_name, in, "node", k, err) || read_vector(in, what, a, err)) return -1;
     *b = v3(0, 0, 0);
@@ -255,9 +259,11 @@ static int read_record(fl_member_model *m, fl_text *in, fl_err *err)
     if (fl_text_word(in, "record", &word, err)) return -1;
     for (int r = 0; r < RECORDS; r++) {
         list[r] = RECORD[r].word;
-        if (strcmp(word, RECORD[r].word) == 0) return RECORD[r].read(m, in, err) || fl_text_no_more(in, err) ? -1 : 0;
+        if (strcmp(word, RECORD[r].word) == 0)
+            return RECORD[r].read(m, in, err) || fl_text_no_more(in, err) ? -1 : 0;
     }
-    return fl_text_fail(in, err, "unknown record %.40s, nearest is %s", word, fl_text_nearest(word, list, RECORDS));
+    return fl_text_fail(in, err, "unknown record %.40s, nearest is %s", word,
+                        fl_text_nearest(word, list, RECORDS));
 }
 
 /* What only the whole file tells. */
@@ -279,8 +285,8 @@ static int check_nodes(const fl_member_model *m, fl_err *err)
             rc = fl_fail(err, FL_INPUT, "%s:%lld: node %s has no stiffness: no member ends there", m->file,
                          (long long)n->line, m->node_name.name[k]);
         else if (!(used[k] & 2) && v3_nonzero(n->moment))
-            rc = fl_fail(err, FL_INPUT, "%s:%lld: node %s has a moment, but no member is clamped to it", m->file,
-                         (long long)n->line, m->node_name.name[k]);
+            rc = fl_fail(err, FL_INPUT, "%s:%lld: node %s has a moment, but no member is clamped to it",
+                         m->file, (long long)n->line, m->node_name.name[k]);
     }
     free(used);
     return rc;

@@ -5,7 +5,8 @@
 
 fl_member_section fl_member_section_pipe(double d, double t, double e, double g, double rho)
 {
-    const double in = d - 2.0 * t, area = PI * t * (d - t), i = PI / 64.0 * (d * d * d * d - in * in * in * in);
+    const double in = d - 2.0 * t, area = PI * t * (d - t),
+                 i = PI / 64.0 * (d * d * d * d - in * in * in * in);
     return (fl_member_section){
         .ea = e * area, .eiy = e * i, .eiz = e * i, .gj = 2.0 * g * i, .mass = rho * area, .radius = 0.5 * d};
 }

@@ -17,8 +17,9 @@ uint64_t fl_path_hash(const fl_path *p)
     const fl_member_chain *c = p->chain;
     const fl_path_options *o = &p->options;
     const int32_t choices[] = {(int32_t)o->constraint, (int32_t)o->predictor, (int32_t)o->damping};
-    const double numbers[] = {o->first,          o->dl, o->dl_most, o->dl_first,   o->load_step, (double)o->load_steps, o->c,
-                              o->chi,            o->resolution, o->last, (double)o->max_steps};
+    const double numbers[] = {
+        o->first, o->dl,  o->dl_most,    o->dl_first, o->load_step,        (double)o->load_steps,
+        o->c,     o->chi, o->resolution, o->last,     (double)o->max_steps};
     uint64_t h = FL_HASH_START;
     h = fl_hash(h, choices, sizeof choices);
     h = fl_hash(h, numbers, sizeof numbers);
@@ -35,7 +36,8 @@ uint64_t fl_path_hash(const fl_path *p)
         h = fl_hash(h, e->shear, sizeof e->shear);
         h = fl_hash(h, e->turn, sizeof e->turn);
     }
-    for (int32_t k = 0; k < c->loads; k++) h = hash_vector(hash_vector(h, c->load[k].force), c->load[k].moment);
+    for (int32_t k = 0; k < c->loads; k++)
+        h = hash_vector(hash_vector(h, c->load[k].force), c->load[k].moment);
     for (int32_t k = 0; k < c->moves; k++) h = hash_vector(hash_vector(h, c->move[k].move), c->move[k].turn);
     return h;
 }
@@ -63,12 +65,12 @@ int fl_path_state_write(const fl_path *p, const fl_path_table *t, const char *pa
 {
     fl_out out = {0};
     const fl_path_point *a = &p->point;
-    const double numbers[] = {a->lambda, a->arc, a->length, a->along, a->residual, a->energy, a->work, a->balance, p->dl,
-                              p->lambda_most, p->energy_most};
+    const double numbers[] = {a->lambda, a->arc,     a->length, a->along,       a->residual,   a->energy,
+                              a->work,   a->balance, p->dl,     p->lambda_most, p->energy_most};
     if (fl_out_open(&out, path, 0, err)) return -1;
     fprintf(out.f, "#path-state %d\nhash %016" PRIx64 "\n", VERSION, fl_path_hash(p));
-    fprintf(out.f, "counts %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %d %d %d %d\n", a->number, p->first_steps,
-            p->last_steps, p->total_steps, (int)p->damping, p->known, t->known, t->limits);
+    fprintf(out.f, "counts %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %d %d %d %d\n", a->number,
+            p->first_steps, p->last_steps, p->total_steps, (int)p->damping, p->known, t->known, t->limits);
     put_numbers(out.f, "numbers", numbers, (int)(sizeof numbers / sizeof *numbers));
     put_numbers(out.f, "arc", p->s, p->known);
     put_numbers(out.f, "lambda", p->lambda, p->known);
@@ -92,7 +94,8 @@ static int next_row(fl_text *in, const char *word, fl_err *err)
     if (more < 0) return -1;
     if (more == 0) return fl_text_fail(in, err, "the file ends before \"%s\"", word);
     if (fl_text_word(in, word, &found, err)) return -1;
-    return strcmp(found, word) == 0 ? 0 : fl_text_fail(in, err, "\"%.40s\" found, expected \"%s\"", found, word);
+    return strcmp(found, word) == 0 ? 0
+                                    : fl_text_fail(in, err, "\"%.40s\" found, expected \"%s\"", found, word);
 }
 
 static int get_numbers(fl_text *in, const char *word, double *x, int n, fl_err *err)
@@ -107,7 +110,8 @@ static int get_count(fl_text *in, int64_t most, int64_t *x, fl_err *err)
 {
     double value;
     if (fl_text_f64(in, "count", &value, err)) return -1;
-    if (!(value >= 0.0 && value <= (double)most)) return fl_text_fail(in, err, "count %g, expected 0 to %lld", value, (long long)most);
+    if (!(value >= 0.0 && value <= (double)most))
+        return fl_text_fail(in, err, "count %g, expected 0 to %lld", value, (long long)most);
     *x = (int64_t)value;
     return 0;
 }
@@ -135,7 +139,9 @@ static int get_hash(fl_text *in, uint64_t wanted, fl_err *err)
     snprintf(text, sizeof text, "%016" PRIx64, wanted);
     return strcmp(word, text) == 0
                ? 0
-               : fl_text_fail(in, err, "the state is that of another model or of other options, the same are expected");
+               : fl_text_fail(
+                     in, err,
+                     "the state is that of another model or of other options, the same are expected");
 }
 
 static int get_rows(fl_text *in, fl_path_table *t, fl_err *err)
@@ -153,7 +159,9 @@ static int get_rows(fl_text *in, fl_path_table *t, fl_err *err)
         t->text[t->len++] = '\n';
     }
     if (more < 0) return -1;
-    return t->len == bytes ? 0 : fl_text_fail(in, err, "rows of %lld bytes expected, %lld found", (long long)bytes, (long long)t->len);
+    return t->len == bytes ? 0
+                           : fl_text_fail(in, err, "rows of %lld bytes expected, %lld found",
+                                          (long long)bytes, (long long)t->len);
 }
 
 static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
@@ -161,14 +169,23 @@ static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
     fl_path_point *a = &p->point;
     int64_t count[8], watches;
     double x[11];
-    static const int64_t most[8] = {INT32_MAX, INT64_MAX / 4, INT64_MAX / 4, INT64_MAX / 4, 2, 4, 4, INT32_MAX};
-    if (fl_text_magic(in, "path-state", VERSION, err) || get_hash(in, fl_path_hash(p), err) || next_row(in, "counts", err))
+    static const int64_t most[8] = {INT32_MAX, INT64_MAX / 4, INT64_MAX / 4, INT64_MAX / 4, 2, 4,
+                                    4,         INT32_MAX};
+    if (fl_text_magic(in, "path-state", VERSION, err) || get_hash(in, fl_path_hash(p), err) ||
+        next_row(in, "counts", err))
         return -1;
     for (int k = 0; k < 8; k++)
         if (get_count(in, most[k], &count[k], err)) return -1;
     if (get_numbers(in, "numbers", x, 11, err)) return -1;
-    *a = (fl_path_point){.number = count[0], .lambda = x[0], .arc = x[1], .length = x[2], .along = x[3], .residual = x[4],
-                         .energy = x[5], .work = x[6], .balance = x[7]};
+    *a = (fl_path_point){.number = count[0],
+                         .lambda = x[0],
+                         .arc = x[1],
+                         .length = x[2],
+                         .along = x[3],
+                         .residual = x[4],
+                         .energy = x[5],
+                         .work = x[6],
+                         .balance = x[7]};
     p->dl = x[8];
     p->lambda_most = x[9];
     p->energy_most = x[10];
@@ -185,11 +202,16 @@ static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
         get_count(in, FL_PATH_WATCH_MAX, &watches, err))
         return -1;
     if (watches != t->watches)
-        return fl_text_fail(in, err, "%lld displacements are watched, %d are expected: --watch and --until have to be the same",
-                            (long long)watches, t->watches);
+        return fl_text_fail(
+            in, err,
+            "%lld displacements are watched, %d are expected: --watch and --until have to be the same",
+            (long long)watches, t->watches);
     for (int k = 0; k < t->known; k++)
         if (get_numbers(in, "value", t->value[k], t->watches, err)) return -1;
-    return get_state(in, &p->before, p->chain, err) || get_state(in, &p->last, p->chain, err) || get_rows(in, t, err) ? -1 : 0;
+    return get_state(in, &p->before, p->chain, err) || get_state(in, &p->last, p->chain, err) ||
+                   get_rows(in, t, err)
+               ? -1
+               : 0;
 }
 
 int fl_path_state_read(fl_path *p, fl_path_table *t, const char *path, fl_err *err)

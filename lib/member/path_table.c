@@ -15,14 +15,16 @@ int fl_path_watch_parse(fl_path_watch *w, const fl_member_model *m, const char *
     const char *dot = strrchr(text, '.');
     char name[200];
     if (!dot || (size_t)(dot - text) >= sizeof name)
-        return fl_fail(err, FL_USAGE, "\"%.60s\" is no displacement, expected NODE.x, .y, .z, .rx, .ry or .rz", text);
+        return fl_fail(err, FL_USAGE,
+                       "\"%.60s\" is no displacement, expected NODE.x, .y, .z, .rx, .ry or .rz", text);
     memcpy(name, text, (size_t)(dot - text));
     name[dot - text] = '\0';
     w->node = fl_string_table_find(&m->node_name, name);
     if (w->node < 0) return fl_fail(err, FL_USAGE, "%s has no node \"%.60s\"", m->file, name);
     for (w->dof = 0; w->dof < FL_MEMBER_DOFS; w->dof++)
         if (strcmp(dot + 1, DOF[w->dof]) == 0) return 0;
-    return fl_fail(err, FL_USAGE, "\"%.60s\" is no displacement, expected NODE.x, .y, .z, .rx, .ry or .rz", text);
+    return fl_fail(err, FL_USAGE, "\"%.60s\" is no displacement, expected NODE.x, .y, .z, .rx, .ry or .rz",
+                   text);
 }
 
 void fl_path_table_watch_loads(fl_path_table *t, const fl_member_model *m)
@@ -55,16 +57,19 @@ const char *fl_path_watch_name(const fl_path_watch *w, const fl_member_model *m,
     return buf;
 }
 
-void fl_path_table_header(FILE *f, const fl_path_table *t, const fl_member_model *m, const fl_history_line *by)
+void fl_path_table_header(FILE *f, const fl_path_table *t, const fl_member_model *m,
+                          const fl_history_line *by)
 {
     char name[220];
     fl_write_file_header(f, "path", 1, NULL, by);
     fputs("point\tlambda\tarc\tlength\talong\tsteps\tnegative\tresidual\tenergy\tbalance\thint", f);
-    for (int k = 0; k < t->watches; k++) fprintf(f, "\t%s", fl_path_watch_name(&t->watch[k], m, name, sizeof name));
+    for (int k = 0; k < t->watches; k++)
+        fprintf(f, "\t%s", fl_path_watch_name(&t->watch[k], m, name, sizeof name));
     putc('\n', f);
 }
 
-static int add_text(fl_path_table *t, fl_err *err, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
+static int add_text(fl_path_table *t, fl_err *err, const char *fmt, ...)
+    __attribute__((format(printf, 3, 4)));
 static int add_text(fl_path_table *t, fl_err *err, const char *fmt, ...)
 {
     enum { LINE = 512 };
@@ -92,7 +97,8 @@ static const char *hint_word(int hint)
                                          : "-";
 }
 
-/* A line below the row: load factor of the limit, its error of interpolation, and the watched displacements there. */
+/* A line below the row: load factor of the limit, its error of interpolation, and the watched displacements
+ * there. */
 static int add_limit(fl_path_table *t, const fl_path *p, const fl_member_model *m, fl_err *err)
 {
     const fl_path_point *a = &p->point;
@@ -100,8 +106,9 @@ static int add_limit(fl_path_table *t, const fl_path *p, const fl_member_model *
     const int n = p->known < t->known ? p->known : t->known;
     const int use = n < 4 ? n : 4;
     const double *s = &p->s[p->known - use];
-    if (add_text(t, err, "#limit %s lambda=%s error=%s arc=%s", hint_word(a->hint), fl_number_text(a->limit, text[0]),
-                 fl_number_text(a->limit_error, text[1]), fl_number_text(a->limit_arc, text[2])))
+    if (add_text(t, err, "#limit %s lambda=%s error=%s arc=%s", hint_word(a->hint),
+                 fl_number_text(a->limit, text[0]), fl_number_text(a->limit_error, text[1]),
+                 fl_number_text(a->limit_arc, text[2])))
         return -1;
     for (int k = 0; k < t->watches; k++) {
         double y[4];
@@ -124,10 +131,10 @@ int fl_path_table_add(fl_path_table *t, const fl_path *p, const fl_member_model 
     for (int k = 0; k < t->watches; k++) t->value[t->known][k] = fl_path_watch_value(&t->watch[k], p->chain);
     t->known++;
     if (a->number == 0) return 0;
-    if (add_text(t, err, "%" PRId64, a->number) || add_number(t, a->lambda, err) || add_number(t, a->arc, err) ||
-        add_number(t, a->length, err) || add_number(t, a->along, err) ||
-        add_text(t, err, "\t%" PRId64 "\t%" PRId64, a->steps, a->negative) || add_number(t, a->residual, err) ||
-        add_number(t, a->energy, err) || add_number(t, a->balance, err) ||
+    if (add_text(t, err, "%" PRId64, a->number) || add_number(t, a->lambda, err) ||
+        add_number(t, a->arc, err) || add_number(t, a->length, err) || add_number(t, a->along, err) ||
+        add_text(t, err, "\t%" PRId64 "\t%" PRId64, a->steps, a->negative) ||
+        add_number(t, a->residual, err) || add_number(t, a->energy, err) || add_number(t, a->balance, err) ||
         add_text(t, err, "\t%s", hint_word(a->hint)))
         return -1;
     for (int k = 0; k < t->watches; k++)

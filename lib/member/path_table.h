@@ -29,7 +29,8 @@ typedef struct {
 /* "NODE.x" to "NODE.rz".  -1 with FL_USAGE. */
 int fl_path_watch_parse(fl_path_watch *w, const fl_member_model *m, const char *text, fl_err *err);
 
-/* Adds the displacement along the force of every loaded node, as long as there is room.  -1 with FL_SYSTEM. */
+/* Adds the displacement along the force of every loaded node, as long as there is room.  -1 with FL_SYSTEM.
+ * */
 void fl_path_table_watch_loads(fl_path_table *t, const fl_member_model *m);
 
 /* Present value of a watched freedom; a rotation as the rotation vector since the start [rad]. */
@@ -38,10 +39,11 @@ double fl_path_watch_value(const fl_path_watch *w, const fl_member_chain *c);
 /* Name of column k of the watched ones. */
 const char *fl_path_watch_name(const fl_path_watch *w, const fl_member_model *m, char *buf, size_t size);
 
-void fl_path_table_header(FILE *f, const fl_path_table *t, const fl_member_model *m, const fl_history_line *by);
+void fl_path_table_header(FILE *f, const fl_path_table *t, const fl_member_model *m,
+                          const fl_history_line *by);
 
-/* Adds the row of the present point to text, and after it a line `#limit` where a maximum or minimum was passed.
- * The start of the path has no row: call with p->point.number = 0 once before.  -1 with FL_SYSTEM. */
+/* Adds the row of the present point to text, and after it a line `#limit` where a maximum or minimum was
+ * passed. The start of the path has no row: call with p->point.number = 0 once before.  -1 with FL_SYSTEM. */
 int fl_path_table_add(fl_path_table *t, const fl_path *p, const fl_member_model *m, fl_err *err);
 
 void fl_path_table_free(fl_path_table *t); /* accepts a zeroed struct, leaves one */

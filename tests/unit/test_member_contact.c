@@ -84,7 +84,8 @@ static void force_is_the_gradient_of_energy(void **state)
         for (int n = 0; n < 40; n++) {
             struct state s = random_state(&g, kind, angles[n % 4]);
             double r2;
-            const fl_member_force f = fl_member_contact_force(&s.c, v3_sub(s.xj, s.xi), s.qi, s.qj, NULL, &r2);
+            const fl_member_force f =
+                fl_member_contact_force(&s.c, v3_sub(s.xj, s.xi), s.qi, s.qj, NULL, &r2);
             assert_near(gradient(&s, 0), f.f, DIFFERENCE);
             assert_near(gradient(&s, 1), v3_neg(f.f), DIFFERENCE);
             assert_near(gradient(&s, 2), f.mi, DIFFERENCE);
@@ -116,7 +117,8 @@ static void a_rotation_of_all_makes_no_force(void **state)
             const fl_vec3 dx = q_rotate(q, q_rotate(s.c.e0, v3(s.c.length, 0, 0)));
             double r2;
             const fl_member_force f = fl_member_contact_force(&s.c, dx, q, q, NULL, &r2);
-            assert_true(v3_norm(f.f) < 1e-13 * 40.0 && v3_norm(f.mi) < 1e-13 * 40.0 && v3_norm(f.mj) < 1e-13 * 40.0);
+            assert_true(v3_norm(f.f) < 1e-13 * 40.0 && v3_norm(f.mi) < 1e-13 * 40.0 &&
+                        v3_norm(f.mj) < 1e-13 * 40.0);
         }
 }
 
@@ -125,8 +127,11 @@ static void a_hinged_piece_has_three_ei_over_l3(void **state)
 {
     (void)state;
     const double l = 0.5, ei = 3.0;
-    const fl_member_contact c = {
-        .kind = FL_MEMBER_HINGE_J, .e0 = q_one(), .length = l, .axial = 100.0, .shear = {3 * ei / l, 3 * ei / l}};
+    const fl_member_contact c = {.kind = FL_MEMBER_HINGE_J,
+                                 .e0 = q_one(),
+                                 .length = l,
+                                 .axial = 100.0,
+                                 .shear = {3 * ei / l, 3 * ei / l}};
     double r2;
     const fl_member_force f = fl_member_contact_force(&c, v3(l, 1e-6, 0), q_one(), q_one(), NULL, &r2);
     assert_true(fabs(f.f.y / (1e-6 * 3.0 * ei / (l * l * l)) - 1.0) < 1e-5);
@@ -143,9 +148,10 @@ static void arcsine_is_that_of_the_library(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(force_is_the_gradient_of_energy), cmocka_unit_test(momentum_balances),
-        cmocka_unit_test(a_rotation_of_all_makes_no_force), cmocka_unit_test(a_hinged_piece_has_three_ei_over_l3),
-        cmocka_unit_test(arcsine_is_that_of_the_library)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(force_is_the_gradient_of_energy),
+                                       cmocka_unit_test(momentum_balances),
+                                       cmocka_unit_test(a_rotation_of_all_makes_no_force),
+                                       cmocka_unit_test(a_hinged_piece_has_three_ei_over_l3),
+                                       cmocka_unit_test(arcsine_is_that_of_the_library)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,8 +57,8 @@ static void make_chain(fl_member_model *m, fl_member_chain *c)
 {
     fl_text in = {0};
     fl_err err = {0};
-    if (fl_text_open_bytes(&in, "model", text, (int64_t)used, &err) || fl_member_model_read_text(m, &in, &err) ||
-        fl_member_chain_make(c, m, 1.0, &err))
+    if (fl_text_open_bytes(&in, "model", text, (int64_t)used, &err) ||
+        fl_member_model_read_text(m, &in, &err) || fl_member_chain_make(c, m, 1.0, &err))
         fatal(&err);
     fl_text_close(&in);
 }
@@ -78,8 +78,8 @@ typedef struct {
     int axis;
 } watched;
 
-/* Follows the path of the model in `text` until the displacement along the load is `until`, or watch[0] beyond
- * `until0` where that is not 0. */
+/* Follows the path of the model in `text` until the displacement along the load is `until`, or watch[0]
+ * beyond `until0` where that is not 0. */
 static void follow(curve *out, const fl_path_options *o, double until, double until0, const watched *watch)
 {
     fl_member_model m = {0};
@@ -171,7 +171,8 @@ static void two_bars(void)
 {
     begin();
     add("node a %.17g 0 0 hinge\nnode b %.17g 0 0 hinge\nnode c 0 0 %.17g hinge\n", -SPAN6, SPAN6, RISE6);
-    add("section s 2e6 1.6667e7 1.6667e7 1.28e7\nmember 1 a c s 6\nmember 2 b c s 6\nfix a pinned\nfix b pinned\nfix c y\n");
+    add("section s 2e6 1.6667e7 1.6667e7 1.28e7\nmember 1 a c s 6\nmember 2 b c s 6\nfix a pinned\nfix b "
+        "pinned\nfix c y\n");
 }
 
 static double two_bar_load(double v)
@@ -191,10 +192,12 @@ static void verify_two_bar(enum fl_relaxation_kind damping, const char *name)
     follow(&one, &o, 24.2, 0.0, NULL);
     snprintf(what, sizeof what, "two bars, %s damping: limit [N]", name);
     verify_row("T1/V71", what, 2500.0 * one.limit[0], 884.0250, 2e-3, VERIFY_REL);
-    snprintf(what, sizeof what, "  least load after it [N], %d points, %lld steps", one.n - 1, (long long)one.steps);
+    snprintf(what, sizeof what, "  least load after it [N], %d points, %lld steps", one.n - 1,
+             (long long)one.steps);
     verify_row("T1/V71", what, 2500.0 * one.limit[1], -884.0250, 2e-3, VERIFY_REL);
     for (int k = 0; k < (int)(sizeof at / sizeof *at); k++)
-        worst = fmax(worst, fabs(2500.0 * value_at(&one, one.lambda, one.along, at[k], 0.0) - two_bar_load(at[k])));
+        worst = fmax(worst,
+                     fabs(2500.0 * value_at(&one, one.lambda, one.along, at[k], 0.0) - two_bar_load(at[k])));
     verify_below("T1/V71", "  farthest from the closed form [N], at ten deflections", worst, 2e-3 * 884.025);
     verify_below("T1", "  energy against work of the load, over the larger one", one.largest, 5e-3);
     verify_row("T1", "  energy against work at the end", one.balance[one.n - 1], 0.0, 1e-3, VERIFY_ABS);
@@ -212,14 +215,16 @@ static void verify_two_bar_upward(void)
 
 static void verify_spring(enum fl_relaxation_kind damping, const char *name)
 {
-    static const double v[] = {2, 3, 4.428946, 8, 10.452846, 13, 19, 24}, p[] = {641.046, 803.931, 884.025, 510.447, 0, -527.633, -620.639, 2000.977},
+    static const double v[] = {2, 3, 4.428946, 8, 10.452846, 13, 19, 24},
+                        p[] = {641.046, 803.931, 884.025, 510.447, 0, -527.633, -620.639, 2000.977},
                         u[] = {8.41046, 11.03931, 13.26920, 13.10447, 10.45285, 7.72367, 12.79361, 44.00977};
     const watched watch[WATCH] = {{"c", 2}};
     char what[100];
     double worst_p = 0.0, worst_u = 0.0, up[20];
     int turns = 0;
     two_bars();
-    add("node d 0 0 %.17g hinge\nsection k 1e5 1e6 1e6 1e6\nmember 3 d c k 1\nfix d x y\nload d 0 0 -2500\n", RISE6 - 1000.0);
+    add("node d 0 0 %.17g hinge\nsection k 1e5 1e6 1e6 1e6\nmember 3 d c k 1\nfix d x y\nload d 0 0 -2500\n",
+        RISE6 - 1000.0);
     const fl_path_options o = options(damping, 0.02, fine(0.01, 0.004));
     follow(&one, &o, 0.0, -24.3, watch);
     for (int k = 0; k < 8; k++) {
@@ -233,9 +238,11 @@ static void verify_spring(enum fl_relaxation_kind damping, const char *name)
         }
     snprintf(what, sizeof what, "two bars behind a spring, %s damping: load, farthest off [N]", name);
     verify_below("T2", what, worst_p, 3e-3 * 884.025);
-    snprintf(what, sizeof what, "  displacement of the load, farthest off, %d points, %lld steps", one.n - 1, (long long)one.steps);
+    snprintf(what, sizeof what, "  displacement of the load, farthest off, %d points, %lld steps", one.n - 1,
+             (long long)one.steps);
     verify_below("T2", what, worst_u, 3e-3 * 14.0);
-    verify_row("T2", "  displacement where it turns back", turns > 0 ? up[0] : NAN, 14.018565, 3e-3, VERIFY_REL);
+    verify_row("T2", "  displacement where it turns back", turns > 0 ? up[0] : NAN, 14.018565, 3e-3,
+               VERIFY_REL);
     verify_row("T2", "  and where it turns forward", turns > 1 ? up[1] : NAN, 6.887127, 3e-3, VERIFY_REL);
 }
 
@@ -249,8 +256,8 @@ static void star_dome(int hinged, int p, int q, double eiy, double eiz, double g
     add("section s 960510 %g %g %g\nnode apex 0 0 82.16 %s\n", eiy, eiz, gj, hinge);
     for (int k = 0; k < 6; k++) {
         const double a = k * PI / 3.0, b = a + PI / 6.0;
-        add("node r%d %.15g %.15g 62.16 %s\nnode s%d %.15g %.15g 0 %s\nfix s%d pinned\n", k, 250 * cos(a), 250 * sin(a), hinge,
-            k, 500 * cos(b), 500 * sin(b), hinge, k);
+        add("node r%d %.15g %.15g 62.16 %s\nnode s%d %.15g %.15g 0 %s\nfix s%d pinned\n", k, 250 * cos(a),
+            250 * sin(a), hinge, k, 500 * cos(b), 500 * sin(b), hinge, k);
     }
     for (int k = 0; k < 6; k++) {
         const int next = (k + 1) % 6;
@@ -263,8 +270,10 @@ static void star_dome(int hinged, int p, int q, double eiy, double eiz, double g
 static void verify_star_truss(void)
 {
     static const double w[] = {1, 2, 4, 6, 10, 14, 20, 25, 35, 40, 50},
-                        p[] = {79.861, 146.177, 241.101, 291.042, 283.410, 179.341, -43.416, -199.165, -204.632, 0, 850.890},
-                        ring[] = {.0480, .1025, .2273, .3672, .6621, .9320, 1.1951, 1.2221, .6344, NAN, -1.9524};
+                        p[] = {79.861,  146.177,  241.101,  291.042, 283.410, 179.341,
+                               -43.416, -199.165, -204.632, 0,       850.890},
+                        ring[] = {.0480,  .1025,  .2273, .3672, .6621,  .9320,
+                                  1.1951, 1.2221, .6344, NAN,   -1.9524};
     const watched watch[WATCH] = {{"r0", 2}};
     double worst = 0.0, worst_ring = 0.0;
     star_dome(1, 5, 6, 2.5e7, 2.5e7, 1.7e7);
@@ -272,12 +281,15 @@ static void verify_star_truss(void)
     follow(&one, &o, 50.5, 0.0, watch);
     for (int k = 0; k < 11; k++) {
         worst = fmax(worst, fabs(900.0 * value_at(&one, one.lambda, one.along, w[k], 0.0) - p[k]));
-        if (isfinite(ring[k])) worst_ring = fmax(worst_ring, fabs(value_at(&one, one.watch[0], one.along, w[k], 0.0) - ring[k]));
+        if (isfinite(ring[k]))
+            worst_ring = fmax(worst_ring, fabs(value_at(&one, one.watch[0], one.along, w[k], 0.0) - ring[k]));
     }
     verify_row("T3/V72", "star dome, hinged: limit [N]", 900.0 * one.limit[0], 303.189, 3e-3, VERIFY_REL);
-    verify_row("T3/V72", "  apex down there [mm]", at_arc(&one, one.along, one.limit_s[0]), 7.6844, 5e-3, VERIFY_REL);
+    verify_row("T3/V72", "  apex down there [mm]", at_arc(&one, one.along, one.limit_s[0]), 7.6844, 5e-3,
+               VERIFY_REL);
     verify_row("T3/V72", "  least load after it [N]", 900.0 * one.limit[1], -265.101, 3e-3, VERIFY_REL);
-    verify_row("T3/V72", "  apex down there [mm]", at_arc(&one, one.along, one.limit_s[1]), 30.2777, 5e-3, VERIFY_REL);
+    verify_row("T3/V72", "  apex down there [mm]", at_arc(&one, one.along, one.limit_s[1]), 30.2777, 5e-3,
+               VERIFY_REL);
     verify_below("T3", "  farthest from the reference [N], at eleven deflections", worst, 3e-3 * 303.189);
     verify_below("T3", "  ring up, farthest off [mm]", worst_ring, 0.01);
     verify_note("%d points, %lld steps of 132 contacts", one.n - 1, (long long)one.steps);
@@ -294,8 +306,10 @@ static void verify_star_frame(void)
     follow(&two, &o, 50.5, 0.0, NULL);
     for (int k = 0; k < 6; k++) {
         char what[100];
-        const double a = 900.0 * value_at(&one, one.lambda, one.along, w[k], 0.0), b = 900.0 * value_at(&two, two.lambda, two.along, w[k], 0.0);
-        snprintf(what, sizeof what, "star dome, rigid joints, apex down %g mm [N]: %.1f, %.1f to", w[k], a, b);
+        const double a = 900.0 * value_at(&one, one.lambda, one.along, w[k], 0.0),
+                     b = 900.0 * value_at(&two, two.lambda, two.along, w[k], 0.0);
+        snprintf(what, sizeof what, "star dome, rigid joints, apex down %g mm [N]: %.1f, %.1f to", w[k], a,
+                 b);
         verify_row("T3/V73", what, extrapolated(a, b), p[k], 5e-3, VERIFY_REL);
     }
 }
@@ -313,7 +327,8 @@ static const char *ring_node(char *buf, size_t size, int ring, int sector, int i
 static void k6_member(int *n, int pieces, int ra, int sa, int ia, int rb, int sb, int ib)
 {
     char a[30], b[30];
-    add("member %d %s %s pipe %d\n", ++*n, ring_node(a, sizeof a, ra, sa, ia), ring_node(b, sizeof b, rb, sb, ib), pieces);
+    add("member %d %s %s pipe %d\n", ++*n, ring_node(a, sizeof a, ra, sa, ia),
+        ring_node(b, sizeof b, rb, sb, ib), pieces);
 }
 
 /* Kiewitt dome with 4 rings at equal arc, span 30, rise 2 m, pipes 180 x 5 mm; kN. */
@@ -329,8 +344,8 @@ static void k6_dome(int pieces)
         for (int s = 0; s < 6; s++)
             for (int i = 0; i < k; i++) {
                 const double phi = rim * k / RINGS, t = (s + (double)i / k) * PI / 3.0;
-                add("node %s %.15g %.15g %.15g\n", ring_node(a, sizeof a, k, s, i), radius * sin(phi) * cos(t),
-                    radius * sin(phi) * sin(t), radius * (cos(phi) - 1.0) + 2.0);
+                add("node %s %.15g %.15g %.15g\n", ring_node(a, sizeof a, k, s, i),
+                    radius * sin(phi) * cos(t), radius * sin(phi) * sin(t), radius * (cos(phi) - 1.0) + 2.0);
             }
     for (int k = 1; k <= RINGS; k++)
         for (int s = 0; s < 6; s++)
@@ -355,13 +370,16 @@ static void verify_k6(void)
     const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.1, fine(0.04, 0.01));
     follow(&one, &o, verify_quick() ? 0.70 : 0.95, 0.0, watch);
     if (verify_quick()) {
-        verify_row("T4/V74", "dome K6-4, 3 pieces: limit [kN], against that of 6", 100.0 * one.limit[0], 381.43, 0.05, VERIFY_REL);
+        verify_row("T4/V74", "dome K6-4, 3 pieces: limit [kN], against that of 6", 100.0 * one.limit[0],
+                   381.43, 0.05, VERIFY_REL);
         return;
     }
     verify_row("T4/V74", "dome K6-4, 6 pieces: limit [kN]", 100.0 * one.limit[0], 381.43, 1e-2, VERIFY_REL);
-    verify_row("T4/V74", "  apex down there [m]", at_arc(&one, one.along, one.limit_s[0]), 0.6384, 1e-2, VERIFY_REL);
+    verify_row("T4/V74", "  apex down there [m]", at_arc(&one, one.along, one.limit_s[0]), 0.6384, 1e-2,
+               VERIFY_REL);
     verify_row("T4/V74", "  least load after it [kN]", 100.0 * one.limit[1], 375.5, 1e-2, VERIFY_REL);
-    verify_row("T4/V74", "  apex down there [m]", at_arc(&one, one.along, one.limit_s[1]), 0.812, 3e-2, VERIFY_REL);
+    verify_row("T4/V74", "  apex down there [m]", at_arc(&one, one.along, one.limit_s[1]), 0.812, 3e-2,
+               VERIFY_REL);
     for (int k = 0; k < 11; k++)
         worst = fmax(worst, fabs(100.0 * value_at(&one, one.lambda, one.along, w[k], 0.0) / p[k] - 1.0));
     verify_below("T4", "  largest relative distance from the reference, at eleven deflections", worst, 1e-2);
@@ -371,7 +389,8 @@ static void verify_k6(void)
     const fl_path_options o2 = options(FL_RELAXATION_ADAPTIVE, 0.1, 0.02);
     follow(&two, &o2, 0.70, 0.0, watch);
     verify_note("12 pieces: limit %.2f kN", 100.0 * two.limit[0]);
-    verify_row("T4/V74", "  limit of 6 and 12 pieces, extrapolated [kN]", extrapolated(six, 100.0 * two.limit[0]), 384.9, 1e-2, VERIFY_REL);
+    verify_row("T4/V74", "  limit of 6 and 12 pieces, extrapolated [kN]",
+               extrapolated(six, 100.0 * two.limit[0]), 384.9, 1e-2, VERIFY_REL);
 }
 
 /* --- T5: Lee's frame --------------------------------------------------------------------------- */
@@ -379,8 +398,10 @@ static void verify_k6(void)
 static void lee_frame(int pieces)
 {
     begin();
-    add("section s 4320 1440 1440 1e3\nnode foot 0 0 0\nnode knee 0 0 120\nnode at 24 0 120\nnode end 120 0 120\n");
-    add("member column foot knee s %d\nmember left knee at s %d\nmember right at end s %d\n", pieces, pieces / 5, pieces / 5 * 4);
+    add("section s 4320 1440 1440 1e3\nnode foot 0 0 0\nnode knee 0 0 120\nnode at 24 0 120\nnode end 120 0 "
+        "120\n");
+    add("member column foot knee s %d\nmember left knee at s %d\nmember right at end s %d\n", pieces,
+        pieces / 5, pieces / 5 * 4);
     add("fix foot pinned rx rz\nfix end pinned rx rz\nfix knee y rx rz\nfix at y rx rz\nload at 0 0 -1\n");
 }
 
@@ -396,7 +417,8 @@ static void verify_lee(void)
     follow(&one, &o, 95.0, 0.0, watch);
     if (verify_quick()) {
         verify_row("T5", "Lee's frame, 10 pieces a member: limit", one.limit[0], 1.8557, 1.5e-2, VERIFY_REL);
-        verify_row("T5", "  least load behind the snap-back", one.limits > 1 ? one.limit[1] : NAN, -0.9414, 5e-2, VERIFY_REL);
+        verify_row("T5", "  least load behind the snap-back", one.limits > 1 ? one.limit[1] : NAN, -0.9414,
+                   5e-2, VERIFY_REL);
         return;
     }
     lee_frame(2 * n);
@@ -405,13 +427,16 @@ static void verify_lee(void)
     verify_row("T5", "  least load behind the snap-back", one.limit[1], -0.9414, 5e-2, VERIFY_REL);
     verify_row("T5", "  20 pieces: limit", two.limit[0], 1.8557, 5e-3, VERIFY_REL);
     verify_row("T5", "  least load behind the snap-back", two.limit[1], -0.9414, 1.5e-2, VERIFY_REL);
-    verify_row("T5", "  both, extrapolated: limit", extrapolated(one.limit[0], two.limit[0]), 1.8557, 1e-3, VERIFY_REL);
+    verify_row("T5", "  both, extrapolated: limit", extrapolated(one.limit[0], two.limit[0]), 1.8557, 1e-3,
+               VERIFY_REL);
     verify_row("T5", "  least load", extrapolated(one.limit[1], two.limit[1]), -0.9414, 5e-3, VERIFY_REL);
     double worst_v = 0.0, worst_p = 0.0;
     for (int k = 0; k < 10; k++) { /* u rises along the path up to its turn: points of the curve by it */
         const double from = k < 9 ? 0.0 : one.limit_s[1], from2 = k < 9 ? 0.0 : two.limit_s[1];
-        const double a = k < 8 ? value_at(&one, one.along, one.watch[1], u[k], from) : value_at(&one, one.watch[1], one.along, v[k], one.limit_s[1]);
-        const double b = k < 8 ? value_at(&two, two.along, two.watch[1], u[k], from2) : value_at(&two, two.watch[1], two.along, v[k], two.limit_s[1]);
+        const double a = k < 8 ? value_at(&one, one.along, one.watch[1], u[k], from)
+                               : value_at(&one, one.watch[1], one.along, v[k], one.limit_s[1]);
+        const double b = k < 8 ? value_at(&two, two.along, two.watch[1], u[k], from2)
+                               : value_at(&two, two.watch[1], two.along, v[k], two.limit_s[1]);
         worst_v = fmax(worst_v, fabs(extrapolated(a, b) - (k < 8 ? v[k] : u[k])));
         if (k < 8)
             worst_p = fmax(worst_p, fabs(extrapolated(value_at(&one, one.lambda, one.watch[1], u[k], 0.0),
@@ -420,7 +445,8 @@ static void verify_lee(void)
     }
     verify_below("T5", "  displacement, farthest from the elastica at ten points", worst_v, 0.2);
     verify_below("T5", "  load, farthest from it at eight of them", worst_p, 0.02);
-    verify_note("%d and %d points, %lld and %lld steps", one.n - 1, two.n - 1, (long long)one.steps, (long long)two.steps);
+    verify_note("%d and %d points, %lld and %lld steps", one.n - 1, two.n - 1, (long long)one.steps,
+                (long long)two.steps);
 }
 
 /* --- T6, T7: toggle and arch ------------------------------------------------------------------- */
@@ -430,14 +456,16 @@ static void toggle(int pieces)
     const double e = 10.3e6, b = 0.753, h = 0.243, area = b * h, i = b * h * h * h / 12.0;
     begin();
     add("section s %.12g %.12g %.12g %.12g\n", e * area, e * i, e * i, e * i);
-    add("node a -12.94288 0 0\nnode b 12.94288 0 0\nnode c 0 0 0.386\nmember 1 a c s %d\nmember 2 c b s %d\n", pieces, pieces);
+    add("node a -12.94288 0 0\nnode b 12.94288 0 0\nnode c 0 0 0.386\nmember 1 a c s %d\nmember 2 c b s %d\n",
+        pieces, pieces);
     add("fix a clamped\nfix b clamped\nfix c y rx rz\nload c 0 0 -40\n");
 }
 
 static void verify_toggle(void)
 {
     static const double w[] = {.05, .1, .15, .2, .25, .3, .35, .4, .45, .5, .55, .6, .65},
-                        p[] = {15.18, 25.20, 30.98, 33.50, 33.78, 32.85, 31.71, 31.30, 32.50, 36.10, 42.81, 53.31, 68.24};
+                        p[] = {15.18, 25.20, 30.98, 33.50, 33.78, 32.85, 31.71,
+                               31.30, 32.50, 36.10, 42.81, 53.31, 68.24};
     const int n = verify_quick() ? 4 : 8;
     const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.02, 0.005);
     double worst = 0.0;
@@ -445,13 +473,19 @@ static void verify_toggle(void)
     follow(&one, &o, 0.67, 0.0, NULL);
     toggle(2 * n);
     follow(&two, &o, 0.67, 0.0, NULL);
-    verify_note("Williams' toggle: %d and %d pieces a bar: limit %.2f and %.2f lb", n, 2 * n, 40.0 * one.limit[0], 40.0 * two.limit[0]);
+    verify_note("Williams' toggle: %d and %d pieces a bar: limit %.2f and %.2f lb", n, 2 * n,
+                40.0 * one.limit[0], 40.0 * two.limit[0]);
     /* With 4 and 8 pieces terms of the fourth order are left: 0.5 % is for 8 and 16. */
     const double tol = fine(1e-2, 5e-3);
-    verify_row("T6", "Williams' toggle: limit, extrapolated [lb]", extrapolated(40.0 * one.limit[0], 40.0 * two.limit[0]), 33.8713, tol, VERIFY_REL);
-    verify_row("T6", "  least load after it [lb]", extrapolated(40.0 * one.limit[1], 40.0 * two.limit[1]), 31.2826, tol, VERIFY_REL);
+    verify_row("T6", "Williams' toggle: limit, extrapolated [lb]",
+               extrapolated(40.0 * one.limit[0], 40.0 * two.limit[0]), 33.8713, tol, VERIFY_REL);
+    verify_row("T6", "  least load after it [lb]", extrapolated(40.0 * one.limit[1], 40.0 * two.limit[1]),
+               31.2826, tol, VERIFY_REL);
     for (int k = 0; k < 13; k++)
-        worst = fmax(worst, fabs(extrapolated(40.0 * value_at(&one, one.lambda, one.along, w[k], 0.0), 40.0 * value_at(&two, two.lambda, two.along, w[k], 0.0)) / p[k] - 1.0));
+        worst = fmax(worst, fabs(extrapolated(40.0 * value_at(&one, one.lambda, one.along, w[k], 0.0),
+                                              40.0 * value_at(&two, two.lambda, two.along, w[k], 0.0)) /
+                                     p[k] -
+                                 1.0));
     verify_below("T6", "  largest relative distance from the elastica, at 13 deflections", worst, tol);
 }
 
@@ -478,7 +512,8 @@ static void verify_arch(void)
         limit[k] = one.limits ? one.limit[0] : NAN;
     }
     verify_note("shallow arch, %d and %d pieces: %.4f and %.4f", n, 2 * n, limit[0], limit[1]);
-    verify_row("T7", "shallow hinged arch, perfect: limit, extrapolated", extrapolated(limit[0], limit[1]), 4.9957, 5e-3, VERIFY_REL);
+    verify_row("T7", "shallow hinged arch, perfect: limit, extrapolated", extrapolated(limit[0], limit[1]),
+               4.9957, 5e-3, VERIFY_REL);
     if (verify_quick()) return;
     for (int k = 0; k < 2; k++) {
         const watched watch[WATCH] = {{k ? "32" : "16", 2}};
@@ -490,19 +525,22 @@ static void verify_arch(void)
         side[k] = c->limits ? c->limit[0] : NAN;
     }
     verify_note("with a side load of 1e-3: %.4f and %.4f", side[0], side[1]);
-    verify_row("T7", "  with a side load of 1e-3, it bifurcates: limit, extrapolated", extrapolated(side[0], side[1]), 4.828, 5e-3, VERIFY_REL);
+    verify_row("T7", "  with a side load of 1e-3, it bifurcates: limit, extrapolated",
+               extrapolated(side[0], side[1]), 4.828, 5e-3, VERIFY_REL);
 }
 
 /* --- T8, T9: pyramid, hexagonal frame ---------------------------------------------------------- */
 
 static void verify_pyramid(void)
 {
-    static const double w[] = {2, 5, 10, 15, 25, 45}, p[] = {333.477, 640.653, 733.270, 458.706, -458.706, 1366.297};
+    static const double w[] = {2, 5, 10, 15, 25, 45},
+                        p[] = {333.477, 640.653, 733.270, 458.706, -458.706, 1366.297};
     double worst = 0.0;
     begin();
     add("section s bar 1 960510\nnode apex 0 0 20\nload apex 0 0 -1000\n");
     for (int k = 0; k < 8; k++)
-        add("node %d %.15g %.15g 0\nfix %d pinned\nmember %d %d apex s 1\n", k, 250 * cos(k * PI / 4), 250 * sin(k * PI / 4), k, k, k);
+        add("node %d %.15g %.15g 0\nfix %d pinned\nmember %d %d apex s 1\n", k, 250 * cos(k * PI / 4),
+            250 * sin(k * PI / 4), k, k, k);
     const fl_path_options o = options(FL_RELAXATION_KINETIC, 0.02, 0.004);
     follow(&one, &o, 45.2, 0.0, NULL);
     verify_row("T8", "pyramid of eight bars: limit [N]", 1000.0 * one.limit[0], 752.330, 2e-3, VERIFY_REL);
@@ -515,10 +553,12 @@ static void verify_pyramid(void)
 static void hexagon(int pieces, int rollers)
 {
     begin();
-    add("section s general %.12g %.12g %.12g %.12g\nnode apex 0 0 1.75\nload apex 0 0 -100\n", 439800 * .494, 439800 * .02, 439800 * .02, 159000 * .0331);
+    add("section s general %.12g %.12g %.12g %.12g\nnode apex 0 0 1.75\nload apex 0 0 -100\n", 439800 * .494,
+        439800 * .02, 439800 * .02, 159000 * .0331);
     if (rollers) add("fix apex x y rz\n");
     for (int k = 0; k < 6; k++)
-        add("node %d %.15g %.15g 0\nfix %d %s\n", k, 24 * cos(k * PI / 3), 24 * sin(k * PI / 3), k, rollers ? "z" : "pinned");
+        add("node %d %.15g %.15g 0\nfix %d %s\n", k, 24 * cos(k * PI / 3), 24 * sin(k * PI / 3), k,
+            rollers ? "z" : "pinned");
     for (int k = 0; k < 6; k++)
         add("member a%d apex %d s %d\nmember r%d %d %d s %d\n", k, k, pieces, k, k, (k + 1) % 6, pieces);
 }
@@ -534,7 +574,8 @@ static void verify_hexagon(void)
         limit[k] = 100.0 * one.limit[0];
     }
     verify_note("hexagonal frame, pinned, %d and %d pieces: %.2f and %.2f lb", n, 2 * n, limit[0], limit[1]);
-    verify_row("T9", "hexagonal frame, ring joints pinned: limit, extrapolated [lb]", extrapolated(limit[0], limit[1]), 78.55, 1e-2, VERIFY_REL);
+    verify_row("T9", "hexagonal frame, ring joints pinned: limit, extrapolated [lb]",
+               extrapolated(limit[0], limit[1]), 78.55, 1e-2, VERIFY_REL);
     if (verify_quick()) return;
     for (int k = 0; k < 2; k++) {
         hexagon(4 << k, 1);
@@ -542,7 +583,8 @@ static void verify_hexagon(void)
         roller[k] = 100.0 * one.limit[0];
     }
     verify_note("on rollers, 4 and 8 pieces: %.2f and %.2f lb", roller[0], roller[1]);
-    verify_row("T9", "  ring joints on rollers: limit, extrapolated [lb]", extrapolated(roller[0], roller[1]), 56.95, 1e-2, VERIFY_REL);
+    verify_row("T9", "  ring joints on rollers: limit, extrapolated [lb]", extrapolated(roller[0], roller[1]),
+               56.95, 1e-2, VERIFY_REL);
 }
 
 /* --- T10: column, bend, roll-up ---------------------------------------------------------------- */
@@ -571,11 +613,13 @@ static void verify_column(void)
         fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.3, 0.02);
         o.constraint = FL_ARC_TOTAL;
         follow(&one, &o, 0.0, 0.201, watch);
-        for (int i = 0; i < 5; i++) load[k][i] = value_at(&one, one.lambda, one.watch[0], sag[i] - 1e-3, 0.0) * 1079.49 / euler;
+        for (int i = 0; i < 5; i++)
+            load[k][i] = value_at(&one, one.lambda, one.watch[0], sag[i] - 1e-3, 0.0) * 1079.49 / euler;
     }
     for (int i = 0; i < 5; i++) {
         char what[100];
-        snprintf(what, sizeof what, "column bowed by L/1000, sag %g L: P/P_E %.4f, %.4f to", sag[i], load[0][i], load[1][i]);
+        snprintf(what, sizeof what, "column bowed by L/1000, sag %g L: P/P_E %.4f, %.4f to", sag[i],
+                 load[0][i], load[1][i]);
         verify_row("T10/V70", what, extrapolated(load[0][i], load[1][i]), p[i], 5e-3, VERIFY_REL);
     }
 }
@@ -621,7 +665,8 @@ static void verify_bend(void)
         at[k] = v3_add(x0, d);
     }
     /* Bathe's arm lies in the plane: x towards its centre, y along its start, z with the load. */
-    verify_row("V75", "bent cantilever, 45 degrees, 600: tip along its start, 8 pieces", at[0].y, 46.93, 2e-2, VERIFY_REL);
+    verify_row("V75", "bent cantilever, 45 degrees, 600: tip along its start, 8 pieces", at[0].y, 46.93, 2e-2,
+               VERIFY_REL);
     verify_row("V75", "  towards the centre", at[0].x, 15.59, 2e-2, VERIFY_REL);
     verify_row("V75", "  along the load", at[0].z, 53.65, 2e-2, VERIFY_REL);
     verify_note("16 pieces: %.3f %.3f %.3f", at[1].y, at[1].x, at[1].z);
@@ -631,12 +676,15 @@ static void verify_roll_up(void)
 {
     fl_vec3 d, x0;
     begin();
-    add("section s 1e4 1 1 1\nnode a 0 0 0\nnode b 1 0 0\nmember 1 a b s 10\nfix a clamped\nfix b y rx rz\nload b 0 0 0 0 %.17g 0\n", -2.0 * PI);
+    add("section s 1e4 1 1 1\nnode a 0 0 0\nnode b 1 0 0\nmember 1 a b s 10\nfix a clamped\nfix b y rx "
+        "rz\nload b 0 0 0 0 %.17g 0\n",
+        -2.0 * PI);
     load_to(0.05, 20, "b", &d, &x0, 1e-10);
-    verify_below("T10", "cantilever rolled to a circle by 2 pi EI/L: distance of tip and clamp", v3_norm(v3_add(x0, d)), 1e-9);
+    verify_below("T10", "cantilever rolled to a circle by 2 pi EI/L: distance of tip and clamp",
+                 v3_norm(v3_add(x0, d)), 1e-9);
 }
 
-/* The same path in steps of dt = 2^-10: masses go with dt2, so every bit is the same but for powers of two. */
+/* The same path in steps of dt = 2^-10: masses go with dt2, so bits stay but for powers of two. */
 static void verify_step(void)
 {
     double lambda[2], along[2];
@@ -649,7 +697,8 @@ static void verify_step(void)
         fl_member_chain c = {0};
         fl_path p = {0};
         fl_err err = {0};
-        if (fl_text_open_bytes(&in, "model", text, (int64_t)used, &err) || fl_member_model_read_text(&m, &in, &err) ||
+        if (fl_text_open_bytes(&in, "model", text, (int64_t)used, &err) ||
+            fl_member_model_read_text(&m, &in, &err) ||
             fl_member_chain_make(&c, &m, k ? 1.0 / 1024 : 1.0, &err) || fl_path_start(&p, &c, &o, &err))
             fatal(&err);
         fl_text_close(&in);
@@ -661,7 +710,8 @@ static void verify_step(void)
         fl_member_chain_free(&c);
         fl_member_model_free(&m);
     }
-    verify_true("T10", "the 20th point of two bars has the same bits with dt = 1 and 1/1024", lambda[0] == lambda[1] && along[0] == along[1]);
+    verify_true("T10", "the 20th point of two bars has the same bits with dt = 1 and 1/1024",
+                lambda[0] == lambda[1] && along[0] == along[1]);
 }
 
 int main(void)

@@ -5,9 +5,10 @@
 #include "base/number_text.h"
 #include "base/option.h"
 
-static const char USAGE[] = "usage: arc-path [options] MODEL\n"
-                            "The equilibrium path of a structure of bars and beams past its limits, members(5) to path(5).\n"
-                            "\n";
+static const char USAGE[] =
+    "usage: arc-path [options] MODEL\n"
+    "The equilibrium path of a structure of bars and beams past its limits, members(5) to path(5).\n"
+    "\n";
 
 static const char *const CONSTRAINTS[] = {"total", "increment", "displacement", "load", NULL};
 static const char *const PREDICTORS[] = {"chord", "load", NULL};
@@ -16,7 +17,8 @@ static const char *const FORMATS[] = {"svg", "png", NULL};
 static int set_model(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
-    if (o->model) return fl_fail(err, FL_USAGE, "two models, %.60s and %.60s; one is expected", o->model, text);
+    if (o->model)
+        return fl_fail(err, FL_USAGE, "two models, %.60s and %.60s; one is expected", o->model, text);
     o->model = text;
     return 0;
 }
@@ -39,7 +41,8 @@ static int set_first(void *options, const char *text, fl_err *err)
             return 0;
         }
     }
-    return fl_fail(err, FL_USAGE, "--first is \"%.60s\", expected a load factor other than 0, as 0.02 or 2%%", text);
+    return fl_fail(err, FL_USAGE, "--first is \"%.60s\", expected a load factor other than 0, as 0.02 or 2%%",
+                   text);
 }
 
 static int set_increment(void *options, const char *text, fl_err *err)
@@ -58,9 +61,11 @@ static int set_damping(void *options, const char *text, fl_err *err)
     else if (strcmp(text, "adaptive") == 0) o->path.damping = FL_RELAXATION_ADAPTIVE;
     else if (strncmp(text, "viscous:", 8) == 0) {
         o->path.damping = FL_RELAXATION_VISCOUS;
-        return fl_option_number("damping", text + 8, 1e-9, 1.9, "viscous:C with C above 0 and below 2", &o->path.c, err);
+        return fl_option_number("damping", text + 8, 1e-9, 1.9, "viscous:C with C above 0 and below 2",
+                                &o->path.c, err);
     } else
-        return fl_fail(err, FL_USAGE, "--damping is \"%.60s\", expected kinetic, adaptive or viscous:C", text);
+        return fl_fail(err, FL_USAGE, "--damping is \"%.60s\", expected kinetic, adaptive or viscous:C",
+                       text);
     return 0;
 }
 
@@ -69,9 +74,12 @@ static int set_until(void *options, const char *text, fl_err *err)
     struct options *const o = options;
     const char *equals = strrchr(text, '=');
     struct until *u = &o->until[o->untils];
-    if (o->untils == UNTIL_MAX) return fl_fail(err, FL_USAGE, "--until is given more than %d times", UNTIL_MAX);
-    if (!equals || equals == text || (size_t)(equals - text) >= sizeof u->name || fl_number_f64(equals + 1, &u->value))
-        return fl_fail(err, FL_USAGE, "--until is \"%.60s\", expected COLUMN=VALUE, as apex.z=-50 or lambda=1", text);
+    if (o->untils == UNTIL_MAX)
+        return fl_fail(err, FL_USAGE, "--until is given more than %d times", UNTIL_MAX);
+    if (!equals || equals == text || (size_t)(equals - text) >= sizeof u->name ||
+        fl_number_f64(equals + 1, &u->value))
+        return fl_fail(err, FL_USAGE,
+                       "--until is \"%.60s\", expected COLUMN=VALUE, as apex.z=-50 or lambda=1", text);
     memcpy(u->name, text, (size_t)(equals - text));
     u->name[equals - text] = '\0';
     o->untils++;
@@ -96,7 +104,8 @@ static int set_watch(void *options, const char *text, fl_err *err)
 static int add_shape(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
-    if (o->shapes == SHAPES_MAX) return fl_fail(err, FL_USAGE, "--shapes names more than %d points", SHAPES_MAX);
+    if (o->shapes == SHAPES_MAX)
+        return fl_fail(err, FL_USAGE, "--shapes names more than %d points", SHAPES_MAX);
     return fl_option_integer("shapes", text, 1, INT32_MAX, &o->shape_at[o->shapes++], err);
 }
 
@@ -250,7 +259,11 @@ static const fl_option OPTION[] = {
      .help = "points whose shape is drawn, with commas",
      .kind = FL_OPTION_CALL,
      .call = set_shapes},
-    {.word = "format", .argument = "F", .help = "of pictures: svg or png (svg)", .kind = FL_OPTION_CALL, .call = set_format},
+    {.word = "format",
+     .argument = "F",
+     .help = "of pictures: svg or png (svg)",
+     .kind = FL_OPTION_CALL,
+     .call = set_format},
     {.word = "checkpoint",
      .argument = "FILE",
      .help = "write the state at the end, or when stopped by a signal",
@@ -270,7 +283,8 @@ static const fl_option_table TABLE = {"arc-path", USAGE, OPTION, set_model, 1};
 
 int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
-    *o = (struct options){.path = fl_path_defaults(), .points = 1000, .load_steps = 10, .seed = 1, .format = "svg", .out = "-"};
+    *o = (struct options){
+        .path = fl_path_defaults(), .points = 1000, .load_steps = 10, .seed = 1, .format = "svg", .out = "-"};
     if (fl_options_read(&TABLE, o, NULL, argc, argv, err)) return -1;
     if (o->ended) return 0;
     o->path.constraint = (enum fl_arc_constraint)o->constraint;
@@ -280,8 +294,10 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     for (int k = 0; k < o->untils; k++)
         if (strcmp(o->until[k].name, "lambda") == 0) o->path.last = o->until[k].value;
     if (!o->model) return fl_fail(err, FL_USAGE, "no model, expected a file of kind members");
-    if (o->reference && !o->plot) return fl_fail(err, FL_USAGE, "--reference needs --plot, the folder of the picture");
-    if (o->shapes && !o->plot) return fl_fail(err, FL_USAGE, "--shapes needs --plot, the folder of the pictures");
+    if (o->reference && !o->plot)
+        return fl_fail(err, FL_USAGE, "--reference needs --plot, the folder of the picture");
+    if (o->shapes && !o->plot)
+        return fl_fail(err, FL_USAGE, "--shapes needs --plot, the folder of the pictures");
     if ((o->shape != NULL) != (o->amplitude != 0.0))
         return fl_fail(err, FL_USAGE, "--shape and --amplitude come together");
     return 0;
@@ -302,9 +318,11 @@ void options_by(const struct options *o, fl_history_line *by)
     add_option(by, "--dl", p->dl, usual.dl);
     add_option(by, "--dl-most", p->dl_most, usual.dl_most);
     add_option(by, "--resolution", p->resolution, usual.resolution);
-    if (p->constraint != usual.constraint) fl_history_line_add(by, "--constraint %s", CONSTRAINTS[p->constraint]);
+    if (p->constraint != usual.constraint)
+        fl_history_line_add(by, "--constraint %s", CONSTRAINTS[p->constraint]);
     if (p->predictor != usual.predictor) {
-        fl_history_line_add(by, "--predictor %s --load-steps %lld", PREDICTORS[p->predictor], (long long)p->load_steps);
+        fl_history_line_add(by, "--predictor %s --load-steps %lld", PREDICTORS[p->predictor],
+                            (long long)p->load_steps);
         add_option(by, "--load-step", p->load_step, -1.0);
     }
     if (p->damping == FL_RELAXATION_ADAPTIVE) fl_history_line_add(by, "--damping adaptive");

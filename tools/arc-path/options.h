@@ -21,9 +21,9 @@ struct options {
     const char *watch[WATCH_MAX];
     int watches, untils;
     struct until until[UNTIL_MAX];
-    int32_t points;                /* at most */
-    double scatter, amplitude;     /* imperfections */
-    const char *shape;             /* file of the imperfection, NULL: none */
+    int32_t points;            /* at most */
+    double scatter, amplitude; /* imperfections */
+    const char *shape;         /* file of the imperfection, NULL: none */
     uint64_t seed;
     const char *plot, *reference, *format;
     int32_t shape_at[SHAPES_MAX]; /* points whose shape is written */

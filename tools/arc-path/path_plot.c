@@ -29,7 +29,8 @@ static int open_in(fl_out *out, const struct options *o, const char *stem, const
 
 static void write_terminal(FILE *f, const struct options *o)
 {
-    fprintf(f, "set terminal %s size 800,600\nset output out\n", strcmp(o->format, "png") == 0 ? "png" : "svg dynamic enhanced");
+    fprintf(f, "set terminal %s size 800,600\nset output out\n",
+            strcmp(o->format, "png") == 0 ? "png" : "svg dynamic enhanced");
 }
 
 /* Lines of the members before and after; a blank line ends each. */
@@ -42,8 +43,8 @@ static void write_members(FILE *f, const fl_member_chain *c)
         if (e->member != member && member >= 0) putc('\n', f);
         for (int s = e->member == member; s < 2; s++) {
             const fl_member_ball *b = &c->ball[ends[s]];
-            fprintf(f, "%.9g %.9g %.9g %.9g %.9g %.9g\n", b->x0.x + b->d.x, b->x0.y + b->d.y, b->x0.z + b->d.z, b->x0.x, b->x0.y,
-                    b->x0.z);
+            fprintf(f, "%.9g %.9g %.9g %.9g %.9g %.9g\n", b->x0.x + b->d.x, b->x0.y + b->d.y,
+                    b->x0.z + b->d.z, b->x0.x, b->x0.y, b->x0.z);
         }
         member = e->member;
     }
@@ -56,7 +57,8 @@ static int is_planar(const fl_member_chain *c)
     return 1;
 }
 
-int path_plot_shape(const struct options *o, const fl_member_model *m, const fl_member_chain *c, int64_t point, fl_err *err)
+int path_plot_shape(const struct options *o, const fl_member_model *m, const fl_member_chain *c,
+                    int64_t point, fl_err *err)
 {
     char stem[FL_GNUPLOT_STEM];
     fl_out out = {0};
@@ -69,12 +71,14 @@ int path_plot_shape(const struct options *o, const fl_member_model *m, const fl_
     write_terminal(out.f, o);
     if (is_planar(c))
         fprintf(out.f,
-                "set size ratio -1\nset xlabel \"x\"\nset ylabel \"z\"\nplot \"%s.dat\" using 4:6 with lines lc rgb \"grey\" "
+                "set size ratio -1\nset xlabel \"x\"\nset ylabel \"z\"\nplot \"%s.dat\" using 4:6 with lines "
+                "lc rgb \"grey\" "
                 "title \"start\", \"\" using 1:3 with linespoints lw 2 pt 7 ps 0.4 title \"point %lld\"\n",
                 stem, (long long)point);
     else
         fprintf(out.f,
-                "set view equal xyz\nset view 60,30\nset xyplane 0\nsplot \"%s.dat\" using 4:5:6 with lines lc rgb \"grey\" "
+                "set view equal xyz\nset view 60,30\nset xyplane 0\nsplot \"%s.dat\" using 4:5:6 with lines "
+                "lc rgb \"grey\" "
                 "title \"start\", \"\" using 1:2:3 with lines lw 2 title \"point %lld\"\n",
                 stem, (long long)point);
     if (fl_out_close(&out, err)) return -1;
@@ -124,10 +128,11 @@ int path_plot_curve(const struct options *o, const fl_path_table *t, fl_err *err
     }
     if (open_in(&out, o, "path", "gp", err)) return -1;
     write_terminal(out.f, o);
-    fprintf(out.f,
-            "set xlabel \"displacement along the load\"\nset ylabel \"load factor\"\nset grid\nset key left top\n"
-            "plot \"path.dat\" with linespoints pt 7 ps 0.3 title \"arc-path\"%s\n",
-            o->reference ? ", \"reference.dat\" with points pt 4 title \"reference\"" : "");
+    fprintf(
+        out.f,
+        "set xlabel \"displacement along the load\"\nset ylabel \"load factor\"\nset grid\nset key left top\n"
+        "plot \"path.dat\" with linespoints pt 7 ps 0.3 title \"arc-path\"%s\n",
+        o->reference ? ", \"reference.dat\" with points pt 4 title \"reference\"" : "");
     if (fl_out_close(&out, err)) return -1;
     return fl_gnuplot_draw(o->plot, "path", o->format, err);
 }

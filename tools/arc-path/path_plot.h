@@ -10,7 +10,8 @@
 int path_plot_begin(const struct options *o, fl_err *err);
 
 /* Shape of a point: shape-N.tsv, and shape-N.dat, shape-N.gp and the picture. */
-int path_plot_shape(const struct options *o, const fl_member_model *m, const fl_member_chain *c, int64_t point, fl_err *err);
+int path_plot_shape(const struct options *o, const fl_member_model *m, const fl_member_chain *c,
+                    int64_t point, fl_err *err);
 
 /* Load factor against the displacement along the load, beside the reference. */
 int path_plot_curve(const struct options *o, const fl_path_table *t, fl_err *err);

@@ -43,8 +43,10 @@ static int find_columns(struct run *r, fl_err *err)
         if (r->until_column[u] < 0) continue;
         if (fl_path_watch_parse(&w, &r->model, o->until[u].name, err)) return -1;
         int k = 0;
-        while (k < r->table.watches && (r->table.watch[k].node != w.node || r->table.watch[k].dof != w.dof)) k++;
-        if (k == FL_PATH_WATCH_MAX) return fl_fail(err, FL_USAGE, "more than %d displacements are watched", FL_PATH_WATCH_MAX);
+        while (k < r->table.watches && (r->table.watch[k].node != w.node || r->table.watch[k].dof != w.dof))
+            k++;
+        if (k == FL_PATH_WATCH_MAX)
+            return fl_fail(err, FL_USAGE, "more than %d displacements are watched", FL_PATH_WATCH_MAX);
         if (k == r->table.watches) r->table.watch[r->table.watches++] = w;
         r->until_column[u] = k;
     }
@@ -80,8 +82,8 @@ static int draw_shape(const struct run *r, fl_err *err)
 static void tell_point(const struct run *r)
 {
     const fl_path_point *p = &r->path.point;
-    fprintf(stderr, "point %lld: lambda %g, along %g, %lld steps, dl %g\n", (long long)p->number, p->lambda, p->along,
-            (long long)p->steps, r->path.dl);
+    fprintf(stderr, "point %lld: lambda %g, along %g, %lld steps, dl %g\n", (long long)p->number, p->lambda,
+            p->along, (long long)p->steps, r->path.dl);
 }
 
 static int follow(struct run *r, fl_out *out, fl_err *err)
@@ -94,7 +96,8 @@ static int follow(struct run *r, fl_out *out, fl_err *err)
         fwrite(r->table.text + written, 1, (size_t)(r->table.len - written), out->f);
         written = r->table.len;
         if (fl_out_flush(out, err)) return -1;
-        if (r->path.point.number >= r->o->points || stop_signal || (r->path.point.number > 0 && reached(r))) return 0;
+        if (r->path.point.number >= r->o->points || stop_signal || (r->path.point.number > 0 && reached(r)))
+            return 0;
         if (fl_path_next(&r->path, err) || fl_path_table_add(&r->table, &r->path, &r->model, err)) return -1;
         if (draw_shape(r, err)) return -1;
         if (r->o->verbose) tell_point(r);
@@ -104,8 +107,11 @@ static int follow(struct run *r, fl_out *out, fl_err *err)
 static void tell_summary(const struct run *r)
 {
     const fl_path_point *p = &r->path.point;
-    fprintf(stderr, "%lld points, %lld steps of %d contacts, %d maxima and minima; load factor %g, energy balance %.1e\n",
-            (long long)p->number, (long long)r->path.total_steps, (int)r->chain.contacts, r->table.limits, p->lambda, p->balance);
+    fprintf(
+        stderr,
+        "%lld points, %lld steps of %d contacts, %d maxima and minima; load factor %g, energy balance %.1e\n",
+        (long long)p->number, (long long)r->path.total_steps, (int)r->chain.contacts, r->table.limits,
+        p->lambda, p->balance);
     if (r->path.damping != r->o->path.damping)
         fputs("kinetic damping did not settle, adaptive damping took its place\n", stderr);
 }
@@ -121,7 +127,8 @@ static int finish(struct run *r, fl_out *out, int rc, fl_err *err)
         return rc;
     }
     if (fl_out_close(out, &more)) failed = 1;
-    if (!failed && o->checkpoint && r->path.point.number > 0 && fl_path_state_write(&r->path, &r->table, o->checkpoint, &more))
+    if (!failed && o->checkpoint && r->path.point.number > 0 &&
+        fl_path_state_write(&r->path, &r->table, o->checkpoint, &more))
         failed = 1;
     if (!failed && o->plot && r->path.point.number > 0 && path_plot_curve(o, &r->table, &more)) failed = 1;
     if (!o->quiet) tell_summary(r);
@@ -139,7 +146,8 @@ static int check_files(const struct options *o, fl_err *err)
 static int prepare(struct run *r, fl_err *err)
 {
     const struct options *o = r->o;
-    if (check_files(o, err) || fl_member_model_read(&r->model, o->model, err) || find_columns(r, err)) return -1;
+    if (check_files(o, err) || fl_member_model_read(&r->model, o->model, err) || find_columns(r, err))
+        return -1;
     if (o->scatter > 0.0) fl_member_scatter(&r->model, o->scatter, o->seed);
     if (o->shape && fl_member_add_shape(&r->model, o->shape, o->amplitude, err)) return -1;
     if (fl_member_chain_make(&r->chain, &r->model, 1.0, err)) return -1;
@@ -147,7 +155,8 @@ static int prepare(struct run *r, fl_err *err)
     if (!(r->chain.load_norm > 0.0) && r->chain.moves == 0)
         return fl_fail(err, FL_INPUT, "%s: no load acts on a free node", o->model);
     if (o->path.constraint != FL_ARC_LOAD && !fl_member_chain_has_force(&r->chain))
-        return fl_fail(err, FL_USAGE, "--constraint: the loads are moments or imposed displacements, expected load");
+        return fl_fail(err, FL_USAGE,
+                       "--constraint: the loads are moments or imposed displacements, expected load");
     if (o->plot && path_plot_begin(o, err)) return -1;
     return fl_path_start(&r->path, &r->chain, &o->path, err);
 }
