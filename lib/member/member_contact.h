@@ -13,7 +13,7 @@
  *               f = E diag(..) E^T d,   m = E [u u^T + g (1 - u u^T)] diag(GJ, EIy, EIz) th/L
  *               on i: +f, a_i x f + m + 1/2 d x f - h,    on j: -f, -a_j x f - m + 1/2 d x f + h
  *               h = 1/2 tan(t/4) E u x (d x f),  a_i = Q_i E0 (L/2) e1,  a_j = -Q_j E0 (L/2) e1
- *           The couples with d x f make the force the gradient of the energy: the springs turn with the balls.
+ *           The couples with d x f make the force the gradient of the energy; springs turn with the balls.
  *   hinged  ball h transmits no moment, ball b does: e = (x_b - x_h)/l, A = A_b, s_y = e.A e2, s_z = e.A e3.
  *               energy = EA/2L (l - L)2 + 3/2L (EIz s_y2 + EIy s_z2)
  *               N = EA/L (l - L),  g = 3/L (EIz s_y A e2 + EIy s_z A e3),  T = (g - (g.e) e)/l

@@ -85,7 +85,7 @@ static int add_text(fl_path_table *t, fl_err *err, const char *fmt, ...)
 static int add_number(fl_path_table *t, double x, fl_err *err)
 {
     char text[FL_NUMBER_LEN];
-    return add_text(t, err, "\t%s", fl_number_text(x, text));
+    return add_text(t, err, "\t%s", isfinite(x) ? fl_number_text(x, text) : "-");
 }
 
 /* Hint of the first that applies; "-" for none. */

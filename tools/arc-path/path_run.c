@@ -8,6 +8,7 @@
 #include "base/output_guard.h"
 #include "base/stream.h"
 #include "member/imperfection.h"
+#include "member/mechanism.h"
 #include "member/path_state.h"
 #include "path_plot.h"
 
@@ -150,6 +151,7 @@ static int prepare(struct run *r, fl_err *err)
         return -1;
     if (o->scatter > 0.0) fl_member_scatter(&r->model, o->scatter, o->seed);
     if (o->shape && fl_member_add_shape(&r->model, o->shape, o->amplitude, err)) return -1;
+    if (fl_member_check_mechanism(&r->model, err)) return -1;
     if (fl_member_chain_make(&r->chain, &r->model, 1.0, err)) return -1;
     r->chain.threads = omp_get_max_threads();
     if (!(r->chain.load_norm > 0.0) && r->chain.moves == 0)
