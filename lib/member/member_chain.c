@@ -169,7 +169,7 @@ static inline fl_vec3 free_part(fl_vec3 a, int bits)
 
 static void sum_scales(fl_member_chain *c)
 {
-    double length = 0.0, load2 = 0.0, move = 0.0;
+    double length = 0.0, load2 = 0.0;
     for (int32_t k = 0; k < c->contacts; k++) length += c->contact[k].length;
     c->length = length / c->contacts;
     for (int32_t k = 0; k < c->loads; k++) {
@@ -179,16 +179,6 @@ static void sum_scales(fl_member_chain *c)
         load2 += v3_norm2(p->force) + v3_norm2(p->moment) / (c->length * c->length);
     }
     c->load_norm = sqrt(load2);
-    for (int32_t k = 0; k < c->moves; k++) {
-        double stiff = 0.0;
-        for (int32_t a = c->first[c->move[k].ball]; a < c->first[c->move[k].ball + 1]; a++) {
-            const fl_member_contact *e = &c->contact[c->around[a] / 2];
-            const double shear = fmax(e->shear[0], e->shear[1]);
-            stiff += e->kind == FL_MEMBER_BEAM ? shear : shear / (e->length * e->length);
-        }
-        move += stiff * (v3_norm(c->move[k].move) + c->length * v3_norm(c->move[k].turn));
-    }
-    c->move_norm = move;
 }
 
 int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt, fl_err *err)
@@ -206,6 +196,16 @@ int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt
 failed:
     fl_member_chain_free(c);
     return -1;
+}
+
+double fl_member_chain_reaction(const fl_member_chain *c)
+{
+    double sum = 0.0;
+    for (int32_t k = 0; k < c->moves; k++) {
+        const fl_member_resist *r = &c->resist[c->move[k].ball];
+        sum += v3_norm2(r->f) + v3_norm2(r->m) / (c->length * c->length);
+    }
+    return sqrt(sum);
 }
 
 int fl_member_chain_has_force(const fl_member_chain *c)

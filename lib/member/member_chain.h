@@ -61,7 +61,6 @@ typedef struct {
     int32_t *first, *around;      /* contacts of ball b: around[first[b] .. first[b + 1]), 2 c + (b is j) */
     double *part;                 /* sums of groups */
     double dt, length, load_norm; /* mean length of a piece; |P0|, moments over length */
-    double move_norm;             /* the same of imposed displacements times stiffness */
     double largest_rotation2;     /* of a piece at the last evaluation [rad2] */
     int threads;                  /* that share a step */
 } fl_member_chain;
@@ -76,6 +75,9 @@ void fl_member_chain_masses(fl_member_chain *c, double margin);
 
 /* Whether a load moves a free translation, as lengths of arcs need. */
 int fl_member_chain_has_force(const fl_member_chain *c);
+
+/* Size of the forces at imposed displacements at the last evaluation, moments over the length of a piece. */
+double fl_member_chain_reaction(const fl_member_chain *c);
 
 /* Internal forces of the present state into resist, the former ones into last. */
 void fl_member_chain_forces(fl_member_chain *c);

@@ -16,6 +16,7 @@ enum {
 static const double DL_LEAST = 1e-4;
 /* Of the lever of axial forces, so that a piece may be bent further while a point is found. */
 static const double MASS_MARGIN = 2.0;
+static const double JUMP = 5.0;
 static const double GROW_MOST = 1.5, SHRINK_MOST = 0.25, STRAIGHT = 0.9, KINK = 0.5;
 
 fl_path_options fl_path_defaults(void)
@@ -121,6 +122,7 @@ typedef struct {
     double target;       /* of the constraint */
     const fl_vec3 *from; /* displacements that lengths are counted from; NULL: 0 */
     double lambda, residual;
+    double predicted; /* length of the step along the chord */
     int64_t steps, negative;
 } relaxation_run;
 
@@ -130,10 +132,13 @@ static double wanted_steps(const fl_path *p)
     return fmax(STEPS_LEAST, fmax(8.0 * p->chain->balls, 2.0 * (double)p->first_steps));
 }
 
-/* Unit of forces: loads, or what imposed displacements need. */
-static double load_scale(const fl_member_chain *c)
+/* Force that the balance is held against: the largest load so far, or the largest force at imposed
+ * displacements. */
+static double load_scale(const fl_path *p, double lambda)
 {
-    return c->load_norm > 0.0 ? c->load_norm : c->move_norm;
+    const fl_member_chain *c = p->chain;
+    return c->load_norm > 0.0 ? c->load_norm * fmax(p->lambda_most, fabs(lambda))
+                              : fmax(p->reaction_most, fl_member_chain_reaction(c));
 }
 
 static double step_lambda(const fl_path *p, relaxation_run *r, const fl_member_half *h, double balanced,
@@ -159,7 +164,7 @@ static double step_lambda(const fl_path *p, relaxation_run *r, const fl_member_h
 static int relax_chain(fl_path *p, relaxation_run *r)
 {
     fl_member_chain *c = p->chain;
-    const double scale = load_scale(c), norm2 = c->load_norm * c->load_norm;
+    const double norm2 = c->load_norm * c->load_norm;
     const int64_t most =
         p->options.max_steps ? p->options.max_steps : (int64_t)(STEPS_FAIL * wanted_steps(p));
     const int64_t slow = SLOW_FACTOR * (p->last_steps > SLOW_LEAST ? p->last_steps : SLOW_LEAST);
@@ -172,9 +177,8 @@ static int relax_chain(fl_path *p, relaxation_run *r)
         const int free_lambda = r->constraint != FL_ARC_LOAD && norm2 > 0.0;
         const double balanced = free_lambda ? r->lambda - s.along / norm2 : r->lambda;
         const double r2 = free_lambda ? s.residual2 - s.along * s.along / norm2 : s.residual2;
-        const double most_lambda = fmax(p->lambda_most, fabs(balanced));
         if (!isfinite(r2)) return 1;
-        r->residual = sqrt(fmax(r2, 0.0)) / (scale * most_lambda);
+        r->residual = sqrt(fmax(r2, 0.0)) / load_scale(p, balanced);
         if (r->residual <= p->options.chi) {
             r->lambda = balanced;
             return 0;
@@ -234,6 +238,7 @@ static double chord_share(fl_path *p, double dl, relaxation_run *r)
         break;
     }
     r->lambda = p->lambda[n] + x * (p->lambda[n] - p->lambda[n - 1]);
+    r->predicted = fabs(x) * sqrt(bb);
     return x;
 }
 
@@ -349,7 +354,10 @@ static int accept_point(fl_path *p, const relaxation_run *r, fl_err *err)
     t->balance = p->energy_most > 0.0 ? (t->work - t->energy) / p->energy_most : 0.0;
     find_limit(p);
     if (number > 1 && cosine < KINK) t->hint |= FL_PATH_HINT_KINK;
+    if (number > 1 && p->options.constraint == FL_ARC_LOAD && chord > JUMP * r->predicted)
+        t->hint |= FL_PATH_HINT_JUMP;
     p->lambda_most = fmax(p->lambda_most, fabs(r->lambda));
+    p->reaction_most = fmax(p->reaction_most, fl_member_chain_reaction(c));
     p->last_steps = r->steps;
     const fl_path_state old = p->before;
     p->before = p->last;

@@ -46,7 +46,12 @@ typedef struct {
 
 fl_path_options fl_path_defaults(void);
 
-enum { FL_PATH_HINT_MAXIMUM = 1, FL_PATH_HINT_MINIMUM = 2, FL_PATH_HINT_KINK = 4 };
+enum {
+    FL_PATH_HINT_MAXIMUM = 1,
+    FL_PATH_HINT_MINIMUM = 2,
+    FL_PATH_HINT_KINK = 4, /* the direction turned by more than 60 degrees */
+    FL_PATH_HINT_JUMP = 8  /* of load control: the point is more than five times as far off as predicted */
+};
 
 typedef struct {
     int64_t number, steps, negative;      /* steps without a root */
@@ -71,6 +76,7 @@ typedef struct {
     fl_path_state last, before;          /* the last point and the one before */
     fl_path_point point;                 /* the last */
     double dl, lambda_most, energy_most; /* greatest |lambda|, energy and work so far */
+    double reaction_most;                /* greatest force at imposed displacements */
     int64_t first_steps, last_steps, total_steps;
     int known;                    /* points in the arrays, the start included */
     double s[4], lambda[4], w[4]; /* arc, load factor and P0.d of the last four, the last one at known - 1 */

@@ -65,8 +65,9 @@ int fl_path_state_write(const fl_path *p, const fl_path_table *t, const char *pa
 {
     fl_out out = {0};
     const fl_path_point *a = &p->point;
-    const double numbers[] = {a->lambda, a->arc,     a->length, a->along,       a->residual,   a->energy,
-                              a->work,   a->balance, p->dl,     p->lambda_most, p->energy_most};
+    const double numbers[] = {a->lambda,   a->arc,         a->length,      a->along,
+                              a->residual, a->energy,      a->work,        a->balance,
+                              p->dl,       p->lambda_most, p->energy_most, p->reaction_most};
     if (fl_out_open(&out, path, 0, err)) return -1;
     fprintf(out.f, "#path-state %d\nhash %016" PRIx64 "\n", VERSION, fl_path_hash(p));
     fprintf(out.f, "counts %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %d %d %d %d\n", a->number,
@@ -168,7 +169,7 @@ static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
 {
     fl_path_point *a = &p->point;
     int64_t count[8], watches;
-    double x[11];
+    double x[12];
     static const int64_t most[8] = {INT32_MAX, INT64_MAX / 4, INT64_MAX / 4, INT64_MAX / 4, 2, 4,
                                     4,         INT32_MAX};
     if (fl_text_magic(in, "path-state", VERSION, err) || get_hash(in, fl_path_hash(p), err) ||
@@ -176,7 +177,7 @@ static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
         return -1;
     for (int k = 0; k < 8; k++)
         if (get_count(in, most[k], &count[k], err)) return -1;
-    if (get_numbers(in, "numbers", x, 11, err)) return -1;
+    if (get_numbers(in, "numbers", x, 12, err)) return -1;
     *a = (fl_path_point){.number = count[0],
                          .lambda = x[0],
                          .arc = x[1],
@@ -189,6 +190,7 @@ static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
     p->dl = x[8];
     p->lambda_most = x[9];
     p->energy_most = x[10];
+    p->reaction_most = x[11];
     p->first_steps = count[1];
     p->last_steps = count[2];
     p->total_steps = count[3];

@@ -8,23 +8,23 @@
 #include "base/array.h"
 #include "base/number_text.h"
 
-static const char *const DOF[] = {"x", "y", "z", "rx", "ry", "rz"};
+enum { WATCHED = 12 };
+static const char *const DOF[WATCHED] = {"x", "y", "z", "rx", "ry", "rz", "fx", "fy", "fz", "mx", "my", "mz"};
 
 int fl_path_watch_parse(fl_path_watch *w, const fl_member_model *m, const char *text, fl_err *err)
 {
     const char *dot = strrchr(text, '.');
     char name[200];
     if (!dot || (size_t)(dot - text) >= sizeof name)
-        return fl_fail(err, FL_USAGE,
-                       "\"%.60s\" is no displacement, expected NODE.x, .y, .z, .rx, .ry or .rz", text);
+        return fl_fail(err, FL_USAGE, "\"%.60s\" is no displacement, expected NODE.x to .rz or .fx to .mz",
+                       text);
     memcpy(name, text, (size_t)(dot - text));
     name[dot - text] = '\0';
     w->node = fl_string_table_find(&m->node_name, name);
     if (w->node < 0) return fl_fail(err, FL_USAGE, "%s has no node \"%.60s\"", m->file, name);
-    for (w->dof = 0; w->dof < FL_MEMBER_DOFS; w->dof++)
+    for (w->dof = 0; w->dof < WATCHED; w->dof++)
         if (strcmp(dot + 1, DOF[w->dof]) == 0) return 0;
-    return fl_fail(err, FL_USAGE, "\"%.60s\" is no displacement, expected NODE.x, .y, .z, .rx, .ry or .rz",
-                   text);
+    return fl_fail(err, FL_USAGE, "\"%.60s\" is no displacement, expected NODE.x to .rz or .fx to .mz", text);
 }
 
 void fl_path_table_watch_loads(fl_path_table *t, const fl_member_model *m)
@@ -34,6 +34,8 @@ void fl_path_table_watch_loads(fl_path_table *t, const fl_member_model *m)
             const fl_member_node *n = &m->node[k];
             const double load = c < 3 ? v3_at(n->force, c) : v3_at(n->moment, c - 3);
             if (load != 0.0 || (n->imposed >> c & 1)) t->watch[t->watches++] = (fl_path_watch){k, c};
+            if ((n->imposed >> c & 1) && t->watches < FL_PATH_WATCH_MAX)
+                t->watch[t->watches++] = (fl_path_watch){k, 6 + c};
         }
 }
 
@@ -48,6 +50,9 @@ static fl_vec3 rotation_of(fl_quat q)
 double fl_path_watch_value(const fl_path_watch *w, const fl_member_chain *c)
 {
     const fl_member_ball *b = &c->ball[w->node];
+    const fl_member_resist *r = &c->resist[w->node];
+    if (w->dof >= 9) return v3_at(r->m, w->dof - 9);
+    if (w->dof >= 6) return v3_at(r->f, w->dof - 6);
     return w->dof < 3 ? v3_at(b->d, w->dof) : v3_at(rotation_of(b->q), w->dof - 3);
 }
 
@@ -93,6 +98,7 @@ static const char *hint_word(int hint)
 {
     return hint & FL_PATH_HINT_MAXIMUM   ? "maximum"
            : hint & FL_PATH_HINT_MINIMUM ? "minimum"
+           : hint & FL_PATH_HINT_JUMP    ? "jump"
            : hint & FL_PATH_HINT_KINK    ? "kink"
                                          : "-";
 }

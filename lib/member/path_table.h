@@ -7,7 +7,8 @@
 #include "base/tool.h"
 #include "member/member_path.h"
 
-/* A displacement or rotation of a node: 0 .. 5 for x y z rx ry rz. */
+/* A displacement or rotation of a node, 0 .. 5 for x y z rx ry rz; or the force or moment that its support or
+ * load exerts on it, 6 .. 11 for fx fy fz mx my mz. */
 typedef struct {
     int32_t node;
     int dof;
@@ -26,7 +27,7 @@ typedef struct {
     int limits;
 } fl_path_table;
 
-/* "NODE.x" to "NODE.rz".  -1 with FL_USAGE. */
+/* "NODE.x" to "NODE.rz", "NODE.fx" to "NODE.mz".  -1 with FL_USAGE. */
 int fl_path_watch_parse(fl_path_watch *w, const fl_member_model *m, const char *text, fl_err *err);
 
 /* Adds the displacement along the force of every loaded node, as long as there is room.  -1 with FL_SYSTEM.

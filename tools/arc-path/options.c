@@ -219,7 +219,8 @@ static const fl_option OPTION[] = {
      .hi = INT32_MAX},
     {.word = "watch",
      .argument = "LIST",
-     .help = "displacements NODE.x to NODE.rz, with commas (those of the loads)",
+     .help = "displacements NODE.x to .rz and forces NODE.fx to .mz, with commas\n"
+             "(displacements along the loads)",
      .kind = FL_OPTION_CALL,
      .call = set_watch},
     {.word = "scatter",
