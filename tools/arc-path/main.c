@@ -19,5 +19,6 @@ int main(int argc, char **argv)
         if (o.threads) omp_set_num_threads(o.threads);
         rc = path_run(&o, &err);
     }
+    options_free(&o);
     return fl_tool_end("arc-path", rc, &err);
 }

@@ -2,6 +2,7 @@
 #include "options.h"
 #include <stdlib.h>
 #include <string.h>
+#include "base/array.h"
 #include "base/number_text.h"
 #include "base/option.h"
 
@@ -90,9 +91,9 @@ static int add_watch(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
     if (o->watches == WATCH_MAX) return fl_fail(err, FL_USAGE, "--watch names more than %d", WATCH_MAX);
-    o->watch[o->watches] = malloc(strlen(text) + 1);
-    if (!o->watch[o->watches]) return fl_fail(err, FL_SYSTEM, "no memory");
-    strcpy((char *)(size_t)o->watch[o->watches++], text);
+    o->watch[o->watches] = fl_alloc_text(text, err);
+    if (!o->watch[o->watches]) return -1;
+    o->watches++;
     return 0;
 }
 
@@ -302,6 +303,12 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if ((o->shape != NULL) != (o->amplitude != 0.0))
         return fl_fail(err, FL_USAGE, "--shape and --amplitude come together");
     return 0;
+}
+
+void options_free(struct options *o)
+{
+    for (int k = 0; k < o->watches; k++) free(o->watch[k]);
+    o->watches = 0;
 }
 
 static void add_option(fl_history_line *by, const char *name, double x, double usual)

@@ -18,7 +18,7 @@ struct options {
     fl_path_options path;
     int constraint, predictor;     /* as numbers of the choices; path has them too */
     int32_t load_steps, max_steps; /* the same */
-    const char *watch[WATCH_MAX];
+    char *watch[WATCH_MAX];
     int watches, untils;
     struct until until[UNTIL_MAX];
     int32_t points;            /* at most */
@@ -36,6 +36,8 @@ struct options {
 
 /* Answers --help and --version itself.  -1 with FL_USAGE. */
 int options_parse(struct options *o, int argc, char **argv, fl_err *err);
+
+void options_free(struct options *o);
 
 /* What bears on the result, for the history. */
 void options_by(const struct options *o, fl_history_line *by);

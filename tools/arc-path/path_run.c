@@ -94,7 +94,8 @@ static int follow(struct run *r, fl_out *out, fl_err *err)
                      : fl_path_table_add(&r->table, &r->path, &r->model, err))
         return -1;
     for (;;) {
-        fwrite(r->table.text + written, 1, (size_t)(r->table.len - written), out->f);
+        if (r->table.len > written)
+            fwrite(r->table.text + written, 1, (size_t)(r->table.len - written), out->f);
         written = r->table.len;
         if (fl_out_flush(out, err)) return -1;
         if (r->path.point.number >= r->o->points || stop_signal || (r->path.point.number > 0 && reached(r)))
