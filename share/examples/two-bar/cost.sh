@@ -20,7 +20,7 @@ row() # NAME ETA DETP OPTIONS...
 }
 for eta in 10 30 100; do
     for detp in 0.0004 0.002 0.01; do
-        row load $eta $detp --predictor load --load-steps $eta --load-step $detp --points 2000
+        row load "$eta" "$detp" --predictor load --load-steps "$eta" --load-step "$detp" --points 2000
     done
 done
 for resolution in 0.1 0.03 0.01 0.003; do row chord - $resolution --resolution $resolution; done
