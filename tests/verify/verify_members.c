@@ -1,160 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equilibrium paths of trusses, domes and frames by chains of balls (T1 to T10, V70 to V75). */
+/* Equilibrium paths of trusses, domes and frames by chains of balls (T1 to T12, V70 to V75). */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include "base/array.h"
 #include "base/pi.h"
-#include "member/member_path.h"
+#include "support/member_curve.h"
 #include "support/verify.h"
-
-/* --- models as text, paths as arrays ------------------------------------------------------------ */
-
-static char text[200000];
-static size_t used;
-
-static void add(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
-static void add(const char *fmt, ...)
-{
-    va_list list;
-    va_start(list, fmt);
-    used += (size_t)vsnprintf(text + used, sizeof text - used, fmt, list);
-    va_end(list);
-}
-
-static void begin(void)
-{
-    used = 0;
-    add("#members 1\n");
-}
-
-enum { POINTS = 2000, WATCH = 3 };
-
-typedef struct {
-    int n, limits;
-    double s[POINTS], lambda[POINTS], along[POINTS], watch[WATCH][POINTS], balance[POINTS];
-    double limit[20], limit_s[20]; /* maxima and minima in their order, and the arc there */
-    int64_t steps;
-    double largest; /* of |balance| */
-} curve;
-
-static void fatal(const fl_err *err)
-{
-    fprintf(stderr, "verify_members: %s\n", err->text);
-    exit(1);
-}
-
-static int32_t node_of(const fl_member_model *m, const char *name)
-{
-    const int32_t k = fl_string_table_find(&m->node_name, name);
-    if (k < 0) exit(1);
-    return k;
-}
-
-static void make_chain(fl_member_model *m, fl_member_chain *c)
-{
-    fl_text in = {0};
-    fl_err err = {0};
-    if (fl_text_open_bytes(&in, "model", text, (int64_t)used, &err) ||
-        fl_member_model_read_text(m, &in, &err) || fl_member_chain_make(c, m, 1.0, &err))
-        fatal(&err);
-    fl_text_close(&in);
-}
-
-static fl_path_options options(enum fl_relaxation_kind damping, double first, double resolution)
-{
-    fl_path_options o = fl_path_defaults();
-    o.damping = damping;
-    o.first = first;
-    o.resolution = resolution;
-    return o;
-}
-
-/* A freedom to watch: node, and 0 .. 2. */
-typedef struct {
-    const char *node;
-    int axis;
-} watched;
-
-/* Follows the path of the model in `text` until the displacement along the load is `until`, or watch[0]
- * beyond `until0` where that is not 0. */
-static void follow(curve *out, const fl_path_options *o, double until, double until0, const watched *watch)
-{
-    fl_member_model m = {0};
-    fl_member_chain c = {0};
-    fl_path p = {0};
-    fl_err err = {0};
-    int32_t node[WATCH] = {0};
-    make_chain(&m, &c);
-    for (int k = 0; k < WATCH; k++)
-        if (watch && watch[k].node) node[k] = node_of(&m, watch[k].node);
-    if (fl_path_start(&p, &c, o, &err)) fatal(&err);
-    *out = (curve){.n = 1};
-    while (out->n < POINTS) {
-        if (fl_path_next(&p, &err)) {
-            if (err.code != FL_NO) fatal(&err);
-            break;
-        }
-        const int n = out->n++;
-        out->s[n] = p.point.arc;
-        out->lambda[n] = p.point.lambda;
-        out->along[n] = p.point.along;
-        for (int k = 0; k < WATCH; k++)
-            if (watch && watch[k].node) out->watch[k][n] = v3_at(c.ball[node[k]].d, watch[k].axis);
-        out->balance[n] = p.point.balance;
-        if (n > 3) out->largest = fmax(out->largest, fabs(out->balance[n]));
-        if ((p.point.hint & (FL_PATH_HINT_MAXIMUM | FL_PATH_HINT_MINIMUM)) && out->limits < 20) {
-            out->limit[out->limits] = p.point.limit;
-            out->limit_s[out->limits++] = p.point.limit_arc;
-        }
-        if (until > 0.0 ? p.point.along >= until : until < 0.0 && p.point.along <= until) break;
-        if (until0 > 0.0 ? out->watch[0][n] >= until0 : until0 < 0.0 && out->watch[0][n] <= until0) break;
-    }
-    out->steps = p.total_steps;
-    fl_path_free(&p);
-    fl_member_chain_free(&c);
-    fl_member_model_free(&m);
-}
-
-/* Cubic through the four points about the interval [k, k + 1] of y. */
-static double near_point(const curve *c, const double *y, int k, double s)
-{
-    int from = k - 1;
-    if (from < 0) from = 0;
-    int n = c->n - from < 4 ? c->n - from : 4;
-    if (n < 4 && from > 0) {
-        from = c->n > 4 ? c->n - 4 : 0;
-        n = c->n - from < 4 ? c->n - from : 4;
-    }
-    return fl_arc_polynomial(n, c->s + from, y + from, s);
-}
-
-/* y where x first passes `at` after the arc s0. */
-static double value_at(const curve *c, const double *y, const double *x, double at, double s0)
-{
-    for (int k = 0; k + 1 < c->n; k++) {
-        if (c->s[k + 1] <= s0 || !((x[k] - at) * (x[k + 1] - at) <= 0.0)) continue;
-        double lo = c->s[k], hi = c->s[k + 1];
-        const double sign = x[k + 1] > x[k] ? 1.0 : -1.0;
-        for (int n = 0; n < 60; n++) {
-            const double mid = 0.5 * (lo + hi);
-            if (sign * (near_point(c, x, k, mid) - at) < 0.0) lo = mid;
-            else hi = mid;
-        }
-        return near_point(c, y, k, lo);
-    }
-    return NAN;
-}
-
-/* Value of y at the arc s. */
-static double at_arc(const curve *c, const double *y, double s)
-{
-    int k = 0;
-    while (k + 2 < c->n && c->s[k + 1] < s) k++;
-    return near_point(c, y, k, s);
-}
 
 static curve one, two; /* too large for the stack */
 
@@ -169,9 +20,11 @@ static const double RISE6 = 10.452846326765347, SPAN6 = 99.452189536827333;
 
 static void two_bars(void)
 {
-    begin();
-    add("node a %.17g 0 0 hinge\nnode b %.17g 0 0 hinge\nnode c 0 0 %.17g hinge\n", -SPAN6, SPAN6, RISE6);
-    add("section s 2e6 1.6667e7 1.6667e7 1.28e7\nmember 1 a c s 6\nmember 2 b c s 6\nfix a pinned\nfix b "
+    model_begin();
+    model_line("node a %.17g 0 0 hinge\nnode b %.17g 0 0 hinge\nnode c 0 0 %.17g hinge\n", -SPAN6, SPAN6,
+               RISE6);
+    model_line(
+        "section s 2e6 1.6667e7 1.6667e7 1.28e7\nmember 1 a c s 6\nmember 2 b c s 6\nfix a pinned\nfix b "
         "pinned\nfix c y\n");
 }
 
@@ -187,17 +40,17 @@ static void verify_two_bar(enum fl_relaxation_kind damping, const char *name)
     char what[100];
     double worst = 0.0;
     two_bars();
-    add("load c 0 0 -2500\n");
-    const fl_path_options o = options(damping, 0.02, 0.004);
-    follow(&one, &o, 24.2, 0.0, NULL);
+    model_line("load c 0 0 -2500\n");
+    const fl_path_options o = curve_options(damping, 0.02, 0.004);
+    curve_follow(&one, &o, 24.2, 0.0, NULL);
     snprintf(what, sizeof what, "two bars, %s damping: limit [N]", name);
     verify_row("T1/V71", what, 2500.0 * one.limit[0], 884.0250, 2e-3, VERIFY_REL);
     snprintf(what, sizeof what, "  least load after it [N], %d points, %lld steps", one.n - 1,
              (long long)one.steps);
     verify_row("T1/V71", what, 2500.0 * one.limit[1], -884.0250, 2e-3, VERIFY_REL);
     for (int k = 0; k < (int)(sizeof at / sizeof *at); k++)
-        worst = fmax(worst,
-                     fabs(2500.0 * value_at(&one, one.lambda, one.along, at[k], 0.0) - two_bar_load(at[k])));
+        worst = fmax(
+            worst, fabs(2500.0 * curve_value(&one, one.lambda, one.along, at[k], 0.0) - two_bar_load(at[k])));
     verify_below("T1/V71", "  farthest from the closed form [N], at ten deflections", worst, 2e-3 * 884.025);
     verify_below("T1", "  energy against work of the load, over the larger one", one.largest, 5e-3);
     verify_row("T1", "  energy against work at the end", one.balance[one.n - 1], 0.0, 1e-3, VERIFY_ABS);
@@ -206,11 +59,11 @@ static void verify_two_bar(enum fl_relaxation_kind damping, const char *name)
 static void verify_two_bar_upward(void)
 {
     two_bars();
-    add("load c 0 0 2500\n");
-    const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.02, 0.004);
-    follow(&one, &o, 2.5, 0.0, NULL);
+    model_line("load c 0 0 2500\n");
+    const fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.02, 0.004);
+    curve_follow(&one, &o, 2.5, 0.0, NULL);
     verify_row("T10", "two bars pulled up by 2.34713: load [N]",
-               -2500.0 * value_at(&one, one.lambda, one.along, 2.34713, 0.0), -1391.49, 2e-3, VERIFY_REL);
+               -2500.0 * curve_value(&one, one.lambda, one.along, 2.34713, 0.0), -1391.49, 2e-3, VERIFY_REL);
 }
 
 static void verify_spring(enum fl_relaxation_kind damping, const char *name)
@@ -223,13 +76,15 @@ static void verify_spring(enum fl_relaxation_kind damping, const char *name)
     double worst_p = 0.0, worst_u = 0.0, up[20];
     int turns = 0;
     two_bars();
-    add("node d 0 0 %.17g hinge\nsection k 1e5 1e6 1e6 1e6\nmember 3 d c k 1\nfix d x y\nload d 0 0 -2500\n",
+    model_line(
+        "node d 0 0 %.17g hinge\nsection k 1e5 1e6 1e6 1e6\nmember 3 d c k 1\nfix d x y\nload d 0 0 -2500\n",
         RISE6 - 1000.0);
-    const fl_path_options o = options(damping, 0.02, fine(0.01, 0.004));
-    follow(&one, &o, 0.0, -24.3, watch);
+    const fl_path_options o = curve_options(damping, 0.02, fine(0.01, 0.004));
+    curve_follow(&one, &o, 0.0, -24.3, watch);
     for (int k = 0; k < 8; k++) {
-        worst_p = fmax(worst_p, fabs(2500.0 * value_at(&one, one.lambda, one.watch[0], -v[k], 0.0) - p[k]));
-        worst_u = fmax(worst_u, fabs(value_at(&one, one.along, one.watch[0], -v[k], 0.0) - u[k]));
+        worst_p =
+            fmax(worst_p, fabs(2500.0 * curve_value(&one, one.lambda, one.watch[0], -v[k], 0.0) - p[k]));
+        worst_u = fmax(worst_u, fabs(curve_value(&one, one.along, one.watch[0], -v[k], 0.0) - u[k]));
     }
     for (int k = 1; k + 1 < one.n && turns < 20; k++)
         if ((one.along[k] - one.along[k - 1]) * (one.along[k + 1] - one.along[k]) < 0.0) {
@@ -252,19 +107,19 @@ static void verify_spring(enum fl_relaxation_kind damping, const char *name)
 static void star_dome(int hinged, int p, int q, double eiy, double eiz, double gj)
 {
     const char *const hinge = hinged ? "hinge" : "";
-    begin();
-    add("section s 960510 %g %g %g\nnode apex 0 0 82.16 %s\n", eiy, eiz, gj, hinge);
+    model_begin();
+    model_line("section s 960510 %g %g %g\nnode apex 0 0 82.16 %s\n", eiy, eiz, gj, hinge);
     for (int k = 0; k < 6; k++) {
         const double a = k * PI / 3.0, b = a + PI / 6.0;
-        add("node r%d %.15g %.15g 62.16 %s\nnode s%d %.15g %.15g 0 %s\nfix s%d pinned\n", k, 250 * cos(a),
-            250 * sin(a), hinge, k, 500 * cos(b), 500 * sin(b), hinge, k);
+        model_line("node r%d %.15g %.15g 62.16 %s\nnode s%d %.15g %.15g 0 %s\nfix s%d pinned\n", k,
+                   250 * cos(a), 250 * sin(a), hinge, k, 500 * cos(b), 500 * sin(b), hinge, k);
     }
     for (int k = 0; k < 6; k++) {
         const int next = (k + 1) % 6;
-        add("member a%d apex r%d s %d\nmember r%d r%d r%d s %d\n", k, k, p, k, k, next, p);
-        add("member s%d r%d s%d s %d\nmember t%d r%d s%d s %d\n", k, k, k, q, k, next, k, q);
+        model_line("member a%d apex r%d s %d\nmember r%d r%d r%d s %d\n", k, k, p, k, k, next, p);
+        model_line("member s%d r%d s%d s %d\nmember t%d r%d s%d s %d\n", k, k, k, q, k, next, k, q);
     }
-    add("load apex 0 0 -900\n");
+    model_line("load apex 0 0 -900\n");
 }
 
 static void verify_star_truss(void)
@@ -277,19 +132,20 @@ static void verify_star_truss(void)
     const watched watch[WATCH] = {{"r0", 2}};
     double worst = 0.0, worst_ring = 0.0;
     star_dome(1, 5, 6, 2.5e7, 2.5e7, 1.7e7);
-    const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.02, 0.01);
-    follow(&one, &o, 50.5, 0.0, watch);
+    const fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.02, 0.01);
+    curve_follow(&one, &o, 50.5, 0.0, watch);
     for (int k = 0; k < 11; k++) {
-        worst = fmax(worst, fabs(900.0 * value_at(&one, one.lambda, one.along, w[k], 0.0) - p[k]));
+        worst = fmax(worst, fabs(900.0 * curve_value(&one, one.lambda, one.along, w[k], 0.0) - p[k]));
         if (isfinite(ring[k]))
-            worst_ring = fmax(worst_ring, fabs(value_at(&one, one.watch[0], one.along, w[k], 0.0) - ring[k]));
+            worst_ring =
+                fmax(worst_ring, fabs(curve_value(&one, one.watch[0], one.along, w[k], 0.0) - ring[k]));
     }
     verify_row("T3/V72", "star dome, hinged: limit [N]", 900.0 * one.limit[0], 303.189, 3e-3, VERIFY_REL);
-    verify_row("T3/V72", "  apex down there [mm]", at_arc(&one, one.along, one.limit_s[0]), 7.6844, 5e-3,
-               VERIFY_REL);
+    verify_row("T3/V72", "  apex down there [mm]", curve_at_arc(&one, one.along, one.limit_s[0]), 7.6844,
+               5e-3, VERIFY_REL);
     verify_row("T3/V72", "  least load after it [N]", 900.0 * one.limit[1], -265.101, 3e-3, VERIFY_REL);
-    verify_row("T3/V72", "  apex down there [mm]", at_arc(&one, one.along, one.limit_s[1]), 30.2777, 5e-3,
-               VERIFY_REL);
+    verify_row("T3/V72", "  apex down there [mm]", curve_at_arc(&one, one.along, one.limit_s[1]), 30.2777,
+               5e-3, VERIFY_REL);
     verify_below("T3", "  farthest from the reference [N], at eleven deflections", worst, 3e-3 * 303.189);
     verify_below("T3", "  ring up, farthest off [mm]", worst_ring, 0.01);
     verify_note("%d points, %lld steps of 132 contacts", one.n - 1, (long long)one.steps);
@@ -299,15 +155,15 @@ static void verify_star_truss(void)
 static void verify_star_frame(void)
 {
     static const double w[] = {2, 5, 10, 20, 30, 50}, p[] = {288.0, 625.2, 981.4, 1265.9, 1487.8, 2623.5};
-    const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.02, 0.02);
+    const fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.02, 0.02);
     star_dome(0, 5, 6, 3030.0 * 8374.083, 3030.0 * 8374.083, 1262.0 * 14126.0);
-    follow(&one, &o, 50.5, 0.0, NULL);
+    curve_follow(&one, &o, 50.5, 0.0, NULL);
     star_dome(0, 10, 12, 3030.0 * 8374.083, 3030.0 * 8374.083, 1262.0 * 14126.0);
-    follow(&two, &o, 50.5, 0.0, NULL);
+    curve_follow(&two, &o, 50.5, 0.0, NULL);
     for (int k = 0; k < 6; k++) {
         char what[100];
-        const double a = 900.0 * value_at(&one, one.lambda, one.along, w[k], 0.0),
-                     b = 900.0 * value_at(&two, two.lambda, two.along, w[k], 0.0);
+        const double a = 900.0 * curve_value(&one, one.lambda, one.along, w[k], 0.0),
+                     b = 900.0 * curve_value(&two, two.lambda, two.along, w[k], 0.0);
         snprintf(what, sizeof what, "star dome, rigid joints, apex down %g mm [N]: %.1f, %.1f to", w[k], a,
                  b);
         verify_row("T3/V73", what, extrapolated(a, b), p[k], 5e-3, VERIFY_REL);
@@ -327,8 +183,8 @@ static const char *ring_node(char *buf, size_t size, int ring, int sector, int i
 static void k6_member(int *n, int pieces, int ra, int sa, int ia, int rb, int sb, int ib)
 {
     char a[30], b[30];
-    add("member %d %s %s pipe %d\n", ++*n, ring_node(a, sizeof a, ra, sa, ia),
-        ring_node(b, sizeof b, rb, sb, ib), pieces);
+    model_line("member %d %s %s pipe %d\n", ++*n, ring_node(a, sizeof a, ra, sa, ia),
+               ring_node(b, sizeof b, rb, sb, ib), pieces);
 }
 
 /* Kiewitt dome with 4 rings at equal arc, span 30, rise 2 m, pipes 180 x 5 mm; kN. */
@@ -338,14 +194,15 @@ static void k6_dome(int pieces)
     const double radius = (15.0 * 15.0 + 4.0) / 4.0, rim = asin(15.0 / radius);
     char a[30];
     int n = 0;
-    begin();
-    add("section pipe pipe 0.18 0.005 210e6 85e6\nnode apex 0 0 2\n");
+    model_begin();
+    model_line("section pipe pipe 0.18 0.005 210e6 85e6\nnode apex 0 0 2\n");
     for (int k = 1; k <= RINGS; k++)
         for (int s = 0; s < 6; s++)
             for (int i = 0; i < k; i++) {
                 const double phi = rim * k / RINGS, t = (s + (double)i / k) * PI / 3.0;
-                add("node %s %.15g %.15g %.15g\n", ring_node(a, sizeof a, k, s, i),
-                    radius * sin(phi) * cos(t), radius * sin(phi) * sin(t), radius * (cos(phi) - 1.0) + 2.0);
+                model_line("node %s %.15g %.15g %.15g\n", ring_node(a, sizeof a, k, s, i),
+                           radius * sin(phi) * cos(t), radius * sin(phi) * sin(t),
+                           radius * (cos(phi) - 1.0) + 2.0);
             }
     for (int k = 1; k <= RINGS; k++)
         for (int s = 0; s < 6; s++)
@@ -353,9 +210,9 @@ static void k6_dome(int pieces)
                 k6_member(&n, pieces, k, s, i, k - 1, s, i);
                 if (i > 0) k6_member(&n, pieces, k, s, i, k - 1, s, i - 1);
                 k6_member(&n, pieces, k, s, i, k, s, i + 1);
-                if (k == RINGS) add("fix %s pinned\n", ring_node(a, sizeof a, k, s, i));
+                if (k == RINGS) model_line("fix %s pinned\n", ring_node(a, sizeof a, k, s, i));
             }
-    add("load apex 0 0 -100\n");
+    model_line("load apex 0 0 -100\n");
 }
 
 static void verify_k6(void)
@@ -367,27 +224,27 @@ static void verify_k6(void)
     /* The quick run has half the pieces, of which only the limit is held against that of 6. */
     const int pieces = verify_quick() ? 3 : 6;
     k6_dome(pieces);
-    const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.1, fine(0.04, 0.01));
-    follow(&one, &o, verify_quick() ? 0.70 : 0.95, 0.0, watch);
+    const fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.1, fine(0.04, 0.01));
+    curve_follow(&one, &o, verify_quick() ? 0.70 : 0.95, 0.0, watch);
     if (verify_quick()) {
         verify_row("T4/V74", "dome K6-4, 3 pieces: limit [kN], against that of 6", 100.0 * one.limit[0],
                    381.43, 0.05, VERIFY_REL);
         return;
     }
     verify_row("T4/V74", "dome K6-4, 6 pieces: limit [kN]", 100.0 * one.limit[0], 381.43, 1e-2, VERIFY_REL);
-    verify_row("T4/V74", "  apex down there [m]", at_arc(&one, one.along, one.limit_s[0]), 0.6384, 1e-2,
+    verify_row("T4/V74", "  apex down there [m]", curve_at_arc(&one, one.along, one.limit_s[0]), 0.6384, 1e-2,
                VERIFY_REL);
     verify_row("T4/V74", "  least load after it [kN]", 100.0 * one.limit[1], 375.5, 1e-2, VERIFY_REL);
-    verify_row("T4/V74", "  apex down there [m]", at_arc(&one, one.along, one.limit_s[1]), 0.812, 3e-2,
+    verify_row("T4/V74", "  apex down there [m]", curve_at_arc(&one, one.along, one.limit_s[1]), 0.812, 3e-2,
                VERIFY_REL);
     for (int k = 0; k < 11; k++)
-        worst = fmax(worst, fabs(100.0 * value_at(&one, one.lambda, one.along, w[k], 0.0) / p[k] - 1.0));
+        worst = fmax(worst, fabs(100.0 * curve_value(&one, one.lambda, one.along, w[k], 0.0) / p[k] - 1.0));
     verify_below("T4", "  largest relative distance from the reference, at eleven deflections", worst, 1e-2);
     verify_note("%d points, %lld steps of 936 contacts", one.n - 1, (long long)one.steps);
     const double six = 100.0 * one.limit[0];
     k6_dome(12);
-    const fl_path_options o2 = options(FL_RELAXATION_ADAPTIVE, 0.1, 0.02);
-    follow(&two, &o2, 0.70, 0.0, watch);
+    const fl_path_options o2 = curve_options(FL_RELAXATION_ADAPTIVE, 0.1, 0.02);
+    curve_follow(&two, &o2, 0.70, 0.0, watch);
     verify_note("12 pieces: limit %.2f kN", 100.0 * two.limit[0]);
     verify_row("T4/V74", "  limit of 6 and 12 pieces, extrapolated [kN]",
                extrapolated(six, 100.0 * two.limit[0]), 384.9, 1e-2, VERIFY_REL);
@@ -397,12 +254,14 @@ static void verify_k6(void)
 
 static void lee_frame(int pieces)
 {
-    begin();
-    add("section s 4320 1440 1440 1e3\nnode foot 0 0 0\nnode knee 0 0 120\nnode at 24 0 120\nnode end 120 0 "
+    model_begin();
+    model_line(
+        "section s 4320 1440 1440 1e3\nnode foot 0 0 0\nnode knee 0 0 120\nnode at 24 0 120\nnode end 120 0 "
         "120\n");
-    add("member column foot knee s %d\nmember left knee at s %d\nmember right at end s %d\n", pieces,
-        pieces / 5, pieces / 5 * 4);
-    add("fix foot pinned rx rz\nfix end pinned rx rz\nfix knee y rx rz\nfix at y rx rz\nload at 0 0 -1\n");
+    model_line("member column foot knee s %d\nmember left knee at s %d\nmember right at end s %d\n", pieces,
+               pieces / 5, pieces / 5 * 4);
+    model_line(
+        "fix foot pinned rx rz\nfix end pinned rx rz\nfix knee y rx rz\nfix at y rx rz\nload at 0 0 -1\n");
 }
 
 static void verify_lee(void)
@@ -412,9 +271,9 @@ static void verify_lee(void)
                         p[] = {.9554, 1.3259, 1.7282, 1.8518, 1.6049, .9869, .4232, -.6641, -.8009, -.4737};
     const watched watch[WATCH] = {{"at", 2}, {"at", 0}};
     const int n = 10;
-    const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.05, 0.02);
+    const fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.05, 0.02);
     lee_frame(n);
-    follow(&one, &o, 95.0, 0.0, watch);
+    curve_follow(&one, &o, 95.0, 0.0, watch);
     if (verify_quick()) {
         verify_row("T5", "Lee's frame, 10 pieces a member: limit", one.limit[0], 1.8557, 1.5e-2, VERIFY_REL);
         verify_row("T5", "  least load behind the snap-back", one.limits > 1 ? one.limit[1] : NAN, -0.9414,
@@ -422,7 +281,7 @@ static void verify_lee(void)
         return;
     }
     lee_frame(2 * n);
-    follow(&two, &o, 95.0, 0.0, watch);
+    curve_follow(&two, &o, 95.0, 0.0, watch);
     verify_row("T5", "Lee's frame, 10 pieces a member: limit", one.limit[0], 1.8557, 1.5e-2, VERIFY_REL);
     verify_row("T5", "  least load behind the snap-back", one.limit[1], -0.9414, 5e-2, VERIFY_REL);
     verify_row("T5", "  20 pieces: limit", two.limit[0], 1.8557, 5e-3, VERIFY_REL);
@@ -433,15 +292,16 @@ static void verify_lee(void)
     double worst_v = 0.0, worst_p = 0.0;
     for (int k = 0; k < 10; k++) { /* u rises along the path up to its turn: points of the curve by it */
         const double from = k < 9 ? 0.0 : one.limit_s[1], from2 = k < 9 ? 0.0 : two.limit_s[1];
-        const double a = k < 8 ? value_at(&one, one.along, one.watch[1], u[k], from)
-                               : value_at(&one, one.watch[1], one.along, v[k], one.limit_s[1]);
-        const double b = k < 8 ? value_at(&two, two.along, two.watch[1], u[k], from2)
-                               : value_at(&two, two.watch[1], two.along, v[k], two.limit_s[1]);
+        const double a = k < 8 ? curve_value(&one, one.along, one.watch[1], u[k], from)
+                               : curve_value(&one, one.watch[1], one.along, v[k], one.limit_s[1]);
+        const double b = k < 8 ? curve_value(&two, two.along, two.watch[1], u[k], from2)
+                               : curve_value(&two, two.watch[1], two.along, v[k], two.limit_s[1]);
         worst_v = fmax(worst_v, fabs(extrapolated(a, b) - (k < 8 ? v[k] : u[k])));
         if (k < 8)
-            worst_p = fmax(worst_p, fabs(extrapolated(value_at(&one, one.lambda, one.watch[1], u[k], 0.0),
-                                                      value_at(&two, two.lambda, two.watch[1], u[k], 0.0)) -
-                                         p[k]));
+            worst_p =
+                fmax(worst_p, fabs(extrapolated(curve_value(&one, one.lambda, one.watch[1], u[k], 0.0),
+                                                curve_value(&two, two.lambda, two.watch[1], u[k], 0.0)) -
+                                   p[k]));
     }
     verify_below("T5", "  displacement, farthest from the elastica at ten points", worst_v, 0.2);
     verify_below("T5", "  load, farthest from it at eight of them", worst_p, 0.02);
@@ -454,11 +314,12 @@ static void verify_lee(void)
 static void toggle(int pieces)
 {
     const double e = 10.3e6, b = 0.753, h = 0.243, area = b * h, i = b * h * h * h / 12.0;
-    begin();
-    add("section s %.12g %.12g %.12g %.12g\n", e * area, e * i, e * i, e * i);
-    add("node a -12.94288 0 0\nnode b 12.94288 0 0\nnode c 0 0 0.386\nmember 1 a c s %d\nmember 2 c b s %d\n",
+    model_begin();
+    model_line("section s %.12g %.12g %.12g %.12g\n", e * area, e * i, e * i, e * i);
+    model_line(
+        "node a -12.94288 0 0\nnode b 12.94288 0 0\nnode c 0 0 0.386\nmember 1 a c s %d\nmember 2 c b s %d\n",
         pieces, pieces);
-    add("fix a clamped\nfix b clamped\nfix c y rx rz\nload c 0 0 -40\n");
+    model_line("fix a clamped\nfix b clamped\nfix c y rx rz\nload c 0 0 -40\n");
 }
 
 static void verify_toggle(void)
@@ -467,12 +328,12 @@ static void verify_toggle(void)
                         p[] = {15.18, 25.20, 30.98, 33.50, 33.78, 32.85, 31.71,
                                31.30, 32.50, 36.10, 42.81, 53.31, 68.24};
     const int n = verify_quick() ? 4 : 8;
-    const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.02, 0.005);
+    const fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.02, 0.005);
     double worst = 0.0;
     toggle(n);
-    follow(&one, &o, 0.67, 0.0, NULL);
+    curve_follow(&one, &o, 0.67, 0.0, NULL);
     toggle(2 * n);
-    follow(&two, &o, 0.67, 0.0, NULL);
+    curve_follow(&two, &o, 0.67, 0.0, NULL);
     verify_note("Williams' toggle: %d and %d pieces a bar: limit %.2f and %.2f lb", n, 2 * n,
                 40.0 * one.limit[0], 40.0 * two.limit[0]);
     /* With 4 and 8 pieces terms of the fourth order are left: 0.5 % is for 8 and 16. */
@@ -482,8 +343,8 @@ static void verify_toggle(void)
     verify_row("T6", "  least load after it [lb]", extrapolated(40.0 * one.limit[1], 40.0 * two.limit[1]),
                31.2826, tol, VERIFY_REL);
     for (int k = 0; k < 13; k++)
-        worst = fmax(worst, fabs(extrapolated(40.0 * value_at(&one, one.lambda, one.along, w[k], 0.0),
-                                              40.0 * value_at(&two, two.lambda, two.along, w[k], 0.0)) /
+        worst = fmax(worst, fabs(extrapolated(40.0 * curve_value(&one, one.lambda, one.along, w[k], 0.0),
+                                              40.0 * curve_value(&two, two.lambda, two.along, w[k], 0.0)) /
                                      p[k] -
                                  1.0));
     verify_below("T6", "  largest relative distance from the elastica, at 13 deflections", worst, tol);
@@ -491,24 +352,25 @@ static void verify_toggle(void)
 
 static void arch(int pieces, double side)
 {
-    begin();
-    add("section s 1e4 1e3 1e3 1e3\n");
+    model_begin();
+    model_line("section s 1e4 1e3 1e3 1e3\n");
     for (int k = 0; k <= pieces; k++) {
         const double a = 0.2 * (2.0 * k / pieces - 1.0);
-        add("node %d %.15g 0 %.15g\nfix %d y rx rz\n", k, 100.0 * sin(a), 100.0 * (cos(a) - cos(0.2)), k);
-        if (k > 0) add("member %d %d %d s 1\n", k, k - 1, k);
+        model_line("node %d %.15g 0 %.15g\nfix %d y rx rz\n", k, 100.0 * sin(a), 100.0 * (cos(a) - cos(0.2)),
+                   k);
+        if (k > 0) model_line("member %d %d %d s 1\n", k, k - 1, k);
     }
-    add("fix 0 pinned\nfix %d pinned\nload %d %.12g 0 -1\n", pieces, pieces / 2, side);
+    model_line("fix 0 pinned\nfix %d pinned\nload %d %.12g 0 -1\n", pieces, pieces / 2, side);
 }
 
 static void verify_arch(void)
 {
     const int n = verify_quick() ? 16 : 32;
-    fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.2, 0.01);
+    fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.2, 0.01);
     double limit[2], side[2];
     for (int k = 0; k < 2; k++) {
         arch(n << k, 0.0);
-        follow(&one, &o, 1.3, 0.0, NULL);
+        curve_follow(&one, &o, 1.3, 0.0, NULL);
         limit[k] = one.limits ? one.limit[0] : NAN;
     }
     verify_note("shallow arch, %d and %d pieces: %.4f and %.4f", n, 2 * n, limit[0], limit[1]);
@@ -520,7 +382,7 @@ static void verify_arch(void)
         o.dl_most = 0.08; /* the peak is sharp, */
         o.chi = 1e-6;     /* and a looser balance hides what a side load of 1e-3 does */
         arch(n << k, 1e-3);
-        follow(k ? &two : &one, &o, 0.0, -1.3, watch);
+        curve_follow(k ? &two : &one, &o, 0.0, -1.3, watch);
         const curve *c = k ? &two : &one;
         side[k] = c->limits ? c->limit[0] : NAN;
     }
@@ -536,41 +398,43 @@ static void verify_pyramid(void)
     static const double w[] = {2, 5, 10, 15, 25, 45},
                         p[] = {333.477, 640.653, 733.270, 458.706, -458.706, 1366.297};
     double worst = 0.0;
-    begin();
-    add("section s bar 1 960510\nnode apex 0 0 20\nload apex 0 0 -1000\n");
+    model_begin();
+    model_line("section s bar 1 960510\nnode apex 0 0 20\nload apex 0 0 -1000\n");
     for (int k = 0; k < 8; k++)
-        add("node %d %.15g %.15g 0\nfix %d pinned\nmember %d %d apex s 1\n", k, 250 * cos(k * PI / 4),
-            250 * sin(k * PI / 4), k, k, k);
-    const fl_path_options o = options(FL_RELAXATION_KINETIC, 0.02, 0.004);
-    follow(&one, &o, 45.2, 0.0, NULL);
+        model_line("node %d %.15g %.15g 0\nfix %d pinned\nmember %d %d apex s 1\n", k, 250 * cos(k * PI / 4),
+                   250 * sin(k * PI / 4), k, k, k);
+    const fl_path_options o = curve_options(FL_RELAXATION_KINETIC, 0.02, 0.004);
+    curve_follow(&one, &o, 45.2, 0.0, NULL);
     verify_row("T8", "pyramid of eight bars: limit [N]", 1000.0 * one.limit[0], 752.330, 2e-3, VERIFY_REL);
-    verify_row("T8", "  apex down there", at_arc(&one, one.along, one.limit_s[0]), 8.46527, 2e-3, VERIFY_REL);
+    verify_row("T8", "  apex down there", curve_at_arc(&one, one.along, one.limit_s[0]), 8.46527, 2e-3,
+               VERIFY_REL);
     for (int k = 0; k < 6; k++)
-        worst = fmax(worst, fabs(1000.0 * value_at(&one, one.lambda, one.along, w[k], 0.0) - p[k]));
+        worst = fmax(worst, fabs(1000.0 * curve_value(&one, one.lambda, one.along, w[k], 0.0) - p[k]));
     verify_below("T8", "  farthest from the closed form [N], at six deflections", worst, 2e-3 * 752.33);
 }
 
 static void hexagon(int pieces, int rollers)
 {
-    begin();
-    add("section s general %.12g %.12g %.12g %.12g\nnode apex 0 0 1.75\nload apex 0 0 -100\n", 439800 * .494,
-        439800 * .02, 439800 * .02, 159000 * .0331);
-    if (rollers) add("fix apex x y rz\n");
+    model_begin();
+    model_line("section s general %.12g %.12g %.12g %.12g\nnode apex 0 0 1.75\nload apex 0 0 -100\n",
+               439800 * .494, 439800 * .02, 439800 * .02, 159000 * .0331);
+    if (rollers) model_line("fix apex x y rz\n");
     for (int k = 0; k < 6; k++)
-        add("node %d %.15g %.15g 0\nfix %d %s\n", k, 24 * cos(k * PI / 3), 24 * sin(k * PI / 3), k,
-            rollers ? "z" : "pinned");
+        model_line("node %d %.15g %.15g 0\nfix %d %s\n", k, 24 * cos(k * PI / 3), 24 * sin(k * PI / 3), k,
+                   rollers ? "z" : "pinned");
     for (int k = 0; k < 6; k++)
-        add("member a%d apex %d s %d\nmember r%d %d %d s %d\n", k, k, pieces, k, k, (k + 1) % 6, pieces);
+        model_line("member a%d apex %d s %d\nmember r%d %d %d s %d\n", k, k, pieces, k, k, (k + 1) % 6,
+                   pieces);
 }
 
 static void verify_hexagon(void)
 {
-    const fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.02, 0.02);
+    const fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.02, 0.02);
     const int n = verify_quick() ? 4 : 8;
     double limit[2], roller[2];
     for (int k = 0; k < 2; k++) {
         hexagon(n << k, 0);
-        follow(&one, &o, 0.7, 0.0, NULL);
+        curve_follow(&one, &o, 0.7, 0.0, NULL);
         limit[k] = 100.0 * one.limit[0];
     }
     verify_note("hexagonal frame, pinned, %d and %d pieces: %.2f and %.2f lb", n, 2 * n, limit[0], limit[1]);
@@ -579,7 +443,7 @@ static void verify_hexagon(void)
     if (verify_quick()) return;
     for (int k = 0; k < 2; k++) {
         hexagon(4 << k, 1);
-        follow(&one, &o, 1.0, 0.0, NULL);
+        curve_follow(&one, &o, 1.0, 0.0, NULL);
         roller[k] = 100.0 * one.limit[0];
     }
     verify_note("on rollers, 4 and 8 pieces: %.2f and %.2f lb", roller[0], roller[1]);
@@ -599,22 +463,22 @@ static void verify_column(void)
     verify_row("V70", "Euler's load of the column [kN]", euler, 1079.49, 1e-4, VERIFY_REL);
     for (int k = 0; k < 2; k++) {
         const int half = n << k;
-        begin();
-        add("section s rect 0.05 0.05 210e6 80e6\n");
+        model_begin();
+        model_line("section s rect 0.05 0.05 210e6 80e6\n");
         for (int i = 0; i <= 2 * half; i++) {
             const double t = (double)i / (2 * half);
-            add("node %d %.15g 0 %.15g\nfix %d y rx rz\n", i, t, 1e-3 * sin(PI * t), i);
-            if (i > 0) add("member %d %d %d s 1\n", i, i - 1, i);
+            model_line("node %d %.15g 0 %.15g\nfix %d y rx rz\n", i, t, 1e-3 * sin(PI * t), i);
+            if (i > 0) model_line("member %d %d %d s 1\n", i, i - 1, i);
         }
-        add("fix 0 pinned\nfix %d z\nload %d -1079.49 0 0\n", 2 * half, 2 * half);
+        model_line("fix 0 pinned\nfix %d z\nload %d -1079.49 0 0\n", 2 * half, 2 * half);
         char mid[10];
         snprintf(mid, sizeof mid, "%d", half);
         const watched watch[WATCH] = {{mid, 2}};
-        fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 0.3, 0.02);
+        fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 0.3, 0.02);
         o.constraint = FL_ARC_TOTAL;
-        follow(&one, &o, 0.0, 0.201, watch);
+        curve_follow(&one, &o, 0.0, 0.201, watch);
         for (int i = 0; i < 5; i++)
-            load[k][i] = value_at(&one, one.lambda, one.watch[0], sag[i] - 1e-3, 0.0) * 1079.49 / euler;
+            load[k][i] = curve_value(&one, one.lambda, one.watch[0], sag[i] - 1e-3, 0.0) * 1079.49 / euler;
     }
     for (int i = 0; i < 5; i++) {
         char what[100];
@@ -631,16 +495,16 @@ static void load_to(double first, int steps, const char *node, fl_vec3 *d, fl_ve
     fl_member_chain c = {0};
     fl_path p = {0};
     fl_err err = {0};
-    fl_path_options o = options(FL_RELAXATION_ADAPTIVE, first, 1.0);
+    fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, first, 1.0);
     o.constraint = FL_ARC_LOAD;
     o.dl = (1.0 - first) / (steps > 1 ? steps - 1 : 1);
     o.chi = chi;
-    make_chain(&m, &c);
-    if (fl_path_start(&p, &c, &o, &err)) fatal(&err);
+    curve_chain(&m, &c, 1.0);
+    if (fl_path_start(&p, &c, &o, &err)) curve_fatal(&err);
     p.options.last = 1.0;
     while (p.point.lambda < 1.0)
-        if (fl_path_next(&p, &err)) fatal(&err);
-    const int32_t b = node_of(&m, node);
+        if (fl_path_next(&p, &err)) curve_fatal(&err);
+    const int32_t b = curve_node(&m, node);
     *d = c.ball[b].d;
     *x0 = c.ball[b].x0;
     fl_path_free(&p);
@@ -653,14 +517,14 @@ static void verify_bend(void)
     fl_vec3 d, x0, at[2];
     for (int k = 0; k < 2; k++) {
         const int n = 8 << k;
-        begin();
-        add("section s 1e7 %.15g %.15g %.15g\n", 1e7 / 12.0, 1e7 / 12.0, 5e6 * 0.140577);
+        model_begin();
+        model_line("section s 1e7 %.15g %.15g %.15g\n", 1e7 / 12.0, 1e7 / 12.0, 5e6 * 0.140577);
         for (int i = 0; i <= n; i++) {
             const double a = 0.25 * PI * i / n;
-            add("node %d %.15g %.15g 0\n", i, 100.0 * (1.0 - cos(a)), 100.0 * sin(a));
-            if (i > 0) add("member %d %d %d s 1\n", i, i - 1, i);
+            model_line("node %d %.15g %.15g 0\n", i, 100.0 * (1.0 - cos(a)), 100.0 * sin(a));
+            if (i > 0) model_line("member %d %d %d s 1\n", i, i - 1, i);
         }
-        add("fix 0 clamped\nload %d 0 0 600\n", n);
+        model_line("fix 0 clamped\nload %d 0 0 600\n", n);
         load_to(0.05, 20, k ? "16" : "8", &d, &x0, 1e-5);
         at[k] = v3_add(x0, d);
     }
@@ -675,8 +539,9 @@ static void verify_bend(void)
 static void verify_roll_up(void)
 {
     fl_vec3 d, x0;
-    begin();
-    add("section s 1e4 1 1 1\nnode a 0 0 0\nnode b 1 0 0\nmember 1 a b s 10\nfix a clamped\nfix b y rx "
+    model_begin();
+    model_line(
+        "section s 1e4 1 1 1\nnode a 0 0 0\nnode b 1 0 0\nmember 1 a b s 10\nfix a clamped\nfix b y rx "
         "rz\nload b 0 0 0 0 %.17g 0\n",
         -2.0 * PI);
     load_to(0.05, 20, "b", &d, &x0, 1e-10);
@@ -688,18 +553,19 @@ static void verify_roll_up(void)
 static void jacket(int pieces, double fx, double fy)
 {
     static const double x[] = {10, 8, 6}, y[] = {8, 6.5, 5}, sx[] = {1, -1, -1, 1}, sy[] = {1, 1, -1, -1};
-    begin();
-    add("section leg pipe 1.2 0.04 206e9 79.2e9\nsection brace pipe 0.6 0.02 206e9 79.2e9\n");
+    model_begin();
+    model_line("section leg pipe 1.2 0.04 206e9 79.2e9\nsection brace pipe 0.6 0.02 206e9 79.2e9\n");
     for (int l = 0; l < 3; l++)
-        for (int k = 0; k < 4; k++) add("node n%d.%d %g %g %d\n", l, k, sx[k] * x[l], sy[k] * y[l], 15 * l);
+        for (int k = 0; k < 4; k++)
+            model_line("node n%d.%d %g %g %d\n", l, k, sx[k] * x[l], sy[k] * y[l], 15 * l);
     for (int l = 0; l < 2; l++)
         for (int k = 0; k < 4; k++) {
             const int next = (k + 1) % 4;
-            add("member leg%d.%d n%d.%d n%d.%d leg %d\n", l, k, l, k, l + 1, k, pieces);
-            add("member d%d.%d n%d.%d n%d.%d brace %d\n", l, k, l, k, l + 1, next, pieces);
-            add("member h%d.%d n%d.%d n%d.%d brace %d\n", l, k, l + 1, k, l + 1, next, pieces);
+            model_line("member leg%d.%d n%d.%d n%d.%d leg %d\n", l, k, l, k, l + 1, k, pieces);
+            model_line("member d%d.%d n%d.%d n%d.%d brace %d\n", l, k, l, k, l + 1, next, pieces);
+            model_line("member h%d.%d n%d.%d n%d.%d brace %d\n", l, k, l + 1, k, l + 1, next, pieces);
         }
-    for (int k = 0; k < 4; k++) add("fix n0.%d clamped\nload n2.%d %g %g 0\n", k, k, fx, fy);
+    for (int k = 0; k < 4; k++) model_line("fix n0.%d clamped\nload n2.%d %g %g 0\n", k, k, fx, fy);
 }
 
 /* At a thousandth of the load: the second order is below 1e-5 of it. */
@@ -711,18 +577,18 @@ static void verify_jacket(void)
         fl_member_chain c = {0};
         fl_path p = {0};
         fl_err err = {0};
-        fl_path_options o = options(FL_RELAXATION_ADAPTIVE, 1e-3, 0.01);
+        fl_path_options o = curve_options(FL_RELAXATION_ADAPTIVE, 1e-3, 0.01);
         o.constraint = FL_ARC_LOAD;
         o.chi = 1e-6;
         jacket(verify_quick() ? 1 : 4, way ? 0.0 : 250e3, way ? 250e3 : 0.0);
-        make_chain(&m, &c);
-        if (fl_path_start(&p, &c, &o, &err) || fl_path_next(&p, &err)) fatal(&err);
+        curve_chain(&m, &c, 1.0);
+        if (fl_path_start(&p, &c, &o, &err) || fl_path_next(&p, &err)) curve_fatal(&err);
         for (int k = 0; k < 4; k++) {
             char name[20], what[100];
             snprintf(name, sizeof name, "n2.%d", k);
             snprintf(what, sizeof what, "jacket, 250 kN a corner along %s: corner %d [mm]", way ? "y" : "x",
                      k + 1);
-            verify_row("T12", what, 1e6 * v3_at(c.ball[node_of(&m, name)].d, way), way ? in_y[k] : in_x[k],
+            verify_row("T12", what, 1e6 * v3_at(c.ball[curve_node(&m, name)].d, way), way ? in_y[k] : in_x[k],
                        2e-5, VERIFY_REL);
         }
         fl_path_free(&p);
@@ -735,22 +601,18 @@ static void verify_jacket(void)
 static void verify_step(void)
 {
     double lambda[2], along[2];
-    fl_path_options o = options(FL_RELAXATION_KINETIC, 0.02, 0.01);
+    fl_path_options o = curve_options(FL_RELAXATION_KINETIC, 0.02, 0.01);
     two_bars();
-    add("load c 0 0 -2500\n");
+    model_line("load c 0 0 -2500\n");
     for (int k = 0; k < 2; k++) {
-        fl_text in = {0};
         fl_member_model m = {0};
         fl_member_chain c = {0};
         fl_path p = {0};
         fl_err err = {0};
-        if (fl_text_open_bytes(&in, "model", text, (int64_t)used, &err) ||
-            fl_member_model_read_text(&m, &in, &err) ||
-            fl_member_chain_make(&c, &m, k ? 1.0 / 1024 : 1.0, &err) || fl_path_start(&p, &c, &o, &err))
-            fatal(&err);
-        fl_text_close(&in);
+        curve_chain(&m, &c, k ? 1.0 / 1024 : 1.0);
+        if (fl_path_start(&p, &c, &o, &err)) curve_fatal(&err);
         for (int n = 0; n < 20; n++)
-            if (fl_path_next(&p, &err)) fatal(&err);
+            if (fl_path_next(&p, &err)) curve_fatal(&err);
         lambda[k] = p.point.lambda;
         along[k] = p.point.along;
         fl_path_free(&p);
