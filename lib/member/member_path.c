@@ -14,6 +14,8 @@ enum {
 };
 /* Smallest dl, over that which a point began with. */
 static const double DL_LEAST = 1e-4;
+/* The same over the length of all displacements. */
+static const double DL_LOST = 1e-9;
 /* Of the lever of axial forces, so that a piece may be bent further while a point is found. */
 static const double MASS_MARGIN = 2.0;
 static const double JUMP = 5.0;
@@ -151,7 +153,9 @@ static double step_lambda(const fl_path *p, relaxation_run *r, const fl_member_h
     case FL_ARC_DISPLACEMENT: lambda = (r->target * p->chain->load_norm - h->work_a) / h->work_b; break;
     case FL_ARC_TOTAL:
     case FL_ARC_INCREMENT:
-        if (fl_arc_root(h->bb, h->ab, h->aa - r->target * r->target, h->db, r->lambda, &lambda)) {
+        /* From the last point the load may turn back while the sphere goes on: the nearer root. */
+        if (fl_arc_root(h->bb, h->ab, h->aa - r->target * r->target,
+                        r->constraint == FL_ARC_TOTAL ? h->db : 0.0, r->lambda, &lambda)) {
             *root = 0;
             lambda = balanced;
         }
@@ -402,7 +406,8 @@ int fl_path_next(fl_path *p, fl_err *err)
     relaxation_run r;
     if (p->point.number == 0) return first_point(p, err);
     const double least = DL_LEAST * p->dl;
-    for (double margin = MASS_MARGIN;; margin *= 2.0) {
+    for (double margin = MASS_MARGIN; p->dl >= DL_LOST * p->point.length || p->options.dl > 0.0;
+         margin *= 2.0) {
         double share = 0.0;
         if (p->options.predictor == FL_PATH_LOAD_STEPS) {
             predict_by_load_steps(p, &r);
@@ -424,7 +429,8 @@ int fl_path_next(fl_path *p, fl_err *err)
         }
         restore_state(p->chain, &p->last);
         p->dl *= 0.5;
-        if (p->dl < least || p->options.predictor == FL_PATH_LOAD_STEPS) break;
+        if (p->dl < least || p->dl < DL_LOST * p->point.length || p->options.predictor == FL_PATH_LOAD_STEPS)
+            break;
     }
     return fl_fail(err, FL_NO,
                    "the arc cannot advance beyond point %lld, load factor %g: try another --constraint, "
