@@ -3,7 +3,7 @@
  *
  * After a step the displacements are d = a + lambda b, a without load and b = c2 dt2 P0/m from the load.
  *     total         |d| = l, counted from the start (Ye & Xu 2024)
- *     increment     |d - d_1| = l, counted from the last point; does not pass a turn of the loaded displacement
+ *     increment     |d - d_1| = l, counted from the last point; ends where the loaded displacement turns
  *     displacement  P0.d = l |P0|, the displacement that does work on the load
  *     load          lambda is given
  * total and increment lead to  bb x2 + 2 ab x + (aa - l2) = 0,  of which the root is taken that has the

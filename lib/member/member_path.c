@@ -401,13 +401,19 @@ static int first_point(fl_path *p, fl_err *err)
     return 0;
 }
 
+/* An increment of length that is lost beside the length of all displacements. */
+static int is_lost(const fl_path *p)
+{
+    const int length = p->options.constraint == FL_ARC_TOTAL || p->options.constraint == FL_ARC_INCREMENT;
+    return length && p->options.predictor == FL_PATH_CHORD && p->dl < DL_LOST * p->point.length;
+}
+
 int fl_path_next(fl_path *p, fl_err *err)
 {
     relaxation_run r;
     if (p->point.number == 0) return first_point(p, err);
     const double least = DL_LEAST * p->dl;
-    for (double margin = MASS_MARGIN; p->dl >= DL_LOST * p->point.length || p->options.dl > 0.0;
-         margin *= 2.0) {
+    for (double margin = MASS_MARGIN; !is_lost(p); margin *= 2.0) {
         double share = 0.0;
         if (p->options.predictor == FL_PATH_LOAD_STEPS) {
             predict_by_load_steps(p, &r);
@@ -429,8 +435,7 @@ int fl_path_next(fl_path *p, fl_err *err)
         }
         restore_state(p->chain, &p->last);
         p->dl *= 0.5;
-        if (p->dl < least || p->dl < DL_LOST * p->point.length || p->options.predictor == FL_PATH_LOAD_STEPS)
-            break;
+        if (p->dl < least || p->options.predictor == FL_PATH_LOAD_STEPS) break;
     }
     return fl_fail(err, FL_NO,
                    "the arc cannot advance beyond point %lld, load factor %g: try another --constraint, "
