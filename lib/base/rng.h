@@ -14,7 +14,8 @@ enum fl_rng_purpose {
     FL_RNG_VELOCITY,
     FL_RNG_WAVE,
     FL_RNG_BOOTSTRAP,
-    FL_RNG_LAYER
+    FL_RNG_LAYER,
+    FL_RNG_OFFSET
 };
 
 typedef struct {

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "path_plot.h"
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include "base/gnuplot.h"
+#include "base/stream.h"
+#include "base/text.h"
+#include "member/imperfection.h"
+
+enum { PATH_LEN = 4096 };
+
+int path_plot_begin(const struct options *o, fl_err *err)
+{
+    if (mkdir(o->plot, 0777) != 0 && errno != EEXIST)
+        return fl_fail(err, FL_SYSTEM, "%s: %s", o->plot, strerror(errno));
+    return 0;
+}
+
+static int open_in(fl_out *out, const struct options *o, const char *stem, const char *extension, fl_err *err)
+{
+    char path[PATH_LEN];
+    if (snprintf(path, sizeof path, "%s/%s.%s", o->plot, stem, extension) >= (int)sizeof path)
+        return fl_fail(err, FL_SYSTEM, "%.60s...: the name is too long", o->plot);
+    return fl_out_open(out, path, 0, err);
+}
+
+static void write_terminal(FILE *f, const struct options *o)
+{
+    fprintf(f, "set terminal %s size 800,600\nset output out\n",
+            strcmp(o->format, "png") == 0 ? "png" : "svg dynamic enhanced");
+}
+
+/* Lines of the members before and after; a blank line ends each. */
+static void write_members(FILE *f, const fl_member_chain *c)
+{
+    int32_t member = -1;
+    for (int32_t k = 0; k < c->contacts; k++) {
+        const fl_member_contact *e = &c->contact[k];
+        const int32_t ends[2] = {e->i, e->j};
+        if (e->member != member && member >= 0) putc('\n', f);
+        for (int s = e->member == member; s < 2; s++) {
+            const fl_member_ball *b = &c->ball[ends[s]];
+            fprintf(f, "%.9g %.9g %.9g %.9g %.9g %.9g\n", b->x0.x + b->d.x, b->x0.y + b->d.y,
+                    b->x0.z + b->d.z, b->x0.x, b->x0.y, b->x0.z);
+        }
+        member = e->member;
+    }
+}
+
+static int is_planar(const fl_member_chain *c)
+{
+    for (int32_t b = 0; b < c->balls; b++)
+        if (c->ball[b].x0.y != c->ball[0].x0.y) return 0;
+    return 1;
+}
+
+int path_plot_shape(const struct options *o, const fl_member_model *m, const fl_member_chain *c,
+                    int64_t point, fl_err *err)
+{
+    char stem[FL_GNUPLOT_STEM];
+    fl_out out = {0};
+    snprintf(stem, sizeof stem, "shape-%lld", (long long)point);
+    if (open_in(&out, o, stem, "tsv", err)) return -1;
+    fl_member_write_shape(out.f, m, c);
+    if (fl_out_close(&out, err) || open_in(&out, o, stem, "dat", err)) return -1;
+    write_members(out.f, c);
+    if (fl_out_close(&out, err) || open_in(&out, o, stem, "gp", err)) return -1;
+    write_terminal(out.f, o);
+    if (is_planar(c))
+        fprintf(out.f,
+                "set size ratio -1\nset xlabel \"x\"\nset ylabel \"z\"\nplot \"%s.dat\" using 4:6 with lines "
+                "lc rgb \"grey\" "
+                "title \"start\", \"\" using 1:3 with linespoints lw 2 pt 7 ps 0.4 title \"point %lld\"\n",
+                stem, (long long)point);
+    else
+        fprintf(out.f,
+                "set view equal xyz\nset view 60,30\nset xyplane 0\nsplot \"%s.dat\" using 4:5:6 with lines "
+                "lc rgb \"grey\" "
+                "title \"start\", \"\" using 1:2:3 with lines lw 2 title \"point %lld\"\n",
+                stem, (long long)point);
+    if (fl_out_close(&out, err)) return -1;
+    return fl_gnuplot_draw(o->plot, stem, o->format, err);
+}
+
+/* Columns along and lambda of the rows that were written. */
+static int write_curve(FILE *f, const fl_path_table *t, fl_err *err)
+{
+    fl_text in = {0};
+    int more = 0, rc = fl_text_open_bytes(&in, "path", t->text ? t->text : "", t->len, err);
+    while (rc == 0 && (more = fl_text_row(&in, err)) > 0) fprintf(f, "%s %s\n", in.field[4], in.field[1]);
+    fl_text_close(&in);
+    return rc || more < 0 ? -1 : 0;
+}
+
+/* The reference, as numbers, so that the folder stands alone. */
+static int copy_reference(FILE *f, const char *path, fl_err *err)
+{
+    fl_text in = {0};
+    int more = 0, rc = fl_text_open(&in, path, err);
+    while (rc == 0 && (more = fl_text_row(&in, err)) > 0) {
+        double x, y;
+        rc = fl_text_f64(&in, "displacement", &x, err) || fl_text_f64(&in, "load factor", &y, err) ? -1 : 0;
+        if (rc == 0) fprintf(f, "%.17g %.17g\n", x, y);
+    }
+    fl_text_close(&in);
+    return rc || more < 0 ? -1 : 0;
+}
+
+int path_plot_curve(const struct options *o, const fl_path_table *t, fl_err *err)
+{
+    fl_out out = {0};
+    if (open_in(&out, o, "path", "dat", err)) return -1;
+    if (write_curve(out.f, t, err)) {
+        fl_out_abort(&out);
+        return -1;
+    }
+    if (fl_out_close(&out, err)) return -1;
+    if (o->reference) {
+        if (open_in(&out, o, "reference", "dat", err)) return -1;
+        if (copy_reference(out.f, o->reference, err)) {
+            fl_out_abort(&out);
+            return -1;
+        }
+        if (fl_out_close(&out, err)) return -1;
+    }
+    if (open_in(&out, o, "path", "gp", err)) return -1;
+    write_terminal(out.f, o);
+    fprintf(
+        out.f,
+        "set xlabel \"displacement along the load\"\nset ylabel \"load factor\"\nset grid\nset key left top\n"
+        "plot \"path.dat\" with linespoints pt 7 ps 0.3 title \"arc-path\"%s\n",
+        o->reference ? ", \"reference.dat\" with points pt 4 title \"reference\"" : "");
+    if (fl_out_close(&out, err)) return -1;
+    return fl_gnuplot_draw(o->plot, "path", o->format, err);
+}
