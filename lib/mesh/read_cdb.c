@@ -31,7 +31,7 @@ int fl_cdb_is(const fl_bytes *b)
         const int block = command_at(p, "NBLOCK") || command_at(p, "EBLOCK");
         p += strcspn(p, "\r\n");
         p += strspn(p, "\r\n");
-        if (block && (*p == '\0' || p[strspn(p, " \t")] == '(')) return 1;
+        if (block && strchr("(0123456789", p[strspn(p, " \t")])) return 1; /* or the end of the file */
     }
     return 0;
 }

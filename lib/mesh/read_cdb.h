@@ -7,7 +7,8 @@
 #include "mesh/bytes.h"
 #include "mesh/import_options.h"
 
-/* True if a line of b is an NBLOCK or EBLOCK command and the next one a format like (3i9,6e21.13). */
+/* True if a line of b is an NBLOCK or EBLOCK command and the next one a format like (3i9,6e21.13), or numbers.
+ */
 int fl_cdb_is(const fl_bytes *b);
 
 /* Add the surface of the archive to s.  Read are
