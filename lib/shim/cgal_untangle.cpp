@@ -9,6 +9,7 @@
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
@@ -209,10 +210,19 @@ bool unite(Mesh &a, const Mesh &b, double tol, uint32_t &state)
     return false;
 }
 
-bool meet(const Mesh &a, const Mesh &b)
+/* A patch of the soup: the shell it is of, and the group of patches that meet, directly or through others. */
+struct Patch {
+    Mesh mesh;
+    CGAL::Bbox_3 box;
+    int32_t shell = 0;
+    std::size_t group = 0;
+    explicit Patch(const Mesh &m, int32_t of) : mesh(m), box(PMP::bbox(m)), shell(of) {}
+};
+
+bool meet(const Patch &a, const Patch &b)
 {
-    return !a.is_empty() && !b.is_empty() && CGAL::do_overlap(PMP::bbox(a), PMP::bbox(b)) &&
-           PMP::do_intersect(a, b);
+    return !a.mesh.is_empty() && !b.mesh.is_empty() && CGAL::do_overlap(a.box, b.box) &&
+           PMP::do_intersect(a.mesh, b.mesh);
 }
 
 /* Closed, looking outward, and not through itself: what a union can be made of. */
@@ -221,30 +231,73 @@ bool solid(const Mesh &m)
     return !m.is_empty() && CGAL::is_closed(m) && outward(m) && !PMP::does_self_intersect(m);
 }
 
+std::size_t root_of(const std::vector<Patch> &patch, std::size_t i)
+{
+    while (patch[i].group != i) i = patch[i].group;
+    return i;
+}
+
+void join_groups(std::vector<Patch> &patch, std::size_t i, std::size_t j)
+{
+    const std::size_t a = root_of(patch, i), b = root_of(patch, j);
+    patch[std::max(a, b)].group = std::min(a, b);
+}
+
+/* Which patches meet, as they come; those of one shell belong together. */
+void find_groups(std::vector<Patch> &patch)
+{
+    for (std::size_t i = 0; i < patch.size(); i++) patch[i].group = i;
+    for (std::size_t i = 0; i < patch.size(); i++)
+        for (std::size_t j = i + 1; j < patch.size(); j++)
+            if (patch[i].shell == patch[j].shell ||
+                (root_of(patch, i) != root_of(patch, j) && meet(patch[i], patch[j])))
+                join_groups(patch, i, j);
+    for (std::size_t i = 0; i < patch.size(); i++) patch[i].group = root_of(patch, i);
+}
+
+/* Solids of a group have passed through others of it, so that they are no cavities: what now lies inside the
+ * union of others is part of it. */
+bool swallow(Patch &a, Patch &b)
+{
+    if (!CGAL::do_overlap(a.box, b.box)) return false;
+    const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(a.mesh);
+    const bool inside = side(b.mesh.point(*b.mesh.vertices().begin())) == CGAL::ON_BOUNDED_SIDE;
+    if (inside) b.mesh.clear();
+    return inside;
+}
+
 /* The solids become as many as there are when no two of them that can be united meet. */
-void unite_all(std::vector<Mesh> &patch, double tol, fl_untangle *did)
+void unite_all(std::vector<Patch> &patch, double tol, fl_untangle *did)
 {
     uint32_t state = 1;
     std::vector<bool> can;
-    for (const Mesh &m : patch) can.push_back(solid(m));
+    for (const Patch &p : patch) can.push_back(solid(p.mesh));
     for (std::size_t i = 0; i < patch.size(); i++) {
         std::vector<bool> tried(patch.size(), false); /* as it is now */
         for (std::size_t j = i + 1; j < patch.size() && can[i]; j++) {
-            if (!can[j] || tried[j] || !meet(patch[i], patch[j])) continue;
+            if (!can[j] || tried[j] || patch[i].group != patch[j].group || !meet(patch[i], patch[j]))
+                continue;
             tried[j] = true;
-            if (!unite(patch[i], patch[j], tol, state)) continue;
-            patch[j].clear();
+            if (!unite(patch[i].mesh, patch[j].mesh, tol, state)) continue;
+            patch[i].box = PMP::bbox(patch[i].mesh);
+            patch[j].mesh.clear();
             did->joined++;
             tried.assign(patch.size(), false); /* a union reaches farther than what it was */
             j = i;
         }
     }
     for (std::size_t i = 0; i < patch.size(); i++)
-        for (std::size_t j = i + 1; j < patch.size(); j++) did->failed += meet(patch[i], patch[j]);
+        for (std::size_t j = 0; j < patch.size(); j++) {
+            if (i == j || patch[i].group != patch[j].group || patch[i].mesh.is_empty() ||
+                patch[j].mesh.is_empty())
+                continue;
+            if (meet(patch[i], patch[j])) did->failed += i < j;
+            else if (can[i] && can[j]) did->joined += swallow(patch[i], patch[j]);
+        }
 }
 
 /* Each shell by itself, so that none is cut where others share its edges; what is closed looks outward. */
-int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Mesh> &patch, double &diagonal,
+int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Patch> &patch, double &diagonal,
                fl_err *err)
 {
     std::vector<Point> points;
@@ -268,32 +321,37 @@ int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Mesh> &patch,
         PMP::split_connected_components(m, pieces);
         for (Mesh &p : pieces) {
             if (CGAL::is_closed(p) && !outward(p)) PMP::reverse_face_orientations(p);
-            patch.push_back(p);
+            patch.emplace_back(p, one.first);
         }
     }
     return 0;
 }
 
-int untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
+int untangle(fl_soup *s, const int32_t *shell, int32_t *group, fl_untangle *did, fl_err *err)
 {
     Mesh result;
-    std::vector<Mesh> patch;
+    std::vector<Patch> patch;
+    std::map<int32_t, int32_t> group_of;
     double diagonal;
     if (to_patches(s, shell, patch, diagonal, err)) return -1;
-    for (Mesh &m : patch) {
-        if (!PMP::does_self_intersect(m)) continue;
-        if (rebuild(m, did)) did->rebuilt++;
+    find_groups(patch);
+    for (const Patch &p : patch) group_of[p.shell] = patch[p.group].shell;
+    for (int32_t t = 0; t < s->nt; t++) group[t] = group_of.count(shell[t]) ? group_of[shell[t]] : shell[t];
+    for (Patch &p : patch) {
+        if (!PMP::does_self_intersect(p.mesh)) continue;
+        if (rebuild(p.mesh, did)) did->rebuilt++;
         else did->failed++;
     }
     unite_all(patch, FL_UNTANGLE_SHORT_EDGE * diagonal, did);
     if (did->joined + did->rebuilt == 0) return 0;
-    for (const Mesh &m : patch) result.join(m);
+    for (const Patch &p : patch) result.join(p.mesh);
     return write_back(s, result, err);
 }
 } // namespace
 
-extern "C" int fl_cgal_untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
+extern "C" int fl_cgal_untangle(fl_soup *s, const int32_t *shell, int32_t *group, fl_untangle *did,
+                                fl_err *err)
 {
     *did = fl_untangle{0, 0, 0, 0.0};
-    return guarded("repair of crossings", s->nt, err, [&] { return untangle(s, shell, did, err); });
+    return guarded("repair of crossings", s->nt, err, [&] { return untangle(s, shell, group, did, err); });
 }

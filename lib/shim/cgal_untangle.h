@@ -18,15 +18,18 @@ typedef struct {
 } fl_untangle;
 
 /* Closed bodies that pass through each other become their union, whose surface is that of both but for new
- * edges where they meet: found exactly, two at a time, then rounded, rid of short edges and looked at; where
- * it is not sound one of the two is swollen by a little first (TIDY, LOOSE).  A patch that passes through
- * itself loses the triangles concerned and some about them, and the hole is filled.  Open patches that pass
- * through others stay as they are.
+ * edges where they meet: found exactly, two at a time, then rounded, rid of short edges and checked; where
+ * it is not sound one of the two is swollen by a little first (FL_UNTANGLE_SWELL).  A body that passes
+ * through others is solid, so that one that lies in the union of others is dropped, whatever the order of the
+ * bodies; one that meets none may be a cavity, and stays.  A patch that passes through itself loses the
+ * triangles concerned and some about them, and the hole is filled.  Open patches that pass through others
+ * stay as they are.
  *   s      x and t from malloc() or fl_alloc(); replaced where something was done
  *   shell  [s->nt] which body a triangle is of, any number for each: none is cut where others share its
  *          edges
+ *   group  [s->nt as it comes] out: a shell of the bodies that meet, directly or through others
  * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM in err, and s as it was.
  * Source: Loriot et al., CGAL 5.5, corefinement and repair of self-intersections. */
-int fl_cgal_untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err);
+int fl_cgal_untangle(fl_soup *s, const int32_t *shell, int32_t *group, fl_untangle *did, fl_err *err);
 
 #endif

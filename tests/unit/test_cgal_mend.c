@@ -43,10 +43,11 @@ static void take(fl_part *p, fl_soup *s)
 static int untangled(fl_soup *s, fl_untangle *did, fl_err *why)
 {
     const fl_part p = {.nv = s->nv, .nt = s->nt, .v = (fl_vec3 *)s->x, .t = (fl_tri *)s->t};
-    int32_t *shell = fl_alloc(p.nt, sizeof *shell, why);
+    int32_t *shell = fl_alloc(p.nt, sizeof *shell, why), *group = fl_alloc(p.nt, sizeof *group, why);
     int32_t odd;
-    const int rc = fl_part_connected(&p, shell, &odd, why) || fl_cgal_untangle(s, shell, did, why);
+    const int rc = fl_part_connected(&p, shell, &odd, why) || fl_cgal_untangle(s, shell, group, did, why);
     free(shell);
+    free(group);
     return rc ? -1 : 0;
 }
 

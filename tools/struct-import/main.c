@@ -154,6 +154,16 @@ static int check_strict(const fl_surface *s, const struct cleanup *m, fl_err *er
     return 0;
 }
 
+/* A repair that changes what bodies enclose is told by the status. */
+static int check_repair(const fl_surface *s, const struct cleanup *m, fl_err *err)
+{
+    for (int32_t i = 0; i < s->n; i++)
+        if (m[i].lost)
+            return fl_fail(err, FL_NO, "part \"%.60s\": repair made %.6g m3 of bodies of %.6g m3",
+                           s->part[i].name, m[i].volume.result, m[i].volume.source);
+    return 0;
+}
+
 static int check_output(const struct options *o, fl_err *err)
 {
     const fl_named_path out = {"--output", o->out};
@@ -177,7 +187,7 @@ static int run(const struct options *o, fl_err *err)
     if (!o->raw && close_jointly(&s, m, err)) goto done;
     if (print_report(o, &s, m, err) || write_out(o, &s, err)) goto done;
     if (o->plot && draw_views(&s, o->plot, err)) goto done;
-    rc = o->strict ? check_strict(&s, m, err) : 0;
+    rc = check_repair(&s, m, err) || (o->strict && check_strict(&s, m, err)) ? -1 : 0;
 done:
     free(m);
     fl_surface_free(&s);

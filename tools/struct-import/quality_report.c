@@ -111,6 +111,23 @@ static void print_warnings(const char *name, const struct cleanup *m)
                 "struct-import: warning: %s: %d triangles of two-sided plates that stand on others were "
                 "skipped: ice meets such a plate only as a part of its own\n",
                 name, m->fins);
+    if (m->contact_walls)
+        fprintf(
+            stderr,
+            "struct-import: %s: %d triangles between bodies that stand against each other were dropped: the "
+            "bodies count as one\n",
+            name, m->contact_walls);
+    if (m->sheets)
+        fprintf(
+            stderr,
+            "struct-import: warning: %s: %d triangles of two-sided plates beside closed bodies were skipped: "
+            "ice meets such a plate only as a part of its own\n",
+            name, m->sheets);
+    if (m->lost)
+        fprintf(stderr,
+                "struct-import: warning: %s: the repaired surface encloses %.6g m3, the bodies that it came "
+                "from %.6g m3 (overlaps counted once); %d bodies differ\n",
+                name, m->volume.result, m->volume.source, m->volume.bodies);
     if (m->untangle.failed)
         fprintf(stderr, "struct-import: warning: %s: %d patches or pairs of them still cross\n", name,
                 m->untangle.failed);
