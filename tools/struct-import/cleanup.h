@@ -30,6 +30,7 @@ struct cleanup {
     fl_mesh_quality quality;
     int closes_jointly; /* its open edges match those of other parts, and together these parts are closed */
     double deviation;   /* [m] largest distance of the result from the source */
+    double rounding;    /* [m] by which the numbers of the output format move a vertex, included in both */
     double source_deviation; /* [m] largest distance of the source from the result */
 };
 
