@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# beside.sh -- what blocks.sh and peers.sh share: beside which programs they run, where, and how a table tells of both.
-# They read it by `.`; it needs bench, the folder it lies in.
-# shellcheck disable=SC2154 # that
+# beside.sh -- functions that blocks.sh and peers.sh share: programs to compare with, scratch folder, head of the table.
+# The scripts source it; the variable bench must hold the folder of this file.
+# shellcheck disable=SC2154 # bench
 
-fail() { echo "$table.sh: $*" >&2; exit 4; } # table: of begin
+fail() { echo "$table.sh: $*" >&2; exit 4; } # begin sets table
 
-# begin TABLE BUILD OUT PROGRAM...: leaves in peers those that are there, and ends where none is; build and out,
-# and a folder of its own to be in.
+# begin TABLE BUILD OUT PROGRAM...: sets peers to the installed programs and exits if there are none; sets build and
+# out; changes to a scratch folder.
 begin()
 {
     table=$1
@@ -21,22 +21,22 @@ begin()
         if command -v "$p" >/dev/null; then
             peers="$peers $p"
         else
-            echo "$table.sh: there is no $p, its rows are left out" >&2
+            echo "$table.sh: $p is not installed, its rows are left out" >&2
         fi
     done
     [ "$peers" ] || exit 0
     here=$(mktemp -d "${TMPDIR:-/tmp}/floe-$table.XXXXXX") && cd "$here" || exit 4
     trap 'rm -rf "$here"' EXIT
     trap 'exit 130' INT TERM HUP
-    TMPDIR=$here # MPI leaves things there
+    TMPDIR=$here # MPI leaves files there
     export TMPDIR
 }
 
-# version PROGRAM: as it tells it, - where it does not
+# version PROGRAM: the version that it prints, - if it prints none
 version()
 {
     case $1 in
-    floe*) "$build/bin/dem-solve" --version | sed 's/^[^ ]* //' ;;
+    dem-solve*) "$build/bin/dem-solve" --version | sed 's/^[^ ]* //' ;;
     lmp) lmp -h | sed -n 's/^Large-scale.*Simulator - //p' ;;
     liggghts) liggghts -h | sed -n 's/.*LIGGGHTS-PUBLIC \([^,]*\),.*/\1/p' ;;
     yade) yade --version 2>&1 | sed -n 's/^Yade version: *\([^,]*\).*/\1/p' ;;
@@ -52,7 +52,7 @@ heading()
     echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the programs being 1; $1"
 }
 
-# keep: the table as it is in the folder, to where it belongs
+# keep: copies the finished table to OUT and prints it
 keep()
 {
     cp "$table.tsv" "$out/$table.tsv" || exit 4

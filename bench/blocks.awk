@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# blocks.awk -- 216 blocks of 1 x 1 x 0.4 m with edges of 50 mm, for blocks.sh.
-#     awk -v scene=gas|pack -v as=floe|lmp|yade|rockable -v dt=.. -v until=.. -v windows=.. -f blocks.awk
-# gas: apart, each turned by chance; pack: pressed together by half a millimetre.  Both move towards their
-# middle, in the gas each with a speed and a spin of its own besides.
-function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 } # the same by any awk
+# blocks.awk -- 216 blocks of 1 x 1 x 0.4 m with a dilation radius of 50 mm, for blocks.sh.
+#     awk -v scene=gas|pack -v as=dem-solve|lmp|yade|rockable -v dt=.. -v until=.. -v windows=.. -f blocks.awk
+# gas: blocks apart, with random orientation, velocity and spin.  pack: neighbours overlap by 0.5 mm.  In both the
+# blocks also move towards the centre.
+function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 } # the same in every awk
 function gauss(    k, sum) { for (k = 0; k < 12; k++) sum += uniform(); return sum - 6 }
 
 # a[1..3] turned by the quaternion of block n into X, Y, Z
@@ -15,7 +15,7 @@ function turn(n, a,    w, x, y, z, u, v, t) {
     X = a[1] + 2 * (y * t - z * v); Y = a[2] + 2 * (z * u - x * t); Z = a[3] + 2 * (x * v - y * u)
 }
 
-# Corner k of a block of the size h less `by` at each face
+# Corner k of a block of half sizes h, each reduced by `by`
 function corner(k, by, a) {
     a[1] = (k % 2 ? 1 : -1) * (h[1] - by)
     a[2] = (int(k / 2) % 2 ? 1 : -1) * (h[2] - by)
@@ -40,7 +40,7 @@ function three(a, n) { return a[n, 1] " " a[n, 2] " " a[n, 3] }
 function four(n) { return q[n, 0] " " q[n, 1] " " q[n, 2] " " q[n, 3] }
 function spin(n) { return v[n, 4] " " v[n, 5] " " v[n, 6] }
 
-function floe(    n, k, a) {
+function dem_solve(    n, k, a) {
     print "#g-polys 1"
     for (n = 0; n < bodies; n++) {
         print "poly", n, r, 8, 6
@@ -54,7 +54,7 @@ function floe(    n, k, a) {
     }
 }
 
-# The moments of inertia about the axes of the world, and the angular momentum
+# Moments of inertia about the global axes; leaves the angular momentum in L
 function inertia(n,    I, J, e, a, i, j, k) {
     for (k = 1; k <= 3; k++) {
         I[k] = mass / 3 * (h[1]^2 + h[2]^2 + h[3]^2 - h[k]^2)
@@ -90,7 +90,7 @@ function lmp(    n, k, a) {
     }
 }
 
-# A row a block: corners are outer ones, for there are no round edges
+# One row per block, with the outer corners: the polyhedra of YADE have no dilation radius
 function yade(    n, k, a, row) {
     for (n = 0; n < bodies; n++) {
         row = three(v, n) " " spin(n)
@@ -103,7 +103,7 @@ function yade(    n, k, a, row) {
     }
 }
 
-# A deck, and behind the line `shape` the shape
+# The input file, and after the line `shape` the shape file
 function rockable(    n, k, a, elastic) {
     elastic = scene == "gas"
     print "Rockable 21-08-2022\nt 0\ntmax " until "\ndt " dt
@@ -135,7 +135,7 @@ BEGIN {
     split("0 1,2 3,4 5,6 7,0 2,1 3,4 6,5 7,0 4,1 5,2 6,3 7", edge, ",")
     split("0 2 3 1,4 5 7 6,0 1 5 4,2 6 7 3,0 4 6 2,1 3 7 5", face, ",")
     bodies = place()
-    if (as == "floe") floe()
+    if (as == "dem-solve") dem_solve()
     else if (as == "lmp") lmp()
     else if (as == "yade") yade()
     else if (as == "rockable") rockable()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# choice.awk -- ladder.tsv: what to choose for an error.  A fraction counts where it and all finer ones kept the
-# error, so that none is chosen by luck.
+# choice.awk -- the longest step of ladder.tsv for each error.  A fraction qualifies only if it and all
+# finer ones kept the error, so that none is chosen by chance.
 function within(x, goal) { return x != "-" && x <= goal }
 BEGIN { FS = "\t" }
 /^#/ { next }

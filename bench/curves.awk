@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# curves.awk -- ladder.tsv to blocks that gnuplot finds by their names, what.scene.  Each begins with a point far
-# out of the picture, for gnuplot complains of a block that is empty.
+# curves.awk -- ladder.tsv as named blocks for gnuplot, curve.scene.  Each block begins with a point far outside of
+# the plot, since gnuplot rejects empty blocks.
 function open_block(b) { order[++blocks] = b; row[b, n[b] = 1] = "1e-9\t1e-9\n" }
 function put(b, line) { row[b, ++n[b]] = line }
 BEGIN { FS = "\t"; open_block("bodies"); open_block("spheres") }
@@ -20,13 +20,13 @@ $2 == "threads" { put("threads." $1, $5 "\t" (1 / $20)) }
 END {
     for (i = 1; i <= blocks; i++) {
         b = order[i]
-        for (k = 3; k <= n[b]; k++) # a front goes by its cost
+        for (k = 3; k <= n[b]; k++) # the front is sorted by cost
             for (j = k; b ~ /^front/ && j > 2 && row[b, j] + 0 < row[b, j - 1] + 0; j--) {
                 s = row[b, j]
                 row[b, j] = row[b, j - 1]
                 row[b, j - 1] = s
             }
-        print "# " b ";" # so that no name begins with another
+        print "# " b ";" # so that no name is the beginning of another
         for (k = 1; k <= n[b]; k++) print row[b, k]
         printf "\n\n"
     }

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# floes.awk -- rows of boxes and balls to a g-polys file:
-#   box  x y z  a b c  r  rx ry rz  vx vy vz  wx wy wz    halves of the outer shape, dilated by r, turned [deg]
+# floes.awk -- writes a g-polys file from rows of boxes and balls:
+#   box  x y z  a b c  r  rx ry rz  vx vy vz  wx wy wz    half sizes with dilation radius r, rotation [deg]
 #   ball x y z  r  vx vy vz  wx wy wz
-function row(x, y, z,    rx, ry, rz) { # turned about x, then y, then z
+function row(x, y, z,    rx, ry, rz) { # rotated about x, then y, then z
     rx = y * cx - z * sx; z = y * sx + z * cx; y = rx
     ry = x * cy + z * sy; z = z * cy - x * sy; x = ry
     rz = x * cz - y * sz; y = x * sz + y * cz; x = rz

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# jam.awk -- jam.tsv to means +- standard errors, without surrogates and with them, and to what the runs of a
-# pair differ by; t is that over its standard error, deviations are those of single runs, without and with.
+# jam.awk -- means +- standard errors of jam.tsv without and with surrogates, and of the difference within a pair.
+# t is the difference over its standard error; deviations are those of single runs, without and with.
 BEGIN { FS = "\t" }
 /^#seconds/ { split($0, word, " "); seconds = word[2] }
 /^#/ { next }
 !("pair" in col) { for (k = 1; k <= NF; k++) { col[$k] = k; name[k] = $k }; next }
 {
-    told = $col["tolerance"] > 0
-    if (told) tol = $col["tolerance"]
+    with_surrogate = $col["tolerance"] > 0
+    if (with_surrogate) tol = $col["tolerance"]
     else n++
     runs++
-    for (k = col["impulse[kN.s]"]; k <= col["damping[kJ]"]; k++) x[$col["pair"], told, k] = $k
+    for (k = col["impulse[kN.s]"]; k <= col["damping[kJ]"]; k++) x[$col["pair"], with_surrogate, k] = $k
     if ($col["energy"] > worst) worst = $col["energy"]
-    cost[told] += $col["cost[s/s]"]
+    cost[with_surrogate] += $col["cost[s/s]"]
     pair[n] = $col["pair"]
 }
 # Mean, deviation and standard error of the runs, or of the differences in pairs (which = 2).

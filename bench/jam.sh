@@ -1,22 +1,22 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# jam.sh [BUILD [OUT]] -- does contact.surrogate bias a jam?  share/examples/cylinder in pairs of runs, one
-# without and one with 1e-3, each pair with another restitution and step, by the programs of BUILD/bin.
-#   OUT/jam.tsv   a row a run; its head names the machine.  OUT is bench/results
-# and prints means, standard errors and paired differences, as jam.awk has them of that table.
-#   PAIRS=57      half a minute of a processor each
+# jam.sh [BUILD [OUT]] -- test for a bias of jams by contact.surrogate.  Runs share/examples/cylinder in pairs,
+# without surrogates and with 1e-3, each pair with its own restitution and step, with the programs of BUILD/bin.
+#   OUT/jam.tsv   a row for each run; its head names the machine.  OUT is bench/results
+# Prints means, standard errors and paired differences by jam.awk.
+#   PAIRS=57      number of pairs, half a minute of processor time each
 #   JOBS=2        pairs at a time, one thread each
 #   FLOE_QUICK=1  3 pairs of 8 s, a few seconds in all
-# Restitution is 0.28 to 0.32 and the step 0.38 to 0.57 ms, for pair n by the fractions of n/g and n/g^2 with
-# g^3 = g + 1: points that fill the square evenly however many are taken; fewer pairs are the first of 57.
+# Restitution is 0.28 to 0.32 and the step 0.38 to 0.57 ms.  Pair n takes the fractional parts of n/g and n/g^2 with
+# g^3 = g + 1, which fill the square evenly for any number of pairs; fewer pairs are the first of 57.
 set -u
 LC_ALL=C
 export LC_ALL
 bench=$(cd "$(dirname "$0")" && pwd) || exit 4
 fail() { echo "jam.sh: $*" >&2; exit 4; }
 
-# pair N SECONDS: both runs of that pair, and their rows.
-if [ "${1-}" = pair ]; then # as xargs calls it, in the folder of the runs
+# pair N SECONDS: runs both runs of that pair and writes their rows.
+if [ "${1-}" = pair ]; then # called by xargs in the folder of the runs
     n=$2 seconds=$3
     # shellcheck disable=SC2046 # two numbers
     set -- $(awk -v n="$n" 'BEGIN {

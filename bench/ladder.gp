@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# ladder.gp -- the pictures of the ladder, from curves.dat; -e "out='FOLDER'; scenes='NAME ...'".
+# ladder.gp -- the plots of the ladder, from curves.dat; -e "out='FOLDER'; scenes='NAME ...'".
 n = words(scenes)
 across = n > 4 ? 4 : n
 down = (n + across - 1) / across
@@ -48,11 +48,11 @@ plot "curves.dat" index "bodies;" using 1:2 with linespoints pt 7 lc rgb "#1f5fa
 set output out . "/cost-threads.png"
 unset logscale x
 set xlabel "threads"
-set ylabel "speed over that of one thread"
+set ylabel "speedup over one thread"
 cores = system("getconf _NPROCESSORS_ONLN") + 0
 set xrange [0.9:cores + 0.1]
 set yrange [0:cores + 0.1]
 set xtics 1
-plot x with lines dt 2 lc rgb "#999999" title "as many times as threads", \
+plot x with lines dt 2 lc rgb "#999999" title "ideal", \
      for [s in scenes] "curves.dat" index "threads." . s . ";" using 1:2 with linespoints pt 7 \
          title (s[1:5] eq "field" || s[1:4] eq "pack") ? s : ""

@@ -1,22 +1,22 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # ladder.sh [BUILD [OUT]] -- cost beside error, over scenes and settings, with the programs of BUILD/bin.
-#   OUT/ladder.tsv   a row for each scene and setting; its head names the machine.  OUT is bench/results if not said
+#   OUT/ladder.tsv   a row for each scene and setting; its head names the machine.  The default of OUT is bench/results
 #   OUT/choice.txt   for an error of 5 %, 1 % and 0.1 %: the longest step that kept it, scene by scene
-#   OUT/*.png        error against cost, cost against bodies, cost against threads (by gnuplot, where it is there)
-# What a run is: bench/README.md.  Ice, structures and tables of the runs stay in BUILD/ladder.
+#   OUT/*.png        error against cost, cost against bodies, cost against threads, if gnuplot is installed
+# bench/README.md explains scenes and columns.  The runs use a scratch folder in BUILD/ladder.
 #   FLOE_QUICK=1     fewer and shorter rows, a minute or two in all
-#   SCENES='pair *'  patterns of the scenes that are wanted
-#   TIMES=3          times that a row is run, if one of them takes less than 3 s; the least counts
+#   SCENES='pair *'  patterns of the scenes to run
+#   TIMES=3          number of runs of a row, if one of them takes less than 3 s; the least time is kept
 set -u
 LC_ALL=C
 export LC_ALL
 bench=$(cd "$(dirname "$0")" && pwd) || exit 4
 fail() { echo "ladder.sh: $*" >&2; exit 4; }
 
-# shellcheck source=/dev/null # it lies beside this file
+# shellcheck source=/dev/null # in the same folder
 . "$bench/rungs.sh"
-if [ "${1-}" = run ]; then # as xargs calls it
+if [ "${1-}" = run ]; then # called by xargs
     shift
     run "$@"
     exit 0
@@ -29,13 +29,13 @@ out=$(cd "$out" && pwd)
 PATH=$build/bin:$PATH
 quick=${FLOE_QUICK:-0} wanted=${SCENES:-*}
 [ "$quick" = 0 ] && times=${TIMES:-3} || times=${TIMES:-1}
-here=$build/ladder/$$ # two ladders at a time do not meet
+here=$build/ladder/$$ # so that two ladders can run at a time
 mkdir -p "$here" && cd "$here" || exit 4
 trap 'rm -rf "$here"' EXIT
 trap 'exit 130' INT TERM HUP
 cores=$(getconf _NPROCESSORS_ONLN)
 
-# The fractions of the critical step that are tried; the last is for the reference.
+# Fractions of the critical step; the last is that of the reference.
 fractions() # NAME
 {
     case $1:$quick in
@@ -49,7 +49,7 @@ fractions() # NAME
 
 # --- runs ------------------------------------------------------------------------------------------
 
-# least BY SCENE NAME PROGRAM OPTION...: a run, as often as it is short; what is kept is the report of least BY.
+# least BY SCENE NAME PROGRAM OPTION...: repeats a short run and keeps the report with the least BY.
 least()
 {
     by=$1
@@ -67,7 +67,7 @@ least()
     done
 }
 
-# row SCENE SETTING VALUE LAW THREADS NAME: what the run took, and how far it is off the reference of its law.
+# row SCENE SETTING VALUE LAW THREADS NAME: cost of the run, and its error against the reference of its law.
 row()
 {
     printf '%s\t%s\t%s\t%s\t%s\t' "$1" "$2" "$3" "$4" "$5"
@@ -76,11 +76,11 @@ row()
         "$1/$6.report" "$1/$6.loads" "$1/reference.$4.loads" "$1/$6.state" "$1/reference.$4.state"
 }
 
-# rung SCENE SETTING VALUE: that row.  Everything that is not said is law patch, a tenth of the critical step, one
-# thread, searches when the skin is used up, and the vectors of the machine.
+# rung SCENE SETTING VALUE: runs and appends one row.  Defaults are law patch, 0.1 of the critical step, one thread,
+# neighbour searches when the skin is used up, and the vector width of the machine.
 rung()
 {
-    told "$@"
+    say "$@"
     law=patch threads=1 program=dem-solve name=$2-$3 f=0.1 by=processor more=
     case $2 in
     step) f=$3 ;;
@@ -100,16 +100,16 @@ scenes=
 if [ "$quick" = 0 ]; then all="field-200 field-2000 field-20000 pack-100000"
 else all="field-20 field-200 field-2000 pack-6000"; fi
 for s in $all pair stack hard-pebble hard-thin hard-pinched hard-cradle hard-hook hard-fast; do
-    is "$s" "$wanted" || continue
+    matches "$s" "$wanted" || continue
     make_scene "$s"
     scenes="$scenes $s"
 done
-[ "$scenes" ] || fail "no scene is like $wanted"
+[ "$scenes" ] || fail "no scene matches $wanted"
 
 # References, the longest first, on all cores.
 laws_of()
 {
-    if is "$1" "field-200 pair stack hard-cradle"; then echo patch core manual-si; else echo patch; fi
+    if matches "$1" "field-200 pair stack hard-cradle"; then echo patch core manual-si; else echo patch; fi
 }
 for s in $scenes; do
     for law in $(laws_of "$s"); do
@@ -117,7 +117,7 @@ for s in $scenes; do
             --set run.dt="$(step "$s" "$law" "$(fractions "$s" | awk '{ print $NF }')")"
     done
 done | awk '{ n = $2; sub(/.*-/, "", n); print (n + 0) "\t" $0 }' | sort -s -k 1,1nr | cut -f 2 >list
-told references "" "$(grep -c . list)"
+say references "" "$(grep -c . list)"
 xargs -L 1 -P "$cores" sh "$bench/ladder.sh" <list
 for s in $scenes; do
     for law in $(laws_of "$s"); do
@@ -129,22 +129,22 @@ done
 : >rows
 for s in $scenes; do
     for f in $(fractions "$s" | awk 'NF-- > 1'); do rung "$s" step "$f"; done
-    is "$s" "field-2000* pack-*" || for e in 5% 1% 0.1%; do rung "$s" error $e; done
+    matches "$s" "field-2000* pack-*" || for e in 5% 1% 0.1%; do rung "$s" error $e; done
     for law in $(laws_of "$s"); do
         [ "$law" = patch ] || for f in 0.2 0.1 0.05; do rung "$s" law "$law:$f"; done
     done
-    is "$s" "field-20 field-2000 pack-*" && for k in 1 10 100; do rung "$s" skin $k; done
-    is "$s" "field-* pack-*" && [ "$cores" -gt 1 ] && {
+    matches "$s" "field-20 field-2000 pack-*" && for k in 1 10 100; do rung "$s" skin $k; done
+    matches "$s" "field-* pack-*" && [ "$cores" -gt 1 ] && {
         j=1
         while [ $j -le "$cores" ]; do rung "$s" threads $j && j=$((2 * j)); done
     }
-    is "$s" "field-200 field-2000 stack" && for w in plain avx2; do
+    matches "$s" "field-200 field-2000 stack" && for w in plain avx2; do
         [ -x "$build/bench/dem-solve-$w" ] && { [ $w = plain ] || grep -q avx2 /proc/cpuinfo; } &&
             rung "$s" width $w
     done
 done
 
-# --- what is made of them ---------------------------------------------------------------------------
+# --- tables and plots --------------------------------------------------------------------------------
 
 {
     echo '#ladder 1'
@@ -161,6 +161,6 @@ if command -v gnuplot >/dev/null; then
     awk -f "$bench/curves.awk" ladder.tsv >curves.dat
     gnuplot -e "out='$out'; scenes='${scenes# }'" "$bench/ladder.gp" || fail "gnuplot failed"
 else
-    told plots "" "skipped, there is no gnuplot"
+    say plots "" "skipped, gnuplot is not installed"
 fi
 cat "$out/choice.txt"

@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# late.sh [BUILD [OUT]] -- what a contact costs late in a jam, without surrogates and with 1e-3: after 41 s of
-# share/examples/cylinder one second more, in steps of 0.1 ms, by the programs of BUILD/bin.  One thread.
+# late.sh [BUILD [OUT]] -- time per contact late in a jam, without surrogates and with 1e-3: one more second
+# after 41 s of share/examples/cylinder, in steps of 0.1 ms, with the programs of BUILD/bin.  One thread.
 #   OUT/late.tsv   a row for each start and tolerance; its head names the machine.  OUT is bench/results
-# What a start is and what the columns are: bench/README.md.
-#   TURNS=3        how often the tolerances are run, one after the other; the least time of each counts
+# bench/README.md explains the two starts and the columns.
+#   TURNS=3        number of runs of each tolerance, in turn; the least time of each is kept
 #   FLOE_QUICK=1   0.1 s after 8 s, once
 set -u
 LC_ALL=C
@@ -36,7 +36,7 @@ solve()
     dem-solve -q -j 1 --report "$name.report" "$@" 2>err || fail "$name: $(cat err)"
 }
 
-# begin NAME ICE TOLERANCE OPTION...: one from the start; leaves NAME.loads and NAME.energy, too.
+# begin NAME ICE TOLERANCE OPTION...: a run from the start; leaves NAME.loads and NAME.energy as well.
 begin()
 {
     name=$1 ice=$2 tol=$3
@@ -45,11 +45,11 @@ begin()
         --set output.frames=none --set output.energy="$name.energy" -o "$name.loads" "$@" scene
 }
 
-# second START TOLERANCE: the second in question.
+# second START TOLERANCE: the measured second.
 second()
 {
     case $1 in
-    checkpoint) # what was written after it is cut off, so this can be done again
+    checkpoint) # rows after the checkpoint are cut off, so the run can be repeated
         solve "$1-$2" --resume "$2.checkpoint" --set run.duration="$until" --set run.dt=0.0001 \
             --set output.checkpoint=none
         ;;
@@ -59,11 +59,11 @@ second()
     esac
 }
 
-# Time of a contact and step on the clock [ns].
+# Wall time per contact-step [ns].
 cost() { awk '/ns per contact-step/ { print $5 }' "$1"; }
 
-# row START TOLERANCE: what its least run took, and what it did in the second.  What is told of a run that
-# goes on is of all of it: what was told before is taken away.
+# row START TOLERANCE: time of the fastest run, and its results in the measured second.  The report of a resumed run
+# covers the whole run, so the part before the checkpoint is subtracted.
 row()
 {
     before=/dev/null since=0
@@ -71,7 +71,7 @@ row()
     awk -v first="$1 $2" -v since="$since" '
         /^steps/ { done = steps; steps = $2 }
         /ns per contact-step/ { ns = $5; contacts = substr($9, 2); all += (steps - done) * contacts }
-        /^surrogate/ { earlier = told; told = $3 * all }
+        /^surrogate share/ { earlier = hits; hits = $3 * all }
         /^processor/ { cpu = $2 }
         /^state hash/ { hash = $3 }
         FNR == 1 { split("", col) }
@@ -86,7 +86,7 @@ row()
             gsub(" ", "\t", first)
             off = residual - residual0
             n = (steps - done) * contacts
-            printf "%s\t%s\t%.2f\t%.7g\t", first, contacts, (told - earlier) / n, J / 1e3
+            printf "%s\t%s\t%.2f\t%.7g\t", first, contacts, (hits - earlier) / n, J / 1e3
             printf "%.2g\t", (off < 0 ? -off : off) / (lost - lost0)
             printf "%.4g\t%.4g\t%s\n", ns / 1e3, 1e6 * cpu / n, hash
         }' "$before" "$1-$2.best" "$1-$2.loads" "$1-$2.energy"
@@ -129,7 +129,7 @@ done >rows
     load=$(uptime | sed 's/.*: //')
     echo "#load $load over 1, 5 and 15 minutes, the runs themselves being 1; least of $turns turns"
     echo "#seconds $more after $after"
-    printf 'start\ttolerance\tcontacts\ttold\timpulse[kN.s]\town_impulse\tenergy\t'
+    printf 'start\ttolerance\tcontacts\tsurrogate_share\timpulse[kN.s]\town_impulse\tenergy\t'
     printf 'contact_step[us]\tprocessor[us]\tratio\thash\n'
     awk 'BEGIN { FS = OFS = "\t" }
         { own = "-" }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# later.awk -- STATE ICE: the ice as it stands and moves at the last time of a state table.
+# later.awk -- STATE ICE: the ice with the positions and velocities of the last time of a state table.
 function cross(a, b, c,    k, l, m) {
     for (k = 0; k < 3; k++) { l = (k + 1) % 3; m = (k + 2) % 3; c[k] = a[l] * b[m] - a[m] * b[l] }
 }
@@ -22,7 +22,7 @@ file == 1 {
     }
     for (k = 0; k < 6; k++) vel = vel " " b[col["vx[m/s]"] + k]
 }
-/^v / { # d + 2 q x (q x d + w d): turned since the start
+/^v / { # d + 2 q x (q x d + w d): the rotation since the start
     for (k = 0; k < 3; k++) d[k] = $(k + 2) - from[k]
     cross(q, d, c)
     for (k = 0; k < 3; k++) c[k] += w * d[k]

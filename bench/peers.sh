@@ -1,26 +1,26 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# peers.sh [BUILD [OUT]] -- the pack of bench_spheres beside other programs that know Hertz and Mindlin,
-# LAMMPS (lmp) and LIGGGHTS (liggghts), in turns on one thread: time of a contact and step, and its error.
+# peers.sh [BUILD [OUT]] -- compares dem-solve on the pack of bench_spheres with other programs that have the
+# Hertz-Mindlin law, LAMMPS (lmp) and LIGGGHTS (liggghts), in turns on one thread: time per contact-step and error.
 #   OUT/peers.tsv   a row for each pack and program; its head names the machine.  OUT is bench/results
-# A program that is not there has no rows; where neither is, the table stays as it is.  What the columns are,
-# and in what the programs differ: bench/README.md.  The scene is in peers.lmp and peers.lig.
+# A program that is not installed has no rows; without either the table is left unchanged.  bench/README.md
+# explains the columns and the differences of the programs.  The scene is in peers.lmp and peers.lig.
 #   FLOE_QUICK=1        the pack of 1 000, once, in shorter windows
-#   TURNS=3             how often each program runs, one after the other, by each of three skins of the peers'
-#                       lists of neighbours; the least window of all counts, and the skin that had it is told
-# shellcheck disable=SC2154 # of begin
+#   TURNS=3             number of runs of each program, in turn, with each of three skins of the neighbour lists of
+#                       the peers; the fastest window of all is kept, with its skin
+# shellcheck disable=SC2154 # build, out and peers are set by begin
 set -u
 LC_ALL=C OMP_NUM_THREADS=1
 export LC_ALL OMP_NUM_THREADS
 bench=$(cd "$(dirname "$0")" && pwd) || exit 4
-# shellcheck source=/dev/null # it lies beside this file
+# shellcheck source=/dev/null # in the same folder
 . "$bench/beside.sh"
 begin peers "${1:-}" "${2:-}" lmp liggghts
 quick=${FLOE_QUICK:-0}
 [ "$quick" = 0 ] && turns=${TURNS:-3} packs='1 3 10' || turns=${TURNS:-1} packs=1
 spheres=$build/tests/bench/bench_spheres
 
-# A pack as LAMMPS and LIGGGHTS read it.
+# The pack in the format of LAMMPS and LIGGGHTS.
 data()
 {
     awk 'NR == 1 {
@@ -44,14 +44,14 @@ peer()
         -var steps $(($5 * $6)) -var state state >log 2>&1 </dev/null || fail "$1: $(tail -n 2 log)"
 }
 
-# What is in state: pairs that touch, and spheres that touch the floor.
+# Contacts in state: pairs, and spheres on the floor.
 contacts() { awk 'NF == 5 && !/^ITEM/ { n += $5 / 2 + ($4 < $1) } END { print n }' state; }
 
-# One row to rows: spheres, program, skin, ns of the least window, contacts.
+# Appends a row to rows: spheres, program, skin, ns in the fastest window, contacts.
 time_own() # TILES STEPS
 {
     "$spheres" 1 "$1" "$2" >log || fail "bench_spheres: $(tail -n 1 log)"
-    awk 'END { printf "%d\tfloe\t-\t%s\t%.0f\n", $1, $5, $1 * $6 }' log >>rows
+    awk 'END { printf "%d\tdem-solve\t-\t%s\t%.0f\n", $1, $5, $1 * $6 }' log >>rows
 }
 time_peer() # PROGRAM TILES SKIN WINDOWS STEPS
 {
@@ -61,8 +61,8 @@ time_peer() # PROGRAM TILES SKIN WINDOWS STEPS
         END { printf "%d\t%s\t%s\t%.2f\t%.0f\n", n, p, skin, 1e9 * least / contacts, contacts }' log >>rows
 }
 
-# miss A B: the root mean square of what places in A miss of those in B, over what B moved since the start.
-miss()
+# error_of A B: root mean square of the differences of the positions in A and B, over that of the displacements in B.
+error_of()
 {
     awk -v side="$(awk '{ print $3; exit }' pack.1)" '
         function image(d) { return d - side * int(d / side + (d < 0 ? -0.5 : 0.5)) }
@@ -81,14 +81,14 @@ miss()
         END { printf "%.2g", sqrt(off / moved) }' "$1" pack.1 "$2"
 }
 
-# In how many parts steps are cut; errors are those against the last.
+# Numbers of parts that a step is divided into; errors are against the last.
 parts='1 2 4 8 16 64'
 
-# states PROGRAM: what it makes of the pack in 400 steps, and in steps cut so.
+# states PROGRAM: states of the pack after 400 steps, for each division of the step.
 states()
 {
     for cut in $parts; do
-        if [ "$1" = floe ]; then
+        if [ "$1" = dem-solve ]; then
             "$spheres" pack 1 400 "$cut" >state || fail "bench_spheres: no state"
         else
             peer "$1" 1 0.005 1 400 "$cut"
@@ -112,28 +112,28 @@ while [ $turn -lt "$turns" ]; do
         10:*) steps=10 windows=40 ;;
         *) steps=50 windows=10 ;;
         esac
-        for skin in 0.002 0.005 0.01; do # each has its best; all have as many windows
+        for skin in 0.002 0.005 0.01; do # every program gets the same number of windows
             time_own "$tiles" $steps
             for p in $peers; do time_peer "$p" "$tiles" $skin $windows $steps; done
         done
     done
 done
-for p in floe $peers; do
+for p in dem-solve $peers; do
     states "$p"
     for cut in $parts; do
-        printf '%s\t%s\t%s\n' "$p" "$cut" "$(miss "$p.$cut" "$p.64")"
+        printf '%s\t%s\t%s\n' "$p" "$cut" "$(error_of "$p.$cut" "$p.64")"
     done
-    printf '%s\t%s\t%s\n' "$p" apart "$(miss "$p.64" floe.64)"
+    printf '%s\t%s\t%s\n' "$p" difference "$(error_of "$p.64" dem-solve.64)"
 done >errors
 
-for p in floe $peers; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >versions
+for p in dem-solve $peers; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >versions
 {
     heading "$turns turns"
-    printf 'spheres\tprogram\tversion\tskin[m]\tns\tratio\tcontacts\terror\terror_half\tapart'
+    printf 'spheres\tprogram\tversion\tskin[m]\tns\tratio\tcontacts\terror\terror_half\tdifference'
     printf '\tns_1e-3\tratio_1e-3\tns_1e-4\tratio_1e-4\n'
     awk 'BEGIN { FS = OFS = "\t" }
-        # The part of a step that has such an error, by the power between those on either side; all of it
-        # where that has no more.
+        # Fraction of the step with error e, by a power law between the steps on either side; 1 if the
+        # whole step has no larger error.
         function part(p, e,  k) {
             if (error[p, 1] <= e) return 1
             for (k = 2; k <= 16 && error[p, k] > e;) k *= 2
@@ -142,8 +142,8 @@ for p in floe $peers; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >version
         }
         function at(p, ns, e) { return part(p, e) > 0 ? ns / part(p, e) : "-" }
         function both(p, ns, own, e) {
-            if (at(p, ns, e) == "-" || at("floe", own, e) == "-") return "-" OFS "-"
-            return sprintf("%.1f", at(p, ns, e)) OFS sprintf("%.2f", at(p, ns, e) / at("floe", own, e))
+            if (at(p, ns, e) == "-" || at("dem-solve", own, e) == "-") return "-" OFS "-"
+            return sprintf("%.1f", at(p, ns, e)) OFS sprintf("%.2f", at(p, ns, e) / at("dem-solve", own, e))
         }
         FILENAME == "versions" { version[$1] = $2; next }
         FILENAME == "errors" { error[$1, $2] = $3; next }
@@ -153,9 +153,9 @@ for p in floe $peers; do printf '%s\t%s\n' "$p" "$(version "$p")"; done >version
             for (k = 1; k <= n; k++) {
                 split(list[k], of, SUBSEP)
                 print of[1], of[2], version[of[2]], skin[list[k]], ns[list[k]],
-                    sprintf("%.2f", ns[list[k]] / ns[of[1], "floe"]), rest[list[k]], error[of[2], 1],
-                    error[of[2], 2], error[of[2], "apart"], both(of[2], ns[list[k]], ns[of[1], "floe"], 1e-3),
-                    both(of[2], ns[list[k]], ns[of[1], "floe"], 1e-4)
+                    sprintf("%.2f", ns[list[k]] / ns[of[1], "dem-solve"]), rest[list[k]], error[of[2], 1],
+                    error[of[2], 2], error[of[2], "difference"], both(of[2], ns[list[k]], ns[of[1], "dem-solve"], 1e-3),
+                    both(of[2], ns[list[k]], ns[of[1], "dem-solve"], 1e-4)
             }
         }' versions errors rows
 } >peers.tsv

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# row.awk -- REPORT LOADS REFERENCE-LOADS STATE REFERENCE-STATE to the figures of one run:
+# row.awk -- the figures of one run from REPORT LOADS REFERENCE-LOADS STATE REFERENCE-STATE:
 #   bodies dt steps contacts  cost wall body_step contact_step  impulse peak motion energy overlap hash
-# divided by tabs, - where there is none.  -v bodies=N status=S, that of the run.
+# separated by tabs, - where there is none.  -v bodies=N status=S: the exit status of the run.
 function abs(x) { return x < 0 ? -x : x }
 function over(a, b) { return b > 0 ? sprintf("%.3g", a / b) : "-" }
 FNR == 1 { file++; split("", col); t0 = 0 }
@@ -26,7 +26,7 @@ file == 2 || file == 3 {
     if (file == 3) parts[p] = 1
     next
 }
-file > 3 { # states: the start, and the end
+file > 3 { # states at the start and at the end
     b = $col["body"]
     for (k = 0; k < 3; k++) {
         x = $(col["x[m]"] + k); v = $(col["vx[m/s]"] + k)

@@ -1,10 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# rungs.sh -- what ladder.sh, surrogate.sh, sleep.sh and threads.sh share: how a scene is made, which step it gets, one run of it.
-# They read it by `.`; it needs bench, the folder it lies in, here, that of the runs, quick, which is 0 or not, and fail.
-# shellcheck disable=SC2154 # those
+# rungs.sh -- functions that ladder.sh, surrogate.sh, sleep.sh and threads.sh share: make a scene, choose its step, run it.
+# The scripts source it.  They set bench (the folder of this file), here (the folder of the runs), quick (0 or not) and
+# fail.
+# shellcheck disable=SC2154 # these variables
 
-# run SCENE NAME PROGRAM OPTION...: one run; leaves NAME.loads .state .report .status in the folder of the scene.
+# run SCENE NAME PROGRAM OPTION...: one run; writes NAME.loads .state .report .status in the folder of the scene.
 run()
 {
     s=$1 n=$2 p=$3
@@ -15,8 +16,8 @@ run()
     echo $? >"$s/$n.status"
 }
 
-# best SCENE NAME COMMAND...: that, which runs NAME of SCENE; of its reports until now the one with the least processor time
-# stays.
+# best SCENE NAME COMMAND...: runs the command, which runs NAME of SCENE, and keeps the report with the least processor
+# time so far.
 best()
 {
     kept=$1/$2
@@ -29,10 +30,10 @@ best()
     return 0
 }
 
-# is NAME PATTERNS: is it like one of them?
-is()
+# matches NAME PATTERNS: true if the name matches one of the patterns
+matches()
 {
-    set -f # patterns, not the files that are like them
+    set -f # no expansion to file names
     for p in $2; do
         # shellcheck disable=SC2254 # a pattern
         case $1 in
@@ -65,7 +66,7 @@ pack() # LAYERS
     struct-import -q --name plate --box "-10,-9,-6,10,9,$low" -o structure.dat
 }
 
-# Ice, structure and scene of a rung in the folder of its name.
+# Writes ice, structure and scene to a folder of that name.
 make_scene() # NAME
 {
     mkdir "$1" && cd "$1" || exit 4
@@ -94,11 +95,11 @@ make_scene() # NAME
     from=$bench/scenes/${1%-[0-9]*}.scene
     [ -f "$bench/scenes/$1.floes" ] && awk -f "$bench/floes.awk" "$bench/scenes/$1.floes" >ice.dat
     [ "$1" = cylinder ] && from=$bench/../share/examples/cylinder/cylinder.scene
-    grep -Ev '^(state|energy|frames)(_every)? ' "$from" >scene # of tables loads are enough
+    grep -Ev '^(state|energy|frames)(_every)? ' "$from" >scene # only the table of loads is used
     cd "$here" && seconds "$1" >"$1/seconds" || exit 4
 }
 
-# Seconds of a scene.
+# Duration of a scene [s].
 seconds() # NAME
 {
     case $1:$quick in
@@ -112,7 +113,7 @@ seconds() # NAME
     esac
 }
 
-# critical SCENE LAW: the critical step of the stiffest contact any body can make.
+# critical SCENE LAW: critical step of the stiffest contact that any body can make.
 critical()
 {
     dem-solve -j 1 --plan --ice "$1/ice.dat" --structure "$1/structure.dat" --set contact.law="$2" \
@@ -120,7 +121,7 @@ critical()
         awk '{ for (k = 1; k < NF; k++) if ($k == "critical") print $(k + 1) }'
 }
 
-# step SCENE LAW FRACTION: that fraction of it, or a little less, so that steps divide the rows of the loads.
+# step SCENE LAW FRACTION: that fraction of the critical step, reduced so that it divides the interval of the loads.
 step()
 {
     [ -f "$1/critical.$2" ] || critical "$1" "$2" >"$1/critical.$2"
@@ -130,4 +131,4 @@ step()
 }
 number() { awk -v key="$2" 'index($0, key) { sub(".*" key " *", ""); print $1 + 0; exit }' "$1"; }
 
-told() { printf '%-14s %-9s %s\n' "$1" "$2" "$3" >&2; }
+say() { printf '%-14s %-9s %s\n' "$1" "$2" "$3" >&2; }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# stir.awk -- floes of a field drift through eddies 6 m across, of 1 m/s: they meet soon and everywhere.
+# stir.awk -- adds the velocity of eddies of 6 m and 1 m/s to the floes of a field, so that they collide early.
 /^poly/ { fresh = 1 }
 /^v / && fresh { x = $2; y = $3; fresh = 0 }
 /^vel/ {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # surrogate.gp -- error against time of contact.surrogate, from surrogate.tsv; -e "out='FOLDER'; scenes='NAME...'".
-# A colour for each step, a point for each tolerance, and a line from the finest to the coarsest.
+# A colour for each step, a symbol for each tolerance, and a line from the finest to the coarsest.
 set datafile separator "\t"
 set datafile missing "-"
 set grid back lt 1 lc rgb "#d8d8d8"
@@ -23,7 +23,7 @@ do for [row = 2 : 3] {
         set yrange [S_min_y / 3 : S_max_y * 8]
         set format y "10^{%T}"
         set title row == 2 ? scene : ""
-        set xlabel row == 3 ? "processor, s a second" : ""
+        set xlabel row == 3 ? "processor time per simulated second" : ""
         set ylabel row == 2 ? "error of the impulse" : "error of the peak"
         if (scene eq word(scenes, 1)) { set key } else { unset key }
         plot of(scene, "0.1") using 1:row with lines lw 1.8 lc rgb "#1f5fa8" title row == 2 ? "step 0.1" : "", \

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# table.awk -- ROWS ROWS: the table of the ladder.  Read twice: what a row is held against may stand behind it.
-#   ratio  of the cost to that of the base row of the scene, which is one thread, law patch, a tenth of the
-#          critical step; of rows of threads, of the clock to that of one thread
-#   bits   same where the state at the end is that of the base row, bit for bit
-#   front  1 where no other step, given or found, has less cost and less error of the impulse
+# table.awk -- ROWS ROWS: the table of the ladder.  The rows are read twice, since the base row may come later.
+#   ratio  cost over that of the base row of the scene: one thread, law patch, 0.1 of the critical step; for rows
+#          of threads, wall time over that of one thread
+#   bits   same if the state at the end equals that of the base row bit for bit
+#   front  1 if no other step, given or found, has less cost and less error of the impulse
 BEGIN {
     FS = OFS = "\t"
     print "scene", "setting", "value", "law", "threads", "bodies", "dt[s]", "steps", "contacts",

@@ -1,17 +1,17 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# golden.sh [--update] CASE BUILD -- run one golden case, or rewrite what it expects.
+# golden.sh [--update] CASE BUILD -- run one golden case, or rewrite its expected files.
 #
-# CASE is a folder; its files are the inputs, copied to a scratch folder where `sh cmd` runs with BUILD/bin first on
-# the PATH, FLOE_SHARE naming the share folder, and nothing on stdin.  These have a meaning of their own:
+# CASE is a folder.  Its files are copied to a scratch folder, where `sh cmd` runs with BUILD/bin first on the PATH,
+# FLOE_SHARE naming the share folder, and an empty stdin.  All files are inputs except these:
 #   cmd      the shell lines
 #   stdout   expected, compared by numdiff
 #   stderr   expected, compared byte for byte; not compared where the file is absent
 #   status   expected exit status, 0 where the file is absent
-#   tol      options of numdiff, "-a 1e-9 -r 1e-9" where the file is absent: near by either is near
+#   tol      options of numdiff, "-a 1e-9 -r 1e-9" where the file is absent: either tolerance suffices
 #   files    names of files that cmd writes, one a line; expect/NAME is compared by numdiff
 #   once     present: the case runs with one thread only
-# Otherwise it runs with 1, 2, 3 and 8 threads, and what they write is compared with each other byte for byte.
+# Otherwise it runs with 1, 2, 3 and 8 threads, and their outputs are compared with each other byte for byte.
 set -u
 LC_ALL=C
 export LC_ALL

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# hard.awk -- a line a hard case, H01 to H40, from what the verification programs print: how many rows it has and how
-# many of them hold, and the row with the least room, by its error (or its value, against a bound) over the tolerance.
+# hard.awk -- one line per hard case, H01 to H40, from the output of the verification programs: how many rows it has,
+# how many of them hold, and the row with the least room: error (or value, against a bound) over tolerance.
 function room(    e, t)
 {
     if ($(NF - 1) == "rel" || $(NF - 1) == "abs" || $(NF - 1) == "max") {

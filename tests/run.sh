@@ -1,20 +1,20 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# run.sh check|verify|bench|update BUILD -- run the tests that lie built under BUILD.
-#   check    floors, man pages against --help, unit, prop, fuzz, golden, the quick part of verify, and each corpus of
-#            fuzz as it is under the sanitizers, where BUILD/san has the programs
+# run.sh check|verify|bench|update BUILD -- run the tests built under BUILD.
+#   check    floors, man pages against --help, unit, prop, fuzz, golden, the quick part of verify, and each unchanged
+#            corpus of fuzz under the sanitizers, where BUILD/san has the programs
 #   verify   every verification program in full, with its table, and a line for each hard case
-#   bench    every benchmark, one at a time, and what of bench/ renews bench/results: the kernel, surrogates,
-#            sleep, late jams, threads, peers, blocks and the ladder
-#   update   rewrite what the golden cases expect; CASE='name*' limits it to some of them
-# One line a program, the output of those that failed, the ten that took longest, and at the end "N passed, N failed"
-# alone.  BUILD/durations.tsv has the seconds of all.
+#   bench    every benchmark, one at a time, and the scripts of bench/ that renew bench/results: the kernel,
+#            surrogates, sleep, late jams, threads, peers, blocks and the ladder
+#   update   rewrite the expected files of the golden cases; CASE='name*' limits it to some of them
+# Prints one line per program, the output of those that failed, the ten longest, and at the end "N passed, N failed".
+# BUILD/durations.tsv has the seconds of all.
 # Status 0, or 1 when something failed.  A program that crashes, hangs (FLOE_TIMEOUT seconds, else 600; 3600 for
 # verify and bench) or prints no count has failed.  ONLY='unit/*' limits check and verify to some programs.
 set -u
 LC_ALL=C
 export LC_ALL
-# A case which calls make starts afresh: it is not part of the make that started the tests.
+# A case that calls make must not inherit the settings of the make that started the tests.
 unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES
 
 # counts FILE STATUS: "passed failed skipped" from the summary lines of cmocka and from a line "N passed, N failed".
@@ -49,7 +49,7 @@ if [ "${1-}" = job ]; then
     wait $!
     status=$?
     rm "$s.pid"
-    cat "$s.err" >>"$s.out" # apart until here: a line of the one must not cut one of the other
+    cat "$s.err" >>"$s.out" # separate until here, so that their lines do not mix
     [ $status -eq 124 ] && echo "stopped after $4 s" >>"$s.out"
     rm -rf "$s.tmp"
     echo "$status $(($(date +%s) - start))" >"$s.fin"
@@ -83,9 +83,9 @@ fi
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/floe-run.XXXXXX") || exit 4
 crew=
 trap 'rm -rf "$scratch"' EXIT
-# xargs first, so that nothing new starts, then what runs; timeout hands the signal on.
+# xargs first, so that nothing new starts, then the running jobs; timeout passes the signal on.
 trap 'kill $crew $(cat "$scratch"/*.pid) 2>/dev/null; exit 130' INT TERM HUP
-# A reader that trusts a count must get NULL back, not the end of the program.
+# For a reader that trusts a count, malloc must return NULL and not end the program.
 ASAN_OPTIONS=allocator_may_return_null=1:detect_stack_use_after_return=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 UBSAN_OPTIONS=print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}
 export ASAN_OPTIONS UBSAN_OPTIONS
@@ -113,14 +113,14 @@ programs() # KIND
     done
 }
 
-# Hard cases once more by surrogates, which must stand them as well.
+# The hard cases once more with surrogates.
 all_verify()
 {
     programs verify
     add verify/verify_hard_surrogate "FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
 }
 
-# The sanitizers' map of memory may collide with addresses drawn at random where the kernel draws from many.
+# The memory map of the sanitizers may collide with randomised addresses.
 straight=
 setarch -R true 2>/dev/null && straight="setarch -R"
 crews=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
@@ -177,7 +177,7 @@ while read -r k label; do
         sleep 0.1
     done
     read -r status seconds <"$scratch/$k.done"
-    if [ "$what" = bench ]; then # it measures; that it ran to its end is the test
+    if [ "$what" = bench ]; then # a benchmark passes if it completes
         grep -q '^[0-9]* passed, [0-9]* failed$' "$scratch/$k.out" ||
             [ "$status" -ne 0 ] || echo "1 passed, 0 failed" >>"$scratch/$k.out"
     fi
@@ -198,7 +198,7 @@ while read -r k label; do
     printf '%s\t%s\n' "$seconds" "$label" >>"$scratch/durations"
 done <"$scratch/list"
 wait $crew
-# What makes a run long: all durations to BUILD/durations.tsv, the ten longest here.
+# All durations to BUILD/durations.tsv, the ten longest to stdout.
 if [ -f "$scratch/durations" ]; then
     sort -k1,1nr -k2 "$scratch/durations" >"$build/durations.tsv"
     printf 'longest [s]:'

@@ -14,7 +14,7 @@ void fl_alloc_fail_after(long n)
 
 long fl_alloc_refused(void) { return refusals; }
 
-static int refused(void)
+static int refuse_allocation(void)
 {
     if (fail_after < 0) return 0;
     if (fail_after > 0) {
@@ -25,18 +25,18 @@ static int refused(void)
     return 1;
 }
 
-/* What is as large as some of the large pages of the system had better lie in such, where there are any: of
- * 100 000 spheres a search takes a third less then, and a step no more.  Not aligned to them: arrays that are
- * gone through side by side would want the same lines of the cache. */
+/* Blocks as large as several huge pages are placed in huge pages where the system has them.  With 100 000
+ * spheres the neighbour search then takes a third less time; a step takes the same.  Blocks are not aligned
+ * to huge pages: arrays that are traversed together would compete for the same cache lines. */
 enum { PAGE = 4096, LARGE = 2 * (1 << 21) };
 
-static void *room(size_t bytes)
+static void *allocate_aligned(size_t bytes)
 {
     char *const p = aligned_alloc(64, bytes);
 #ifdef MADV_HUGEPAGE
     if (p && bytes >= LARGE) {
         char *const from = p + (PAGE - (uintptr_t)p % PAGE) % PAGE;
-        (void)madvise(from, (size_t)(p + bytes - from) / PAGE * PAGE, MADV_HUGEPAGE); /* or not */
+        (void)madvise(from, (size_t)(p + bytes - from) / PAGE * PAGE, MADV_HUGEPAGE); /* advice only */
     }
 #endif
     return p;
@@ -51,7 +51,7 @@ void *fl_alloc(int64_t n, size_t size, fl_err *err)
         return NULL;
     }
     bytes = (bytes + 63) / 64 * 64 + (bytes == 0 ? 64 : 0);
-    if (!refused()) p = room(bytes);
+    if (!refuse_allocation()) p = allocate_aligned(bytes);
     if (p) memset(p, 0, bytes);
     else fl_fail(err, FL_SYSTEM, "out of memory: %zu bytes", bytes);
     return p;
@@ -74,8 +74,8 @@ int fl_grow(void *array, int32_t *cap, int64_t want, size_t size, fl_err *err)
     if (n < want) n = want;
     if (n > INT32_MAX || __builtin_mul_overflow((size_t)n, size, &bytes))
         return fl_fail(err, FL_SYSTEM, "out of memory: %lld elements of %zu bytes", (long long)n, size);
-    memcpy(&old, array, sizeof old); /* array is the address of a T*, of any T */
-    fresh = refused() ? NULL : realloc(old, bytes);
+    memcpy(&old, array, sizeof old); /* array is the address of a T *, for any T */
+    fresh = refuse_allocation() ? NULL : realloc(old, bytes);
     if (!fresh) return fl_fail(err, FL_SYSTEM, "out of memory: %zu bytes", bytes);
     memcpy(array, &fresh, sizeof fresh);
     *cap = (int32_t)n;

@@ -2,18 +2,18 @@
 #include <time.h>
 #include "base/barrier.h"
 
-/* Nanoseconds: what is watched at the most, about what it takes to fall asleep and wake; by how much that
- * grows when it was worth it; a wait of what length was not, and by what it is divided then.  With 200
- * floes and four other busy processes on two processors a step of two threads takes 2 to 7 times as long
- * as one of one thread; at five times MOST, halved, it was up to 17 times. */
-enum { MOST = 20000, MORE = 200, LONG = 5 * MOST, LESS = 8 };
+/* [ns] Longest spin, about the cost of falling asleep and waking; increment after a useful spin; length of a
+ * wait for which spinning is useless; divisor of the spin time after such a wait.  Measured with 200 bodies
+ * and four other busy processes on two processors: a step of two threads takes 2 to 7 times the time of one
+ * thread.  With WAIT_LONG = 5 SPIN_MAX and a divisor of 2 it took up to 17 times. */
+enum { SPIN_MAX = 20000, SPIN_STEP = 200, WAIT_LONG = 5 * SPIN_MAX, SPIN_DIVISOR = 8 };
 
-/* Looks between two at the clock. */
-enum { LOOKS = 16 };
+/* Number of checks between two readings of the clock. */
+enum { CHECKS = 16 };
 
 void fl_barrier_make(fl_barrier *g)
 {
-    *g = (fl_barrier){.spin_ns = MOST};
+    *g = (fl_barrier){.spin_ns = SPIN_MAX};
     pthread_mutex_init(&g->mutex, NULL);
     pthread_cond_init(&g->condition, NULL);
 }
@@ -24,7 +24,7 @@ void fl_barrier_free(fl_barrier *g)
     pthread_cond_destroy(&g->condition);
 }
 
-static inline void pause_briefly(void)
+static inline void pause_processor(void)
 {
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();
@@ -33,7 +33,7 @@ static inline void pause_briefly(void)
 #endif
 }
 
-static int64_t now(void)
+static int64_t now_ns(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -45,19 +45,19 @@ static int is_open(fl_barrier *g, uint32_t before)
     return __atomic_load_n(&g->generation, __ATOMIC_ACQUIRE) != before;
 }
 
-/* 0: it is still closed after `patience`. */
-static int watch(fl_barrier *g, uint32_t before, int64_t start, int patience)
+/* Spins for spin_ns.  Returns 0 if the barrier is still closed. */
+static int spin_until_open(fl_barrier *g, uint32_t before, int64_t start, int spin_ns)
 {
     do {
-        for (int k = 0; k < LOOKS; k++) {
+        for (int k = 0; k < CHECKS; k++) {
             if (is_open(g, before)) return 1;
-            pause_briefly();
+            pause_processor();
         }
-    } while (now() - start < patience);
+    } while (now_ns() - start < spin_ns);
     return 0;
 }
 
-static void sleep_until(fl_barrier *g, uint32_t before)
+static void sleep_until_open(fl_barrier *g, uint32_t before)
 {
     pthread_mutex_lock(&g->mutex);
     __atomic_fetch_add(&g->sleeping, 1, __ATOMIC_SEQ_CST);
@@ -67,7 +67,7 @@ static void sleep_until(fl_barrier *g, uint32_t before)
     pthread_mutex_unlock(&g->mutex);
 }
 
-static void open_up(fl_barrier *g)
+static void release_waiting(fl_barrier *g)
 {
     __atomic_store_n(&g->arrived, 0, __ATOMIC_RELAXED);
     __atomic_fetch_add(&g->generation, 1, __ATOMIC_SEQ_CST);
@@ -82,17 +82,19 @@ void fl_barrier_wait(fl_barrier *g, int n, void (*alone)(void *arg), void *arg)
     const uint32_t before = __atomic_load_n(&g->generation, __ATOMIC_RELAXED);
     if (__atomic_fetch_add(&g->arrived, 1, __ATOMIC_SEQ_CST) == n - 1) {
         if (alone) alone(arg);
-        if (n > 1) open_up(g);
+        if (n > 1) release_waiting(g);
         else __atomic_store_n(&g->arrived, 0, __ATOMIC_RELAXED);
         return;
     }
-    const int64_t start = now();
-    int patience = __atomic_load_n(&g->spin_ns, __ATOMIC_RELAXED);
+    const int64_t start = now_ns();
+    int spin_ns = __atomic_load_n(&g->spin_ns, __ATOMIC_RELAXED);
     int wasted = 0;
-    if (!watch(g, before, start, patience)) {
-        sleep_until(g, before);
-        wasted = now() - start > LONG;
+    if (!spin_until_open(g, before, start, spin_ns)) {
+        sleep_until_open(g, before);
+        wasted = now_ns() - start > WAIT_LONG;
     }
-    patience = wasted ? patience / LESS : patience < MOST - MORE ? patience + MORE : MOST;
-    __atomic_store_n(&g->spin_ns, patience, __ATOMIC_RELAXED);
+    spin_ns = wasted                           ? spin_ns / SPIN_DIVISOR
+              : spin_ns < SPIN_MAX - SPIN_STEP ? spin_ns + SPIN_STEP
+                                               : SPIN_MAX;
+    __atomic_store_n(&g->spin_ns, spin_ns, __ATOMIC_RELAXED);
 }

@@ -11,7 +11,7 @@ int fl_fail(fl_err *err, int code, const char *fmt, ...)
         err->code = code;
         vsnprintf(err->text, sizeof err->text, fmt, ap);
         va_end(ap);
-        for (char *p = err->text; *p; p++) /* a sentence may quote a file, and a file may hold anything */
+        for (char *p = err->text; *p; p++) /* the text may quote a file, and a file may hold any byte */
             if ((unsigned char)*p < ' ' || *p == 127) *p = '?';
     }
     return -1;

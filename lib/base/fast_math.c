@@ -7,7 +7,7 @@
 /* Adding and subtracting 1.5 * 2^52 rounds to the nearest whole number, ties to even, up to 2^51. */
 #define ROUND 6755399441055744.0
 
-static double whole(double x) { return x + ROUND - ROUND; }
+static double round_to_integer(double x) { return x + ROUND - ROUND; }
 
 /* 2^k for -1022 <= k <= 1023 */
 static double power_of_two(int64_t k)
@@ -18,16 +18,16 @@ static double power_of_two(int64_t k)
     return x;
 }
 
-/* ln 2 in two parts, the first with 21 zero bits at its end, so that k times it is exact */
+/* ln 2 in two parts; the first has 21 zero bits at its end, so that k times it is exact */
 #define LN2_HIGH 6.93147180369123816490e-01
 #define LN2_LOW 1.90821492927058770002e-10
 
-/* x = k ln 2 + r, |r| <= ln 2 / 2; the series of e^r to r^13: the next term is below 5e-18. */
+/* x = k ln 2 + r, |r| <= ln 2 / 2.  Series of e^r to r^13; the next term is below 5e-18. */
 double fl_exp(double x)
 {
     if (x < -708.0) return 0.0;
     if (x > 709.78) return INFINITY;
-    const double k = whole(x * 1.4426950408889634);
+    const double k = round_to_integer(x * 1.4426950408889634);
     const double high = x - k * LN2_HIGH, r = high - k * LN2_LOW;
     double p = 1.0 / 6227020800.0;
     p = p * r + 1.0 / 479001600;
@@ -41,13 +41,13 @@ double fl_exp(double x)
     p = p * r + 1.0 / 24;
     p = p * r + 1.0 / 6;
     p = p * r + 1.0 / 2;
-    /* 2^1024 is no number: in two factors the largest results are */
+    /* 2^1024 overflows, so the power is applied in two factors */
     const int64_t n = (int64_t)k, half = n / 2;
     return (1.0 + (r + r * r * p)) * power_of_two(half) * power_of_two(n - half);
 }
 
-/* x = 2^k m, sqrt(1/2) < m <= sqrt 2; ln m = 2 artanh u, u = (m - 1) / (m + 1), |u| < 0.1716: the series to
- * u^21, the next term is below 1e-17 of the sum. */
+/* x = 2^k m, sqrt(1/2) < m <= sqrt 2; ln m = 2 artanh u, u = (m - 1) / (m + 1), |u| < 0.1716.  Series to
+ * u^21; the next term is below 1e-17 of the sum. */
 double fl_log(double x)
 {
     uint64_t bits;
@@ -82,10 +82,10 @@ double fl_pow(double x, double y) { return x > 0.0 ? fl_exp(y * fl_log(x)) : 0.0
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21
 
-/* x = n pi/2 + r, |r| <= pi/4; series to r^17 and r^16: the next terms are below 1e-19 and 2e-18. */
+/* x = n pi/2 + r, |r| <= pi/4.  Series to r^17 and r^16; the next terms are below 1e-19 and 2e-18. */
 void fl_cos_sin(double x, double *c, double *s)
 {
-    const double n = whole(x * 0.63661977236758134);
+    const double n = round_to_integer(x * 0.63661977236758134);
     const double r = x - n * HALF_PI_1 - n * HALF_PI_2 - n * HALF_PI_3, v = r * r;
     double p = 1.0 / 355687428096000.0, q = 1.0 / 20922789888000.0;
     p = p * v - 1.0 / 1307674368000.0;

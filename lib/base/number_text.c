@@ -6,31 +6,31 @@
 #include "base/decimal.h"
 #include "base/number_text.h"
 
-static int reads_as(const char *text, double x)
+static int text_reads_as(const char *text, double x)
 {
     double y;
     return fl_decimal_read(text, &y) && y == x;
 }
 
-/* The same by way of the C library, which is always right, and slow. */
-static char *library_text(double x, char *buf)
+/* Formats with the C library: always correct, but slow. */
+static char *format_by_library(double x, char *buf)
 {
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(buf, FL_NUMBER_LEN, "%.*g", digits, x);
-        if (digits == 17 || reads_as(buf, x)) break;
+        if (digits == 17 || text_reads_as(buf, x)) break;
     }
     return buf;
 }
 
-/* --- decimal digits by whole numbers -------------------------------------------------------------------- */
+/* --- decimal digits by integer arithmetic --------------------------------------------------------------- */
 
 enum { MOST_DIGITS = 17 };
 static const uint64_t TEN_16 = UINT64_C(10000000000000000);
 
-/* whole + fraction / 2^64, short by less than 2 units of fraction or exact, to the nearest multiple of unit,
- * in units; halves go to the even one.  unit is 1, 10 or 100.  Returns 0 when what is missing decides.
- * Inline, for units that the compiler knows. */
-static inline int rounded(uint64_t whole, uint64_t fraction, int exact, uint64_t unit, uint64_t *out)
+/* Rounds whole + fraction / 2^64 to the nearest multiple of unit and returns it in units; ties go to even.
+ * The true value is exact, or larger by less than 2 units of fraction.  unit is 1, 10 or 100.  Returns 0 when
+ * the missing part decides.  Inline, so that unit is a compile-time constant. */
+static inline int round_to_unit(uint64_t whole, uint64_t fraction, int exact, uint64_t unit, uint64_t *out)
 {
     const uint64_t half = UINT64_C(1) << 63, rest = whole % unit, middle = unit / 2, down = whole / unit;
     const uint64_t missing = exact ? 0 : 2;
@@ -39,10 +39,10 @@ static inline int rounded(uint64_t whole, uint64_t fraction, int exact, uint64_t
         up = fraction > half || (exact && fraction == half && (down & 1));
         if (!up && fraction <= half && fraction + missing > half) return 0;
     } else if (rest == middle) {
-        if (fraction == 0 && !exact) return 0; /* halfway, or just above */
+        if (fraction == 0 && !exact) return 0; /* halfway or just above */
         up = fraction > 0 || (down & 1);
     } else {
-        if (rest + 1 == middle && fraction + missing < fraction) return 0; /* just below halfway, or not */
+        if (rest + 1 == middle && fraction + missing < fraction) return 0; /* just below halfway or not */
         up = rest > middle;
     }
     *out = down + up;
@@ -54,8 +54,8 @@ static const char PAIR[] =
     "46474849505152535455565758596061626364656667686970717273747576777879808182838485868788899091"
     "9293949596979899";
 
-/* The digits of d, two at a time from the last ones on. */
-static void put_digits(uint64_t d, int digits, char *to)
+/* Writes the digits of d, two at a time from the last. */
+static void write_digits(uint64_t d, int digits, char *to)
 {
     while (digits > 1) {
         memcpy(to + (digits -= 2), PAIR + 2 * (d % 100), 2);
@@ -64,12 +64,12 @@ static void put_digits(uint64_t d, int digits, char *to)
     if (digits) to[0] = (char)('0' + d);
 }
 
-/* As "%.*g" prints d 10^(ten - digits + 1), d having that many digits. */
-static void put_text(char *p, int minus, uint64_t d, int digits, int ten)
+/* Writes d 10^(ten - digits + 1), where d has that many digits, as "%.*g" does. */
+static void write_decimal(char *p, int minus, uint64_t d, int digits, int ten)
 {
     char digit[MOST_DIGITS + 1];
     int n = digits;
-    put_digits(d, digits, digit);
+    write_digits(d, digits, digit);
     while (n > 1 && digit[n - 1] == '0') n--;
     if (minus) *p++ = '-';
     if (ten < -4 || ten >= digits) {
@@ -88,7 +88,7 @@ static void put_text(char *p, int minus, uint64_t d, int digits, int ten)
         memcpy(p, digit, (size_t)n);
         p += n;
     } else {
-        const int whole = ten + 1; /* zeros that were taken off above are there yet */
+        const int whole = ten + 1; /* trailing zeros stripped above are still in digit[] */
         memcpy(p, digit, (size_t)whole);
         p += whole;
         if (n > whole) {
@@ -100,28 +100,29 @@ static void put_text(char *p, int minus, uint64_t d, int digits, int ten)
     *p = '\0';
 }
 
-/* Does d, with the last `unit` of whole left out, read back as the x = m 2^e that whole and fraction are?  It
- * does within half the distance of doubles from x, whole / 2 m, which is known here to some units of 2^-53 of
- * itself.  1, 0, or -1 where that is too close to tell, or where doubles below x lie closer. */
-static inline int reads_back(uint64_t d, uint64_t unit, uint64_t whole, uint64_t fraction, uint64_t m)
+/* Does d, without the last `unit` of whole, read back as x = m 2^e, given as whole and fraction?  It does
+ * within half the distance between doubles, whole / 2 m, known here to a few 2^-53 of itself.  Returns 1, 0,
+ * or -1 where the margin is too small or where the doubles below x lie closer. */
+static inline int digits_read_back(uint64_t d, uint64_t unit, uint64_t whole, uint64_t fraction, uint64_t m)
 {
-    static const double CLOSE = 1e-9; /* millions of such units */
+    static const double CLOSE = 1e-9; /* millions of these units */
     const double half = (double)whole / (2.0 * (double)m);
     const double off = fabs((double)(int64_t)(whole - d * unit) + (double)fraction * 0x1p-64);
     if (off > half + CLOSE * (half + 1.0)) return 0;
     return m != UINT64_C(1) << 52 && off < half - CLOSE * (half + 1.0) ? 1 : -1;
 }
 
-/* Write x with so many digits if that reads back: 1, 0 if it does not, -1 if 128 bits do not settle it. */
+/* Writes x with the given number of digits if that reads back.  Returns 1, 0 if it does not, -1 if 128 bits
+ * do not decide. */
 static inline int try_digits(double x, uint64_t whole, uint64_t fraction, int exact, uint64_t m, int ten,
                              int digits, uint64_t unit, char *buf)
 {
     uint64_t d;
     double y;
     int how = 1;
-    if (!rounded(whole, fraction, exact, unit, &d)) return -1;
-    if (digits < MOST_DIGITS) how = reads_back(d, unit, whole, fraction, m);
-    if (d == 10 * TEN_16 / unit) { /* 9.99... to 10 */
+    if (!round_to_unit(whole, fraction, exact, unit, &d)) return -1;
+    if (digits < MOST_DIGITS) how = digits_read_back(d, unit, whole, fraction, m);
+    if (d == 10 * TEN_16 / unit) { /* 9.99... rounded up to 10 */
         d /= 10;
         ten++;
     }
@@ -129,19 +130,19 @@ static inline int try_digits(double x, uint64_t whole, uint64_t fraction, int ex
         if (!fl_decimal_nearest(d, ten - digits + 1, &y)) return -1;
         how = y == fabs(x);
     }
-    if (how) put_text(buf, x < 0.0, d, digits, ten);
+    if (how) write_decimal(buf, x < 0.0, d, digits, ten);
     return how;
 }
 
-/* Returns 0 for numbers that 128 bits do not settle: subnormal ones, some exact halves, and few others. */
-static int quick_text(double x, char *buf)
+/* Returns 0 for numbers that 128 bits do not decide: subnormal numbers, some exact ties, few others. */
+static int format_fast(double x, char *buf)
 {
     uint64_t bits, whole, fraction;
     memcpy(&bits, &x, sizeof bits);
     const int exponent = (int)(bits >> 52 & 0x7ff);
     const uint64_t m = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52;
     if (exponent == 0 || exponent == 0x7ff) return 0;
-    /* floor(log10 x), or one less: the slope is log10(2) from below, within 1e-6 over all exponents */
+    /* floor(log10 x) or one less: the slope is log10(2) rounded down, within 1e-6 over all exponents */
     int ten = (int)floor((exponent - 1023) * 0.30102999);
     int scaled = fl_decimal_scaled(m, exponent - 1075, 16 - ten, &whole, &fraction);
     if (scaled && whole >= 10 * TEN_16) {
@@ -159,7 +160,7 @@ static int quick_text(double x, char *buf)
 char *fl_number_text(double x, char buf[FL_NUMBER_LEN])
 {
     if (x == 0.0) return memcpy(buf, "0", 2);
-    return quick_text(x, buf) ? buf : library_text(x, buf);
+    return format_fast(x, buf) ? buf : format_by_library(x, buf);
 }
 
 int fl_number_f64(const char *s, double *x)
@@ -167,11 +168,11 @@ int fl_number_f64(const char *s, double *x)
     double v;
     const char *end = fl_decimal_read(s, &v);
     if (!end || *end || !isfinite(v)) return -1;
-    *x = v + 0.0; /* -0 becomes 0, as it prints */
+    *x = v + 0.0; /* -0 becomes 0, as it is printed */
     return 0;
 }
 
-/* Indices come in millions: no detour by the C library. */
+/* Indices come in millions, so the C library is not used. */
 int fl_number_i32(const char *s, int32_t lo, int32_t hi, int32_t *x)
 {
     const int minus = *s == '-';

@@ -6,8 +6,8 @@
 
 enum { BLOCK = 1024 };
 
-/* Whole blocks side by side: one alone would wait for each sum before the next. */
-static double eight(const double *x, double total)
+/* Sums eight blocks side by side: a single sum would wait for each addition. */
+static double sum_eight_blocks(const double *x, double total)
 {
     double part[8] = {0};
     for (int64_t k = 0; k < BLOCK; k++)
@@ -21,7 +21,7 @@ double fl_parallel_sum(const double *x, int64_t n)
 {
     double total = 0.0;
     int64_t at = 0;
-    for (; at + 8 * BLOCK <= n; at += 8 * BLOCK) total = eight(&x[at], total);
+    for (; at + 8 * BLOCK <= n; at += 8 * BLOCK) total = sum_eight_blocks(&x[at], total);
     for (int64_t b = at; b < n; b += BLOCK) {
         const int64_t end = b + BLOCK < n ? b + BLOCK : n;
         double part = 0.0;
@@ -45,7 +45,7 @@ uint64_t fl_hash(uint64_t h, const void *data, int64_t bytes)
         uint64_t word = 0;
         memcpy(&word, p, bytes < 8 ? (size_t)bytes : 8);
         h = (h ^ word) * UINT64_C(0x100000001b3);
-        h ^= h >> 29; /* FNV alone mixes only upward; the shift lets high bits reach the low ones */
+        h ^= h >> 29; /* FNV mixes upward only; the shift carries high bits down */
     }
     return h;
 }

@@ -4,18 +4,17 @@
 #define FL_BASE_PARALLEL_H
 #include <stdint.h>
 
-/* Sum of x[0 .. n): blocks of 1024 in ascending order, then the blocks in order. */
+/* Sum of x[0 .. n): blocks of 1024 in ascending order, then the block sums in order. */
 double fl_parallel_sum(const double *x, int64_t n);
 
-/* Let threads that wait at the end of a parallel loop spin for a few microseconds only, then sleep.  GNU
- * OpenMP spins for milliseconds, which on a machine that others use too makes two threads tens of times
- * slower than one (200 floes, four other busy processes: 14.4 s against 0.35 s).  The library reads its
- * environment before main(), so the program is started once more with GOMP_SPINCOUNT set; where the user has
- * set it or OMP_WAIT_POLICY, or the program cannot be started again, nothing happens.  Call first in main().
- */
+/* Limits the time that threads spin at the end of a parallel loop to a few microseconds.  GNU OpenMP spins
+ * for milliseconds, which makes two threads tens of times slower than one on a busy machine (200 bodies, four
+ * other busy processes: 14.4 s against 0.35 s).  The OpenMP library reads its environment before main(), so
+ * the program restarts itself with GOMP_SPINCOUNT set.  Nothing happens if GOMP_SPINCOUNT or OMP_WAIT_POLICY
+ * is set, or if the restart fails.  Call first in main(). */
 void fl_parallel_limit_spin(char **argv);
 
-/* 64-bit FNV-1a over bytes, eight at a time; start from FL_HASH_START and chain. */
+/* 64-bit FNV-1a over bytes, eight at a time.  Start from FL_HASH_START and chain. */
 #define FL_HASH_START UINT64_C(0xcbf29ce484222325)
 uint64_t fl_hash(uint64_t h, const void *data, int64_t bytes);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pi.h -- the number, and what turns by it. */
+/* pi.h -- pi and the conversion of degrees. */
 #ifndef FL_BASE_PI_H
 #define FL_BASE_PI_H
 

@@ -9,7 +9,7 @@ fl_rng fl_rng_of(uint64_t seed, int64_t entity, uint32_t purpose)
                     .ctr = {0, purpose, (uint32_t)e, (uint32_t)(e >> 32)}};
 }
 
-static void philox(fl_rng *g)
+static void next_block(fl_rng *g)
 {
     uint32_t c[4] = {g->ctr[0], g->ctr[1], g->ctr[2], g->ctr[3]}, k0 = g->key[0], k1 = g->key[1];
     for (int round = 0; round < 10; round++) {
@@ -27,16 +27,16 @@ static void philox(fl_rng *g)
     g->left = 4;
 }
 
-static uint32_t next32(fl_rng *g)
+static uint32_t next_word(fl_rng *g)
 {
-    if (g->left == 0) philox(g);
+    if (g->left == 0) next_block(g);
     return g->out[4 - g->left--];
 }
 
 uint64_t fl_rng_u64(fl_rng *g)
 {
-    const uint64_t hi = next32(g);
-    return hi << 32 | next32(g);
+    const uint64_t hi = next_word(g);
+    return hi << 32 | next_word(g);
 }
 
 double fl_rng_unit(fl_rng *g) { return (double)(fl_rng_u64(g) >> 11) * 0x1p-53; }

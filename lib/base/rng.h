@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rng.h -- random numbers as a function of (seed, entity, purpose): the order of use is free, and one more
- * entity leaves the numbers of the others alone.
- * Philox4x32-10: Salmon, Moraes, Dror & Shaw, SC11 (2011). */
+/* rng.h -- counter-based random numbers: a function of (seed, entity, purpose).  The order of use is free,
+ * and a further entity does not change the numbers of the others.
+ * Source: Philox4x32-10, Salmon, Moraes, Dror & Shaw, SC11 (2011). */
 #ifndef FL_BASE_RNG_H
 #define FL_BASE_RNG_H
 #include <stdint.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* simd.h -- four doubles at a time.
+/* simd.h -- SIMD registers of four doubles.
  *
- * The compiler splits fl_simd into what the machine has.  Every lane does the arithmetic of IEEE 754 by
- * itself and -ffp-contract=off keeps products and sums apart, so that the bits are the same for any width. */
+ * The compiler splits fl_simd into the registers of the machine.  Every lane does IEEE 754 arithmetic by
+ * itself, and -ffp-contract=off keeps products and sums apart, so the bits are the same for any width. */
 #ifndef FL_BASE_SIMD_H
 #define FL_BASE_SIMD_H
 #include <stdint.h>
@@ -10,21 +10,21 @@
 
 enum { FL_SIMD_WIDTH = 4 };
 
-/* Wherever doubles lie. */
+/* Alignment as for single doubles. */
 typedef double fl_simd __attribute__((vector_size(FL_SIMD_WIDTH * sizeof(double)), aligned(8), may_alias));
 typedef int64_t fl_simd_mask
     __attribute__((vector_size(FL_SIMD_WIDTH * sizeof(int64_t)), aligned(8), may_alias));
 
 typedef double fl_simd2 __attribute__((vector_size(2 * sizeof(double)), aligned(8), may_alias));
 
-/* A function compiled for several widths, of which the loader takes the one that fits the machine. */
-/* clang 14 leaves such a function without its name to the linker. */
+/* A function compiled for several widths; the loader selects one for the machine. */
+/* clang 14 does not export the name of such a function. */
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&    \
     !defined(__SANITIZE_THREAD__)
 #if __GNUC__ < 12
 #define FL_SIMD_VERSIONS __attribute__((target_clones("avx512f", "avx2", "default")))
-#define FL_SIMD4_VERSIONS __attribute__((target_clones("avx2", "default"))) /* where fl_simd is the width */
-#else /* registers of masks, and twice as many of four numbers */
+#define FL_SIMD4_VERSIONS __attribute__((target_clones("avx2", "default"))) /* for code in four lanes */
+#else /* mask registers, and twice as many vector registers */
 #define FL_SIMD_VERSIONS __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #define FL_SIMD4_VERSIONS FL_SIMD_VERSIONS
 #endif
@@ -33,7 +33,7 @@ typedef double fl_simd2 __attribute__((vector_size(2 * sizeof(double)), aligned(
 #define FL_SIMD4_VERSIONS
 #endif
 
-/* Part of a function of several versions, in each as wide as that is. */
+/* Part of a function of several versions, compiled in each at its width. */
 #define FL_SIMD_INLINE __attribute__((always_inline)) static inline
 
 /* Four doubles from a on, to read or to write. */
@@ -43,28 +43,28 @@ typedef double fl_simd2 __attribute__((vector_size(2 * sizeof(double)), aligned(
 /* The same number in all lanes. */
 #define FL_SIMD_SPLAT(x) ((fl_simd){(x), (x), (x), (x)})
 
-/* Before a loop over lanes, or over a few registers, which then need not lie in memory. */
+/* Before a loop over lanes or a few registers, which then need not be in memory. */
 #ifdef __clang__
 #define FL_SIMD_UNROLL _Pragma("unroll")
 #else
 #define FL_SIMD_UNROLL _Pragma("GCC unroll 8")
 #endif
 
-/* By lanes: a where m, else 0;  a where m, else b.  Macros, since a function that takes a register which the
- * machine may lack has no fixed calling convention. */
+/* By lanes: a where m, else 0; a where m, else b.  Macros, since a function with arguments in registers that
+ * the machine may lack has no fixed calling convention. */
 #define FL_SIMD_MASKED(m, a) ((fl_simd)((m) & (fl_simd_mask)(a)))
 #define FL_SIMD_SELECT(m, a, b) ((fl_simd)(((m) & (fl_simd_mask)(a)) | (~(m) & (fl_simd_mask)(b))))
 
-/* By lanes: the larger, the smaller, the size; and the lanes that are before n. */
+/* By lanes: maximum, minimum, absolute value; mask of the lanes below n. */
 #define FL_SIMD_MAX(a, b) FL_SIMD_SELECT((a) > (b), a, b)
 #define FL_SIMD_MIN(a, b) FL_SIMD_SELECT((a) < (b), a, b)
 #define FL_SIMD_ABS(a) ((fl_simd)((fl_simd_mask)(a)&INT64_MAX))
 #define FL_SIMD_MASK_BELOW(n) ((fl_simd_mask){0, 1, 2, 3} < (int64_t)(n))
 
-/* Whether any lane is set. */
+/* True if any lane is set. */
 FL_SIMD_INLINE int fl_simd_any(const fl_simd_mask *m) { return ((*m)[0] | (*m)[1] | (*m)[2] | (*m)[3]) != 0; }
 
-/* Four registers that are the rows of a matrix become its columns. */
+/* Transposes four registers, the rows of a 4 x 4 matrix. */
 FL_SIMD_INLINE void fl_simd_transpose(fl_simd r[FL_SIMD_WIDTH])
 {
     const fl_simd a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6),
@@ -77,7 +77,7 @@ FL_SIMD_INLINE void fl_simd_transpose(fl_simd r[FL_SIMD_WIDTH])
     r[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-/* Four vectors of three that follow each other from a on: their x, y and z. */
+/* Four consecutive vectors of three from a on: their x, y and z. */
 FL_SIMD_INLINE void fl_simd_from_triples(fl_simd v[3], const void *a)
 {
     const double *at = (const double *)a;
@@ -90,7 +90,7 @@ FL_SIMD_INLINE void fl_simd_from_triples(fl_simd v[3], const void *a)
     v[2] = __builtin_shufflevector(zx, yz, 0, 5, 2, 7);
 }
 
-/* And back. */
+/* The inverse. */
 FL_SIMD_INLINE void fl_simd_to_triples(void *a, const fl_simd v[3])
 {
     double *at = (double *)a;

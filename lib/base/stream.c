@@ -18,38 +18,38 @@ enum { CHUNK = 1 << 16 };
 struct fl_in {
     int fd, gzip, ended;
     const char *name;           /* borrowed */
-    double patience;            /* [s] */
-    const unsigned char *bytes; /* instead of fd, borrowed */
-    int64_t left;               /* of bytes */
+    double follow_seconds;      /* [s] */
+    const unsigned char *bytes; /* data in memory instead of fd, borrowed */
+    int64_t bytes_left;         /* bytes not yet copied to buf */
     z_stream z;
-    int64_t have, pos;
+    int64_t buf_len, buf_pos;
     unsigned char buf[CHUNK];
 };
 
-/* Refill the raw buffer; 0 at the end of the file. */
-static int64_t raw_fill(fl_in *in, fl_err *err)
+/* Refills the raw buffer.  Returns 0 at the end of the file. */
+static int64_t fill_buffer(fl_in *in, fl_err *err)
 {
     const struct timespec pause = {.tv_nsec = 50000000};
     ssize_t k;
     double waited = 0.0;
     if (in->bytes) {
-        in->pos = 0;
-        in->have = in->left < CHUNK ? in->left : CHUNK;
-        if (in->have) memcpy(in->buf, in->bytes, (size_t)in->have);
-        in->bytes += in->have;
-        in->left -= in->have;
-        return in->have;
+        in->buf_pos = 0;
+        in->buf_len = in->bytes_left < CHUNK ? in->bytes_left : CHUNK;
+        if (in->buf_len) memcpy(in->buf, in->bytes, (size_t)in->buf_len);
+        in->bytes += in->buf_len;
+        in->bytes_left -= in->buf_len;
+        return in->buf_len;
     }
     for (;;) {
         do k = read(in->fd, in->buf, CHUNK);
         while (k < 0 && errno == EINTR);
-        if (k != 0 || waited >= in->patience) break;
+        if (k != 0 || waited >= in->follow_seconds) break;
         nanosleep(&pause, NULL);
         waited += 1e-9 * (double)pause.tv_nsec;
     }
     if (k < 0) return fl_fail(err, FL_INPUT, "%s: %s", in->name, strerror(errno));
-    in->have = k;
-    in->pos = 0;
+    in->buf_len = k;
+    in->buf_pos = 0;
     return k;
 }
 
@@ -65,15 +65,15 @@ fl_in *fl_in_open(const char *path, fl_err *err)
         fl_fail(err, FL_INPUT, "%s: %s", in->name, strerror(in->fd < 0 ? errno : EISDIR));
         goto fail;
     }
-    /* Two bytes decide; a pipe may hand over the first alone. */
-    if (raw_fill(in, err) < 0) goto fail;
-    while (in->have == 1) {
+    /* Two bytes identify gzip; a pipe may deliver the first one alone. */
+    if (fill_buffer(in, err) < 0) goto fail;
+    while (in->buf_len == 1) {
         ssize_t k = read(in->fd, in->buf + 1, CHUNK - 1);
         if (k < 0 && errno == EINTR) continue;
         if (k <= 0) break;
-        in->have += k;
+        in->buf_len += k;
     }
-    in->gzip = in->have >= 2 && in->buf[0] == 0x1f && in->buf[1] == 0x8b;
+    in->gzip = in->buf_len >= 2 && in->buf[0] == 0x1f && in->buf[1] == 0x8b;
     if (in->gzip && inflateInit2(&in->z, 15 + 16) != Z_OK) {
         in->gzip = 0;
         fl_fail(err, FL_SYSTEM, "%s: out of memory for gzip", in->name);
@@ -92,42 +92,42 @@ fl_in *fl_in_open_bytes(const char *name, const void *data, int64_t n, fl_err *e
     in->name = name;
     in->fd = -1;
     in->bytes = data;
-    in->left = n;
+    in->bytes_left = n;
     return in;
 }
 
-static int64_t plain_read(fl_in *in, void *buf, int64_t n, fl_err *err)
+static int64_t read_plain(fl_in *in, void *buf, int64_t n, fl_err *err)
 {
-    int64_t k = in->have - in->pos;
+    int64_t k = in->buf_len - in->buf_pos;
     if (k == 0) {
-        k = raw_fill(in, err);
+        k = fill_buffer(in, err);
         if (k <= 0) return k;
     }
     if (k > n) k = n;
-    memcpy(buf, in->buf + in->pos, (size_t)k);
-    in->pos += k;
+    memcpy(buf, in->buf + in->buf_pos, (size_t)k);
+    in->buf_pos += k;
     return k;
 }
 
-static int64_t gzip_read(fl_in *in, void *buf, int64_t n, fl_err *err)
+static int64_t read_gzip(fl_in *in, void *buf, int64_t n, fl_err *err)
 {
     in->z.next_out = buf;
     in->z.avail_out = (uInt)(n > CHUNK ? CHUNK : n);
     const uInt asked = in->z.avail_out;
     while (in->z.avail_out == asked && !in->ended) {
         int rc;
-        if (in->pos == in->have) {
-            const int64_t k = raw_fill(in, err);
+        if (in->buf_pos == in->buf_len) {
+            const int64_t k = fill_buffer(in, err);
             if (k < 0) return -1;
             if (k == 0) return fl_fail(err, FL_INPUT, "%s: gzip data end early", in->name);
         }
-        in->z.next_in = in->buf + in->pos;
-        in->z.avail_in = (uInt)(in->have - in->pos);
+        in->z.next_in = in->buf + in->buf_pos;
+        in->z.avail_in = (uInt)(in->buf_len - in->buf_pos);
         rc = inflate(&in->z, Z_NO_FLUSH);
-        in->pos = in->have - (int64_t)in->z.avail_in;
+        in->buf_pos = in->buf_len - (int64_t)in->z.avail_in;
         if (rc == Z_STREAM_END) { /* another member may follow: gzip files may be concatenated */
-            if (in->pos == in->have && raw_fill(in, err) < 0) return -1;
-            if (in->have - in->pos > 0) inflateReset(&in->z);
+            if (in->buf_pos == in->buf_len && fill_buffer(in, err) < 0) return -1;
+            if (in->buf_len - in->buf_pos > 0) inflateReset(&in->z);
             else in->ended = 1;
         } else if (rc != Z_OK && rc != Z_BUF_ERROR) {
             return fl_fail(err, FL_INPUT, "%s: damaged gzip data", in->name);
@@ -138,10 +138,10 @@ static int64_t gzip_read(fl_in *in, void *buf, int64_t n, fl_err *err)
 
 int64_t fl_in_read(fl_in *in, void *buf, int64_t n, fl_err *err)
 {
-    return in->gzip ? gzip_read(in, buf, n, err) : plain_read(in, buf, n, err);
+    return in->gzip ? read_gzip(in, buf, n, err) : read_plain(in, buf, n, err);
 }
 
-void fl_in_follow(fl_in *in, double seconds) { in->patience = seconds; }
+void fl_in_follow(fl_in *in, double seconds) { in->follow_seconds = seconds; }
 
 const char *fl_in_name(const fl_in *in) { return in->name; }
 
@@ -153,15 +153,15 @@ void fl_in_close(fl_in *in)
     free(in);
 }
 
-/* --- out --------------------------------------------------------------------------------------- */
+/* --- output ------------------------------------------------------------------------------------ */
 
-/* What fl_out.gz points to.  A member of the file begins with the first byte after the last one ended. */
+/* The target of fl_out.gz.  A gzip member starts with the first byte written after the previous one ended. */
 typedef struct {
     gzFile gz; /* NULL between members */
     int fd, level;
-} zipper;
+} gzip_writer;
 
-static int zip_begin(zipper *z)
+static int begin_member(gzip_writer *z)
 {
     const int fd = dup(z->fd);
     z->gz = fd < 0 ? NULL : gzdopen(fd, z->level > 1 ? "wb1" : "wb6");
@@ -169,29 +169,29 @@ static int zip_begin(zipper *z)
     return z->gz ? 0 : -1;
 }
 
-static int zip_end(zipper *z)
+static int end_member(gzip_writer *z)
 {
     const int rc = z->gz ? gzclose(z->gz) : Z_OK;
     z->gz = NULL;
     return rc == Z_OK ? 0 : -1;
 }
 
-static ssize_t zip_write(void *cookie, const char *buf, size_t n)
+static ssize_t write_gzip(void *cookie, const char *buf, size_t n)
 {
-    zipper *z = cookie;
-    if (n && !z->gz && zip_begin(z)) return 0;
+    gzip_writer *z = cookie;
+    if (n && !z->gz && begin_member(z)) return 0;
     return n && gzwrite(z->gz, buf, (unsigned)n) != (int)n ? 0 : (ssize_t)n;
 }
 
-/* The stream over fd, which is closed on failure. */
-static int begin(fl_out *out, int fd, int gzip, fl_err *err)
+/* Opens the stream on fd.  On failure fd is closed. */
+static int open_stream(fl_out *out, int fd, int gzip, fl_err *err)
 {
     if (gzip) {
-        zipper *z = fl_alloc(1, sizeof *z, err);
+        gzip_writer *z = fl_alloc(1, sizeof *z, err);
         if (!z) goto fail;
-        *z = (zipper){NULL, fd, gzip};
+        *z = (gzip_writer){NULL, fd, gzip};
         out->gz = z;
-        if (zip_begin(z) == 0) out->f = fopencookie(z, "w", (cookie_io_functions_t){.write = zip_write});
+        if (begin_member(z) == 0) out->f = fopencookie(z, "w", (cookie_io_functions_t){.write = write_gzip});
         if (out->f) return 0;
     } else {
         out->f = fd == STDOUT_FILENO ? stdout : fdopen(fd, "w");
@@ -203,11 +203,11 @@ fail:
     return -1;
 }
 
-static int fd_of(const fl_out *out) { return out->gz ? ((zipper *)out->gz)->fd : fileno(out->f); }
+static int fd_of(const fl_out *out) { return out->gz ? ((gzip_writer *)out->gz)->fd : fileno(out->f); }
 
-/* The names that path stands for.  Renaming over a link or a device would put a plain file in its place:
- * /dev/null, /dev/stdout.  *direct: it is no plain file. */
-static int name_out(fl_out *out, const char *path, int *direct, fl_err *err)
+/* Resolves the names for path.  Renaming onto a link or a device (/dev/null, /dev/stdout) would replace it
+ * with a plain file.  *direct is set where path is not a plain file. */
+static int resolve_names(fl_out *out, const char *path, int *direct, fl_err *err)
 {
     struct stat st;
     *out = (fl_out){0};
@@ -226,14 +226,13 @@ char *fl_out_part_path(const char *path)
     fl_out out;
     fl_err err = {0};
     int direct;
-    if (name_out(&out, path, &direct, &err)) return NULL;
+    if (resolve_names(&out, path, &direct, &err)) return NULL;
     free(out.path);
     return out.tmp;
 }
 
-/* The sentence of a file that could not be made: a folder that is missing is named, for the file is not there
- * anyway. */
-static void not_made(const char *path, fl_err *err)
+/* Reports that a file could not be created.  A missing folder is named instead of the file. */
+static void report_create_error(const char *path, fl_err *err)
 {
     const int why = errno;
     char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
@@ -245,22 +244,22 @@ static void not_made(const char *path, fl_err *err)
     free(folder);
 }
 
-/* Open tmp for one writer alone; made where it is not there, if `make`.  The lock goes with the last
- * descriptor, however the program ends, and stays with the file through a rename: by the time it is had the
- * name may be that of another file, which is then tried.  Where files cannot be locked there is none.  The
- * descriptor, or -1. */
-static int open_alone(fl_out *out, int make, fl_err *err)
+/* Opens tmp for a single writer; creates it if `make`.  The lock ends with the last descriptor, however the
+ * program ends, and stays with the file through a rename.  When the lock is obtained the name may belong to
+ * another file; that file is tried next.  File systems without locks
+ * get none.  Returns the descriptor or -1. */
+static int open_locked(fl_out *out, int make, fl_err *err)
 {
     for (;;) {
         struct stat ours, named;
         const int fd = open(out->tmp, O_RDWR | (make ? O_CREAT : 0) | O_CLOEXEC, 0666);
         if (fd < 0) {
-            not_made(out->path, err);
+            report_create_error(out->path, err);
             return -1;
         }
         if (flock(fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK) {
             fl_fail(err, FL_SYSTEM,
-                    "%s: something else writes it already, another run or another output of this one",
+                    "%s: it is already being written, by another run or another output of this one",
                     out->path);
             close(fd);
             return -1;
@@ -270,7 +269,7 @@ static int open_alone(fl_out *out, int make, fl_err *err)
             return fd;
         close(fd);
         if (!make) {
-            fl_fail(err, FL_SYSTEM, "%s: it was taken away while it was opened", out->path);
+            fl_fail(err, FL_SYSTEM, "%s: it was removed while it was being opened", out->path);
             return -1;
         }
     }
@@ -281,9 +280,9 @@ int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err)
     int fd = STDOUT_FILENO, direct;
     *out = (fl_out){0};
     if (strcmp(path, "-") != 0) {
-        if (name_out(out, path, &direct, err)) return -1;
+        if (resolve_names(out, path, &direct, err)) return -1;
         if (direct) fd = open(out->path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-        else fd = open_alone(out, 1, err);
+        else fd = open_locked(out, 1, err);
         if (fd >= 0 && !direct && ftruncate(fd, 0)) {
             fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
             close(fd);
@@ -291,34 +290,34 @@ int fl_out_open(fl_out *out, const char *path, int gzip, fl_err *err)
         }
         if (fd < 0) {
             if (direct) fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));
-            free(out->tmp); /* it is another's, or none */
+            free(out->tmp); /* tmp belongs to another writer or does not exist */
             out->tmp = NULL;
             goto fail;
         }
     } else if ((fcntl(fd, F_GETFL) & O_ACCMODE) == O_RDONLY) {
         return fl_fail(err, FL_SYSTEM, "<stdout>: %s", strerror(EBADF));
     }
-    if (begin(out, fd, gzip, err) == 0) return 0;
+    if (open_stream(out, fd, gzip, err) == 0) return 0;
 fail:
     fl_out_abort(out);
     return -1;
 }
 
-/* The new name of a file lasts when its folder has reached the disk. */
+/* A rename is durable only when the folder is on disk. */
 static void sync_folder(const char *path)
 {
     char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
     if (slash) slash[slash == folder] = '\0';
     const int fd = folder ? open(slash ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     if (fd >= 0) {
-        fsync(fd); /* where folders cannot be synced the name is as safe as it gets */
+        fsync(fd); /* file systems that cannot sync a folder give no stronger guarantee */
         close(fd);
     }
     free(folder);
 }
 
-/* The sentence of a write that failed; why 0: nobody knows. */
-static int lost(const fl_out *out, int why, fl_err *err)
+/* Reports a failed write; why is errno, or 0 if unknown. */
+static int report_write_error(const fl_out *out, int why, fl_err *err)
 {
     const int kept = out->keep_part && out->tmp;
     return fl_fail(err, FL_SYSTEM, "%s: %s%s%s", out->path ? out->path : "<stdout>",
@@ -326,17 +325,20 @@ static int lost(const fl_out *out, int why, fl_err *err)
                    kept ? "; what was written until then is kept in " : "", kept ? out->tmp : "");
 }
 
-/* errno of a write before this one is still that of the stream's failure, any other is not. */
-static int flush(fl_out *out)
+/* errno of an earlier write still describes the stream's error; any other errno does not. */
+static int flush_stream(fl_out *out)
 {
     if (!ferror(out->f)) errno = 0;
     return fflush(out->f) != 0 || ferror(out->f) ? -1 : 0;
 }
 
-int fl_out_flush(fl_out *out, fl_err *err) { return flush(out) ? lost(out, errno, err) : 0; }
+int fl_out_flush(fl_out *out, fl_err *err)
+{
+    return flush_stream(out) ? report_write_error(out, errno, err) : 0;
+}
 
-/* Cut off what stands behind the last end of a line. */
-static void cut_to_line(int fd)
+/* Truncates the file after its last complete line. */
+static void truncate_to_line(int fd)
 {
     char last[4096];
     int64_t at = lseek(fd, 0, SEEK_END);
@@ -348,14 +350,14 @@ static void cut_to_line(int fd)
         at -= n - k;
         if (k > 0) break;
     }
-    if (at >= 0 && ftruncate(fd, at)) return; /* then it stays as it is */
+    if (at >= 0 && ftruncate(fd, at)) return; /* on failure the file stays as it is */
 }
 
-/* Everything written so far to the disk; 0, or -1 with errno. */
-static int settle(fl_out *out)
+/* Writes all buffered data to disk.  Returns 0, or -1 with errno. */
+static int flush_to_disk(fl_out *out)
 {
-    if (flush(out)) return -1;
-    if (out->gz && zip_end(out->gz)) return -1;
+    if (flush_stream(out)) return -1;
+    if (out->gz && end_member(out->gz)) return -1;
     return !out->path || fsync(fd_of(out)) == 0 || errno == EINVAL || errno == EROFS ? 0 : -1;
 }
 
@@ -363,24 +365,24 @@ int fl_out_close(fl_out *out, fl_err *err)
 {
     const int plain = !out->gz;
     if (!out->f) return 0;
-    int bad = settle(out) != 0, why = errno;
-    const int alone = out->tmp ? dup(fd_of(out)) : -1; /* the lock, until the file has its name */
-    zipper *z = out->gz;
+    int bad = flush_to_disk(out) != 0, why = errno;
+    const int lock_fd = out->tmp ? dup(fd_of(out)) : -1; /* lock until the rename */
+    gzip_writer *z = out->gz;
     if (out->f != stdout && fclose(out->f) != 0 && !bad) bad = 1, why = errno;
     out->f = NULL;
-    if (z) { /* what a failed end of the last member left */
-        zip_end(z);
+    if (z) { /* closes a member whose end failed */
+        end_member(z);
         if (z->fd != STDOUT_FILENO && close(z->fd) != 0 && !bad) bad = 1, why = errno;
         free(z);
         out->gz = NULL;
     }
     if (!bad && out->tmp && rename(out->tmp, out->path) != 0) bad = 1, why = errno;
     if (bad && out->tmp && !out->keep_part) unlink(out->tmp);
-    else if (bad && plain && alone >= 0) cut_to_line(alone);
-    if (alone >= 0) close(alone);
-    if (bad) lost(out, why, err);
+    else if (bad && plain && lock_fd >= 0) truncate_to_line(lock_fd);
+    if (lock_fd >= 0) close(lock_fd);
+    if (bad) report_write_error(out, why, err);
     else if (out->tmp) sync_folder(out->path);
-    free(out->tmp); /* renamed, kept, or gone: no longer ours to remove */
+    free(out->tmp); /* renamed, kept, or removed: no longer to be removed here */
     out->tmp = NULL;
     fl_out_abort(out);
     return bad ? -1 : 0;
@@ -388,11 +390,11 @@ int fl_out_close(fl_out *out, fl_err *err)
 
 void fl_out_abort(fl_out *out)
 {
-    zipper *z = out->gz;
+    gzip_writer *z = out->gz;
     if (out->tmp && !out->keep_part) unlink(out->tmp); /* while the lock is held */
     if (out->f && out->f != stdout) fclose(out->f);
     if (z) {
-        zip_end(z);
+        end_member(z);
         if (z->fd != STDOUT_FILENO) close(z->fd);
         free(z);
     }
@@ -401,16 +403,16 @@ void fl_out_abort(fl_out *out)
     *out = (fl_out){0};
 }
 
-/* --- to go on later ---------------------------------------------------------------------------- */
+/* --- checkpoint marks -------------------------------------------------------------------------- */
 
-/* Hash of the last bytes before `at`; 0 where they cannot be read. */
-static uint64_t tail_of(int fd, int64_t at)
+/* Hash of the last bytes before `at`; 0 if they cannot be read. */
+static uint64_t hash_of_tail(int fd, int64_t at)
 {
     unsigned char last[FL_FILE_MARK_TAIL] = {0};
     const int64_t n = at < FL_FILE_MARK_TAIL ? at : FL_FILE_MARK_TAIL;
     char self[40];
     int64_t got = pread(fd, last, (size_t)n, at - n);
-    if (got < 0) { /* open for writing alone, as the shell opens standard output */
+    if (got < 0) { /* write-only, as the shell opens standard output */
         snprintf(self, sizeof self, "/proc/self/fd/%d", fd);
         const int again = open(self, O_RDONLY | O_CLOEXEC);
         if (again < 0) return 0;
@@ -424,36 +426,36 @@ int fl_out_mark(fl_out *out, fl_file_mark *mark, fl_err *err)
 {
     struct stat st;
     *mark = (fl_file_mark){-1, 0};
-    if (settle(out)) return lost(out, errno, err);
+    if (flush_to_disk(out)) return report_write_error(out, errno, err);
     const int fd = fd_of(out);
     if (fstat(fd, &st) || !S_ISREG(st.st_mode)) return 0;
     mark->offset = lseek(fd, 0, SEEK_CUR);
-    if (mark->offset >= 0) mark->tail_hash = tail_of(fd, mark->offset);
+    if (mark->offset >= 0) mark->tail_hash = hash_of_tail(fd, mark->offset);
     out->keep_part = 1;
     return 0;
 }
 
-static int fits(int fd, const fl_file_mark *mark)
+static int matches_mark(int fd, const fl_file_mark *mark)
 {
     struct stat st;
     if (fstat(fd, &st) || !S_ISREG(st.st_mode) || st.st_size < mark->offset) return 0;
-    return mark->tail_hash == 0 || tail_of(fd, mark->offset) == mark->tail_hash;
+    return mark->tail_hash == 0 || hash_of_tail(fd, mark->offset) == mark->tail_hash;
 }
 
-/* Which of the two names holds the file: 0 tmp, 1 path, -1 none. */
-static int holder(const fl_out *out, const fl_file_mark *mark)
+/* Which of the two names holds the marked file: 0 tmp, 1 path, -1 none. */
+static int find_marked_file(const fl_out *out, const fl_file_mark *mark)
 {
     const char *const name[2] = {out->tmp, out->path};
     for (int k = 0; k < 2; k++) {
         const int fd = open(name[k], O_RDONLY | O_CLOEXEC);
-        const int good = fd >= 0 && fits(fd, mark);
+        const int good = fd >= 0 && matches_mark(fd, mark);
         if (fd >= 0) close(fd);
         if (good) return k;
     }
     return -1;
 }
 
-static int no_holder(const fl_out *out, fl_err *err)
+static int report_no_marked_file(const fl_out *out, fl_err *err)
 {
     return fl_fail(err, FL_INPUT, "%s: neither it nor %s begins with what was written before the checkpoint",
                    out->path, out->tmp);
@@ -464,8 +466,8 @@ int fl_out_check_mark(const char *path, const fl_file_mark *mark, fl_err *err)
     fl_out out;
     int direct, rc = 0;
     if (strcmp(path, "-") == 0 || mark->offset < 0) return 0;
-    if (name_out(&out, path, &direct, err)) return -1;
-    if (!direct && holder(&out, mark) < 0) rc = no_holder(&out, err);
+    if (resolve_names(&out, path, &direct, err)) return -1;
+    if (!direct && find_marked_file(&out, mark) < 0) rc = report_no_marked_file(&out, err);
     out.keep_part = 1;
     fl_out_abort(&out);
     return rc;
@@ -478,25 +480,25 @@ int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_file_mark *m
     *out = (fl_out){0};
     if (mark->offset < 0) return fl_out_open(out, path, gzip, err);
     if (strcmp(path, "-") == 0) {
-        if (mark->offset == 0 || !fits(fd, mark)) return fl_out_open(out, path, gzip, err);
+        if (mark->offset == 0 || !matches_mark(fd, mark)) return fl_out_open(out, path, gzip, err);
     } else {
-        if (name_out(out, path, &direct, err)) return -1;
+        if (resolve_names(out, path, &direct, err)) return -1;
         if (direct) {
             fl_out_abort(out);
             return fl_out_open(out, path, gzip, err);
         }
-        const int which = holder(out, mark);
+        const int which = find_marked_file(out, mark);
         out->keep_part = 1;
-        if (which < 0) no_holder(out, err);
+        if (which < 0) report_no_marked_file(out, err);
         if (which < 0) goto fail;
-        if (which == 1) { /* what has the other name may be that of a run under way */
-            const int other = open_alone(out, 1, err);
+        if (which == 1) { /* the file at tmp may belong to a running program */
+            const int other = open_locked(out, 1, err);
             if (other < 0) goto fail;
             const int bad = rename(out->path, out->tmp);
             close(other);
             if (bad) goto system;
         }
-        fd = open_alone(out, 0, err);
+        fd = open_locked(out, 0, err);
         if (fd < 0) goto fail;
     }
     if (ftruncate(fd, mark->offset) || lseek(fd, mark->offset, SEEK_SET) < 0) {
@@ -505,7 +507,7 @@ int fl_out_resume(fl_out *out, const char *path, int gzip, const fl_file_mark *m
         goto fail;
     }
     *fresh = 0;
-    if (begin(out, fd, gzip, err) == 0) return 0;
+    if (open_stream(out, fd, gzip, err) == 0) return 0;
     goto fail;
 system:
     fl_fail(err, FL_SYSTEM, "%s: %s", path, strerror(errno));

@@ -4,7 +4,7 @@
 #include "base/string_table.h"
 #include "base/parallel.h"
 
-/* The slot where word is, or the free one where it would go; slots > 0, and one at least is free. */
+/* The slot of word, or the free slot where it belongs.  slots > 0, and at least one slot is free. */
 static int32_t slot_of(const fl_string_table *s, const char *word)
 {
     const uint64_t h = fl_hash(FL_HASH_START, word, (int64_t)strlen(word));
@@ -13,7 +13,7 @@ static int32_t slot_of(const fl_string_table *s, const char *word)
     return k;
 }
 
-static int more_slots(fl_string_table *s, fl_err *err)
+static int grow_slots(fl_string_table *s, fl_err *err)
 {
     fl_string_table t = *s;
     t.slots = s->slots ? 2 * s->slots : 16;
@@ -37,7 +37,7 @@ int32_t fl_string_table_add(fl_string_table *s, const char *word, fl_err *err)
     char *copy;
     if (found >= 0) return found;
     if (s->n >= INT32_MAX / 4) return fl_fail(err, FL_SYSTEM, "more than %d different names", s->n);
-    if (3 * (s->n + 1) > 2 * s->slots && more_slots(s, err)) return -1;
+    if (3 * (s->n + 1) > 2 * s->slots && grow_slots(s, err)) return -1;
     if (fl_grow(&s->name, &s->cap, s->n + 1, sizeof *s->name, err)) return -1;
     copy = fl_alloc((int64_t)bytes, 1, err);
     if (!copy) return -1;

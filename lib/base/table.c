@@ -6,7 +6,7 @@
 #include "base/number_text.h"
 #include "base/table.h"
 
-/* "#start T" [s] above the names; the first interval needs it when the record does not begin at 0. */
+/* Reads "#start T" [s] above the column names: the start of the first interval, if it is not 0. */
 static int read_start(fl_table *t, fl_err *err)
 {
     const char *word = t->text.line + strlen("#start");
@@ -38,13 +38,13 @@ static int check_names(fl_table *t, fl_err *err)
     return rc;
 }
 
-/* Keep the row of names, which the next row would overwrite; "fx[N]" becomes "fx" and "N". */
-static int keep_names(fl_table *t, fl_err *err)
+/* Copies the column names, which the next row would overwrite, and splits "fx[N]" into "fx" and "N". */
+static int store_names(fl_table *t, fl_err *err)
 {
     int64_t bytes = 0;
     char *to;
     if (t->text.n > FL_TABLE_COLUMNS_MAX)
-        return fl_text_fail(&t->text, err, "%d columns, at most %d were expected", t->text.n,
+        return fl_text_fail(&t->text, err, "%d columns, at most %d are expected", t->text.n,
                             FL_TABLE_COLUMNS_MAX);
     t->n = t->text.n;
     for (int32_t k = 0; k < t->n; k++) bytes += (int64_t)strlen(t->text.field[k]) + 1;
@@ -85,7 +85,7 @@ int fl_table_open(fl_table *t, const char *path, const char *kind, int newest, f
                      t->text.kind);
         goto fail;
     }
-    if (keep_names(t, err)) goto fail;
+    if (store_names(t, err)) goto fail;
     return 0;
 fail:
     fl_table_close(t);
@@ -117,8 +117,7 @@ int fl_table_row(fl_table *t, fl_err *err)
 {
     const int more = fl_text_row(&t->text, err);
     if (more > 0 && t->text.n != t->n)
-        return fl_text_fail(&t->text, err, "%d fields, %d are expected as there are columns", t->text.n,
-                            t->n);
+        return fl_text_fail(&t->text, err, "%d fields, expected %d, one for each column", t->text.n, t->n);
     return more;
 }
 

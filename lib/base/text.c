@@ -10,7 +10,7 @@
 
 enum { CHUNK = 1 << 16 };
 
-static int start(fl_text *t, fl_in *in, fl_err *err)
+static int begin_text(fl_text *t, fl_in *in, fl_err *err)
 {
     *t = (fl_text){0};
     t->in = in;
@@ -20,11 +20,14 @@ static int start(fl_text *t, fl_in *in, fl_err *err)
     return -1;
 }
 
-int fl_text_open(fl_text *t, const char *path, fl_err *err) { return start(t, fl_in_open(path, err), err); }
+int fl_text_open(fl_text *t, const char *path, fl_err *err)
+{
+    return begin_text(t, fl_in_open(path, err), err);
+}
 
 int fl_text_open_bytes(fl_text *t, const char *name, const void *data, int64_t n, fl_err *err)
 {
-    return start(t, fl_in_open_bytes(name, data, n, err), err);
+    return begin_text(t, fl_in_open_bytes(name, data, n, err), err);
 }
 
 void fl_text_close(fl_text *t)
@@ -45,12 +48,12 @@ int fl_text_fail(const fl_text *t, fl_err *err, const char *fmt, ...)
     vsnprintf(what, sizeof what, fmt, ap);
     va_end(ap);
     if (t->line_number == 0)
-        return fl_fail(err, FL_INPUT, "%s: %s", fl_in_name(t->in), what); /* it is empty */
+        return fl_fail(err, FL_INPUT, "%s: %s", fl_in_name(t->in), what); /* the file is empty */
     return fl_fail(err, FL_INPUT, "%s:%" PRId64 ": %s", fl_in_name(t->in), t->line_number, what);
 }
 
-/* Is there a zero byte before end?  Each stretch of the chunk is looked through once. */
-static int has_zero(fl_text *t, int64_t end)
+/* Is there a nul byte before end?  Each part of the chunk is searched once. */
+static int has_nul(fl_text *t, int64_t end)
 {
     if (end > t->nul_free) {
         const char *from = t->chunk + t->nul_free,
@@ -60,8 +63,8 @@ static int has_zero(fl_text *t, int64_t end)
     return end > t->nul_free;
 }
 
-/* The line begins in this chunk and does not end in it, or did not begin in it: gather it. */
-static int append(fl_text *t, int64_t k, fl_err *err)
+/* Appends a part of a line that is not contained in one chunk. */
+static int append_to_line(fl_text *t, int64_t k, fl_err *err)
 {
     if (t->len + k > FL_TEXT_LINE_MAX) return fl_text_fail(t, err, "line is longer than 1 MiB");
     if (fl_grow(&t->joined, &t->joined_cap, t->len + k + 1, 1, err)) return -1;
@@ -72,19 +75,19 @@ static int append(fl_text *t, int64_t k, fl_err *err)
 
 int fl_text_line(fl_text *t, fl_err *err)
 {
-    int zero = 0, whole; /* whole: the line lies in the chunk, where it can stay */
+    int zero = 0, whole; /* set if the line lies in the chunk and can stay there */
     t->len = 0;
     t->line_number++;
     for (int first = 1;; first = 0) {
         const char *from = t->chunk + t->chunk_pos;
         const char *end = memchr(from, '\n', (size_t)(t->chunk_len - t->chunk_pos));
         const int64_t k = end ? end - from : t->chunk_len - t->chunk_pos;
-        zero |= has_zero(t, t->chunk_pos + k);
+        zero |= has_nul(t, t->chunk_pos + k);
         whole = first && end;
         if (whole) {
             t->line = t->chunk + t->chunk_pos;
             t->len = (int32_t)k;
-        } else if (append(t, k, err)) {
+        } else if (append_to_line(t, k, err)) {
             return -1;
         }
         t->chunk_pos += k + (end != NULL);
@@ -146,12 +149,12 @@ int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err)
     return 0;
 }
 
-/* What ends a field: nothing, a blank, or the whole row. */
+/* Character classes: part of a field, blank, end of the row. */
 enum { FIELD, BLANK, END };
-static const unsigned char KIND[256] = {
+static const unsigned char CLASS[256] = {
     ['\0'] = END, ['#'] = END, [' '] = BLANK, ['\t'] = BLANK, ['\f'] = BLANK, ['\v'] = BLANK};
 
-static unsigned char kind_of(char c) { return KIND[(unsigned char)c]; }
+static unsigned char class_of(char c) { return CLASS[(unsigned char)c]; }
 
 int fl_text_split(fl_text *t, fl_err *err)
 {
@@ -159,13 +162,13 @@ int fl_text_split(fl_text *t, fl_err *err)
     t->n = t->next = 0;
     if (strncmp(p, "#by ", 4) == 0 && keep_history(t, err)) return -1;
     for (;;) {
-        while (kind_of(*p) == BLANK) p++;
-        if (kind_of(*p) == END) break;
+        while (class_of(*p) == BLANK) p++;
+        if (class_of(*p) == END) break;
         if (t->n == t->field_cap && fl_grow(&t->field, &t->field_cap, t->n + 1, sizeof *t->field, err))
             return -1;
         t->field[t->n++] = p;
-        /* A "#" begins a comment after a blank only. */
-        while (kind_of(*p) == FIELD || *p == '#') p++;
+        /* "#" begins a comment only after a blank. */
+        while (class_of(*p) == FIELD || *p == '#') p++;
         if (*p) *p++ = '\0';
     }
     return t->n > 0;
@@ -233,8 +236,8 @@ static int edit_distance(const char *a, const char *b)
     return row[nb];
 }
 
-/* Does word stand in the text, case ignored? */
-static int stands_in(const char *word, const char *text)
+/* True if text contains word, case ignored. */
+static int contains_word(const char *word, const char *text)
 {
     const size_t n = strlen(word);
     for (; strlen(text) >= n; text++)
@@ -246,9 +249,9 @@ const char *fl_text_nearest(const char *word, const char *const *list, int n)
 {
     const char *best = NULL;
     int least = 1000, whole = 0;
-    for (int k = 0; k < n; k++) whole = whole || stands_in(word, list[k]);
+    for (int k = 0; k < n; k++) whole = whole || contains_word(word, list[k]);
     for (int k = 0; k < n; k++) {
-        if (whole && !stands_in(word, list[k])) continue;
+        if (whole && !contains_word(word, list[k])) continue;
         const int d = edit_distance(word, list[k]);
         if (d < least) {
             least = d;

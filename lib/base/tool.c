@@ -22,7 +22,7 @@ void fl_history_line_add(fl_history_line *by, const char *fmt, ...)
     k = vsnprintf(by->text + by->len, (size_t)(FL_HISTORY_LINE_MAX - by->len), fmt, ap);
     va_end(ap);
     by->len += k < FL_HISTORY_LINE_MAX - by->len ? k : FL_HISTORY_LINE_MAX - by->len - 1;
-    for (char *p = by->text; *p; p++) /* one line, whatever a file name holds */
+    for (char *p = by->text; *p; p++) /* the line stays one line, whatever a file name contains */
         if ((unsigned char)*p < ' ') *p = ' ';
 }
 
@@ -46,9 +46,9 @@ void fl_tool_begin(void)
     signal(SIGXFSZ, SIG_IGN);
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
         if (fcntl(fd, F_GETFD) >= 0 || errno != EBADF) continue;
-        /* the wrong way round: what reads or writes it gets EBADF, as from a closed one */
+        /* opened with the opposite access: reads and writes fail with EBADF, as on a closed descriptor */
         const int filled = open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-        if (filled >= 0 && filled != fd) close(filled); /* one below was closed and could not be filled */
+        if (filled >= 0 && filled != fd) close(filled); /* a lower descriptor could not be filled */
     }
 }
 

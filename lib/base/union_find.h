@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* union_find.h -- things 0 .. n - 1 that are brought together two by two.  Each set goes by the lowest of it. */
+/* union_find.h -- disjoint sets of 0 .. n - 1.  The root of a set is its lowest element. */
 #ifndef FL_BASE_UNION_FIND_H
 #define FL_BASE_UNION_FIND_H
 #include "base/array.h"
 
-/* up: [n], where thing k is found next; each by itself.  NULL with FL_SYSTEM. */
+/* Makes n sets of one element.  Returns the parents up[n], or NULL with FL_SYSTEM. */
 static inline int32_t *fl_union_find_make(int64_t n, fl_err *err)
 {
     int32_t *up = fl_alloc(n, sizeof *up, err);

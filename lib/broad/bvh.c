@@ -7,30 +7,30 @@
 _Static_assert(FL_BVH_STACK > 32, "room for a way down");
 
 enum {
-    LEAF = 4,
-    TASK = 4096 /* boxes worth a thread's while */
+    LEAF_MAX = 4,
+    TASK_MIN = 4096 /* fewest boxes of a task */
 };
 
-static double centre(const fl_aabb *b, int axis)
+static double twice_centre(const fl_aabb *b, int axis)
 {
     return axis == 0 ? b->lo.x + b->hi.x : axis == 1 ? b->lo.y + b->hi.y : b->lo.z + b->hi.z;
 }
 
-static int before(const fl_aabb *box, int axis, int32_t a, int32_t b)
+static int centre_before(const fl_aabb *box, int axis, int32_t a, int32_t b)
 {
-    const double ca = centre(&box[a], axis), cb = centre(&box[b], axis);
+    const double ca = twice_centre(&box[a], axis), cb = twice_centre(&box[b], axis);
     return ca < cb || (ca == cb && a < b);
 }
 
-/* Hoare's selection: order[lo .. hi) with the element of rank mid in its place. */
+/* Hoare's selection: moves the element of rank mid of order[lo .. hi) to its place. */
 static void select_median(const fl_aabb *box, int axis, int32_t *order, int32_t lo, int32_t mid, int32_t hi)
 {
     while (hi - lo > 1) {
         const int32_t pivot = order[lo + (hi - lo) / 2];
         int32_t i = lo, j = hi - 1;
         while (i <= j) {
-            while (before(box, axis, order[i], pivot)) i++;
-            while (before(box, axis, pivot, order[j])) j--;
+            while (centre_before(box, axis, order[i], pivot)) i++;
+            while (centre_before(box, axis, pivot, order[j])) j--;
             if (i <= j) {
                 const int32_t swap = order[i];
                 order[i++] = order[j];
@@ -43,43 +43,42 @@ static void select_median(const fl_aabb *box, int axis, int32_t *order, int32_t 
     }
 }
 
-/* Nodes beneath one of n boxes.  Halves of a number differ by one at most, and so do theirs: every level
- * knows two numbers, and both calls of a level find the same ones again. */
-static int32_t beneath(int32_t n, int32_t *other)
+/* Number of nodes below a node of n boxes; *other is that of n + 1 boxes.  The halves of n differ by at most
+ * one, so each level needs only these two numbers. */
+static int32_t nodes_below(int32_t n, int32_t *other)
 {
-    int32_t less, more; /* of n / 2 and of n / 2 + 1 */
-    if (n < LEAF) {     /* n + 1 <= LEAF */
+    int32_t less, more; /* of n / 2 and n / 2 + 1 boxes */
+    if (n < LEAF_MAX) { /* also n + 1 <= LEAF_MAX */
         *other = 0;
         return 0;
     }
-    less = beneath(n / 2, &more);
+    less = nodes_below(n / 2, &more);
     *other = 2 + (n % 2 ? 2 * more : less + more);
-    return n <= LEAF ? 0 : 2 + (n % 2 ? less + more : 2 * less);
+    return n <= LEAF_MAX ? 0 : 2 + (n % 2 ? less + more : 2 * less);
 }
 
-/* Large halves are handed to whichever thread is free; where a node lies follows from the numbers of boxes.
- */
-static void split(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int32_t count, int32_t child)
+/* Splits a node.  Large halves become tasks; the position of a node follows from the numbers of boxes. */
+static void split_node(fl_bvh *t, const fl_aabb *box, int32_t at, int32_t first, int32_t count, int32_t child)
 {
     fl_aabb all = aabb_empty(), mids = aabb_empty();
     for (int32_t k = first; k < first + count; k++) {
         const fl_aabb *b = &box[t->order[k]];
         all = aabb_join(all, *b);
-        mids = aabb_add(mids, v3(centre(b, 0), centre(b, 1), centre(b, 2)));
+        mids = aabb_add(mids, v3(twice_centre(b, 0), twice_centre(b, 1), twice_centre(b, 2)));
     }
     t->node[at] = (fl_bvh_node){all, first, count};
-    if (count <= LEAF) return;
+    if (count <= LEAF_MAX) return;
     const fl_vec3 side = v3_sub(mids.hi, mids.lo);
     const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
     const int32_t half = count / 2;
     int32_t more;
-    const int32_t next = child + 2 + beneath(half, &more);
+    const int32_t next = child + 2 + nodes_below(half, &more);
     select_median(box, axis, t->order, first, first + half, first + count);
     t->node[at].first = child;
     t->node[at].count = 0;
-#pragma omp task if (count > TASK)
-    split(t, box, child, first, half, child + 2);
-    split(t, box, child + 1, first + half, count - half, next);
+#pragma omp task if (count > TASK_MIN)
+    split_node(t, box, child, first, half, child + 2);
+    split_node(t, box, child + 1, first + half, count - half, next);
 }
 
 int fl_bvh_build(fl_bvh *t, const fl_aabb *box, int32_t n, fl_err *err)
@@ -90,20 +89,20 @@ int fl_bvh_build(fl_bvh *t, const fl_aabb *box, int32_t n, fl_err *err)
 int fl_bvh_build_present(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, const uint8_t *absent,
                          fl_err *err)
 {
-    int32_t there = 0;
+    int32_t present = 0;
     if (fl_grow(&t->order, &t->order_cap, n, sizeof *t->order, err)) return -1;
     for (int32_t k = 0; k < n; k++)
-        if (!absent || k >= m || !absent[k]) t->order[there++] = k;
-    t->n = there;
+        if (!absent || k >= m || !absent[k]) t->order[present++] = k;
+    t->n = present;
     int32_t more;
-    const int32_t nodes = there > 0 ? 1 + beneath(there, &more) : 0;
+    const int32_t nodes = present > 0 ? 1 + nodes_below(present, &more) : 0;
     t->nodes = 0;
     if (fl_grow(&t->node, &t->node_cap, nodes, sizeof *t->node, err)) return -1;
     t->nodes = nodes;
-    if (there == 0) return 0;
-#pragma omp parallel if (there > TASK)
+    if (present == 0) return 0;
+#pragma omp parallel if (present > TASK_MIN)
 #pragma omp single
-    split(t, box, 0, 0, there, 1);
+    split_node(t, box, 0, 0, present, 1);
     return 0;
 }
 

@@ -450,7 +450,7 @@ static int probe_mesh(fl_world *w, const fl_pair *p, const fl_relative_pose *r, 
     fl_gap gap;
     own.feature_pairs = NULL;
     const int rc = fl_pair_find_points(w, &own, 0, r, &distance);
-    if (own.feature_pairs) fl_feature_pairs_free(own.feature_pairs);
+    if (own.feature_pairs) fl_mesh_under_face_free_pairs(own.feature_pairs);
     free(own.feature_pairs);
     if (rc) return 0;
     *out = (fl_contact){.mode = FL_MODE_NONE};

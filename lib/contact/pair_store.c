@@ -6,6 +6,7 @@
 #include "base/array.h"
 #include "contact/pair_law.h"
 #include "contact/pair_store.h"
+#include "patch/mesh_under_face.h"
 
 void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 {
@@ -20,7 +21,7 @@ void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 
 void fl_pair_free(fl_pair *p)
 {
-    if (p->feature_pairs) fl_feature_pairs_free(p->feature_pairs);
+    if (p->feature_pairs) fl_mesh_under_face_free_pairs(p->feature_pairs);
     free(p->feature_pairs), free(p->surrogate), free(p->rolling);
     p->feature_pairs = NULL;
     p->surrogate = NULL;

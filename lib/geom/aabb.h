@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* aabb.h -- boxes along the axes, by value.  The empty box has lo > hi. */
+/* aabb.h -- axis-aligned bounding boxes, by value.  The empty box has lo > hi. */
 #ifndef FL_GEOM_AABB_H
 #define FL_GEOM_AABB_H
 #include "geom/vec3.h"

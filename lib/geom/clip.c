@@ -6,27 +6,28 @@
 #include "geom/clip.h"
 #include "geom/mass.h"
 
-/* A vertex this near the plane, of the size, is on it: a plane through given vertices misses them by a few
- * roundings only.  A vertex a little farther off may leave a face too narrow for fl_poly_make(): then it is
- * taken to be on the plane after all, up to half of what a face may be out of flat. */
+/* Distance from the plane, relative to the size, below which a vertex lies on it: a plane through given
+ * vertices misses them by a few roundings.  A vertex slightly farther away may leave a face too narrow for
+ * fl_poly_make().  Then larger tolerances are tried, up to half the allowed deviation of a face from its
+ * plane. */
 enum { ON_TRIES = 3 };
 static const double ON_TOL[ON_TRIES] = {1e-12, 5e-11, 5e-10};
-/* Corners this near each other are one: twice what fl_poly_make() calls coincident. */
+/* Corners closer than this (relative to the size) are merged: twice the limit of fl_poly_make(). */
 static const double WELD_TOL = 2e-10;
-/* What coordinates of magnitude m are good to, a few m eps: as in fl_poly_make(), twice for the weld. */
+/* Rounding of a coordinate of magnitude m, a few m eps: twice the value of fl_poly_make(). */
 static const double COARSE_TOL = 16 * DBL_EPSILON;
-/* Planes whose normals differ by less than this squared, in rad^2, are one plane as far as finding their
- * common corner goes: normals of narrow faces are good to 1e-5 only (fl_poly_make()). */
+/* Planes whose normals differ by less than the root of this [rad] count as one plane in the search for their
+ * common corner: normals of narrow faces are accurate to 1e-5 only (fl_poly_make()). */
 static const double RANK_TOL = 1e-9;
-/* Three planes whose normals span more than this meet in a corner that Cramer's rule finds: it is off by
- * DBL_EPSILON / DET_TOL of the way, which a second turn takes up. */
+/* Three planes whose normals have a larger determinant meet in a corner found by Cramer's rule.  Its relative
+ * error is DBL_EPSILON / DET_TOL; a second iteration removes it. */
 static const double DET_TOL = 1e-7;
-/* A corner may miss its planes by this, of size + r, and still be theirs. */
+/* A corner may miss its planes by this, relative to size + r. */
 static const double MEET_TOL = 1e-12;
-/* How far a corner may fly off, in units of size + r. */
+/* Largest displacement of a corner, relative to size + r. */
 static const double FAR_MAX = 1e4;
 
-/* A polyhedron being cut: loops only, and for each face the number of the plane it lies in. */
+/* A polyhedron being cut: loops, and for each face the number of its plane. */
 struct shape {
     int32_t nv, nf;
     fl_vec3 *v;
@@ -59,7 +60,7 @@ static void shape_free(struct shape *s)
     *s = (struct shape){0};
 }
 
-static double extent(int32_t n, const fl_vec3 *v, double *far)
+static double box_extent(int32_t n, const fl_vec3 *v, double *far)
 {
     fl_aabb b = aabb_empty();
     for (int32_t k = 0; k < n; k++) b = aabb_add(b, v[k]);
@@ -68,32 +69,32 @@ static double extent(int32_t n, const fl_vec3 *v, double *far)
     return fmax(b.hi.x - b.lo.x, fmax(b.hi.y - b.lo.y, b.hi.z - b.lo.z));
 }
 
-/* New vertices by the edge they split: open addressing over (wet end, dry end). */
-struct splits {
-    int32_t *wet, *dry, *id; /* [mask + 1]; id = 0 is free */
+/* New vertices by the edge that they split: open addressing over (inner end, outer end). */
+struct split_table {
+    int32_t *inner, *outer, *id; /* [mask + 1]; id = 0 is free */
     uint64_t mask;
 };
 
-static int32_t *split_of(const struct splits *h, int32_t i, int32_t j)
+static int32_t *find_split(const struct split_table *h, int32_t i, int32_t j)
 {
     uint64_t at = ((uint64_t)(uint32_t)i * UINT64_C(0x9E3779B97F4A7C15) ^ (uint64_t)(uint32_t)j) *
                   UINT64_C(0xD6E8FEB86659FD93);
-    for (at = (at >> 32) & h->mask; h->id[at] && (h->wet[at] != i || h->dry[at] != j);)
+    for (at = (at >> 32) & h->mask; h->id[at] && (h->inner[at] != i || h->outer[at] != j);)
         at = (at + 1) & h->mask;
-    h->wet[at] = i;
-    h->dry[at] = j;
+    h->inner[at] = i;
+    h->outer[at] = j;
     return h->id + at;
 }
 
-/* Scratch of one cut, by vertex: signed distance, side of the plane, the next corner of the cap. */
-struct cutter {
+/* Scratch of one cut, by vertex: signed distance, next corner of the cap, new index. */
+struct cut_scratch {
     double *s;
     int32_t *next, *place;
-    struct splits split;
+    struct split_table split;
     void *mem;
 };
 
-static int cutter_alloc(struct cutter *w, int32_t nv, int32_t nl, fl_err *err)
+static int cut_scratch_alloc(struct cut_scratch *w, int32_t nv, int32_t nl, fl_err *err)
 {
     uint64_t slots = 16;
     while (slots < 2 * (uint64_t)nl) slots *= 2;
@@ -105,13 +106,14 @@ static int cutter_alloc(struct cutter *w, int32_t nv, int32_t nl, fl_err *err)
     w->s = (double *)(void *)at;
     w->next = (int32_t *)(void *)(w->s + nv);
     w->place = w->next + most;
-    w->split =
-        (struct splits){w->place + most, w->place + most + slots, w->place + most + 2 * slots, slots - 1};
+    w->split = (struct split_table){w->place + most, w->place + most + slots, w->place + most + 2 * slots,
+                                    slots - 1};
     for (int64_t k = 0; k < most; k++) w->next[k] = -1;
     return 0;
 }
 
-/* Follow the cap from its lowest corner; links must form one ring.  Returns its length, or -1. */
+/* Collects the cap, starting at its lowest corner.  The links must form one ring.  Returns its length or
+ * -1. */
 static int32_t close_cap(struct shape *to, int32_t at, const int32_t *next, int32_t most, int32_t links)
 {
     int32_t start = 0, n = 0;
@@ -125,8 +127,8 @@ static int32_t close_cap(struct shape *to, int32_t at, const int32_t *next, int3
     return k == start && n == links && n >= 3 ? n : -1;
 }
 
-/* Renumber the vertices that loops use, old ones in their order before new ones in theirs. */
-static void compress(struct shape *s, int32_t *place, int32_t most)
+/* Renumbers the vertices used by loops: old vertices in their order, then new ones in theirs. */
+static void renumber_vertices(struct shape *s, int32_t *place, int32_t most)
 {
     const int32_t nl = s->first[s->nf];
     int32_t n = 0;
@@ -143,23 +145,23 @@ static void compress(struct shape *s, int32_t *place, int32_t most)
 
 enum { CUT_NOTHING, CUT_SOME, CUT_ALL };
 
-/* Cut by the plane, whose number is tag; tol is what counts as on it.  CUT_..., or -1. */
-static int cut(struct shape *a, struct plane pl, int32_t tag, double tol, fl_err *err)
+/* Cuts by the plane with number tag.  Vertices within tol of the plane lie on it.  Returns CUT_... or -1. */
+static int cut_shape(struct shape *a, struct plane pl, int32_t tag, double tol, fl_err *err)
 {
     const int32_t nl = a->first[a->nf];
-    struct cutter w = {0};
+    struct cut_scratch w = {0};
     struct shape to = {0};
-    int32_t wet = 0, dry = 0, at = 0, links = 0, most = a->nv;
+    int32_t inner = 0, outer = 0, at = 0, links = 0, most = a->nv;
     int rc = -1;
 
-    if (cutter_alloc(&w, a->nv, nl, err)) return -1;
+    if (cut_scratch_alloc(&w, a->nv, nl, err)) return -1;
     for (int32_t k = 0; k < a->nv; k++) {
         w.s[k] = v3_dot(pl.n, a->v[k]) - pl.c;
         if (fabs(w.s[k]) <= tol) w.s[k] = 0.0;
-        wet += w.s[k] < 0.0;
-        dry += w.s[k] > 0.0;
+        inner += w.s[k] < 0.0;
+        outer += w.s[k] > 0.0;
     }
-    rc = dry == 0 ? CUT_NOTHING : wet == 0 ? CUT_ALL : -1;
+    rc = outer == 0 ? CUT_NOTHING : inner == 0 ? CUT_ALL : -1;
     if (rc >= 0 || shape_alloc(&to, (int64_t)a->nv + nl, (int64_t)a->nf + 1, 3 * (int64_t)nl, err)) goto done;
     memcpy(to.v, a->v, (size_t)a->nv * sizeof *to.v);
     for (int32_t f = 0; f < a->nf; f++) {
@@ -173,7 +175,7 @@ static int cut(struct shape *a, struct plane pl, int32_t tag, double tol, fl_err
             if (si <= 0.0) to.loop[at++] = i;
             if (!(si * sj < 0.0)) continue;
             const int32_t p = si < 0.0 ? i : j, q = si < 0.0 ? j : i;
-            int32_t *id = split_of(&w.split, p, q);
+            int32_t *id = find_split(&w.split, p, q);
             if (!*id) {
                 to.v[most] = v3_lerp(a->v[p], a->v[q], w.s[p] / (w.s[p] - w.s[q]));
                 *id = most++;
@@ -184,7 +186,8 @@ static int cut(struct shape *a, struct plane pl, int32_t tag, double tol, fl_err
             const int32_t u = to.loop[k], x = to.loop[k + 1 < at ? k + 1 : begin];
             const int on = (u >= a->nv || w.s[u] >= 0.0) && (x >= a->nv || w.s[x] >= 0.0);
             if (!on) continue;
-            /* This side runs u to x on the plane, the cap runs x to u; two faces that share it need none. */
+            /* This side runs from u to x on the plane, the cap from x to u.  Two faces that share the side
+             * need no cap. */
             if (w.next[u] == x) {
                 w.next[u] = -1;
                 links--;
@@ -205,7 +208,7 @@ static int cut(struct shape *a, struct plane pl, int32_t tag, double tol, fl_err
         to.tag[to.nf++] = tag;
         to.first[to.nf] = at + cap;
     }
-    compress(&to, w.place, most);
+    renumber_vertices(&to, w.place, most);
     shape_free(a);
     *a = to;
     to = (struct shape){0};
@@ -222,9 +225,9 @@ static int32_t root_of(int32_t *up, int32_t v)
     return v;
 }
 
-/* Draw corners nearer than tol together, drop the faces that leaves without an inside, and build.  CUT_SOME,
- * or CUT_ALL when that leaves no volume of what was solid, or -1. */
-static int finish(struct shape *s, double tol, fl_poly *out, fl_err *err)
+/* Merges corners closer than tol, drops faces without interior and builds the polyhedron.  Returns CUT_SOME,
+ * CUT_ALL when a solid has lost its volume, or -1. */
+static int build_result(struct shape *s, double tol, fl_poly *out, fl_err *err)
 {
     const int solid = s->nf > 2;
     int32_t *up = fl_alloc(s->nv, sizeof *up, err), at = 0, nf = 0;
@@ -252,15 +255,15 @@ static int finish(struct shape *s, double tol, fl_poly *out, fl_err *err)
     }
     s->first[nf] = at;
     s->nf = nf;
-    compress(s, up, s->nv);
+    renumber_vertices(s, up, s->nv);
     free(up);
     if (solid && nf < 4) return CUT_ALL;
     if (fl_poly_make(out, s->nv, s->v, s->nf, s->first, s->loop, &why) == 0) return CUT_SOME;
     if (why.code == FL_SYSTEM) return fl_fail(err, FL_SYSTEM, "%s", why.text);
-    return fl_fail(err, FL_NUMERIC, "what the cut leaves is too thin: %s", why.text);
+    return fl_fail(err, FL_NUMERIC, "the rest of the cut is too thin: %s", why.text);
 }
 
-static int shape_of(struct shape *s, const fl_poly *p, fl_err *err)
+static int copy_to_shape(struct shape *s, const fl_poly *p, fl_err *err)
 {
     const int32_t nl = p->first[p->nf];
     if (shape_alloc(s, p->nv, p->nf, nl, err)) return -1;
@@ -273,7 +276,7 @@ static int shape_of(struct shape *s, const fl_poly *p, fl_err *err)
 }
 
 /* A point or a segment has no loops to cut. */
-static int cut_line(fl_poly *p, struct plane pl, double tol, fl_err *err)
+static int cut_point_or_segment(fl_poly *p, struct plane pl, double tol, fl_err *err)
 {
     double s[2] = {0};
     fl_vec3 v[2];
@@ -288,8 +291,8 @@ static int cut_line(fl_poly *p, struct plane pl, double tol, fl_err *err)
         fl_poly_free(p);
         return 0;
     }
-    const int wet = s[0] < 0.0 ? 0 : 1, dry = 1 - wet;
-    v[dry] = v3_lerp(v[wet], v[dry], s[wet] / (s[wet] - s[dry]));
+    const int inner = s[0] < 0.0 ? 0 : 1, outer = 1 - inner;
+    v[outer] = v3_lerp(v[inner], v[outer], s[inner] / (s[inner] - s[outer]));
     if (fl_poly_make(&out, 2, v, 0, NULL, NULL, err)) return -1;
     fl_poly_free(p);
     *p = out;
@@ -300,16 +303,16 @@ int fl_poly_cut(fl_poly *p, fl_vec3 n, double c, fl_err *err)
 {
     double far;
     int rc = -1;
-    const double size = extent(p->nv, p->v, &far), coarse = COARSE_TOL * far;
+    const double size = box_extent(p->nv, p->v, &far), coarse = COARSE_TOL * far;
 
-    if (p->nv <= 2) return cut_line(p, (struct plane){n, c}, ON_TOL[0] * size + coarse, err);
+    if (p->nv <= 2) return cut_point_or_segment(p, (struct plane){n, c}, ON_TOL[0] * size + coarse, err);
     for (int k = 0; k < ON_TRIES && rc == -1; k++) {
         struct shape s = {0};
         fl_poly out = {0};
         fl_err why = {0};
-        if (shape_of(&s, p, &why) == 0) {
-            rc = cut(&s, (struct plane){n, c}, 0, ON_TOL[k] * size + coarse, &why);
-            if (rc == CUT_SOME) rc = finish(&s, WELD_TOL * size + coarse, &out, &why);
+        if (copy_to_shape(&s, p, &why) == 0) {
+            rc = cut_shape(&s, (struct plane){n, c}, 0, ON_TOL[k] * size + coarse, &why);
+            if (rc == CUT_SOME) rc = build_result(&s, WELD_TOL * size + coarse, &out, &why);
         }
         shape_free(&s);
         if (rc == CUT_SOME || rc == CUT_ALL) {
@@ -322,14 +325,14 @@ int fl_poly_cut(fl_poly *p, fl_vec3 n, double c, fl_err *err)
     return 0;
 }
 
-/* The smallest step d with n_k.d = miss_k for the planes k of a corner, in the sense of least squares;
- * directions in which the planes do not differ are left alone. */
-static fl_vec3 meet(int32_t n, const struct plane *pl, const double *miss)
+/* The smallest step d with n_k.d = miss_k for the n planes at a corner, by least squares.  Directions in
+ * which the planes do not differ are left alone. */
+static fl_vec3 solve_corner(int32_t n, const struct plane *pl, const double *miss)
 {
     fl_vec3 rhs = {0}, d = {0};
     fl_mat3 a = {{{0}}}, axes;
     double value[3];
-    if (n == 3) { /* nearly always; Cramer's rule is ten times faster */
+    if (n == 3) { /* the usual case; Cramer's rule is ten times faster */
         const fl_vec3 yz = v3_cross(pl[1].n, pl[2].n), zx = v3_cross(pl[2].n, pl[0].n),
                       xy = v3_cross(pl[0].n, pl[1].n);
         const double det = v3_dot(pl[0].n, yz);
@@ -351,14 +354,14 @@ static fl_vec3 meet(int32_t n, const struct plane *pl, const double *miss)
     return d;
 }
 
-/* Planes at one corner, gathered. */
-struct corner {
+/* Planes at one corner. */
+struct corner_planes {
     struct plane *pl;
     double *miss;
     int32_t cap_pl, cap_miss;
 };
 
-static int corner_room(struct corner *c, int32_t n, fl_err *err)
+static int reserve_corner(struct corner_planes *c, int32_t n, fl_err *err)
 {
     return fl_grow(&c->pl, &c->cap_pl, n, sizeof *c->pl, err) ||
                    fl_grow(&c->miss, &c->cap_miss, n, sizeof *c->miss, err)
@@ -366,9 +369,9 @@ static int corner_room(struct corner *c, int32_t n, fl_err *err)
                : 0;
 }
 
-/* Which faces stand at each vertex: face[first[v] .. first[v+1]). */
-static int stars(int32_t nv, int32_t nf, const int32_t *first, const int32_t *loop, int32_t **out,
-                 int32_t **face, fl_err *err)
+/* The faces at each vertex: face[first[v] .. first[v + 1]). */
+static int faces_at_vertices(int32_t nv, int32_t nf, const int32_t *first, const int32_t *loop, int32_t **out,
+                             int32_t **face, fl_err *err)
 {
     const int32_t nl = first[nf];
     int32_t *at = fl_alloc((int64_t)nv + 2 + nl, sizeof *at, err);
@@ -382,35 +385,35 @@ static int stars(int32_t nv, int32_t nf, const int32_t *first, const int32_t *lo
     return 0;
 }
 
-static int flies_off(double r, double most, fl_err *err)
+static int fail_too_far(double r, double most, fl_err *err)
 {
-    return fl_fail(err, FL_INPUT, "a corner is so sharp that moving the faces by %g m throws it beyond %g m",
+    return fl_fail(err, FL_INPUT, "a corner is so sharp that moving the faces by %g m moves it beyond %g m",
                    r, most);
 }
 
-/* Move every corner with its faces.  1 when that is the answer, 0 when faces at some corner part or an edge
- * would turn round, -1 with err. */
+/* Moves every corner with its faces.  Returns 1 on success, 0 when the faces at a corner separate or an edge
+ * would reverse, -1 with err. */
 static int move_corners(fl_poly *out, const fl_poly *in, double r, double weld, fl_err *err)
 {
     int32_t *first = NULL, *face;
     fl_vec3 *v = NULL;
-    struct corner c = {0};
+    struct corner_planes c = {0};
     fl_err why = {0};
     const double most = FAR_MAX * (in->size + fabs(r));
     int rc = -1;
 
     if (in->nf == 2) return 0;
     v = fl_alloc(in->nv, sizeof *v, err);
-    if (!v || stars(in->nv, in->nf, in->first, in->loop, &first, &face, err)) goto done;
+    if (!v || faces_at_vertices(in->nv, in->nf, in->first, in->loop, &first, &face, err)) goto done;
     for (int32_t i = 0; i < in->nv; i++) {
         const int32_t n = first[i + 1] - first[i];
         fl_vec3 d = {0};
-        if (corner_room(&c, n, err)) goto done;
+        if (reserve_corner(&c, n, err)) goto done;
         for (int32_t k = 0; k < n; k++) c.pl[k] = (struct plane){in->n[face[first[i] + k]], 0.0};
         for (int turn = 0; turn < 3;
-             turn++) { /* the second and third take up the rounding of the one before */
+             turn++) { /* the second and third iteration remove the rounding of the one before */
             for (int32_t k = 0; k < n; k++) c.miss[k] = r - v3_dot(c.pl[k].n, d);
-            d = v3_add(d, meet(n, c.pl, c.miss));
+            d = v3_add(d, solve_corner(n, c.pl, c.miss));
         }
         for (int32_t k = 0; k < n; k++)
             if (fabs(r - v3_dot(c.pl[k].n, d)) > MEET_TOL * (in->size + fabs(r))) {
@@ -418,7 +421,7 @@ static int move_corners(fl_poly *out, const fl_poly *in, double r, double weld, 
                 goto done;
             }
         if (v3_norm(d) > most) {
-            flies_off(r, most, err);
+            fail_too_far(r, most, err);
             goto done;
         }
         v[i] = v3_add(in->v[i], d);
@@ -441,21 +444,21 @@ done:
     return rc;
 }
 
-/* Put each vertex where its planes meet: cuts of a box much larger than the result leave it off by roundings
- * of the box. */
-static int polish(struct shape *s, const struct plane *pl, fl_err *err)
+/* Moves each vertex to the intersection of its planes: cuts of a large box leave it off by roundings of the
+ * box. */
+static int refine_vertices(struct shape *s, const struct plane *pl, fl_err *err)
 {
     int32_t *first = NULL, *face;
-    struct corner c = {0};
+    struct corner_planes c = {0};
     int rc = -1;
-    if (stars(s->nv, s->nf, s->first, s->loop, &first, &face, err)) return -1;
+    if (faces_at_vertices(s->nv, s->nf, s->first, s->loop, &first, &face, err)) return -1;
     for (int32_t i = 0; i < s->nv; i++) {
         const int32_t n = first[i + 1] - first[i];
-        if (corner_room(&c, n, err)) goto done;
+        if (reserve_corner(&c, n, err)) goto done;
         for (int32_t k = 0; k < n; k++) c.pl[k] = pl[s->tag[face[first[i] + k]]];
         for (int turn = 0; turn < 2; turn++) {
             for (int32_t k = 0; k < n; k++) c.miss[k] = c.pl[k].c - v3_dot(c.pl[k].n, s->v[i]);
-            s->v[i] = v3_add(s->v[i], meet(n, c.pl, c.miss));
+            s->v[i] = v3_add(s->v[i], solve_corner(n, c.pl, c.miss));
         }
     }
     rc = 0;
@@ -466,7 +469,7 @@ done:
     return rc;
 }
 
-/* The planes to cut with, about the working origin o; a flat polygon gets its edges' too. */
+/* Collects the planes about the working origin o.  A flat polygon also gets the planes of its edges. */
 static int32_t gather_planes(const fl_poly *in, fl_vec3 o, double r, struct plane *pl)
 {
     int32_t n = 0;
@@ -485,20 +488,20 @@ static int32_t gather_planes(const fl_poly *in, fl_vec3 o, double r, struct plan
     return n;
 }
 
-/* A box with the given half sides about the working origin; its planes carry the numbers from tag on. */
+/* Makes a box of the given half side about the working origin.  Its planes have the numbers from tag on. */
 static int start_box(struct shape *s, double half, int32_t tag, fl_err *err)
 {
     fl_poly box;
     if (fl_poly_box(&box, v3(half, half, half), err)) return -1;
-    const int rc = shape_of(s, &box, err);
+    const int rc = copy_to_shape(s, &box, err);
     for (int32_t f = 0; rc == 0 && f < 6; f++) s->tag[f] = tag + f;
     fl_poly_free(&box);
     return rc;
 }
 
-/* Cut the half-spaces out of a box about o; the box grows until it does not show in the result.  CUT_..., or
- * -1; on is what counts as on a plane, of the size. */
-static int intersect(fl_poly *out, const fl_poly *in, fl_vec3 o, double r, double on, fl_err *err)
+/* Cuts a box about o by all half-spaces.  The box grows until none of its faces is left.  on is the tolerance
+ * of a vertex on a plane, relative to the size.  Returns CUT_... or -1. */
+static int intersect_half_spaces(fl_poly *out, const fl_poly *in, fl_vec3 o, double r, double on, fl_err *err)
 {
     struct plane *pl = fl_alloc((int64_t)in->nf + in->first[1], sizeof *pl, err);
     struct shape s = {0};
@@ -509,24 +512,24 @@ static int intersect(fl_poly *out, const fl_poly *in, fl_vec3 o, double r, doubl
     const int32_t n = gather_planes(in, o, r, pl);
     for (double half = 2.0 * reach; shows; half *= 8.0) {
         if (half > FAR_MAX * reach) {
-            flies_off(r, FAR_MAX * reach, err);
+            fail_too_far(r, FAR_MAX * reach, err);
             goto done;
         }
         shape_free(&s);
         if (start_box(&s, half, n, err)) goto done;
         for (int32_t k = 0; k < n; k++) {
-            rc = cut(&s, pl[k], k, on * extent(s.nv, s.v, &far), err);
+            rc = cut_shape(&s, pl[k], k, on * box_extent(s.nv, s.v, &far), err);
             if (rc < 0 || rc == CUT_ALL) goto done;
         }
         rc = -1;
         shows = 0;
         for (int32_t f = 0; f < s.nf; f++) shows |= s.tag[f] >= n;
     }
-    if (polish(&s, pl, err)) goto done;
-    const double size = extent(s.nv, s.v, &far);
+    if (refine_vertices(&s, pl, err)) goto done;
+    const double size = box_extent(s.nv, s.v, &far);
     for (int32_t v = 0; v < s.nv; v++) s.v[v] = v3_add(s.v[v], o);
-    extent(s.nv, s.v, &far);
-    rc = finish(&s, WELD_TOL * size + COARSE_TOL * far, out, err);
+    box_extent(s.nv, s.v, &far);
+    rc = build_result(&s, WELD_TOL * size + COARSE_TOL * far, out, err);
 done:
     shape_free(&s);
     free(pl);
@@ -542,7 +545,7 @@ int fl_poly_offset(fl_poly *out, const fl_poly *in, double r, fl_err *err)
         return fl_fail(err, FL_INPUT, "a %s has no faces to move", in->nv == 1 ? "point" : "segment");
     if (in->nf == 2 && r < 0.0)
         return fl_fail(err, FL_INPUT, "moving the faces of a flat core inward by %g m leaves nothing", -r);
-    const double size = extent(in->nv, in->v, &far);
+    const double size = box_extent(in->nv, in->v, &far);
     const int moved = r == 0.0
                           ? (fl_poly_copy(out, in, err) ? -1 : 1)
                           : move_corners(out, in, r, WELD_TOL * (size + fabs(r)) + COARSE_TOL * far, err);
@@ -551,7 +554,7 @@ int fl_poly_offset(fl_poly *out, const fl_poly *in, double r, fl_err *err)
     o = v3_madd(in->v[0], 1.0 / in->nv, o);
     for (int k = 0;; k++) {
         fl_err why = {0};
-        const int rc = intersect(out, in, o, r, ON_TOL[k], &why);
+        const int rc = intersect_half_spaces(out, in, o, r, ON_TOL[k], &why);
         if (rc == CUT_SOME) return 0;
         if (rc == CUT_ALL)
             return fl_fail(err, FL_INPUT, "moving the faces inward by %g m leaves nothing", -r);

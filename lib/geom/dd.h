@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* dd.h -- numbers of 106 bits as the unevaluated sum of two doubles, and vectors of them, by value.
- * For the few places where a difference of nearly equal products decides.  Needs IEEE doubles rounded to
- * nearest and no contraction; relative error of one operation below 2^-102 while nothing under- or overflows.
+/* dd.h -- double-double numbers of 106 bits, the unevaluated sum of two doubles, and vectors of them, by
+ * value.  For the few places where a difference of nearly equal products decides.  Requires IEEE doubles
+ * rounded to nearest and no contraction.  Relative error of one operation below 2^-102 without overflow or
+ * underflow.
  * Source: Dekker 1971; Joldes, Muller & Popescu, ACM TOMS 44 (2017). */
 #ifndef FL_GEOM_DD_H
 #define FL_GEOM_DD_H
@@ -16,13 +17,13 @@ typedef struct {
 } fl_ddv;
 
 static inline fl_dd dd_of(double a) { return (fl_dd){a, 0.0}; }
-/* a + b without error, |a| >= |b| */
+/* a + b exactly, |a| >= |b| (Fast2Sum) */
 static inline fl_dd dd_fast_two_sum(double a, double b)
 {
     const double s = a + b;
     return (fl_dd){s, b - (s - a)};
 }
-/* a + b and a b without error */
+/* a + b and a b exactly (2Sum, 2Prod) */
 static inline fl_dd dd_two_sum(double a, double b)
 {
     const double s = a + b, t = s - a;
@@ -54,10 +55,10 @@ static inline fl_dd dd_div(fl_dd a, fl_dd b)
     const fl_dd s = dd_fast_two_sum(q, q2);
     return dd_add(s, dd_of(r.h / b.h));
 }
-/* Positive, zero or negative as a - b is. */
+/* Has the sign of a - b. */
 static inline double dd_cmp(fl_dd a, fl_dd b) { return dd_sub(a, b).h; }
 
-/* a - b without error */
+/* a - b exactly */
 static inline fl_ddv ddv_diff(fl_vec3 a, fl_vec3 b)
 {
     return (fl_ddv){dd_two_sum(a.x, -b.x), dd_two_sum(a.y, -b.y), dd_two_sum(a.z, -b.z)};

@@ -2,7 +2,7 @@
 #include "geom/dilate.h"
 #include "base/pi.h"
 
-/* sum_e l_e t_e: twice pi times the mean width, less the sphere's part */
+/* sum_e l_e t_e */
 static double edge_sum(const fl_poly *p)
 {
     double s = 0.0;
@@ -16,7 +16,7 @@ double fl_dilate_volume(const fl_poly *p, double r)
     double v = 0.0, a = 0.0;
     for (int32_t f = 0; f < p->nf; f++) {
         const fl_vec3 s = fl_poly_face_area_vector(p, f);
-        /* heights over a vertex, not over the origin, which may be far away; a flat body has none */
+        /* Heights are measured from vertex 0, since the origin may be far away; a flat body has no volume. */
         v += v3_dot(s, v3_sub(p->v[p->loop[p->first[f]]], p->v[0])) / 3.0;
         a += v3_norm(s);
     }

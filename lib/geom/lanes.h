@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* lanes.h -- eight things side by side: a number of each of them a row, so that loops over them are as wide
- * as the machine is. */
+/* lanes.h -- eight objects side by side, one row for each of their numbers, so that loops over them use the
+ * full width of the machine. */
 #ifndef FL_GEOM_LANES_H
 #define FL_GEOM_LANES_H
 #include "base/simd.h"
@@ -18,7 +18,7 @@ static inline void fl_lane3_set(fl_lane *a, int k, fl_vec3 v)
     a[0].a[k] = v.x, a[1].a[k] = v.y, a[2].a[k] = v.z;
 }
 
-/* The axes of the k-th by its quaternion, as q_matrix(). */
+/* The axes of object k by its quaternion, as q_matrix(). */
 FL_SIMD_INLINE fl_rows3 fl_lane_axes(const fl_lane *q, int k)
 {
     const double w = q[0].a[k], x = q[1].a[k], y = q[2].a[k], z = q[3].a[k];
@@ -27,10 +27,10 @@ FL_SIMD_INLINE fl_rows3 fl_lane_axes(const fl_lane *q, int k)
                       v3(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))};
 }
 
-/* A column: the doubles from there on. */
+/* The consecutive doubles of an object. */
 static inline const double *fl_lane_column(const void *at) { return at; }
 
-/* Columns of doubles, of[FL_LANE_COUNT], to rows, a multiple of four. */
+/* Loads the numbers of eight objects, of[FL_LANE_COUNT], into rows, a multiple of four. */
 FL_SIMD_INLINE void fl_lanes_load(fl_lane *row, const double *const *of, int rows)
 {
     for (int k = 0; k < FL_LANE_COUNT; k += FL_SIMD_WIDTH)
@@ -43,7 +43,7 @@ FL_SIMD_INLINE void fl_lanes_load(fl_lane *row, const double *const *of, int row
         }
 }
 
-/* Four rows to the columns of the four from k on. */
+/* Stores four rows to the columns of the four objects from k on. */
 FL_SIMD_INLINE void fl_lanes_store(double *const *to, const fl_lane *row, int k)
 {
     fl_simd r[FL_SIMD_WIDTH] = {FL_SIMD_LOAD(&row[0].a[k]), FL_SIMD_LOAD(&row[1].a[k]),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* mat3.h -- three by three matrices, by value, row by row. */
+/* mat3.h -- 3 x 3 matrices, by value, in row order. */
 #ifndef FL_GEOM_MAT3_H
 #define FL_GEOM_MAT3_H
 #include "geom/vec3.h"

@@ -4,16 +4,15 @@
 #include "geom/dd.h"
 #include "geom/moments.h"
 
-/* Volume, area, first moments, and xx yy zz xy yz zx of the second, each in 106 bits; one more fills the
- * lanes. */
+/* Volume, area, first moments, second moments xx yy zz xy yz zx, in 106 bits; one more fills the lanes. */
 enum { VOLUME, AREA, FIRST, SECOND = FIRST + 3, TERMS = 12 };
 
-struct sums {
-    fl_vec3 o;                 /* about this point */
-    double h[TERMS], l[TERMS]; /* as fl_dd has them */
+struct moment_sums {
+    fl_vec3 o;                 /* reference point */
+    double h[TERMS], l[TERMS]; /* high and low parts, as in fl_dd */
 };
 
-/* Add a term to each sum, as dd_add() does with dd_of(x). */
+/* Adds a term to each sum, as dd_add() with dd_of(x). */
 static inline void add_terms(double *restrict h, double *restrict l, const double *restrict x)
 {
 #pragma omp simd
@@ -24,9 +23,9 @@ static inline void add_terms(double *restrict h, double *restrict l, const doubl
     }
 }
 
-FL_SIMD_VERSIONS static void add_triangles(struct sums *to, const fl_part *part)
+FL_SIMD_VERSIONS static void add_triangles(struct moment_sums *to, const fl_part *part)
 {
-    struct sums s = *to;
+    struct moment_sums s = *to;
     for (int32_t t = 0; t < part->nt; t++) {
         const int32_t *v = part->t[t].v;
         const fl_vec3 p = part->v[v[0]], q = part->v[v[1]], r = part->v[v[2]];
@@ -49,8 +48,8 @@ FL_SIMD_VERSIONS static void add_triangles(struct sums *to, const fl_part *part)
     *to = s;
 }
 
-/* About its middle p0, with the axis u: along = int z^2 dV, across = int y^2 dV, and V z_C. */
-static void add_cone(struct sums *s, const fl_cone *c)
+/* About p0, the centre of the first disc, axis u: along = int z^2 dV, across = int y^2 dV, first = V z_C. */
+static void add_cone(struct moment_sums *s, const fl_cone *c)
 {
     const fl_vec3 p = v3_sub(c->p0, s->o), axis = v3_sub(c->p1, c->p0), u = v3_unit(axis);
     const double h = v3_norm(axis), r = c->r0, q = c->r1;
@@ -60,7 +59,7 @@ static void add_cone(struct sums *s, const fl_cone *c)
     const double across =
         PI * h / 20.0 * (r * r * r * r + r * r * r * q + r * r * q * q + r * q * q * q + q * q * q * q);
     const double pk[3] = {p.x, p.y, p.z}, uk[3] = {u.x, u.y, u.z};
-    /* two terms to each second moment and to each first one: along the axis, and by where it stands */
+    /* two terms for each first and second moment: along the axis, and from the position of p0 */
     double x[2][TERMS] = {{[VOLUME] = volume,
                            [AREA] = PI * (r + q) * hypot(h, r - q) + PI * r * r + PI * q * q,
                            [FIRST] = volume * p.x,
@@ -80,7 +79,7 @@ fl_moments fl_moments_of(const fl_part *p, int32_t n)
 {
     const fl_surface all = {.n = n, .part = (fl_part *)p};
     const fl_aabb box = fl_surface_aabb(&all);
-    struct sums s = {0};
+    struct moment_sums s = {0};
     fl_moments m = {0};
     fl_vec3 c = {0};
     double k[6], trace;

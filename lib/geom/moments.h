@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* moments.h -- volume, area, centroid and inertia of what triangles and cones enclose, summed in 106 bits. */
+/* moments.h -- volume, area, centroid and inertia of solids of triangles and cones, summed in 106 bits. */
 #ifndef FL_GEOM_MOMENTS_H
 #define FL_GEOM_MOMENTS_H
 #include "geom/mat3.h"
@@ -10,19 +10,18 @@
  *     V C = sum D (a + b + c) / 24
  *     int x x^T dV = sum D / 120 (a a^T + b b^T + c c^T + (a + b + c)(a + b + c)^T)
  * and the tensor of inertia about the centroid, density one, J = tr(S) 1 - S, S = int (x - C)(x - C)^T dV.
- * Parts and cones are added up as if they did not overlap.  A term is a double, good to a few 1e-16 of its
- * own size because the sides of small triangles are differences without rounding; sums run in 106 bits, so
- * that millions of terms lose no more than one.  Where the triangles do not close, V, C and J are only sums.
- */
+ * Parts and cones are added as if they did not overlap.  Each term is a double with a relative error of a few
+ * 1e-16, since the sides of small triangles are exact differences.  The sums have 106 bits, so millions of
+ * terms lose no more than one does.  If the triangles are not closed, V, C and J are mere sums. */
 typedef struct {
     double volume;    /* [m^3] */
     double area;      /* [m^2] */
-    fl_vec3 centroid; /* [m]; that of the box when V is 0 */
+    fl_vec3 centroid; /* [m]; that of the box if V is 0 */
     fl_mat3 inertia;  /* [m^5] */
 } fl_moments;
 
-/* Of all n parts.  Cannot fail; nothing at all gives zeros.  Source: Tonon, J. Math. Stat. 1 (2005) 8, for
- * the tetrahedron; a truncated cone is integrated here in closed form. */
+/* Of all n parts.  Cannot fail; empty parts give zeros.  Source: Tonon, J. Math. Stat. 1 (2005) 8, for the
+ * tetrahedron; truncated cones are integrated here in closed form. */
 fl_moments fl_moments_of(const fl_part *p, int32_t n);
 
 #endif

@@ -6,19 +6,19 @@
 #include "base/pi.h"
 #include "geom/poly.h"
 
-/* Planes may miss their vertices, and vertices stand outside planes, by this fraction of the size: what input
- * written with ten digits shows. */
+/* Planes may miss their vertices, and vertices lie outside planes, by this fraction of the size: the rounding
+ * of input written with ten digits. */
 static const double FLAT_TOL = 1e-9;
-/* Shorter edges and narrower faces have no direction to speak of: with vertices good to DBL_EPSILON size the
- * normal of a face of this width is good to 1e-5 rad. */
+/* Shorter edges and narrower faces have no reliable direction: with vertices accurate to DBL_EPSILON size the
+ * normal of a face of this width is accurate to 1e-5 rad. */
 static const double WIDTH_TOL = 1e-10;
-/* Far from the origin the coordinates are coarse: one of magnitude m carries m eps / 2, and a plane through
- * three of them a few times that. */
+/* Rounding of coordinates far from the origin: a coordinate of magnitude m carries m eps / 2, a plane through
+ * three points a few times that. */
 static const double COARSE_TOL = 8 * DBL_EPSILON;
-/* Up to this many vertex-plane pairs every one is tried; beyond, the local test of edges decides. */
+/* Up to this many vertex-plane pairs all are tested; beyond, the local test of edges is used. */
 enum { ALL_PAIRS = 1 << 16 };
 
-/* What fl_poly_make() works with beside the result. */
+/* Working data of fl_poly_make(). */
 struct build {
     fl_poly p;
     double flat, width;     /* tolerances [m] */
@@ -28,8 +28,8 @@ struct build {
     int32_t *count;         /* [nv + 1] */
 };
 
-/* Lay the arrays of p out in one block; p has nv, nf, ne and the loop length nl.  Widest alignment first. */
-static int lay_out(fl_poly *p, int32_t nl, fl_err *err)
+/* Allocates the arrays of p in one block, widest alignment first.  nl is the total loop length. */
+static int allocate_arrays(fl_poly *p, int32_t nl, fl_err *err)
 {
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
     const size_t bytes = (nv + nf) * sizeof(fl_vec3) + (nf + ne + nv) * sizeof(double) +
@@ -49,14 +49,14 @@ static int lay_out(fl_poly *p, int32_t nl, fl_err *err)
     return 0;
 }
 
-/* The loop length, or -1: offsets rising, three vertices a face, indices in range. */
+/* Returns the loop length, or -1.  Checks: offsets rise, three vertices per face, indices in range. */
 static int32_t check_loops(int32_t nv, int32_t nf, const int32_t *first, const int32_t *loop, fl_err *err)
 {
     if (first[0] != 0)
         return fl_fail(err, FL_INPUT, "face 0 starts at %d of the index list, not at 0", first[0]);
     for (int32_t f = 0; f < nf; f++) {
         if ((int64_t)first[f + 1] - first[f] < 3)
-            return fl_fail(err, FL_INPUT, "face %d has %lld vertices, at least 3 are wanted", f,
+            return fl_fail(err, FL_INPUT, "face %d has %lld vertices, at least 3 are expected", f,
                            (long long)first[f + 1] - first[f]);
         for (int32_t k = first[f]; k < first[f + 1]; k++)
             if (loop[k] < 0 || loop[k] >= nv)
@@ -69,7 +69,7 @@ static int32_t check_loops(int32_t nv, int32_t nf, const int32_t *first, const i
     return first[nf];
 }
 
-static int32_t next_in(const fl_poly *p, int32_t f, int32_t k)
+static int32_t next_vertex(const fl_poly *p, int32_t f, int32_t k)
 {
     return p->loop[k + 1 < p->first[f + 1] ? k + 1 : p->first[f]];
 }
@@ -101,8 +101,8 @@ static double plane_offset(const fl_poly *p, int32_t f)
     return c;
 }
 
-/* A polygon whose corners all turn left and which turns once in all is convex and simple.  With four corners
- * of less than pi each a second turn is out of reach, so the angles are added up from five on. */
+/* A polygon whose corners all turn left and which turns once in total is convex and simple.  Four corners of
+ * less than pi each cannot turn twice, so the angles are summed from five corners on. */
 static int check_face(struct build *b, int32_t f, fl_err *err)
 {
     fl_poly *p = &b->p;
@@ -129,7 +129,7 @@ static int check_face(struct build *b, int32_t f, fl_err *err)
         const fl_vec3 x = p->v[at[k]], in = v3_sub(x, p->v[at[k ? k - 1 : m - 1]]),
                       out = v3_sub(p->v[at[k + 1 < m ? k + 1 : 0]], x);
         const double s = v3_dot(v3_cross(in, out), p->n[f]), c = v3_dot(in, out);
-        /* s over the longer side is how far the shorter side's far end stands off the longer's line */
+        /* s over the longer side is the distance of the shorter side's far end from the longer's line */
         if (s < -b->flat * sqrt(fmax(v3_norm2(in), v3_norm2(out))))
             return fl_fail(err, FL_INPUT, "face %d is not convex at vertex %d", f, at[k]);
         if (m > 4) turn += atan2(s, c);
@@ -139,7 +139,7 @@ static int check_face(struct build *b, int32_t f, fl_err *err)
     return 0;
 }
 
-/* Say what is wrong with face f, of which some vertex is known to stand outside. */
+/* Reports what is wrong with face f when some vertex lies outside it. */
 static int fail_outside(const struct build *b, int32_t f, fl_err *err)
 {
     const fl_poly *p = &b->p;
@@ -158,7 +158,7 @@ static int fail_outside(const struct build *b, int32_t f, fl_err *err)
                    f);
 }
 
-/* The mean vertex lies inside a convex body, and deep unless the body is flat. */
+/* The mean vertex lies inside a convex body, and well inside unless the body is flat. */
 static int check_inside(const struct build *b, fl_vec3 mean, fl_err *err)
 {
     const fl_poly *p = &b->p;
@@ -176,7 +176,7 @@ static int check_inside(const struct build *b, fl_vec3 mean, fl_err *err)
     return 0;
 }
 
-static int by_place(const void *a, const void *b)
+static int compare_points(const void *a, const void *b)
 {
     const fl_vec3 *s = a, *t = b;
     if (s->x < t->x || s->x > t->x) return s->x < t->x ? -1 : 1;
@@ -184,22 +184,22 @@ static int by_place(const void *a, const void *b)
     return (s->z > t->z) - (s->z < t->z);
 }
 
-/* The surface has a gap at (i, j); often because a corner was written twice, so that is looked for. */
+/* Reports a gap at edge (i, j).  A common cause is a vertex given twice, so that is searched. */
 static int fail_open(struct build *b, int32_t i, int32_t j, int32_t f, const char *how, fl_err *err)
 {
     fl_vec3 *v = fl_alloc(b->p.nv, sizeof *v, err);
     int twice = 0;
     if (!v) return -1;
     memcpy(v, b->p.v, (size_t)b->p.nv * sizeof *v);
-    qsort(v, (size_t)b->p.nv, sizeof *v, by_place);
-    for (int32_t k = 0; k + 1 < b->p.nv && !twice; k++) twice = by_place(v + k, v + k + 1) == 0;
+    qsort(v, (size_t)b->p.nv, sizeof *v, compare_points);
+    for (int32_t k = 0; k + 1 < b->p.nv && !twice; k++) twice = compare_points(v + k, v + k + 1) == 0;
     free(v);
     return fl_fail(err, FL_INPUT, "the edge of vertices %d and %d, on face %d, %s%s", i, j, f, how,
                    twice ? " (some vertices coincide)" : "");
 }
 
-/* Pair the half-edges: two stable counting sorts, by the larger end and then by the smaller, bring the halves
- * of an edge together and the edges into (a, b) order in linear time. */
+/* Pairs the half-edges by two stable counting sorts, by the larger end and then by the smaller.  This brings
+ * the halves of an edge together and puts the edges in (a, b) order, in linear time. */
 static int pair_edges(struct build *b, fl_err *err)
 {
     fl_poly *p = &b->p;
@@ -210,7 +210,7 @@ static int pair_edges(struct build *b, fl_err *err)
         memset(b->count, 0, ((size_t)p->nv + 1) * sizeof *b->count);
         for (int turn = 0; turn < 2; turn++) {
             for (int32_t s = 0; s < nh; s++) {
-                const int32_t k = pass ? b->other[s] : s, i = p->loop[k], j = next_in(p, b->face[k], k);
+                const int32_t k = pass ? b->other[s] : s, i = p->loop[k], j = next_vertex(p, b->face[k], k);
                 const int32_t key = (pass == 0) == (i > j) ? i : j;
                 if (turn == 0) b->count[key + 1]++;
                 else (pass ? b->order : b->other)[b->count[key]++] = k;
@@ -220,14 +220,14 @@ static int pair_edges(struct build *b, fl_err *err)
     }
     for (int32_t s = 0; s < nh; s += 2) {
         int32_t h = b->order[s], t = b->order[s + 1];
-        const int32_t i = p->loop[h], j = next_in(p, b->face[h], h), k = p->loop[t],
-                      l = next_in(p, b->face[t], t);
+        const int32_t i = p->loop[h], j = next_vertex(p, b->face[h], h), k = p->loop[t],
+                      l = next_vertex(p, b->face[t], t);
         if (i == k && j == l)
-            return fail_open(b, i, j, b->face[h], "runs the same way round another face", err);
+            return fail_open(b, i, j, b->face[h], "has the same direction in another face", err);
         if (i != l || j != k)
             return fail_open(b, i, j, b->face[h], "has no second face: the core is not closed", err);
         if (s + 2 < nh) {
-            const int32_t m = b->order[s + 2], q = p->loop[m], r = next_in(p, b->face[m], m);
+            const int32_t m = b->order[s + 2], q = p->loop[m], r = next_vertex(p, b->face[m], m);
             if ((q == i && r == j) || (q == j && r == i))
                 return fail_open(b, i, j, b->face[m], "belongs to more than two faces", err);
         }
@@ -247,12 +247,12 @@ static int32_t root_of(int32_t *up, int32_t f)
     return f;
 }
 
-/* One piece, and as many handles as a sphere. */
-static int check_sphere(struct build *b, fl_err *err)
+/* One surface, with the Euler characteristic of a sphere. */
+static int check_topology(struct build *b, fl_err *err)
 {
     const fl_poly *p = &b->p;
     int32_t pieces = p->nf;
-    int32_t *up = b->face; /* nf < nh, and the faces of half-edges have served */
+    int32_t *up = b->face; /* nf < nh, and the faces of half-edges are no longer needed */
     for (int32_t f = 0; f < p->nf; f++) up[f] = f;
     for (int32_t e = 0; e < p->ne; e++) {
         const int32_t l = root_of(up, p->edge[e].left), r = root_of(up, p->edge[e].right);
@@ -261,11 +261,11 @@ static int check_sphere(struct build *b, fl_err *err)
         else up[l] = r;
     }
     if (pieces > 1)
-        return fl_fail(err, FL_INPUT, "the faces form %d separate surfaces, one is wanted", pieces);
+        return fl_fail(err, FL_INPUT, "the faces form %d separate surfaces, one is expected", pieces);
     if (p->nv - p->ne + p->nf != 2)
         return fl_fail(err, FL_INPUT,
-                       "%d vertices, %d edges and %d faces close to no sphere: V - E + F = %d, not 2", p->nv,
-                       p->ne, p->nf, p->nv - p->ne + p->nf);
+                       "%d vertices, %d edges and %d faces do not form a sphere: V - E + F = %d, not 2",
+                       p->nv, p->ne, p->nf, p->nv - p->ne + p->nf);
     return 0;
 }
 
@@ -279,16 +279,16 @@ static int check_used(struct build *b, fl_err *err)
     return 0;
 }
 
-/* No edge bends inward: vertices of each face beside the edge's other face. */
-static int check_edges(const struct build *b, fl_err *err)
+/* No edge is concave: tests the vertices of each face against the plane across the edge. */
+static int check_edges_convex(const struct build *b, fl_err *err)
 {
     const fl_poly *p = &b->p;
-    if ((int64_t)p->nv * p->nf <= ALL_PAIRS) return 0; /* all were tried */
+    if ((int64_t)p->nv * p->nf <= ALL_PAIRS) return 0; /* all pairs were tested */
     for (int32_t e = 0; e < p->ne; e++) {
         const fl_edge s = p->edge[e];
         const fl_vec3 along = v3_unit(v3_sub(p->v[s.b], p->v[s.a]));
-        /* Convex: the left normal turns into the right one about along.  The sine of the bend times the
-         * extent of the smaller face bounds how far that face stands out of the other's plane. */
+        /* Convex: the left normal turns into the right one about `along`.  The sine of the bend times the
+         * extent of the smaller face bounds how far that face lies outside the other's plane. */
         const double bend = v3_dot(v3_cross(p->n[s.left], p->n[s.right]), along);
         if (bend >= 0.0 && v3_dot(p->n[s.left], p->n[s.right]) > -1.0) continue;
         for (int side = 0; side < 2; side++) {
@@ -305,9 +305,9 @@ static int check_edges(const struct build *b, fl_err *err)
     return 0;
 }
 
-/* A ray from inside through the middle of face 0 leaves the body there and nowhere else: a surface that bends
- * outward at every edge and does this covers its body once (Mehlhorn et al. 1999). */
-static int check_once(const struct build *b, fl_vec3 mean, fl_err *err)
+/* A ray from inside through the middle of face 0 leaves the body there and nowhere else.  A surface that is
+ * convex at every edge and passes this test covers its body once (Mehlhorn et al. 1999). */
+static int check_covers_once(const struct build *b, fl_vec3 mean, fl_err *err)
 {
     const fl_poly *p = &b->p;
     fl_vec3 aim = {0};
@@ -320,8 +320,8 @@ static int check_once(const struct build *b, fl_vec3 mean, fl_err *err)
         if (!inside) continue;
         const fl_vec3 x = v3_madd(mean, (p->c[f] - v3_dot(p->n[f], mean)) / rate, aim);
         for (int32_t k = p->first[f]; k < p->first[f + 1] && inside; k++) {
-            const fl_vec3 a = p->v[p->loop[k]], s = v3_sub(p->v[next_in(p, f, k)], a);
-            /* on the rim within the tolerance is outside: two faces may share a plane with face 0 */
+            const fl_vec3 a = p->v[p->loop[k]], s = v3_sub(p->v[next_vertex(p, f, k)], a);
+            /* on the boundary within the tolerance is outside: two faces may share the plane of face 0 */
             inside = v3_dot(v3_cross(s, v3_sub(x, a)), p->n[f]) > b->flat * v3_norm(s);
         }
         if (inside) return fl_fail(err, FL_INPUT, "faces 0 and %d lie over each other", f);
@@ -342,15 +342,15 @@ static double size_of(const fl_poly *p)
     return fmax(box.hi.x - box.lo.x, fmax(box.hi.y - box.lo.y, box.hi.z - box.lo.z));
 }
 
-/* Everything about a core with faces. */
-static int make_faces(struct build *b, fl_err *err)
+/* Runs all checks of a core with faces. */
+static int check_faces(struct build *b, fl_err *err)
 {
     fl_poly *p = &b->p;
     const fl_vec3 mean = mean_vertex(p);
     for (int32_t f = 0; f < p->nf; f++)
         if (check_face(b, f, err)) return -1;
-    return check_used(b, err) || check_inside(b, mean, err) || pair_edges(b, err) || check_sphere(b, err) ||
-                   check_edges(b, err) || check_once(b, mean, err)
+    return check_used(b, err) || check_inside(b, mean, err) || pair_edges(b, err) || check_topology(b, err) ||
+                   check_edges_convex(b, err) || check_covers_once(b, mean, err)
                ? -1
                : 0;
 }
@@ -382,7 +382,7 @@ int fl_poly_make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int
         if (nl < 0) return -1;
         b.p.ne = nl / 2;
     }
-    if (lay_out(&b.p, nl, err)) return -1;
+    if (allocate_arrays(&b.p, nl, err)) return -1;
     memcpy(b.p.v, v, (size_t)nv * sizeof *v);
     if (nf > 0) {
         memcpy(b.p.first, first, ((size_t)nf + 1) * sizeof *first);
@@ -404,7 +404,7 @@ int fl_poly_make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int
             goto done;
         }
     }
-    if (nf > 0 && make_faces(&b, err)) goto done;
+    if (nf > 0 && check_faces(&b, err)) goto done;
     fl_poly_angles(&b.p);
     *p = b.p;
     b.p = (fl_poly){0};
@@ -457,14 +457,14 @@ int fl_poly_copy(fl_poly *to, const fl_poly *from, fl_err *err)
 {
     fl_poly p = {.nv = from->nv, .nf = from->nf, .ne = from->ne, .size = from->size};
     const int32_t nl = from->first[from->nf];
-    if (lay_out(&p, nl, err)) return -1;
+    if (allocate_arrays(&p, nl, err)) return -1;
     memcpy(p.v, from->v, (size_t)p.nv * sizeof *p.v);
     memcpy(p.n, from->n, (size_t)p.nf * sizeof *p.n);
     memcpy(p.edge, from->edge, (size_t)p.ne * sizeof *p.edge);
     memcpy(p.first, from->first, ((size_t)p.nf + 1) * sizeof *p.first);
     memcpy(p.loop, from->loop, (size_t)nl * sizeof *p.loop);
     for (int32_t f = 0; f < p.nf; f++) p.c[f] = from->c ? from->c[f] : plane_offset(&p, f);
-    if (!from->bend) { /* it was without angles, or has a few */
+    if (!from->bend) { /* from has no angles, or a few */
         fl_poly_angles(&p);
         for (int32_t e = 0; e < p.ne; e++)
             if (fl_poly_edge_angle(from, e) < FL_POLY_BLUNT_EDGE) p.bend[e] = fl_poly_edge_angle(from, e);

@@ -55,7 +55,7 @@ void fl_polygon_rectangle(fl_vec2 lo, fl_vec2 hi, fl_vec2 *v, fl_polygon_side *s
     side[3] = (fl_polygon_side){0.0, 1.0, hi.y, -4};
 }
 
-static void reverse(fl_vec2 *v, fl_polygon_side *side, int32_t a, int32_t b)
+static void reverse_range(fl_vec2 *v, fl_polygon_side *side, int32_t a, int32_t b)
 {
     for (; a < b; a++, b--) {
         const fl_vec2 p = v[a];
@@ -67,16 +67,16 @@ static void reverse(fl_vec2 *v, fl_polygon_side *side, int32_t a, int32_t b)
     }
 }
 
-/* Make entry k the first. */
-static void rotate(int32_t n, fl_vec2 *v, fl_polygon_side *side, int32_t k)
+/* Rotates the arrays so that entry k comes first. */
+static void rotate_to_front(int32_t n, fl_vec2 *v, fl_polygon_side *side, int32_t k)
 {
     if (k == 0) return;
-    reverse(v, side, 0, k - 1);
-    reverse(v, side, k, n - 1);
-    reverse(v, side, 0, n - 1);
+    reverse_range(v, side, 0, k - 1);
+    reverse_range(v, side, k, n - 1);
+    reverse_range(v, side, 0, n - 1);
 }
 
-static fl_vec2 crossing(fl_vec2 a, fl_vec2 b, double beyond_a, double beyond_b)
+static fl_vec2 line_crossing(fl_vec2 a, fl_vec2 b, double beyond_a, double beyond_b)
 {
     const double t = beyond_a / (beyond_a - beyond_b);
     return (fl_vec2){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
@@ -85,33 +85,33 @@ static fl_vec2 crossing(fl_vec2 a, fl_vec2 b, double beyond_a, double beyond_b)
 int32_t fl_polygon_cut(int32_t n, fl_vec2 *v, fl_polygon_side *side, fl_polygon_side h)
 {
     int32_t in = -1, m = 0;
-    fl_vec2 last, home;
-    fl_polygon_side back;
-    double s_in, s_out, s_last, s_home;
+    fl_vec2 last, first;
+    fl_polygon_side closing_side;
+    double s_in, s_out, s_last, s_first;
     for (int32_t k = 0; k < n; k++) {
         const int inside = fl_polygon_side_distance(h, v[k]) <= 0.0;
         m += inside;
         if (inside && fl_polygon_side_distance(h, v[k ? k - 1 : n - 1]) > 0.0) in = k;
     }
     if (m == n || m == 0 || in < 0) return m;
-    /* The corners inside come first now, [0, m); those beyond follow. */
-    rotate(n, v, side, in);
+    /* The corners inside come first, [0, m); those beyond the line follow. */
+    rotate_to_front(n, v, side, in);
     s_in = fl_polygon_side_distance(h, v[m - 1]);
     s_out = fl_polygon_side_distance(h, v[m]);
     last = v[n - 1];
-    back = side[n - 1];
-    home = v[0];
+    closing_side = side[n - 1];
+    first = v[0];
     s_last = fl_polygon_side_distance(h, last);
-    s_home = fl_polygon_side_distance(h, home);
+    s_first = fl_polygon_side_distance(h, first);
     /* A corner on the line itself serves as the end of the new side: no side of length zero is made. */
     if (s_in < 0.0) {
-        v[m] = crossing(v[m - 1], v[m], s_in, s_out);
+        v[m] = line_crossing(v[m - 1], v[m], s_in, s_out);
         m++;
     }
     side[m - 1] = h;
-    if (s_home < 0.0) {
-        v[m] = crossing(last, home, s_last, s_home);
-        side[m++] = back;
+    if (s_first < 0.0) {
+        v[m] = line_crossing(last, first, s_last, s_first);
+        side[m++] = closing_side;
     }
     return m >= 3 ? m : 0;
 }
@@ -131,29 +131,30 @@ int32_t fl_polygon_inset(int32_t n, fl_vec2 *v, fl_polygon_side *side, double d,
 {
     double t = 0.0;
     while (n >= 3) {
-        int32_t gone = 0;
-        double soon = INFINITY;
+        int32_t vanishing = 0;
+        double next_event = INFINITY;
         for (int32_t k = 0; k < n; k++) {
             const fl_polygon_side before = side[k ? k - 1 : n - 1], after = side[k + 1 < n ? k + 1 : 0];
             const fl_vec2 e = sub(v[k + 1 < n ? k + 1 : 0], v[k]);
             const double length = e.y * side[k].nx - e.x * side[k].ny;
             const double left = length / (fl_polygon_side_half_tan(before, side[k]) +
                                           fl_polygon_side_half_tan(side[k], after));
-            if (left < soon) {
-                soon = left;
-                gone = k;
+            if (left < next_event) {
+                next_event = left;
+                vanishing = k;
             }
         }
-        if (soon > d - t) {
+        if (next_event > d - t) {
             fl_polygon_corners(n, side, d, v);
             *depth = d;
             return n;
         }
-        if (soon > 0.0) t += soon; /* rounding may leave a side a little less than nothing */
+        if (next_event > 0.0) t += next_event; /* rounding may make the length of a side slightly negative */
         n--;
-        for (int32_t k = gone; k < n; k++) side[k] = side[k + 1];
-        /* The neighbours face each other, or the corner is past them: nothing is left between. */
-        if (n < 3 || fl_polygon_side_sin(side[gone ? gone - 1 : n - 1], side[gone < n ? gone : 0]) <= 0.0)
+        for (int32_t k = vanishing; k < n; k++) side[k] = side[k + 1];
+        /* The neighbours are parallel, or the corner has passed them: nothing is left between. */
+        if (n < 3 || fl_polygon_side_sin(side[vanishing ? vanishing - 1 : n - 1],
+                                         side[vanishing < n ? vanishing : 0]) <= 0.0)
             break;
         fl_polygon_corners(n, side, t, v);
     }
@@ -173,8 +174,8 @@ void fl_polygon_outset(int32_t n, const fl_vec2 *v, double r, fl_vec2 *out)
     }
 }
 
-/* From the nearest point of a segment to p. */
-static fl_vec2 to_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
+/* Vector from the nearest point of the segment to p. */
+static fl_vec2 vector_to_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
 {
     const fl_vec2 e = sub(b, a), w = sub(p, a);
     double t = dot(w, e) / dot(e, e);
@@ -182,9 +183,9 @@ static fl_vec2 to_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
     return (fl_vec2){w.x - t * e.x, w.y - t * e.y};
 }
 
-static double from_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
+static double distance_to_segment(fl_vec2 p, fl_vec2 a, fl_vec2 b)
 {
-    const fl_vec2 d = to_segment(p, a, b);
+    const fl_vec2 d = vector_to_segment(p, a, b);
     return hypot(d.x, d.y);
 }
 
@@ -194,7 +195,7 @@ double fl_polygon_point_distance(int32_t n, const fl_vec2 *v, fl_vec2 p)
     int inside = 1;
     for (int32_t k = 0; k < n; k++) {
         const fl_vec2 a = v[k], b = v[k + 1 < n ? k + 1 : 0];
-        const double d = from_segment(p, a, b);
+        const double d = distance_to_segment(p, a, b);
         if (cross(sub(b, a), sub(p, a)) < 0.0) inside = 0;
         if (d < least) least = d;
     }
@@ -217,7 +218,7 @@ int fl_polygon_is_apart(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b
     return side_separates(m, a, n, b) || side_separates(n, b, m, a);
 }
 
-/* Squares are compared, and the root of the least one is taken at the end. */
+/* Squares are compared; the root is taken of the smallest only. */
 double fl_polygon_distance(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2 *b)
 {
     double least = INFINITY;
@@ -226,7 +227,7 @@ double fl_polygon_distance(int32_t m, const fl_vec2 *a, int32_t n, const fl_vec2
         const fl_vec2 a1 = a[i + 1 < m ? i + 1 : 0];
         for (int32_t j = 0; j < n; j++) {
             const fl_vec2 b1 = b[j + 1 < n ? j + 1 : 0];
-            const fl_vec2 d = to_segment(a[i], b[j], b1), e = to_segment(b[j], a[i], a1);
+            const fl_vec2 d = vector_to_segment(a[i], b[j], b1), e = vector_to_segment(b[j], a[i], a1);
             const double dd = dot(d, d), ee = dot(e, e);
             if (dd < least) {
                 least = dd;

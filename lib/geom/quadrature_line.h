@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* quadrature_line.h -- int s^(9/2) along straight lines on which s is linear, four lines at a time.
  *
- * Where the root of s goes from p to q, node z of a rule of Gauss has the root r = p + (q - p) z, at
- * z (r + p)/(q + p) of the length: in z the integrand s^(9/2) dt is a polynomial of degree 10. */
+ * Where the root of s goes from p to q, node z of a Gauss rule has the root r = p + (q - p) z, at the
+ * fraction z (r + p)/(q + p) of the length.  Over z the integrand s^(9/2) dt is a polynomial of degree 10, so
+ * the rule is exact. */
 #ifndef FL_GEOM_QUADRATURE_LINE_H
 #define FL_GEOM_QUADRATURE_LINE_H
 #include "base/simd.h"
 #include "geom/quadrature_rules.h"
 
-/* Over 2/(p + q) of the length: of s^(5/2), s^(7/2) and s^(9/2); and of s^(7/2) times t and t^2, with t the
- * share of the length times p + q. */
+/* Integrals over the length, times (p + q)/2: of s^(5/2), s^(7/2) and s^(9/2); of s^(7/2) times t and t^2, t
+ * being the fraction of the length times p + q. */
 typedef struct {
     fl_simd ddu, du, u, first, second;
 } fl_line_integrals;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* quadrature_rules.h -- points and weights of numerical integration that several files use. */
+/* quadrature_rules.h -- nodes and weights of numerical integration over a triangle and over [0, 1]. */
 #ifndef FL_GEOM_QUADRATURE_RULES_H
 #define FL_GEOM_QUADRATURE_RULES_H
 
-/* Points of a triangle as shares of its corners, exact for polynomials of degree 5: the middle, and two
- * triples (1 - 2a, a, a).  Dunavant, Int. J. Numer. Meth. Eng. 21 (1985) 1129. */
+/* Nodes of a triangle in barycentric coordinates, weights for the mean; exact for polynomials of degree 5:
+ * the centroid and two triples (1 - 2a, a, a).  Dunavant, Int. J. Numer. Meth. Eng. 21 (1985) 1129. */
 enum { FL_TRIANGLE_NODES = 7 };
 #define FL_TRIANGLE_A 0.47014206410511508977
 #define FL_TRIANGLE_B 0.10128650732345633880
@@ -24,7 +24,19 @@ static const double FL_TRIANGLE_WEIGHT[FL_TRIANGLE_NODES] = {0.225,
                                                              0.12593918054482715260,
                                                              0.12593918054482715260};
 
-/* Gauss and Legendre on [0, 1], exact for polynomials of degree 11. */
+/* Gauss-Legendre rules on [0, 1].  n points are exact for polynomials of degree 2 n - 1.  3 points: */
+enum { FL_LINE3_NODES = 3 };
+static const double FL_LINE3_NODE[FL_LINE3_NODES] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
+static const double FL_LINE3_WEIGHT[FL_LINE3_NODES] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+/* 4 points. */
+enum { FL_LINE4_NODES = 4 };
+static const double FL_LINE4_NODE[FL_LINE4_NODES] = {0.06943184420297371239, 0.33000947820757186760,
+                                                     0.66999052179242813240, 0.93056815579702628761};
+static const double FL_LINE4_WEIGHT[FL_LINE4_NODES] = {0.17392742256872692869, 0.32607257743127307131,
+                                                       0.32607257743127307131, 0.17392742256872692869};
+
+/* 6 points. */
 enum { FL_LINE_NODES = 6 };
 static const double FL_LINE_NODE[FL_LINE_NODES] = {0.03376524289842398609, 0.16939530676686774317,
                                                    0.38069040695840154568, 0.61930959304159845432,
@@ -33,7 +45,7 @@ static const double FL_LINE_WEIGHT[FL_LINE_NODES] = {0.08566224618958517252, 0.1
                                                      0.23395696728634552369, 0.23395696728634552369,
                                                      0.18038078652406930378, 0.08566224618958517252};
 
-/* And to degree 19.  The room is for full registers; what is more is 0. */
+/* 10 points, padded with zeros to full SIMD registers. */
 enum { FL_LINE10_NODES = 10, FL_LINE10_PADDED = 12 };
 static const double FL_LINE10_NODE[FL_LINE10_PADDED] = {
     0.01304673574141413996, 0.06746831665550774463, 0.16029521585048779688, 0.28330230293537640460,

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* quadrature_triangle.h -- means over a triangle of powers of s, which is linear in it, four triangles at a time.
+/* quadrature_triangle.h -- means over a triangle of powers of a linear function s, four triangles at a time.
  *
- * With s = a, b, c at the corners they are complete symmetric sums h_k of degree k, in which no number is
- * subtracted:
- *     mean s^k = 2 k!/(k+2)! h_k(a, b, c),   mean s^k l_a = 2 k!/(k+3)! h_k(a, b, c, a),
- *     mean s^k l_a l_b = 2 k!/(k+4)! h_k(a, b, c, a, b),
- * where l_a is the share of the first corner, and so on; h_k(.., b) = h_k(..) + b h_(k-1)(.., b). */
+ * With the values a, b, c of s at the corners and the barycentric coordinates l_a, l_b, l_c,
+ *     mean s^k         = 2 k!/(k+2)! h_k(a, b, c)
+ *     mean s^k l_a     = 2 k!/(k+3)! h_k(a, b, c, a)
+ *     mean s^k l_a l_b = 2 k!/(k+4)! h_k(a, b, c, a, b)
+ * where h_k is the complete symmetric polynomial of degree k, h_k(.., b) = h_k(..) + b h_(k-1)(.., b).
+ * Nothing is subtracted, so no digits are lost. */
 #ifndef FL_GEOM_QUADRATURE_TRIANGLE_H
 #define FL_GEOM_QUADRATURE_TRIANGLE_H
 #include "base/simd.h"
 
-/* Of s^2, s^3 and s^4; and 60 and 420 times those of s^3 with one share and with two. */
+/* Means of s^2, s^3 and s^4; 60 times those of s^3 with one barycentric coordinate, 420 times those with two.
+ */
 typedef struct {
     fl_simd s2, s3, s4, a, b, c, ab, ac, bc;
 } fl_triangle_means;
@@ -33,7 +35,8 @@ typedef struct {
     fl_simd x, y, xx, xy, yy;
 } fl_triangle_moments;
 
-/* p, q, r: x and y of the corners.  sum w_i x_i^2 - sum w_ij (x_i - x_j)^2, with w_i the sum of all w_ij. */
+/* p, q, r: x and y of the corners.  Second moments are sum w_i x_i^2 - sum w_ij (x_i - x_j)^2, w_i the sum of
+ * all w_ij. */
 FL_SIMD_INLINE void fl_triangle_moments_of(const fl_triangle_means *k, const fl_simd *p, const fl_simd *q,
                                            const fl_simd *r, fl_triangle_moments *out)
 {

@@ -19,9 +19,9 @@ fl_quat q_of_matrix(fl_mat3 a)
     return q_unit(q);
 }
 
-/* cos x and sin(x)/x from x^2, for any x: the argument is halved until |x| <= 1/4 and doubled back by
- * 1 - cos 2x = 2 (1 - cos x) (1 + cos x), sinc 2x = sinc x cos x.  Steps turn bodies by far less than half a
- * radian, so the loop is seldom entered. */
+/* cos x and sin(x)/x from x^2, for any x.  The argument is halved until |x| <= 1/4 and doubled back by 1 -
+ * cos 2x = 2 (1 - cos x) (1 + cos x), sinc 2x = sinc x cos x.  A step turns a body by far less than half a
+ * radian, so the loop is rarely entered. */
 static void cos_sinc(double x2, double *c, double *s)
 {
     int twice = 0;

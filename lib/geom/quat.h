@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* quat.h -- unit quaternions (w, x, y, z) that turn body axes into world axes, by value. */
+/* quat.h -- unit quaternions (w, x, y, z) for the rotation from body axes to world axes, by value. */
 #ifndef FL_GEOM_QUAT_H
 #define FL_GEOM_QUAT_H
 #include "geom/mat3.h"
@@ -21,7 +21,7 @@ static inline fl_quat q_unit(fl_quat q)
     const double s = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
 }
-/* The rotation matrix of q: columns are the body axes in the world. */
+/* The rotation matrix of q: its columns are the body axes in the world. */
 static inline fl_mat3 q_matrix(fl_quat q)
 {
     const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z,
@@ -32,11 +32,11 @@ static inline fl_mat3 q_matrix(fl_quat q)
 }
 static inline fl_vec3 q_rotate(fl_quat q, fl_vec3 v) { return m3_mul(q_matrix(q), v); }
 
-/* The quaternion whose matrix is the proper rotation a (Shepperd's choice of the largest element). */
+/* The quaternion of the rotation matrix a.  Source: Shepperd's choice of the largest element. */
 fl_quat q_of_matrix(fl_mat3 a);
 
-/* 1 - cos x, which doubles without cancellation, and sin(x)/x, from x^2: series of which the first term left
- * out is below 1e-18 up to Q_HALF_ANGLE2_SMALL, as in nearly all steps, */
+/* 1 - cos x, without cancellation, and sin(x)/x, from x^2.  The first omitted term of these series is below
+ * 1e-18 for x^2 up to Q_HALF_ANGLE2_SMALL, which nearly all steps satisfy, */
 #define Q_HALF_ANGLE2_SMALL 4e-4
 static inline double q_versine_small(double x2)
 {
@@ -70,10 +70,10 @@ static inline double q_sinc(double x2)
 }
 
 /* Rotation by |r| about r, r in rad.  Half-angle sine and cosine come from a fixed polynomial (quat.c), so
- * the bits do not depend on the C library; error below 2e-16 for |r| <= 1/2 and
- * growing slowly beyond (2e-15 at 10 rad). */
+ * the bits do not depend on the C library.  Error below 2e-16 for |r| <= 1/2, growing slowly beyond (2e-15 at
+ * 10 rad). */
 fl_quat q_of_vector(fl_vec3 r);
-/* The same about body axis k = 0, 1, 2 by angle a: half the work. */
+/* Same about body axis k = 0, 1, 2 by angle a [rad], at half the cost. */
 fl_quat q_about_axis(int k, double a);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rows3.h -- 3 x 3 matrices by their rows, for loops over lanes: there compilers want no arrays by value. */
+/* rows3.h -- 3 x 3 matrices by their rows, for loops over lanes, where arrays by value are slow. */
 #ifndef FL_GEOM_ROWS3_H
 #define FL_GEOM_ROWS3_H
 #include "base/simd.h"

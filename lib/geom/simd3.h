@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* simd3.h -- vectors by lanes: four of them at a time.  Macros, as in base/simd.h. */
+/* simd3.h -- vectors in four lanes.  Macros, as in base/simd.h. */
 #ifndef FL_GEOM_SIMD3_H
 #define FL_GEOM_SIMD3_H
 #include "base/simd.h"

@@ -5,50 +5,50 @@
 #include "base/array.h"
 #include "geom/surface.h"
 
-/* Names stand in tables cut at blanks, where '#' opens a comment; bytes above ASCII pass as they are. */
-static char clean(const char *name, size_t k)
+/* Names appear in tables that are split at blanks and where '#' opens a comment.  Other bytes stay. */
+static char clean_char(const char *name, size_t k)
 {
     return (unsigned char)name[k] <= ' ' || name[k] == 0x7f || (k == 0 && name[k] == '#') ? '_' : name[k];
 }
 
-static int same_name(const char *cleaned, const char *name, size_t len)
+static int name_matches(const char *cleaned, const char *name, size_t len)
 {
     for (size_t k = 0; k < len; k++)
-        if (cleaned[k] == '\0' || cleaned[k] != clean(name, k)) return 0;
+        if (cleaned[k] == '\0' || cleaned[k] != clean_char(name, k)) return 0;
     return cleaned[len] == '\0';
 }
 
-enum { FEW = 256 }; /* bytes of most names */
+enum { SHORT_NAME = 256 }; /* bytes that hold most names */
 
-/* Part i, if it still has that name, or the one that has it now. */
-static int32_t find_from(const fl_surface *s, int32_t i, const char *name, size_t len)
+/* Index of the part with that name; part i is tried first. */
+static int32_t find_part(const fl_surface *s, int32_t i, const char *name, size_t len)
 {
-    if (i < s->n && same_name(s->part[i].name, name, len)) return i;
+    if (i < s->n && name_matches(s->part[i].name, name, len)) return i;
     for (i = 0; i < s->n; i++)
-        if (same_name(s->part[i].name, name, len)) return i;
+        if (name_matches(s->part[i].name, name, len)) return i;
     return -1;
 }
 
 int32_t fl_surface_find(const fl_surface *s, const char *name, size_t len)
 {
-    char few[FEW], *word = len < FEW ? few : malloc(len + 1);
+    char few[SHORT_NAME], *word = len < SHORT_NAME ? few : malloc(len + 1);
     int32_t k;
-    if (!word || s->given_names.n == 0) { /* names that came another way */
+    if (!word || s->given_names.n == 0) { /* parts named in another way */
         if (word != few) free(word);
-        return find_from(s, 0, name, len);
+        return find_part(s, 0, name, len);
     }
-    for (size_t i = 0; i < len; i++) word[i] = clean(name, i);
+    for (size_t i = 0; i < len; i++) word[i] = clean_char(name, i);
     word[len] = '\0';
     k = fl_string_table_find(&s->given_names, word);
     if (word != few) free(word);
-    return k < 0 ? -1 : find_from(s, s->given_index[k], name, len);
+    return k < 0 ? -1 : find_part(s, s->given_index[k], name, len);
 }
 
-/* Above the ids there are. */
-static int32_t new_id(fl_surface *s)
+/* The smallest id above all ids in use. */
+static int32_t next_free_id(fl_surface *s)
 {
     if (s->n != s->n_after_add)
-        s->ids_counted = s->next_id = 0; /* some left, and others may be in their places */
+        s->ids_counted = s->next_id = 0; /* parts were removed, and others may have taken their places */
     for (; s->ids_counted < s->n; s->ids_counted++) {
         const int32_t id = s->part[s->ids_counted].id;
         if (id >= s->next_id && id < INT32_MAX) s->next_id = id + 1;
@@ -56,8 +56,8 @@ static int32_t new_id(fl_surface *s)
     return s->next_id;
 }
 
-/* Remember where the part of a name is. */
-static int remember(fl_surface *s, const char *word, int32_t i, fl_err *err)
+/* Records the index of the part with a name. */
+static int record_name(fl_surface *s, const char *word, int32_t i, fl_err *err)
 {
     const int64_t n = (int64_t)s->given_names.n + 1;
     int32_t k;
@@ -70,9 +70,9 @@ static int remember(fl_surface *s, const char *word, int32_t i, fl_err *err)
     return k < 0 ? -1 : 0;
 }
 
-/* Put "_2", "_3" ... behind a word of length len until nobody has it.  Behind the first few the search goes
- * on where it ended: thousands of parts may come with one name. */
-static void make_free(fl_surface *s, char *word, size_t len)
+/* Appends "_2", "_3", ... to a word of length len until the name is free.  After the first few numbers the
+ * search continues where it last ended, since thousands of parts may have the same name. */
+static void make_unique(fl_surface *s, char *word, size_t len)
 {
     enum { FIRST = 2, LAST = 9 };
     const int32_t base = s->given_names.n ? fl_string_table_find(&s->given_names, word) : -1;
@@ -88,14 +88,14 @@ int32_t fl_surface_add(fl_surface *s, const char *name, size_t len, fl_err *err)
     const size_t room = len + 16; /* for "part" or the longest "_N" */
     char *word = fl_alloc((int64_t)room, 1, err);
     if (!word || fl_grow(&s->part, &s->cap, s->n + 1, sizeof *s->part, err)) goto failed;
-    for (size_t k = 0; k < len; k++) word[k] = clean(name, k);
+    for (size_t k = 0; k < len; k++) word[k] = clean_char(name, k);
     if (len == 0) {
         memcpy(word, "part", 4);
         len = 4;
     }
-    make_free(s, word, len);
-    if (remember(s, word, s->n, err)) goto failed;
-    s->part[s->n] = (fl_part){.name = word, .id = new_id(s)};
+    make_unique(s, word, len);
+    if (record_name(s, word, s->n, err)) goto failed;
+    s->part[s->n] = (fl_part){.name = word, .id = next_free_id(s)};
     s->n_after_add = ++s->n;
     return s->n - 1;
 failed:
@@ -124,7 +124,7 @@ int fl_surface_cone(fl_part *p, fl_cone c, fl_err *err)
     return 0;
 }
 
-/* A disc of radius r and unit normal a reaches r sqrt(1 - a_k^2) along axis k. */
+/* A disc of radius r and unit normal a extends r sqrt(1 - a_k^2) along axis k. */
 fl_aabb fl_cone_aabb(const fl_cone *c)
 {
     const fl_vec3 a = v3_unit(v3_sub(c->p1, c->p0));
@@ -134,8 +134,8 @@ fl_aabb fl_cone_aabb(const fl_cone *c)
     return aabb_add(aabb_add(b, v3_madd(c->p1, -c->r1, reach)), v3_madd(c->p1, c->r1, reach));
 }
 
-/* As aabb_add(), without calls of the C library: millions of corners go through here. */
-static inline void take_in(fl_aabb *b, fl_vec3 x)
+/* Same as aabb_add(), without calls to the C library: millions of corners pass through here. */
+static inline void extend_box(fl_aabb *b, fl_vec3 x)
 {
     b->lo.x = x.x < b->lo.x ? x.x : b->lo.x;
     b->lo.y = x.y < b->lo.y ? x.y : b->lo.y;
@@ -149,7 +149,7 @@ fl_aabb fl_part_aabb(const fl_part *p)
 {
     fl_aabb b = aabb_empty();
     for (int32_t t = 0; t < p->nt; t++)
-        for (int k = 0; k < 3; k++) take_in(&b, p->v[p->t[t].v[k]]);
+        for (int k = 0; k < 3; k++) extend_box(&b, p->v[p->t[t].v[k]]);
     for (int32_t c = 0; c < p->nc; c++) b = aabb_join(b, fl_cone_aabb(&p->cone[c]));
     return b;
 }

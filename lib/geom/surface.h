@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* surface.h -- what ice meets: named parts made of triangles and of solid truncated cones. */
+/* surface.h -- the surface of a structure: named parts made of triangles and solid truncated cones. */
 #ifndef FL_GEOM_SURFACE_H
 #define FL_GEOM_SURFACE_H
 #include <stddef.h>
@@ -10,11 +10,11 @@
 #include "geom/vec3.h"
 
 typedef struct {
-    int32_t v[3]; /* vertices, counter-clockwise seen from outside; the normal is outward */
+    int32_t v[3]; /* vertices, counter-clockwise from outside; the normal is outward */
 } fl_tri;
 
-/* The convex hull of the disc of radius r0 about p0 and the disc of radius r1 about p1, both at right angles
- * to p1 - p0.  r0 = r1 is a cylinder, one of them 0 a pointed cone. */
+/* The convex hull of the disc of radius r0 about p0 and the disc of radius r1 about p1, both normal to p1 -
+ * p0.  r0 = r1 is a cylinder, one of them 0 a pointed cone. */
 typedef struct {
     fl_vec3 p0, p1; /* [m] */
     double r0, r1;  /* [m] */
@@ -28,32 +28,31 @@ typedef struct {
     fl_tri *t;     /* [nt] indices into v */
     fl_cone *cone; /* [nc] */
     int32_t v_cap, t_cap, c_cap;
-    int32_t duplicates;      /* elements of its file that stood on others, and were left out */
-    int32_t line, last_line; /* of its first and last triangle in a g_struct file, as it was read; else 0 */
+    int32_t duplicates;      /* elements of its file that coincided with others and were left out */
+    int32_t line, last_line; /* line of its first and last triangle in a g_struct file; else 0 */
 } fl_part;
 
 typedef struct {
     int32_t n, cap;
-    fl_part *part; /* [n]; moves when a part is added */
-    char *history; /* the "#by ..." lines of the file it came from, NULL for none */
-    fl_string_table
-        given_names;      /* names that fl_surface_add() gave: one that is not among them is nobody's */
-    int32_t *given_index; /* [met.n] where the part of that name was */
-    int32_t *next_suffix; /* [met.n] the name with this number behind it was free, 0 when nobody asked */
+    fl_part *part;               /* [n]; moves when a part is added */
+    char *history;               /* the "#by ..." lines of its file, NULL for none */
+    fl_string_table given_names; /* names given by fl_surface_add(); other names are not in use */
+    int32_t *given_index;        /* [given_names.n] last known index of the part of that name */
+    int32_t *next_suffix; /* [given_names.n] smallest suffix number to try for the name; 0: not used yet */
     int32_t given_cap, suffix_cap;
     int32_t n_after_add, ids_counted,
-        next_id; /* n when a part was added last; next_id is above the ids of 0 .. counted */
+        next_id; /* n at the last addition; next_id is above the ids of parts 0 .. ids_counted */
 } fl_surface;
 
-/* Thousands of parts are found at once as long as their names are given by fl_surface_add(); they may leave,
- * change places and hand on their names.  The id of a part may be set before the next one is added. */
+/* Thousands of parts are found quickly if fl_surface_add() gives their names.  Parts may be removed,
+ * exchanged and renamed.  The id of a part may be set before the next one is added. */
 
-/* Add an empty part; its id is the largest so far plus one (0 first).  Of name[0 .. len) every byte up to
- * the blank, and a leading '#', becomes '_'; an empty name becomes "part"; a name that is taken gets "_2",
- * "_3", ... Returns the index of the part, or -1 with FL_SYSTEM. */
+/* Adds an empty part; its id is the largest so far plus one (0 first).  Of name[0 .. len) every byte up to
+ * the blank, and a leading '#', becomes '_'; an empty name becomes "part"; a name in use gets "_2", "_3", ...
+ * Returns the index of the part, or -1 with FL_SYSTEM. */
 int32_t fl_surface_add(fl_surface *s, const char *name, size_t len, fl_err *err);
 
-/* Index of the part of that name (compared after the same cleaning), -1 when there is none. */
+/* Index of the part of that name (compared after the same replacements), -1 if there is none. */
 int32_t fl_surface_find(const fl_surface *s, const char *name, size_t len);
 
 /* Append to a part.  Return 0, or -1 with FL_SYSTEM.  Indices are not checked here. */
@@ -61,7 +60,7 @@ int fl_surface_vertex(fl_part *p, fl_vec3 x, fl_err *err);
 int fl_surface_triangle(fl_part *p, int32_t a, int32_t b, int32_t c, fl_err *err);
 int fl_surface_cone(fl_part *p, fl_cone c, fl_err *err);
 
-/* Boxes of the vertices in use and of the cones; empty when there is nothing. */
+/* Boxes of used vertices and of cones; empty if there are none. */
 fl_aabb fl_part_aabb(const fl_part *p);
 fl_aabb fl_surface_aabb(const fl_surface *s);
 fl_aabb fl_cone_aabb(const fl_cone *c);

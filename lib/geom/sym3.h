@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sym3.h -- symmetric three by three matrices, by value. */
+/* sym3.h -- symmetric 3 x 3 matrices, by value. */
 #ifndef FL_GEOM_SYM3_H
 #define FL_GEOM_SYM3_H
 #include "base/simd.h"
@@ -20,16 +20,16 @@ FL_SIMD_INLINE fl_sym3 s3_add(fl_sym3 a, fl_sym3 b)
     return (fl_sym3){a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
 }
 
-/* The same in all directions. */
+/* d times the unit matrix. */
 FL_SIMD_INLINE fl_sym3 s3_isotropic(double d) { return (fl_sym3){.xx = d, .yy = d, .zz = d}; }
 
-/* The products of x, y, z with a, b, c where those are a symmetric matrix of these. */
+/* x a^T + y b^T + z c^T, where the result is symmetric. */
 FL_SIMD_INLINE fl_sym3 s3_products(fl_vec3 x, fl_vec3 y, fl_vec3 z, fl_vec3 a, fl_vec3 b, fl_vec3 c)
 {
     return (fl_sym3){v3_dot(a, x), v3_dot(a, y), v3_dot(a, z), v3_dot(b, y), v3_dot(b, z), v3_dot(c, z)};
 }
 
-/* K of a frame whose axes are x, y, z. */
+/* K given in a frame with axes x, y, z, transformed to the outer frame. */
 FL_SIMD_INLINE fl_sym3 s3_rotated(fl_sym3 K, fl_vec3 x, fl_vec3 y, fl_vec3 z)
 {
     const fl_vec3 a = v3_madd(v3_madd(v3_scale(K.xx, x), K.xy, y), K.xz, z),

@@ -35,11 +35,11 @@ static inline fl_vec3 v3_mul(fl_vec3 a, fl_vec3 b) { return v3(a.x * b.x, a.y * 
 /* a + t (b - a) */
 static inline fl_vec3 v3_lerp(fl_vec3 a, fl_vec3 b, double t) { return v3_madd(a, t, v3_sub(b, a)); }
 static inline int v3_finite(fl_vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
-/* Some component is not zero. */
+/* True if a component is not zero. */
 static inline int v3_nonzero(fl_vec3 a) { return a.x != 0.0 || a.y != 0.0 || a.z != 0.0; }
 /* Component 0, 1 or 2. */
 static inline double v3_at(fl_vec3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
-/* A unit vector at right angles to the unit vector n, chosen by its smallest component. */
+/* A unit vector normal to the unit vector n, chosen by its smallest component. */
 static inline fl_vec3 v3_normal_to(fl_vec3 n)
 {
     const double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);

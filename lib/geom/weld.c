@@ -3,84 +3,89 @@
 #include "base/array.h"
 #include "geom/weld.h"
 
-static const double SHARE = 1e-6;    /* default tolerance over diagonal; see weld.h */
-static const double NO_TOL = 1e-15;  /* cells of less than this would not fit in 53 bits */
+static const double SHARE = 1e-6;    /* default tolerance relative to the diagonal, see weld.h */
+static const double NO_TOL = 1e-15;  /* smaller cells would need more than 53 bits */
 static const double TOO_FAR = 1e150; /* squares of lengths must not overflow */
 
-static uint64_t mix(uint64_t h)
+static uint64_t mix_bits(uint64_t h)
 {
     h ^= h >> 29;
     h *= UINT64_C(0xbf58476d1ce4e5b9);
     return h ^ h >> 32;
 }
 
-static uint64_t hash_place(fl_vec3 x)
+static uint64_t hash_point(fl_vec3 x)
 {
-    const double c[3] = {x.x + 0.0, x.y + 0.0, x.z + 0.0}; /* -0 is 0 */
+    const double c[3] = {x.x + 0.0, x.y + 0.0, x.z + 0.0}; /* -0 becomes 0 */
     uint64_t u[3];
     memcpy(u, c, sizeof u);
-    return mix(u[0] * UINT64_C(0x9e3779b97f4a7c15) + mix(u[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + mix(u[2])));
+    return mix_bits(u[0] * UINT64_C(0x9e3779b97f4a7c15) +
+                    mix_bits(u[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + mix_bits(u[2])));
 }
 
-/* Cells of this many tolerances, where edges are longer: then most points have all that is within tol of them
- * in one cell, and few vertices share one. */
-static const double WIDE = 64.0;
+/* Cell size in tolerances, where edges are longer: most points then have all neighbours within tol in one
+ * cell, and few vertices share a cell. */
+static const double CELL_TOLERANCES = 64.0;
 
-/* Vertices that stay, by the cell they lie in; of the others those that nobody else is in the place of, by
- * their place. */
+/* Kept vertices by their cell, and merged vertices by their coordinates if no kept vertex has the same
+ * ones. */
 typedef struct {
     fl_vec3 lo;
-    double per; /* cells per length; 0 where only equal places count */
+    double cells_per_length; /* 0 when only equal coordinates are merged */
     uint64_t mask;
-    int32_t *head, *gone; /* chains of vertices; -1 ends one.  gone is NULL until there is one */
+    int32_t *head, *merged_head; /* chains of vertices, ended by -1; merged_head is NULL until needed */
     int32_t *next;
-} grid;
+} vertex_grid;
 
-static uint64_t slot(const grid *g, int64_t ix, int64_t iy, int64_t iz)
+static uint64_t slot_of_cell(const vertex_grid *g, int64_t ix, int64_t iy, int64_t iz)
 {
     const uint64_t h = (uint64_t)ix * UINT64_C(0x9e3779b97f4a7c15) +
                        (uint64_t)iy * UINT64_C(0xc2b2ae3d27d4eb4f) +
                        (uint64_t)iz * UINT64_C(0x165667b19e3779f9);
-    return mix(h) & g->mask;
+    return mix_bits(h) & g->mask;
 }
 
-/* Never falls as x rises, so that what lies between two points lies between their cells. */
-static int64_t cell_of(double x, double lo, double per)
+/* Never falls as x rises: a point between two points lies in a cell between theirs. */
+static int64_t cell_index(double x, double lo, double cells_per_length)
 {
-    const double c = (x - lo) * per;
+    const double c = (x - lo) * cells_per_length;
     const int64_t k = (int64_t)c;
     return k - (c < (double)k);
 }
 
-static uint64_t own_slot(const grid *g, fl_vec3 x)
+static uint64_t slot_of_point(const vertex_grid *g, fl_vec3 x)
 {
-    if (g->per == 0.0) return hash_place(x) & g->mask;
-    return slot(g, cell_of(x.x, g->lo.x, g->per), cell_of(x.y, g->lo.y, g->per),
-                cell_of(x.z, g->lo.z, g->per));
+    if (g->cells_per_length == 0.0) return hash_point(x) & g->mask;
+    return slot_of_cell(g, cell_index(x.x, g->lo.x, g->cells_per_length),
+                        cell_index(x.y, g->lo.y, g->cells_per_length),
+                        cell_index(x.z, g->lo.z, g->cells_per_length));
 }
 
-static int same_place(fl_vec3 x, fl_vec3 y) { return x.x == y.x && x.y == y.y && x.z == y.z; }
+static int same_point(fl_vec3 x, fl_vec3 y) { return x.x == y.x && x.y == y.y && x.z == y.z; }
 
-/* The vertex of a chain in the place x, -1 for none. */
-static int32_t twin_in(const int32_t *head, const grid *g, uint64_t k, const fl_part *p, fl_vec3 x)
+/* The vertex of a chain with the coordinates x, -1 for none. */
+static int32_t find_equal(const int32_t *head, const vertex_grid *g, uint64_t k, const fl_part *p, fl_vec3 x)
 {
     int32_t v = head[k];
-    while (v >= 0 && !same_place(p->v[v], x)) v = g->next[v];
+    while (v >= 0 && !same_point(p->v[v], x)) v = g->next[v];
     return v;
 }
 
-/* Nearest vertex that stays within tol of x, the lowest index on a tie; -1 for none. */
-static int32_t nearest(const grid *g, const fl_part *p, fl_vec3 x, double tol, double *distance)
+/* The nearest kept vertex within tol of x, the lowest index on a tie; -1 for none. */
+static int32_t nearest_kept(const vertex_grid *g, const fl_part *p, fl_vec3 x, double tol, double *distance)
 {
-    const int64_t x0 = cell_of(x.x - tol, g->lo.x, g->per), x1 = cell_of(x.x + tol, g->lo.x, g->per);
-    const int64_t y0 = cell_of(x.y - tol, g->lo.y, g->per), y1 = cell_of(x.y + tol, g->lo.y, g->per);
-    const int64_t z0 = cell_of(x.z - tol, g->lo.z, g->per), z1 = cell_of(x.z + tol, g->lo.z, g->per);
+    const int64_t x0 = cell_index(x.x - tol, g->lo.x, g->cells_per_length),
+                  x1 = cell_index(x.x + tol, g->lo.x, g->cells_per_length);
+    const int64_t y0 = cell_index(x.y - tol, g->lo.y, g->cells_per_length),
+                  y1 = cell_index(x.y + tol, g->lo.y, g->cells_per_length);
+    const int64_t z0 = cell_index(x.z - tol, g->lo.z, g->cells_per_length),
+                  z1 = cell_index(x.z + tol, g->lo.z, g->cells_per_length);
     int32_t best = -1;
     double least = tol;
     for (int64_t i = x0; i <= x1; i++)
         for (int64_t j = y0; j <= y1; j++)
             for (int64_t k = z0; k <= z1; k++)
-                for (int32_t v = g->head[slot(g, i, j, k)]; v >= 0; v = g->next[v]) {
+                for (int32_t v = g->head[slot_of_cell(g, i, j, k)]; v >= 0; v = g->next[v]) {
                     const double d = v3_norm(v3_sub(p->v[v], x));
                     if (d > least || (d == least && best >= 0 && v >= best)) continue;
                     least = d;
@@ -90,29 +95,30 @@ static int32_t nearest(const grid *g, const fl_part *p, fl_vec3 x, double tol, d
     return best;
 }
 
-/* A vertex that goes, and that another one in its place will ask for. */
-static int remember(grid *g, int32_t v, fl_vec3 x, fl_err *err)
+/* Records a merged vertex, since later vertices may have the same coordinates. */
+static int record_merged(vertex_grid *g, int32_t v, fl_vec3 x, fl_err *err)
 {
-    const uint64_t k = hash_place(x) & g->mask;
-    if (!g->gone) {
-        g->gone = fl_alloc((int64_t)g->mask + 1, sizeof *g->gone, err);
-        if (!g->gone) return -1;
-        memset(g->gone, -1, (size_t)(g->mask + 1) * sizeof *g->gone);
+    const uint64_t k = hash_point(x) & g->mask;
+    if (!g->merged_head) {
+        g->merged_head = fl_alloc((int64_t)g->mask + 1, sizeof *g->merged_head, err);
+        if (!g->merged_head) return -1;
+        memset(g->merged_head, -1, (size_t)(g->mask + 1) * sizeof *g->merged_head);
     }
-    g->next[v] = g->gone[k];
-    g->gone[k] = v;
+    g->next[v] = g->merged_head[k];
+    g->merged_head[k] = v;
     return 0;
 }
 
-static int merge_one(grid *g, const fl_part *p, int32_t v, uint64_t own, int32_t *to, fl_weld *w, fl_err *err)
+static int merge_vertex(vertex_grid *g, const fl_part *p, int32_t v, uint64_t own, int32_t *to, fl_weld *w,
+                        fl_err *err)
 {
     const fl_vec3 x = p->v[v];
-    int32_t u = twin_in(g->head, g, own, p, x);
+    int32_t u = find_equal(g->head, g, own, p, x);
     double d;
-    if (u < 0 && g->gone) u = twin_in(g->gone, g, hash_place(x) & g->mask, p, x);
+    if (u < 0 && g->merged_head) u = find_equal(g->merged_head, g, hash_point(x) & g->mask, p, x);
     to[v] = u >= 0 ? to[u] : v;
     if (u >= 0) return 0;
-    u = w->tol > 0.0 ? nearest(g, p, x, w->tol, &d) : -1;
+    u = w->tol > 0.0 ? nearest_kept(g, p, x, w->tol, &d) : -1;
     if (u < 0) {
         g->next[v] = g->head[own];
         g->head[own] = v;
@@ -120,18 +126,18 @@ static int merge_one(grid *g, const fl_part *p, int32_t v, uint64_t own, int32_t
     }
     to[v] = u;
     w->moved = fmax(w->moved, d);
-    return remember(g, v, x, err);
+    return record_merged(g, v, x, err);
 }
 
-/* to[v] = the vertex that v becomes: that of the first one in the same place, or the nearest earlier one
- * within tol, or itself. */
-static int merge(const fl_part *p, int32_t *to, fl_vec3 lo, double edge, fl_weld *w, fl_err *err)
+/* to[v]: the vertex that v becomes: that of the first vertex with the same coordinates, else the nearest
+ * earlier vertex within tol, else v. */
+static int merge_vertices(const fl_part *p, int32_t *to, fl_vec3 lo, double edge, fl_weld *w, fl_err *err)
 {
-    enum { AHEAD = 8 }; /* the heads of chains lie all over the memory, and are asked for in time */
-    grid g = {.lo = lo, .mask = 16};
+    enum { AHEAD = 8 }; /* the chain heads are scattered in memory and are prefetched */
+    vertex_grid g = {.lo = lo, .mask = 16};
     uint64_t slots[AHEAD] = {0};
     int rc = 0;
-    if (w->tol > 0.0) g.per = 1.0 / fmax(2.0 * w->tol, fmin(WIDE * w->tol, edge));
+    if (w->tol > 0.0) g.cells_per_length = 1.0 / fmax(2.0 * w->tol, fmin(CELL_TOLERANCES * w->tol, edge));
     while (g.mask < 2 * (uint64_t)p->nv) g.mask *= 2;
     g.head = fl_alloc((int64_t)g.mask + p->nv, sizeof *g.head, err);
     if (!g.head) return -1;
@@ -140,17 +146,17 @@ static int merge(const fl_part *p, int32_t *to, fl_vec3 lo, double edge, fl_weld
     g.mask--;
     for (int64_t n = 0; rc == 0 && n < (int64_t)p->nv + AHEAD; n++) {
         const uint64_t own = slots[n % AHEAD]; /* of the vertex AHEAD before */
-        if (n < p->nv) __builtin_prefetch(&g.head[slots[n % AHEAD] = own_slot(&g, p->v[n])]);
-        if (n >= AHEAD) rc = merge_one(&g, p, (int32_t)(n - AHEAD), own, to, w, err);
+        if (n < p->nv) __builtin_prefetch(&g.head[slots[n % AHEAD] = slot_of_point(&g, p->v[n])]);
+        if (n >= AHEAD) rc = merge_vertex(&g, p, (int32_t)(n - AHEAD), own, to, w, err);
     }
     free(g.head);
-    free(g.gone);
+    free(g.merged_head);
     return rc;
 }
 
-/* Put the vertices in the order of their first use, and drop the rest; index[nv] is scratch.  Returns how
- * many were dropped. */
-static int32_t renumber(fl_part *p, int32_t *index, fl_vec3 *scratch)
+/* Renumbers the vertices in the order of first use and drops the unused ones.  index[nv] is scratch.  Returns
+ * the number of dropped vertices. */
+static int32_t renumber_by_use(fl_part *p, int32_t *index, fl_vec3 *scratch)
 {
     const int32_t before = p->nv;
     int32_t n = 0;
@@ -184,17 +190,17 @@ static double shortest_edge(const fl_part *p)
 static int choose_tol(const fl_part *p, double tol, double diagonal, double edge, fl_weld *w, fl_err *err)
 {
     if (tol > edge)
-        return fl_fail(
-            err, FL_INPUT,
-            "part \"%.60s\": the welding tolerance %g m is above the shortest edge, %g m: less is expected",
-            p->name ? p->name : "", tol, edge);
+        return fl_fail(err, FL_INPUT,
+                       "part \"%.60s\": the welding tolerance %g m is above the shortest edge, %g m: a "
+                       "smaller one is expected",
+                       p->name ? p->name : "", tol, edge);
     w->tol = tol >= 0.0 ? tol : fmin(SHARE * diagonal, 0.5 * edge);
     if (w->tol < NO_TOL * diagonal) w->tol = 0.0;
     return 0;
 }
 
-/* Has any triangle an index twice? */
-static int repeated(const fl_part *p)
+/* True if a triangle has a repeated index. */
+static int has_repeated(const fl_part *p)
 {
     int any = 0;
     for (int32_t t = 0; t < p->nt; t++) {
@@ -221,10 +227,10 @@ int fl_part_weld(fl_part *p, double tol, fl_weld *w, fl_err *err)
     scratch = fl_alloc(p->nv, sizeof *scratch, err);
     to = scratch ? fl_alloc(p->nv, sizeof *to, err) : NULL;
     if (!to) goto done;
-    w->unused = renumber(p, to, scratch); /* the order of first use decides who stays */
-    if (merge(p, to, box.lo, edge, w, err)) goto done;
+    w->unused = renumber_by_use(p, to, scratch); /* the order of first use decides which vertices are kept */
+    if (merge_vertices(p, to, box.lo, edge, w, err)) goto done;
     for (int32_t v = 0; v < p->nv; v++) w->merged += to[v] != v;
-    if (w->merged == 0 && !repeated(p)) {
+    if (w->merged == 0 && !has_repeated(p)) {
         rc = 0;
         goto done;
     }
@@ -234,7 +240,7 @@ int fl_part_weld(fl_part *p, double tol, fl_weld *w, fl_err *err)
     }
     w->collapsed = p->nt - kept;
     p->nt = kept;
-    renumber(p, to, scratch);
+    renumber_by_use(p, to, scratch);
     rc = 0;
 done:
     free(to);

@@ -20,8 +20,8 @@ int fl_bdf_is(const fl_bytes *b);
  *     CTETRA CPYRAM CPENTA CHEXA        of 4, 5, 6, 8 nodes or 10, 13, 15, 20
  *     CBAR CBEAM CROD CTUBE CONROD      with the radius of PTUBE, PBARL and PBEAML (ROD, TUBE, TUBE2), or
  *                                       that of a circle of the area of PROD and CONROD
- *     INCLUDE, BEGIN BULK, ENDDATA      BEGIN BULK may be absent; nothing behind ENDDATA is read.  A file that
- *                                       cannot be included is skipped before BEGIN BULK, with a remark
+ *     INCLUDE, BEGIN BULK, ENDDATA      BEGIN BULK may be absent; nothing behind ENDDATA is read.  Before
+ *                                       BEGIN BULK a file that cannot be included is skipped, with a remark
  *
  * Other elements are counted, and so are fluids (PSOLID with PFLUID); other entries are ignored.  Models of
  * their own (BEGIN [BULK] SUPER, AUXMODEL, ARBMODEL, MODULE), replication (=) and undefined references are

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* single_precision.h -- what 24 bits leave of coordinates far from the origin: 0.5 m at 6e6 m of UTM.
  *
- * Numbers of single precision of size x, 2^e <= x < 2^(e+1), are 2^(e-23) apart, and rounding moves x by up to
- * half of that.  What counts is the spacing over the size of the body. */
+ * Numbers of single precision of size x, 2^e <= x < 2^(e+1), are 2^(e-23) apart, and rounding moves x by up
+ * to half of that.  What counts is the spacing over the size of the body. */
 #ifndef FL_MESH_SINGLE_PRECISION_H
 #define FL_MESH_SINGLE_PRECISION_H
 #include "geom/surface.h"

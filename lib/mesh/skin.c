@@ -110,8 +110,8 @@ static int32_t mid_node(const fl_elements *e, const fl_element *el, int a, int b
 /* The edge between two nodes as a key of k->edge. */
 static int64_t edge_key(int32_t a, int32_t b) { return a < b ? b : a; }
 
-/* Record the mid-side node of each edge, if some elements omit theirs: a face whose element omits it gets that
- * of its neighbour, or the surface would gape along the edge. */
+/* Record the mid-side node of each edge, if some elements omit theirs: a face whose element omits it gets
+ * that of its neighbour, or the surface would gape along the edge. */
 static int record_mids(fl_skin *k, fl_err *err)
 {
     const fl_elements *e = k->e;

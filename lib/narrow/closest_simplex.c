@@ -10,46 +10,47 @@
 #define NEARLY_TOUCHING 1e-2
 
 typedef struct {
-    const fl_part *a, *b;
+    const fl_subsimplex *a, *b;
     int fine, found;
-    double enough, slack; /* slack that is rounding, slack of *out */
+    double enough, slack; /* slack that is rounding; slack of *out */
     fl_gap *out;
-} search;
+} candidate_search;
 
 typedef struct {
     fl_ddv m; /* fine only: along n, of any length */
     double d;
     fl_vec3 n, pa, pb;
-} answer;
+} candidate;
 
-/* By division, not by a reciprocal: a direction along an axis comes out as one. */
-static fl_vec3 over(fl_vec3 a, double d) { return v3(a.x / d, a.y / d, a.z / d); }
+/* By division, not by a reciprocal: a direction along an axis comes out exact. */
+static fl_vec3 divide_vector(fl_vec3 a, double d) { return v3(a.x / d, a.y / d, a.z / d); }
 
-static fl_ddv negative(fl_ddv a) { return (fl_ddv){dd_neg(a.x), dd_neg(a.y), dd_neg(a.z)}; }
+static fl_ddv negate_vector(fl_ddv a) { return (fl_ddv){dd_neg(a.x), dd_neg(a.y), dd_neg(a.z)}; }
 
-static fl_ddv widen(fl_vec3 v) { return (fl_ddv){dd_of(v.x), dd_of(v.y), dd_of(v.z)}; }
+static fl_ddv to_dd(fl_vec3 v) { return (fl_ddv){dd_of(v.x), dd_of(v.y), dd_of(v.z)}; }
 
-/* Of p over q, along the answer. */
-static double height(const search *s, const answer *c, fl_vec3 p, fl_vec3 q)
+/* Height of p over q along the candidate's normal. */
+static double height_of(const candidate_search *s, const candidate *c, fl_vec3 p, fl_vec3 q)
 {
     return s->fine ? ddv_dot(c->m, ddv_diff(p, q)).h : v3_dot(c->n, v3_sub(p, q));
 }
 
-static double slack_of(const search *s, const int32_t *ka, const int32_t *kb, const answer *c)
+static double slack_of(const candidate_search *s, const int32_t *ka, const int32_t *kb, const candidate *c)
 {
     double sa = 0.0, sb = 0.0;
     for (int32_t k = 0; k < s->a->n; k++) {
-        const double t = height(s, c, s->a->v[ka[0]], s->a->v[k]);
+        const double t = height_of(s, c, s->a->v[ka[0]], s->a->v[k]);
         sa = t > sa ? t : sa;
     }
     for (int32_t k = 0; k < s->b->n; k++) {
-        const double t = height(s, c, s->b->v[k], s->b->v[kb[0]]);
+        const double t = height_of(s, c, s->b->v[k], s->b->v[kb[0]]);
         sb = t > sb ? t : sb;
     }
     return s->fine ? (sa + sb) / v3_norm(ddv_round(c->m)) : sa + sb;
 }
 
-static void offer(search *s, int32_t na, const int32_t *ka, int32_t nb, const int32_t *kb, const answer *c)
+static void take_candidate(candidate_search *s, int32_t na, const int32_t *ka, int32_t nb, const int32_t *kb,
+                           const candidate *c)
 {
     if (!(c->d > 0.0) || !isfinite(c->d)) return;
     const double slack = slack_of(s, ka, kb, c);
@@ -69,36 +70,36 @@ static void offer(search *s, int32_t na, const int32_t *ka, int32_t nb, const in
     }
 }
 
-/* Of a vertex and a part of the other core, turned round when the vertex is b's. */
-static void offer_vertex(search *s, int32_t i, int32_t n, const int32_t *k, int swapped, answer c, fl_vec3 p,
-                         fl_vec3 foot)
+/* A candidate of a vertex and a sub-simplex of the other core; swapped: the vertex is b's. */
+static void take_vertex_candidate(candidate_search *s, int32_t i, int32_t n, const int32_t *k, int swapped,
+                                  candidate c, fl_vec3 p, fl_vec3 foot)
 {
     c.pa = swapped ? foot : p;
     c.pb = swapped ? p : foot;
     if (swapped) {
         c.n = v3_neg(c.n);
-        c.m = negative(c.m);
+        c.m = negate_vector(c.m);
     }
-    if (swapped) offer(s, n, k, 1, &i, &c);
-    else offer(s, 1, &i, n, k, &c);
+    if (swapped) take_candidate(s, n, k, 1, &i, &c);
+    else take_candidate(s, 1, &i, n, k, &c);
 }
 
-static void try_points(search *s, int32_t i, int32_t j)
+static void try_points(candidate_search *s, int32_t i, int32_t j)
 {
     const fl_vec3 p = s->a->v[i], q = s->b->v[j], w = v3_sub(p, q);
     const double d = v3_norm(w);
     if (!(d > 0.0)) return;
-    answer c = {.d = d, .n = over(w, d), .pa = p, .pb = q};
+    candidate c = {.d = d, .n = divide_vector(w, d), .pa = p, .pb = q};
     if (s->fine) c.m = ddv_diff(p, q);
-    offer(s, 1, &i, 1, &j, &c);
+    take_candidate(s, 1, &i, 1, &j, &c);
 }
 
-static void try_vertex_edge(search *s, int32_t i, const int32_t *e, int swapped)
+static void try_vertex_edge(candidate_search *s, int32_t i, const int32_t *e, int swapped)
 {
-    const fl_part *pt = swapped ? s->b : s->a, *eg = swapped ? s->a : s->b;
+    const fl_subsimplex *pt = swapped ? s->b : s->a, *eg = swapped ? s->a : s->b;
     const fl_vec3 p = pt->v[i];
     fl_vec3 e0 = eg->v[e[0]], e1 = eg->v[e[1]];
-    /* From the nearer end the offset is the smaller part of the difference that it is taken from. */
+    /* From the nearer end the offset is the smaller part of the difference that it is subtracted from. */
     if (v3_norm2(v3_sub(p, e1)) < v3_norm2(v3_sub(p, e0))) {
         e0 = e1;
         e1 = eg->v[e[0]];
@@ -108,7 +109,7 @@ static void try_vertex_edge(search *s, int32_t i, const int32_t *e, int swapped)
     if (!(ll > 0.0)) return;
     double t = v3_dot(u, l) / ll;
     fl_vec3 w = v3_madd(u, -t, l);
-    answer c = {.d = 0.0};
+    candidate c = {.d = 0.0};
     if (s->fine || v3_norm2(w) < NEARLY_TOUCHING * v3_norm2(u)) {
         const fl_ddv uu = ddv_diff(p, e0), le = ddv_diff(e1, e0);
         const fl_dd tt = dd_div(ddv_dot(uu, le), ddv_dot(le, le));
@@ -120,94 +121,97 @@ static void try_vertex_edge(search *s, int32_t i, const int32_t *e, int swapped)
     if (!(t > 0.0 && t < 1.0)) return;
     c.d = v3_norm(w);
     if (!(c.d > 0.0)) return;
-    c.n = over(w, c.d);
-    offer_vertex(s, i, 2, e, swapped, c, p, v3_madd(e0, t, l));
+    c.n = divide_vector(w, c.d);
+    take_vertex_candidate(s, i, 2, e, swapped, c, p, v3_madd(e0, t, l));
 }
 
-/* The common normal m of e and g, in the length of e x g: turned so that the height h of x - y along it,
- * c->d, is positive. Returns 0 where there is none. */
-static int across(const search *s, fl_vec3 e1, fl_vec3 e0, fl_vec3 g1, fl_vec3 g0, fl_vec3 x, fl_vec3 y,
-                  fl_ddv *m, answer *c)
+/* Common normal m of e and g, of the length of e x g, oriented so that the height h of x - y along it, c->d,
+ * is positive.  Returns 0 where there is none. */
+static int common_normal(const candidate_search *s, fl_vec3 e1, fl_vec3 e0, fl_vec3 g1, fl_vec3 g0, fl_vec3 x,
+                         fl_vec3 y, fl_ddv *m, candidate *c)
 {
     const fl_vec3 e = v3_sub(e1, e0), g = v3_sub(g1, g0), p = v3_cross(e, g);
     double h;
     if (!s->fine && v3_norm2(p) > NEARLY_PARALLEL * v3_norm2(e) * v3_norm2(g)) {
-        *m = widen(p);
-        c->n = over(p, v3_norm(p));
+        *m = to_dd(p);
+        c->n = divide_vector(p, v3_norm(p));
         h = v3_dot(c->n, v3_sub(x, y));
     } else {
         *m = ddv_cross(ddv_diff(e1, e0), ddv_diff(g1, g0));
         const double len = v3_norm(ddv_round(*m));
         if (!(len > 0.0)) return 0;
         const fl_dd high = ddv_dot(*m, ddv_diff(x, y));
-        c->n = over(ddv_round(*m), len);
+        c->n = divide_vector(ddv_round(*m), len);
         h = high.h / len;
     }
     c->d = fabs(h);
     if (h < 0.0) c->n = v3_neg(c->n);
-    if (s->fine) c->m = h < 0.0 ? negative(*m) : *m;
+    if (s->fine) c->m = h < 0.0 ? negate_vector(*m) : *m;
     return h != 0.0;
 }
 
-/* The sign of m.(e x g) where the signs are asked for; fine ones see the last place. */
-static double turn(const search *s, fl_ddv m, fl_vec3 e1, fl_vec3 e0, fl_vec3 g1, fl_vec3 g0)
+/* Sign of m.(e x g); exact to the last bit if fine. */
+static double triple_product(const candidate_search *s, fl_ddv m, fl_vec3 e1, fl_vec3 e0, fl_vec3 g1,
+                             fl_vec3 g0)
 {
     if (s->fine) return ddv_dot(m, ddv_cross(ddv_diff(e1, e0), ddv_diff(g1, g0))).h;
     return v3_dot(ddv_round(m), v3_cross(v3_sub(e1, e0), v3_sub(g1, g0)));
 }
 
-static void try_vertex_triangle(search *s, int32_t i, int swapped)
+static void try_vertex_triangle(candidate_search *s, int32_t i, int swapped)
 {
     static const int32_t all[3] = {0, 1, 2};
     const fl_vec3 p = (swapped ? s->b : s->a)->v[i], *t = (swapped ? s->a : s->b)->v;
     fl_ddv m;
-    answer c = {.d = 0.0};
-    if (!across(s, t[1], t[0], t[2], t[0], p, t[0], &m, &c)) return;
+    candidate c = {.d = 0.0};
+    if (!common_normal(s, t[1], t[0], t[2], t[0], p, t[0], &m, &c)) return;
     for (int32_t k = 0; k < 3; k++)
-        if (!(turn(s, m, t[(k + 1) % 3], t[k], p, t[k]) > 0.0)) return;
-    /* Back onto the triangle, from which the rounding of d keeps the foot. */
+        if (!(triple_product(s, m, t[(k + 1) % 3], t[k], p, t[k]) > 0.0)) return;
+    /* Project back onto the triangle: the rounding of d moves the foot off it. */
     const fl_vec3 foot = v3_madd(p, -c.d, c.n);
-    offer_vertex(s, i, 3, all, swapped, c, p, v3_madd(foot, -v3_dot(c.n, v3_sub(foot, t[0])), c.n));
+    take_vertex_candidate(s, i, 3, all, swapped, c, p, v3_madd(foot, -v3_dot(c.n, v3_sub(foot, t[0])), c.n));
 }
 
-static fl_vec3 foot_on(fl_vec3 p, fl_vec3 e0, fl_vec3 e1)
+static fl_vec3 foot_on_segment(fl_vec3 p, fl_vec3 e0, fl_vec3 e1)
 {
     const fl_vec3 l = v3_sub(e1, e0);
     const double t = v3_dot(v3_sub(p, e0), l) / v3_norm2(l);
     return v3_madd(e0, t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t, l);
 }
 
-static void try_edges(search *s, const int32_t *ea, const int32_t *eb)
+static void try_edges(candidate_search *s, const int32_t *ea, const int32_t *eb)
 {
     const fl_vec3 a0 = s->a->v[ea[0]], a1 = s->a->v[ea[1]], b0 = s->b->v[eb[0]], b1 = s->b->v[eb[1]];
     fl_ddv m;
-    answer c = {.d = 0.0};
-    if (!across(s, a1, a0, b1, b0, a0, b0, &m, &c)) return;
-    /* The lines come nearest at a0 + x (a1 - a0) and b0 + y (b1 - b0):
-     *   x m.m = m.(lb x (a0 - b0)),   y m.m = m.(la x (a0 - b0));   1 - x and 1 - y from the other ends. */
-    const double mm = v3_norm2(ddv_round(m)), x = turn(s, m, b1, b0, a0, b0), y = turn(s, m, a1, a0, a0, b0);
+    candidate c = {.d = 0.0};
+    if (!common_normal(s, a1, a0, b1, b0, a0, b0, &m, &c)) return;
+    /* The lines are closest at a0 + x (a1 - a0) and b0 + y (b1 - b0):
+     *     x m.m = m.(lb x (a0 - b0)),   y m.m = m.(la x (a0 - b0));   1 - x and 1 - y from the other ends. */
+    const double mm = v3_norm2(ddv_round(m)), x = triple_product(s, m, b1, b0, a0, b0),
+                 y = triple_product(s, m, a1, a0, a0, b0);
     if (!(x > 0.0 && y > 0.0)) return;
-    if (!(turn(s, m, b1, b0, a1, b0) < 0.0 && turn(s, m, a1, a0, a0, b1) < 0.0)) return;
-    /* Where on nearly parallel edges they do is uncertain; so that the two points face each other all the
-     * same, each is the foot of the other. */
+    if (!(triple_product(s, m, b1, b0, a1, b0) < 0.0 && triple_product(s, m, a1, a0, a0, b1) < 0.0)) return;
+    /* On nearly parallel edges this point is uncertain.  So that the two points face each other, each is the
+     * foot of the other. */
     const double t = x / mm;
     c.pa = v3_madd(a0, t < 1.0 ? t : 1.0, v3_sub(a1, a0));
-    c.pb = foot_on(c.pa, b0, b1);
-    c.pa = foot_on(c.pb, a0, a1);
-    offer(s, 2, ea, 2, eb, &c);
+    c.pb = foot_on_segment(c.pa, b0, b1);
+    c.pa = foot_on_segment(c.pb, a0, a1);
+    take_candidate(s, 2, ea, 2, eb, &c);
 }
 
-int fl_closest_simplex_points(const fl_part *a, const fl_part *b, double size, int fine, fl_gap *out)
+int fl_closest_simplex_points(const fl_subsimplex *a, const fl_subsimplex *b, double size, int fine,
+                              fl_gap *out)
 {
     static const int32_t side[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     const int32_t na = a->n, nb = b->n, ea = na == 3 ? 3 : na - 1, eb = nb == 3 ? 3 : nb - 1;
-    search s = {.a = a,
-                .b = b,
-                .fine = fine,
-                .enough = fine ? 0.0 : 0.5 * DBL_EPSILON * size,
-                .slack = INFINITY,
-                .out = out};
-    /* Higher dimensions first: most often one of them ends it. */
+    candidate_search s = {.a = a,
+                          .b = b,
+                          .fine = fine,
+                          .enough = fine ? 0.0 : 0.5 * DBL_EPSILON * size,
+                          .slack = INFINITY,
+                          .out = out};
+    /* Higher dimensions first: usually one of them ends the search. */
     for (int32_t i = 0; i < na && nb == 3 && s.slack > s.enough; i++) try_vertex_triangle(&s, i, 0);
     for (int32_t i = 0; i < nb && na == 3 && s.slack > s.enough; i++) try_vertex_triangle(&s, i, 1);
     for (int32_t e = 0; e < ea; e++)

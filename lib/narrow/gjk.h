@@ -1,77 +1,48 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gjk.h -- the distance of two convex cores, their nearest points and the direction between them. */
+/* gjk.h -- distance of two convex cores, their closest points and the direction between them. */
 #ifndef FL_NARROW_GJK_H
 #define FL_NARROW_GJK_H
-#include <stdint.h>
-#include "geom/poly.h"
-
-/* The convex hull of n >= 1 points in world coordinates [m], borrowed.  The points may coincide, and may
- * lie on a line or in a plane; faces are not needed.  p is the body whose vertices they are, wherever it
- * has been moved to, or NULL: its size saves a look at all of them, and of more than 64 its edges lead to
- * those that matter, so that a warm query costs what the vertices about the nearest points cost. */
-typedef struct {
-    const fl_vec3 *v;
-    int32_t n;
-    const fl_poly *p;
-} fl_core;
-
-/* Warm start: the pairs of vertices (a[k], b[k]) that the last query of this pair ended on.  Zeroed means
- * cold.  Any content is safe: an index out of range makes the start cold. */
-typedef struct {
-    int32_t n, a[4], b[4];
-} fl_gjk_cache;
-
-typedef struct {
-    double d;           /* distance >= 0; 0 when the cores meet                                 [m] */
-    fl_vec3 pa, pb;     /* nearest points of a and of b: pa - pb = d n, to the rounding of world
-                         * coordinates; where the cores meet, a point of both                    [m] */
-    fl_vec3 n;          /* unit vector from b to a; zero when the cores meet                         */
-    int32_t overlap;    /* 1 when the cores meet: touch (d = 0) or penetrate                         */
-    int32_t iterations; /* supports evaluated, all stages together                                   */
-    int32_t na, nb;     /* the nearest features: the vertices of a and of b whose hulls hold pa and
-                         * pb in their relative interior, ascending; (na, nb) is one of (1,1) (1,2)
-                         * (2,1) (2,2) (1,3) (3,1), or (0,0) when the cores meet                     */
-    int32_t ia[3], ib[3];
-} fl_gap;
+#include "narrow/simplex.h"
 
 /* Distance of the convex hulls of a and b,
  *     d = min |x - y|, x in hull(a), y in hull(b),   n = (x - y) / |x - y|,
  * by the algorithm of Gilbert, Johnson & Keerthi (1988) in three stages.
  *
- * 1. In double: simplices of vertex differences, every one taken as a difference before anything else is
- *    done with it, so that nothing depends on where the origin is.  A triangle without area falls back to
- *    its sides, a flat tetrahedron to its faces, and "the origin is inside" is only a suspicion.  Ends
- *    when no vertex lies beyond the supporting plane by more than its rounding, or after 64 supports.
- * 2. In pairs of doubles (106 bits), with all 15 parts of the simplex tried, when stage 1 suspects an
- *    overlap, did not end, or found d below 1e-4 of the extent, where rounding would turn the normal.  The
- *    right part is told by its plane, which leaves nothing of the simplex beyond it, not by its distance,
- *    which sees the square of an angle only.  Below 2^-50 of the extent the cores touch.
+ * 1. In doubles (gjk_double.h).  Vertices enter as differences only, so the result does not depend on the
+ *    origin.  A triangle without area falls back to its sides, a flat tetrahedron to its faces; "the
+ *    origin is inside" is only a suspicion.  It ends when no vertex lies beyond the supporting plane by
+ *    more than rounding, or after 64 supports.
+ * 2. In double-double arithmetic, 106 bits (gjk_dd.h), with all 15 sub-simplices tried.  It runs when stage 1
+ *    suspects an overlap, did not end, or found d below 1e-4 of the extent, where rounding would turn the
+ *    normal.  The right sub-simplex is recognised by its plane, which leaves nothing of the simplex beyond
+ *    it, not by its distance, which depends on the square of an angle only.  Below 2^-50 of the extent the
+ *    cores touch.
  * 3. From the vertices within 1e-10 of the extent of the two supporting planes alone, by closed formulae
- *    or from a fixed start; in doubles where rounding leaves n as it is (a disc of 1e-3 of the extent fits
- *    about the nearest points into what the features have in common, seen along n), in pairs where it
- *    might not: edges and outlines that nearly lie on one line, slivers.  The result is therefore a
- *    function of the cores: cold, warm and stale starts give the same bits, but for a vertex within
- *    rounding of that border, some 1 in 1 000 000 of hostile pairs.
+ *    (closest_simplex.h) or from a fixed start.  Doubles are used where rounding does not change n: where a
+ *    disc of 1e-3 of the extent about the closest points fits into the common part of the features, seen
+ *    along n.  Double-doubles are used elsewhere: edges and outlines nearly on one line, slivers.  The
+ *    result is therefore a function of the cores: cold, warm and stale starts give the same bits, except
+ *    for a vertex within rounding of the 1e-10 border, about 1 in 1 000 000 of hostile pairs.
  *
- * It ends.  Let E be the sum of the extents: of the largest distances from vertex 0.  The simplex after a
- * step holds the old nearest point v and the new vertex difference w, so its distance falls at least as far
- * as along the segment from v to w:
- *   - as long as w lies below the plane through v the distance falls strictly, no simplex comes back, and of
- *     finitely many simplices the last is the nearest;
- *   - after k supports d_k^2 - d^2 <= 16 E^2 / (k + 2), the bound of the method of Frank and Wolfe for
- *     |v|^2 / 2 over a set of diameter 2 E (Jaggi 2013, theorem 1).
- * Rounding could break the first; so stage 1 stops at 64 supports, a walk in pairs at 16 steps that gain
- * less than 4e-16 of d^2 and at 4096 altogether, and stage 3 after 4 walks of each: below 9000 supports
- * in any case (105 are the most that the pairs of prop_gjk took).
+ * Termination.  Let E be the sum of the extents (largest distances from vertex 0).  The simplex after a step
+ * contains the old closest point v and the new vertex difference w, so its distance falls at least as far as
+ * along the segment from v to w:
+ *   - as long as w lies below the plane through v the distance falls strictly, no simplex repeats, and of
+ *     finitely many simplices the last is the closest;
+ *   - after k supports d_k^2 - d^2 <= 16 E^2 / (k + 2), the bound of the Frank-Wolfe method for |v|^2 / 2
+ *     over a set of diameter 2 E (Jaggi 2013, theorem 1).
+ * Rounding could break the first.  So stage 1 stops at 64 supports, stage 2 at 16 steps that gain less than
+ * 4e-16 of d^2 and at 4096 in all, and stage 3 after 4 rounds of each: below 9000 supports in any case (105
+ * is the most seen for the pairs of prop_gjk).
  *
  * Error, with L the larger of d and the sizes of the cores (extents, or largest sides of their boxes): 1e-13
- * L in d, 1e-12 rad in n for d from 1e-9 L up.  Where the nearest points are not unique one is returned.
- *   cache  in: where to start; out: where the next query should.  NULL starts cold.
+ * L in d, 1e-12 rad in n for d from 1e-9 L up.  Where the closest points are not unique one pair is returned.
+ *     cache   in: where to start; out: where the next query should start.  NULL: cold
  * Cannot fail; all coordinates finite and below 1e100 in magnitude. */
 void fl_gjk(fl_core a, fl_core b, fl_gjk_cache *cache, fl_gap *out);
 
-/* Stage 1 alone, for whom a direction will do that separates the cores by nearly their distance: n, unit
- * vector from b to a.  Returns 0 where doubles cannot tell one. */
+/* Stage 1 alone: a unit vector n from b to a that separates the cores by nearly their distance.  Returns 0
+ * where doubles cannot find one. */
 int fl_gjk_direction(fl_core a, fl_core b, fl_gjk_cache *cache, fl_vec3 *n);
 
 #endif

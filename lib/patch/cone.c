@@ -6,13 +6,18 @@
 #include "geom/quadrature_rules.h"
 #include "patch/cone_side.h"
 #include "patch/edge_integral.h"
+#include "patch/patch_law.h"
 
-/* Most pieces of an edge: 2 by each threefold way up to 1e9, and a few. */
-enum { BREAKS = 64 };
+/* Most pieces of an edge: two for each threefold growth up to 1e9, and a few. */
+enum { MAX_PIECES = 64 };
 
-/* An edge that reaches farther than this from the point nearest to the axis, in distances from there, goes in
- * pieces that grow with the way from it: the distance has a branch point so far beside it. */
-#define CLOSE 0.25
+/* An edge that extends farther than this from its point nearest to the axis, over the distance of that point,
+ * is split into pieces that grow away from it: the distance has a branch point that far from the real axis.
+ */
+#define FAR_EDGE 0.25
+
+/* Shortest piece over the length of the edge, where it meets the axis; it bounds the number of pieces. */
+#define SHORTEST_PIECE 1e-9
 
 double fl_cone_support(const fl_truncated_cone *c, fl_vec3 n)
 {
@@ -20,8 +25,8 @@ double fl_cone_support(const fl_truncated_cone *c, fl_vec3 n)
     return fmax(across * c->r0, n.z * c->h + across * c->r1);
 }
 
-/* Added to what is summed over the edge, whose middle is q->o. */
-static void add_walk(fl_cone_sums *q, const fl_cone_profile *c, fl_vec3 u, const fl_cone_side_edge *p)
+/* Adds a piece of an edge beside the slant side; q->o is the middle of the edge. */
+static void add_side_piece(fl_cone_sums *q, const fl_cone_profile *c, fl_vec3 u, const fl_cone_side_edge *p)
 {
     fl_cone_side_edge_sums r;
     fl_cone_side_sum_edge(p, &r);
@@ -29,7 +34,7 @@ static void add_walk(fl_cone_sums *q, const fl_cone_profile *c, fl_vec3 u, const
     q->u += r.u, q->du += r.du, q->ddu += r.ddu, q->ds += r.ds;
     q->most = r.most > q->most ? r.most : q->most;
     q->sx += length * r.dt, q->sxx += length * length * r.dtt;
-    /* of d n and of d n times t; where the middle lies from the axis, and u across it */
+    /* sums of d n and of d n t; o: radial vector of the middle, a: radial part of u */
     const fl_vec3 o = v3(q->o.x, q->o.y, 0), a = v3(u.x, u.y, 0), nz = v3(0, 0, c->nz);
     const fl_vec3 f = v3_madd(v3_scale(c->nr, v3_madd(v3_scale(r.dq, o), r.dqt, a)), r.du, nz);
     const fl_vec3 ft = v3_madd(v3_scale(c->nr, v3_madd(v3_scale(r.dqt, o), r.dqtt, a)), r.dt, nz);
@@ -37,8 +42,8 @@ static void add_walk(fl_cone_sums *q, const fl_cone_profile *c, fl_vec3 u, const
     q->m = v3_add(q->m, v3_cross(u, ft));
 }
 
-static void add_piece(fl_cone_sums *q, const fl_cone_profile *c, fl_vec3 a, fl_vec3 u, double factor,
-                      double from, double width, const int zero[2])
+static void add_general_piece(fl_cone_sums *q, const fl_cone_profile *c, fl_vec3 a, fl_vec3 u, double factor,
+                              double from, double width, const int zero[2])
 {
     for (int k = 0; k < FL_LINE10_NODES; k++) {
         double t;
@@ -57,17 +62,17 @@ static void add_piece(fl_cone_sums *q, const fl_cone_profile *c, fl_vec3 a, fl_v
 typedef struct {
     const fl_cone_profile *c;
     fl_vec3 a, u;
-} walk;
+} edge_line;
 
-static int zone_in_walk(const void *what, double t)
+static int zone_on_edge(const void *what, double t)
 {
-    const walk *r = what;
+    const edge_line *r = what;
     const fl_vec3 at = v3_madd(r->a, t, r->u);
     return fl_cone_profile_distance(r->c, sqrt(at.x * at.x + at.y * at.y), at.z).zone;
 }
 
-/* From t = lo to hi the side is nearest, also to what lies inside. */
-static int along_side(const fl_cone_profile *c, const fl_cone_profile_line *l, double lo, double hi)
+/* True if the slant side is nearest from t = lo to hi, inside the cone too. */
+static int side_is_nearest(const fl_cone_profile *c, const fl_cone_profile_line *l, double lo, double hi)
 {
     const double z0 = l->z0 + lo * l->dz, z1 = l->z0 + hi * l->dz, far = c->R * fabs(c->nz);
     const double low = fmin(z0, z1), high = fmax(z0, z1),
@@ -76,23 +81,25 @@ static int along_side(const fl_cone_profile *c, const fl_cone_profile_line *l, d
     return low >= far && high <= c->h - far && out > -low && out > high - c->h;
 }
 
-static double slant_overlap(const fl_cone_side_edge *p, double t)
+static double overlap_on_side(const fl_cone_side_edge *p, double t)
 {
     return p->s0 + t * p->s1 - p->nr * sqrt(fmax(p->a + t * (2.0 * p->b + t * p->g), 0.0));
 }
 
-/* Where an edge from lo to hi along the side is cut, so that Gauss' rule has each piece: at the point nearest
- * to the axis and at ways from it that grow threefold, where it reaches far; else in the middle, where it
- * ends in nothing at both ends. */
-static int32_t side_pieces(const fl_cone_profile_line *l, double lo, double hi, int both, double at[BREAKS])
+/* Splits an edge from lo to hi along the side so that Gauss' rule converges on each piece: at the point
+ * nearest to the axis and at distances from it that grow threefold, where the edge extends far.  Else in the
+ * middle, where s = 0 at both ends. */
+static int32_t split_on_side(const fl_cone_profile_line *l, double lo, double hi, int both,
+                             double at[MAX_PIECES])
 {
     int32_t n = 0;
     at[n++] = lo, at[n++] = hi;
     if (l->g > 0.0) {
         const double nearest = -l->b / l->g, apart = sqrt(fmax(l->a + nearest * l->b, 0.0) / l->g);
         const double longest = fmax(hi - nearest, nearest - lo);
-        if (longest > CLOSE * apart && nearest > lo && nearest < hi) at[n++] = nearest;
-        for (double d = fmax(apart, 1e-9 * longest); d < longest && longest > CLOSE * apart; d *= 3.0) {
+        if (longest > FAR_EDGE * apart && nearest > lo && nearest < hi) at[n++] = nearest;
+        for (double d = fmax(apart, SHORTEST_PIECE * longest); d < longest && longest > FAR_EDGE * apart;
+             d *= 3.0) {
             if (nearest + d < hi - 0.2 * d && nearest + d > lo + 0.2 * d) at[n++] = nearest + d;
             if (nearest - d > lo + 0.2 * d && nearest - d < hi - 0.2 * d) at[n++] = nearest - d;
         }
@@ -102,21 +109,21 @@ static int32_t side_pieces(const fl_cone_profile_line *l, double lo, double hi, 
     return n;
 }
 
-static int over_edge(fl_patch_points *w, const fl_patch_core *A, int32_t e, const fl_cone_profile *c)
+static int add_edge(fl_patch_points *w, const fl_patch_core *A, int32_t e, const fl_cone_profile *c)
 {
-    static const double BUNCH[2][2][3] = {{{1, 0, 0}, {2, -1, 0}},
-                                          {{0, 1, 0}, {0, 3, -2}}}; /* as fl_cone_cluster_node() */
+    static const double CLUSTER[2][2][3] = {{{1, 0, 0}, {2, -1, 0}},
+                                            {{0, 1, 0}, {0, 3, -2}}}; /* as fl_cone_cluster_node() */
     const fl_edge g = A->p->edge[e];
     const fl_vec3 a = A->v[g.a], u = v3_sub(A->v[g.b], a);
     const fl_cone_profile_line l = fl_cone_profile_line_of(a, u);
-    double lo = 0.0, hi = 1.0, at[BREAKS];
+    double lo = 0.0, hi = 1.0, at[MAX_PIECES];
     int zero[2];
     if (!fl_cone_profile_clip(c, &l, &lo, &hi, zero)) return 0;
     const double factor = fl_edge_integral_factor(A, e, 0.0);
     if (!(factor > 0.0)) return 0;
     const double middle = 0.5 * (lo + hi);
     fl_cone_sums q = {.o = v3_madd(a, middle, u), .x = v3_unit(u)};
-    if (along_side(c, &l, lo, hi)) {
+    if (side_is_nearest(c, &l, lo, hi)) {
         fl_cone_side_edge p = {.a = l.a,
                                .b = l.b,
                                .g = l.g,
@@ -124,14 +131,14 @@ static int over_edge(fl_patch_points *w, const fl_patch_core *A, int32_t e, cons
                                .s1 = -c->nz * l.dz,
                                .nr = c->nr};
         p.middle = middle, p.factor = factor;
-        const double s[3] = {slant_overlap(&p, lo), slant_overlap(&p, middle), slant_overlap(&p, hi)};
+        const double s[3] = {overlap_on_side(&p, lo), overlap_on_side(&p, middle), overlap_on_side(&p, hi)};
         fl_cone_mark_zero_ends(s, zero);
-        const int32_t n = side_pieces(&l, lo, hi, zero[0] && zero[1], at);
+        const int32_t n = split_on_side(&l, lo, hi, zero[0] && zero[1], at);
         for (int32_t k = 0; k + 1 < n; k++) {
-            const double *bunched = BUNCH[zero[0] && k == 0][zero[1] && k + 2 == n];
+            const double *cluster = CLUSTER[zero[0] && k == 0][zero[1] && k + 2 == n];
             p.from = at[k], p.width = at[k + 1] - at[k];
-            p.c[0] = bunched[0], p.c[1] = bunched[1], p.c[2] = bunched[2];
-            add_walk(&q, c, u, &p);
+            p.c[0] = cluster[0], p.c[1] = cluster[1], p.c[2] = cluster[2];
+            add_side_piece(&q, c, u, &p);
         }
         return fl_cone_sum_to_points(w, &q, 2, A->r);
     }
@@ -139,13 +146,13 @@ static int over_edge(fl_patch_points *w, const fl_patch_core *A, int32_t e, cons
     at[n++] = lo, at[n++] = hi;
     if (zero[0] && zero[1]) at[n++] = middle;
     fl_cone_sort_ascending(at, n);
-    const walk r = {c, a, u};
+    const edge_line r = {c, a, u};
     for (int32_t k = 0; k + 1 < n; k++) {
         fl_cone_intervals parts;
-        fl_cone_split_interval(&parts, zone_in_walk, &r, at[k], at[k + 1]);
+        fl_cone_split_interval(&parts, zone_on_edge, &r, at[k], at[k + 1]);
         for (int s = 0; s < parts.n; s++) {
             const int ends[2] = {zero[0] && k == 0 && s == 0, zero[1] && k + 2 == n && s + 1 == parts.n};
-            add_piece(&q, c, a, u, factor, parts.s[s].from, parts.s[s].to - parts.s[s].from, ends);
+            add_general_piece(&q, c, a, u, factor, parts.s[s].from, parts.s[s].to - parts.s[s].from, ends);
         }
     }
     return fl_cone_sum_to_points(w, &q, 2, A->r);
@@ -164,7 +171,7 @@ int fl_cone_evaluate(fl_patch_points *w, const fl_poly *a, const fl_truncated_co
             return -1;
     }
     for (int32_t e = 0; e < a->ne; e++)
-        if (over_edge(w, &A, e, &c)) return -1;
+        if (add_edge(w, &A, e, &c)) return -1;
     for (int32_t F = 0; F < a->nf; F++)
         if (fl_cone_face_evaluate(w, &A, F, &c)) return -1;
     return 0;

@@ -7,16 +7,17 @@
 #include "geom/quadrature_rules.h"
 #include "patch/cone_side.h"
 
-/* A stretch where more than the side is near is cut so often. */
+/* Panels of Gauss' rule where the side alone is not nearest. */
 enum { PANELS = 4 };
 
-/* A face that is not that much of its size long, across the axis, has no direction there. */
-#define SMALL 1e-12
-/* A row that crosses the middle and reaches farther than this on both sides, in distances from the axis, goes
- * in two halves: the distance has a branch point so far beside it. */
-#define WIDE 0.3
+/* A face at right angles to the axis within this angle has no row direction of its own, and panels shorter
+ * than this part of the face are skipped: both are rounding. */
+#define FLAT_TOL 1e-12
+/* A row that crosses its middle and extends farther than this on both sides, over the distance from the axis,
+ * is integrated in two halves: the distance has a branch point that far from the real axis. */
+#define WIDE_ROW 0.3
 
-/* F in work: x = level n + x ex + y ey, ey at right angles to the axis. */
+/* The sum over F: x = level n + x ex + y ey, ey at right angles to the axis. */
 typedef struct {
     const fl_cone_profile *c;
     const fl_patch_core *A;
@@ -25,12 +26,12 @@ typedef struct {
     double level;
     const fl_vec3 *corner; /* x and y */
     int32_t corners;
-    fl_cone_profile_line axis; /* of y = 0, after x */
+    fl_cone_profile_line axis; /* of y = 0, over x */
     fl_cone_sums sum;
-} face;
+} face_sum;
 
-/* One point of F that stands for the area. */
-static void add_point(face *q, double x, double y, double area)
+/* Adds one node of F with its area. */
+static void add_point(face_sum *q, double x, double y, double area)
 {
     const fl_cone_profile *c = q->c;
     const fl_vec3 at = v3_madd(v3_madd(v3_scale(q->level, q->n), x, q->ex), y, q->ey);
@@ -51,8 +52,8 @@ static void add_point(face *q, double x, double y, double area)
     q->sum.couple = v3_madd(q->sum.couple, bend, v3_cross(q->n, n));
 }
 
-/* Ends of F on the line at x. */
-static void cut_face(const face *q, double x, double *lo, double *hi)
+/* The part of the row at x inside F. */
+static void clip_row(const face_sum *q, double x, double *lo, double *hi)
 {
     *lo = INFINITY, *hi = -INFINITY;
     for (int32_t k = 0; k < q->corners; k++) {
@@ -65,15 +66,15 @@ static void cut_face(const face *q, double x, double *lo, double *hi)
 }
 
 typedef struct {
-    const face *q;
+    const face_sum *q;
     double x;
-} row;
+} row_line;
 
-/* What is nearest to the point at y, and whether it counts: 0 where it does not. */
-static int zone_in_row(const void *what, double y)
+/* Zone of the point at y plus 1; 0 where the face term is 0. */
+static int zone_on_row(const void *what, double y)
 {
-    const row *r = what;
-    const face *q = r->q;
+    const row_line *r = what;
+    const face_sum *q = r->q;
     const fl_vec3 at = v3_madd(v3_madd(v3_scale(q->level, q->n), r->x, q->ex), y, q->ey);
     const double rho = sqrt(at.x * at.x + at.y * at.y);
     const fl_cone_profile_field d = fl_cone_profile_distance(q->c, rho, at.z);
@@ -84,13 +85,13 @@ static int zone_in_row(const void *what, double y)
 
 /* Rows beside the slant side.
  *
- * With b the point of the row that is nearest to the axis, K = b.n_F, L = b.ex, T = ez.ex,
+ * With b the point of the row nearest to the axis, K = b.n_F, L = b.ex, T = ez.ex,
  *     n = (nr K q + nz nFz) n_F + (nr L q + nz T) ex + nr q y ey,     c = -n.n_F,
  *     e = ez x er = T y q n_F - nFz y q ex + (nFz L - T K) q ey,
- * so that what add_point() sums up is made of the sums of cone_side.h. */
+ * so the sums of add_point() follow from the sums of cone_side.h. */
 
-/* The row at x from y = lo to hi, K and L as above, added to what is summed over the face. */
-static void add_row_sums(face *q, double x, const fl_cone_side_row *p, double K, double L)
+/* Adds the row at x from y = lo to hi; K and L as above. */
+static void add_row_sums(face_sum *q, double x, const fl_cone_side_row *p, double K, double L)
 {
     const double nr = q->c->nr, nz = q->c->nz, T = q->ex.z, nFz = q->n.z;
     const double X = v3_dot(q->ex, v3_madd(v3_sub(v3_scale(q->level, q->n), q->sum.o), x, q->ex));
@@ -101,7 +102,7 @@ static void add_row_sums(face *q, double x, const fl_cone_side_row *p, double K,
     t->most = r.most > t->most ? r.most : t->most;
     t->sx += X * r.du, t->sxx += X * X * r.du;
     t->sy += r.dy, t->sxy += X * r.dy, t->syy += r.dyy;
-    /* the force along n_F, ex and ey, and that times y */
+    /* force along n_F, ex and ey, and its moments in y */
     const double fn = nr * (K * r.dq + T * T * r.kyy) + nz * nFz * r.du;
     const double fx = nr * (L * r.dq - T * nFz * r.kyy) + nz * T * r.du;
     const double fy = nr * (r.dqy + T * (nFz * L - T * K) * r.ky);
@@ -112,13 +113,13 @@ static void add_row_sums(face *q, double x, const fl_cone_side_row *p, double K,
     t->couple = v3_madd(v3_madd(t->couple, nr * L * r.kq + nz * T * r.k, q->ey), -nr * r.kqy, q->ex);
 }
 
-/* The part of a row where the side is nearest and faces F: c falls or rises with |y|.  0 where that is not
- * known. */
-static int add_row(face *q, double x, double z, double h2, double lo, double hi, double width)
+/* Adds the part of a row where the side is nearest and faces F: c is monotonic in |y|.  0 where that is not
+ * certain. */
+static int add_side_row(face_sum *q, double x, double z, double h2, double lo, double hi, double width)
 {
     const fl_cone_profile *c = q->c;
     const double h = sqrt(h2), out = c->nr * (h - c->r0) + c->nz * z;
-    if (!(out > -z && out > z - c->h)) return 0; /* inside, an end may be nearer */
+    if (!(out > -z && out > z - c->h)) return 0; /* inside the cone an end may be nearer */
     const fl_vec3 b = v3_madd(v3_scale(q->level, q->n), x, q->ex);
     const double K = b.x * q->n.x + b.y * q->n.y, L = b.x * q->ex.x + b.y * q->ex.y;
     fl_cone_side_row p = {.h2 = h2,
@@ -135,11 +136,11 @@ static int add_row(face *q, double x, double z, double h2, double lo, double hi,
                                    : 0.0;
     const int at_near = -p.ck > need * sqrt(h2 + near * near), at_far = -p.ck > need * sqrt(h2 + far * far);
     if (!at_near && !at_far) return 1;
-    if (at_near && at_far && !(lo < 0.0 && hi > 0.0 && far * far > WIDE * WIDE * h2)) {
+    if (at_near && at_far && !(lo < 0.0 && hi > 0.0 && far * far > WIDE_ROW * WIDE_ROW * h2)) {
         add_row_sums(q, x, &p, K, L);
         return 1;
     }
-    /* rho is singular h beside the middle of a row: each half by itself */
+    /* rho is singular h from the middle of a row: integrate each half */
     const double rho = -p.ck / need, y = at_near && at_far ? far : sqrt(fmax(rho * rho - h2, 0.0));
     for (int half = 0; half < 2; half++) {
         const double from = at_near ? (half ? 0.0 : -y)
@@ -154,7 +155,7 @@ static int add_row(face *q, double x, double z, double h2, double lo, double hi,
     return 1;
 }
 
-static void add_line(face *q, double x, double width, int side)
+static void add_any_row(face_sum *q, double x, double width, int side)
 {
     const fl_cone_profile_line *l = &q->axis;
     const double z = l->z0 + x * l->dz, p = fl_cone_profile_radius(q->c, z),
@@ -163,13 +164,13 @@ static void add_line(face *q, double x, double width, int side)
     fl_cone_intervals parts;
     if (!(p > 0.0) || !(p * p > h2)) return;
     const double far = sqrt(p * p - h2);
-    cut_face(q, x, &lo, &hi);
+    clip_row(q, x, &lo, &hi);
     lo = lo > -far ? lo : -far;
     hi = hi < far ? hi : far;
     if (!(lo < hi)) return;
-    if (side && add_row(q, x, z, h2 > 0.0 ? h2 : 0.0, lo, hi, width)) return;
-    const row r = {q, x};
-    fl_cone_split_interval(&parts, zone_in_row, &r, 0.0, far); /* they depend on |y| alone */
+    if (side && add_side_row(q, x, z, h2 > 0.0 ? h2 : 0.0, lo, hi, width)) return;
+    const row_line r = {q, x};
+    fl_cone_split_interval(&parts, zone_on_row, &r, 0.0, far); /* zones depend on |y| alone */
     if (parts.n == 1) {
         for (int k = 0; k < FL_LINE10_NODES && parts.s[0].zone; k++)
             add_point(q, x, lo + FL_LINE10_NODE[k] * (hi - lo), width * FL_LINE10_WEIGHT[k] * (hi - lo));
@@ -188,8 +189,8 @@ static void add_line(face *q, double x, double width, int side)
     }
 }
 
-/* The side is nearest to all that lies outside, for x from lo to hi. */
-static int on_side(const face *q, double lo, double hi)
+/* True if the side is nearest to all points outside the cone, for x from lo to hi. */
+static int side_is_nearest(const face_sum *q, double lo, double hi)
 {
     const fl_cone_profile *c = q->c;
     const double za = q->axis.z0 + lo * q->axis.dz, zb = q->axis.z0 + hi * q->axis.dz;
@@ -197,27 +198,27 @@ static int on_side(const face *q, double lo, double hi)
     return fmin(za, zb) >= far && fmax(za, zb) <= c->h - far;
 }
 
-/* No part of F that is near enough faces the side, and the ends are out of reach. */
-static int turned_away(const face *q, double lo, double hi)
+/* True if no part of F within reach faces the side and the ends are out of reach. */
+static int no_part_faces(const face_sum *q, double lo, double hi)
 {
     const fl_cone_profile *c = q->c;
-    if (!on_side(q, lo, hi)) return 0;
+    if (!side_is_nearest(q, lo, hi)) return 0;
     const double most = c->nr * sqrt(fmax(1.0 - q->n.z * q->n.z, 0.0)) - c->nz * q->n.z;
     return most <= FL_FACE_PAIR_COSINE;
 }
 
-/* Seen from its plane alone, no part of F faces the side, and the ends are out of reach:
+/* The same from the plane of F alone:
  *     c rho = -nr n_F.b - nz nFz rho,   n_F.b = level - nFz z. */
-static int faces_away(const fl_cone_profile *c, fl_vec3 n, double level, double low, double high)
+static int plane_faces_away(const fl_cone_profile *c, fl_vec3 n, double level, double low, double high)
 {
     const double far = c->R * fabs(c->nz), K0 = level - n.z * low, K1 = level - n.z * high;
     return low >= far && high <= c->h - far && -c->nz * n.z <= FL_FACE_PAIR_COSINE && K0 >= 0.0 && K1 >= 0.0;
 }
 
-/* Where on the side the line, which lies in F, begins or ends to face it, in (0, 1):
+/* Where a line in F begins or ends to face the side, in (0, 1): the zeros of
  *     c = c0 - nr (level - nFz z)/rho = FL_FACE_PAIR_COSINE,
- * squared.  How many. */
-static int facing(const face *q, const fl_cone_profile_line *l, double t[2])
+ * squared.  Returns how many. */
+static int facing_limits(const face_sum *q, const fl_cone_profile_line *l, double t[2])
 {
     const fl_cone_profile *c = q->c;
     const double need = FL_FACE_PAIR_COSINE + c->nz * q->n.z, k0 = c->nr * (q->n.z * l->z0 - q->level),
@@ -235,7 +236,7 @@ int fl_cone_face_evaluate(fl_patch_points *w, const fl_patch_core *A, int32_t F,
 {
     const fl_poly *p = A->p;
     const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
-    face q = {.c = c, .A = A, .F = F, .n = A->n[F]};
+    face_sum q = {.c = c, .A = A, .F = F, .n = A->n[F]};
     const fl_vec3 tilt = v3_madd(v3(0, 0, 1), -q.n.z, q.n);
     double lo = INFINITY, hi = -INFINITY, low = INFINITY, high = -INFINITY;
     int zero[2];
@@ -245,12 +246,12 @@ int fl_cone_face_evaluate(fl_patch_points *w, const fl_patch_core *A, int32_t F,
         high = z > high ? z : high;
     }
     q.level = v3_dot(q.n, A->v[loop[0]]);
-    if (low >= c->h + c->R || high <= -c->R || faces_away(c, q.n, q.level, low, high)) return 0;
-    /* the corners, and where rows may change: five for a side, four, two ends */
+    if (low >= c->h + c->R || high <= -c->R || plane_faces_away(c, q.n, q.level, low, high)) return 0;
+    /* corners, and limits of rows: five a side of F, four breaks, two ends */
     if (fl_reserve(&w->polygon, &w->polygon_cap, n + (5 * n + 6) / 3 + 1, sizeof *w->polygon)) return -1;
     double *at = (double *)(w->polygon + n);
     low = INFINITY, high = -INFINITY;
-    q.ex = v3_norm(tilt) > SMALL ? v3_unit(tilt) : v3_normal_to(q.n);
+    q.ex = v3_norm(tilt) > FLAT_TOL ? v3_unit(tilt) : v3_normal_to(q.n);
     q.ey = v3_cross(q.n, q.ex);
     for (int32_t k = 0; k < n; k++) {
         const double x = v3_dot(q.ex, A->v[loop[k]]), y = v3_dot(q.ey, A->v[loop[k]]);
@@ -267,7 +268,7 @@ int fl_cone_face_evaluate(fl_patch_points *w, const fl_patch_core *A, int32_t F,
                                     from.x * q.ex.x + from.y * q.ex.y, q.ex.x * q.ex.x + q.ex.y * q.ex.y};
     const double wide = fmax(c->r0, c->r1) + c->R, near = fmax(low, -high);
     if (near > 0.0 && near * near >= wide * wide) return 0;
-    if (turned_away(&q, lo, hi) || !fl_cone_profile_clip(c, &q.axis, &lo, &hi, zero)) return 0;
+    if (no_part_faces(&q, lo, hi) || !fl_cone_profile_clip(c, &q.axis, &lo, &hi, zero)) return 0;
     if (near > 0.0 && near * near + fl_cone_line_min_radius2(&q.axis, lo, hi) >= wide * wide) return 0;
     q.sum.o = v3_madd(from, 0.5 * (lo + hi), q.ex);
     q.sum.x = q.ex, q.sum.y = q.ey;
@@ -275,11 +276,11 @@ int fl_cone_face_evaluate(fl_patch_points *w, const fl_patch_core *A, int32_t F,
     for (int32_t k = 0; k < n; k++) {
         const fl_vec3 a = q.corner[k], b = q.corner[k + 1 < n ? k + 1 : 0];
         if (a.x > lo && a.x < hi) at[breaks++] = a.x;
-        /* where the border of F comes within R and where it leaves */
+        /* where the border of F enters and leaves the dilated cone */
         const fl_vec3 v = A->v[loop[k]], u = v3_sub(A->v[loop[k + 1 < n ? k + 1 : 0]], v);
         const fl_cone_profile_line l = fl_cone_profile_line_of(v, u);
         double t[2];
-        for (int e = facing(&q, &l, t); e-- > 0;) {
+        for (int e = facing_limits(&q, &l, t); e-- > 0;) {
             const double x = a.x + t[e] * (b.x - a.x);
             if (x > lo && x < hi) at[breaks++] = x;
         }
@@ -293,7 +294,7 @@ int fl_cone_face_evaluate(fl_patch_points *w, const fl_patch_core *A, int32_t F,
     }
     at[breaks++] = lo, at[breaks++] = hi;
     fl_cone_sort_ascending(at, breaks);
-    if (on_side(&q, lo, hi)) {
+    if (side_is_nearest(&q, lo, hi)) {
         double room[3];
         for (int k = 0; k < 3; k++) {
             const double x = lo + 0.5 * k * (hi - lo),
@@ -305,13 +306,14 @@ int fl_cone_face_evaluate(fl_patch_points *w, const fl_patch_core *A, int32_t F,
     for (int32_t b = 0; b + 1 < breaks; b++) {
         const int ends[2] = {zero[0] && b == 0, zero[1] && b + 2 == breaks};
         const double x0 = at[b], width = at[b + 1] - x0;
-        const int side = on_side(&q, x0, at[b + 1]), panels = side ? 1 : PANELS;
-        if (!(width > SMALL * (hi - lo))) continue;
+        const int side = side_is_nearest(&q, x0, at[b + 1]), panels = side ? 1 : PANELS;
+        if (!(width > FLAT_TOL * (hi - lo))) continue;
         for (int k = 0; k < panels * FL_LINE10_NODES; k++) {
             double t;
             const double u = (k / FL_LINE10_NODES + FL_LINE10_NODE[k % FL_LINE10_NODES]) / panels,
                          dt = fl_cone_cluster_node(u, ends, &t);
-            add_line(&q, x0 + t * width, FL_LINE10_WEIGHT[k % FL_LINE10_NODES] / panels * dt * width, side);
+            add_any_row(&q, x0 + t * width, FL_LINE10_WEIGHT[k % FL_LINE10_NODES] / panels * dt * width,
+                        side);
         }
     }
     return fl_cone_sum_to_points(w, &q.sum, 3, A->r);

@@ -2,8 +2,11 @@
 #include "patch/cone_profile.h"
 #include <math.h>
 
-/* Steps in search of where s ends, and of where it is largest. */
-enum { SEARCHES = 60, GOLDEN_STEPS = 40 };
+/* Two parameters of a line that differ by less, over their size, are equal: two units of 2^-52. */
+#define ROUNDING 4e-16
+
+/* Steps of the search for the end of s, and for its maximum. */
+enum { ROOT_STEPS = 60, GOLDEN_STEPS = 40 };
 
 fl_cone_profile fl_cone_profile_of(const fl_truncated_cone *c, double R)
 {
@@ -11,7 +14,7 @@ fl_cone_profile fl_cone_profile_of(const fl_truncated_cone *c, double R)
     return (fl_cone_profile){c->r0, c->r1, c->h, R, c->h / length, (c->r0 - c->r1) / length, length};
 }
 
-static fl_cone_profile_field rim_at(double rho, double z, int zone)
+static fl_cone_profile_field distance_from_rim(double rho, double z, int zone)
 {
     const double d = sqrt(rho * rho + z * z), over = d > 0.0 ? 1.0 / d : 0.0;
     return (fl_cone_profile_field){d, d > 0.0 ? rho * over : 1.0, z * over, over, zone};
@@ -20,7 +23,7 @@ static fl_cone_profile_field rim_at(double rho, double z, int zone)
 fl_cone_profile_field fl_cone_profile_distance(const fl_cone_profile *c, double rho, double z)
 {
     const double out = c->nr * (rho - c->r0) + c->nz * z, along = c->nr * z - c->nz * (rho - c->r0);
-    if (out <= 0.0 && z >= 0.0 && z <= c->h) { /* inside: out by the nearest side */
+    if (out <= 0.0 && z >= 0.0 && z <= c->h) { /* inside: distance from the nearest side */
         if (out >= -z && out >= z - c->h)
             return (fl_cone_profile_field){out, c->nr, c->nz, 0.0, FL_CONE_SIDE};
         return -z > z - c->h ? (fl_cone_profile_field){-z, 0.0, -1.0, 0.0, FL_CONE_LOW_END}
@@ -30,8 +33,8 @@ fl_cone_profile_field fl_cone_profile_distance(const fl_cone_profile *c, double 
         return (fl_cone_profile_field){out, c->nr, c->nz, 0.0, FL_CONE_SIDE};
     if (z < 0.0 && rho <= c->r0) return (fl_cone_profile_field){-z, 0.0, -1.0, 0.0, FL_CONE_LOW_END};
     if (z > c->h && rho <= c->r1) return (fl_cone_profile_field){z - c->h, 0.0, 1.0, 0.0, FL_CONE_HIGH_END};
-    return 2.0 * along < c->length ? rim_at(rho - c->r0, z, FL_CONE_LOW_RIM)
-                                   : rim_at(rho - c->r1, z - c->h, FL_CONE_HIGH_RIM);
+    return 2.0 * along < c->length ? distance_from_rim(rho - c->r0, z, FL_CONE_LOW_RIM)
+                                   : distance_from_rim(rho - c->r1, z - c->h, FL_CONE_HIGH_RIM);
 }
 
 double fl_cone_profile_radius(const fl_cone_profile *c, double z)
@@ -42,23 +45,23 @@ double fl_cone_profile_radius(const fl_cone_profile *c, double z)
     return left > 0.0 ? (on < 0.0 ? c->r0 : c->r1) + sqrt(left) : -1.0;
 }
 
-/* > 0 inside the dilated frustum; concave in t. */
-static double depth(const fl_cone_profile *c, const fl_cone_profile_line *l, double t)
+/* > 0 inside the dilated cone; concave in t. */
+static double depth_inside(const fl_cone_profile *c, const fl_cone_profile_line *l, double t)
 {
     const double p = fl_cone_profile_radius(c, l->z0 + t * l->dz), rho2 = l->a + t * (2.0 * l->b + t * l->g);
     return p < 0.0 ? p - fabs(l->z0 + t * l->dz - 0.5 * c->h) : p - sqrt(rho2 > 0.0 ? rho2 : 0.0);
 }
 
-/* Where depth ends between a point with and one without: false position that halves the value of an end which
- * stays (Illinois), and its last point inside. */
-static double end_of(const fl_cone_profile *c, const fl_cone_profile_line *l, double in, double out)
+/* Root of depth_inside() between a point inside and one outside: false position that halves the value of an
+ * end that stays (Illinois).  Returns the last point inside. */
+static double find_surface(const fl_cone_profile *c, const fl_cone_profile_line *l, double in, double out)
 {
-    double fi = depth(c, l, in), fo = depth(c, l, out);
-    const double same = 4e-16 * (fabs(in) + fabs(out));
-    for (int k = 0, side = 0; k < SEARCHES && fabs(in - out) > same; k++) {
+    double fi = depth_inside(c, l, in), fo = depth_inside(c, l, out);
+    const double same = ROUNDING * (fabs(in) + fabs(out));
+    for (int k = 0, side = 0; k < ROOT_STEPS && fabs(in - out) > same; k++) {
         double t = in - fi * (out - in) / (fo - fi);
         if (k % 4 == 3 || (in < out ? !(t > in && t < out) : !(t < in && t > out))) t = 0.5 * (in + out);
-        const double f = depth(c, l, t);
+        const double f = depth_inside(c, l, t);
         if (f == 0.0) return t;
         if (f > 0.0) {
             in = t, fi = f;
@@ -73,10 +76,10 @@ static double end_of(const fl_cone_profile *c, const fl_cone_profile_line *l, do
     return in;
 }
 
-/* The same where the side alone is in reach of [lo, hi], so that p(t)^2 - rho(t)^2 is A t^2 + 2 B t + C: what
- * is inside lies between its zeros.  -1 where it may not. */
-static int inside_side(const fl_cone_profile *c, const fl_cone_profile_line *l, double *lo, double *hi,
-                       int zero[2])
+/* Clips where the side alone is within reach of [lo, hi]: p(t)^2 - rho(t)^2 is A t^2 + 2 B t + C, positive
+ * between its zeros.  -1 where the side may not be alone. */
+static int clip_beside_side(const fl_cone_profile *c, const fl_cone_profile_line *l, double *lo, double *hi,
+                            int zero[2])
 {
     const double up = c->R * c->nz, z0 = l->z0 + *lo * l->dz - up, z1 = l->z0 + *hi * l->dz - up;
     if (!(fmin(z0, z1) >= 0.0 && fmax(z0, z1) <= c->h)) return -1;
@@ -102,25 +105,27 @@ int fl_cone_profile_clip(const fl_cone_profile *c, const fl_cone_profile_line *l
     in = in < a ? a : in > b ? b : in;
     if (fmin(z0, z1) >= c->h + c->R || fmax(z0, z1) <= -c->R) return 0;
     if (l->a + in * (2.0 * l->b + in * l->g) >= wide * wide) return 0;
-    const int known = inside_side(c, l, lo, hi, zero);
+    const int known = clip_beside_side(c, l, lo, hi, zero);
     if (known >= 0) return known;
-    const int lo_in = depth(c, l, a) > 0.0, hi_in = depth(c, l, b) > 0.0;
+    const int lo_in = depth_inside(c, l, a) > 0.0, hi_in = depth_inside(c, l, b) > 0.0;
     zero[0] = !lo_in, zero[1] = !hi_in;
     if (lo_in && hi_in) return 1;
     if (lo_in) in = a;
     else if (hi_in) in = b;
-    else if (!(depth(c, l, in) > 0.0)) {
-        if (c->nz == 0.0 && fmin(z0, z1) >= 0.0 && fmax(z0, z1) <= c->h) return 0; /* it is the deepest */
-        double x = b - ratio * (b - a), y = a + ratio * (b - a), fx = depth(c, l, x), fy = depth(c, l, y);
+    else if (!(depth_inside(c, l, in) > 0.0)) {
+        /* this is the deepest point */
+        if (c->nz == 0.0 && fmin(z0, z1) >= 0.0 && fmax(z0, z1) <= c->h) return 0;
+        double x = b - ratio * (b - a), y = a + ratio * (b - a), fx = depth_inside(c, l, x),
+               fy = depth_inside(c, l, y);
         for (int k = 0; k < GOLDEN_STEPS && fx <= 0.0 && fy <= 0.0; k++) {
-            if (fx > fy) b = y, y = x, fy = fx, x = b - ratio * (b - a), fx = depth(c, l, x);
-            else a = x, x = y, fx = fy, y = a + ratio * (b - a), fy = depth(c, l, y);
+            if (fx > fy) b = y, y = x, fy = fx, x = b - ratio * (b - a), fx = depth_inside(c, l, x);
+            else a = x, x = y, fx = fy, y = a + ratio * (b - a), fy = depth_inside(c, l, y);
         }
         if (fx <= 0.0 && fy <= 0.0) return 0;
         in = fx > 0.0 ? x : y;
     }
-    if (!lo_in) *lo = end_of(c, l, in, *lo);
-    if (!hi_in) *hi = end_of(c, l, in, *hi);
+    if (!lo_in) *lo = find_surface(c, l, in, *lo);
+    if (!hi_in) *hi = find_surface(c, l, in, *hi);
     return *lo < *hi;
 }
 

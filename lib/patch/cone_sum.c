@@ -2,11 +2,11 @@
 #include "patch/cone_sum.h"
 #include <math.h>
 
-/* Halvings in search of where a zone ends: the length of a double; parts of a line that are looked at. */
-enum { HALVINGS = 45, LOOKS = 2 };
+/* Bisections to the end of a zone, the length of a double; intervals of a line that are sampled. */
+enum { BISECTIONS = 45, SAMPLES = 2 };
 
-/* An end with less of the overlap than this part of the largest is one where it is nothing. */
-#define NEARLY 0.3
+/* An end with less than this part of the largest overlap counts as s = 0. */
+#define NEARLY_ZERO 0.3
 
 void fl_cone_sum_add(fl_cone_sums *q, fl_vec3 at, fl_vec3 n, double s, double u, double du, double ddu)
 {
@@ -57,12 +57,12 @@ void fl_cone_split_interval(fl_cone_intervals *out, int (*zone)(const void *, do
     double t = lo, in = lo;
     int at = zone(what, lo);
     out->n = 0;
-    for (int k = 1; k <= LOOKS; k++) {
-        const double to = lo + (hi - lo) * k / LOOKS;
+    for (int k = 1; k <= SAMPLES; k++) {
+        const double to = lo + (hi - lo) * k / SAMPLES;
         const int then = zone(what, to);
         while (then != at && out->n + 2 < FL_CONE_INTERVALS) {
             double beyond = to;
-            for (int m = 0; m < HALVINGS; m++) {
+            for (int m = 0; m < BISECTIONS; m++) {
                 const double mid = 0.5 * (in + beyond);
                 if (zone(what, mid) == at) in = mid;
                 else beyond = mid;
@@ -97,8 +97,8 @@ double fl_cone_cluster_node(double u, const int zero[2], double *t)
 void fl_cone_mark_zero_ends(const double s[3], int zero[2])
 {
     const double most = fmax(s[1], fmax(s[0], s[2]));
-    zero[0] |= s[0] < NEARLY * most;
-    zero[1] |= s[2] < NEARLY * most;
+    zero[0] |= s[0] < NEARLY_ZERO * most;
+    zero[1] |= s[2] < NEARLY_ZERO * most;
 }
 
 void fl_cone_sort_ascending(double *x, int32_t n)

@@ -1,30 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* edge_integral.h -- the places of edges: int s^(9/2) dl along an edge of one core over another (patch_points.h).
+/* edge_integral.h -- edge term of the law `patch`: int s^(9/2) dl along an edge of one core over the other
+ * core (patch_law.h), as patch points.
  *
- * Along a straight line the distance to a polyhedron changes its formula where the nearest feature does: at
- * the planes between the prisms over its faces, the wedges over its edges and the cones over its vertices.
- * The line is cut there and where s becomes 0, and each piece gets the points of a rule of Gauss that knows
- * about the root of s at such an end: FL_LINE_NODES (quadrature_rules.h) where s is linear, exact; else 8, or
- * FL_EDGE_CURVED_NODES where the overlap is large, within 2e-8, the force and its moment too.
+ * The distance of a point on a straight line from a polyhedron is a different formula in each Voronoi region:
+ * the prism over a face, the wedge over an edge, the cone over a vertex.  The line is cut where it passes
+ * from one region to the next and where s = 0.  Each piece is integrated by a Gauss rule that accounts for
+ * the root of s at such an end.  Where s is linear (over a face) FL_LINE_NODES nodes are exact
+ * (quadrature_line.h).  Elsewhere 8 nodes, or FL_EDGE_CURVED_NODES for large overlaps, are within 2e-8 in
+ * energy, force and moment.
  *
- * Edges wait until all that a contact has are known, and then go FL_SIMD_WIDTH at a time.  Each has its places by
- * itself, and in the order in which they came: not a bit depends on what else there is. */
+ * Edges are queued until all edges of a contact are known, then evaluated FL_SIMD_WIDTH at a time.  The
+ * points of an edge do not depend on the other edges, and they come in the order of the queue. */
 #ifndef FL_PATCH_EDGE_INTEGRAL_H
 #define FL_PATCH_EDGE_INTEGRAL_H
 #include "base/simd.h"
-#include "patch/patch_points.h"
+#include "patch/patch_types.h"
 
 enum { FL_EDGE_CURVED_NODES = 10 };
 
-/* A part of it, in [0, 1]. */
+/* Part of an edge, as parameters in [0, 1]. */
 typedef struct {
     double lo, hi;
 } fl_edge_span;
 
-/* Points closer to each other than this fraction of the size have no direction between them. */
+/* Two points nearer to each other than this fraction of the size of the core have no direction between them:
+ * it would be rounding. */
 #define FL_SAME_POINT_TOL 1e-13
 
-/* Keep of t what has a linear function >= 0, from its values at 0 and 1; 0 when nothing is left. */
+/* Keeps the part of t in which a linear function is >= 0, a0 and a1 its values at 0 and 1.  Returns 0 when
+ * nothing is left. */
 static inline int fl_edge_span_clip(fl_edge_span *t, double a0, double a1)
 {
     const int in0 = a0 >= 0.0, in1 = a1 >= 0.0;
@@ -36,7 +40,7 @@ static inline int fl_edge_span_clip(fl_edge_span *t, double a0, double a1)
     return t->lo < t->hi;
 }
 
-/* An edge in work: from x0 along u; its places go into w. */
+/* An edge to queue: from x0 along u (the whole edge); its points are added to w. */
 typedef struct {
     fl_patch_points *w;
     const fl_patch_core *own;
@@ -44,29 +48,30 @@ typedef struct {
     double factor; /* fl_edge_integral_factor() */
 } fl_edge_line;
 
-/* Edges by lanes: where they begin, their way; the part of it that counts, in [0, 1], none where lo >= hi;
- * fl_edge_integral_factor(); radius and side of the core they belong to. */
+/* Edges, one a lane: start x, vector u, the part [lo, hi] of [0, 1] to integrate (none where lo >= hi),
+ * fl_edge_integral_factor(), dilation radius and side of the core that has the edge. */
 typedef struct {
     double x[3][FL_SIMD_WIDTH], u[3][FL_SIMD_WIDTH];
     double lo[FL_SIMD_WIDTH], hi[FL_SIMD_WIDTH], factor[FL_SIMD_WIDTH];
     double r[FL_SIMD_WIDTH], side[FL_SIMD_WIDTH];
 } fl_edge_lanes;
 
-/* Over faces: their normals, and how high the ends are above them. */
+/* Edges over faces: normals n of the faces, heights h0 and h1 of the ends of the edge over them. */
 typedef struct {
     fl_edge_lanes of;
     double n[3][FL_SIMD_WIDTH];
     double h0[FL_SIMD_WIDTH], h1[FL_SIMD_WIDTH];
 } fl_edge_face_lanes;
 
-/* Over lines through c along the unit vectors e, or points c, e being 0; no nearer than `small`. */
+/* Edges over lines through c along the unit vectors e, or over points c where e = 0.  Nodes nearer than
+ * `small` to the line or point do not count. */
 typedef struct {
     fl_edge_lanes of;
     double c[3][FL_SIMD_WIDTH], e[3][FL_SIMD_WIDTH];
     double small[FL_SIMD_WIDTH];
 } fl_edge_point_lanes;
 
-/* Edges that wait: what struct fl_edge_integral begins with. */
+/* The queue; first member of struct fl_edge_integral. */
 typedef struct {
     fl_edge_face_lanes *face;
     fl_edge_point_lanes *point;
@@ -74,14 +79,15 @@ typedef struct {
     int32_t face_cap, point_cap;
 } fl_edge_queue;
 
-/* What int_0^1 s^(9/2) dt of edge e of `own` is multiplied by; other: radius of the other core.  0 for edges
- * without any. */
+/* Factor of int_0^1 s^(9/2) dt in U for edge e of `own`: w L (256/315) sqrt(2 rho) times the length.  0 for
+ * an edge without an edge term.
+ *     other   dilation radius of the other core [m] */
 double fl_edge_integral_factor(const fl_patch_core *own, int32_t e, double other);
 
-/* None waits; before the first that does.  -1 when memory runs out. */
+/* Empties the queue.  -1 when memory runs out. */
 int fl_edge_integral_begin(fl_patch_points *w);
 
-/* One more four of those over faces, of those over points. -1 when memory runs out. */
+/* Add four empty lanes over faces, over points.  -1 when memory runs out. */
 int fl_edge_queue_grow_faces(fl_edge_queue *s);
 int fl_edge_queue_grow_points(fl_edge_queue *s);
 
@@ -97,9 +103,9 @@ FL_SIMD_INLINE void fl_edge_lane_set(fl_edge_lanes *e, uint32_t l, const fl_edge
     e->r[l] = of->own->r, e->side[l] = of->own->side;
 }
 
-/* Let the part t of an edge wait that lies over a face with normal n, h0 and h1 its heights at the two
- * ends of the edge; and over the point c, or the line through c along the unit vector *axis, no nearer
- * than `small`. -1 when memory runs out. */
+/* Queue the part t of edge l: over a face with unit normal n, h0 and h1 the heights of the ends of the edge;
+ * over the point c, or the line through c along the unit vector *axis, `small` as in fl_edge_point_lanes.  -1
+ * when memory runs out. */
 FL_SIMD_INLINE int fl_edge_queue_over_face(const fl_edge_line *l, fl_edge_span t, double h0, double h1,
                                            fl_vec3 n)
 {
@@ -126,16 +132,17 @@ FL_SIMD_INLINE int fl_edge_queue_over_point(const fl_edge_line *l, fl_edge_span 
     return 0;
 }
 
-/* The places of all that wait, those over faces first, with the reach R.  -1 when memory runs out. */
+/* Adds the points of all queued edges to their fl_patch_points, edges over faces first.  R: reach [m].  -1
+ * when memory runs out. */
 int fl_edge_integral_finish(fl_patch_points *w, double R);
 
-/* The places of so many fours, all lanes of which are filled. */
+/* Add the points of `fours` groups of four edges, without the queue; every lane must be set. */
 int fl_edge_integral_over_faces(fl_patch_points *w, const fl_edge_face_lanes *q, int32_t fours, double R);
 int fl_edge_integral_over_points(fl_patch_points *w, const fl_edge_point_lanes *q, int32_t fours, double R);
 
-/* Let edge e of `own` wait over the plane z = 0. */
+/* Queues edge e of `own` over the plane z = 0. */
 int fl_edge_queue_over_plane(fl_patch_points *w, const fl_patch_core *own, int32_t e);
 
-void fl_edge_integral_free(struct fl_edge_integral *s); /* of fl_patch_points; takes NULL */
+void fl_edge_integral_free(struct fl_edge_integral *s); /* takes NULL */
 
 #endif

@@ -1,101 +1,91 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "patch/face_integral.h"
 #include <math.h>
 #include "base/array.h"
 #include "base/simd.h"
-#include "patch/face_integral.h"
+#include "geom/quadrature_rules.h"
 #include "narrow/overlap.h"
 
-#define SAME 1e-13 /* of the size: how far below the other's plane still counts as on it */
-/* Of the sum of its parts: less is what rounding leaves of parts that cancel. */
-#define NOTHING 1e-13
-#define ALIKE 0.5 /* what holds for integrals is taken to hold for their sums above this */
-#define SLIM 4.0  /* cotangent of half the angle of a corner */
+/* fraction of the size of the core: how far below the other's plane a corner still counts as on it */
+#define ON_PLANE_TOL 1e-13
+/* Fraction of the sum of the absolute parts: a smaller sum is the rounding of parts that cancel. */
+#define CANCEL_TOL 1e-13
+#define BOUND_SHARE 0.5 /* part of its lower bound above which the sum for s^4 is used */
+#define SLIM_CORNER 4.0 /* cotangent of half the angle of a corner */
 
-enum { NODES = 3 };
-
-/* Gauss' three points on [0, 1] */
-static const double GAUSS[NODES] = {0.11270166537925831148, 0.5, 0.88729833462074168852};
-static const double GAUSS_WEIGHT[NODES] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-
-/* and four, for s^4 times the fade times the way along a side */
-enum { SIDE_NODES = 4 };
-static const double SIDE[SIDE_NODES] = {0.06943184420297371239, 0.33000947820757186760,
-                                        0.66999052179242813240, 0.93056815579702628761};
-static const double SIDE_WEIGHT[SIDE_NODES] = {0.17392742256872692869, 0.32607257743127307131,
-                                               0.32607257743127307131, 0.17392742256872692869};
-
-/* A corner of F over the plane of f: plane coordinates and overlap; the side that starts here is part of F's
- * own rim (1) or not (0). */
+/* A corner of F over the plane of f: plane coordinates and overlap.  own: 1 where the side that starts here
+ * is a side of F, 0 where it is a cut. */
 typedef struct {
     double x, y, s, own;
 } corner;
 
-/* Numbers of the sides of f, one array each, counter-clockwise: where side c starts, its direction, its
- * length; D, the way to the inner rim from its first corner for each unit of width, and the part of it along
- * the side.  One more at the end is the first again. */
+/* The sides of f, one array a number, counter-clockwise: start of side c, its direction, its length.  D: path
+ * to the inner border of the rim from its first corner, for a width of 1; tan: the component of D along the
+ * side.  One more entry at the end repeats the first. */
 typedef struct {
     double *x, *y, *ux, *uy, *length, *Dx, *Dy, *tan;
-    fl_simd *lo, *hi; /* part of the inner rim that lies in F, along the side; lo >= hi: none */
-    int32_t n, room;  /* room: rounded up to full registers */
+    fl_simd *lo, *hi; /* part of the inner border inside F, along the side; lo >= hi: none */
+    int32_t n, room;  /* room: n rounded up to full registers */
     double width;
-} outline;
+} face_border;
 
-/* Sums over an area, by lanes and about the lane's origin: of s^3 times 1, x, y, xx, xy, yy, of s^2, all with
- * the fade; of the sizes of the parts of the first; the largest s. */
+/* Integrals by lanes, about the origin of the lane: of s^3 times 1, x, y, xx, xy, yy and of s^2, all with the
+ * rim weight; sum of the absolute parts of the first; the largest s. */
 typedef struct {
     fl_simd m, x, y, xx, xy, yy, q, parts, most;
-} sums;
+} lane_sums;
 
-/* A piece of border, by lanes: from (x, y) by (dx, dy), seen from the lane's origin; overlap from s by ds,
- * fade from w by dw. */
+/* A piece of border, by lanes, relative to the origin of the lane: from (x, y) by (dx, dy); overlap from s by
+ * ds; rim weight from w by dw. */
 typedef struct {
     fl_simd x, y, dx, dy, s, ds, w, dw;
-} piece;
+} border_piece;
 
-/* All of it, about the first corner, so that what is far away keeps its digits. */
+/* All integrals, about the first corner of F, so that far from the origin no digits are lost. */
 typedef struct {
     double m, x, y, xx, xy, yy, q, u, parts, most; /* u: of s^4 */
-} total;
+} polygon_sums;
 
-/* Where the plane of f is, and F over it. */
+/* F over the plane of f. */
 typedef struct {
     fl_patch_points *w;
     const fl_patch_core *own;
     fl_plane_axes at;    /* origin and axes in the plane of f */
-    const fl_vec3 *v;    /* its corners, by */
-    const int32_t *loop; /* their numbers; NULL: a plane has none */
+    const fl_vec3 *v;    /* vertices of the other core */
+    const int32_t *loop; /* corners of f; NULL: a plane */
     fl_vec3 nf, nF;
-    double slope, half, R; /* c = -n_F.n_f; 1/2, or 1 for a plane */
+    double slope, half, R; /* c = -n_F.n_f; half: 1/2, or 1 for a plane */
     double sx, sy;         /* slopes of s over F */
-    double m, dm;          /* half of m(c), and its derivative */
-    corner *p;             /* [n + 1] F, counter-clockwise, the first again at the end */
+    double m, dm;          /* half m(c) and its derivative */
+    corner *p;             /* [n + 1] F, counter-clockwise; the last repeats the first */
     int32_t n;
-    fl_simd *away;            /* [n + 1] of the corners of F from four sides of f */
-    fl_simd *from, *to;       /* [n] parts of sides of F that are in a rim, */
-    int32_t *which;           /* [n] and of which; */
-    fl_simd *beyond, *before; /* [n] what is inside the rims, by lanes, begins and ends */
-    double *in, *out;         /* [n] and that inside all rims */
-    total sum;
-    fl_vec3 pull, turn; /* of the rims, in the axes at.x, at.y, nf: force, and moment about the first corner
-                         * on the plane of f */
-} footprint;
+    fl_simd *away;            /* [n + 1] distances of the corners of F from four sides of f */
+    fl_simd *from, *to;       /* [n] parts of sides of F inside a rim */
+    int32_t *which;           /* [n] and their sides */
+    fl_simd *beyond, *before; /* [n] begin and end of the parts inside the inner borders, by lanes */
+    double *in, *out;         /* [n] begin and end of the parts inside all inner borders */
+    polygon_sums sum;
+    /* rim force and its moment about the first corner on the plane of f, in the axes at.x, at.y, nf */
+    fl_vec3 pull, turn;
+} projected_face;
 
-/* The triangles from the origin to pieces of border, of what is linear in the triangle with the values A and
- * B at the origin and at the border: int s^3 w rho^k dA = cross int_0^1 dt int_0^1 rho^(k+1) (A (1 - rho) + B
- * rho)^3 w drho, in rho closed, in t by Gauss' rule: exact but for the second moments of rims.  faded: the
- * origin lies where w is 0, so that w is rho times that at the border; else w = 1. */
-static inline __attribute__((always_inline)) void fan(sums *q, const piece *p, const fl_simd *at,
-                                                      const fl_simd_mask *counted, int faded)
+/* Adds triangles from the origin to pieces of border.  With the overlap A at the origin and B on the border,
+ *     int s^3 w rho^k dA = cross int_0^1 dt int_0^1 rho^(k+1) (A (1 - rho) + B rho)^3 w drho,
+ * closed in rho, by Gauss' rule in t: exact but for the second moments in rims.
+ *     faded   1: the weight w is 0 at the origin and linear, so it is rho times that on the border; 0: w = 1
+ */
+static inline __attribute__((always_inline)) void
+add_fan(lane_sums *q, const border_piece *p, const fl_simd *at, const fl_simd_mask *counted, int faded)
 {
     const fl_simd_mask valid = *counted;
     const fl_simd A = *at, A2 = A * A, A3 = A2 * A,
                   cross = FL_SIMD_MASKED(valid, p->x * p->dy - p->y * p->dx);
     const fl_simd from = FL_SIMD_MASKED(valid, p->s), end = FL_SIMD_MASKED(valid, p->s + p->ds), zero = {0};
     fl_simd sum = zero;
-    for (int k = 0; k < NODES; k++) {
-        const double z = GAUSS[k];
+    for (int k = 0; k < FL_LINE3_NODES; k++) {
+        const double z = FL_LINE3_NODE[k];
         const fl_simd B = p->s + z * p->ds, x = p->x + z * p->dx, y = p->y + z * p->dy;
-        const fl_simd share = GAUSS_WEIGHT[k] * cross;
+        const fl_simd share = FL_LINE3_WEIGHT[k] * cross;
         fl_simd c = share, i0, i1, i2, j;
         if (faded) {
             c *= p->w + z * p->dw;
@@ -123,19 +113,21 @@ static inline __attribute__((always_inline)) void fan(sums *q, const piece *p, c
     q->most = FL_SIMD_MAX(FL_SIMD_MAX(q->most, from), end);
 }
 
-/* The same to a border of a rim, of which the place and the fade are given; s: the overlap at the origin. */
-static inline __attribute__((always_inline)) void border(sums *q, const footprint *f, const fl_simd *s,
-                                                         piece *b, const fl_simd_mask *counted)
+/* Adds triangles to the border of a rim; b: position and weight, s: overlap at the origin. */
+static inline __attribute__((always_inline)) void add_rim_border(lane_sums *q, const projected_face *f,
+                                                                 const fl_simd *s, border_piece *b,
+                                                                 const fl_simd_mask *counted)
 {
     b->s = *s + f->sx * b->x + f->sy * b->y;
     b->ds = f->sx * b->dx + f->sy * b->dy;
-    fan(q, b, s, counted, 1);
+    add_fan(q, b, s, counted, 1);
 }
 
-/* The sums of four lanes with origins (x, y), where the overlap is s, into those of all. */
-static inline __attribute__((always_inline)) void gather(footprint *f, const sums *q, const fl_simd *o)
+/* Adds the sums of four lanes, with origins o[0], o[1] and overlap o[2] there, to the sums of all. */
+static inline __attribute__((always_inline)) void add_lane_sums(projected_face *f, const lane_sums *q,
+                                                                const fl_simd *o)
 {
-    total *t = &f->sum;
+    polygon_sums *t = &f->sum;
     const fl_simd x = o[0], y = o[1], s = o[2];
     const fl_simd u = s * q->m + f->sx * q->x + f->sy * q->y, mx = x * q->m, my = y * q->m;
     const fl_simd X = q->x + mx, Y = q->y + my, XX = q->xx + x * (q->x + X), XY = q->xy + x * q->y + y * X;
@@ -147,9 +139,12 @@ static inline __attribute__((always_inline)) void gather(footprint *f, const sum
     for (int l = 0; l < FL_SIMD_WIDTH; l++) t->most = q->most[l] > t->most ? q->most[l] : t->most;
 }
 
-/* Moving F outward over its own rim makes the area larger: the gradient of that.  Side k of F, and over it
- * the integrals of s^4 and of s^4 times the share of the way along it, both with the fade. */
-static inline __attribute__((always_inline)) void rim(footprint *f, int32_t k, double all, double far)
+/* Adds the gradient from the motion of F's own rim: moving F outward enlarges the area.
+ *     k     side of F
+ *     all   integral of s^4 over the side with the rim weight;  far: of s^4 times the fraction along the side
+ */
+static inline __attribute__((always_inline)) void add_rim_force(projected_face *f, int32_t k, double all,
+                                                                double far)
 {
     const corner a = f->p[k], b = f->p[k + 1], o = f->p[0];
     const double ex = b.x - a.x, ey = b.y - a.y, rx = all * (a.x - o.x) + far * ex,
@@ -158,26 +153,27 @@ static inline __attribute__((always_inline)) void rim(footprint *f, int32_t k, d
     f->turn = v3_add(f->turn, v3(rz * ex, rz * ey, -(rx * ex + ry * ey)));
 }
 
-/* int s^4 dt over a piece of a side, with the fade, and of that times t, which runs from t0 by dt; dt: what
- * is counted. */
-static inline __attribute__((always_inline)) void along(const piece *p, const fl_simd *t0, const fl_simd *dt,
-                                                        fl_simd *all, fl_simd *far)
+/* int s^4 dt over a piece of a side with the rim weight, and the same times t, which runs from t0 by dt.  dt
+ * is 0 in lanes that do not count. */
+static inline __attribute__((always_inline)) void
+integrate_side(const border_piece *p, const fl_simd *t0, const fl_simd *dt, fl_simd *all, fl_simd *far)
 {
     fl_simd sum = {0}, more = {0};
-    for (int k = 0; k < SIDE_NODES; k++) {
-        const double z = SIDE[k];
+    for (int k = 0; k < FL_LINE4_NODES; k++) {
+        const double z = FL_LINE4_NODE[k];
         const fl_simd s = p->s + z * p->ds, s2 = s * s;
-        const fl_simd c = SIDE_WEIGHT[k] * *dt * (p->w + z * p->dw) * s2 * s2;
+        const fl_simd c = FL_LINE4_WEIGHT[k] * *dt * (p->w + z * p->dw) * s2 * s2;
         sum += c;
         more += c * (*t0 + z * *dt);
     }
     *all = sum, *far = more;
 }
 
-/* LOAD: one by one, since a wide load would wait for the narrow stores before it. */
+/* LOAD loads one by one: a vector load would wait for the scalar stores before it. */
 
-/* The rims of sides [c, c + FL_SIMD_WIDTH) of f, and how much of the sides of F they leave. */
-static inline __attribute__((always_inline)) void rims(footprint *f, const outline *g, int32_t c)
+/* Adds the rims of sides [c, c + FL_SIMD_WIDTH) of f, and finds which parts of the sides of F remain inside.
+ */
+static inline __attribute__((always_inline)) void add_rims(projected_face *f, const face_border *g, int32_t c)
 {
 #define LOAD(a, at) ((fl_simd){g->a[at], g->a[(at) + 1], g->a[(at) + 2], g->a[(at) + 3]})
     const fl_simd zero = {0}, one = 1.0 + zero, never = INFINITY + zero;
@@ -185,7 +181,7 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
                   length = LOAD(length, c);
     const fl_simd bx = LOAD(x, c + 1), by = LOAD(y, c + 1), Dx = LOAD(Dx, c), Dy = LOAD(Dy, c);
     const fl_simd Ex = LOAD(Dx, c + 1), Ey = LOAD(Dy, c + 1), ta = LOAD(tan, c), tb = LOAD(tan, c + 1);
-    /* a lane without a side is left by all */
+    /* in a lane without a side every part is inside */
     const fl_simd W = FL_SIMD_SELECT(length > 0.0, g->width + zero, zero - 3.0);
     const fl_simd d0 = FL_SIMD_SELECT(length > 0.0, ax * uy - ay * ux, zero - 1.0), l0 = -(ax * ux + ay * uy);
     const fl_simd a0 = ay * Dx - ax * Dy, b0 = by * Ex - bx * Ey;
@@ -201,8 +197,8 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     }
     g->lo[c / FL_SIMD_WIDTH] = one, g->hi[c / FL_SIMD_WIDTH] = zero;
     if (!fl_simd_any(&reached)) return;
-    /* distance from the side and along it, on which side of the two lines to the inner rim: of the last
-     * corner */
+    /* of the last corner: distance from the side and along it, and side of the two lines that bound the rim
+     * piece */
     away[n] = away[0];
     fl_simd l = p[0].x * ux + p[0].y * uy + l0;
     fl_simd a = (p[0].x * Dy - p[0].y * Dx) + a0, b = (p[0].y * Ex - p[0].x * Ey) - b0;
@@ -214,11 +210,11 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
         const fl_simd d = away[k], e = away[k + 1], m = q.x * ux + q.y * uy + l0;
         const fl_simd h = (q.x * Dy - q.y * Dx) + a0, i = (q.y * Ex - q.x * Ey) - b0;
         const fl_simd gap = d - W, gaq = e - W, de = e - d, dl = m - l;
-        /* what counts as on the one side of a line for one counts as on the other for its neighbour */
+        /* a point on a bounding line belongs to exactly one of the two rims that share it */
         const fl_simd_mask dp = d >= 0.0, dq = e >= 0.0, wp = gap >= 0.0, wq = gaq >= 0.0, ap = a >= 0.0,
                            aq = h >= 0.0, bp = b > 0.0, bq = i > 0.0, outside = ~(wp & wq);
         const fl_simd_mask crosses = wp ^ wq, crosses_a = ap ^ aq, crosses_b = bp ^ bq;
-        if (!fl_simd_any(&outside)) { /* in no rim: it only tells that the lines go on beyond */
+        if (!fl_simd_any(&outside)) { /* outside the rim: only the crossings of the bounding lines matter */
             a_hi = FL_SIMD_SELECT(crosses_a, never, a_hi), b_hi = FL_SIMD_SELECT(crosses_b, never, b_hi);
             l = m, a = h, b = i;
             continue;
@@ -254,49 +250,52 @@ static inline __attribute__((always_inline)) void rims(footprint *f, const outli
     b_lo = FL_SIMD_MASKED(last, b_lo), b_hi = FL_SIMD_MASKED(last, b_hi);
     g->lo[c / FL_SIMD_WIDTH] = in_lo, g->hi[c / FL_SIMD_WIDTH] = in_hi;
     if (!(g->width > 0.0) || !fl_simd_any(&living)) return;
-    /* the origins: on the side, in the corner where a border to the next rim ends, which then counts for
-     * nothing, or at the foot of something that is in the rim; not in a corner so slim that its border runs
-     * far off, where the overlap may be large and of any sign */
-    const fl_simd_mask at_first = first & (ta <= SLIM), at_last = last & ~at_first & (tb <= SLIM),
-                       add_first = first & ~at_first, add_last = last & ~at_last;
+    /* The origin of a lane lies on its side of f: in a corner where a border to the next rim ends, which then
+     * contributes nothing, or at the foot of a part inside the rim.  Not in a slim corner: its border extends
+     * far, where the overlap may be large and of any sign. */
+    const fl_simd_mask at_first = first & (ta <= SLIM_CORNER),
+                       at_last = last & ~at_first & (tb <= SLIM_CORNER), add_first = first & ~at_first,
+                       add_last = last & ~at_last;
     foot = FL_SIMD_SELECT(some, foot, in_lo);
     foot = FL_SIMD_SELECT(at_last, length, FL_SIMD_MASKED(living, foot));
     foot = FL_SIMD_SELECT(at_first, zero, foot);
     const fl_simd ox = ax + foot * ux, oy = ay + foot * uy, per = 1.0 / W;
     const fl_simd s = p[0].s + f->sx * (ox - p[0].x) + f->sy * (oy - p[0].y);
-    sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    lane_sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
     for (int32_t i = 0; i < parts; i++) {
         const int32_t k = which[i];
         const fl_simd t0 = from[i], dt = to[i] - t0;
         const fl_simd_mask here = dt > 0.0;
         const double ex = p[k + 1].x - p[k].x, ey = p[k + 1].y - p[k].y, es = p[k + 1].s - p[k].s;
         const fl_simd w0 = away[k], dw = ey * ux - ex * uy;
-        const piece b1 = {
+        const border_piece b1 = {
             p[k].x + t0 * ex - ox, p[k].y + t0 * ey - oy, dt * ex, dt * ey, p[k].s + t0 * es, dt * es,
             per * (w0 + t0 * dw),  per * (dt * dw)};
-        fan(&sum, &b1, &s, &here, 1);
+        add_fan(&sum, &b1, &s, &here, 1);
         if (!(p[k].own > 0.0)) continue;
         fl_simd all, far;
-        along(&b1, &t0, &dt, &all, &far);
-        rim(f, k, fl_simd_sum(&all), fl_simd_sum(&far));
+        integrate_side(&b1, &t0, &dt, &all, &far);
+        add_rim_force(f, k, fl_simd_sum(&all), fl_simd_sum(&far));
     }
     if (fl_simd_any(&inner)) {
         const fl_simd x = (in_hi - foot) * ux - W * uy, y = (in_hi - foot) * uy + W * ux, dl = in_lo - in_hi;
-        border(&sum, f, &s, &(piece){x, y, dl * ux, dl * uy, zero, zero, one, zero}, &inner);
+        add_rim_border(&sum, f, &s, &(border_piece){x, y, dl * ux, dl * uy, zero, zero, one, zero}, &inner);
     }
     if (fl_simd_any(&add_first)) {
         const fl_simd x = ax + a_hi * Dx - ox, y = ay + a_hi * Dy - oy, dl = a_lo - a_hi;
-        border(&sum, f, &s, &(piece){x, y, dl * Dx, dl * Dy, zero, zero, per * a_hi, per * dl}, &add_first);
+        add_rim_border(&sum, f, &s, &(border_piece){x, y, dl * Dx, dl * Dy, zero, zero, per * a_hi, per * dl},
+                       &add_first);
     }
     if (fl_simd_any(&add_last)) {
         const fl_simd x = bx + b_lo * Ex - ox, y = by + b_lo * Ey - oy, dl = b_hi - b_lo;
-        border(&sum, f, &s, &(piece){x, y, dl * Ex, dl * Ey, zero, zero, per * b_lo, per * dl}, &add_last);
+        add_rim_border(&sum, f, &s, &(border_piece){x, y, dl * Ex, dl * Ey, zero, zero, per * b_lo, per * dl},
+                       &add_last);
     }
-    gather(f, &sum, (const fl_simd[3]){ox - p[0].x, oy - p[0].y, s});
+    add_lane_sums(f, &sum, (const fl_simd[3]){ox - p[0].x, oy - p[0].y, s});
 }
 
-/* Where the sums over what lies inside all rims begin: a point of it.  0 where there is nothing. */
-static inline int inside_from(const footprint *f, const outline *g, double *x, double *y)
+/* Origin of the sums over the part inside all rims: a point of it.  0 where there is none. */
+static inline int interior_origin(const projected_face *f, const face_border *g, double *x, double *y)
 {
     const corner *p = f->p;
     for (int32_t k = 0; k < f->n; k++) {
@@ -313,16 +312,16 @@ static inline int inside_from(const footprint *f, const outline *g, double *x, d
     return 0;
 }
 
-/* What lies inside all rims. */
-static inline __attribute__((always_inline)) void inside(footprint *f, const outline *g)
+/* Adds the part inside all rims. */
+static inline __attribute__((always_inline)) void add_interior(projected_face *f, const face_border *g)
 {
     const corner *p = f->p;
     const fl_simd zero = {0}, one = 1.0 + zero;
     double ox, oy;
-    if (!inside_from(f, g, &ox, &oy)) return;
+    if (!interior_origin(f, g, &ox, &oy)) return;
     const double s = p[0].s + f->sx * (ox - p[0].x) + f->sy * (oy - p[0].y);
     const fl_simd A = s + zero, W = g->width + zero;
-    sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    lane_sums sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
     for (int32_t k = 0; k < f->n; k += FL_SIMD_WIDTH) {
         const corner *r = p + k;
 #define FOUR(m, i) ((fl_simd){r[i].m, r[i + 1].m, r[i + 2].m, r[i + 3].m})
@@ -332,13 +331,13 @@ static inline __attribute__((always_inline)) void inside(footprint *f, const out
         const fl_simd t0 = FL_SIMD_MASKED(here, in), dt = FL_SIMD_MASKED(here, out) - t0;
         const fl_simd x = FOUR(x, 0), y = FOUR(y, 0), z = FOUR(s, 0);
         const fl_simd ex = FOUR(x, 1) - x, ey = FOUR(y, 1) - y, ez = FOUR(s, 1) - z;
-        const piece b1 = {x + t0 * ex - ox, y + t0 * ey - oy, dt * ex, dt * ey,
-                          z + t0 * ez,      dt * ez,          one,     zero};
-        fan(&sum, &b1, &A, &here, 0);
+        const border_piece b1 = {x + t0 * ex - ox, y + t0 * ey - oy, dt * ex, dt * ey,
+                                 z + t0 * ez,      dt * ez,          one,     zero};
+        add_fan(&sum, &b1, &A, &here, 0);
         fl_simd all, far;
-        along(&b1, &t0, &dt, &all, &far);
+        integrate_side(&b1, &t0, &dt, &all, &far);
         for (int l = 0; l < FL_SIMD_WIDTH && k + l < f->n; l++)
-            if (r[l].own > 0.0 && here[l]) rim(f, k + l, all[l], far[l]);
+            if (r[l].own > 0.0 && here[l]) add_rim_force(f, k + l, all[l], far[l]);
 #undef FOUR
     }
     for (int32_t c = 0; c < g->n; c += FL_SIMD_WIDTH) {
@@ -348,15 +347,15 @@ static inline __attribute__((always_inline)) void inside(footprint *f, const out
         if (!fl_simd_any(&here)) continue;
         const fl_simd x = LOAD(x, c) + lo * ux - W * uy - ox, y = LOAD(y, c) + lo * uy + W * ux - oy;
         const fl_simd dx = dl * ux, dy = dl * uy;
-        const piece b1 = {x, y, dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy, one, zero};
-        fan(&sum, &b1, &A, &here, 0);
+        const border_piece b1 = {x, y, dx, dy, s + f->sx * x + f->sy * y, f->sx * dx + f->sy * dy, one, zero};
+        add_fan(&sum, &b1, &A, &here, 0);
     }
-    gather(f, &sum, (const fl_simd[3]){ox - p[0].x + zero, oy - p[0].y + zero, A});
+    add_lane_sums(f, &sum, (const fl_simd[3]){ox - p[0].x + zero, oy - p[0].y + zero, A});
 }
 
-/* Four points, from o: of corners at[0], at[step] and so on of a loop; the last of n again behind it. */
-static inline __attribute__((always_inline)) void four_of(fl_simd r[3], const fl_vec3 *v, const int32_t *at,
-                                                          int32_t step, int32_t n, const fl_vec3 *o)
+/* Loads four corners at[0], at[step], .. of a loop relative to o; the last of n is repeated. */
+static inline __attribute__((always_inline)) void load_four(fl_simd r[3], const fl_vec3 *v, const int32_t *at,
+                                                            int32_t step, int32_t n, const fl_vec3 *o)
 {
     const fl_vec3 *p[FL_SIMD_WIDTH];
     FL_SIMD_UNROLL
@@ -368,23 +367,23 @@ static inline __attribute__((always_inline)) void four_of(fl_simd r[3], const fl
 
 #define ALONG(a, r) ((a).x * (r)[0] + (a).y * (r)[1] + (a).z * (r)[2])
 
-/* Corners of f in its plane. */
-static inline __attribute__((always_inline)) void lay_outline(const footprint *f, outline *g)
+/* Projects the corners of f onto its plane axes. */
+static inline __attribute__((always_inline)) void project_other(const projected_face *f, face_border *g)
 {
     const fl_plane_axes at = f->at;
     const int32_t n = g->n;
     for (int32_t c = 0; c < n; c += FL_SIMD_WIDTH) {
         fl_simd r[3];
-        four_of(r, f->v, f->loop + c, 1, n - c, &at.o);
+        load_four(r, f->v, f->loop + c, 1, n - c, &at.o);
         FL_SIMD_STORE(g->x + c) = ALONG(at.x, r), FL_SIMD_STORE(g->y + c) = ALONG(at.y, r);
     }
     g->x[n] = g->x[0], g->y[n] = g->y[0];
     for (int32_t c = n + 1; c <= g->room; c++) g->x[c] = g->y[c] = 0.0;
 }
 
-/* Directions, inner rim and so on of the sides of f.  The rim is at most `width` wide and leaves every side
- * half its length. */
-static inline __attribute__((always_inline)) void lay_sides(outline *g, double width)
+/* Directions of the sides of f and their inner borders.  The rim is at most `width` wide and leaves every
+ * side half its length. */
+static inline __attribute__((always_inline)) void set_up_sides(face_border *g, double width)
 {
     const int32_t n = g->n;
     for (int32_t c = 0; c < n; c += FL_SIMD_WIDTH) {
@@ -411,15 +410,16 @@ static inline __attribute__((always_inline)) void lay_sides(outline *g, double w
     g->width = width;
 }
 
-FL_SIMD_VERSIONS static void cover(footprint *f, outline *g, double width)
+FL_SIMD_VERSIONS static void integrate_face(projected_face *f, face_border *g, double width)
 {
     const fl_simd zero = {0}, one = 1.0 + zero;
     const int32_t n = f->n;
     fl_simd *const beyond = f->beyond, *const before = f->before;
     for (int32_t k = 0; k < n; k++) beyond[k] = zero, before[k] = one;
-    if (g->n > 0) lay_outline(f, g), lay_sides(g, width);
-    for (int32_t c = 0; c < g->n; c += FL_SIMD_WIDTH) rims(f, g, c);
-    for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH) { /* those of four sides, behind the last none */
+    if (g->n > 0) project_other(f, g), set_up_sides(g, width);
+    for (int32_t c = 0; c < g->n; c += FL_SIMD_WIDTH) add_rims(f, g, c);
+    /* combine the four lanes of sides; nothing behind the last */
+    for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH) {
         const fl_simd_mask some = FL_SIMD_MASK_BELOW(n - k);
         fl_simd a[FL_SIMD_WIDTH], b[FL_SIMD_WIDTH];
         FL_SIMD_UNROLL
@@ -431,12 +431,12 @@ FL_SIMD_VERSIONS static void cover(footprint *f, outline *g, double width)
         FL_SIMD_STORE(f->in + k) = FL_SIMD_SELECT(some, in, one);
         FL_SIMD_STORE(f->out + k) = FL_SIMD_MASKED(some, out);
     }
-    inside(f, g);
+    add_interior(f, g);
 }
 #undef LOAD
 
-/* Keep of poly[n] what has g >= 0 at its corners; sides along the cut are not F's own. */
-static int32_t cut(const corner *p, double s0, double sign, int32_t n, corner *out)
+/* Clips polygon p[n] to sign (s - s0) >= 0.  Sides along the cut are not F's own. */
+static int32_t clip_overlap(const corner *p, double s0, double sign, int32_t n, corner *out)
 {
     int32_t m = 0;
     double g = sign * (p[0].s - s0);
@@ -454,8 +454,9 @@ static int32_t cut(const corner *p, double s0, double sign, int32_t n, corner *o
     return m;
 }
 
-/* Room for a face with n corners over one with `sides`, and where all of it lies. */
-FL_SIMD_VERSIONS static int lay(footprint *f, int32_t F, int32_t sides, outline *g, corner **spare)
+/* Reserves memory for a face of n corners over one of `sides`, assigns it, and projects F. */
+FL_SIMD_VERSIONS static int project_face(projected_face *f, int32_t F, int32_t sides, face_border *g,
+                                         corner **spare)
 {
     const fl_poly *p = f->own->p;
     const int32_t *loop = p->loop + p->first[F], n = p->first[F + 1] - p->first[F];
@@ -477,7 +478,7 @@ FL_SIMD_VERSIONS static int lay(footprint *f, int32_t F, int32_t sides, outline 
     f->in = at, at += most;
     f->out = at, at += most;
     g->n = sides, g->room = (int32_t)room;
-    at++; /* ux and uy have a number before the first */
+    at++; /* ux and uy have an entry before the first */
     g->x = at, g->y = at + each, g->ux = at + 2 * each, g->uy = at + 3 * each;
     g->length = at + 4 * each, g->Dx = at + 5 * each, g->Dy = at + 6 * each, g->tan = at + 7 * each;
     at += 8 * each - 1;
@@ -486,9 +487,9 @@ FL_SIMD_VERSIONS static int lay(footprint *f, int32_t F, int32_t sides, outline 
     f->sx = -v3_dot(f->nF, f->at.x) / f->slope, f->sy = -v3_dot(f->nF, f->at.y) / f->slope;
     const fl_plane_axes across = f->at;
     const fl_vec3 nf = f->nf;
-    for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH) { /* from above, F is seen from behind */
+    for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH) { /* seen from above F is reversed */
         fl_simd r[3];
-        four_of(r, f->own->v, loop + n - 1 - k, -1, n - k, &across.o);
+        load_four(r, f->own->v, loop + n - 1 - k, -1, n - k, &across.o);
         fl_simd row[FL_SIMD_WIDTH] = {ALONG(across.x, r), ALONG(across.y, r), f->R - ALONG(nf, r),
                                       FL_SIMD_SPLAT(1.0)};
         fl_simd_transpose(row);
@@ -499,8 +500,8 @@ FL_SIMD_VERSIONS static int lay(footprint *f, int32_t F, int32_t sides, outline 
     return 0;
 }
 
-/* Leave of F what has 0 <= s <= floor: 0 where that is nothing. */
-static int trim(footprint *f, double floor, corner *spare)
+/* Clips F to 0 <= s <= floor; 0 where nothing remains. */
+static int clip_to_overlap(projected_face *f, double floor, corner *spare)
 {
     double most = -INFINITY, least = INFINITY;
     for (int32_t k = 0; k < f->n; k++) {
@@ -510,7 +511,7 @@ static int trim(footprint *f, double floor, corner *spare)
     if (most <= 0.0 || least > floor) return 0;
     for (int way = 0; way < 2; way++) {
         if (way ? most <= floor : least >= 0.0) continue;
-        f->n = way ? cut(f->p, floor, -1.0, f->n, spare) : cut(f->p, 0.0, 1.0, f->n, spare);
+        f->n = way ? clip_overlap(f->p, floor, -1.0, f->n, spare) : clip_overlap(f->p, 0.0, 1.0, f->n, spare);
         corner *const swap = f->p;
         f->p = spare, spare = swap;
     }
@@ -519,17 +520,17 @@ static int trim(footprint *f, double floor, corner *spare)
     return 1;
 }
 
-/* The places of it: all push along n_F, so that three with their sum, mean and second moments have the same
- * force, torque and spread.  They get the factor m, whose change has a couple.  Then the pull of the rims. */
-FL_SIMD_VERSIONS static int put(footprint *q)
+/* Stores the points: all forces act along n_F, so three points with the sum, mean and second moments have the
+ * same force, torque and spread.  They carry the factor m; its derivative is a couple.  Then the rim force.
+ */
+FL_SIMD_VERSIONS static int make_points(projected_face *q)
 {
     static const fl_simd COS = {1.0, -0.5, -0.5}, SIN = {0.0, 0.86602540378443865, -0.86602540378443865};
-    const total *t = &q->sum;
+    const polygon_sums *t = &q->sum;
     const double m = q->m, side = q->own->side;
-    if (!(t->m > NOTHING * t->parts && t->q > 0.0)) return 0;
-    /* (int s^3)^2 <= int s^2 int s^4: where rounding is all there is, it must not make a contact stiffer than
-     * any */
-    const double least = t->m * (t->m / t->q), su = t->u > ALIKE * least ? t->u : least;
+    if (!(t->m > CANCEL_TOL * t->parts && t->q > 0.0)) return 0;
+    /* (int s^3)^2 <= int s^2 int s^4: rounding must not make a contact stiffer than this bound */
+    const double least = t->m * (t->m / t->q), su = t->u > BOUND_SHARE * least ? t->u : least;
     const double each = 1.0 / t->m, x = t->x * each, y = t->y * each, s = su * each;
     const double xx = t->xx * each - x * x, xy = t->xy * each - x * y, yy = t->yy * each - y * y;
     const double a = xx > 0.0 ? sqrt(2.0 * xx) : 0.0, b = a > 0.0 ? 2.0 * xy / a : 0.0, c2 = 2.0 * yy - b * b,
@@ -559,7 +560,8 @@ FL_SIMD_VERSIONS static int put(footprint *q)
     q->w->couple = v3_madd(q->w->couple, side * q->dm * su, v3_cross(q->nF, q->nf));
     const fl_vec3 turn = v3_madd(v3_madd(v3_scale(q->turn.x, q->at.x), q->turn.y, q->at.y), q->turn.z, q->nf);
     q->w->couple = v3_madd(q->w->couple, -side * q->m, turn);
-    if (q->pull.x == 0.0 && q->pull.y == 0.0) return 0; /* those of opposite sides, which still turn */
+    /* opposite rim forces cancel; their moment is kept */
+    if (q->pull.x == 0.0 && q->pull.y == 0.0) return 0;
     const fl_vec3 pull = v3_madd(v3_scale(q->pull.x, q->at.x), q->pull.y, q->at.y);
     const double size = v3_norm(pull);
     const fl_vec3 first = v3_madd(v3_madd(q->at.o, x0, q->at.x), y0, q->at.y);
@@ -567,8 +569,8 @@ FL_SIMD_VERSIONS static int put(footprint *q)
         q->w, (fl_patch_point){.du = q->m * size, .n = v3_scale(-side / size, pull), .p = first});
 }
 
-/* m = (1 - 4 sin^2)^2 of the angle between the faces, and 0 beyond 30 degrees.  0 where there is nothing. */
-static int turned(footprint *q)
+/* Weight m = (1 - 4 sin^2)^2 of the angle between the faces.  Returns 0 beyond 30 degrees, where it is 0. */
+static int set_angle_weight(projected_face *q)
 {
     const double c = q->slope = -v3_dot(q->nf, q->nF), root = 4.0 * c * c - 3.0;
     q->m = q->half * root * root;
@@ -577,33 +579,34 @@ static int turned(footprint *q)
 }
 
 int fl_face_integral_over_face(fl_patch_points *w, const fl_patch_core *own, int32_t F,
-                               const fl_patch_core *other, int32_t f, double R, double behind, double width)
+                               const fl_patch_core *other, int32_t f, double R, double prism_depth,
+                               double width)
 {
     const fl_poly *p = other->p;
     const int32_t *loop = p->loop + p->first[f], sides = p->first[f + 1] - p->first[f];
-    footprint q = {.w = w, .own = own, .nf = other->n[f], .nF = own->n[F], .half = 0.5, .R = R};
-    outline g;
+    projected_face q = {.w = w, .own = own, .nf = other->n[f], .nF = own->n[F], .half = 0.5, .R = R};
+    face_border g;
     corner *spare;
-    if (!turned(&q)) return 0;
-    /* axes that turn with f, and with them the three places: how panels share an area hangs on these */
+    if (!set_angle_weight(&q)) return 0;
+    /* axes turn with f, and so do the three points: how panels share an area depends on them */
     const fl_vec3 o = other->v[loop[0]], x = v3_unit(v3_sub(other->v[loop[1]], o));
     q.at = (fl_plane_axes){o, x, v3_cross(q.nf, x)};
     q.v = other->v, q.loop = loop;
-    if (lay(&q, F, sides, &g, &spare)) return -1;
-    if (!trim(&q, R + behind + SAME * p->size, spare)) return 0;
-    cover(&q, &g, width);
-    return put(&q);
+    if (project_face(&q, F, sides, &g, &spare)) return -1;
+    if (!clip_to_overlap(&q, R + prism_depth + ON_PLANE_TOL * p->size, spare)) return 0;
+    integrate_face(&q, &g, width);
+    return make_points(&q);
 }
 
 int fl_face_integral_over_plane(fl_patch_points *w, const fl_patch_core *own, int32_t F, double R)
 {
-    footprint q = {.w = w, .own = own, .nf = v3(0, 0, 1), .nF = own->n[F], .half = 1.0, .R = R};
-    outline g;
+    projected_face q = {.w = w, .own = own, .nf = v3(0, 0, 1), .nF = own->n[F], .half = 1.0, .R = R};
+    face_border g;
     corner *spare;
-    if (!turned(&q)) return 0;
+    if (!set_angle_weight(&q)) return 0;
     q.at = (fl_plane_axes){v3(0, 0, 0), v3(1, 0, 0), v3(0, 1, 0)};
-    if (lay(&q, F, 0, &g, &spare)) return -1;
-    if (!trim(&q, INFINITY, spare)) return 0;
-    cover(&q, &g, 0.0);
-    return put(&q);
+    if (project_face(&q, F, 0, &g, &spare)) return -1;
+    if (!clip_to_overlap(&q, INFINITY, spare)) return 0;
+    integrate_face(&q, &g, 0.0);
+    return make_points(&q);
 }

@@ -6,14 +6,13 @@
 #include "base/simd.h"
 #include "patch/force_sum.h"
 
-/* What later sums need of four places. */
+/* What later sums need of four points. */
 typedef struct {
-    fl_simd closing, e, du, curve, across[3], arm[3];
-} lane;
+    fl_simd approach, e, du, curve, across[3], arm[3];
+} point_four;
 
-/* Four numbers in a row of four places: rows to columns, in registers, since a wide load would wait for
- * narrow stores.
- */
+/* Four consecutive numbers of each of four points, transposed in registers: a vector load would wait for
+ * scalar stores. */
 #define COLUMNS(p, member, a, b, c, d)                                                                       \
     do {                                                                                                     \
         const fl_simd r0 = *(const fl_simd *)&(p)[0].member, r1 = *(const fl_simd *)&(p)[1].member;          \
@@ -40,38 +39,39 @@ _Static_assert(offsetof(fl_patch_point, ddu) == offsetof(fl_patch_point, overlap
         out[2] = a[0] * b[1] - a[1] * b[0];                                                                  \
     } while (0)
 
-/* How fast, or how far, places of A move into B. */
-FL_SIMD_INLINE void inward(fl_simd *out, const fl_simd across[3], const fl_simd arm[3], fl_vec3 v,
-                           fl_vec3 turn)
+/* Speed, or distance, by which points of A move into B. */
+FL_SIMD_INLINE void approach_speed_of(fl_simd *out, const fl_simd across[3], const fl_simd arm[3], fl_vec3 v,
+                                      fl_vec3 spin)
 {
-    const fl_simd vx = v.x + (turn.y * arm[2] - turn.z * arm[1]);
-    const fl_simd vy = v.y + (turn.z * arm[0] - turn.x * arm[2]);
-    const fl_simd vz = v.z + (turn.x * arm[1] - turn.y * arm[0]);
+    const fl_simd vx = v.x + (spin.y * arm[2] - spin.z * arm[1]);
+    const fl_simd vy = v.y + (spin.z * arm[0] - spin.x * arm[2]);
+    const fl_simd vz = v.z + (spin.x * arm[1] - spin.y * arm[0]);
     *out = -(across[0] * vx + across[1] * vy + across[2] * vz);
 }
 
-static fl_vec3 sum3(const fl_simd a[3])
+static fl_vec3 sum_vector(const fl_simd a[3])
 {
     return v3(fl_simd_sum(&a[0]), fl_simd_sum(&a[1]), fl_simd_sum(&a[2]));
 }
 
-static double largest(const fl_simd *a)
+static double largest_lane(const fl_simd *a)
 {
     double most = 0.0;
     for (int l = 0; l < FL_SIMD_WIDTH; l++) most = (*a)[l] > most ? (*a)[l] : most;
     return most;
 }
 
-FL_SIMD_VERSIONS static void first(const fl_patch_point *place, int32_t n, lane *t, fl_force_sum *q)
+FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n, point_four *t,
+                                         fl_force_sum *q)
 {
-    const fl_vec3 at = place[0].p;
+    const fl_vec3 at = point[0].p;
     const fl_simd zero = {0};
     fl_simd u = zero, ddu = zero, most = zero, pressed = zero, elastic = zero;
     fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero}, mid[3] = {zero, zero, zero};
     for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH, t++) {
-        const fl_patch_point *p = place + k;
+        const fl_patch_point *p = point + k;
         fl_patch_point last[FL_SIMD_WIDTH];
-        if (n - k < FL_SIMD_WIDTH) { /* and places without any pull */
+        if (n - k < FL_SIMD_WIDTH) { /* pad with points without force */
             for (int l = 0; l < FL_SIMD_WIDTH; l++) last[l] = k + l < n ? p[l] : (fl_patch_point){0};
             p = last;
         }
@@ -82,8 +82,8 @@ FL_SIMD_VERSIONS static void first(const fl_patch_point *place, int32_t n, lane 
         arm[0] -= at.x, arm[1] -= at.y;
         arm[2] = (fl_simd){p[0].p.z, p[1].p.z, p[2].p.z, p[3].p.z} - at.z;
         const fl_simd pull[3] = {all * nx, all * ny, all * nz};
-        const fl_simd_mask presses = ux != 0.0;
-        const fl_simd du = FL_SIMD_MASKED(presses, all), bent = FL_SIMD_MASKED(presses, curve);
+        const fl_simd_mask not_rim = ux != 0.0;
+        const fl_simd du = FL_SIMD_MASKED(not_rim, all), bent = FL_SIMD_MASKED(not_rim, curve);
         fl_simd moment[3];
         CROSS(moment, arm, pull);
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
@@ -98,31 +98,33 @@ FL_SIMD_VERSIONS static void first(const fl_patch_point *place, int32_t n, lane 
     }
     q->u = fl_simd_sum(&u), q->ddu = fl_simd_sum(&ddu);
     q->du = fl_simd_sum(&pressed), q->pressure = fl_simd_sum(&elastic);
-    q->gradient = (fl_wrench){sum3(f), sum3(m)};
-    q->pressure_moment = sum3(mid);
-    q->overlap = largest(&most);
+    q->gradient = (fl_wrench){sum_vector(f), sum_vector(m)};
+    q->pressure_moment = sum_vector(mid);
+    q->overlap = largest_lane(&most);
 }
 
-FL_SIMD_VERSIONS static void move(lane *t, int32_t lanes, fl_vec3 v, fl_vec3 turn, fl_force_sum *q)
+FL_SIMD_VERSIONS static void sum_motion(point_four *t, int32_t lanes, fl_vec3 v, fl_vec3 spin,
+                                        fl_force_sum *q)
 {
-    fl_simd met = {0}, rate = {0};
+    fl_simd approach = {0}, rate = {0};
     for (int32_t k = 0; k < lanes; k++, t++) {
-        fl_simd closing;
-        inward(&closing, t->across, t->arm, v, turn);
-        t->closing = closing;
-        met += t->du * FL_SIMD_MASKED(closing > 0.0, closing);
-        rate += t->e * closing;
+        fl_simd c;
+        approach_speed_of(&c, t->across, t->arm, v, spin);
+        t->approach = c;
+        approach += t->du * FL_SIMD_MASKED(c > 0.0, c);
+        rate += t->e * c;
     }
-    q->du_approach = fl_simd_sum(&met), q->pressure_rate = fl_simd_sum(&rate);
+    q->du_approach = fl_simd_sum(&approach), q->pressure_rate = fl_simd_sum(&rate);
 }
 
-FL_SIMD_VERSIONS static void second(const lane *t, int32_t lanes, double chi, double still, fl_force_sum *q)
+FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, double chi, double still,
+                                        fl_force_sum *q)
 {
     const fl_simd zero = {0};
     fl_simd normal = zero, spread = zero, way[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
     fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
     for (int32_t k = 0; k < lanes; k++, t++) {
-        const fl_simd e = t->e, to = e * (still + chi * t->closing), p = FL_SIMD_MASKED(to > 0.0, to);
+        const fl_simd e = t->e, to = e * (still + chi * t->approach), p = FL_SIMD_MASKED(to > 0.0, to);
         const fl_simd more = p - e, *arm = t->arm, *across = t->across;
         const fl_simd pull[3] = {more * across[0], more * across[1], more * across[2]};
         fl_simd moment[3];
@@ -137,12 +139,13 @@ FL_SIMD_VERSIONS static void second(const lane *t, int32_t lanes, double chi, do
         spread += p * (arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
     }
     q->damped_pressure = fl_simd_sum(&normal), q->damped_spread = fl_simd_sum(&spread);
-    q->direction = sum3(way), q->damped_moment = sum3(at);
-    q->damping = (fl_wrench){sum3(f), sum3(m)};
+    q->direction = sum_vector(way), q->damped_moment = sum_vector(at);
+    q->damping = (fl_wrench){sum_vector(f), sum_vector(m)};
 }
 
-/* The upper triangle of weight g g^T, g of n and arm x n, added. */
-FL_SIMD_INLINE void square(fl_simd all[FL_PRESSURE_MATRIX], const fl_simd *weight, const fl_simd g[6])
+/* Adds the upper triangle of weight g g^T, g = (unit normal, arm x unit normal). */
+FL_SIMD_INLINE void add_outer_product(fl_simd all[FL_PRESSURE_MATRIX], const fl_simd *weight,
+                                      const fl_simd g[6])
 {
     int m = 0;
     FL_SIMD_UNROLL
@@ -153,112 +156,113 @@ FL_SIMD_INLINE void square(fl_simd all[FL_PRESSURE_MATRIX], const fl_simd *weigh
     }
 }
 
-FL_SIMD_VERSIONS static void third(const lane *t, int32_t n, double sum[FL_PRESSURE_MATRIX])
+FL_SIMD_VERSIONS static void sum_springs(const point_four *t, int32_t n, double sum[FL_PRESSURE_MATRIX])
 {
     fl_simd all[FL_PRESSURE_MATRIX];
     for (int m = 0; m < FL_PRESSURE_MATRIX; m++) all[m] = (fl_simd){0};
     for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH, t++) {
         fl_simd g[6] = {t->across[0], t->across[1], t->across[2]};
         CROSS((g + 3), t->arm, t->across);
-        square(all, &t->curve, g);
+        add_outer_product(all, &t->curve, g);
     }
     for (int m = 0; m < FL_PRESSURE_MATRIX; m++) sum[m] = fl_simd_sum(&all[m]);
 }
 
-static int32_t lanes_of(const fl_patch_points *s) { return (s->n + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH; }
+static int32_t count_lanes(const fl_patch_points *s) { return (s->n + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH; }
 
 /* --- areas ------------------------------------------------------------------------------------- */
 
-enum { CORNERS = 3 }; /* places that stand for an area */
+enum { AREA_POINTS = 3 }; /* points of an area */
 
-/* How an area approaches: at `mean` in its middle, by off[] more at its places, by `more` faster and slower
- * at the places of lay_along().
- */
+/* Approach of an area: speed `mean` at its middle, off[] more at its points, `amplitude` faster and slower at
+ * two of the points of four_point_area(). */
 typedef struct {
-    uint32_t k; /* the first of these */
-    double mean, more, off[CORNERS];
-} tilt;
+    uint32_t k; /* its first point */
+    double mean, amplitude, off[AREA_POINTS];
+} area_motion;
 
-static double closing_of(const lane *t, uint32_t k)
+static double approach_speed_at(const point_four *t, uint32_t k)
 {
-    return t[k / FL_SIMD_WIDTH].closing[k % FL_SIMD_WIDTH];
+    return t[k / FL_SIMD_WIDTH].approach[k % FL_SIMD_WIDTH];
 }
 
-static tilt tilt_of(const lane *t, uint32_t k)
+static area_motion motion_of_area(const point_four *t, uint32_t k)
 {
-    tilt a = {.k = k};
+    area_motion a = {.k = k};
     double sum2 = 0.0;
-    for (uint32_t c = 0; c < CORNERS; c++) a.mean += (a.off[c] = closing_of(t, k + c));
-    a.mean *= 1.0 / CORNERS;
-    for (int c = 0; c < CORNERS; c++) a.off[c] -= a.mean, sum2 += a.off[c] * a.off[c];
-    a.more = sqrt(2.0 / CORNERS * sum2);
+    for (uint32_t c = 0; c < AREA_POINTS; c++) a.mean += (a.off[c] = approach_speed_at(t, k + c));
+    a.mean *= 1.0 / AREA_POINTS;
+    for (int c = 0; c < AREA_POINTS; c++) a.off[c] -= a.mean, sum2 += a.off[c] * a.off[c];
+    a.amplitude = sqrt(2.0 / AREA_POINTS * sum2);
     return a;
 }
 
-/* The areas, to s->tilt. */
+/* Lists the areas in s->area_motion. */
 static int find_areas(fl_patch_points *s)
 {
     const fl_patch_point *p = s->point, *const end = p + s->n;
     s->areas = 0;
     while (p < end) {
-        if (p->group_size == CORNERS && p->u != 0.0) {
-            if (fl_reserve(&s->area_motion, &s->area_cap, (int64_t)s->areas + 1, sizeof(tilt))) return -1;
-            tilt *all = s->area_motion;
-            all[s->areas++] = tilt_of(s->point_lanes, (uint32_t)(p - s->point));
+        if (p->group_size == AREA_POINTS && p->u != 0.0) {
+            if (fl_reserve(&s->area_motion, &s->area_cap, (int64_t)s->areas + 1, sizeof(area_motion)))
+                return -1;
+            area_motion *all = s->area_motion;
+            all[s->areas++] = motion_of_area(s->point_lanes, (uint32_t)(p - s->point));
         }
         p += p->group_size > 1 ? p->group_size : 1;
     }
     return 0;
 }
 
-static double above(double c) { return c > 0.0 ? c : 0.0; }
+static double positive_part(double c) { return c > 0.0 ? c : 0.0; }
 
-/* What the areas that approach in part add to `met`, beyond what their three places do. */
-static double met_aside(const fl_patch_points *s)
+/* du_approach of areas that approach in part: four points instead of three. */
+static double approach_correction(const fl_patch_points *s)
 {
     double all = 0.0;
-    const tilt *a = s->area_motion;
+    const area_motion *a = s->area_motion;
     for (int32_t k = 0; k < s->areas; k++, a++) {
-        if (fabs(a->mean) >= a->more) continue;
-        double met = 0.25 * (above(a->mean + a->more) + above(a->mean - a->more)) + 0.5 * above(a->mean);
-        for (int c = 0; c < CORNERS; c++) met -= above(a->mean + a->off[c]) / CORNERS;
-        all += CORNERS * s->point[a->k].du * met;
+        if (fabs(a->mean) >= a->amplitude) continue;
+        double approach =
+            0.25 * (positive_part(a->mean + a->amplitude) + positive_part(a->mean - a->amplitude)) +
+            0.5 * positive_part(a->mean);
+        for (int c = 0; c < AREA_POINTS; c++) approach -= positive_part(a->mean + a->off[c]) / AREA_POINTS;
+        all += AREA_POINTS * s->point[a->k].du * approach;
     }
     return all;
 }
 
-static fl_vec3 arm_of(const lane *t, uint32_t k)
+static fl_vec3 arm_of(const point_four *t, uint32_t k)
 {
     const fl_simd *arm = t[k / FL_SIMD_WIDTH].arm;
     return v3(arm[0][k % FL_SIMD_WIDTH], arm[1][k % FL_SIMD_WIDTH], arm[2][k % FL_SIMD_WIDTH]);
 }
 
-/* Sum of off |arm - the middle|^2 of the three: of the four it is nothing. */
-static double skew_of(const lane *t, const tilt *a)
+/* Sum of off |arm - middle|^2 over the three points; it is 0 for the four. */
+static double third_moment(const point_four *t, const area_motion *a)
 {
     const fl_vec3 p0 = arm_of(t, a->k), p1 = v3_sub(arm_of(t, a->k + 1), p0),
-                  p2 = v3_sub(arm_of(t, a->k + 2), p0), mid = v3_scale(1.0 / CORNERS, v3_add(p1, p2));
+                  p2 = v3_sub(arm_of(t, a->k + 2), p0), mid = v3_scale(1.0 / AREA_POINTS, v3_add(p1, p2));
     return a->off[0] * v3_norm2(mid) + a->off[1] * v3_norm2(v3_sub(p1, mid)) +
            a->off[2] * v3_norm2(v3_sub(p2, mid));
 }
 
-/* Four places with the sum, mean and second moments of the three: the middle and, from there, forth and back
- * the way on which the area approaches the faster, and one on which it does so as in the middle.  They are
- * those of the area, whichever three stand for it.
- */
-static lane lay_along(const lane *t, const tilt *a)
+/* Four points with the sum, mean and second moments of the three: from the middle forwards and backwards
+ * along the direction in which the approach speed rises, and along one in which it is that of the middle.
+ * They depend on the area only, whichever three points represent it. */
+static point_four four_point_area(const point_four *t, const area_motion *a)
 {
     const fl_vec3 p0 = arm_of(t, a->k), p1 = v3_sub(arm_of(t, a->k + 1), p0),
                   p2 = v3_sub(arm_of(t, a->k + 2), p0);
-    const fl_vec3 mid = v3_madd(p0, 1.0 / CORNERS, v3_add(p1, p2));
-    const double along = 2.0 / CORNERS / a->more, aside = along / sqrt(3.0), *off = a->off;
+    const fl_vec3 mid = v3_madd(p0, 1.0 / AREA_POINTS, v3_add(p1, p2));
+    const double along = 2.0 / AREA_POINTS / a->amplitude, aside = along / sqrt(3.0), *off = a->off;
     const fl_vec3 w = v3_madd(v3_scale(along * off[1], p1), along * off[2], p2);
     const fl_vec3 x = v3_madd(v3_scale(aside * (off[2] - off[0]), p1), aside * (off[0] - off[1]), p2);
-    const lane *own = &t[a->k / FL_SIMD_WIDTH];
+    const point_four *own = &t[a->k / FL_SIMD_WIDTH];
     const uint32_t l = a->k % FL_SIMD_WIDTH;
     const fl_simd none = {0};
-    lane four = {.closing = {a->mean + a->more, a->mean - a->more, a->mean, a->mean}};
-    four.e = none + CORNERS * 0.25 * own->e[l];
+    point_four four = {.approach = {a->mean + a->amplitude, a->mean - a->amplitude, a->mean, a->mean}};
+    four.e = none + AREA_POINTS * 0.25 * own->e[l];
     for (int c = 0; c < 3; c++) four.across[c] = none + own->across[c][l];
     four.arm[0] = (fl_simd){mid.x + w.x, mid.x - w.x, mid.x + x.x, mid.x - x.x};
     four.arm[1] = (fl_simd){mid.y + w.y, mid.y - w.y, mid.y + x.y, mid.y - x.y};
@@ -266,57 +270,60 @@ static lane lay_along(const lane *t, const tilt *a)
     return four;
 }
 
-/* s->lane, or behind it a copy in which areas that would be pulled in part have their four places, those with
- * still + chi c < 0; how many, and sum of e off |arm - the middle|^2 of the others.
- */
-static const lane *held_back(const fl_patch_points *s, double chi, double still, int32_t *lanes, double *skew)
+/* Points in which no area pulls in part: s->point_lanes, or a copy behind it in which areas with part of
+ * still + chi c < 0 have their four points.
+ *     lanes   out: number of fours;  skew: sum of e off |arm - middle|^2 of the other areas */
+static const point_four *points_without_tension(const fl_patch_points *s, double chi, double still,
+                                                int32_t *lanes, double *skew)
 {
-    lane *const own = s->point_lanes, *copy = NULL;
-    const int32_t n = *lanes = lanes_of(s);
+    point_four *const own = s->point_lanes, *copy = NULL;
+    const int32_t n = *lanes = count_lanes(s);
     *skew = 0.0;
-    const tilt *a = s->area_motion;
+    const area_motion *a = s->area_motion;
     for (int32_t k = 0; k < s->areas; k++, a++) {
         const uint32_t at = a->k;
-        if (still + chi * (a->mean - a->more) >= 0.0)
-            *skew += own[at / FL_SIMD_WIDTH].e[at % FL_SIMD_WIDTH] * skew_of(own, a);
-        else if (still + chi * (a->mean + a->more) > 0.0) {
+        if (still + chi * (a->mean - a->amplitude) >= 0.0)
+            *skew += own[at / FL_SIMD_WIDTH].e[at % FL_SIMD_WIDTH] * third_moment(own, a);
+        else if (still + chi * (a->mean + a->amplitude) > 0.0) {
             if (!copy) copy = memcpy(own + n, own, (size_t)n * sizeof *own);
-            for (uint32_t c = at; c < at + CORNERS; c++) copy[c / FL_SIMD_WIDTH].e[c % FL_SIMD_WIDTH] = 0.0;
-            copy[(*lanes)++] = lay_along(own, a);
+            for (uint32_t c = at; c < at + AREA_POINTS; c++)
+                copy[c / FL_SIMD_WIDTH].e[c % FL_SIMD_WIDTH] = 0.0;
+            copy[(*lanes)++] = four_point_area(own, a);
         }
     }
     return copy ? copy : own;
 }
 
-/* ----------------------------------------------------------------------------------------------- */
+/* --- sums ----------------------------------------------------------------------------------------------- */
 
 int fl_force_sum_elastic(fl_patch_points *s, fl_force_sum *q)
 {
     *q = (fl_force_sum){0};
     if (s->n == 0) return 0;
-    if (fl_reserve(&s->point_lanes, &s->point_lane_cap, 2 * lanes_of(s) + s->n / CORNERS, sizeof(lane)))
+    if (fl_reserve(&s->point_lanes, &s->point_lane_cap, 2 * count_lanes(s) + s->n / AREA_POINTS,
+                   sizeof(point_four)))
         return -1;
-    first(s->point, s->n, s->point_lanes, q);
+    sum_elastic(s->point, s->n, s->point_lanes, q);
     return 0;
 }
 
-int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 turn, fl_force_sum *q)
+int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_sum *q)
 {
     if (s->n == 0) return 0;
-    move(s->point_lanes, lanes_of(s), v, turn, q);
+    sum_motion(s->point_lanes, count_lanes(s), v, spin, q);
     if (find_areas(s)) return -1;
-    q->du_approach += met_aside(s);
+    q->du_approach += approach_correction(s);
     return 0;
 }
 
-void fl_force_sum_damping(const fl_patch_points *s, double chi, double more, fl_force_sum *q)
+void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, fl_force_sum *q)
 {
     if (s->n == 0) return;
     int32_t lanes;
     double skew;
-    const double still = 1.0 + chi * more;
-    const lane *t = held_back(s, chi, still, &lanes, &skew);
-    second(t, lanes, chi, still, q);
+    const double still = 1.0 + chi * speed_offset;
+    const point_four *t = points_without_tension(s, chi, still, &lanes, &skew);
+    sum_damped(t, lanes, chi, still, q);
     q->damped_spread -= chi * skew;
 }
 
@@ -324,7 +331,7 @@ void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q)
 {
     double sum[FL_PRESSURE_MATRIX];
     *q = (fl_spring_sums){0};
-    third(s->point_lanes, s->n, sum);
+    sum_springs(s->point_lanes, s->n, sum);
     for (int r = 0, m = 0; r < 6; r++)
         for (int c = r; c < 6; c++, m++) {
             if (c < 3) q->linear[r][c] = q->linear[c][r] = sum[m];
@@ -333,9 +340,9 @@ void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q)
         }
 }
 
-/* --- what presses ------------------------------------------------------------------------------ */
+/* --- pressure ------------------------------------------------------------------------------------------- */
 
-FL_SIMD_VERSIONS static void press(const lane *t, int32_t lanes, fl_pressure_moments *q)
+FL_SIMD_VERSIONS static void sum_pressure(const point_four *t, int32_t lanes, fl_pressure_moments *q)
 {
     const fl_simd zero = {0};
     fl_simd all[FL_PRESSURE_MATRIX], e = zero, wide = zero, way[3] = {zero, zero, zero},
@@ -352,17 +359,17 @@ FL_SIMD_VERSIONS static void press(const lane *t, int32_t lanes, fl_pressure_mom
             turns[c] += t[k].e * g[3 + c];
             at[c] += t[k].e * arm[c];
         }
-        square(all, &t[k].e, g);
+        add_outer_product(all, &t[k].e, g);
     }
     for (int m = 0; m < FL_PRESSURE_MATRIX; m++) q->damping[m] = fl_simd_sum(&all[m]);
     q->pressure = fl_simd_sum(&e), q->radius = fl_simd_sum(&wide);
-    q->direction = sum3(way), q->torque = sum3(turns), q->centre = sum3(at);
+    q->direction = sum_vector(way), q->torque = sum_vector(turns), q->centre = sum_vector(at);
 }
 
 void fl_force_sum_pressure(const fl_patch_points *s, fl_pressure_moments *q)
 {
     *q = (fl_pressure_moments){0};
-    press(s->point_lanes, lanes_of(s), q);
+    sum_pressure(s->point_lanes, count_lanes(s), q);
     if (!(q->pressure > 0.0)) return;
     const double each = 1.0 / q->pressure;
     q->centre = v3_scale(each, q->centre);
@@ -372,5 +379,5 @@ void fl_force_sum_pressure(const fl_patch_points *s, fl_pressure_moments *q)
 
 double fl_force_sum_approach_speed(const fl_patch_points *s, int32_t k)
 {
-    return closing_of(s->point_lanes, (uint32_t)k);
+    return approach_speed_at(s->point_lanes, (uint32_t)k);
 }

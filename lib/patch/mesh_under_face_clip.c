@@ -4,48 +4,52 @@
 #include "geom/quadrature_triangle.h"
 #include "geom/quadrature_rules.h"
 
-/* A corner of a piece of a face: x, y, s and a number that tells what counts of it; of a vertex h for s. */
-typedef fl_simd spot;
+/* A corner of a triangle: x, y, s and D, which decides what of the triangle counts.  For a vertex h instead
+ * of s. */
+typedef fl_simd node;
 enum { X, Y, H, S = H, D };
 
-/* A triangle that waits for its sums, and what it is of: it counts whole; where D >= 0 in it, which is so at
- * the first corner only, IN, or at the two others, OUT; the same where a side of F ends it, which pulls;
- * between D = 0 and D = rim, both of which part the first corner from the others, as much as D/rim, which
- * pulls; all of it as much as D/rim. */
-enum { ALL, IN, OUT, IN_END, OUT_END, STRIP, FADED, QUEUES };
+/* What of a queued triangle counts.
+ *     ALL                       all of it
+ *     IN, OUT                   the part with D >= 0; it holds the first corner only, or the two others
+ *     IN_AT_SIDE, OUT_AT_SIDE   the same, the border D = 0 being a side of F: adds a side force
+ *     RIM_STRIP                 the part 0 <= D <= rim, with the weight D/rim; both lines pass between the
+ *                               first corner and the others: adds a side force
+ *     FADING                    all of it with the weight D/rim: adds a side force */
+enum { ALL, IN, OUT, IN_AT_SIDE, OUT_AT_SIDE, RIM_STRIP, FADING, QUEUES };
 
-/* What one triangle may add to a queue: below it two wet ones, three of each over one of two sides, and four
- * of each of those where they are cut at both ends of the rim; above it one of each.  Many triangles wait, so
- * that hardly a register is not full. */
-enum { ONE = 2 * 3 * 4 + 2 * 3, ROOM = 14 * FL_SIMD_WIDTH };
+/* Most that one triangle adds to a queue.  F below: 2 triangles with s > 0, 3 of each over one of two sides,
+ * 4 of each of those where both borders of the rim cut them.  F above: one of each.  A long queue leaves few
+ * SIMD registers partly empty. */
+enum { MAX_FROM_ONE = 2 * 3 * 4 + 2 * 3, QUEUE_SIZE = 14 * FL_SIMD_WIDTH };
 
-/* kind: share for the area seen from F, force over du, and what u and du have of the couple along (turn[0],
- * turn[1]); turn[2] and turn[3]: the inward normal of the side. */
+/* kind: factor of the area seen from F, force over du, couple over u and over du along (turn[0], turn[1]).
+ * turn[2], turn[3]: inward normal of the side. */
 typedef struct {
-    spot corner[3], kind, turn;
-} entry;
+    node corner[3], kind, turn;
+} clip_triangle;
 
 typedef struct {
-    entry of[ROOM];
+    clip_triangle of[QUEUE_SIZE];
     int n;
-} queue;
+} triangle_queue;
 
-/* pushes: what has come since they were drained. */
+/* appended: entries since the queues were last summed */
 typedef struct {
-    queue of[QUEUES];
-    int pushes;
-} queues;
+    triangle_queue of[QUEUES];
+    int appended;
+} triangle_queues;
 
-/* Of a pull, by lanes. */
+/* Side forces and their moments, by lanes. */
 typedef struct {
     fl_simd f[3], m[3];
-} pulls;
+} side_forces;
 
-/* Sums over triangles: of s^4, s^3 and s^2, of s^3 times x, y, xx, xy, yy; of s^4 times 1, x, y, s without
- * the share D/rim. */
+/* Sums over triangles: of s^4, s^3 and s^2; of s^3 times x, y, xx, xy, yy; of s^4 times 1, x, y, s without
+ * the weight D/rim. */
 typedef struct {
     fl_simd u, du, ddu, x, y, xx, xy, yy, p, px, py, ps;
-} heap;
+} triangle_sums;
 
 #define ADD_NODE(t, weight, S_, X_, Y_)                                                                      \
     do {                                                                                                     \
@@ -57,7 +61,7 @@ typedef struct {
 
 #define AREA(a, b, c) (0.5 * (((b)[X] - (a)[X]) * ((c)[Y] - (a)[Y]) - ((b)[Y] - (a)[Y]) * ((c)[X] - (a)[X])))
 
-FL_SIMD_INLINE void add_plain(heap *t, const fl_simd *p, const fl_simd *q, const fl_simd *r)
+FL_SIMD_INLINE void add_full(triangle_sums *t, const fl_simd *p, const fl_simd *q, const fl_simd *r)
 {
     const fl_simd turned = AREA(p, q, r), area = FL_SIMD_ABS(turned);
     fl_triangle_means k;
@@ -68,9 +72,9 @@ FL_SIMD_INLINE void add_plain(heap *t, const fl_simd *p, const fl_simd *q, const
     t->x += area * m.x, t->y += area * m.y, t->xx += area * m.xx, t->xy += area * m.xy, t->yy += area * m.yy;
 }
 
-/* With shares at the corners that go from 0 to 1. */
-FL_SIMD_INLINE void add_faded(heap *t, const fl_simd *a, const fl_simd *b, const fl_simd *c,
-                              const fl_simd share[3])
+/* Adds triangles with a weight that is linear, its values at the corners in share[]. */
+FL_SIMD_INLINE void add_fading(triangle_sums *t, const fl_simd *a, const fl_simd *b, const fl_simd *c,
+                               const fl_simd share[3])
 {
     const fl_simd turned = AREA(a, b, c), area = FL_SIMD_ABS(turned);
     for (int k = 0; k < FL_TRIANGLE_NODES; k++) {
@@ -83,17 +87,17 @@ FL_SIMD_INLINE void add_faded(heap *t, const fl_simd *a, const fl_simd *b, const
     }
 }
 
-/* x, y and s at the share `at` of the way from a to b. */
-FL_SIMD_INLINE void between(const fl_simd *a, const fl_simd *b, const fl_simd *at, fl_simd out[3])
+/* x, y and s at the fraction `at` from a to b. */
+FL_SIMD_INLINE void interpolate_corner(const fl_simd *a, const fl_simd *b, const fl_simd *at, fl_simd out[3])
 {
     FL_SIMD_UNROLL
     for (int i = 0; i < 3; i++) out[i] = a[i] + *at * (b[i] - a[i]);
 }
 
-/* The side of F ends the part of F over f, along the line from a to b: s^4 for each length that it moves out
- * across n_f, where it is, n_f h/c from what is below it on f. */
-FL_SIMD_INLINE void end(const fl_under_face *g, const fl_simd *kind, const fl_simd *turn, const fl_simd *a,
-                        const fl_simd *b, pulls *q)
+/* Adds the border of F over f along a side, from a to b: s^4 for each length that the side moves out across
+ * n_f, at the point n_f h/c from the one below it on f. */
+FL_SIMD_INLINE void add_side_border(const fl_under_face *g, const fl_simd *kind, const fl_simd *turn,
+                                    const fl_simd *a, const fl_simd *b, side_forces *q)
 {
     const fl_simd over = kind[1], nx = turn[1], ny = -turn[0], mx = turn[2], my = turn[3];
     const fl_simd slope = (nx * mx + ny * my) * over, gx = mx + slope * over * nx,
@@ -111,55 +115,55 @@ FL_SIMD_INLINE void end(const fl_under_face *g, const fl_simd *kind, const fl_si
     q->m[0] += ry * slope, q->m[1] -= rx * slope, q->m[2] += rx * my - ry * mx;
 }
 
-/* *top: the largest s of all. */
-#define RISE(top, a) (*(top) = FL_SIMD_MAX((a)[S], *(top)))
+/* *top rises to the largest s. */
+#define RAISE_MAX(top, a) (*(top) = FL_SIMD_MAX((a)[S], *(top)))
 
-/* Sum up four of a queue, from `at` on; what is beyond n counts for nothing.  The pull of a share d/rim is
- * s^4/rim for each of the area, at the height R - s. */
-FL_SIMD_INLINE void take(const queue *b, int at, int what, const fl_under_face *g, fl_under_face_sums *q,
-                         pulls *pull, fl_simd *top)
+/* Integrates four triangles of a queue, from `at` on; lanes beyond n count nothing.  The side force of a
+ * weight d/rim is s^4/rim for each area, at the height R - s. */
+FL_SIMD_INLINE void sum_four(const triangle_queue *b, int at, int what, const fl_under_face *g,
+                             fl_under_face_sums *q, side_forces *pull, fl_simd *top)
 {
     const fl_simd zero = {0}, one = 1.0 + zero;
     fl_simd c0[FL_SIMD_WIDTH], c1[FL_SIMD_WIDTH], c2[FL_SIMD_WIDTH], kind[FL_SIMD_WIDTH], turn[FL_SIMD_WIDTH];
-    heap t = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    triangle_sums t = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
     FL_SIMD_UNROLL
     for (int l = 0; l < FL_SIMD_WIDTH; l++) {
-        const entry *e = &b->of[at + l < b->n ? at + l : at];
+        const clip_triangle *e = &b->of[at + l < b->n ? at + l : at];
         c0[l] = e->corner[0], c1[l] = e->corner[1], c2[l] = e->corner[2], kind[l] = e->kind,
         turn[l] = e->turn;
     }
     fl_simd_transpose(c0), fl_simd_transpose(c1), fl_simd_transpose(c2);
     fl_simd_transpose(kind), fl_simd_transpose(turn);
     kind[0] = FL_SIMD_MASKED(FL_SIMD_MASK_BELOW(b->n - at), kind[0]);
-    if (what == ALL || what == FADED) {
-        RISE(top, c0), RISE(top, c1), RISE(top, c2);
-        if (what == ALL) add_plain(&t, c0, c1, c2);
+    if (what == ALL || what == FADING) {
+        RAISE_MAX(top, c0), RAISE_MAX(top, c1), RAISE_MAX(top, c2);
+        if (what == ALL) add_full(&t, c0, c1, c2);
         else {
             const double each = 1.0 / g->rim;
-            add_faded(&t, c0, c1, c2, (const fl_simd[3]){each * c0[D], each * c1[D], each * c2[D]});
+            add_fading(&t, c0, c1, c2, (const fl_simd[3]){each * c0[D], each * c1[D], each * c2[D]});
         }
     } else {
         const fl_simd one1 = 1.0 / (c0[D] - c1[D]), one2 = 1.0 / (c0[D] - c2[D]);
         const fl_simd t1 = c0[D] * one1, t2 = c0[D] * one2;
         fl_simd p[3], r[3];
-        between(c0, c1, &t1, p), between(c0, c2, &t2, r);
-        RISE(top, p), RISE(top, r);
-        if (what == STRIP) {
+        interpolate_corner(c0, c1, &t1, p), interpolate_corner(c0, c2, &t2, r);
+        RAISE_MAX(top, p), RAISE_MAX(top, r);
+        if (what == RIM_STRIP) {
             const fl_simd in = c0[D] - g->rim, t3 = in * one1, t4 = in * one2;
             fl_simd v[3], w[3];
-            between(c0, c1, &t3, v), between(c0, c2, &t4, w);
-            RISE(top, v), RISE(top, w);
-            add_faded(&t, p, v, w, (const fl_simd[3]){zero, one, one});
-            add_faded(&t, p, w, r, (const fl_simd[3]){zero, one, zero});
-        } else if (what == IN || what == IN_END) {
-            RISE(top, c0);
-            add_plain(&t, c0, p, r);
+            interpolate_corner(c0, c1, &t3, v), interpolate_corner(c0, c2, &t4, w);
+            RAISE_MAX(top, v), RAISE_MAX(top, w);
+            add_fading(&t, p, v, w, (const fl_simd[3]){zero, one, one});
+            add_fading(&t, p, w, r, (const fl_simd[3]){zero, one, zero});
+        } else if (what == IN || what == IN_AT_SIDE) {
+            RAISE_MAX(top, c0);
+            add_full(&t, c0, p, r);
         } else {
-            RISE(top, c1), RISE(top, c2);
-            add_plain(&t, p, c1, c2);
-            add_plain(&t, p, c2, r);
+            RAISE_MAX(top, c1), RAISE_MAX(top, c2);
+            add_full(&t, p, c1, c2);
+            add_full(&t, p, c2, r);
         }
-        if (what == IN_END || what == OUT_END) end(g, kind, turn, p, r, pull);
+        if (what == IN_AT_SIDE || what == OUT_AT_SIDE) add_side_border(g, kind, turn, p, r, pull);
     }
     const fl_simd share = kind[0], gain = kind[1], force = 4.0 * share * gain, u = share * t.u,
                   du = 4.0 * share * t.du;
@@ -168,223 +172,230 @@ FL_SIMD_INLINE void take(const queue *b, int at, int what, const fl_under_face *
     q->xx += force * t.xx, q->xy += force * t.xy, q->yy += force * t.yy;
     const fl_simd couple = kind[2] * u + kind[3] * du;
     q->couple[0] += turn[0] * couple, q->couple[1] += turn[1] * couple;
-    if (what != STRIP && what != FADED) return;
+    if (what != RIM_STRIP && what != FADING) return;
     const double each = 1.0 / g->rim;
     const fl_simd nx = each * share * turn[2], ny = each * share * turn[3], ph = g->R * t.p - t.ps;
     pull->f[0] += nx * t.p, pull->f[1] += ny * t.p;
     pull->m[0] -= ph * ny, pull->m[1] += ph * nx, pull->m[2] += t.px * ny - t.py * nx;
 }
 
-/* Sum up what waits, four by four, and at the last all of it. */
-FL_SIMD_INLINE void drain(queue *b, int what, int last, const fl_under_face *g, fl_under_face_sums *q,
-                          pulls *pull, fl_simd *top)
+/* Integrates a queue four by four; with `last` set to its end, else the rest is moved to the front. */
+FL_SIMD_INLINE void sum_queue(triangle_queue *b, int what, int last, const fl_under_face *g,
+                              fl_under_face_sums *q, side_forces *pull, fl_simd *top)
 {
     int i = 0;
     for (; i + FL_SIMD_WIDTH <= b->n || (last && i < b->n); i += FL_SIMD_WIDTH)
-        take(b, i, what, g, q, pull, top);
+        sum_four(b, i, what, g, q, pull, top);
     if (i == 0) return;
     b->n = b->n > i ? b->n - i : 0;
     for (int l = 0; l < b->n; l++) b->of[l] = b->of[i + l];
 }
 
-/* A face f as it is seen from F: its normal there, and 1/c. */
+/* Face f seen from F: its normal in the plane of F, and 1/c. */
 typedef struct {
-    spot kind[2], turn; /* F over f, f over F */
+    node kind[2], turn; /* F over f, f over F */
     double nx, ny, over;
-} facet;
+} facet_geometry;
 
-FL_SIMD_INLINE void push(queues *to, int what, const spot *c0, const spot *c1, const spot *c2,
-                         const spot *kind, const spot *turn)
+FL_SIMD_INLINE void append_triangle(triangle_queues *to, int what, const node *c0, const node *c1,
+                                    const node *c2, const node *kind, const node *turn)
 {
-    queue *const b = &to->of[what];
-    entry *e = &b->of[b->n++];
-    to->pushes++;
+    triangle_queue *const b = &to->of[what];
+    clip_triangle *e = &b->of[b->n++];
+    to->appended++;
     e->corner[0] = *c0, e->corner[1] = *c1, e->corner[2] = *c2, e->kind = *kind, e->turn = *turn;
 }
 
-/* Which of three numbers are not negative, and which one is then not as the two others. */
-FL_SIMD_INLINE int signs(double a, double b, double c)
+/* Bit k is set where number k of three is not negative.  ODD: the number whose sign differs from the two
+ * others. */
+FL_SIMD_INLINE int sign_bits(double a, double b, double c)
 {
     return (a >= 0.0) | (b >= 0.0) << 1 | (c >= 0.0) << 2;
 }
 static const int8_t ODD[8] = {0, 0, 1, 2, 2, 1, 0, 0}, NEXT[5] = {0, 1, 2, 0, 1};
 #define ONLY_ONE(which) ((which) == 1 || (which) == 2 || (which) == 4)
 
-/* Part the triangle p where g is 0 at the line between: its parts with g >= 0 into in, and the others into
- * out where that is not NULL, each at most two triangles. */
-FL_SIMD_INLINE void cut(const spot p[3], const double g[3], spot (*in)[3], int *inside, spot (*out)[3],
-                        int *outside)
+/* Splits triangle p along the line where g = 0: parts with g >= 0 into `in`, the others into `out` unless
+ * that is NULL; at most two triangles each. */
+FL_SIMD_INLINE void split_triangle(const node p[3], const double g[3], node (*in)[3], int *inside,
+                                   node (*out)[3], int *outside)
 {
-    const int which = signs(g[0], g[1], g[2]), i = ODD[which], j = NEXT[i + 1], k = NEXT[i + 2];
+    const int which = sign_bits(g[0], g[1], g[2]), i = ODD[which], j = NEXT[i + 1], k = NEXT[i + 2];
     *inside = *outside = 0;
     if (which == 0 || which == 7) {
-        spot(*to)[3] = which ? in : out;
+        node(*to)[3] = which ? in : out;
         if (to) to[0][0] = p[0], to[0][1] = p[1], to[0][2] = p[2];
         *(which ? inside : outside) = 1;
         return;
     }
-    const spot a = p[i], b = p[j], c = p[k];
-    const spot v = a + g[i] / (g[i] - g[j]) * (b - a), w = a + g[i] / (g[i] - g[k]) * (c - a);
+    const node a = p[i], b = p[j], c = p[k];
+    const node v = a + g[i] / (g[i] - g[j]) * (b - a), w = a + g[i] / (g[i] - g[k]) * (c - a);
     const int only = ONLY_ONE(which);
-    spot(*one)[3] = only ? in : out, (*two)[3] = only ? out : in;
+    node(*one)[3] = only ? in : out, (*two)[3] = only ? out : in;
     *(only ? inside : outside) = 1, *(only ? outside : inside) = 2;
     if (one) one[0][0] = a, one[0][1] = v, one[0][2] = w;
     if (two) two[0][0] = v, two[0][1] = b, two[0][2] = c, two[1][0] = v, two[1][1] = c, two[1][2] = w;
 }
 
-/* A triangle of f, s >= 0, with a share of it where D, how far it is within a side, is below rim. */
-FL_SIMD_INLINE void fade(const fl_under_face *g, const spot p[3], const spot *kind, const spot *turn,
-                         queues *to)
+/* Appends the part D >= 0 of a triangle of f with s >= 0; its weight is D/rim where D < rim. */
+FL_SIMD_INLINE void append_fading(const fl_under_face *g, const node p[3], const node *kind, const node *turn,
+                                  triangle_queues *to)
 {
     const double rim = g->rim, d[3] = {p[0][D], p[1][D], p[2][D]},
                  e[3] = {d[0] - rim, d[1] - rim, d[2] - rim};
-    const int which = signs(d[0], d[1], d[2]), deep = signs(e[0], e[1], e[2]);
+    const int which = sign_bits(d[0], d[1], d[2]), deep = sign_bits(e[0], e[1], e[2]);
     if (which == 0) return;
     if (deep == 7) {
-        push(to, ALL, &p[0], &p[1], &p[2], kind, turn);
+        append_triangle(to, ALL, &p[0], &p[1], &p[2], kind, turn);
         return;
     }
-    if (which == deep) { /* both lines go between the same corners */
+    if (which == deep) { /* both lines pass between the same corners */
         const int i = ODD[which], j = NEXT[i + 1], k = NEXT[i + 2];
-        const spot less = {0.0, 0.0, 0.0, rim}, a = p[i] - less, b = p[j] - less, c = p[k] - less;
-        push(to, ONLY_ONE(which) ? IN : OUT, &a, &b, &c, kind, turn);
-        push(to, STRIP, &p[i], &p[j], &p[k], kind, turn);
+        const node less = {0.0, 0.0, 0.0, rim}, a = p[i] - less, b = p[j] - less, c = p[k] - less;
+        append_triangle(to, ONLY_ONE(which) ? IN : OUT, &a, &b, &c, kind, turn);
+        append_triangle(to, RIM_STRIP, &p[i], &p[j], &p[k], kind, turn);
         return;
     }
-    spot over[2][3], in[2][3], out[2][3];
+    node over[2][3], in[2][3], out[2][3];
     int n, none, inside, outside;
-    cut(p, d, over, &n, NULL, &none);
+    split_triangle(p, d, over, &n, NULL, &none);
     for (int m = 0; m < n; m++) {
-        const spot *r = over[m];
-        cut(r, (const double[3]){r[0][D] - rim, r[1][D] - rim, r[2][D] - rim}, in, &inside, out, &outside);
-        for (int k = 0; k < inside; k++) push(to, ALL, &in[k][0], &in[k][1], &in[k][2], kind, turn);
-        for (int k = 0; k < outside; k++) push(to, FADED, &out[k][0], &out[k][1], &out[k][2], kind, turn);
+        const node *r = over[m];
+        split_triangle(r, (const double[3]){r[0][D] - rim, r[1][D] - rim, r[2][D] - rim}, in, &inside, out,
+                       &outside);
+        for (int k = 0; k < inside; k++)
+            append_triangle(to, ALL, &in[k][0], &in[k][1], &in[k][2], kind, turn);
+        for (int k = 0; k < outside; k++)
+            append_triangle(to, FADING, &out[k][0], &out[k][1], &out[k][2], kind, turn);
     }
 }
 
-/* What has D >= 0: of F over f it ends at the side, where that is what D tells. */
-FL_SIMD_INLINE void put(const spot p[3], int is_side, const spot *kind, const spot *turn, queues *to)
+/* Appends the part D >= 0; of F over f, D = 0 is a side of F when is_side is set. */
+FL_SIMD_INLINE void append_clipped(const node p[3], int is_side, const node *kind, const node *turn,
+                                   triangle_queues *to)
 {
-    const int which = signs(p[0][D], p[1][D], p[2][D]), i = ODD[which], j = NEXT[i + 1], k = NEXT[i + 2];
+    const int which = sign_bits(p[0][D], p[1][D], p[2][D]), i = ODD[which], j = NEXT[i + 1], k = NEXT[i + 2];
     if (which == 0) return;
-    push(to, which == 7 ? ALL : (ONLY_ONE(which) ? IN : OUT) + (is_side ? IN_END - IN : 0), &p[i], &p[j],
-         &p[k], kind, turn);
+    append_triangle(to, which == 7 ? ALL : (ONLY_ONE(which) ? IN : OUT) + (is_side ? IN_AT_SIDE - IN : 0),
+                    &p[i], &p[j], &p[k], kind, turn);
 }
 
-/* One way of a triangle p of f; D: how far it is within the first of the sides. */
-FL_SIMD_INLINE void one_way(const fl_under_face *g, const facet *f, int below,
-                            const fl_under_face_side *const m[2], int sides, const spot p[3], queues *to)
+/* Clips triangle p of f for one of the two integrals; D: distance within the first of the sides.
+ *     below   1: f over F, 0: F over f */
+FL_SIMD_INLINE void clip_one_way(const fl_under_face *g, const facet_geometry *f, int below,
+                                 const fl_under_face_side *const m[2], int sides, const node p[3],
+                                 triangle_queues *to)
 {
-    const spot *kind = &f->kind[below];
-    spot wet[2][3];
+    const node *kind = &f->kind[below];
+    node overlapping[2][3];
     int n, none;
-    cut(p, (const double[3]){p[0][S], p[1][S], p[2][S]}, wet, &n, NULL, &none);
+    split_triangle(p, (const double[3]){p[0][S], p[1][S], p[2][S]}, overlapping, &n, NULL, &none);
     for (int i = 0; i < n; i++) {
         if (sides == 1) {
-            spot turn = f->turn;
+            node turn = f->turn;
             turn[2] = m[0]->nx, turn[3] = m[0]->ny;
-            if (below) fade(g, wet[i], kind, &turn, to);
-            else put(wet[i], 1, kind, &turn, to);
+            if (below) append_fading(g, overlapping[i], kind, &turn, to);
+            else append_clipped(overlapping[i], 1, kind, &turn, to);
             continue;
         }
-        /* over two sides it is parted where they are equally far, seen this way, and each part is over one */
-        spot part[2][2][3];
+        /* over two sides it is split where both are equally far, and each part lies over one side */
+        node part[2][2][3];
         int parts[2];
         double e[3], far[3];
         for (int k = 0; k < 3; k++) {
-            const spot x = wet[i][k];
+            const node x = overlapping[i][k];
             far[k] = m[1]->nx * (x[X] - m[1]->x) + m[1]->ny * (x[Y] - m[1]->y);
             if (!below) far[k] += (f->nx * m[1]->nx + f->ny * m[1]->ny) * (g->R - x[S]);
             e[k] = far[k] - x[D];
         }
-        cut(wet[i], e, part[0], &parts[0], part[1], &parts[1]);
+        split_triangle(overlapping[i], e, part[0], &parts[0], part[1], &parts[1]);
         for (int side = 0; side < 2; side++) {
-            spot turn = f->turn;
+            node turn = f->turn;
             turn[2] = m[side]->nx, turn[3] = m[side]->ny;
             for (int k = 0; k < parts[side]; k++) {
-                spot *const r = part[side][k];
+                node *const r = part[side][k];
                 for (int v = 0; v < 3 && side; v++) {
                     r[v][D] = m[1]->nx * (r[v][X] - m[1]->x) + m[1]->ny * (r[v][Y] - m[1]->y);
                     if (!below) r[v][D] += (f->nx * m[1]->nx + f->ny * m[1]->ny) * (g->R - r[v][S]);
                 }
-                if (below) fade(g, r, kind, &turn, to);
-                else put(r, 1, kind, &turn, to);
+                if (below) append_fading(g, r, kind, &turn, to);
+                else append_clipped(r, 1, kind, &turn, to);
             }
         }
     }
 }
 
-/* Both ways. */
-FL_SIMD_INLINE void both_ways(const fl_under_face *g, const facet *f, const fl_under_face_cut *c,
-                              const int32_t v[3], queues *to)
+/* Clips a facet triangle for both integrals. */
+FL_SIMD_INLINE void clip_facet(const fl_under_face *g, const facet_geometry *f, const fl_under_face_cut *c,
+                               const int32_t v[3], triangle_queues *to)
 {
     const fl_under_face_side *const m[2] = {&g->side[c->sides ? c->side[0] : 0],
                                             &g->side[c->sides == 2 ? c->side[1] : 0]};
-    const spot below = {1.0, 1.0, -1.0, 0.0}, above = {1.0, 1.0, -f->over, 0.0};
-    spot p[3], q[3];
-    if (c->sides == 0) { /* all that counts is s */
-        const spot up = {0.0, 0.0, g->R, g->R};
+    const node below = {1.0, 1.0, -1.0, 0.0}, above = {1.0, 1.0, -f->over, 0.0};
+    node p[3], q[3];
+    if (c->sides == 0) { /* only s clips it */
+        const node up = {0.0, 0.0, g->R, g->R};
         FL_SIMD_UNROLL
         for (int i = 0; i < 3; i++) {
-            const spot a = FL_SIMD_LOAD(&g->vertex[v[i]]), x = __builtin_shufflevector(a, a, X, Y, H, H);
+            const node a = FL_SIMD_LOAD(&g->vertex[v[i]]), x = __builtin_shufflevector(a, a, X, Y, H, H);
             p[i] = x * __builtin_shufflevector(below, below, X, Y, H, H) + up;
             q[i] = x * __builtin_shufflevector(above, above, X, Y, H, H) + up;
         }
-        put(p, 0, &f->kind[1], &f->turn, to);
-        put(q, 0, &f->kind[0], &f->turn, to);
+        append_clipped(p, 0, &f->kind[1], &f->turn, to);
+        append_clipped(q, 0, &f->kind[0], &f->turn, to);
         return;
     }
     const double *const d = fl_under_face_inset(g, c->side[0], 0);
     const double slope = (f->nx * m[0]->nx + f->ny * m[0]->ny) * f->over;
     FL_SIMD_UNROLL
     for (int i = 0; i < 3; i++) {
-        const spot a = FL_SIMD_LOAD(&g->vertex[v[i]]);
+        const node a = FL_SIMD_LOAD(&g->vertex[v[i]]);
         const double in = d[FL_SIMD_WIDTH * v[i]];
-        p[i] = a * below + (spot){0.0, 0.0, g->R, in};
-        q[i] = a * above + (spot){0.0, 0.0, g->R, in + slope * g->vertex[v[i]].h};
+        p[i] = a * below + (node){0.0, 0.0, g->R, in};
+        q[i] = a * above + (node){0.0, 0.0, g->R, in + slope * g->vertex[v[i]].h};
     }
-    one_way(g, f, 1, m, c->sides, p, to);
-    one_way(g, f, 0, m, c->sides, q, to);
+    clip_one_way(g, f, 1, m, c->sides, p, to);
+    clip_one_way(g, f, 0, m, c->sides, q, to);
 }
 
-FL_SIMD_VERSIONS void fl_under_face_sum_clipped(const fl_under_face *g, const fl_under_face_facet *tile,
+FL_SIMD_VERSIONS void fl_under_face_sum_clipped(const fl_under_face *g, const fl_under_face_facet *facet,
                                                 const int32_t *corner, const fl_vec3 *normal,
                                                 const fl_under_face_cut *list, int32_t count,
                                                 fl_under_face_sums *sum, fl_under_face_side_force *pull,
                                                 double *most)
 {
-    queues to;
+    triangle_queues to;
     const fl_simd zero = {0};
     fl_under_face_sums all = *sum;
-    pulls q = {{zero, zero, zero}, {zero, zero, zero}};
+    side_forces q = {{zero, zero, zero}, {zero, zero, zero}};
     fl_simd top = *most + zero;
     for (int k = 0; k < QUEUES; k++) to.of[k].n = 0;
-    to.pushes = 0;
+    to.appended = 0;
     for (int32_t k = 0; k <= count; k++) {
         const int last = k == count;
-        const fl_under_face_facet *t = &tile[list[last ? 0 : k].tile];
+        const fl_under_face_facet *t = &facet[list[last ? 0 : k].facet];
         const int32_t *at = corner + t->first, n = last ? 3 : t->n;
-        facet f = {.over = 1.0};
+        facet_geometry f = {.over = 1.0};
         if (!last) {
             const fl_vec3 nf = normal[t->f];
             const double c = -v3_dot(g->n, nf), root = 4.0 * c * c - 3.0, over = 1.0 / c;
             const double m = 0.5 * root * root, part_m = 16.0 * c / root;
             f.nx = v3_dot(nf, g->x), f.ny = v3_dot(nf, g->y), f.over = over;
-            f.kind[0] = (spot){m * over, over, part_m - 4.0 * over, g->R * over};
-            f.kind[1] = (spot){m, 1.0, part_m + over, 0.0};
-            f.turn = (spot){-f.ny, f.nx, 0.0, 0.0}; /* n_F x n_f */
+            f.kind[0] = (node){m * over, over, part_m - 4.0 * over, g->R * over};
+            f.kind[1] = (node){m, 1.0, part_m + over, 0.0};
+            f.turn = (node){-f.ny, f.nx, 0.0, 0.0}; /* n_F x n_f */
         }
         for (int32_t e = 2; e < n; e++) {
-            if (!last) both_ways(g, &f, &list[k], (const int32_t[3]){at[0], at[e - 1], at[e]}, &to);
-            if (!last && to.pushes <= ROOM - FL_SIMD_WIDTH - ONE) continue;
-            to.pushes = 0;
-            drain(&to.of[ALL], ALL, last, g, &all, &q, &top);
-            drain(&to.of[IN], IN, last, g, &all, &q, &top);
-            drain(&to.of[OUT], OUT, last, g, &all, &q, &top);
-            drain(&to.of[IN_END], IN_END, last, g, &all, &q, &top);
-            drain(&to.of[OUT_END], OUT_END, last, g, &all, &q, &top);
-            drain(&to.of[STRIP], STRIP, last, g, &all, &q, &top);
-            drain(&to.of[FADED], FADED, last, g, &all, &q, &top);
+            if (!last) clip_facet(g, &f, &list[k], (const int32_t[3]){at[0], at[e - 1], at[e]}, &to);
+            if (!last && to.appended <= QUEUE_SIZE - FL_SIMD_WIDTH - MAX_FROM_ONE) continue;
+            to.appended = 0;
+            sum_queue(&to.of[ALL], ALL, last, g, &all, &q, &top);
+            sum_queue(&to.of[IN], IN, last, g, &all, &q, &top);
+            sum_queue(&to.of[OUT], OUT, last, g, &all, &q, &top);
+            sum_queue(&to.of[IN_AT_SIDE], IN_AT_SIDE, last, g, &all, &q, &top);
+            sum_queue(&to.of[OUT_AT_SIDE], OUT_AT_SIDE, last, g, &all, &q, &top);
+            sum_queue(&to.of[RIM_STRIP], RIM_STRIP, last, g, &all, &q, &top);
+            sum_queue(&to.of[FADING], FADING, last, g, &all, &q, &top);
         }
     }
     *sum = all;

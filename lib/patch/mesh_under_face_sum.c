@@ -33,42 +33,42 @@ FL_SIMD_VERSIONS void fl_under_face_project(const fl_under_face *g, const double
     }
 }
 
-/* Of a vertex, by lanes, or of four vertices. */
+/* Members of a vertex, by lanes; or of four vertices. */
 enum { X, Y, H, CLEAR };
 
-/* Four vertices as they lie: what is known of each becomes a register. */
-FL_SIMD_INLINE void look_up(const fl_under_face *g, const int32_t v[FL_SIMD_WIDTH],
-                            fl_simd out[FL_SIMD_WIDTH])
+/* Loads four vertices and transposes them: each member becomes a register. */
+FL_SIMD_INLINE void load_vertices(const fl_under_face *g, const int32_t v[FL_SIMD_WIDTH],
+                                  fl_simd out[FL_SIMD_WIDTH])
 {
     FL_SIMD_UNROLL
     for (int l = 0; l < FL_SIMD_WIDTH; l++) out[l] = FL_SIMD_LOAD(&g->vertex[v[l]]);
     fl_simd_transpose(out);
 }
 
-/* --- what is where ---------------------------------------------------------------------------------------
- */
+/* --- sorting -------------------------------------------------------------------------------------------- */
 
-/* The sides of F that four faces, or what of F is above them, may be over. */
+/* The sides of F that four facets, or the parts of F above them, may lie over. */
 typedef struct {
-    fl_simd_mask beyond,
-        bad; /* one of them; more than two of them, or one that a corner is within a hair of */
+    /* entirely outside one side; over more than two sides, or with a corner within rounding of one */
+    fl_simd_mask beyond, bad;
     fl_simd_mask found, side[2];
-} sides_over;
+} side_search;
 
-/*   at      their corners, by fours
- *   fx, fy  normals in the plane of F
- *   over    1/c */
-FL_SIMD_INLINE void sides_of(const fl_under_face *g, const int32_t *at, int32_t corners, const fl_simd *fx,
-                             const fl_simd *fy, const fl_simd *c, const fl_simd *over, sides_over *out)
+/* For four facets.
+ *     at      their corners, by fours
+ *     fx, fy  their normals in the plane of F
+ *     over    1/c */
+FL_SIMD_INLINE void find_sides(const fl_under_face *g, const int32_t *at, int32_t corners, const fl_simd *fx,
+                               const fl_simd *fy, const fl_simd *c, const fl_simd *over, side_search *out)
 {
     const fl_simd zero = {0};
-    const double hair = FL_UNDER_FACE_TOL * g->rim;
+    const double tol = FL_UNDER_FACE_TOL * g->rim;
     fl_simd sine = 1.0 - *c * *c;
     sine = FL_SIMD_MAX(sine, zero);
     FL_SIMD_UNROLL
     for (int l = 0; l < FL_SIMD_WIDTH; l++) sine[l] = sqrt(sine[l]);
-    const fl_simd slack = g->R * *over * sine, away = -slack - hair, near = g->rim + slack + hair;
-    *out = (sides_over){.found = {0}};
+    const fl_simd slack = g->R * *over * sine, away = -slack - tol, near = g->rim + slack + tol;
+    *out = (side_search){.found = {0}};
     for (int32_t i = 0; i < g->sides; i += FL_SIMD_WIDTH) {
         fl_simd slope[FL_SIMD_WIDTH], least[FL_SIMD_WIDTH], most[FL_SIMD_WIDTH], close[FL_SIMD_WIDTH];
         FL_SIMD_UNROLL
@@ -92,22 +92,22 @@ FL_SIMD_INLINE void sides_of(const fl_under_face *g, const int32_t *at, int32_t 
             }
         }
         for (int l = 0; l < FL_SIMD_WIDTH && i + l < g->sides; l++) {
-            const fl_simd_mask is = least[l] <= near;
+            const fl_simd_mask over_side = least[l] <= near;
             out->beyond |= most[l] < away;
-            if (!fl_simd_any(&is)) continue;
-            out->bad |= is & ((close[l] < hair) | (out->found == 2));
+            if (!fl_simd_any(&over_side)) continue;
+            out->bad |= over_side & ((close[l] < tol) | (out->found == 2));
             for (int64_t k = 0; k < 2; k++) {
-                const fl_simd_mask here = is & (out->found == k);
+                const fl_simd_mask here = over_side & (out->found == k);
                 out->side[k] = (here & (int64_t)(i + l)) | (~here & out->side[k]);
             }
-            out->found -= is;
+            out->found -= over_side;
         }
     }
 }
 
-FL_SIMD_VERSIONS int fl_under_face_sort(const fl_under_face *g, const fl_under_face_facet *tile,
+FL_SIMD_VERSIONS int fl_under_face_sort(const fl_under_face *g, const fl_under_face_facet *facet,
                                         const fl_under_face_facet_four *four, const int32_t *corner,
-                                        int32_t count, fl_under_face_sorted *out, uint8_t *is)
+                                        int32_t count, fl_under_face_sorted *out, uint8_t *status)
 {
     enum { OVER = 2, WHOLE = 4 };
     const fl_simd zero = {0};
@@ -119,24 +119,24 @@ FL_SIMD_VERSIONS int fl_under_face_sort(const fl_under_face *g, const fl_under_f
         fl_simd low = INFINITY + zero, high = zero, clear = low;
         for (int32_t k = 0; k < four->most; k++) {
             fl_simd r[FL_SIMD_WIDTH];
-            look_up(g, at + FL_SIMD_WIDTH * k, r);
+            load_vertices(g, at + FL_SIMD_WIDTH * k, r);
             low = FL_SIMD_MIN(r[H], low), high = FL_SIMD_MAX(r[H], high),
             clear = FL_SIMD_MIN(r[CLEAR], clear);
         }
         const fl_simd nx = FL_SIMD_LOAD(four->n[0]), ny = FL_SIMD_LOAD(four->n[1]),
                       nz = FL_SIMD_LOAD(four->n[2]);
         const fl_simd c = -(g->n.x * nx + g->n.y * ny + g->n.z * nz), in = clear - g->rim;
-        const fl_simd_mask leave = low < 0.0;
-        const fl_simd_mask over = ~leave & (low < R) & (c > 0.0) & (4.0 * c * c > 3.0);
+        const fl_simd_mask skip = low < 0.0;
+        const fl_simd_mask over = ~skip & (low < R) & (c > 0.0) & (4.0 * c * c > 3.0);
         fl_simd_mask inside = (in > 0.0) & (c * c * in * in > (1.0 - c * c) * R * R);
-        fl_simd_mask code = (leave & FL_UNDER_FACE_SKIPPED) | (over & OVER);
+        fl_simd_mask code = (skip & FL_UNDER_FACE_SKIPPED) | (over & OVER);
         const fl_simd_mask cut = over & ~inside;
-        sides_over s;
+        side_search s;
         if (fl_simd_any(&cut)) {
             const fl_simd fx = g->x.x * nx + g->x.y * ny + g->x.z * nz,
                           fy = g->y.x * nx + g->y.y * ny + g->y.z * nz, each = 1.0 / c;
-            sides_of(g, at, four->most, &fx, &fy, &c, &each, &s);
-            s.found &= cut; /* over no side, where inside */
+            find_sides(g, at, four->most, &fx, &fy, &c, &each, &s);
+            s.found &= cut; /* none where inside */
             code &= ~(cut & (s.beyond | s.bad));
             code |= cut & ~s.beyond & s.bad & FL_UNDER_FACE_SKIPPED;
         }
@@ -147,13 +147,13 @@ FL_SIMD_VERSIONS int fl_under_face_sort(const fl_under_face *g, const fl_under_f
         const int32_t lanes = count - from < FL_SIMD_WIDTH ? count - from : FL_SIMD_WIDTH;
         for (int l = 0; l < lanes; l++) {
             const int what = (int)code[l];
-            is[from + l] = (uint8_t)(what & FL_UNDER_FACE_SKIPPED);
+            status[from + l] = (uint8_t)(what & FL_UNDER_FACE_SKIPPED);
             some_left |= what & FL_UNDER_FACE_SKIPPED;
             if (!(what & OVER)) continue;
-            if (what & WHOLE && tile[from + l].n == 3) out->whole[out->wholes++] = from + l;
+            if (what & WHOLE && facet[from + l].n == 3) out->whole[out->wholes++] = from + l;
             else {
                 fl_under_face_cut *to = &out->cut[out->cuts++];
-                to->tile = from + l, to->sides = 0;
+                to->facet = from + l, to->sides = 0;
                 if (!cut[l]) continue;
                 to->sides = (int32_t)s.found[l];
                 to->side[0] = (int32_t)s.side[0][l], to->side[1] = (int32_t)s.side[1][l];
@@ -165,10 +165,10 @@ FL_SIMD_VERSIONS int fl_under_face_sort(const fl_under_face *g, const fl_under_f
     return some_left;
 }
 
-/* Leave of four edges what is within the sides of F: nothing, where lo is not less than hi.  unsure: a side
- * is too near an end to tell. */
-FL_SIMD_INLINE void within_sides(const fl_under_face *g, const int32_t *end, fl_simd *lo, fl_simd *hi,
-                                 fl_simd_mask *unsure)
+/* Clips four edges to the inside of F; nothing is left where lo >= hi.  unsure: an end is too near to a side.
+ */
+FL_SIMD_INLINE void clip_to_sides(const fl_under_face *g, const int32_t *end, fl_simd *lo, fl_simd *hi,
+                                  fl_simd_mask *unsure)
 {
     const double near = FL_UNDER_FACE_EDGE_TOL * g->rim;
     for (int32_t i = 0; i < g->sides; i += FL_SIMD_WIDTH) {
@@ -180,7 +180,7 @@ FL_SIMD_INLINE void within_sides(const fl_under_face *g, const int32_t *end, fl_
         fl_simd_transpose(d0);
         fl_simd_transpose(d1);
         FL_SIMD_UNROLL
-        for (int l = 0; l < FL_SIMD_WIDTH; l++) { /* what is behind the last is the same as another */
+        for (int l = 0; l < FL_SIMD_WIDTH; l++) { /* sides behind the last repeat another */
             const fl_simd a = d0[l], b = d1[l], at = a / (a - b);
             const fl_simd_mask in0 = a >= 0.0, in1 = b >= 0.0;
             *unsure |= (FL_SIMD_ABS(a) < near) | (FL_SIMD_ABS(b) < near);
@@ -193,7 +193,7 @@ FL_SIMD_INLINE void within_sides(const fl_under_face *g, const int32_t *end, fl_
 
 FL_SIMD_VERSIONS int fl_under_face_sort_edges(const fl_under_face *g, const fl_under_face_edge *edge,
                                               const int32_t *end, int32_t count, fl_under_face_edge_part *out,
-                                              int32_t *pieces, uint8_t *is)
+                                              int32_t *parts, uint8_t *status)
 {
     enum { PART = 2 };
     const fl_simd zero = {0}, one = 1.0 + zero;
@@ -202,35 +202,34 @@ FL_SIMD_VERSIONS int fl_under_face_sort_edges(const fl_under_face *g, const fl_u
     int32_t n = 0;
     for (int32_t from = 0; from < count; from += FL_SIMD_WIDTH, end += 2 * FL_SIMD_WIDTH) {
         fl_simd v0[FL_SIMD_WIDTH], v1[FL_SIMD_WIDTH];
-        look_up(g, end, v0);
-        look_up(g, end + FL_SIMD_WIDTH, v1);
+        load_vertices(g, end, v0);
+        load_vertices(g, end + FL_SIMD_WIDTH, v1);
         const fl_simd s0 = R - v0[H], s1 = R - v1[H], zero_at = s0 / (s0 - s1);
-        const fl_simd_mask wet0 = s0 > 0.0, wet1 = s1 > 0.0, over = (v0[H] >= 0.0) & (v1[H] >= 0.0);
-        const fl_simd_mask some = over & (wet0 | wet1),
+        const fl_simd_mask in_reach0 = s0 > 0.0, in_reach1 = s1 > 0.0, over = (v0[H] >= 0.0) & (v1[H] >= 0.0);
+        const fl_simd_mask some = over & (in_reach0 | in_reach1),
                            off = some & ~((v0[CLEAR] > near) & (v1[CLEAR] > near));
-        fl_simd lo = FL_SIMD_MASKED(~wet0, zero_at), hi = FL_SIMD_SELECT(wet1, one, zero_at);
+        fl_simd lo = FL_SIMD_MASKED(~in_reach0, zero_at), hi = FL_SIMD_SELECT(in_reach1, one, zero_at);
         fl_simd_mask unsure = {0};
-        if (fl_simd_any(&off)) within_sides(g, end, &lo, &hi, &unsure);
+        if (fl_simd_any(&off)) clip_to_sides(g, end, &lo, &hi, &unsure);
         const fl_simd_mask code =
             ((~over | (some & unsure)) & FL_UNDER_FACE_SKIPPED) | (some & ~unsure & (lo < hi) & PART);
         const int32_t lanes = count - from < FL_SIMD_WIDTH ? count - from : FL_SIMD_WIDTH;
         for (int l = 0; l < lanes; l++) {
             const int what = (int)code[l];
-            is[from + l] = (uint8_t)(what & FL_UNDER_FACE_SKIPPED);
+            status[from + l] = (uint8_t)(what & FL_UNDER_FACE_SKIPPED);
             some_left |= what & FL_UNDER_FACE_SKIPPED;
             if (!(what & PART)) continue;
             out[n++] = (fl_under_face_edge_part){
                 {end[l], end[FL_SIMD_WIDTH + l]}, edge[from + l].factor, lo[l], hi[l]};
         }
     }
-    *pieces = n;
+    *parts = n;
     return some_left;
 }
 
-/* --- whole triangles -------------------------------------------------------------------------------------
- */
+/* --- whole triangles ----------------------------------------------------------------------------------- */
 
-FL_SIMD_VERSIONS void fl_under_face_sum_whole(const fl_under_face *g, const fl_under_face_facet *tile,
+FL_SIMD_VERSIONS void fl_under_face_sum_whole(const fl_under_face *g, const fl_under_face_facet *facet,
                                               const int32_t *corner, const fl_vec3 *normal,
                                               const int32_t *list, int32_t count, fl_under_face_sums *sum)
 {
@@ -241,14 +240,14 @@ FL_SIMD_VERSIONS void fl_under_face_sum_whole(const fl_under_face *g, const fl_u
         const fl_vec3 *n[FL_SIMD_WIDTH];
         FL_SIMD_UNROLL
         for (int l = 0; l < FL_SIMD_WIDTH; l++) {
-            const fl_under_face_facet *t = &tile[list[from + l < count ? from + l : from]];
+            const fl_under_face_facet *t = &facet[list[from + l < count ? from + l : from]];
             at[l] = corner + t->first;
             n[l] = &normal[t->f];
         }
         fl_simd v0[FL_SIMD_WIDTH], v1[FL_SIMD_WIDTH], v2[FL_SIMD_WIDTH];
-        look_up(g, (const int32_t[]){at[0][0], at[1][0], at[2][0], at[3][0]}, v0);
-        look_up(g, (const int32_t[]){at[0][1], at[1][1], at[2][1], at[3][1]}, v1);
-        look_up(g, (const int32_t[]){at[0][2], at[1][2], at[2][2], at[3][2]}, v2);
+        load_vertices(g, (const int32_t[]){at[0][0], at[1][0], at[2][0], at[3][0]}, v0);
+        load_vertices(g, (const int32_t[]){at[0][1], at[1][1], at[2][1], at[3][1]}, v1);
+        load_vertices(g, (const int32_t[]){at[0][2], at[1][2], at[2][2], at[3][2]}, v2);
         const fl_simd x0 = v0[X], x1 = v1[X], x2 = v2[X], y0 = v0[Y], y1 = v1[Y], y2 = v2[Y];
         const fl_simd h0 = v0[H], h1 = v1[H], h2 = v2[H];
         const fl_simd nx = {n[0]->x, n[1]->x, n[2]->x, n[3]->x};
@@ -278,19 +277,17 @@ FL_SIMD_VERSIONS void fl_under_face_sum_whole(const fl_under_face *g, const fl_u
         all.u += u + v, all.du += du + dv, all.ddu += 12.0 * (share * p.s2 + share_f * r.s2);
         all.f += k3 * p.s3 + k3_f * r.s3, all.s += 4.0 * (u + over * v);
         all.x += t.x, all.y += t.y, all.xx += t.xx, all.xy += t.xy, all.yy += t.yy;
-        /* over m: (dm + m/c) u; (dm - 4 m/c) v + (m R/c) dv */
+        /* divided by m: (dm + m/c) u; (dm - 4 m/c) v + (m R/c) dv */
         const fl_simd part = dm / m, turn = (part + over) * u + (part - 4.0 * over) * v + R * over * dv;
         all.couple[0] += ax * turn, all.couple[1] += ay * turn;
     }
     *sum = all;
 }
 
-/* --- edges and corners -----------------------------------------------------------------------------------
- */
+/* --- edges and corners ---------------------------------------------------------------------------------- */
 
-/* The place along the edge is linear in that along the length, so that three sums have the moments; that of
- * s^5 is the one of u. */
-FL_SIMD_VERSIONS void fl_under_face_sum_edges(const fl_under_face *g, const fl_under_face_edge_part *piece,
+/* x and y are linear along the edge, so three sums have the moments; that of s^5 is the one of u. */
+FL_SIMD_VERSIONS void fl_under_face_sum_edges(const fl_under_face *g, const fl_under_face_edge_part *part,
                                               int32_t count, fl_under_face_sums *sum, double *most)
 {
     const fl_simd zero = {0};
@@ -302,7 +299,7 @@ FL_SIMD_VERSIONS void fl_under_face_sum_edges(const fl_under_face *g, const fl_u
         fl_simd v0[FL_SIMD_WIDTH], v1[FL_SIMD_WIDTH], it[FL_SIMD_WIDTH];
         FL_SIMD_UNROLL
         for (int l = 0; l < FL_SIMD_WIDTH; l++) {
-            e[l] = &piece[from + l < count ? from + l : from];
+            e[l] = &part[from + l < count ? from + l : from];
             v0[l] = FL_SIMD_LOAD(&g->vertex[e[l]->v[0]]), v1[l] = FL_SIMD_LOAD(&g->vertex[e[l]->v[1]]);
             it[l] = FL_SIMD_LOAD(e[l]);
         }
@@ -317,14 +314,16 @@ FL_SIMD_VERSIONS void fl_under_face_sum_edges(const fl_under_face *g, const fl_u
         FL_SIMD_UNROLL
         for (int l = 0; l < FL_SIMD_WIDTH; l++) q[l] = sqrt(q[l]);
         const fl_simd_mask some = p + q > 0.0;
-        const fl_simd over = FL_SIMD_MASKED(some, 1.0 / (p + q)), part = hi - lo,
-                      share = 2.0 * factor * part * over;
+        const fl_simd over = FL_SIMD_MASKED(some, 1.0 / (p + q)), length = hi - lo,
+                      share = 2.0 * factor * length * over;
         fl_line_integrals r;
         fl_line_integrate(&p, &q, &r);
         const fl_simd force = 4.5 * share, f = force * r.du, Dx = v1[X] - v0[X], Dy = v1[Y] - v0[Y];
-        const fl_simd x = v0[X] + lo * Dx, y = v0[Y] + lo * Dy, dx = over * part * Dx, dy = over * part * Dy;
+        const fl_simd x = v0[X] + lo * Dx, y = v0[Y] + lo * Dy;
+        const fl_simd dx = over * length * Dx, dy = over * length * Dy;
         const fl_simd f1 = force * r.first, f2 = force * r.second, fx = f * x + f1 * dx, fy = f * y + f1 * dy;
-        const fl_simd gx = f1 * x + f2 * dx, gy = f1 * y + f2 * dy; /* of the force times far, x and far, y */
+        /* of the force times the position along the edge, times x and y */
+        const fl_simd gx = f1 * x + f2 * dx, gy = f1 * y + f2 * dy;
         all.u += share * r.u, all.du += f, all.ddu += 15.75 * share * r.ddu;
         all.f += f, all.s += force * r.u, all.x += fx, all.y += fy;
         all.xx += fx * x + gx * dx, all.xy += fx * y + gx * dy, all.yy += fy * y + gy * dy;

@@ -1,18 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "patch/patch_points.h"
 #include <math.h>
 #include "base/array.h"
-#include "base/pi.h"
+#include "patch/edge_integral.h"
 #include "patch/face_integral.h"
 #include "patch/feature_pairs.h"
-#include "patch/edge_integral.h"
-
-int fl_patch_points_reserve_core(fl_patch_points *w, const fl_poly *a)
-{
-    return fl_reserve(&w->va, &w->va_cap, a->nv, sizeof *w->va) ||
-                   fl_reserve(&w->na, &w->na_cap, a->nf, sizeof *w->na)
-               ? -1
-               : 0;
-}
+#include "patch/plane_distances.h"
 
 int fl_patch_points_transform(fl_patch_points *w, const fl_poly *a, fl_mat3 M, fl_vec3 o)
 {
@@ -23,41 +16,8 @@ int fl_patch_points_transform(fl_patch_points *w, const fl_poly *a, fl_mat3 M, f
     return 0;
 }
 
-int fl_patch_points_grow(fl_patch_points *w)
-{
-    return fl_reserve(&w->point, &w->point_cap, (int64_t)w->n + 1, sizeof *w->point);
-}
-
-int fl_patch_points_add_vertex(fl_patch_points *w, const fl_patch_core *own, double other, int32_t v,
-                               fl_vec3 n, double overlap)
-{
-    const double sharp = fl_poly_corner_angle(own->p, v) * FL_PATCH_CORNER_WEIGHT, s2 = overlap * overlap;
-    const double k = (sharp < 1.0 ? sharp : 1.0) * FL_PATCH_ROUND_FACTOR * (0.4 * PI) *
-                     fl_patch_feature_radius(own->r, other);
-    if (!(k > 0.0)) return 0;
-    fl_patch_point *const to = fl_patch_points_next(w);
-    if (!to) return -1;
-    const fl_vec3 across = v3_scale(own->side, n);
-    *to = (fl_patch_point){.overlap = overlap,
-                           .u = k * s2 * s2 * overlap,
-                           .du = 5.0 * k * s2 * s2,
-                           .ddu = 20.0 * k * s2 * overlap,
-                           .n = across,
-                           .unit_normal = across,
-                           .p = v3_madd(own->v[v], 0.5 * overlap - own->r, n)};
-    return 0;
-}
-
-int fl_patch_points_add_plain(fl_patch_points *w, fl_vec3 x, fl_vec3 n, double overlap, double ra)
-{
-    return fl_patch_points_add(
-        w,
-        (fl_patch_point){
-            .overlap = overlap, .du = 1.0, .n = n, .unit_normal = n, .p = v3_madd(x, 0.5 * overlap - ra, n)});
-}
-
-/* The features of a core with a point below `limit` along n. */
-static int in_reach(fl_feature_set *r, const fl_patch_core *a, fl_vec3 n, double limit)
+/* Lists the features of a core with a point below `limit` along n. */
+static int find_features_below(fl_feature_set *r, const fl_patch_core *a, fl_vec3 n, double limit)
 {
     const fl_poly *p = a->p;
     r->vertices = r->edges = r->faces = 0;
@@ -79,35 +39,33 @@ static int in_reach(fl_feature_set *r, const fl_patch_core *a, fl_vec3 n, double
     return 0;
 }
 
-void fl_feature_set_free(fl_feature_set *r)
-{
-    free(r->vertex), free(r->edge), free(r->face);
-    *r = (fl_feature_set){0};
-}
-
-static int list_matches(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B, double R,
-                        fl_vec3 n, int deep, fl_feature_pairs *l)
+static int build_feature_pairs(fl_patch_points *w, const fl_patch_core *A, const fl_patch_core *B, double R,
+                               fl_vec3 n, int deep, fl_feature_pairs *l)
 {
     const double margin = deep ? 0.0 : fl_feature_pairs_margin(l, R);
     double low = INFINITY, high = -INFINITY;
     for (int32_t v = 0; v < A->p->nv; v++) low = fmin(low, v3_dot(n, A->v[v]));
     for (int32_t v = 0; v < B->p->nv; v++) high = fmax(high, v3_dot(n, B->v[v]));
-    if (in_reach(&w->near_a, A, n, high + R + margin) ||
-        in_reach(&w->near_b, B, v3_neg(n), R + margin - low) ||
+    if (find_features_below(&w->near_a, A, n, high + R + margin) ||
+        find_features_below(&w->near_b, B, v3_neg(n), R + margin - low) ||
         fl_feature_pairs_build(l, w, A, &w->near_a, B, &w->near_b, R, 0.0, margin))
         return -1;
     l->separated = !deep && low - high > margin;
     return 0;
 }
 
-/* What the shift by D n adds to the gradient of U.  A place of direction m changes by
+/* Adds the derivatives of the shift D n of A to the gradient of U, D the penetration.  The overlap at a point
+ * of direction m changes by
  *     ds = dD - m.(dx + n dD + D dn)
- * and a rim by its last part: the terms with dD are a force along n at the deepest point.  A normal that is a
- * face's turns with its body, so that the places lie on the lines through that body's points where they are.
- * One of two edges turns with both: taken as B's, with
- *     D G.dn' = D/|c| w.(ea x (eb x G')),   c = ea x eb, G = sum of du m, G' = G - n (n.G), w of A against B,
- * left over, a couple. */
-static int add_depth(fl_patch_points *w, const fl_penetration *deep, double R)
+ * and that of a rim force by the second part only.
+ * - The terms with dD are a force along n at the deepest point.
+ * - A normal n of a face turns with its body.  The points then lie on the lines through the points of that
+ *   body before the shift.
+ * - A normal n across two edges turns with both bodies.  It is treated as turning with B; what remains is a
+ *   couple,
+ *     D G.dn' = D/|c| w.(ea x (eb x G')),   c = ea x eb,   G = sum of du m,   G' = G - n (n.G),
+ * with w the rotation of A against B. */
+static int add_penetration_terms(fl_patch_points *w, const fl_penetration *deep, double R)
 {
     const fl_vec3 n = deep->n;
     double sum = 0.0;
@@ -142,14 +100,14 @@ int fl_patch_points_find(fl_patch_points *w, const fl_poly *a, const fl_poly *b,
         w->o = v3_add(o, out);
     }
     if ((depth > 0.0 || !fl_feature_pairs_valid(l, &w->M, w->o)) &&
-        list_matches(w, &A, &B, R, n, depth > 0.0, l))
+        build_feature_pairs(w, &A, &B, R, n, depth > 0.0, l))
         return -1;
     if (fl_feature_pairs_evaluate(w, l, &A, &B, R, 0.0, rim, rim)) return -1;
-    if (v3_norm2(deep->n) == 0.0) return 0; /* the cores do not meet */
-    l->max_shift2 = 0.0;                    /* of cores that were moved */
+    if (v3_norm2(deep->n) == 0.0) return 0; /* the cores do not overlap */
+    l->max_shift2 = 0.0;                    /* not valid for the shifted core */
     w->o = o;
     for (int32_t v = 0; v < a->nv; v++) w->va[v] = v3_sub(w->va[v], out);
-    return add_depth(w, deep, R);
+    return add_penetration_terms(w, deep, R);
 }
 
 int fl_patch_points_find_listed(fl_patch_points *w, const fl_poly *a, const fl_poly *b, double ra, double rb,

@@ -1,44 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* stiffness_bound.h -- how stiff a contact is for one of its bodies: a bound of the square of the frequency that it
- * gives.
+/* stiffness_bound.h -- stiffness of the contacts of one body: an upper bound of the squared frequency omega^2
+ * that they give it.
  *
- * Motions are measured by the mass: with g = M^-1/2 (force, torque) of a unit force at a place, the stiffness
- * of the contact is the 6 by 6 matrix K = sum k g g^T, and omega^2 is its largest eigenvalue. */
+ * Motions are scaled by the mass matrix M of the body: g = M^-1/2 (force, torque) for a unit force at a
+ * contact point.  The stiffness of springs k is the 6 by 6 matrix K = sum k g g^T [1/s2]; omega^2 is its
+ * largest eigenvalue. */
 #ifndef FL_PATCH_STIFFNESS_BOUND_H
 #define FL_PATCH_STIFFNESS_BOUND_H
 #include "body/body.h"
 
 typedef struct {
-    double a[6][8]; /* of each row the last two numbers are 0 [1/s2] */
+    double a[6][8]; /* K; the last two numbers of each row are 0 [1/s2] */
 } fl_stiffness;
 
-/* Springs k along n at offsets r from one point, as their sums over k n n^T, k (r x n) n^T and
- * k (r x n) (r x n)^T, rows of the second being those of r x n; of each row the last number is 0.
- * [N/m], [N], [N m] */
+/* Springs k along n at offsets r from one point: sums of k n n^T [N/m], of k (r x n) n^T [N], its rows those
+ * of r x n, and of k (r x n) (r x n)^T [N m].  The last number of each row is 0. */
 typedef struct {
     double linear[3][4], coupling[3][4], angular[3][4];
 } fl_spring_sums;
 
-/* K += scale times such springs in axes that R turns into the world's, about the offset a from the centre of
- * body i, world axes.  Nothing for a body that is held. */
+/* K += scale times the springs q.  R: rotation from their axes to the world's; a: offset of their point from
+ * the centre of body i, world axes.  Does nothing for a fixed body. */
 void fl_stiffness_add_springs(fl_stiffness *s, const fl_bodies *b, int32_t i, double scale,
                               const fl_spring_sums *q, fl_mat3 R, fl_vec3 a);
 
-/* K += k g g^T for the force f and torque t on body i; k may be negative.  f, t in world axes, k (f, t)^2 in
- * [N/m].  Nothing for a body that is held. */
+/* K += k g g^T for the force f and torque t on body i, world axes; k may be negative; k f^2 in [N/m].  Does
+ * nothing for a fixed body. */
 void fl_stiffness_add_force(fl_stiffness *s, const fl_bodies *b, int32_t i, double k, fl_vec3 f, fl_vec3 t);
 
-/* A spring k in every direction across n, at the offset r from the centre of body i: friction that sticks. */
+/* Adds springs k in both directions across n, at the offset r from the centre of body i: sticking friction.
+ */
 void fl_stiffness_add_tangential(fl_stiffness *s, const fl_bodies *b, int32_t i, double k, fl_vec3 n,
                                  fl_vec3 r);
 
-/* |K^4|^(1/4), Frobenius' norm: not below the largest eigenvalue, and at most 6^(1/8) = 1.25 times it. */
+/* |K^4|^(1/4) in the Frobenius norm [1/s2]: at least the largest eigenvalue, at most 6^(1/8) = 1.25 times it.
+ */
 double fl_stiffness_bound(const fl_stiffness *s);
 
-/* Of a sphere that touches in one point the springs are one along n and, where it sticks, two across it, at
- * right angles to each other in every way: the largest omega^2 is the larger of theirs [1/s2].  along,
- * across: their stiffness [N/m];  arm: from the centre of body i, not held, to the point [m];  turning: that
- * of what keeps it from rolling [N m], which comes to those across. */
+/* Largest omega^2 of a sphere with one contact point [1/s2].  One spring acts along the normal and, where it
+ * sticks, two at right angles across it; they do not couple, so the result is the larger of two values.
+ *   along, across   stiffness of the springs [N/m]
+ *   arm             from the centre of body i, not fixed, to the point [m]
+ *   turning         stiffness of rolling resistance, which adds to the springs across [N m] */
 static inline double fl_stiffness_of_point(const fl_bodies *b, int32_t i, double along, double across,
                                            double arm, double turning)
 {

@@ -158,7 +158,7 @@ static int set_key(const source *in, const fl_address *at, enum fl_word_map map,
 
 /* --- lines ---------------------------------------------------------------------------------------------- */
 
-static char *trim(char *s)
+static char *trim_blanks(char *s)
 {
     size_t len;
     s += strspn(s, " \t\f\v");
@@ -216,7 +216,7 @@ static int read_heading(source *in, char *line)
     if (!end) return fail_line(in, "\"%.40s\" lacks the ] of a section", line - 1);
     if (end[1]) return fail_line(in, "\"%.40s\" after a section is not expected", end + 1);
     *end = '\0';
-    if (fl_address_heading(trim(line), &in->section, why, sizeof why)) return fail_line(in, "%s", why);
+    if (fl_address_heading(trim_blanks(line), &in->section, why, sizeof why)) return fail_line(in, "%s", why);
     in->in_section = 1;
     return open_section(in, &in->section) ? 0 : -1;
 }
@@ -229,16 +229,16 @@ static int split_line(const source *in, char *line, char **key, char **value)
         const char *word = bare_word(line);
         if (!word) return fail_unknown_word(in, line);
         *key = line;
-        *value = trim(line + strlen(word));
-        if (**value == '=') *value = trim(*value + 1);
+        *value = trim_blanks(line + strlen(word));
+        if (**value == '=') *value = trim_blanks(*value + 1);
         line[strlen(word)] = '\0';
         return 0;
     }
     if (!equals) return fail_line(in, "\"%.40s\" is no section and no key = value", line);
     if (equals == line) return fail_line(in, "no key stands before =");
     *equals = '\0';
-    *key = trim(line);
-    *value = trim(equals + 1);
+    *key = trim_blanks(line);
+    *value = trim_blanks(equals + 1);
     return 0;
 }
 
@@ -258,9 +258,9 @@ static char *next_line(char *buf, int size, void *stream)
                       SCENE_VERSION);
             return NULL;
         }
-        line = trim(line);
+        line = trim_blanks(line);
         strip_comment(line);
-        line = trim(line);
+        line = trim_blanks(line);
         if (*line == '[') {
             if (read_heading(in, line + 1)) return NULL;
         } else if (*line) {
@@ -406,7 +406,7 @@ int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err)
     memcpy(name, assignment, (size_t)(equals - assignment));
     name[equals - assignment] = '\0';
     memcpy(value, equals + 1, strlen(equals + 1) + 1);
-    if (fl_address_read(trim(name), &at, why, sizeof why)) return fail_line(&in, "%s", why);
+    if (fl_address_read(trim_blanks(name), &at, why, sizeof why)) return fail_line(&in, "%s", why);
     if (at.key < 0) return fail_line(&in, "\"%.60s\" is a section, section.key=value is expected", name);
-    return set_key(&in, &at, FL_MAP_SAME, trim(value));
+    return set_key(&in, &at, FL_MAP_SAME, trim_blanks(value));
 }

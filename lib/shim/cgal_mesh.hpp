@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* cgal_mesh.hpp -- what the .cpp files that work on meshes share: from a soup to a mesh of CGAL and back, and
- * the border that no exception and no printed complaint crosses.  C++, for the shim alone. */
+/* cgal_mesh.hpp -- common parts of the mesh shims: conversion between a soup and a CGAL mesh, and the
+ * boundary that no exception and no printed message crosses.  C++, for the shims only. */
 #ifndef FL_SHIM_CGAL_MESH_HPP
 #define FL_SHIM_CGAL_MESH_HPP
 #include <stddef.h>
@@ -28,34 +28,34 @@ using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using Corners = std::array<std::size_t, 3>;
 
-inline void quiet(const char *, const char *, const char *, int, const char *) {}
+inline void ignore_message(const char *, const char *, const char *, int, const char *) {}
 
-/* CGAL would print a failed assertion before it throws; the sentence belongs to the caller. */
-struct silence {
-    CGAL::Failure_function error = CGAL::set_error_handler(quiet);
-    CGAL::Failure_function warning = CGAL::set_warning_handler(quiet);
-    silence() = default;
-    silence(const silence &) = delete;
-    silence &operator=(const silence &) = delete;
-    ~silence()
+/* CGAL would print a failed assertion before it throws; the caller reports it instead. */
+struct silenced_handlers {
+    CGAL::Failure_function error = CGAL::set_error_handler(ignore_message);
+    CGAL::Failure_function warning = CGAL::set_warning_handler(ignore_message);
+    silenced_handlers() = default;
+    silenced_handlers(const silenced_handlers &) = delete;
+    silenced_handlers &operator=(const silenced_handlers &) = delete;
+    ~silenced_handlers()
     {
         CGAL::set_error_handler(error);
         CGAL::set_warning_handler(warning);
     }
 };
 
-/* Run work() -> int; whatever it throws becomes a sentence "WHAT of N triangles: ..." and -1. */
+/* Runs work() -> int.  An exception becomes the message "WHAT of N triangles: ..." and -1. */
 template <class Work>
-int caught(const char *what, int32_t n, fl_err *err, Work work)
+int catch_errors(const char *what, int32_t n, fl_err *err, Work work)
 {
     try {
         return work();
     } catch (const std::bad_alloc &) {
         return fl_fail(err, FL_SYSTEM, "out of memory in the %s of %d triangles", what, n);
-    } catch (const CGAL::Failure_exception &e) { /* it names its own lines, which tell the user nothing */
-        return fl_fail(err, FL_NUMERIC, "%s of %d triangles: they are not what CGAL counts on, \"%.80s\"",
+    } catch (const CGAL::Failure_exception &e) { /* its message names lines of CGAL */
+        return fl_fail(err, FL_NUMERIC, "%s of %d triangles: they violate an assumption of CGAL, \"%.80s\"",
                        what, n, e.expression().c_str());
-    } catch (const std::exception &e) { /* the first line of it: sentences may come in several */
+    } catch (const std::exception &e) { /* its first line only */
         return fl_fail(err, FL_NUMERIC, "%s of %d triangles: %.*s", what, n,
                        static_cast<int>(std::strcspn(e.what(), "\n")), e.what());
     } catch (...) {
@@ -63,12 +63,13 @@ int caught(const char *what, int32_t n, fl_err *err, Work work)
     }
 }
 
-/* The same in silence.  CGAL's handlers are not of a thread: not for what several threads call at once. */
+/* Same with CGAL's messages silenced.  The handlers are global: not for functions called from several
+ * threads. */
 template <class Work>
-int guarded(const char *what, int32_t n, fl_err *err, Work work)
+int run_guarded(const char *what, int32_t n, fl_err *err, Work work)
 {
-    const silence at_end;
-    return caught(what, n, err, work);
+    const silenced_handlers at_end;
+    return catch_errors(what, n, err, work);
 }
 
 inline void to_vectors(const fl_soup *s, std::vector<Point> &points, std::vector<Corners> &triangles)
@@ -86,7 +87,8 @@ inline void to_vectors(const fl_soup *s, std::vector<Point> &points, std::vector
     }
 }
 
-/* Surfaces are cut along edges of more than two triangles.  0, or -1 with FL_NUMERIC. */
+/* Converts a soup to a mesh; the surface is cut along edges of more than two triangles.  0, or -1 with
+ * FL_NUMERIC. */
 inline int to_mesh(std::vector<Point> &points, std::vector<Corners> &triangles, Mesh &mesh, fl_err *err)
 {
     namespace PMP = CGAL::Polygon_mesh_processing;
@@ -105,7 +107,7 @@ inline int to_mesh(const fl_soup *s, Mesh &mesh, fl_err *err)
     return to_mesh(points, triangles, mesh, err);
 }
 
-/* The mesh replaces s.  -1 with FL_SYSTEM or FL_NUMERIC, and s as it was. */
+/* Replaces s by the mesh.  -1 with FL_SYSTEM or FL_NUMERIC, and s unchanged. */
 inline int write_back(fl_soup *s, Mesh &mesh, fl_err *err)
 {
     mesh.collect_garbage();
@@ -116,7 +118,7 @@ inline int write_back(fl_soup *s, Mesh &mesh, fl_err *err)
     if (nv > INT32_MAX || nt > INT32_MAX)
         return fl_fail(err, FL_SYSTEM, "more than 2^31 vertices after repair");
     if (!CGAL::is_triangle_mesh(mesh))
-        return fl_fail(err, FL_NUMERIC, "a face that is no triangle came of %d triangles", s->nt);
+        return fl_fail(err, FL_NUMERIC, "a face that is not a triangle resulted from %d triangles", s->nt);
     auto x = static_cast<double *>(fl_alloc(3 * nv, sizeof(double), err));
     auto t = x ? static_cast<int32_t *>(fl_alloc(3 * nt, sizeof(int32_t), err)) : nullptr;
     if (!t) {

@@ -3,6 +3,8 @@
 #include "base/array.h"
 #include "structure/mesh_contact.h"
 #include "narrow/closest_point.h"
+#include "patch/patch_law.h"
+#include "patch/plane_distances.h"
 
 /* Distances within this fraction of the size are equal: rounding of the coordinates. */
 #define ROUNDING_TOL 1e-12

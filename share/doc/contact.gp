@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# contact.gp -- the pictures of contact.md, from what
+# contact.gp -- the plots of contact.md, from the output of
 #     bench_contact curves DIR    and    bench_step > DIR/gas.txt
-# write:   gnuplot -e 'from="DIR"; to="share/doc"' share/doc/contact.gp
+# by:   gnuplot -e 'from="DIR"; to="share/doc"' share/doc/contact.gp
 set terminal pngcairo size 900,560 font "sans,11"
 set style line 1 lc rgb "#0b4f8a" lw 2
 set style line 2 lc rgb "#c0392b" lw 2

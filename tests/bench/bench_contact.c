@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_contact.c -- what one contact costs in a step, by what touches what, beside how far its force is from
- * the gradient of its energy; and libccd's penetration of the same dilated shapes in the same run.
+/* bench_contact.c -- cost of one contact in a step, by the kinds of bodies, with the deviation of its force
+ * from the gradient of its energy; and libccd's penetration of the same dilated shapes in the same run.
+ *
  *     bench_contact               the table
- *     bench_contact CASE N [TOL]  N evaluations of one case, for a tool that counts instructions; by
- *                                 surrogates of that tolerance N of one of eight
+ *     bench_contact CASE N [TOL]  N evaluations of one case, for instruction counts; with TOL, N of one of
+ *                                 eight contacts by surrogates of that tolerance
  *     bench_contact curves DIR    DIR/tilt.tsv and DIR/slide.tsv: the torque of a face that tilts on another,
  *                                 and the forces of one that slides off it, by law
- * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm; they move by a hundredth of
- * a millimetre between evaluations, as in a step of 0.1 ms at 0.1 m/s, so that the cost of finding features
- * anew is in it.  "told" is the same with contact.surrogate for one of eight such contacts, which are told of
- * together, looks included, and how far the force of a step is off at most.  Times are thread time of this
- * machine now; compare rows of one run only. */
+ *
+ * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm.  They move by 0.01 mm
+ * between evaluations, as in a step of 0.1 ms at 0.1 m/s, so the cost of finding new features is included.
+ * Columns `surr`, `exact`, `F off`: with contact.surrogate, one of eight such contacts evaluated in a
+ * batch, exact evaluations included; the share of exact evaluations; the largest relative error of the
+ * force.  Times are thread time of this machine; compare rows of one run only. */
 #include <ccd/ccd.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,18 +27,18 @@
 #define OVERLAP 0.004
 #define STEP 1e-5      /* [m] */
 #define TOLERANCE 1e-3 /* of contacts by surrogates */
-#define PITCH 50.0     /* of contacts above each other [m] */
+#define PITCH 50.0     /* vertical distance of the contacts [m] */
 
 enum { CORNERS = 8, EIGHT = 8, TIMES = 20000, CCD_TIMES = 4000 };
 
-static double now(void)
+static double thread_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* An upright octagon of half width 1.386 m between opposite sides, turned and moved. */
+/* An upright octagon of half width 1.386 m between opposite sides, rotated and displaced. */
 static void octagon(lab *l, fl_vec3 at, double yaw, double tilt)
 {
     fl_vec3 xy[CORNERS];
@@ -56,7 +58,7 @@ static void octagon(lab *l, fl_vec3 at, double yaw, double tilt)
 }
 
 typedef enum {
-    SPHERE_ON_FLOE = 1, /* spheres on spheres go their own way: bench_spheres */
+    SPHERE_ON_FLOE = 1, /* spheres on spheres have their own contact list: bench_spheres */
     SIDE_ON_SIDE,
     SIDE_TURNED,
     SIDE_TILTED,
@@ -81,8 +83,8 @@ static const char *const NAME[CASES] = {NULL,
                                         "side on cylinder",
                                         "side on 2 triangles"};
 
-/* Two bodies, or one and what is held, at a height of their own. */
-static void put(lab *l, which c, double z)
+/* Two bodies, or one and a structure or wall, at a given height. */
+static void add_contact(lab *l, which c, double z)
 {
     const double half = 1.5 * cos(PI / 8.0), near = 2.0 * RADIUS - OVERLAP, wall = RADIUS - OVERLAP;
     if (c == SPHERE_ON_FLOE) lab_sphere(l, v3(0, 0, z), RADIUS, v3(0, 0, 0), v3(0, 0, 0));
@@ -109,26 +111,26 @@ static void put(lab *l, which c, double z)
     }
 }
 
-/* One such contact above the other. */
-static void make(lab *l, which c, const char *law, double surrogate, int copies)
+/* A number of such contacts above one another. */
+static void make_contacts(lab *l, which c, const char *law, double surrogate, int copies)
 {
     lab_start(l);
     lab_setf(l, "contact.law=%s", law);
     lab_setf(l, "contact.surrogate=%g", surrogate);
     lab_set(l, "contact.friction=0.3");
-    for (int k = 0; k < copies; k++) put(l, c, PITCH * k);
+    for (int k = 0; k < copies; k++) add_contact(l, c, PITCH * k);
     lab_make(l, 1e-9);
 }
 
-static fl_pair *touching(lab *l)
+static fl_pair *touching_pair(lab *l)
 {
     for (int32_t c = 0; c < l->w.n_pair; c++)
         if (l->w.pair[c].touching) return l->w.pair[c].contact;
     return NULL;
 }
 
-/* There and back again, sliding and, by a fifth of it, pressing; path counts every step. */
-static void go(lab *l, int32_t i, int k)
+/* To and fro: sliding, and by a fifth of that in depth; every step has a new pose. */
+static void move_body(lab *l, int32_t i, int k)
 {
     fl_bodies *b = &l->w.b;
     b->x[i].y += k / 100 % 2 ? -STEP : STEP;
@@ -139,18 +141,18 @@ static void go(lab *l, int32_t i, int k)
 static void evaluate(lab *l, fl_pair *p, int times)
 {
     for (int k = 0; k < times; k++) {
-        go(l, p->i, k);
+        move_body(l, p->i, k);
         fl_pair_evaluate(&l->w, p, 0, 1e-9, 0);
     }
 }
 
-/* All contacts, as a step takes them. */
+/* All contacts, as in a step. */
 static void evaluate_all(lab *l, int times)
 {
     fl_world *w = &l->w;
     for (int k = 0; k < times; k++) {
         for (int32_t c = 0; c < w->n_pair; c++)
-            if (w->pair[c].touching) go(l, w->pair[c].i, k);
+            if (w->pair[c].touching) move_body(l, w->pair[c].i, k);
         fl_share_active_pairs(w);
         fl_evaluate_active_pairs(w, 1e-9, 0);
     }
@@ -161,7 +163,7 @@ static double energy_at(lab *l, const fl_pair *p, fl_vec3 d)
     fl_bodies *b = &l->w.b;
     const fl_vec3 x = b->x[0];
     b->x[0] = v3_add(x, d);
-    const double e = lab_look(&l->w, p->i, p->j).energy;
+    const double e = lab_evaluate_pair(&l->w, p->i, p->j).energy;
     b->x[0] = x;
     return e;
 }
@@ -170,14 +172,14 @@ static double energy_at(lab *l, const fl_pair *p, fl_vec3 d)
 static double off_gradient(lab *l, const fl_pair *p)
 {
     const double h = 1e-7;
-    const fl_vec3 f = lab_look(&l->w, p->i, p->j).force;
+    const fl_vec3 f = lab_evaluate_pair(&l->w, p->i, p->j).force;
     const fl_vec3 g = v3(energy_at(l, p, v3(h, 0, 0)) - energy_at(l, p, v3(-h, 0, 0)),
                          energy_at(l, p, v3(0, h, 0)) - energy_at(l, p, v3(0, -h, 0)),
                          energy_at(l, p, v3(0, 0, h)) - energy_at(l, p, v3(0, 0, -h)));
     return v3_norm(v3_madd(f, 0.5 / h, g)) / v3_norm(f);
 }
 
-/* --- libccd on the same two dilated shapes ------------------------------------------------------------- */
+/* --- libccd on the same two dilated shapes ------------------------------------------------------------ */
 
 typedef struct {
     const fl_bodies *b;
@@ -203,8 +205,7 @@ static void centre(const void *obj, ccd_vec3_t *out)
     ccdVec3Set(out, s->b->x[s->i].x, s->b->x[s->i].y, s->b->x[s->i].z);
 }
 
-/* Time of a query [s] and the error of its depth over the depth that the kernel sees; < 0 where it finds
- * none. */
+/* Time of a query [s] and relative error of its depth against that of the kernel; < 0 if it finds none. */
 static double ask_ccd(lab *l, const fl_pair *p, int mpr, double *error)
 {
     const shape a = {&l->w.b, p->i}, b = {&l->w.b, p->j};
@@ -217,37 +218,36 @@ static double ask_ccd(lab *l, const fl_pair *p, int mpr, double *error)
     ccd.center1 = ccd.center2 = centre;
     ccd.max_iterations = 100;
     ccd.epa_tolerance = ccd.mpr_tolerance = (ccd_real_t)1e-6;
-    const double begun = now();
+    const double begun = thread_time();
     for (int k = 0; k < CCD_TIMES; k++)
         found = (mpr ? ccdMPRPenetration(&a, &b, &ccd, &depth, &dir, &at)
                      : ccdGJKPenetration(&a, &b, &ccd, &depth, &dir, &at)) == 0;
-    const double spent = (now() - begun) / CCD_TIMES;
-    *error = found ? fabs((double)depth / lab_look(&l->w, p->i, p->j).overlap - 1.0) : -1.0;
+    const double spent = (thread_time() - begun) / CCD_TIMES;
+    *error = found ? fabs((double)depth / lab_evaluate_pair(&l->w, p->i, p->j).overlap - 1.0) : -1.0;
     return spent;
 }
 
-/* --- the table -------------------------------------------------------------------------------------------
- */
+/* --- the table ---------------------------------------------------------------------------------------- */
 
-/* The same by surrogates: time of a step [s], how many of the steps are looks, and by how much the force is
- * off at most, of itself. */
-static double told(which c, double tolerance, double *looks, double *off)
+/* With surrogates: time per contact and step [s], share of exact evaluations, largest relative error of the
+ * force. */
+static double time_with_surrogates(which c, double tolerance, double *exact_share, double *off)
 {
     lab l;
-    make(&l, c, "patch", tolerance, EIGHT);
-    fl_pair *p = touching(&l);
-    *looks = 1.0, *off = INFINITY;
+    make_contacts(&l, c, "patch", tolerance, EIGHT);
+    fl_pair *p = touching_pair(&l);
+    *exact_share = 1.0, *off = INFINITY;
     if (!p) return INFINITY;
     evaluate_all(&l, 200);
     const int64_t before = l.w.surrogate_counts[0].hits;
-    const double begun = now();
+    const double begun = thread_time();
     evaluate_all(&l, TIMES);
-    const double spent = (now() - begun) / TIMES / EIGHT;
-    *looks = 1.0 - (double)(l.w.surrogate_counts[0].hits - before) / TIMES / EIGHT;
+    const double spent = (thread_time() - begun) / TIMES / EIGHT;
+    *exact_share = 1.0 - (double)(l.w.surrogate_counts[0].hits - before) / TIMES / EIGHT;
     *off = 0.0;
     for (int k = 0; k < 400; k++) {
         evaluate_all(&l, 1);
-        const fl_vec3 f = lab_look(&l.w, p->i, p->j).force;
+        const fl_vec3 f = lab_evaluate_pair(&l.w, p->i, p->j).force;
         *off = fmax(*off, v3_norm(v3_sub(v3_sub(p->force, v3_add(p->force_friction, p->force_damping)), f)) /
                               v3_norm(f));
     }
@@ -255,17 +255,17 @@ static double told(which c, double tolerance, double *looks, double *off)
     return spent;
 }
 
-static int row(which c, const char *law)
+static int print_row(which c, const char *law)
 {
     lab l;
-    make(&l, c, law, 0.0, 1);
-    fl_pair *p = touching(&l);
+    make_contacts(&l, c, law, 0.0, 1);
+    fl_pair *p = touching_pair(&l);
     if (!p) return 1;
     const double off = off_gradient(&l, p);
     evaluate(&l, p, 200);
-    const double begun = now();
+    const double begun = thread_time();
     evaluate(&l, p, TIMES);
-    const double ns = 1e9 * (now() - begun) / TIMES;
+    const double ns = 1e9 * (thread_time() - begun) / TIMES;
     printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, p->feature_pairs ? p->feature_pairs->n : 0,
            l.w.scratch[0].n, ns, off);
     if (p->j < l.w.n && strcmp(law, "patch") == 0) {
@@ -276,9 +276,9 @@ static int row(which c, const char *law)
         printf(" %10s %10s %10s %10s", "-", "-", "-", "-");
     }
     if (p->points == FL_POINTS_PATCH && strcmp(law, "patch") == 0) {
-        double looks, most;
-        const double t = told(c, TOLERANCE, &looks, &most);
-        printf(" %8.0f %8.3f %9.1e", 1e9 * t, looks, most);
+        double exact_share, most;
+        const double t = time_with_surrogates(c, TOLERANCE, &exact_share, &most);
+        printf(" %8.0f %8.3f %9.1e", 1e9 * t, exact_share, most);
     }
     printf("\n");
     const int bad = p->touching == 0 || (strcmp(law, "patch") == 0 && !(off < 1e-5));
@@ -286,13 +286,12 @@ static int row(which c, const char *law)
     return bad;
 }
 
-/* --- curves ------------------------------------------------------------------------------------------------
- */
+/* --- curves ------------------------------------------------------------------------------------------- */
 
 static const char *const LAW[4] = {"patch", "core", "manual-si", "manual"};
 
 /* A box of 2 by 2 by 0.5 m on one of 4 by 4 by 0.5 m, 1 mm deep, tilted or moved along x. */
-static fl_pair boxes(const char *law, double tilt, double slide)
+static fl_pair tilted_boxes(const char *law, double tilt, double slide)
 {
     lab l;
     lab_start(&l);
@@ -302,12 +301,12 @@ static fl_pair boxes(const char *law, double tilt, double slide)
             v3(0, 0, 0));
     lab_box(&l, v3(0, 0, 0), v3(2, 2, 0.25), RADIUS, flat, v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 1e-9);
-    const fl_pair p = lab_look(&l.w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
     lab_free(&l);
     return p;
 }
 
-static int curves(const char *dir)
+static int write_curves(const char *dir)
 {
     char name[512];
     snprintf(name, sizeof name, "%s/tilt.tsv", dir);
@@ -316,7 +315,7 @@ static int curves(const char *dir)
     for (int k = -200; k <= 200; k++) {
         const double tilt = 1e-5 * k;
         fprintf(f, "%g", tilt);
-        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", boxes(LAW[c], tilt, 0.0).torque_i.y);
+        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", tilted_boxes(LAW[c], tilt, 0.0).torque_i.y);
         fprintf(f, "\n");
     }
     int bad = fclose(f);
@@ -326,7 +325,7 @@ static int curves(const char *dir)
     for (int k = 0; k <= 440; k++) {
         const double slide = 0.8 + 0.005 * k;
         fprintf(f, "%g", slide);
-        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", boxes(LAW[c], 0.0, slide).force.z);
+        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", tilted_boxes(LAW[c], 0.0, slide).force.z);
         fprintf(f, "\n");
     }
     bad |= fclose(f);
@@ -336,23 +335,24 @@ static int curves(const char *dir)
 int main(int argc, char **argv)
 {
     int bad = 0, rows = 0;
-    if (argc == 3 && strcmp(argv[1], "curves") == 0) return curves(argv[2]);
+    if (argc == 3 && strcmp(argv[1], "curves") == 0) return write_curves(argv[2]);
     if (argc == 3 || argc == 4) {
         lab l;
-        make(&l, (which)atoi(argv[1]), "patch", argc == 4 ? atof(argv[3]) : 0.0, argc == 4 ? EIGHT : 1);
-        fl_pair *p = touching(&l);
+        make_contacts(&l, (which)atoi(argv[1]), "patch", argc == 4 ? atof(argv[3]) : 0.0,
+                      argc == 4 ? EIGHT : 1);
+        fl_pair *p = touching_pair(&l);
         if (p && argc == 4) evaluate_all(&l, atoi(argv[2]) / EIGHT);
         else if (p) evaluate(&l, p, atoi(argv[2]));
         lab_free(&l);
         return p == NULL;
     }
     printf("one contact, all of its forces with friction and damping; moved 0.01 mm between evaluations\n");
-    printf("%-20s %-10s %8s %8s %10s %12s %10s %10s %10s %10s %8s %8s %9s\n", "contact", "law", "matches",
-           "places", "ns", "F + grad W", "MPR[ns]", "depth off", "EPA[ns]", "depth off", "told[ns]", "looks",
+    printf("%-20s %-10s %8s %8s %10s %12s %10s %10s %10s %10s %8s %8s %9s\n", "contact", "law", "features",
+           "points", "ns", "F + grad W", "MPR[ns]", "depth off", "EPA[ns]", "depth off", "surr[ns]", "exact",
            "F off");
-    for (int c = SPHERE_ON_FLOE; c < CASES; c++, rows++) bad += row((which)c, "patch");
+    for (int c = SPHERE_ON_FLOE; c < CASES; c++, rows++) bad += print_row((which)c, "patch");
     for (int k = 1; k < 3; k++) {
-        bad += row(SIDE_TURNED, LAW[k]) + row(FLAT_TURNED, LAW[k]);
+        bad += print_row(SIDE_TURNED, LAW[k]) + print_row(FLAT_TURNED, LAW[k]);
         rows += 2;
     }
     printf("%d passed, %d failed\n", rows - bad, bad);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_gjk.c -- what a query of the narrow phase costs, beside how wrong it is, and libccd on the same
- * pairs in the same run.  Floes: prisms of 4 to 8 corners, 3.5 m wide, 0.5 m thick, dilated by 0.05 m, in
- * pairs
- *   near      0.15 mm to 0.6 m apart, as the gaps of a field at 80 % are;
- *   flush     standing on one plane, side face to side face;
- * touching  the dilated shapes overlap by 5 % of the radii;
- * large     two ellipsoids of ever more vertices, turning past each other by 1e-4 rad a frame: warm along
- * their edges, cold, and warm looking at all vertices.  Errors there are what the planes across the direction
- * found leave of the distance, in long double, and so no less than the true ones. Errors: largest of distance
- * (or depth of the dilated shapes) against brute force in long double [m], and of the direction [rad].  Times
- * are thread time of this machine now; compare rows of one run only. */
+/* bench_gjk.c -- cost and error of a distance query, and libccd on the same pairs in the same run.  Floes:
+ * prisms of 4 to 8 corners, 3.5 m wide, 0.5 m thick, dilated by 0.05 m, in pairs
+ *     near      0.15 mm to 0.6 m apart, as the gaps of a field of 80 %
+ *     flush     standing on one plane, side face to side face
+ *     touching  the dilated shapes overlap by 5 % of the radii
+ *     large     two ellipsoids of growing vertex counts, rotating past each other by 1e-4 rad per frame:
+ *               warm along their edges, cold, and warm over all vertices
+ * Errors of `large`: distance less the gap between the planes normal to the direction found, in long
+ * double, which is no less than the true error.  Other errors: largest error of distance (or depth of the
+ * dilated shapes) against brute force in long double [m], and of the direction [rad].  Times are thread
+ * time of this machine; compare rows of one run only. */
 #include <ccd/ccd.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,14 +28,14 @@ enum { PAIRS = 400, FRAMES = 8, ROUNDS = 20 };
 
 enum scene { NEAR, FLUSH, TOUCHING, SCENES };
 
-/* The same pair in frames a tenth of a millimetre apart: what a warm start sees. */
+/* The same pair in frames a tenth of a millimetre apart, for warm starts. */
 typedef struct {
     pair_case q[FRAMES];
     fl_gjk_cache cache;
     fl_mode mode;
 } motion;
 
-static double now(void)
+static double thread_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -54,13 +54,13 @@ static int floe(fl_poly *p, fl_rng *g)
     return fl_poly_prism(p, n, xy, -0.2, 0.2, &err);
 }
 
-static int make(motion *m, enum scene scene, int k)
+static int make_motion(motion *m, enum scene scene, int k)
 {
     fl_rng g = fl_rng_of(7, SCENES * k + (int)scene, FL_RNG_TEST);
     fl_poly a = {0}, b = {0};
     if (floe(&a, &g) || floe(&b, &g)) return -1;
     const double gap = scene == TOUCHING ? 1.9 * RADIUS : 2.0 * RADIUS + pow(10.0, fl_rng_in(&g, -3.8, -0.2));
-    /* A side face of a looks down x at one of b, which is turned to look back; flush means exactly. */
+    /* A side face of a looks down x at one of b, which is rotated to face it; flush means exactly. */
     const fl_vec3 na = a.n[2 + (int)(fl_rng_unit(&g) * (a.nf - 2))],
                   nb = b.n[2 + (int)(fl_rng_unit(&g) * (b.nf - 2))];
     const double ta = atan2(na.y, na.x), tb = atan2(nb.y, nb.x) + PI;
@@ -115,7 +115,7 @@ static void ccd_centre(const void *obj, ccd_vec3_t *out)
     ccdVec3Set(out, c.x, c.y, c.z);
 }
 
-/* A query: signed distance of the dilated shapes and its direction; 0 when it has none. */
+/* A query: signed distance of the dilated shapes and its direction; 0 if it has none. */
 typedef int query(motion *m, const pair_case *q, double *gap, fl_vec3 *n);
 
 static int of_gap(const fl_gap *g, double *gap, fl_vec3 *n)
@@ -180,17 +180,17 @@ static int ccd_epa(motion *m, const pair_case *q, double *gap, fl_vec3 *n)
     return ccd_with(q, 0, gap, n);
 }
 
-static int row(const char *name, query *ask, motion *m, int measures)
+static int print_row(const char *name, query *ask, motion *m, int measures)
 {
-    const double begun = now();
+    const double begun = thread_time();
     double gap = 0.0, worst = 0.0, worst_n = 0.0, sum = 0.0;
     fl_vec3 n = {0, 0, 0};
     long none = 0;
     for (int r = 0; r < ROUNDS; r++)
-        for (int k = 0; k < PAIRS; k++) /* the frames forwards and back */
+        for (int k = 0; k < PAIRS; k++) /* the frames forwards and backwards */
             for (int f = 0; f < FRAMES; f++)
                 sum += ask(&m[k], &m[k].q[r % 2 ? FRAMES - 1 - f : f], &gap, &n) ? gap : 0.0;
-    const double spent = now() - begun;
+    const double spent = thread_time() - begun;
     for (int k = 0; k < PAIRS && measures; k++) {
         oracle_gap o;
         if (!ask(&m[k], &m[k].q[0], &gap, &n)) {
@@ -208,20 +208,20 @@ static int row(const char *name, query *ask, motion *m, int measures)
     return isfinite(sum);
 }
 
-/* ---- many vertices ------------------------------------------------------------------------------------ */
+/* --- many vertices ------------------------------------------------------------------------------------ */
 
 typedef struct {
     pair_case q[FRAMES];
     fl_gjk_cache cache;
-} globes;
+} ellipsoids;
 
-static int make_globes(globes *m, int32_t rings, int32_t around)
+static int make_ellipsoids(ellipsoids *m, int32_t rings, int32_t around)
 {
-    *m = (globes){0};
+    *m = (ellipsoids){0};
     for (int f = 0; f < FRAMES; f++) {
         fl_poly p[2] = {{0}, {0}};
-        if (pair_globe(&p[0], rings, around, v3(1.0, 0.8, 0.6)) ||
-            pair_globe(&p[1], rings, around, v3(0.7, 1.0, 0.9)) || pair_take(&m->q[f], p[0], p[1])) {
+        if (pair_ellipsoid(&p[0], rings, around, v3(1.0, 0.8, 0.6)) ||
+            pair_ellipsoid(&p[1], rings, around, v3(0.7, 1.0, 0.9)) || pair_take(&m->q[f], p[0], p[1])) {
             fl_poly_free(&p[0]);
             fl_poly_free(&p[1]);
             return -1;
@@ -232,33 +232,33 @@ static int make_globes(globes *m, int32_t rings, int32_t around)
     return 0;
 }
 
-static void ask_globes(globes *m, int f, int all, int keep, fl_gap *g)
+static void query_ellipsoids(ellipsoids *m, int f, int all, int keep, fl_gap *g)
 {
     fl_core a = fl_solid_core(&m->q[f].a), b = fl_solid_core(&m->q[f].b);
     if (all) a.p = b.p = NULL;
     fl_gjk(a, b, keep ? &m->cache : NULL, g);
 }
 
-static double time_globes(globes *m, int times, int all, int keep)
+static double time_ellipsoids(ellipsoids *m, int times, int all, int keep)
 {
     fl_gap g;
-    const double begun = now();
+    const double begun = thread_time();
     for (int r = 0; r < times; r++)
-        for (int f = 0; f < FRAMES; f++) ask_globes(m, r % 2 ? FRAMES - 1 - f : f, all, keep, &g);
-    return 1e9 * (now() - begun) / (times * FRAMES);
+        for (int f = 0; f < FRAMES; f++) query_ellipsoids(m, r % 2 ? FRAMES - 1 - f : f, all, keep, &g);
+    return 1e9 * (thread_time() - begun) / (times * FRAMES);
 }
 
-static int globe_row(int32_t rings, int32_t around)
+static int print_ellipsoids(int32_t rings, int32_t around)
 {
-    globes m;
-    if (make_globes(&m, rings, around)) return 0;
+    ellipsoids m;
+    if (make_ellipsoids(&m, rings, around)) return 0;
     const int32_t n = rings * around + 2;
     double worst = 0.0;
-    const double along = time_globes(&m, 400, 0, 1), cold_ = time_globes(&m, 100, 0, 0),
-                 all = time_globes(&m, 400000 / n / 10 + 2, 1, 1);
+    const double along = time_ellipsoids(&m, 400, 0, 1), cold_ = time_ellipsoids(&m, 100, 0, 0),
+                 all = time_ellipsoids(&m, 400000 / n / 10 + 2, 1, 1);
     for (int f = 0; f < FRAMES; f++) {
         fl_gap g;
-        ask_globes(&m, f, 0, 1, &g);
+        query_ellipsoids(&m, f, 0, 1, &g);
         worst = fmax(worst, fabs((double)(oracle_room(&m.q[f].a, &m.q[f].b, g.n) - (real)g.d)));
         pair_free(&m.q[f]);
     }
@@ -274,20 +274,21 @@ int main(void)
     printf("%-36s %8s %12s %12s %6s\n", "query", "ns", "error [m]", "[rad]", "none");
     for (int s = 0; s < SCENES && ok; s++) {
         printf("%s\n", title[s]);
-        for (int k = 0; k < PAIRS && ok; k++) ok = make(&m[k], (enum scene)s, k) == 0;
+        for (int k = 0; k < PAIRS && ok; k++) ok = make_motion(&m[k], (enum scene)s, k) == 0;
         if (!ok) break;
-        ok &= row("distance, cold", cold, m, 1);
-        ok &= row("distance, warm", warm, m, 1);
-        ok &= row("contact with mode and area, warm", contact, m, 1);
-        /* libccd has no distance: where the shapes are apart its answer is only that. */
-        ok &= row("libccd MPR, dilated", ccd_mpr, m, s == TOUCHING);
-        ok &= row("libccd GJK and EPA, dilated", ccd_epa, m, s == TOUCHING);
+        ok &= print_row("distance, cold", cold, m, 1);
+        ok &= print_row("distance, warm", warm, m, 1);
+        ok &= print_row("contact with mode and area, warm", contact, m, 1);
+        /* libccd has no distance: for separated shapes its only answer is that they are apart. */
+        ok &= print_row("libccd MPR, dilated", ccd_mpr, m, s == TOUCHING);
+        ok &= print_row("libccd GJK and EPA, dilated", ccd_epa, m, s == TOUCHING);
         for (int k = 0; k < PAIRS; k++)
             for (int f = 0; f < FRAMES; f++) pair_free(&m[k].q[f]);
     }
     free(m);
     printf("large\n  %8s %10s %10s %10s %14s\n", "vertices", "warm ns", "cold ns", "all ns", "error [m]");
-    ok &= globe_row(4, 4) && globe_row(10, 10) && globe_row(31, 32) && globe_row(100, 100);
+    ok &= print_ellipsoids(4, 4) && print_ellipsoids(10, 10) && print_ellipsoids(31, 32) &&
+          print_ellipsoids(100, 100);
     printf("%d passed, %d failed\n", ok, !ok);
     return !ok;
 }

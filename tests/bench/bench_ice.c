@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_ice.c -- how fast a field of ice is made, stage by stage, for a thousand to a million floes, beside
- * how wrong it is.  All stages of voronoi-ice with its defaults: sites, their cells, two steps of smoothing,
- * floes of concentration 0.8, the certificate with its exact predicates, prisms, and the file.  Nothing may
- * grow faster than the number of floes, so the time for one of them is flat: "of first" is that time over the
- * one of a thousand floes, within one run.  Times are of the processor, all threads, and the least of three
- * rounds through all rows: the same work is never done faster than it can be, and a busy machine only adds.
- * The errors are those of the areas: cells that fill the rectangle, floes that cover 0.8 of it.  BENCH_ICE=N
- * is the largest number, else a million. */
+/* bench_ice.c -- time to make an ice field, stage by stage, for a thousand to a million floes, with its
+ * errors.  All stages of voronoi-ice with its defaults: sites, cells, two steps of smoothing, floes of
+ * concentration 0.8, the certificate with exact predicates, prisms, and the file.  No stage may grow faster
+ * than the number of floes, so the time per floe is constant: "of first" is that time over the one of a
+ * thousand floes, within one run.  Times are processor times over all threads, the least of three rounds
+ * through all rows, since other load only adds to them.  Errors are those of the areas: cells that fill the
+ * rectangle, floes that cover 0.8 of it.  BENCH_ICE=N sets the largest number; default a million. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,21 +33,21 @@ struct row {
     int64_t wrong; /* overlaps and floes that are not convex */
 };
 
-static double now(void)
+static double processor_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static double lap(double *since)
+static double lap_time(double *since)
 {
     const double before = *since;
-    *since = now();
+    *since = processor_time();
     return *since - before;
 }
 
-/* As voronoi-ice does: prisms are checked, and what only the file needs is kept of them. */
+/* As in voronoi-ice: prisms are checked, and only the data of the file are kept. */
 static int add_bodies(fl_ice_field *field, const fl_floes *a, fl_err *err)
 {
     fl_poly *core = fl_alloc(a->n, sizeof *core, err);
@@ -89,16 +88,16 @@ static int write_file(const fl_ice_field *field, double *bytes, fl_err *err)
 
 static double sum_of_cells(const fl_power_cells *c, fl_err *err)
 {
-    double *area = fl_alloc(c->n, sizeof *area, err), sum = NAN;
+    double *area = fl_alloc(c->n, sizeof *area, err), total_time = NAN;
     if (area) {
         fl_power_cells_areas(c, area);
-        sum = fl_parallel_sum(area, c->n);
+        total_time = fl_parallel_sum(area, c->n);
     }
     free(area);
-    return sum;
+    return total_time;
 }
 
-static int make(struct row *r, uint64_t seed, fl_err *err)
+static int make_field(struct row *r, uint64_t seed, fl_err *err)
 {
     const double side = 4.0 * sqrt(r->n), total = side * side;
     const fl_vec2 lo = {-0.5 * side, -0.5 * side}, hi = {0.5 * side, 0.5 * side};
@@ -107,28 +106,28 @@ static int make(struct row *r, uint64_t seed, fl_err *err)
     fl_floes a = {0};
     fl_ice_field field = {0};
     fl_certificate t = {0};
-    double at = now(), bytes = 0.0;
+    double at = processor_time(), bytes = 0.0;
     int rc = -1;
     if (!site) return -1;
     fl_random_sites(r->n, seed, lo, hi, site);
     if (fl_power_cells_build(&c, r->n, site, lo, hi, err)) goto done;
-    r->stage[0] += lap(&at);
+    r->stage[0] += lap_time(&at);
     for (int k = 0; k < SMOOTH; k++) {
         fl_power_cells_centroids(&c, site);
         fl_power_cells_free(&c);
         if (fl_power_cells_build(&c, r->n, site, lo, hi, err)) goto done;
     }
-    r->stage[1] += lap(&at);
+    r->stage[1] += lap_time(&at);
     if (fl_floes_make(&a, &c, CONCENTRATION, RADIUS, (fl_vec2){0, 0}, err)) goto done;
-    r->stage[2] += lap(&at);
+    r->stage[2] += lap_time(&at);
     if (fl_certificate_make(&t, &a, err)) goto done;
-    r->stage[3] += lap(&at);
+    r->stage[3] += lap_time(&at);
     r->cells = fmax(r->cells, fabs(sum_of_cells(&c, err) / total - 1.0));
     fl_power_cells_free(&c);
     if (add_bodies(&field, &a, err)) goto done;
-    r->stage[4] += lap(&at);
+    r->stage[4] += lap_time(&at);
     if (write_file(&field, &bytes, err)) goto done;
-    r->stage[5] += lap(&at);
+    r->stage[5] += lap_time(&at);
     r->floes = fmax(r->floes, fabs(t.total_area / (CONCENTRATION * total) - 1.0));
     r->wrong += t.overlaps + t.nonconvex;
     r->bytes += bytes;
@@ -141,12 +140,12 @@ done:
     return rc;
 }
 
-/* The average of as many fields as make a large one. */
+/* The average over as many fields as have the floes of a large one. */
 static int average(struct row *r, fl_err *err)
 {
     const int times = r->n < LARGE ? LARGE / r->n : 1;
     for (int k = 0; k < times; k++)
-        if (make(r, (uint64_t)k, err)) return -1;
+        if (make_field(r, (uint64_t)k, err)) return -1;
     for (int k = 0; k < STAGES; k++) r->stage[k] /= (double)r->n * times;
     r->bytes /= times;
     return 0;
@@ -158,7 +157,7 @@ static double memory(void)
     return getrusage(RUSAGE_SELF, &u) == 0 ? 1024.0 * (double)u.ru_maxrss : NAN;
 }
 
-/* What a round adds to what is known of a row. */
+/* Adds the results of a round to those of a row. */
 static void keep_best(struct row *best, const struct row *r, int round)
 {
     for (int k = 0; k < STAGES; k++)
@@ -167,10 +166,10 @@ static void keep_best(struct row *best, const struct row *r, int round)
     best->floes = fmax(best->floes, r->floes);
     best->wrong += r->wrong;
     best->bytes = r->bytes;
-    if (round == 0) best->peak = memory(); /* rows rise, so that it is that of this one */
+    if (round == 0) best->peak = memory(); /* rows grow, so the peak is that of this row */
 }
 
-static double sum(const struct row *r)
+static double total_time(const struct row *r)
 {
     double s = 0.0;
     for (int k = 0; k < STAGES; k++) s += r->stage[k];
@@ -207,10 +206,12 @@ int main(int argc, char **argv)
         const struct row *r = &row[j];
         printf("%8d", r->n);
         for (int k = 0; k < STAGES; k++) printf(" %7.2f", 1e6 * r->stage[k]);
-        printf(" %7.2f %8.2f %8.1f %8.0f %10.1e %10.1e %6lld\n", 1e6 * sum(r), sum(r) / sum(&row[0]),
-               1e-6 * r->bytes, 1e-6 * r->peak, r->cells, r->floes, (long long)r->wrong);
+        printf(" %7.2f %8.2f %8.1f %8.0f %10.1e %10.1e %6lld\n", 1e6 * total_time(r),
+               total_time(r) / total_time(&row[0]), 1e-6 * r->bytes, 1e-6 * r->peak, r->cells, r->floes,
+               (long long)r->wrong);
     }
-    if (!ok) fprintf(stderr, "bench_ice: %s\n", err.code ? err.text : "a field is not what was asked for");
+    if (!ok)
+        fprintf(stderr, "bench_ice: %s\n", err.code ? err.text : "a field does not meet its specification");
     printf("%d passed, %d failed\n", ok, !ok);
     return !ok;
 }

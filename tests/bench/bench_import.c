@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_import.c -- struct-import on five million triangles (or as many as its first argument says): a torus,
- * made on the fly in each format (or in the one that the second argument names).  Time of the whole import,
- * with welding, orientation, the search for crossings and the writing of a g_struct file, beside that of `wc`
- * and, for text, of strtod() on every number of the same file in the same run; all in seconds of the
- * processor, threads added up; the elapsed time, the peak of memory, and the error of the volume that is
- * told. wc is the one of LC_ALL=C, which does not look for letters.  A second row for each format says what
- * the time of the import goes into, stage by stage of the library: reading (beside wc and strtod), moments
- * (volume, area, centroid and inertia in 106 bits), welding, orientation (edges, patches, measures), the
- * search for crossings, writing.  The same for a cone of 20 000 facets, whose slivers lie all in the boxes of
- * one another. Compare ratios, and those within one run only. */
+/* bench_import.c -- struct-import on five million triangles (or the number in its first argument): a torus,
+ * generated in each format (or in the one of the second argument).  Columns: processor time of the whole
+ * import over all threads, with welding, orientation, the search for crossings and the writing of a
+ * g_struct file; the time of `wc` on the same file in the same run, and for text that of strtod() on every
+ * number; elapsed time, peak memory, and the error of the printed volume.  wc runs with LC_ALL=C, which
+ * does not look for letters.  A second row of each format divides the time of the import into stages of the
+ * library: reading (beside wc and strtod), moments (volume, area, centroid and inertia in 106 bits),
+ * welding, orientation (edges, patches, measures), the search for crossings, writing.  The same for a cone
+ * of 20 000 facets, whose slivers all lie in the bounding boxes of one another.  Compare ratios within one
+ * run only. */
 #define _DEFAULT_SOURCE /* wait4 */
 #include <fcntl.h>
 #include <math.h>
@@ -34,15 +34,15 @@ enum { TRIANGLES = 5000000, CONE = 20000, PATH = 4096 };
 static const double TWO_PI = 6.283185307179586477, FAR = 20.0, NEAR = 5.0;
 static const double LIMIT = 4.0; /* GiB */
 
-static double now(void)
+static double wall_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* n times m quadrilaterals, each cut in two, on the torus: corner (i, j), both counted round, is vertex
- * i m + j + 1 at x, rounded to float. */
+/* n times m quadrilaterals, each cut in two, on the torus: corner (i, j), periodic in both, is vertex i m +
+ * j + 1 at x, rounded to float. */
 struct torus {
     int n, m;
 };
@@ -59,19 +59,19 @@ static int vertices(const struct torus *t) { return t->n * t->m; }
 static int triangles(const struct torus *t) { return 2 * vertices(t); }
 static void vertex(const struct torus *t, int k, float x[3]) { corner(t, k / t->m, k % t->m, x); }
 
-/* Places of the corners of triangle k. */
-static void places(const struct torus *t, int k, int at[3][2])
+/* Grid positions of the corners of triangle k. */
+static void corner_positions(const struct torus *t, int k, int at[3][2])
 {
     const int i = k / 2 / t->m, j = k / 2 % t->m, half = k % 2;
     const int place[3][2] = {{i, j}, {i + 1, j + half}, {i + 1 - half, j + 1}};
     memcpy(at, place, sizeof place);
 }
 
-/* Their numbers from 0. */
+/* Their vertex numbers from 0. */
 static void triangle(const struct torus *t, int k, int v[3])
 {
     int at[3][2];
-    places(t, k, at);
+    corner_positions(t, k, at);
     for (int c = 0; c < 3; c++) v[c] = at[c][0] % t->n * t->m + at[c][1] % t->m;
 }
 
@@ -83,7 +83,7 @@ static double six_volumes(const struct torus *t)
         float x[3][3];
         int at[3][2];
         double d, next;
-        places(t, k, at);
+        corner_positions(t, k, at);
         for (int c = 0; c < 3; c++) corner(t, at[c][0], at[c][1], x[c]);
         d = (double)x[0][0] * ((double)x[1][1] * (double)x[2][2] - (double)x[1][2] * (double)x[2][1]) +
             (double)x[0][1] * ((double)x[1][2] * (double)x[2][0] - (double)x[1][0] * (double)x[2][2]) +
@@ -96,9 +96,9 @@ static double six_volumes(const struct torus *t)
     return six;
 }
 
-/* --- the formats ---------------------------------------------------------------------------------------- */
+/* --- the formats -------------------------------------------------------------------------------------- */
 
-static void low_first(unsigned char *to, uint64_t x, int bytes)
+static void little_endian(unsigned char *to, uint64_t x, int bytes)
 {
     for (int k = 0; k < bytes; k++) to[k] = (unsigned char)(x >> 8 * k);
 }
@@ -106,19 +106,19 @@ static void low_first(unsigned char *to, uint64_t x, int bytes)
 static void put_stl(FILE *f, const struct torus *t)
 {
     unsigned char head[84] = "binary STL", record[50] = {0};
-    low_first(head + 80, (uint64_t)triangles(t), 4);
+    little_endian(head + 80, (uint64_t)triangles(t), 4);
     fwrite(head, sizeof head, 1, f);
     for (int k = 0; k < triangles(t); k++) {
         float x[3][3];
         int at[3][2];
-        places(t, k, at);
+        corner_positions(t, k, at);
         for (int c = 0; c < 3; c++) corner(t, at[c][0], at[c][1], x[c]);
         memcpy(record + 12, x, sizeof x);
         fwrite(record, sizeof record, 1, f);
     }
 }
 
-/* A row for each vertex and each triangle; with numbers when they are wanted, from 1. */
+/* A row for each vertex and each triangle; with numbers from 1 if `numbered`. */
 static void put_rows(FILE *f, const struct torus *t, const char *vertex_row, const char *middle,
                      const char *triangle_row, int base, int numbered)
 {
@@ -217,20 +217,20 @@ static void put_msh_binary(FILE *f, const struct torus *t)
     const uint64_t nv = (uint64_t)vertices(t), nt = (uint64_t)triangles(t);
     unsigned char word[32];
     fprintf(f, "$MeshFormat\n4.1 1 8\n");
-    low_first(word, 1, 4);
+    little_endian(word, 1, 4);
     fwrite(word, 4, 1, f);
     fprintf(f, "\n$EndMeshFormat\n$Nodes\n");
     for (int k = 0; k < 4; k++) {
-        low_first(word, k == 1 || k == 3 ? nv : 1, 8);
+        little_endian(word, k == 1 || k == 3 ? nv : 1, 8);
         fwrite(word, 8, 1, f);
     }
-    low_first(word, 2, 4);
-    low_first(word + 4, 1, 4);
-    low_first(word + 8, 0, 4);
-    low_first(word + 12, nv, 8);
+    little_endian(word, 2, 4);
+    little_endian(word + 4, 1, 4);
+    little_endian(word + 8, 0, 4);
+    little_endian(word + 12, nv, 8);
     fwrite(word, 20, 1, f);
     for (uint64_t k = 1; k <= nv; k++) {
-        low_first(word, k, 8);
+        little_endian(word, k, 8);
         fwrite(word, 8, 1, f);
     }
     for (int k = 0; k < vertices(t); k++) {
@@ -242,19 +242,19 @@ static void put_msh_binary(FILE *f, const struct torus *t)
     }
     fprintf(f, "\n$EndNodes\n$Elements\n");
     for (int k = 0; k < 4; k++) {
-        low_first(word, k == 1 || k == 3 ? nt : 1, 8);
+        little_endian(word, k == 1 || k == 3 ? nt : 1, 8);
         fwrite(word, 8, 1, f);
     }
-    low_first(word, 2, 4);
-    low_first(word + 4, 1, 4);
-    low_first(word + 8, 2, 4);
-    low_first(word + 12, nt, 8);
+    little_endian(word, 2, 4);
+    little_endian(word + 4, 1, 4);
+    little_endian(word + 8, 2, 4);
+    little_endian(word + 12, nt, 8);
     fwrite(word, 20, 1, f);
     for (int k = 0; k < triangles(t); k++) {
         int v[3];
         triangle(t, k, v);
-        low_first(word, (uint64_t)k + 1, 8);
-        for (int c = 0; c < 3; c++) low_first(word + 8 + 8 * c, (uint64_t)v[c] + 1, 8);
+        little_endian(word, (uint64_t)k + 1, 8);
+        for (int c = 0; c < 3; c++) little_endian(word + 8 + 8 * c, (uint64_t)v[c] + 1, 8);
         fwrite(word, 32, 1, f);
     }
     fprintf(f, "\n$EndElements\n");
@@ -273,19 +273,18 @@ enum { FORMATS = sizeof FORMAT / sizeof *FORMAT };
 
 static double seconds(struct timeval t) { return (double)t.tv_sec + 1e-6 * (double)t.tv_usec; }
 
-static double spent(void)
+static double children_time(void)
 {
     struct rusage use;
     getrusage(RUSAGE_SELF, &use);
     return seconds(use.ru_utime) + seconds(use.ru_stime);
 }
 
-/* Seconds of the processor to read a file by pieces and to convert each number in it; nan where it cannot be
- * read. */
+/* Processor seconds to read a file in blocks and to convert each number in it; nan if it cannot be read. */
 static double read_numbers(const char *path)
 {
     static char piece[(1 << 20) + 1];
-    const double start = spent();
+    const double start = children_time();
     double sum = 0.0;
     size_t have = 0, got;
     FILE *f = fopen(path, "r");
@@ -302,35 +301,35 @@ static double read_numbers(const char *path)
         memmove(piece, last, have);
     }
     fclose(f);
-    return sum != 0.0 ? spent() - start : (double)NAN;
+    return sum != 0.0 ? children_time() - start : (double)NAN;
 }
 
-/* Run a program with stdout and stderr into files; seconds by the clock, or nan.  *cpu becomes those of all
- * its threads. */
-static double run(char *const argv[], const char *out, const char *said, double *gib, double *cpu)
+/* Runs a program with stdout and stderr into files.  Returns elapsed seconds, or nan; *cpu is the processor
+ * time of all its threads. */
+static double run_program(char *const argv[], const char *out, const char *log, double *gib, double *cpu)
 {
-    const double start = now();
+    const double start = wall_time();
     struct rusage use;
     int status;
     const pid_t pid = fork();
     if (pid == 0) {
         const int o = open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        const int e = open(said, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        const int e = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
         if (o >= 0 && e >= 0 && dup2(o, 1) >= 0 && dup2(e, 2) >= 0) execvp(argv[0], argv);
         _exit(127);
     }
     if (pid < 0 || wait4(pid, &status, 0, &use) != pid || status != 0) return NAN;
     *gib = (double)use.ru_maxrss / 1048576.0;
     *cpu = seconds(use.ru_utime) + seconds(use.ru_stime);
-    return now() - start;
+    return wall_time() - start;
 }
 
 /* Third number of the row under the first head of a table: the volume. */
-static double told_volume(const char *said)
+static double printed_volume(const char *log)
 {
     char row[1000];
     double volume = NAN;
-    FILE *f = fopen(said, "r");
+    FILE *f = fopen(log, "r");
     while (f && fgets(row, sizeof row, f))
         if (strncmp(row, "part ", 5) == 0) {
             if (!fgets(row, sizeof row, f) || sscanf(row, "%*s %*s %*s %lf", &volume) != 1) volume = NAN;
@@ -340,13 +339,13 @@ static double told_volume(const char *said)
     return volume;
 }
 
-/* --- stages --------------------------------------------------------------------------------------------- */
+/* --- stages ------------------------------------------------------------------------------------------- */
 
 enum stage { READ, MOMENTS, WELD, ORIENT, SEARCH, WRITE, STAGES };
 
-/* Seconds of the processor of each stage of an import, as struct-import takes them for a sound mesh of one
- * part. Returns the crossings found, -1 when something failed. */
-static int in_stages(const char *mesh, const char *out, double took[STAGES])
+/* Processor seconds of each stage of an import, as struct-import does it for a valid mesh of one part.
+ * Returns the number of crossings, -1 when something failed. */
+static int time_stages(const char *mesh, const char *out, double took[STAGES])
 {
     fl_surface s = {0};
     fl_err err = {0};
@@ -360,19 +359,19 @@ static int in_stages(const char *mesh, const char *out, double took[STAGES])
     FILE *f = fopen(out, "w");
     int bad = !f;
     fl_history_line_start(&by, "bench_import");
-    at[READ] = spent();
+    at[READ] = children_time();
     bad = bad || fl_mesh_read(&s, mesh, NULL, note, &err) || s.n != 1;
-    at[MOMENTS] = spent();
+    at[MOMENTS] = children_time();
     bad = bad || !(fl_moments_of(s.part, 1).area > 0.0);
-    at[WELD] = spent();
+    at[WELD] = children_time();
     bad = bad || fl_part_weld(&s.part[0], -1.0, &w, &err);
-    at[ORIENT] = spent();
+    at[ORIENT] = children_time();
     bad = bad || fl_part_orient(&s.part[0], &q, &o, &err);
-    at[SEARCH] = spent();
+    at[SEARCH] = children_time();
     bad = bad || fl_part_crossings(&s.part[0], &c, &err);
-    at[WRITE] = spent();
+    at[WRITE] = children_time();
     if (!bad) fl_gstruct_write(f, &s, &by);
-    at[STAGES] = spent();
+    at[STAGES] = children_time();
     for (int k = 0; k < STAGES; k++) took[k] = at[k + 1] - at[k];
     if (err.code) fprintf(stderr, "%s\n", err.text);
     if (f && fclose(f) != 0) bad = 1;
@@ -386,7 +385,7 @@ static double megabytes(const char *path)
     return stat(path, &st) == 0 ? 1e-6 * (double)st.st_size : (double)NAN;
 }
 
-/* What the second table says of a file. */
+/* Row of a file in the second table. */
 struct parts {
     const char *name;
     double took[STAGES], wc, numbers; /* [s] */
@@ -406,49 +405,49 @@ static void print_parts(const struct parts *k)
     printf("\t%.2f\t%.2f\t%s\t%d\n", sum, k->took[READ] / k->wc, ratio, k->crossings);
 }
 
-/* One format: a row of the table.  Was it read, and within the memory? */
-static int measure(const struct format *k, const struct torus *t, double volume, char *tool, const char *stem,
-                   struct parts *parts)
+/* One format: a row of the table.  True if it was read within the memory limit. */
+static int measure_format(const struct format *k, const struct torus *t, double volume, char *tool,
+                          const char *stem, struct parts *parts)
 {
-    char mesh[PATH + 20], out[PATH + 20], said[PATH + 20], number[40] = "-", ratio[40] = "-";
+    char mesh[PATH + 20], out[PATH + 20], log[PATH + 20], number[40] = "-", ratio[40] = "-";
     double count = NAN, numbers = 0.0, elapsed, import = NAN, error, size, gib = 0.0, none;
     FILE *f;
     snprintf(mesh, sizeof mesh, "%s.%s", stem, k->name);
     snprintf(out, sizeof out, "%s.dat", stem);
-    snprintf(said, sizeof said, "%s.said", stem);
+    snprintf(log, sizeof log, "%s.said", stem);
     f = fopen(mesh, "wb");
     if (!f) return 0;
     k->put(f, t);
     if (fclose(f) != 0) return 0;
     size = megabytes(mesh);
-    run((char *[]){"wc", mesh, NULL}, out, said, &none, &count);
+    run_program((char *[]){"wc", mesh, NULL}, out, log, &none, &count);
     if (k->text) numbers = read_numbers(mesh);
-    elapsed = run((char *[]){tool, mesh, NULL}, out, said, &gib, &import);
+    elapsed = run_program((char *[]){tool, mesh, NULL}, out, log, &gib, &import);
     if (k->text) {
         snprintf(number, sizeof number, "%.2f", numbers);
         snprintf(ratio, sizeof ratio, "%.1f", import / numbers);
     }
-    error = fabs(told_volume(said) - volume) / volume;
+    error = fabs(printed_volume(log) - volume) / volume;
     printf("%-10s\t%d\t%.0f\t%.2f\t%s\t%.2f\t%.2f\t%.1f\t%s\t%.2f\t%.2g\n", k->name, triangles(t), size,
            count, number, import, elapsed, import / count, ratio, gib, error);
     fflush(stdout);
     *parts = (struct parts){.name = k->name, .wc = count, .numbers = numbers};
-    parts->crossings = in_stages(mesh, out, parts->took);
+    parts->crossings = time_stages(mesh, out, parts->took);
     remove(mesh);
     remove(out);
-    remove(said);
-    return gib < LIMIT && error < 1e-8 /* the table tells nine digits */ && parts->crossings == 0;
+    remove(log);
+    return gib < LIMIT && error < 1e-8 /* the table prints nine digits */ && parts->crossings == 0;
 }
 
-/* A cone with a tip and a bottom: every sliver of its mantle lies in the boxes of thousands of others. */
+/* A cone with a tip and a base: each sliver of its side lies in the bounding boxes of thousands. */
 static int measure_cone(int n, const char *stem, struct parts *parts)
 {
-    char mesh[PATH + 20], out[PATH + 20], said[PATH + 20];
+    char mesh[PATH + 20], out[PATH + 20], log[PATH + 20];
     double none;
     FILE *f;
     snprintf(mesh, sizeof mesh, "%s.cone", stem);
     snprintf(out, sizeof out, "%s.dat", stem);
-    snprintf(said, sizeof said, "%s.said", stem);
+    snprintf(log, sizeof log, "%s.said", stem);
     *parts = (struct parts){.name = "cone"};
     f = fopen(mesh, "w");
     if (!f) return 0;
@@ -457,12 +456,12 @@ static int measure_cone(int n, const char *stem, struct parts *parts)
     for (int k = 1; k <= n; k++)
         fprintf(f, "f %d %d %d\nf %d %d %d\n", k, k % n + 1, n + 1, k % n + 1, k, n + 2);
     if (fclose(f) != 0) return 0;
-    run((char *[]){"wc", mesh, NULL}, out, said, &none, &parts->wc);
+    run_program((char *[]){"wc", mesh, NULL}, out, log, &none, &parts->wc);
     parts->numbers = read_numbers(mesh);
-    parts->crossings = in_stages(mesh, out, parts->took);
+    parts->crossings = time_stages(mesh, out, parts->took);
     remove(mesh);
     remove(out);
-    remove(said);
+    remove(log);
     return parts->crossings == 0;
 }
 
@@ -485,7 +484,7 @@ int main(int argc, char **argv)
            "error of volume\n");
     for (int k = 0; k < FORMATS; k++) {
         if (argc > 2 && strcmp(argv[2], FORMAT[k].name) != 0) continue;
-        if (measure(&FORMAT[k], &t, volume, tool, stem, &parts[rows++])) passed++;
+        if (measure_format(&FORMAT[k], &t, volume, tool, stem, &parts[rows++])) passed++;
         else failed++;
     }
     if (measure_cone(CONE, stem, &parts[rows++])) passed++;

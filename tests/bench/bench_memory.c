@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_memory.c -- what a floe takes of memory with its pairs, by kind, while a field of floes at 80 % is
- * stirred until they touch everywhere: dry, and in water.  "allocated" is what the allocator says that all of
- * it takes, so that nothing is left out; what was read is not in it.  Beside it stand the pairs and the
- * contacts of a floe, the largest overlap, and a number that tells the final states apart.
- * A search takes more while it lasts, which is `search+`.  Fails where a floe takes more than 2 048 bytes
- * with its pairs.
- *     bench_memory [FLOES]     2000 if not said */
+/* bench_memory.c -- memory of a floe with its pairs, by kind, while a field of floes at 80 % is stirred
+ * until they touch everywhere: dry, and in water.  "allocated" is the total of the allocator, so nothing is
+ * left out; the input is not included.  Further columns: pairs and contacts per floe, the largest overlap,
+ * and a hash of the final state.  `search+` is the additional memory during a search.  Fails if a floe with
+ * its pairs takes more than 2 048 bytes.
+ *
+ *     bench_memory [FLOES]     default 2000 */
 #include <malloc.h>
 #include <stdlib.h>
 #include "sim/energy_balance.h"
@@ -15,9 +15,9 @@
 
 #define STIRRED 1.0 /* [m/s] */
 #define END 1.0     /* [s] */
-#define MOST 2048.0 /* bytes of a floe with its pairs, at any time: what is wanted */
+#define MOST 2048.0 /* largest allowed number of bytes of a floe with its pairs, at any time */
 
-enum { LOOKS = 4 };
+enum { SAMPLES = 4 };
 
 static double memory(void)
 {
@@ -25,16 +25,16 @@ static double memory(void)
     return (double)m.uordblks + (double)m.hblkhd;
 }
 
-static int row(int32_t n, int water)
+static int print_row(int32_t n, int water)
 {
     lab l;
-    eddies_start(&l, n, STIRRED);
+    stirring_flow_start(&l, n, STIRRED);
     if (water) lab_set(&l, "run.gravity=9.81"), lab_set(&l, "water.current=0.5 0 0");
     const double before = memory();
     lab_make(&l, 0.0);
     int bad = 0;
-    for (int k = 0; k <= LOOKS && !bad; k++) {
-        const int64_t to = (int64_t)(END * k / LOOKS / l.w.dt), touched = l.w.contact_steps;
+    for (int k = 0; k <= SAMPLES && !bad; k++) {
+        const int64_t to = (int64_t)(END * k / SAMPLES / l.w.dt), touched = l.w.contact_steps;
         const int64_t steps = to - l.w.step;
         bad = lab_run(&l, steps);
         const fl_memory_use b = fl_memory_use_of(&l.w);
@@ -47,7 +47,7 @@ static int row(int32_t n, int water)
                steps ? (double)(l.w.contact_steps - touched) / (double)steps / n : 0.0, l.w.max_overlap,
                (unsigned long long)fl_state_hash(&l.w));
         bad |= sum > MOST * n;
-        bad |= !(all > 0.98 * sum && all < 1.25 * sum); /* small blocks at hand were counted before */
+        bad |= !(all > 0.98 * sum && all < 1.25 * sum); /* small free blocks were counted before */
     }
     lab_free(&l);
     return bad;
@@ -59,13 +59,12 @@ int main(int argc, char **argv)
     int good = 0, bad = 0;
     if (n < 100) return 1;
     setvbuf(stdout, NULL, _IOLBF, 0);
-    printf(
-        "bytes for a floe: arrays of bodies, cores, water, search, near pairs, matches of their features\n");
+    printf("bytes per floe: arrays of bodies, cores, water, search, near pairs, feature pairs\n");
     printf("%-6s %6s %6s %7s %7s %7s %7s %7s %7s %7s %10s %7s %6s %8s %9s\n", "", "floes", "t[s]", "bodies",
            "shapes", "water", "search", "pairs", "lists", "all", "allocated", "search+", "near", "touching",
            "overlap/2R");
     for (int water = 0; water < 2; water++) {
-        if (row(n, water)) bad++;
+        if (print_row(n, water)) bad++;
         else good++;
     }
     printf("%d passed, %d failed\n", good, bad);

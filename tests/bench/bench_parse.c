@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_parse.c -- how fast a table of decimal text is read, beside how wrong the numbers are, and `wc -l`
- * on the same file in the same run.  The table is a loads table of 10 columns whose numbers need 15 to 17
- * digits. Rates are of text over elapsed time, the best of a few rounds; compare them within one run only. */
+/* bench_parse.c -- speed of reading a table of decimal text, with the error of the numbers, and `wc -l` on
+ * the same file in the same run.  The table is a loads table of 10 columns whose numbers have 15 to 17
+ * digits.  Rates are of text over elapsed time, the best of a few rounds; compare them within one
+ * run only. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +17,7 @@
 
 enum { ROWS = 400000, ROUNDS = 5, COLUMNS = 10, WAYS = 5 };
 
-static double now(void)
+static double wall_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -38,12 +39,12 @@ static int write_table(const char *path)
     return fclose(f);
 }
 
-/* Seconds of one pass over the table; sum makes use of every number. */
+/* Seconds of one pass over the table; sum uses every number. */
 static double read_table(const char *path, int numbers, double *sum)
 {
     fl_err err = {0};
     fl_table t;
-    const double start = now();
+    const double start = wall_time();
     int more = fl_table_open(&t, path, "loads", 1, &err);
     *sum = 0.0;
     while (more >= 0 && (more = fl_table_row(&t, &err)) > 0)
@@ -55,11 +56,11 @@ static double read_table(const char *path, int numbers, double *sum)
         }
     fl_table_close(&t);
     if (more < 0) fprintf(stderr, "bench_parse: %s\n", err.text);
-    return more < 0 ? NAN : now() - start;
+    return more < 0 ? NAN : wall_time() - start;
 }
 
 /* Seconds of the statistics of some columns in constant memory; sum is the mean of the first. */
-static double sum_up(const char *path, int columns, double *sum)
+static double time_statistics(const char *path, int columns, double *sum)
 {
     static const char *const name[] = {"fx", "fy", "fz", "fh"};
     const fl_record_selection ask = {.signal = name, .signals = columns, .from = -INFINITY, .to = INFINITY};
@@ -67,12 +68,12 @@ static double sum_up(const char *path, int columns, double *sum)
     fl_err err = {0};
     fl_run r = {0};
     double moment[4] = {NAN};
-    const double start = now();
+    const double start = wall_time();
     int more = fl_run_open(&r, path, &ask, &how, &err);
     while (more >= 0 && (more = fl_run_next(&r, &err)) > 0) {}
     if (more == 0) more = fl_run_finish(&r, "", &err);
     if (more == 0) fl_summary_moments(&r.sum.entry[0], moment);
-    const double seconds = now() - start;
+    const double seconds = wall_time() - start;
     fl_run_close(&r);
     if (more < 0) fprintf(stderr, "bench_parse: %s\n", err.text);
     *sum = moment[0];
@@ -82,15 +83,15 @@ static double sum_up(const char *path, int columns, double *sum)
 static double count_lines(const char *path, long *lines)
 {
     char command[400];
-    const double start = now();
+    const double start = wall_time();
     snprintf(command, sizeof command, "wc -l <'%s'", path);
     FILE *f = popen(command, "r");
     if (!f || fscanf(f, "%ld", lines) != 1) *lines = -1;
     if (f) pclose(f);
-    return now() - start;
+    return wall_time() - start;
 }
 
-/* Numbers of the table whose bits differ from those of strtod(), and what reading all of them takes. */
+/* Numbers of the table whose bits differ from those of strtod(), and the time to read all of them. */
 static long differences(const char *path, long *numbers, double *ours, double *theirs)
 {
     fl_err err = {0};
@@ -111,16 +112,16 @@ static long differences(const char *path, long *numbers, double *ours, double *t
             for (int32_t c = 0; c < t.n; c++)
                 if (c != 1) snprintf(text[n++], FL_NUMBER_LEN, "%s", fl_table_word(&t, c));
         }
-        const double a = now();
+        const double a = wall_time();
         for (int k = 0; k < n; k++) {
             double x = 0.0;
             fl_decimal_read(text[k], &x);
             sum += x;
         }
-        const double b = now();
+        const double b = wall_time();
         for (int k = 0; k < n; k++) sum -= strtod(text[k], NULL);
         *ours += b - a;
-        *theirs += now() - b;
+        *theirs += wall_time() - b;
         for (int k = 0; k < n; k++) {
             double x = NAN, y = strtod(text[k], NULL);
             bad += !fl_decimal_read(text[k], &x) || memcmp(&x, &y, sizeof x) != 0;
@@ -131,7 +132,7 @@ static long differences(const char *path, long *numbers, double *ours, double *t
     return isfinite(sum) ? bad : -1;
 }
 
-/* How far a mean of fx is from that in long double, over the standard deviation of the values, 1e4. */
+/* Error of a mean of fx against that in long double, over the standard deviation of the values, 1e4. */
 static double mean_error(const char *path, double mean)
 {
     fl_err err = {0};
@@ -165,8 +166,8 @@ int main(void)
         best[0] = fmin(best[0], count_lines(path, &lines));
         best[1] = fmin(best[1], read_table(path, 0, &sum));
         best[2] = fmin(best[2], read_table(path, 1, &sum));
-        best[3] = fmin(best[3], sum_up(path, 1, &mean));
-        best[4] = fmin(best[4], sum_up(path, 4, &mean));
+        best[3] = fmin(best[3], time_statistics(path, 1, &mean));
+        best[4] = fmin(best[4], time_statistics(path, 4, &mean));
     }
     const double wrong = mean_error(path, mean);
     bad = differences(path, &numbers, &ours, &theirs);
@@ -178,7 +179,7 @@ int main(void)
     for (int k = 0; k < WAYS; k++) printf("%-34s %10.0f %13.2f\n", what[k], mb / best[k], best[0] / best[k]);
     printf("number alone: %.1f ns, strtod() %.1f ns; %ld of %ld numbers differ from strtod()\n",
            1e9 * ours / (double)numbers, 1e9 * theirs / (double)numbers, bad, numbers);
-    printf("mean of fx: off by %.1e of the deviation\n", wrong);
+    printf("mean of fx: error %.1e of the deviation\n", wrong);
     const int sound = bad == 0 && lines == ROWS + 2 && wrong < 1e-15;
     printf("%d passed, %d failed\n", sound, !sound);
     return !sound;

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_scale.c -- what a contact, a body and a search cost among 1 000, 10 000 and 100 000 floes at 80 %,
+/* bench_scale.c -- cost of a contact, a body and a search among 1 000, 10 000 and 100 000 floes at 80 %,
  * dry, which eddies have stirred for the same time, until there is a contact for five floes: law patch, one
  * thread.
- *   ns a contact   all contacts once, in the order of a step and behind a step, when the cache holds what the
- *                  bodies have left in it; whoever does not touch sleeps then, and is passed over
- *   emptied        the same when the cache has been filled with something else
- *   ns a body      what a step takes besides; pairs that came near are looked at in it
- *   ns a search    of all, for a body: boxes, near pairs, their lists
- *   bytes          that last, of a floe with its pairs
- *   over           ns a contact over those of the first row
- * Beside them stand the energy residual over the throughput, the largest overlap, and the hash of the state.
- * Rows take turns; times are of processors and the least, those of a body the middle of differences.  Fails
- * where a contact costs more than 1.5 times as much in the last row as in the first, where what is of a body
- * does, or where the energy is off by 1e-4. */
+ *     ns a contact   all contacts once, in the order of a step and after a step, with the
+ *                    cache as the bodies have left it; pairs that do not touch sleep then and are skipped
+ *     emptied        the same with the cache filled with other data
+ *     ns a body      the rest of a step; it includes evaluations of pairs that came near
+ *     ns a search    all of a search, per body: boxes, near pairs, their lists
+ *     bytes          permanent memory of a floe with its pairs
+ *     over           ns a contact over that of the first row
+ * Further columns: energy residual over the throughput, largest overlap, hash of the state.  Rows take
+ * turns.  Times are processor times and the least of all turns; that of a body is the median of
+ * differences.  Fails if a contact costs more than 1.5 times as much in the last row as in the first, if a
+ * body does, or if the energy residual exceeds 1e-4. */
 #include <stdlib.h>
 #include <time.h>
 #include "sim/energy_balance.h"
@@ -24,13 +24,13 @@
 
 #define STIRRED 2.0 /* [m/s] */
 #define END 0.2     /* [s] */
-#define MOST 1.5    /* the last row over the first: what is wanted */
+#define MOST 1.5    /* largest allowed ratio of the last row to the first */
 #define OFF 1e-4
 
 enum {
     ROWS = 3,
     FEWEST = 1000, /* floes */
-    PARTS = 100,   /* of the last row, of FEWEST each */
+    PARTS = 100,   /* parts of the last row, of FEWEST each */
     TURNS = 6,
     STEPS = 5,
     CACHE = 64 << 20 /* more than there is [B] */
@@ -44,7 +44,7 @@ typedef struct {
     int steps, bad;
 } field;
 
-static double now(void)
+static double processor_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -57,17 +57,17 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void start(field *f, int32_t n)
+static void start_field(field *f, int32_t n)
 {
     f->n = n;
     f->search = INFINITY;
     for (int p = 0; p < PARTS; p++) f->contact[p] = f->emptied[p] = INFINITY;
-    eddies_start(&f->l, n, STIRRED);
+    stirring_flow_start(&f->l, n, STIRRED);
     lab_make(&f->l, 0.0);
     f->bad = lab_run(&f->l, (int64_t)(END / f->l.w.dt));
 }
 
-/* The first near pair of floe i or of one behind it. */
+/* The first near pair of floe i or of a later one. */
 static int32_t first_of(const fl_world *w, int32_t i)
 {
     int32_t c = 0, end = w->n_pair;
@@ -79,7 +79,7 @@ static int32_t first_of(const fl_world *w, int32_t i)
     return c;
 }
 
-static int32_t touching(const fl_world *w, int32_t part)
+static int32_t touching_in_part(const fl_world *w, int32_t part)
 {
     int32_t n = 0;
     for (int32_t c = first_of(w, part * FEWEST), end = first_of(w, (part + 1) * FEWEST); c < end; c++)
@@ -87,63 +87,62 @@ static int32_t touching(const fl_world *w, int32_t part)
     return n;
 }
 
-/* All contacts at the poses of now; returns how long they took.  No time goes by, but friction and damping
- * are shown speeds that a step would not show them: the state is good for this alone.  Each thousand floes
- * has a least of its own, of one contact: so it is of as much at a time in every row, as long as the machine
- * leaves it alone. */
-static double look(field *f, double *least)
+/* Evaluates all contacts at the present poses; returns the time.  No time step is made, but friction and
+ * damping get speeds that a step would not give them, so the state is for timing only.  Each thousand floes
+ * has its own least time of one contact: in every row it is the least over equal amounts of work. */
+static double time_contacts(field *f, double *least)
 {
     fl_world *const w = &f->l.w;
     double all = 0.0;
     for (int32_t p = 0; p < f->n / FEWEST; p++) {
         w->pair_share[0] =
             (fl_work_share){.next = first_of(w, p * FEWEST), .end = first_of(w, (p + 1) * FEWEST)};
-        const double begun = now();
+        const double begun = processor_time();
         fl_evaluate_active_pairs(w, 0.0, 0);
-        const double took = now() - begun;
-        least[p] = fmin(least[p], took / touching(w, p));
+        const double took = processor_time() - begun;
+        least[p] = fmin(least[p], took / touching_in_part(w, p));
         all += took;
     }
     return all;
 }
 
-static double of_all(const field *f, const double *least)
+static double mean_contact_time(const field *f, const double *least)
 {
     double sum = 0.0;
-    for (int32_t p = 0; p < f->n / FEWEST; p++) sum += least[p] * touching(&f->l.w, p);
+    for (int32_t p = 0; p < f->n / FEWEST; p++) sum += least[p] * touching_in_part(&f->l.w, p);
     return sum / f->l.w.n_touching;
 }
 
 static void empty_cache(void)
 {
     static volatile char other[CACHE];
-    for (size_t k = 0; k < 2 * (size_t)CACHE; k += 64) other[k % CACHE]++; /* once leaves some of it */
+    for (size_t k = 0; k < 2 * (size_t)CACHE; k += 64) other[k % CACHE]++; /* one pass leaves some of it */
 }
 
-/* Whether the lists are made anew now or later bears on no bit. */
-static double search(field *f)
+/* Renewing the lists earlier or later changes no bit. */
+static double time_search(field *f)
 {
     fl_err err = {0};
     f->l.w.last_search_step = -1;
-    const double begun = now();
+    const double begun = processor_time();
     f->bad |= fl_neighbour_list_update(&f->l.w, &err) != 0;
-    return now() - begun;
+    return processor_time() - begun;
 }
 
-/* The search comes first: other rows have had the cache. */
-static void turn(field *f)
+/* The search comes first: other rows have used the cache. */
+static void measure_turn(field *f)
 {
     fl_world *const w = &f->l.w;
-    f->search = fmin(f->search, search(f));
+    f->search = fmin(f->search, time_search(f));
     for (int k = 0; k < STEPS && !f->bad; k++) {
         const int64_t searches = w->searches;
-        const double begun = now();
+        const double begun = processor_time();
         f->bad |= lab_run(&f->l, 1) != 0;
-        const double step = now() - begun, contacts = look(f, f->contact);
+        const double step = processor_time() - begun, contacts = time_contacts(f, f->contact);
         if (w->searches == searches) f->rest[f->steps++] = (step - contacts) / f->n;
     }
     empty_cache();
-    look(f, f->emptied);
+    time_contacts(f, f->emptied);
 }
 
 int main(void)
@@ -152,8 +151,8 @@ int main(void)
     double contact[ROWS], body[ROWS], bytes[ROWS];
     int good = 0, bad = 0;
     setvbuf(stdout, NULL, _IOLBF, 0);
-    for (int32_t k = 0, n = FEWEST; k < ROWS; k++, n *= 10) start(&row[k], n);
-    for (int k = 0; k < TURNS * ROWS; k++) turn(&row[k % ROWS]);
+    for (int32_t k = 0, n = FEWEST; k < ROWS; k++, n *= 10) start_field(&row[k], n);
+    for (int k = 0; k < TURNS * ROWS; k++) measure_turn(&row[k % ROWS]);
     printf("%7s %6s %9s %5s %13s %8s %10s %12s %6s %5s %9s %11s\n", "floes", "t[s]", "touching", "near",
            "ns a contact", "emptied", "ns a body", "ns a search", "bytes", "over", "residual", "overlap/2R");
     for (int k = 0; k < ROWS; k++) {
@@ -162,13 +161,13 @@ int main(void)
         const fl_memory_use b = fl_memory_use_of(w);
         fl_energy_update(w);
         const double residual = fabs(w->ledger.residual) / w->ledger.throughput;
-        contact[k] = of_all(f, f->contact);
+        contact[k] = mean_contact_time(f, f->contact);
         qsort(f->rest, (size_t)f->steps, sizeof *f->rest, by_size);
         body[k] = f->steps ? f->rest[f->steps / 2] : INFINITY;
         bytes[k] = fl_memory_use_sum(&b) / f->n;
         printf("%7d %6.3f %9.3f %5.2f %13.0f %8.0f %10.0f %12.0f %6.0f %5.2f %9.1e %11.2f %016llx\n", f->n,
                fl_world_time(w), (double)w->n_touching / f->n, (double)w->n_pair / f->n, 1e9 * contact[k],
-               1e9 * of_all(f, f->emptied), 1e9 * body[k], 1e9 * f->search / f->n, bytes[k],
+               1e9 * mean_contact_time(f, f->emptied), 1e9 * body[k], 1e9 * f->search / f->n, bytes[k],
                contact[k] / contact[0], residual, w->max_overlap, (unsigned long long)fl_state_hash(w));
         if (!f->bad && residual < OFF) good++;
         else bad++;

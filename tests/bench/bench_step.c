@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_step.c -- what a step costs, beside what it is worth: a frictionless elastic gas of square floes
- * between walls, by law and by fraction of the critical step.  Energy must stay, so its drift is the error.
- * Then what one order of all sums costs, against sums in the order in which threads come; what a floe costs
- * that touches nothing; and time for each body against their number. Times are of this machine now; compare
- * rows of one run only.
+/* bench_step.c -- cost of a step and its accuracy: a frictionless elastic gas of square floes between
+ * walls, by law and by fraction of the critical step.  Energy must be constant, so its drift is the error.
+ * Then the cost of ordered sums against sums in the order of threads; the cost of a floe without contacts;
+ * and the time per body against the number of bodies.  Times are of this machine; compare rows of one run
+ * only.
+ *
  *     bench_step                       the tables
- *     bench_step order THREADS         one order of all sums against any, alone
- *     bench_step one|any STEPS         so many steps of the gas with sums in one order, or in any; tells how
- *                                      many body-steps they were
+ *     bench_step order THREADS         ordered sums against unordered ones, alone
+ *     bench_step one|any STEPS         steps of the gas with ordered sums (one) or unordered ones (any);
+ *                                      prints the number of body-steps
  *     bench_step dry|water|added|waves|held|facets STEPS
- *                                      so many steps of a hundred floes that touch nothing: dry, in still
- *                                      water, with added mass besides, in waves, which are looked at every
- *                                      20th step alone, in still water with drag on each facet; tells how
- *                                      many body-steps they were
- *     bench_step bonds STEPS           so many steps of boxes and spheres that are frozen together; tells how
- *                                      many bond-steps they were */
+ *                                      steps of a hundred floes without contacts: dry, in still water, with
+ *                                      added mass besides, in waves, which are evaluated every 20th step
+ *                                      (held), in still water with drag on each facet; prints the number of
+ *                                      body-steps
+ *     bench_step bonds STEPS           steps of bonded boxes and spheres; prints the number of bond-steps */
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,23 +31,23 @@
 #include "support/small_world.h"
 #include "support/scenes.h"
 
-static double now(void)
+static double processor_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* One row; 1 when the run came to its end and, for a law that has a potential, kept its energy. */
-static int row(const char *law, int potential, double safety)
+/* One row; 1 when the run completed and, for a law with a potential, kept its energy. */
+static int print_row(const char *law, int potential, double safety)
 {
     lab l;
     lab_gas(&l, law, safety);
-    const double begun = now(), energy = lab_energy(&l);
+    const double begun = processor_time(), energy = lab_energy(&l);
     const int64_t steps = (int64_t)(4.0 / l.w.dt);
     const int ended = lab_run(&l, steps) == 0;
     const double drift = lab_energy(&l) / energy - 1.0;
-    const double spent = now() - begun, touches = (double)l.w.contact_steps;
+    const double spent = processor_time() - begun, touches = (double)l.w.contact_steps;
     printf("%-10s %8.3f %10.3g %12.0f %15.0f %15.2g %14.3g %12.2g\n", law, safety, l.w.dt,
            1e9 * spent / (double)steps / l.w.n, touches > 0 ? 1e9 * spent / touches : 0.0,
            (double)l.w.contact_steps / (double)steps, drift, l.w.max_overlap);
@@ -55,14 +55,14 @@ static int row(const char *law, int potential, double safety)
     return ended && isfinite(drift) && (!potential || fabs(drift) < 1e-3);
 }
 
-static double wall(void)
+static double wall_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* --- one order of all sums, or any ------------------------------------------------------------- */
+/* --- ordered or unordered sums ------------------------------------------------------------------------ */
 
 static void add_atomic(double *to, double x)
 {
@@ -70,7 +70,7 @@ static void add_atomic(double *to, double x)
     *to += x;
 }
 
-static void scatter(fl_bodies *b, int32_t k, double sign, fl_vec3 f, fl_vec3 t)
+static void scatter_forces(fl_bodies *b, int32_t k, double sign, fl_vec3 f, fl_vec3 t)
 {
     if (b->invm[k] == 0.0) return;
     add_atomic(&b->f[k].x, sign * f.x), add_atomic(&b->f[k].y, sign * f.y),
@@ -78,7 +78,7 @@ static void scatter(fl_bodies *b, int32_t k, double sign, fl_vec3 f, fl_vec3 t)
     add_atomic(&b->t[k].x, t.x), add_atomic(&b->t[k].y, t.y), add_atomic(&b->t[k].z, t.z);
 }
 
-static void collect(fl_world *w, int32_t k)
+static void gather_forces(fl_world *w, int32_t k)
 {
     fl_bodies *b = &w->b;
     for (int64_t c = w->first_pair_of_body[k]; c < w->first_pair_of_body[k + 1]; c++) {
@@ -89,9 +89,9 @@ static void collect(fl_world *w, int32_t k)
     }
 }
 
-/* A step of a dry gas and nothing else: contacts give their forces to bodies as threads come to them, or
- * bodies take them in the order of the list, as fl_step() does. */
-static int bare_step(fl_world *w, int ordered)
+/* A step of a dry gas and nothing else: contacts add their forces to bodies in the order of threads, or
+ * bodies sum them in the order of the list, as fl_step() does. */
+static int contact_step(fl_world *w, int ordered)
 {
     fl_bodies *b = &w->b;
     fl_err err = {0};
@@ -111,13 +111,13 @@ static int bare_step(fl_world *w, int ordered)
         w->pair_touches[c] = w->pair[c].touching;
         if (ordered || !w->pair_touches[c]) continue;
         const fl_pair *p = w->pair[c].contact;
-        scatter(b, p->i, 1.0, p->force, p->torque_i);
-        scatter(b, p->j, -1.0, p->force, p->torque_j);
+        scatter_forces(b, p->i, 1.0, p->force, p->torque_i);
+        scatter_forces(b, p->j, -1.0, p->force, p->torque_j);
     }
     fl_update_touching_pairs(w);
 #pragma omp parallel for schedule(static)
     for (int32_t i = 0; i < w->n; i++) {
-        if (ordered) collect(w, i);
+        if (ordered) gather_forces(w, i);
         fl_kick(b, i, 0.5 * w->dt);
     }
     return 0;
@@ -129,23 +129,23 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Many windows, the two ways in turn, so that what else the machine does meets both: the best of each, and of
- * the ratios of neighbours the middle and the quarters. */
-static int order_of_sums(int threads)
+/* Many windows, the two variants in turn, so that other load affects both: the best of each; of the ratios
+ * of neighbours the median and the quartiles. */
+static int compare_sum_orders(int threads)
 {
     enum { WINDOWS = 48, STEPS = 100 };
     lab l[2];
     double best[2] = {INFINITY, INFINITY}, energy = 0.0, took[2] = {0}, ratio[WINDOWS];
     for (int k = 0; k < 2; k++) {
         lab_gas_on(&l[k], "patch", 0.1, threads);
-        lab_run(&l[k], 2000); /* until contacts are as many as later */
+        lab_run(&l[k], 2000); /* until there are as many contacts as later */
     }
     energy = lab_energy(&l[0]);
     for (int r = 0; r < 2 * WINDOWS; r++) {
-        const double begun = wall();
+        const double begun = wall_time();
         for (int s = 0; s < STEPS; s++)
-            if (bare_step(&l[r % 2].w, r % 2)) return 0;
-        took[r % 2] = (wall() - begun) / STEPS;
+            if (contact_step(&l[r % 2].w, r % 2)) return 0;
+        took[r % 2] = (wall_time() - begun) / STEPS;
         best[r % 2] = fmin(best[r % 2], took[r % 2]);
         if (r % 2) ratio[r / 2] = took[1] / took[0];
     }
@@ -154,20 +154,20 @@ static int order_of_sums(int threads)
     const double drift = lab_energy(&l[0]) / energy - 1.0, drift1 = lab_energy(&l[1]) / energy - 1.0;
     printf("%d thread%s    one order %8.2f us a step, energy drift %9.2g    any order %8.2f us, %9.2g\n",
            threads, threads > 1 ? "s" : " ", 1e6 * best[1], drift1, 1e6 * best[0], drift);
-    printf("             one over any %.3f of the best, %.3f in the middle of %d turns, %.3f to %.3f in half "
+    printf("             one over any %.3f of the best, median %.3f of %d turns, quartiles %.3f to %.3f "
            "of them\n",
            best[1] / best[0], ratio[WINDOWS / 2], WINDOWS, ratio[WINDOWS / 4], ratio[3 * WINDOWS / 4]);
     lab_free(&l[0]), lab_free(&l[1]);
     return fabs(drift) < 1e-3 && fabs(drift1) < 1e-3;
 }
 
-/* --- bodies that touch nothing, and many of them ----------------------------------------------- */
+/* --- bodies without contacts, and many of them -------------------------------------------------------- */
 
 enum sea { DRY, STILL, ADDED, WAVES, HELD, FACETS, SEAS };
 static const char *const sea_names[SEAS] = {"dry", "water", "added", "waves", "held", "facets"};
 
 /* Floes or spheres on a square grid, with a pitch that lets a few of them meet. */
-static void grid(lab *l, int32_t side, int spheres, double pitch, enum sea water)
+static void make_grid(lab *l, int32_t side, int spheres, double pitch, enum sea water)
 {
     lab_start(l);
     if (water != DRY) lab_set(l, "run.gravity=9.81"), lab_set(l, "water.current=0.2 0 0");
@@ -189,15 +189,16 @@ static void grid(lab *l, int32_t side, int spheres, double pitch, enum sea water
     lab_make(l, 2e-4);
 }
 
-static double cost(int32_t side, int spheres, double pitch, enum sea water, int64_t steps, const char *what)
+static double print_cost(int32_t side, int spheres, double pitch, enum sea water, int64_t steps,
+                         const char *what)
 {
     lab l;
-    grid(&l, side, spheres, pitch, water);
+    make_grid(&l, side, spheres, pitch, water);
     lab_run(&l, 2);
     const int64_t touching = l.w.contact_steps;
-    const double begun = now();
+    const double begun = processor_time();
     const int bad = lab_run(&l, steps);
-    const double each = 1e9 * (now() - begun) / (double)steps / l.w.n;
+    const double each = 1e9 * (processor_time() - begun) / (double)steps / l.w.n;
     fl_energy_update(&l.w);
     printf("%-34s %8d bodies %8.0f ns a body-step, %8.3g contacts a body, energy residual %8.2g of the "
            "throughput\n",
@@ -207,15 +208,15 @@ static double cost(int32_t side, int spheres, double pitch, enum sea water, int6
     return bad ? INFINITY : each;
 }
 
-/* Body-steps of floes that touch nothing, for a tool that counts instructions. */
-static int alone(const char *where, int64_t steps)
+/* Body-steps of floes without contacts, for instruction counts. */
+static int run_without_contacts(const char *where, int64_t steps)
 {
     lab l;
     const int one = strcmp(where, "one") == 0;
     if (one || strcmp(where, "any") == 0) {
         int bad = 0;
         lab_gas_on(&l, "patch", 0.1, 1);
-        for (int64_t k = 0; k < steps && !bad; k++) bad = bare_step(&l.w, one);
+        for (int64_t k = 0; k < steps && !bad; k++) bad = contact_step(&l.w, one);
         printf("%lld\n", (long long)(steps * l.w.n));
         lab_free(&l);
         return bad;
@@ -223,7 +224,7 @@ static int alone(const char *where, int64_t steps)
     if (strcmp(where, "bonds") == 0) {
         scene_of_bonds(&l, 6, NULL);
         lab_set(&l, "bond.normal_strength=1 GPa"), lab_set(&l, "bond.shear_strength=1 GPa");
-        lab_set(&l, "boundary.min=-3.5 -9 -9"), lab_set(&l, "boundary.max=3.5 9 none"); /* out of reach */
+        lab_set(&l, "boundary.min=-3.5 -9 -9"), lab_set(&l, "boundary.max=3.5 9 none"); /* out of range */
         lab_make(&l, 1e-5);
         const int bad = lab_run(&l, steps);
         printf("%lld\n", (long long)(steps * l.w.bonds.n));
@@ -232,16 +233,16 @@ static int alone(const char *where, int64_t steps)
     }
     enum sea water = DRY;
     while (water + 1 < SEAS && strcmp(where, sea_names[water]) != 0) water++;
-    grid(&l, 10, 0, 4.0, water);
+    make_grid(&l, 10, 0, 4.0, water);
     const int bad = lab_run(&l, steps);
     printf("%lld\n", (long long)(steps * l.w.n));
     lab_free(&l);
     return bad;
 }
 
-/* What a floe costs that sleeps, over one that is awake, and what it is off by: all of them adrift in the
- * same water, or blocks that lie on a floor. */
-static double asleep(int rests, double sleep, lab *l)
+/* Cost of a sleeping floe over one that is awake, and its error: all adrift in the same water, or blocks
+ * that lie on a floor. */
+static double cost_of_sleep(int rests, double sleep, lab *l)
 {
     lab_start(l);
     if (sleep > 0.0) lab_setf(l, "run.sleep=%g", sleep);
@@ -260,22 +261,22 @@ static double asleep(int rests, double sleep, lab *l)
                 v3(fl_rng_in(&g, -v, v), fl_rng_in(&g, -v, v), 0), v3(0, 0, 0));
     }
     lab_make(l, rests ? 0.0 : 4e-4);
-    lab_run(l, 8000); /* until they lie still */
-    const double begun = now();
+    lab_run(l, 8000); /* until they are at rest */
+    const double begun = processor_time();
     const int bad = lab_run(l, 2000);
-    const double each = 1e9 * (now() - begun) / 2000 / l->w.n;
+    const double each = 1e9 * (processor_time() - begun) / 2000 / l->w.n;
     fl_sleep_advance_to_now(&l->w);
     return bad ? INFINITY : each;
 }
 
-static void sleeper(int rests, int *good, int *bad)
+static void compare_sleep(int rests, int *good, int *bad)
 {
     lab off, on;
     double most = 0.0;
-    const double awake = asleep(rests, 0.0, &off), sleeps = asleep(rests, 1e-5, &on);
+    const double awake = cost_of_sleep(rests, 0.0, &off), sleeps = cost_of_sleep(rests, 1e-5, &on);
     for (int32_t k = 0; k < on.w.n; k++)
         most = fmax(most, v3_norm(v3_sub(on.w.b.x[k], off.w.b.x[k])) / on.w.b.radius[k]);
-    printf("%-34s %8d bodies %8.0f ns a body-step awake, %6.1f ns asleep: %.3f; off by %.2g of the radius\n",
+    printf("%-34s %8d bodies %8.0f ns a body-step awake, %6.1f ns asleep: %.3f; error %.2g of the radius\n",
            rests ? "blocks at rest, run.sleep 1e-5" : "floes adrift, run.sleep 1e-5", on.w.n, awake, sleeps,
            sleeps / awake, most);
     if (isfinite(awake + sleeps) && most < 1e-2) ++*good;
@@ -283,9 +284,9 @@ static void sleeper(int rests, int *good, int *bad)
     lab_free(&off), lab_free(&on);
 }
 
-/* What a floe in a sea costs whose water is looked at in every tenth step, over one that looks at it in each,
- * and how far it is from there after so many steps. */
-static double seldom(int every, lab *l)
+/* Cost of a floe in a sea whose water is evaluated in every tenth step over one with water in each step,
+ * and the distance between the two after a number of steps. */
+static double cost_of_water(int every, lab *l)
 {
     lab_start(l);
     lab_set(l, "run.gravity=9.81");
@@ -297,25 +298,25 @@ static double seldom(int every, lab *l)
         lab_box(l, v3(4.0 * (k % 10), 4.0 * (k / 10), -0.151), v3(0.5, 0.5, 0.2), 0.03, q_one(), v3(0, 0, 0),
                 v3(0, 0, 0));
     lab_make(l, 1e-4);
-    const double begun = now();
+    const double begun = processor_time();
     const int bad = lab_run(l, 500);
-    const double each = 1e9 * (now() - begun) / 500 / l->w.n;
+    const double each = 1e9 * (processor_time() - begun) / 500 / l->w.n;
     fl_energy_update(&l->w);
     return bad ? INFINITY : each;
 }
 
-static void glances(int *good, int *bad)
+static void compare_water_intervals(int *good, int *bad)
 {
     lab all, few;
     double most = 0.0, gone = 0.0;
-    const double always = seldom(1, &all), tenth = seldom(10, &few);
+    const double always = cost_of_water(1, &all), tenth = cost_of_water(10, &few);
     for (int32_t k = 0; k < all.w.n; k++) {
         const fl_vec3 x = v3_sub(all.w.b.x[k], v3(4.0 * (k % 10), 4.0 * (k / 10), -0.151));
         most = fmax(most, v3_norm(v3_sub(few.w.b.x[k], all.w.b.x[k])));
         gone = fmax(gone, v3_norm(x));
     }
     printf(
-        "%-34s %8d bodies %8.0f ns a body-step in waves, %6.0f ns with water.every 10: %.3f; off by %.2g of "
+        "%-34s %8d bodies %8.0f ns a body-step in waves, %6.0f ns with water.every 10: %.3f; error %.2g of "
         "their way\n",
         "floes in a sea", all.w.n, always, tenth, tenth / always, most / gone);
     if (isfinite(always + tenth) && most < 1e-3 * gone) ++*good;
@@ -327,8 +328,8 @@ int main(int argc, char **argv)
 {
     static const double SAFETY[] = {0.4, 0.2, 0.1, 0.05};
     static const char *const LAW[] = {"patch", "core", "manual-si", "manual"};
-    if (argc == 3 && strcmp(argv[1], "order") == 0) return !order_of_sums(atoi(argv[2]));
-    if (argc == 3) return alone(argv[1], atoi(argv[2]));
+    if (argc == 3 && strcmp(argv[1], "order") == 0) return !compare_sum_orders(atoi(argv[2]));
+    if (argc == 3) return run_without_contacts(argv[1], atoi(argv[2]));
     setvbuf(stdout, NULL, _IOLBF, 0);
     printf("gas of 196 floes, elastic, no friction, 4 s, one thread\n");
     printf("%-10s %8s %10s %12s %15s %15s %14s %12s\n", "law", "safety", "dt[s]", "ns/body-step",
@@ -336,28 +337,29 @@ int main(int argc, char **argv)
     int good = 0, bad = 0;
     for (size_t k = 0; k < 4; k++) {
         for (size_t s = 0; s < 4; s++) {
-            if (row(LAW[k], k < 2, SAFETY[s])) good++;
+            if (print_row(LAW[k], k < 2, SAFETY[s])) good++;
             else bad++;
         }
     }
     printf("\nsums in one order, and in the order in which threads come\n");
     for (int threads = 1; threads <= 2; threads++) {
-        if (order_of_sums(threads)) good++;
+        if (compare_sum_orders(threads)) good++;
         else bad++;
     }
-    printf("\nbodies that touch nothing\n");
-    const double far = cost(30, 0, 4.0, DRY, 2000, "floes, dry");
-    const double afloat = cost(30, 0, 4.0, STILL, 500, "floes, in water");
-    sleeper(0, &good, &bad);
-    sleeper(1, &good, &bad);
-    glances(&good, &bad);
+    printf("\nbodies without contacts\n");
+    const double far = print_cost(30, 0, 4.0, DRY, 2000, "floes, dry");
+    const double afloat = print_cost(30, 0, 4.0, STILL, 500, "floes, in water");
+    compare_sleep(0, &good, &bad);
+    compare_sleep(1, &good, &bad);
+    compare_water_intervals(&good, &bad);
     printf("\ntime against number\n");
     double first = 0.0, last = 0.0;
     for (int32_t side = 32; side <= 317; side *= 3)
-        last = cost(side, 0, 1.02, DRY, side > 200 ? 20 : 200, "floes"), first = first > 0.0 ? first : last;
+        last = print_cost(side, 0, 1.02, DRY, side > 200 ? 20 : 200, "floes"),
+        first = first > 0.0 ? first : last;
     double one = 0.0, million = 0.0;
     for (int32_t side = 100; side <= 1000; side *= 10)
-        million = cost(side, 1, 0.9995, DRY, side > 500 ? 10 : 200, "spheres"),
+        million = print_cost(side, 1, 0.9995, DRY, side > 500 ? 10 : 200, "spheres"),
         one = one > 0.0 ? one : million;
     printf("the largest number over the smallest: floes %.2f, spheres %.2f\n", last / first, million / one);
     if (isfinite(far + afloat + first + last + one + million)) good++;

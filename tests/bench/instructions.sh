@@ -1,16 +1,20 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# instructions.sh [update] -- instructions of one contact, counted by callgrind: the figure that does not
-# depend on how busy the machine is.  Beside it the one kept in instructions.txt, and how far it has risen;
-# `update` keeps the new ones.  Counted on the width of vectors that valgrind knows.  The cases by number are
-# those of bench_contact; `wall` of 20 000 triangles, `cylinder`, exact, and `hull` of 50 000 triangles are of
-# bench_structure; `told` are cases of bench_contact by surrogates of 1e-3, one of eight, looks included;
-# `spheres` is a contact and step of spheres in a lattice, everything included, `rolls` with what keeps them
-# from rolling, `dry`, `water`, `added`, `waves`, `held` and `facets` a body and step of floes that touch
-# nothing.  `bonds` is a bond and step, its share of the bodies included.  `sums-one` and `sums-any` are a
-# body and step of floes that do, with all sums in one order and in the order in which contacts come, which
-# locks every sum it adds to.
-#   BENCH  the folder where the benches lie
+# instructions.sh [update] -- instruction counts by callgrind, which do not depend on the load of the machine.
+# Prints them beside those kept in instructions.txt, with their ratio; `update` keeps the new ones.  They hold
+# for the vector width that valgrind supports.  Cases:
+#   1, 2, ...           one contact of that case of bench_contact
+#   surrogate-2, ...    the same with surrogates of 1e-3, one of eight contacts, exact evaluations included
+#   wall, cylinder, hull  bench_structure: a wall of 20 000 triangles, an exact cylinder, a hull of 50 000
+#                       triangles; `-edge`: edge-on
+#   spheres, rolls      a contact and step of spheres in a lattice, everything included; with rolling resistance
+#   dry, water, added, waves, held, facets
+#                       a body and step of floes without contacts
+#   bonds               a bond and step, its share of the bodies included
+#   sums-one, sums-any  a body and step of floes with contacts: ordered sums, and sums in the order of threads,
+#                       which lock every sum
+# Variables:
+#   BENCH  the folder of the benchmark programs
 #   ONLY   the one case that is counted
 set -e
 cd "$(dirname "$0")"
@@ -20,12 +24,12 @@ kept=instructions.txt
 fresh=$(mktemp)
 trap 'rm -f "$fresh"' EXIT
 
-counted() { # program, its arguments: instructions, and of how many units, where the program tells them
+counted() { # program, its arguments: instructions, and the number of units if the program prints it
     valgrind --tool=callgrind --callgrind-out-file=/dev/null "$BENCH/$1" "$2" "$3" ${4:+"$4"} 2>&1 |
         awk '/^[0-9]+$/ { units = $1 } /Collected/ { print $NF, units }'
 }
 
-each() { # name, program, its argument, few, many, units between the two where the program does not tell, tolerance
+each() { # name, program, its argument, few, many, units between the two if the program does not print them, tolerance
     [ -z "$ONLY" ] || [ "$ONLY" = "$1" ] || return 0
     echo "$(counted "$2" "$3" "$4" "$7") $(counted "$2" "$3" "$5" "$7")" | awk -v name="$1" -v n="$6" '
         { printf "%s %.0f\n", name, n ? ($2 - $1) / n : ($3 - $1) / ($4 - $2) }'
@@ -37,7 +41,7 @@ all() {
         each $k bench_contact $k $FEW $MANY $((MANY - FEW))
         k=$((k + 1))
     done
-    for k in 2 5 6; do each told-$k bench_contact $k 4000 6000 2000 0.001; done
+    for k in 2 5 6; do each surrogate-$k bench_contact $k 4000 6000 2000 0.001; done
     each wall bench_structure 4 $FEW $MANY $((MANY - FEW))
     each cylinder bench_structure 18 $FEW $MANY $((MANY - FEW))
     each cylinder-edge bench_structure 19 $FEW $MANY $((MANY - FEW))

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an error budget remembers, inside a checkpoint, behind its hash. */
+/* The state of an error budget, stored in a checkpoint after its hash. */
 #include "scene/scene_check.h"
 #include "sim/error_budget.h"
 #include "support/fuzz.h"
 #include "support/scenes.h"
 
 static lab world_of;
-static fl_error_budget into; /* made once: what is read takes the place of what was */
+static fl_error_budget into; /* made once: each read replaces the previous state */
 
 static int fuzz_one(const unsigned char *data, size_t n)
 {

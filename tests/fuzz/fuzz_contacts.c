@@ -3,7 +3,7 @@
 #include "stat/run_summary.h"
 #include "support/fuzz.h"
 
-/* Rows of a time put together, some of them chosen, as they are summed up in constant memory. */
+/* Rows of one time are combined, with a row filter, as in the summary with constant memory. */
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     const char *const fn[] = {"fn", "gap"}, *const where[] = {"mode=VF"};

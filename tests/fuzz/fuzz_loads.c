@@ -7,8 +7,8 @@
 #include "stat/power_spectrum.h"
 #include "support/fuzz.h"
 
-/* What was read must be describable: raw, and through a filter where the record carries one. */
-static int views(const fl_series *s, fl_err *err)
+/* A record that was read has statistics: raw, and filtered where the record has a filter. */
+static int check_views(const fl_series *s, fl_err *err)
 {
     const double p[] = {0.0, 0.5, 1.0};
     for (int32_t k = 0; k < s->parts * s->signals; k++) {
@@ -32,7 +32,7 @@ static int views(const fl_series *s, fl_err *err)
 }
 
 /* Filters, cycles, spectrum and response of a signal: finite, or refused. */
-static int signals(const fl_series *s, const double *x, fl_err *err)
+static int check_signals(const fl_series *s, const double *x, fl_err *err)
 {
     const double span = s->edge[s->n] - s->edge[0];
     const double p[] = {0.5};
@@ -99,7 +99,7 @@ done:
     return rc;
 }
 
-static int steps(fl_series *s, fl_err *err)
+static int check_steps(fl_series *s, fl_err *err)
 {
     fl_err own = {0};
     const double span = s->edge[s->n] - s->edge[0];
@@ -115,10 +115,10 @@ static int fuzz_one(const unsigned char *data, size_t n)
     fl_err err = {0};
     fl_series s = {0};
     int rc = fl_series_read(&s, fuzz_file(data, n), &ask, &err);
-    if (rc == 0) rc = views(&s, &err);
+    if (rc == 0) rc = check_views(&s, &err);
     for (int32_t k = 0; rc == 0 && k < s.parts * s.signals; k++)
-        if (s.x[k]) rc = signals(&s, s.x[k], &err);
-    if (rc == 0) rc = steps(&s, &err);
+        if (s.x[k]) rc = check_signals(&s, s.x[k], &err);
+    if (rc == 0) rc = check_steps(&s, &err);
     fl_series_free(&s);
     return rc == FUZZ_BROKEN ? FUZZ_BROKEN : fuzz_verdict(rc, &err);
 }

@@ -2,7 +2,7 @@
 #include "support/fuzz.h"
 #include "ice/domain_read.h"
 
-/* What is read must also serve: cells of a few sites are cut down to it. */
+/* An outline that was read also cuts cells of a few sites. */
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};
@@ -14,7 +14,7 @@ static int fuzz_one(const unsigned char *data, size_t n)
         fl_power_cells cells = {0};
         fl_pieces p = {0};
         fl_err why = {0};
-        /* sites may coincide where a box is flat to rounding: then there is nothing to cut */
+        /* sites may coincide where a box is flat to rounding: then nothing is cut */
         if (fl_power_cells_build(&cells, 3, site, (fl_vec2){d.lo.x - 1.0, d.lo.y - 1.0},
                                  (fl_vec2){d.hi.x + 1.0, d.hi.y + 1.0}, &why) == 0)
             rc = fl_domain_cut(&p, &cells, &d, 0.0, &err);

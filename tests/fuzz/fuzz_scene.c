@@ -7,7 +7,7 @@
 #include "scene/scene_print.h"
 #include "support/fuzz.h"
 
-static char *written(const fl_scene *s, size_t *n)
+static char *write_scene(const fl_scene *s, size_t *n)
 {
     char *text = NULL;
     FILE *f = open_memstream(&text, n);
@@ -18,7 +18,7 @@ static char *written(const fl_scene *s, size_t *n)
     return NULL;
 }
 
-/* A scene that is read and checked is written, read again, and comes out the same. */
+/* A scene that was read and checked is written, read again, and is the same. */
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};
@@ -32,10 +32,10 @@ static int fuzz_one(const unsigned char *data, size_t n)
     if (rc == 0) {
         (void)fl_scene_pair(&first, 0, FL_SCENE_STRUCTURE);
         (void)fl_scene_pair(&first, 0, FL_SCENE_BOUNDARY);
-        text = written(&first, &size);
+        text = write_scene(&first, &size);
         if (text) rc = fl_scene_read(&second, fuzz_file((const unsigned char *)text, size), &err);
         if (text && rc == 0) rc = fl_scene_check(&second, &err);
-        if (text && rc == 0) again = written(&second, &size_again);
+        if (text && rc == 0) again = write_scene(&second, &size_again);
         if (again)
             same = strcmp(text, again) == 0; /* the scratch file's folder is absolute, and so are paths */
         if (text && rc != 0 && err.code != FL_SYSTEM) same = 0;

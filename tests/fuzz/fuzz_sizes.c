@@ -3,8 +3,8 @@
 #include "ice/sizes_read.h"
 #include "support/fuzz.h"
 
-/* What was read is a law: sizes ascend, sums are finite, all of it lies between the smallest and the largest,
- * and a thousand floes drawn from it have the mean asked for. */
+/* Sizes that were read are a law: they ascend, sums are finite, all values lie between the smallest and the
+ * largest, and a thousand floes drawn from the law have the given mean. */
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};

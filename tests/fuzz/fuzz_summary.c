@@ -6,7 +6,7 @@
 #include "stat/summary_file.h"
 #include "support/fuzz.h"
 
-/* What was read must add up with itself, and print as something that reads back to the same. */
+/* A summary that was read merges with itself, and its text reads back to the same. */
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of contacts that are told and not looked at. */
+/* The state of contacts evaluated by a surrogate. */
 #include "scene/scene_check.h"
 #include "support/fuzz.h"
 #include "support/scenes.h"
 #include "support/state.h"
 
-static lab world_of; /* what every state is read into a fresh world of */
+static lab world_of; /* every state is read into a fresh world of this scene */
 
 static int fuzz_one(const unsigned char *data, size_t n) { return state_fuzz(&world_of, data, n); }
 

@@ -3,7 +3,7 @@
 #include "base/table.h"
 #include "support/fuzz.h"
 
-/* Every field of every row is asked for as a word and as a number. */
+/* Every field of every row is read as a word and as a number. */
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};

@@ -2,7 +2,7 @@
 #include "support/fuzz.h"
 #include "ice/thickness.h"
 
-/* What is read must also serve: a floe draws from it. */
+/* A thickness law that was read also gives numbers. */
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};

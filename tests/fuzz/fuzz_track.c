@@ -2,7 +2,7 @@
 #include "structure/prescribed_track.h"
 #include "support/fuzz.h"
 
-/* What is read must also serve: every time has a finite place. */
+/* A track that was read has a finite pose at every time. */
 static int fuzz_one(const unsigned char *data, size_t n)
 {
     fl_err err = {0};

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# floors.awk -- the rules of the house that can be read from the text of a file.  Files are named as arguments, paths
-# from the root of the tree.  Prints "file:line: complaint"; status 1 when there was one.
+# floors.awk -- rules that can be checked on the text of a file: floors, circles, names, guards, licence, width.  The
+# arguments are paths from the root of the tree.  Prints "file:line: complaint"; status 1 when there was one.
 BEGIN {
     n = split("base geom shim mesh broad ice stat law scene body narrow patch water bond structure out world contact sphere sim", floor)
     for (k = 1; k <= n; k++) rank[floor[k]] = k
-    # Spelt so that this file does not hold them.
+    # Written in pieces, so that this file does not contain them.
     marks = "(^|[^A-Za-z_])(TO" "DO|FIX" "ME|XX" "X)([^A-Za-z_]|$)"
     paths = "/(ho" "me|wo" "rk|ro" "ot|Us" "ers)/"
     WIDTH = 110
@@ -35,14 +35,14 @@ FNR == 1 {
         licensed = 1
         if (house == "lib" && (parts != 3 || !(mine in rank))) complain("lib/" mine " is not a floor")
         if (file ~ /\.cpp$/ && folder != "lib/shim") complain("C++ is for lib/shim")
-        # A program's main and options are called the same everywhere; all else has a name of its own.
+        # Every program has a main and options; all other base names are unique.
         if (house == "tools" && (stem == "main" || stem == "options")) stem = folder "/" stem
         if (stem in home && home[stem] != folder) complain("the name " stem " is taken by " home[stem])
         home[stem] = folder
     }
 }
 
-# Scripts have "#!" before it, manual pages a type line: the first three lines will do.
+# Scripts and manual pages have a line before it: the licence is expected in the first three lines.
 !is_c && FNR <= 3 && /SPDX-License-Identifier: GPL-3\.0-or-later/ { licensed = 1 }
 !is_c && FNR == 4 && !licensed {
     complain("no licence line in the first three lines")
@@ -82,7 +82,7 @@ is_c && /^[ \t]*#[ \t]*include[ \t]*"/ {
     } else if (steps != 1) {
         complain("\"" target "\": a program includes the library and its own folder")
     }
-    # A module is name.c with name.h: one idea, which uses others and is not used by them in turn.
+    # A module is name.c with name.h.  Modules must not include each other in a circle.
     if (house != "tests") {
         other = steps == 2 ? "lib/" target : folder "/" target
         sub(/\.[^.]*$/, "", other)
@@ -94,7 +94,7 @@ is_c && /^[ \t]*#[ \t]*include[ \t]*"/ {
     }
 }
 
-# An exported type has one meaning in the whole tree.
+# The name of an exported type is unique in the tree.
 house == "lib" && file ~ /\.h$/ && /^} fl_[a-z0-9_]+;/ {
     type = $2
     sub(/;.*/, "", type)
@@ -102,7 +102,7 @@ house == "lib" && file ~ /\.h$/ && /^} fl_[a-z0-9_]+;/ {
     else owner[type] = FILENAME
 }
 
-# What a backtrace or a search finds has to say what it does.
+# The name of a function must say what it does, also in a backtrace.
 (house == "lib" || house == "tools") && file ~ /\.c$/ && mine != "geom" && /^[a-zA-Z].*[ *][a-z]+\([^)]/ && !/;$/ {
     name = $0
     sub(/\(.*/, "", name)
@@ -110,7 +110,7 @@ house == "lib" && file ~ /\.h$/ && /^} fl_[a-z0-9_]+;/ {
     if (length(name) < FEW && name != "main" && name != "run") complain("the function " name " has no name that tells what it does")
 }
 
-# Whether module k reaches itself by what it uses.
+# True if module k reaches itself through the modules that it includes.
 function in_a_circle(k,    stack, n, seen, m, pair, part2)
 {
     n = 1
@@ -129,7 +129,7 @@ function in_a_circle(k,    stack, n, seen, m, pair, part2)
     return 0
 }
 
-# What uses nothing of what is left, or is used by nothing, is in no circle.
+# Removes modules that include none of the rest, or that none of the rest includes: they are in no circle.
 function leave_out_ends(    pair, part2, gone, k, has, had)
 {
     do {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# lint.sh [floors] -- what the house asks of every file; `floors` is the part that reads text only and takes a moment.
+# lint.sh [floors] -- rules that hold for every file; `floors` runs only the part that reads text, in a few seconds.
 #   floors    a library file includes from its own floor or those beneath, a program from the library or its own
 #             folder; C++ in lib/shim only; base names, include guards, licence lines, width of lines, left-over marks
 #   warnings  every file under gcc, and under clang where there is one, with the warnings of config.mk as errors
@@ -8,7 +8,7 @@
 #   format    clang-format agrees, where there is one
 #   man       the manual pages parse without a complaint, where mandoc or man is there
 #   shell     the scripts pass shellcheck, where there is one
-# Prints each complaint, and "N passed, N failed" at the end.  What is skipped for want of a program is named.
+# Prints each complaint, and "N passed, N failed" at the end.  Parts that need a missing program are skipped by name.
 set -u
 LC_ALL=C
 export LC_ALL
@@ -36,7 +36,7 @@ floors()
     xargs awk -f tests/lint/floors.awk <"$scratch/files"
 }
 
-# ARCHITECTURE.md names files that exist, and draws the floors that floors.awk holds.
+# Files named in ARCHITECTURE.md, CONTRIBUTING.md and tests/README.md exist; ARCHITECTURE.md has the floors of floors.awk.
 architecture()
 {
     wrong=0
@@ -71,7 +71,7 @@ flags() { printf 'include config.mk\nshow:\n\t@echo $(%s)\n' "$1" | make -s -f -
 cwarn=$(flags CWARN) warn=$(flags WARN) float=$(flags FLOAT)
 c_flags="-std=c17 -D_POSIX_C_SOURCE=200809L $cwarn $float -fopenmp -Ilib -Itests -Werror"
 cxx_flags="-std=c++17 $warn $float -fopenmp -Ilib -Werror"
-# Some warnings of gcc (truncation, use of what was not set) come from the optimiser only.
+# Some warnings of gcc (truncation, use of unset variables) come from the optimiser only.
 whole="-O2 -c -o /dev/null"
 
 skip() { echo "lint: $1 skipped: $2"; }
@@ -100,7 +100,7 @@ for cc in gcc clang; do
     [ $cc = gcc ] && how=$whole || how=-fsyntax-only
     compile "warnings of $cc" c $cc "$c_flags $more $how"
     compile "headers alone under $cc" h $cc "$c_flags $more -fsyntax-only -x c /dev/null -include"
-    # The optimiser takes minutes over CGAL, and the build shows what it says there.
+    # The optimiser takes minutes for CGAL; its warnings appear in the build.
     compile "warnings of $cxx" cpp $cxx "$cxx_flags $more -fsyntax-only"
 done
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# options.sh BUILD -- the long options of each program's --help are those its manual page has an entry for.
+# options.sh BUILD -- the long options of each program's --help and of its manual page are the same.
 # An option of --help stands at the start of its line ("  -o, --output FILE  text"); an entry of the page is the head of
 # an item: a line .It, .IP or .OP, or the line after .TP or .TQ.  Prints "N passed, N failed", a program being one.
 set -u
@@ -20,7 +20,7 @@ one() # PROGRAM PAGE
         echo "$1 --help failed"
         return 1
     fi
-    # The head of the line ends at two blanks: what follows is prose, and may speak of other programs.
+    # The head of the line ends at two blanks; the text after it may name options of other programs.
     sed -n 's/^ *\(-.*\)$/\1/p' "$scratch/text" | sed 's/   *.*//' | long >"$scratch/help"
     if [ ! -f "$2" ]; then
         echo "$1 has no manual page"

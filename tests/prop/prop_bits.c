@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The same bits: a scene with something of everything, over threads, searches for neighbours, stops, and the
- * order and numbers of bodies. */
+/* Equal bits: a scene with all features, for any number of threads, neighbour searches, stop and resume,
+ * and order and numbers of bodies. */
 #define _GNU_SOURCE /* open_memstream */
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,21 +12,21 @@
 #include "support/bits.h"
 #include "support/scenes.h"
 
-/* How the same run may be made. */
+/* Variants of one run. */
 typedef struct {
-    int32_t threads, every; /* every: steps between searches, 0 when the skin is used up */
+    int32_t threads, every; /* every: steps between searches, 0: when the skin is used up */
     double skin;            /* factor on it */
-    int64_t stop;           /* goes on in another world from this step on; 0: never */
+    int64_t stop;           /* resumed in another world from this step on; 0: never */
     int32_t then;           /* threads of that world */
-    int other;              /* bodies are listed the other way round, and have other numbers */
-} way;
+    int other;              /* bodies are listed in reverse order, with other numbers */
+} variant;
 
-/* What is run: a scene of so many bodies to a side under a law. */
+/* The run: a scene with a number of bodies per side, under a law. */
 typedef struct {
     void (*scene)(lab *l, int32_t side, const char *law);
     int32_t side;
     const char *law;
-} what;
+} case_of_run;
 
 #define SWAP(T, a, i, j)                                                                                     \
     do {                                                                                                     \
@@ -46,13 +46,13 @@ static void renumber(fl_ice_field *a)
         SWAP(fl_vec3, a->velocity, i, j);
         SWAP(fl_vec3, a->spin, i, j);
     }
-    for (int32_t k = 0; k < a->bonds; k++) { /* fl_ice_field_order() sorts them */
+    for (int32_t k = 0; k < a->bonds; k++) { /* sorted by fl_ice_field_order() */
         fl_ice_field_bond *d = &a->bond[k];
         d->i = a->n - 1 - d->i, d->j = a->n - 1 - d->j;
     }
 }
 
-static void make(lab *l, const way *how, int32_t threads, const what *it)
+static void make(lab *l, const variant *how, int32_t threads, const case_of_run *it)
 {
     fl_err err = {0};
     it->scene(l, it->side, it->law);
@@ -65,10 +65,11 @@ static void make(lab *l, const way *how, int32_t threads, const what *it)
     if (how->every) lab_setf(l, "run.search_every=%d", how->every);
     lab_make(l, 0);
     l->w.skin *= how->skin;
-    l->w.last_search_step = -1; /* the list at hand is that of the other skin */
+    l->w.last_search_step = -1; /* the present list belongs to the other skin */
 }
 
-static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touching, int64_t *searches)
+static uint64_t run(const variant *how, const case_of_run *it, int64_t steps, int64_t *touching,
+                    int64_t *searches)
 {
     lab l, m;
     fl_err err = {0};
@@ -93,7 +94,7 @@ static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touc
         assert_int_equal(lab_run(&l, steps - how->stop), 0);
     }
     const uint64_t got = bits_of(&l.w);
-    if (it->scene == scene_of_traffic) assert_true(l.w.inflow.n_entered > 0 && l.w.inflow.n_left > 0);
+    if (it->scene == scene_of_inflow) assert_true(l.w.inflow.n_entered > 0 && l.w.inflow.n_left > 0);
     if (it->scene == scene_of_bonds && steps >= 200) {
         const fl_bond_counts c = fl_bond_list_counts(&l.w);
         assert_true(c.state[FL_BOND_DAMAGED] > 0 && c.state[FL_BOND_BROKEN] > 0 &&
@@ -107,40 +108,41 @@ static uint64_t run(const way *how, const what *it, int64_t steps, int64_t *touc
     return got;
 }
 
-static void compare(const way *how, int ways, const what *it, int64_t steps, int64_t at_least)
+static void compare(const variant *how, int ways, const case_of_run *it, int64_t steps, int64_t at_least)
 {
     uint64_t first = 0;
     int64_t touching, searches, fewest = INT64_MAX, most = 0;
     for (int k = 0; k < ways; k++) {
         const uint64_t got = run(&how[k], it, steps, &touching, &searches);
         if (k == 0) first = got;
-        if (got != first) print_error("law %s: way %d has other bits\n", it->law, k);
+        if (got != first) print_error("law %s: variant %d has other bits\n", it->law, k);
         assert_true(got == first);
         assert_true(touching > at_least);
         fewest = searches < fewest ? searches : fewest;
         most = searches > most ? searches : most;
     }
-    /* the searches did differ, but for those that every newcomer and every end of a bond asks for */
-    assert_true(most >
-                (it->scene == scene_of_traffic || it->scene == scene_of_visits || it->scene == scene_of_bonds
-                     ? 1
-                     : 4) *
-                    fewest);
+    /* the numbers of searches must differ, except for searches that every inflowing floe and every broken
+     * bond causes */
+    assert_true(most > (it->scene == scene_of_inflow || it->scene == scene_of_inflow_interval ||
+                                it->scene == scene_of_bonds
+                            ? 1
+                            : 4) *
+                           fewest);
 }
 
 /* 512 bodies: enough for 16 threads. */
 static void threads_and_searches(void **state)
 {
-    const way how[] = {{1, 0, 1.0, 0, 0, 0},  {2, 0, 1.0, 0, 0, 0},  {3, 7, 1.0, 0, 0, 0},
-                       {8, 0, 0.2, 0, 0, 0},  {16, 0, 3.0, 0, 0, 0}, {2, 0, 1.0, 3, 16, 0},
-                       {16, 1, 1.0, 7, 3, 0}, {3, 0, 0.3, 1, 8, 0},  {8, 0, 1.0, 0, 0, 1}};
-    const way few[] = {
+    const variant how[] = {{1, 0, 1.0, 0, 0, 0},  {2, 0, 1.0, 0, 0, 0},  {3, 7, 1.0, 0, 0, 0},
+                           {8, 0, 0.2, 0, 0, 0},  {16, 0, 3.0, 0, 0, 0}, {2, 0, 1.0, 3, 16, 0},
+                           {16, 1, 1.0, 7, 3, 0}, {3, 0, 0.3, 1, 8, 0},  {8, 0, 1.0, 0, 0, 1}};
+    const variant few[] = {
         {1, 0, 1.0, 0, 0, 0}, {16, 0, 0.2, 0, 0, 0}, {16, 1, 1.0, 7, 3, 0}, {3, 0, 1.0, 0, 0, 1}};
-    const what it[] = {{scene_of_everything, 8, "patch"},
-                       {scene_of_wraps, 8, "patch"},
-                       {scene_of_traffic, 8, "patch"},
-                       {scene_of_balls, 8, "patch"},
-                       {scene_of_bonds, 8, "patch"}};
+    const case_of_run it[] = {{scene_of_everything, 8, "patch"},
+                              {scene_of_periodic_cell, 8, "patch"},
+                              {scene_of_inflow, 8, "patch"},
+                              {scene_of_spheres, 8, "patch"},
+                              {scene_of_bonds, 8, "patch"}};
     (void)state;
     compare(how, sizeof how / sizeof *how, &it[0], 10, 2000);
     for (int k = 1; k < 5; k++) compare(few, sizeof few / sizeof *few, &it[k], 10, k < 4 ? 2000 : 200);
@@ -148,30 +150,31 @@ static void threads_and_searches(void **state)
 
 static void laws(void **state)
 {
-    static const what IT[] = {{scene_of_everything, 3, "patch"},  {scene_of_everything, 3, "core"},
-                              {scene_of_everything, 3, "manual"}, {scene_of_everything, 3, "manual-si"},
-                              {scene_of_wraps, 3, "patch"},       {scene_of_seas, 3, "patch"},
-                              {scene_of_traffic, 3, "patch"},     {scene_of_balls, 3, "patch"},
-                              {scene_of_bonds, 3, "patch"},       {scene_of_bonds, 3, "manual"},
-                              {scene_of_looks, 3, "patch"},       {scene_of_glances, 3, "patch"},
-                              {scene_of_visits, 3, "patch"},      {scene_of_surrogates, 3, "patch"}};
-    const way how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
-                       {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
-                       {1, 0, 1.0, 0, 0, 1}};
+    static const case_of_run IT[] = {
+        {scene_of_everything, 3, "patch"},      {scene_of_everything, 3, "core"},
+        {scene_of_everything, 3, "manual"},     {scene_of_everything, 3, "manual-si"},
+        {scene_of_periodic_cell, 3, "patch"},   {scene_of_seas, 3, "patch"},
+        {scene_of_inflow, 3, "patch"},          {scene_of_spheres, 3, "patch"},
+        {scene_of_bonds, 3, "patch"},           {scene_of_bonds, 3, "manual"},
+        {scene_of_water_interval, 3, "patch"},  {scene_of_sea_interval, 3, "patch"},
+        {scene_of_inflow_interval, 3, "patch"}, {scene_of_surrogates, 3, "patch"}};
+    const variant how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
+                           {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
+                           {1, 0, 1.0, 0, 0, 1}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++)
         compare(how, sizeof how / sizeof *how, &IT[k], 200, 1000);
 }
 
-/* A team that is another in each step, of one to three threads, beside one thread. */
-static void teams_that_change(void **state)
+/* One to three threads, changing in each step, against one thread. */
+static void changing_thread_counts(void **state)
 {
     static const struct {
         void (*scene)(lab *l, int32_t side, const char *law);
         const char *key;
     } IT[] = {{scene_of_everything, "run.sleep=1e-3"},
               {scene_of_everything, "run.sleep=none"},
-              {scene_of_balls, "contact.law=patch"},
+              {scene_of_spheres, "contact.law=patch"},
               {scene_of_bonds, "contact.law=patch"},
               {scene_of_surrogates, "contact.law=patch"}};
     (void)state;
@@ -194,7 +197,7 @@ static void teams_that_change(void **state)
     }
 }
 
-/* With an argument, the bits alone: what prop_width holds its own against. */
+/* With an argument, prints the bits alone, for prop_width. */
 int main(int argc, char **argv)
 {
     char text[BITS_TEXT];
@@ -203,6 +206,6 @@ int main(int argc, char **argv)
         return fputs(text, stdout) == EOF;
     }
     const struct CMUnitTest tests[] = {cmocka_unit_test(threads_and_searches), cmocka_unit_test(laws),
-                                       cmocka_unit_test(teams_that_change)};
+                                       cmocka_unit_test(changing_thread_counts)};
     return cmocka_run_group_tests_name("bits", tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Laws that volumes, moments, cuts and buoyancy of any convex body obey. */
+/* Invariants of volume, moments, cuts and buoyancy of convex bodies. */
 #include <stdio.h>
 #include "geom/clip.h"
 #include "geom/dilate.h"
@@ -8,19 +8,19 @@
 #include "support/shapes.h"
 #include "water/buoyancy.h"
 
-static long at; /* the case that runs */
+static long current_case; /* the current case */
 
-static int say_case(void **state)
+static int print_case(void **state)
 {
     (void)state;
-    print_message("seed %llu case %ld\n", (unsigned long long)test_seed(), at);
+    print_message("seed %llu case %ld\n", (unsigned long long)test_seed(), current_case);
     return 0;
 }
 
 /* Next case, with its own generator. */
-static fl_rng start(long k, int64_t law)
+static fl_rng next_case(long k, int64_t law)
 {
-    at = k;
+    current_case = k;
     return fl_rng_of(test_seed(), 1000 * k + law, FL_RNG_TEST);
 }
 
@@ -32,7 +32,7 @@ static fl_mass mass_of(const fl_poly *p, double r)
     return m;
 }
 
-static void reach(const fl_poly *p, fl_vec3 n, double *lo, double *hi)
+static void extent(const fl_poly *p, fl_vec3 n, double *lo, double *hi)
 {
     *lo = INFINITY;
     *hi = -INFINITY;
@@ -42,8 +42,8 @@ static void reach(const fl_poly *p, fl_vec3 n, double *lo, double *hi)
     }
 }
 
-/* A plane of one of many kinds: anywhere, through a vertex, an edge, three vertices, or beside a face, right
- * there or off by 1e-16 to 1e-4. */
+/* A plane of one of several kinds: anywhere, through a vertex, an edge, three vertices, or along a face,
+ * exactly or with an offset of 1e-16 to 1e-4. */
 static void pick_plane(const fl_poly *p, fl_rng *g, fl_vec3 *n, double *c)
 {
     const double kind = fl_rng_unit(g);
@@ -54,7 +54,7 @@ static void pick_plane(const fl_poly *p, fl_rng *g, fl_vec3 *n, double *c)
     double lo, hi;
     *n = shape_direction(g);
     if (kind < 0.4) {
-        reach(p, *n, &lo, &hi);
+        extent(p, *n, &lo, &hi);
         *c = fl_rng_in(g, lo, hi);
         return;
     }
@@ -81,8 +81,9 @@ static double area_of(const fl_poly *p)
     return a;
 }
 
-/* A vertex stands beside the plane and not right on it: a cut may take it for one on it, up to 5e-10 size. */
-static int beside(const fl_poly *p, fl_vec3 n, double c)
+/* True if a vertex is near the plane but not on it: a cut may treat it as on the plane, up to 5e-10 of the
+ * size. */
+static int vertex_beside_plane(const fl_poly *p, fl_vec3 n, double c)
 {
     for (int32_t v = 0; v < p->nv; v++) {
         const double s = fabs(v3_dot(n, p->v[v]) - c) / p->size;
@@ -91,19 +92,20 @@ static int beside(const fl_poly *p, fl_vec3 n, double c)
     return 0;
 }
 
-/* What a cut may be off by, of the volume: rounding, or what it takes onto the plane, on either side. */
+/* Error bound of a cut over the volume: rounding, or the vertices that it moves onto the plane, on either
+ * side. */
 static double cut_tolerance(const fl_poly *p, fl_vec3 n, double c, double volume)
 {
-    return (beside(p, n, c) ? 1e-9 : 1e-14) * p->size * area_of(p) / volume;
+    return (vertex_beside_plane(p, n, c) ? 1e-9 : 1e-14) * p->size * area_of(p) / volume;
 }
 
-/* The two sides of a cut are the whole: volume, first and second moments, surface less twice the cut. */
-static void halves_make_the_whole(void **state)
+/* The parts of a cut add up to the whole: volume, first and second moments, surface less twice the cut. */
+static void parts_add_up_to_the_whole(void **state)
 {
     (void)state;
     long thin = 0, n = test_times(20000);
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 0);
+        fl_rng g = next_case(k, 0);
         fl_err err = {0};
         fl_poly p, half[2];
         fl_vec3 normal, sum = {0};
@@ -123,7 +125,7 @@ static void halves_make_the_whole(void **state)
         for (int s = 0; s < 2 && !rc; s++) {
             if (!half[s].nv) continue;
             fl_mass m;
-            if (fl_mass_of(&m, &half[s], 0.0, &err)) { /* a needle: as good as nothing */
+            if (fl_mass_of(&m, &half[s], 0.0, &err)) { /* a needle: practically no volume */
                 rc = -1;
                 thin++;
                 break;
@@ -141,8 +143,8 @@ static void halves_make_the_whole(void **state)
             assert_near(v, whole.volume, tol);
             assert_near_of(v3_norm(sum), 0.0, tol, whole.volume * p.size);
             assert_near(xx, whole.second.m[0][0] + whole.second.m[1][1] + whole.second.m[2][2], 10 * tol);
-            /* beside a face the outline of the cut, unlike the volume, is good to 5e-10 / tilt only */
-            if (half[0].nv && half[1].nv && !beside(&p, normal, c)) {
+            /* near a face the outline of the cut, unlike the volume, has an error of 5e-10 / tilt */
+            if (half[0].nv && half[1].nv && !vertex_beside_plane(&p, normal, c)) {
                 assert_near_of(cut[0], cut[1], 1e-12, area_of(&p));
                 assert_near_of(surface, area_of(&p) + cut[0] + cut[1], 1e-12, area_of(&p));
             }
@@ -154,13 +156,13 @@ static void halves_make_the_whole(void **state)
     assert_true(thin * 500 < n);
 }
 
-/* Moments turn with the body, scale with its fifth power, and do not care where it is. */
-static void moments_turn_with_the_body(void **state)
+/* Moments rotate with the body, scale with the fifth power, and do not depend on its position. */
+static void moments_rotate_with_the_body(void **state)
 {
     (void)state;
     const long n = test_times(5000);
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 1);
+        fl_rng g = next_case(k, 1);
         fl_poly p, q;
         shape_random(&p, &g);
         const double s = pow(10.0, fl_rng_in(&g, -3, 3)),
@@ -171,7 +173,7 @@ static void moments_turn_with_the_body(void **state)
         const fl_mass a = mass_of(&p, r), b = mass_of(&q, s * r);
         const double s3 = s * s * s, s5 = s3 * s * s, trace = a.inertia.x + a.inertia.y + a.inertia.z;
         const double tol =
-            1e-13 * (a.volume + p.size * area_of(&p)) / a.volume; /* the surface terms that cancel */
+            1e-13 * (a.volume + p.size * area_of(&p)) / a.volume; /* the surface terms cancel */
         assert_near(b.volume, s3 * a.volume, tol);
         assert_near_of(b.inertia.x / s5, a.inertia.x, tol, trace);
         assert_near_of(b.inertia.y / s5, a.inertia.y, tol, trace);
@@ -193,13 +195,13 @@ static void moments_turn_with_the_body(void **state)
     }
 }
 
-/* Steiner's sum is what fl_mass_of() finds; its derivative is the area. */
-static void steiner_holds(void **state)
+/* Steiner's sum equals fl_mass_of(); its derivative is the area. */
+static void steiner_formula_holds(void **state)
 {
     (void)state;
     const long n = test_times(5000);
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 2);
+        fl_rng g = next_case(k, 2);
         fl_poly p;
         shape_random(&p, &g);
         const double r = p.size * fl_rng_in(&g, 0.0, 1.0), h = 1e-5 * p.size;
@@ -213,20 +215,20 @@ static void steiner_holds(void **state)
     }
 }
 
-/* Faces moved out and in again are where they were; faces that stay lie at c + r; the outer shape holds
- * P + B(r). */
-static void faces_move_as_told(void **state)
+/* Faces that are moved out and in again return to their place; each face lies at c + r; the outer shape
+ * contains P + B(r). */
+static void faces_move_by_the_offset(void **state)
 {
     (void)state;
     long back = 0, n = test_times(5000);
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 3);
+        fl_rng g = next_case(k, 3);
         fl_err err = {0};
         fl_poly p, q, b;
         shape_random(&p, &g);
         const double r = p.size * pow(10.0, fl_rng_in(&g, -4, -0.5));
         if (fl_poly_offset(&q, &p, r, &err)) {
-            /* only a corner sharper than 1e-4 flies off so far */
+            /* only a corner sharper than 1e-4 moves so far */
             if (err.code != FL_INPUT) fail_msg("%s", err.text);
             fl_poly_free(&p);
             continue;
@@ -236,9 +238,9 @@ static void faces_move_as_told(void **state)
             double best = INFINITY;
             for (int32_t e = 0; e < p.nf; e++)
                 best = fmin(best, v3_norm(v3_sub(p.n[e], q.n[f])) + fabs(p.c[e] + r - q.c[f]) / q.size);
-            assert_near_of(best, 0.0, 1e-6, 1.0); /* normals of narrow faces are good to this */
+            assert_near_of(best, 0.0, 1e-6, 1.0); /* normals of narrow faces have this error */
         }
-        for (int32_t f = 0; f < p.nf; f++) /* no plane is overrun */
+        for (int32_t f = 0; f < p.nf; f++) /* no plane is violated */
             for (int32_t v = 0; v < q.nv; v++)
                 assert_true(v3_dot(p.n[f], q.v[v]) <= p.c[f] + r + 1e-9 * q.size);
         if (q.nf == p.nf) {
@@ -254,14 +256,14 @@ static void faces_move_as_told(void **state)
     assert_true(back * 2 > n);
 }
 
-/* Inward until nothing is left: what is left stays inside, and volume falls. */
+/* Faces move inward until nothing is left: the remainder stays inside, and the volume falls. */
 static void bodies_shrink_to_nothing(void **state)
 {
     (void)state;
     const long n = test_times(1000);
     long inside = 0, gone = 0;
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 4);
+        fl_rng g = next_case(k, 4);
         fl_poly p, q;
         shape_random(&p, &g);
         double last = mass_of(&p, 0.0).volume, step = 0.04 * last / area_of(&p);
@@ -293,31 +295,31 @@ static void hull_of(fl_hull *h, const fl_poly *p, double r)
     if (fl_hull_make(h, p, r, &err)) fail_msg("%s", err.text);
 }
 
-/* Put the centroid at the origin, as the solver does. */
-static void floating(fl_poly *p, fl_rng *g)
+/* Moves the centroid to the origin, as the solver does. */
+static void centre_at_origin(fl_poly *p, fl_rng *g)
 {
     shape_random(p, g);
     shape_move(p, shape_rotation(g), v3(0, 0, 0));
     shape_move(p, q_one(), v3_neg(mass_of(p, 0.0).centre));
 }
 
-/* Buoyancy by cones is what cutting the body and weighing the wet part gives. */
+/* Buoyancy by cones equals that of the submerged part, obtained by cutting the body. */
 static void buoyancy_is_the_wet_part(void **state)
 {
     (void)state;
     const long n = test_times(10000);
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 5);
+        fl_rng g = next_case(k, 5);
         fl_err err = {0};
         fl_poly p, q;
         fl_hull h;
         fl_submerged wet;
         fl_waterplane w;
         double lo, hi;
-        floating(&p, &g);
+        centre_at_origin(&p, &g);
         hull_of(&h, &p, 0.0);
         const fl_vec3 up = shape_direction(&g);
-        reach(&p, up, &lo, &hi);
+        extent(&p, up, &lo, &hi);
         const double level = fl_rng_in(&g, lo, hi);
         fl_hull_submerged(&h, up, level, &wet);
         fl_hull_waterplane(&h, up, level, &w);
@@ -329,7 +331,7 @@ static void buoyancy_is_the_wet_part(void **state)
             assert_near_of(wet.volume, m.volume, tol, h.volume);
             assert_near_of(v3_norm(v3_sub(v3_scale(wet.volume, wet.centre), v3_scale(m.volume, m.centre))),
                            0.0, tol, h.volume * p.size);
-            if (!beside(&p, up, level)) {
+            if (!vertex_beside_plane(&p, up, level)) {
                 assert_near_of(wet.waterplane_area, v3_norm(cap), 1e-12, h.surface_area);
                 assert_near_of(w.area, v3_norm(cap), 1e-12, h.surface_area);
                 assert_near_of(wet.wetted_area, area_of(&q) - v3_norm(cap), 1e-12, h.surface_area);
@@ -342,14 +344,14 @@ static void buoyancy_is_the_wet_part(void **state)
                 const double tri = 0.5 * v3_dot(up, v3_cross(v3_sub(y, x), v3_sub(z, x)));
                 polar += tri / 12 * (v3_norm2(x) + v3_norm2(y) + v3_norm2(z) + v3_norm2(s));
             }
-            if (!beside(&p, up, level))
+            if (!vertex_beside_plane(&p, up, level))
                 assert_near_of(w.second.m[0][0] + w.second.m[1][1] + w.second.m[2][2], polar, 1e-12,
                                p.size * p.size * h.surface_area);
             assert_near_of(v3_dot(up, w.centre), level, 1e-12, p.size);
             assert_near_of(v3_norm(m3_mul(w.second, up)), 0.0, 1e-12, p.size * p.size * h.surface_area);
         }
         fl_poly_free(&q);
-        /* what one side lacks the other has */
+        /* the two sides add up to zero */
         fl_submerged dry;
         fl_hull_submerged(&h, v3_neg(up), -level, &dry);
         assert_near(wet.volume + dry.volume, h.volume, 1e-14 * p.size * h.surface_area / h.volume);
@@ -361,10 +363,11 @@ static void buoyancy_is_the_wet_part(void **state)
     }
 }
 
-/* One body under a moved and turned water plane: U(dz, dphi). */
+/* Energy of one body under a displaced and rotated water plane: U(dz, dphi). */
 static double energy_at(const fl_hull *h, fl_vec3 up, double level, double dz, fl_vec3 turn, double *plane)
 {
-    /* Raising the body lowers the water over it; turning the body by `turn` (body axes) turns up back. */
+    /* Raising the body lowers the water level over it; rotating the body by `turn` (body axes) rotates `up`
+     * back. */
     const fl_vec3 u = m3_tmul(q_matrix(q_of_vector(turn)), up);
     fl_vec3 f, m;
     fl_submerged w;
@@ -373,14 +376,14 @@ static double energy_at(const fl_hull *h, fl_vec3 up, double level, double dz, f
     return fl_buoyancy_force(&w, u, level - dz, 1.0, &f, &m);
 }
 
-/* Force and moment are the gradient of the energy: central differences, which miss by h^2 times the third
- * derivative, that steps where the plane passes a vertex, and by rounding over h. */
+/* Force and moment are the gradient of the energy.  Central differences have an error of h^2 times the
+ * third derivative, which jumps where the plane passes a vertex, and of rounding over h. */
 static void force_is_the_gradient(void **state)
 {
     (void)state;
     const long n = test_times(10000);
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 6);
+        fl_rng g = next_case(k, 6);
         fl_err err = {0};
         fl_poly p;
         fl_hull h;
@@ -389,7 +392,7 @@ static void force_is_the_gradient(void **state)
         double lo, hi, round = 0.0;
         const double kind = fl_rng_unit(&g);
         if (kind < 0.8) {
-            floating(&p, &g);
+            centre_at_origin(&p, &g);
         } else {
             const fl_vec3 e = v3_scale(fl_rng_in(&g, 0.01, 2.0), shape_direction(&g)), v[2] = {e, v3_neg(e)};
             round = fl_rng_in(&g, 0.1, 1.0);
@@ -397,7 +400,7 @@ static void force_is_the_gradient(void **state)
         }
         hull_of(&h, &p, round);
         const fl_vec3 up = shape_direction(&g);
-        reach(&p, up, &lo, &hi);
+        extent(&p, up, &lo, &hi);
         const double size = p.size + round, level = fl_rng_in(&g, lo - round, hi + round);
         fl_hull_submerged(&h, up, level, &wet);
         fl_buoyancy_force(&wet, up, level, 1.0, &f, &m);
@@ -414,7 +417,7 @@ static void force_is_the_gradient(void **state)
                               (2 * a);
             assert_near_of(-du, v3_dot(m, t), 1.0, tol * size);
         }
-        /* and the volume's slope is the water plane: dV/dlevel */
+        /* and the slope of the volume is the water plane: dV/dlevel */
         fl_submerged a, b;
         fl_hull_submerged(&h, up, level + d, &a);
         fl_hull_submerged(&h, up, level - d, &b);
@@ -427,20 +430,20 @@ static void force_is_the_gradient(void **state)
     }
 }
 
-/* Moved by 1e-9 of the size, the water moves the volume by no more than that times the surface; also through
- * vertices, edges and faces. */
+/* The level moves by 1e-9 of the size: the volume changes by no more than that times the surface, also
+ * through vertices, edges and faces. */
 static void volume_is_continuous(void **state)
 {
     (void)state;
     const long n = test_times(10000);
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 7);
+        fl_rng g = next_case(k, 7);
         fl_poly p;
         fl_hull h;
         fl_submerged w[3];
         fl_vec3 up;
         double level;
-        floating(&p, &g);
+        centre_at_origin(&p, &g);
         hull_of(&h, &p, 0.0);
         pick_plane(&p, &g, &up, &level);
         const double d = 1e-9 * p.size;
@@ -458,7 +461,7 @@ static void volume_is_continuous(void **state)
     }
 }
 
-/* A capsule against polyhedra that close in on it from outside and inside. */
+/* A capsule against polyhedra that converge to it from outside and inside. */
 static void capsule_lies_between_polyhedra(void **state)
 {
     (void)state;
@@ -466,7 +469,7 @@ static void capsule_lies_between_polyhedra(void **state)
     const double pi = 3.141592653589793;
     const long n = test_times(60);
     for (long k = 0; k < n; k++) {
-        fl_rng g = start(k, 8);
+        fl_rng g = next_case(k, 8);
         fl_err err = {0};
         const double len = fl_rng_in(&g, 0.05, 4.0), r = fl_rng_in(&g, 0.2, 1.0);
         static fl_vec3 v[2 * M * N];
@@ -522,15 +525,15 @@ static void capsule_lies_between_polyhedra(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(halves_make_the_whole, say_case),
-        cmocka_unit_test_teardown(moments_turn_with_the_body, say_case),
-        cmocka_unit_test_teardown(steiner_holds, say_case),
-        cmocka_unit_test_teardown(faces_move_as_told, say_case),
-        cmocka_unit_test_teardown(bodies_shrink_to_nothing, say_case),
-        cmocka_unit_test_teardown(buoyancy_is_the_wet_part, say_case),
-        cmocka_unit_test_teardown(force_is_the_gradient, say_case),
-        cmocka_unit_test_teardown(volume_is_continuous, say_case),
-        cmocka_unit_test_teardown(capsule_lies_between_polyhedra, say_case),
+        cmocka_unit_test_teardown(parts_add_up_to_the_whole, print_case),
+        cmocka_unit_test_teardown(moments_rotate_with_the_body, print_case),
+        cmocka_unit_test_teardown(steiner_formula_holds, print_case),
+        cmocka_unit_test_teardown(faces_move_by_the_offset, print_case),
+        cmocka_unit_test_teardown(bodies_shrink_to_nothing, print_case),
+        cmocka_unit_test_teardown(buoyancy_is_the_wet_part, print_case),
+        cmocka_unit_test_teardown(force_is_the_gradient, print_case),
+        cmocka_unit_test_teardown(volume_is_continuous, print_case),
+        cmocka_unit_test_teardown(capsule_lies_between_polyhedra, print_case),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

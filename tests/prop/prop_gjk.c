@@ -14,13 +14,13 @@ enum {
     CASES = 100000,
     LARGE = 400,
     THOROUGH = 16
-}; /* every 16th pair against brute force; in long runs all that meet */
+}; /* every 16th pair against brute force; in long runs all pairs that meet */
 
-/* In units of the larger of distance and size: the double nearest to the distance, the differences of
- * coordinates, and a square root make a few roundings of 1.1e-16. */
+/* In units of the larger of distance and size: rounding of the distance, of differences of coordinates, and
+ * of a square root, each 1.1e-16. */
 #define DISTANCE_TOL 1e-13
 #define NORMAL_TOL 1e-12
-/* Nearer than this, in sizes, the coordinates themselves leave the normal open. */
+/* Below this distance, in sizes, the coordinates do not determine the normal. */
 #define NEAR 1e-9
 
 struct tally {
@@ -42,7 +42,7 @@ static void ccd_support(const void *obj, const ccd_vec3_t *dir, ccd_vec3_t *out)
     ccdVec3Set(out, c->v[at].x, c->v[at].y, c->v[at].z);
 }
 
-/* The second opinion: do they meet?  Only its answer counts, it has no distance. */
+/* libccd: do the cores meet?  Only this answer is used; it gives no distance. */
 static int ccd_meet(fl_core a, fl_core b)
 {
     ccd_t ccd;
@@ -61,8 +61,8 @@ static int same_answer(const fl_gap *a, const fl_gap *b)
              memcmp(a->ia, b->ia, sizeof a->ia) == 0 && memcmp(a->ib, b->ib, sizeof a->ib) == 0));
 }
 
-/* How far x is from the hull of n vertices of c, the nearest feature: it should be in it. */
-static double astray(fl_core c, int32_t n, const int32_t *i, fl_vec3 x)
+/* Distance of x from the hull of n vertices of c, the nearest feature, which should contain it. */
+static double distance_to_hull(fl_core c, int32_t n, const int32_t *i, fl_vec3 x)
 {
     double best = INFINITY;
     if (n == 3) {
@@ -81,8 +81,8 @@ static double astray(fl_core c, int32_t n, const int32_t *i, fl_vec3 x)
     return best;
 }
 
-/* Looked at without the body's edges, the same. */
-static int differs(const fl_gap *g, fl_core a, fl_core b, double size)
+/* True if a query without the edges of the body gives another result. */
+static int differs_without_edges(const fl_gap *g, fl_core a, fl_core b, double size)
 {
     fl_gap all;
     a.p = b.p = NULL;
@@ -104,24 +104,25 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
     fl_gjk(a, b, k % 2 ? &cache : &stale, &warm);
     fl_gjk(b, a, NULL, &back);
     const double size = q.size, scale = fmax(size, g.d);
-    /* World coordinates, and with them points and the flatness of faces, are this coarse. */
+    /* Resolution of world coordinates, and so of points and flatness of faces. */
     const double coarse = 8.0 * 2.220446049250313e-16 * fmax(v3_norm(a.v[0]), v3_norm(b.v[0]));
     double depth = 0.0, room = 0.0, en = 0.0, ed = 0.0;
     int bad = !isfinite(g.d);
     if (!g.overlap) {
-        /* The proof, for every pair: the points are d apart, and planes d apart across n part the bodies. */
+        /* A proof for every pair: the points are d apart, and planes d apart, normal to n, separate the
+         * bodies. */
         room = (double)fabsl(oracle_room(&q.a, &q.b, g.n) - g.d) / scale;
         const fl_vec3 miss = v3_sub(v3_sub(v3_sub(g.pa, a.v[0]), v3_sub(g.pb, a.v[0])), v3_scale(g.d, g.n));
         bad |= room > DISTANCE_TOL || v3_norm(miss) > DISTANCE_TOL * scale + coarse;
         bad |= fabs(v3_norm(g.n) - 1.0) > 1e-15;
-        bad |= astray(a, g.na, g.ia, g.pa) > DISTANCE_TOL * size + coarse ||
-                       astray(b, g.nb, g.ib, g.pb) > DISTANCE_TOL * size + coarse
+        bad |= distance_to_hull(a, g.na, g.ia, g.pa) > DISTANCE_TOL * size + coarse ||
+                       distance_to_hull(b, g.nb, g.ib, g.pb) > DISTANCE_TOL * size + coarse
                    ? 128
                    : 0;
     }
     if (g.overlap) {
-        /* Bodies that are apart are apart along a face normal or a product of edges, and fl_penetration_find() finds
-         * the least overlap of all these. */
+        /* Separated bodies are separated along a face normal or a product of edges, and
+         * fl_penetration_find() gives the least overlap of all of these. */
         fl_penetration deep;
         fl_penetration_find(&q.a, &q.b, &t->count, &deep);
         depth = deep.depth;
@@ -132,7 +133,7 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
         bad |= v3_norm(miss) > DISTANCE_TOL * scale + coarse ? 64 : 0;
         room = 0.0;
     }
-    /* A vertex within rounding of the band that stage 3 looks at may show where the search began: in the last
+    /* A vertex within rounding of the band of stage 3 may make the result depend on the start: in the last
      * bits, and seldom. */
     if (!same_answer(&g, &warm)) {
         t->starts++;
@@ -143,7 +144,7 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
     }
     if (fabs(back.d - g.d) > DISTANCE_TOL * scale) bad |= 4;
     if (kind == PAIR_LARGE) {
-        if (differs(&g, a, b, size)) bad |= 256;
+        if (differs_without_edges(&g, a, b, size)) bad |= 256;
         if (bad)
             print_error(
                 "seed %llu large case %ld: failed 0x%x; d %.17g, room %.1e, warm d %.17g, vertices %d "
@@ -158,8 +159,8 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
             const real m[3] = {o.n[1] * g.n.z - o.n[2] * g.n.y, o.n[2] * g.n.x - o.n[0] * g.n.z,
                                o.n[0] * g.n.y - o.n[1] * g.n.x};
             en = (double)sqrtl(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-            /* Where rounding cannot tell which features are nearest (parallel faces whose outlines just
-             * meet), the direction of any of them will do; counted as ties. */
+            /* Where rounding does not determine which features are nearest (parallel faces whose outlines
+             * just meet), the direction of any of them is accepted and counted as a tie. */
             if (o.d > (real)NEAR * size && en > NORMAL_TOL) {
                 en = (double)oracle_off(&q.a, &q.b, &o, g.n);
                 bad |= !(en <= NORMAL_TOL) ? 16 : 0;
@@ -169,11 +170,12 @@ static void compare(long k, enum pair_kind kind, struct tally *t)
         }
         t->brute++;
         if (bad)
-            print_error("seed %llu %s case %ld: failed 0x%x; d %.17g, wanted %.17Lg, normal off %.1e, room "
-                        "%.1e, warm d "
-                        "%.17g, shortest edge %.1e, vertices %d %d, features %d %d\n",
-                        (unsigned long long)test_seed(), name[kind], k, (unsigned)bad, g.d, o.d, en, room,
-                        warm.d, q.sharp, a.n, b.n, g.na, g.nb);
+            print_error(
+                "seed %llu %s case %ld: failed 0x%x; d %.17g, expected %.17Lg, normal error %.1e, gap "
+                "%.1e, warm d "
+                "%.17g, shortest edge %.1e, vertices %d %d, features %d %d\n",
+                (unsigned long long)test_seed(), name[kind], k, (unsigned)bad, g.d, o.d, en, room, warm.d,
+                q.sharp, a.n, b.n, g.na, g.nb);
     }
     if (ccd_meet(a, b) != g.overlap) t->ccd_wrong++;
     t->n += bad != 0;
@@ -195,7 +197,7 @@ static void run(enum pair_kind kind, long cases)
         "%ld %s pairs, %ld meet, all proved to %.1e of the size; %ld against brute force: worst error %.1e "
         "in "
         "distance, %.1e rad in normal, %ld ties; %.2f supports a query, at most %d; libccd wrong about "
-        "meeting: %ld; the start showed %ld times\n"
+        "meeting: %ld; results that depend on the start: %ld\n"
         "    depths: %lld, of which libccd had none %lld, a poor one %lld, was capped %lld\n",
         n, name[kind], t.meet, t.worst_room, t.brute, t.worst_d, t.worst_n, t.ties, t.steps / (double)n,
         t.most_steps, t.ccd_wrong, t.starts, (long long)t.count.queries, (long long)t.count.no_answer,

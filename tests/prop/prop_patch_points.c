@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The forces of two things in contact are the gradient of one energy, whatever the two things are. */
+/* The forces of two bodies in contact are the gradient of one energy, for bodies of any kind. */
 #include "support/near.h"
 #include <math.h>
 #include <stdio.h>
@@ -14,11 +14,11 @@
 #include "support/small_world.h"
 #include "support/shapes.h"
 
-enum { CASES = 12 }; /* of each of the combinations */
+enum { CASES = 12 }; /* of each combination */
 
-/* Step of the differences over the sum of the radii.  A place that starts to count inside a step of h shifts
- * the difference by k h/4 against a force of k s, s > 0.05 R: 5e-7.  The distance itself carries some 1e-15 R
- * / h = 1e-8. */
+/* Step of the differences over the sum of the radii.  A point that becomes active inside a step of h shifts
+ * the difference by k h/4 against a force of k s, s > 0.05 R: 5e-7.  The distance has an error of some
+ * 1e-15 R / h = 1e-8. */
 #define STEP 1e-7
 #define GRADIENT_TOL 1e-6
 #define BALANCE_TOL 1e-13
@@ -76,8 +76,8 @@ static void put_part(lab *l, enum thing kind, fl_rng *g)
     if (kind == PLANE) lab_set(l, "boundary.min=none none -1");
 }
 
-/* Look at the pair from nothing; axis NULL leaves it without one. */
-static fl_pair look(fl_world *w, int32_t j, const fl_vec3 *axis)
+/* Evaluates the pair without history; axis NULL: without a separating axis. */
+static fl_pair evaluate_from_start(fl_world *w, int32_t j, const fl_vec3 *axis)
 {
     fl_pair p;
     fl_pair_init(w, &p, 0, j);
@@ -91,21 +91,21 @@ static fl_pair look(fl_world *w, int32_t j, const fl_vec3 *axis)
     return p;
 }
 
-static void shift(fl_world *w, int32_t i, fl_vec3 d) { w->b.x[i] = v3_add(w->b.x[i], d); }
+static void displace_body(fl_world *w, int32_t i, fl_vec3 d) { w->b.x[i] = v3_add(w->b.x[i], d); }
 
 static double energy_moved(fl_world *w, int32_t i, int32_t j, fl_vec3 d, fl_vec3 turn)
 {
     const fl_vec3 x = w->b.x[i];
     const fl_quat q = w->b.q[i];
-    shift(w, i, d);
+    displace_body(w, i, d);
     w->b.q[i] = q_mul(q_of_vector(turn), q);
-    const double e = look(w, j, NULL).energy;
+    const double e = evaluate_from_start(w, j, NULL).energy;
     w->b.x[i] = x;
     w->b.q[i] = q;
     return e;
 }
 
-/* Minus the gradient of the energy when body i moves and turns about its centre. */
+/* Minus the gradient of the energy when body i moves, and rotates about its centre. */
 static void gradient(fl_world *w, int32_t i, int32_t j, double h, double arm, fl_vec3 *f, fl_vec3 *t)
 {
     double a[6];
@@ -121,9 +121,9 @@ static void gradient(fl_world *w, int32_t i, int32_t j, double h, double arm, fl
     *t = v3(a[3], a[4], a[5]);
 }
 
-static double off(fl_vec3 a, fl_vec3 b, double scale) { return v3_norm(v3_sub(a, b)) / scale; }
+static double relative_error(fl_vec3 a, fl_vec3 b, double scale) { return v3_norm(v3_sub(a, b)) / scale; }
 
-/* Give body 0 the axes of body j but for a small tilt: edges and faces of boxes and flats are then nearly
+/* Gives body 0 the axes of body j with a small tilt: edges and faces of boxes and flats are then nearly
  * parallel, where the potential fades edges out. */
 static void align(fl_world *w, int32_t j, fl_rng *g)
 {
@@ -131,8 +131,8 @@ static void align(fl_world *w, int32_t j, fl_rng *g)
     w->b.q[0] = q_mul(q_of_vector(v3_scale(tilt, shape_direction(g))), w->b.q[j]);
 }
 
-/* Move body 0 from afar onto j until they overlap by the share u of R; of u > 1 the cores overlap.  0 when
- * they missed. */
+/* Moves body 0 from a distance onto j until they overlap by the share u of R; for u > 1 the cores overlap.
+ * Returns 0 if they miss. */
 static int approach(fl_world *w, int32_t j, fl_rng *g, double R, double u)
 {
     const double far = w->b.bounding_radius[0] + w->b.bounding_radius[j] + 2.0 * R + 1.0;
@@ -142,8 +142,8 @@ static int approach(fl_world *w, int32_t j, fl_rng *g, double R, double u)
     const fl_vec3 aside = v3_scale(0.5 * w->b.bounding_radius[j], shape_direction(g));
     w->b.x[0] = v3_madd(v3_add(w->b.x[j], aside), far, dir);
     for (double path = 0.0; path < 2.0 * far; path += 0.02 * R) {
-        shift(w, 0, v3_scale(-0.02 * R, dir));
-        const fl_pair p = look(w, j, NULL);
+        displace_body(w, 0, v3_scale(-0.02 * R, dir));
+        const fl_pair p = evaluate_from_start(w, j, NULL);
         if (u < 1.0 && p.cores_overlap) return 0;
         if (p.touching && p.overlap > u * R) return u > 1.0 ? p.cores_overlap : p.overlap < 0.95 * R;
     }
@@ -155,7 +155,7 @@ typedef struct {
     int tried, missed;
 } tally;
 
-static void one(enum thing a, enum thing b, int aligned, int deep, fl_rng *g, tally *t)
+static void one_case(enum thing a, enum thing b, int aligned, int deep, fl_rng *g, tally *t)
 {
     lab l;
     const double ra = fl_rng_in(g, 0.05, 0.2), rb = b < FLOES ? fl_rng_in(g, 0.05, 0.2) : 0.0, R = ra + rb;
@@ -172,31 +172,34 @@ static void one(enum thing a, enum thing b, int aligned, int deep, fl_rng *g, ta
         return;
     }
     t->tried++;
-    const fl_pair p = look(w, 1, NULL);
+    const fl_pair p = evaluate_from_start(w, 1, NULL);
     fl_vec3 f, ti, g1, tj;
-    /* the depth of overlapping cores carries more rounding, and no place is as shallow as 0.05 R there */
+    /* the depth of overlapping cores has a larger rounding error, and no point is as shallow as 0.05 R
+     * there */
     const double step = (deep ? 10.0 : 1.0) * STEP * R;
     const double size = v3_norm(p.force), arm_i = w->b.bounding_radius[0] + ra,
                  arm_j = fmax(w->b.bounding_radius[1] + rb, arm_i);
     gradient(w, 0, 1, step, arm_i, &f, &ti);
     gradient(w, 1, 1, step, arm_j, &g1, &tj);
-    const double e = fmax(fmax(off(f, p.force, size), off(g1, v3_neg(p.force), size)),
-                          fmax(off(ti, p.torque_i, size * arm_i), off(tj, p.torque_j, size * arm_j)));
+    const double e = fmax(
+        fmax(relative_error(f, p.force, size), relative_error(g1, v3_neg(p.force), size)),
+        fmax(relative_error(ti, p.torque_i, size * arm_i), relative_error(tj, p.torque_j, size * arm_j)));
     if (!(e < GRADIENT_TOL))
-        printf("%s on %s: force %.9g, gradient off by %.2e (f %.1e %.1e, t %.1e %.1e), %d places\n", NAME[a],
-               NAME[b], size, e, off(f, p.force, size), off(g1, v3_neg(p.force), size),
-               off(ti, p.torque_i, size * arm_i), off(tj, p.torque_j, size * arm_j), p.touching);
+        printf("%s on %s: force %.9g, gradient error %.2e (f %.1e %.1e, t %.1e %.1e), %d places\n", NAME[a],
+               NAME[b], size, e, relative_error(f, p.force, size), relative_error(g1, v3_neg(p.force), size),
+               relative_error(ti, p.torque_i, size * arm_i), relative_error(tj, p.torque_j, size * arm_j),
+               p.touching);
     t->gradient = fmax(t->gradient, e);
     fl_contact nearest;
     if (!deep && fl_pair_probe(w, &p, 0.0, &nearest))
         t->overlap = fmax(t->overlap, fabs(p.overlap + nearest.gap) / R);
-    /* equal and opposite is by construction; the torques about one point must cancel too */
+    /* equal and opposite by construction; the torques about one point must cancel too */
     const fl_vec3 d = v3_sub(w->b.x[0], w->b.x[1]);
     const fl_vec3 sum = v3_add(v3_add(p.torque_i, p.torque_j), v3_cross(d, p.force));
     t->balance = fmax(t->balance, v3_norm(sum) / (size * (arm_i + arm_j)));
     for (int k = 0; k < 8; k++) {
         const fl_vec3 axis = shape_direction(g);
-        const fl_pair o = look(w, 1, &axis);
+        const fl_pair o = evaluate_from_start(w, 1, &axis);
         assert_memory_equal(&o.force, &p.force, sizeof p.force);
         assert_memory_equal(&o.torque_i, &p.torque_i, sizeof p.torque_i);
         assert_memory_equal(&o.torque_j, &p.torque_j, sizeof p.torque_j);
@@ -205,8 +208,8 @@ static void one(enum thing a, enum thing b, int aligned, int deep, fl_rng *g, ta
     lab_free(&l);
 }
 
-/* All combinations, cores apart; or those of bodies with an inside, cores overlapping. */
-static void hold_against_gradients(int deep)
+/* All combinations with separated cores; or those of bodies with a volume, with overlapping cores. */
+static void verify_gradients(int deep)
 {
     const int times = (int)test_times(CASES);
     double worst = 0.0, balance = 0.0;
@@ -216,14 +219,14 @@ static void hold_against_gradients(int deep)
             tally t = {0};
             for (int k = 0; t.tried < times && k < 20 * times; k++) {
                 fl_rng g = fl_rng_of(test_seed(), 1000 * (a * THINGS + b) + k, FL_RNG_TEST);
-                one((enum thing)a, (enum thing)b, k & 1, deep, &g, &t);
+                one_case((enum thing)a, (enum thing)b, k & 1, deep, &g, &t);
             }
             printf("%-9s on %-10s %4d cases: gradient %.1e, balance %.1e, overlap %.1e\n", NAME[a], NAME[b],
                    t.tried, t.gradient, t.balance, t.overlap);
             worst = fmax(worst, t.gradient);
             balance = fmax(balance, t.balance);
             assert_int_equal(t.tried, times);
-            /* a probe sees cones as polygons */
+            /* a probe treats cones as polygons */
             assert_true(t.overlap < (b == CONE ? 0.01 : 1e-12));
         }
     }
@@ -234,18 +237,18 @@ static void hold_against_gradients(int deep)
 static void forces_are_the_gradient_of_one_energy(void **state)
 {
     (void)state;
-    hold_against_gradients(0);
+    verify_gradients(0);
 }
 
-static void and_of_overlapping_cores_too(void **state)
+static void forces_of_overlapping_cores_are_the_gradient(void **state)
 {
     (void)state;
-    hold_against_gradients(1);
+    verify_gradients(1);
 }
 
-/* Two boxes alike whose faces, edges and vertices lie on one another, in whatever frame: what lies on many
- * planes at once, each rounded by itself, is in one region, not in none or in two. */
-static void flush_bodies_do_not_hang_on_rounding(void **state)
+/* Two equal boxes whose faces, edges and vertices coincide, in any frame: a point that lies on many planes,
+ * each with its own rounding, belongs to one region, not to none or two. */
+static void flush_bodies_do_not_depend_on_rounding(void **state)
 {
     const fl_vec3 none = v3(0, 0, 0);
     (void)state;
@@ -267,9 +270,9 @@ static void flush_bodies_do_not_hang_on_rounding(void **state)
         lab_make(&l, 1e-9);
         const fl_vec3 x = v3_add(l.w.b.x[1], q_rotate(q, v3(0, 0, 1.1 - over))),
                       aside = q_rotate(q, v3(1.1e-9, 0.7e-9, 0));
-        for (int c = 0; c < 3; c++) { /* there, and a nanometre to either side */
+        for (int c = 0; c < 3; c++) { /* exactly there, and a nanometre to either side */
             lab_pose(&l.w, 0, v3_madd(x, c == 0 ? 0.0 : c == 1 ? 1.0 : -1.0, aside), l.w.b.q[1]);
-            const fl_pair p = lab_look(&l.w, 0, 1);
+            const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
             W[c] = p.energy, f[c] = p.force;
         }
         assert_true(fabs(W[0] / (0.5 * (W[1] + W[2])) - 1.0) < 1e-11);
@@ -281,7 +284,7 @@ static void flush_bodies_do_not_hang_on_rounding(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(forces_are_the_gradient_of_one_energy),
-                                       cmocka_unit_test(and_of_overlapping_cores_too),
-                                       cmocka_unit_test(flush_bodies_do_not_hang_on_rounding)};
+                                       cmocka_unit_test(forces_of_overlapping_cores_are_the_gradient),
+                                       cmocka_unit_test(flush_bodies_do_not_depend_on_rounding)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

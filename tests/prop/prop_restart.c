@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stopping and going on: a world put back from its snapshot makes the steps of the one that never stopped. */
+/* Stop and resume: a world restored from its snapshot makes the same steps as the one that never stopped. */
 #define _GNU_SOURCE /* open_memstream */
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ static char *snapshot(fl_world *w, size_t *n)
     return text;
 }
 
-static int put_back(fl_world *w, const char *text, size_t n, fl_err *err)
+static int restore(fl_world *w, const char *text, size_t n, fl_err *err)
 {
     fl_text in = {0};
     assert_int_equal(fl_text_open_bytes(&in, "snapshot", text, (int64_t)n, err), 0);
@@ -33,8 +33,8 @@ static int put_back(fl_world *w, const char *text, size_t n, fl_err *err)
     return rc;
 }
 
-/* What the water gives, of which the half of a step to come is made, is the same in both. */
-static void same_sea(const fl_world *a, const fl_world *b)
+/* Water forces, which enter the next half step, are the same in both. */
+static void same_water_forces(const fl_world *a, const fl_world *b)
 {
     for (int32_t i = 0; i < a->sea.n; i++) {
         if (fl_body_absent(a, i) || !a->sea.water) continue;
@@ -47,8 +47,8 @@ static void same_sea(const fl_world *a, const fl_world *b)
     }
 }
 
-/* Everything that is stored, ledger and history with it, is the same in both. */
-static void same(fl_world *a, fl_world *b, const char *law, int64_t at)
+/* All stored state, with ledger and history, is the same in both. */
+static void same_state(fl_world *a, fl_world *b, const char *law, int64_t at)
 {
     size_t na = 0, nb = 0;
     fl_energy_update(a);
@@ -59,22 +59,23 @@ static void same(fl_world *a, fl_world *b, const char *law, int64_t at)
     assert_int_equal(na, nb);
     assert_memory_equal(ta, tb, na);
     assert_true(fl_state_hash(a) == fl_state_hash(b));
-    same_sea(a, b);
+    same_water_forces(a, b);
     free(ta);
     free(tb);
 }
 
-static void any_step_is_a_place_to_stop(void **state)
+static void a_run_resumes_at_any_step(void **state)
 {
     static const struct {
         void (*scene)(lab *l, int32_t side, const char *law);
         const char *law;
-    } IT[] = {
-        {scene_of_everything, "patch"},     {scene_of_everything, "core"}, {scene_of_everything, "manual"},
-        {scene_of_everything, "manual-si"}, {scene_of_wraps, "patch"},     {scene_of_seas, "patch"},
-        {scene_of_balls, "patch"},          {scene_of_traffic, "patch"},   {scene_of_bonds, "patch"},
-        {scene_of_looks, "patch"},          {scene_of_glances, "patch"},   {scene_of_visits, "patch"},
-        {scene_of_surrogates, "patch"}};
+    } IT[] = {{scene_of_everything, "patch"},    {scene_of_everything, "core"},
+              {scene_of_everything, "manual"},   {scene_of_everything, "manual-si"},
+              {scene_of_periodic_cell, "patch"}, {scene_of_seas, "patch"},
+              {scene_of_spheres, "patch"},       {scene_of_inflow, "patch"},
+              {scene_of_bonds, "patch"},         {scene_of_water_interval, "patch"},
+              {scene_of_sea_interval, "patch"},  {scene_of_inflow_interval, "patch"},
+              {scene_of_surrogates, "patch"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
         lab whole;
@@ -82,7 +83,7 @@ static void any_step_is_a_place_to_stop(void **state)
         IT[k].scene(&whole, 3, IT[k].law);
         lab_make(&whole, 0);
         for (int64_t at = 0; at < 300; at += 1 + at / 8) {
-            /* from here on in a second world, which has just been made, and in the first */
+            /* from here on in a second, new world and in the first one */
             lab l;
             fl_err err = {0};
             size_t n = 0;
@@ -91,13 +92,13 @@ static void any_step_is_a_place_to_stop(void **state)
             lab_make(&l, 0);
             while (whole.w.step < at) assert_int_equal(lab_run(&whole, 1), 0);
             char *text = snapshot(&whole.w, &n);
-            assert_int_equal(put_back(&l.w, text, n, &err), 0);
+            assert_int_equal(restore(&l.w, text, n, &err), 0);
             free(text);
-            same(&whole.w, &l.w, IT[k].law, at);
+            same_state(&whole.w, &l.w, IT[k].law, at);
             const int64_t further = 1 + at % 40;
             assert_int_equal(lab_run(&whole, further), 0);
             assert_int_equal(lab_run(&l, further), 0);
-            same(&whole.w, &l.w, IT[k].law, at);
+            same_state(&whole.w, &l.w, IT[k].law, at);
             pairs = whole.w.contact_steps;
             lab_free(&l);
         }
@@ -128,8 +129,8 @@ static void beside_a_hook(lab *l, int64_t seed)
     lab_make(l, 0);
 }
 
-/* What is found with a list that is old is found with one that is new. */
-static void lists_are_not_seen(void **state)
+/* An old neighbour list and a new one give the same results. */
+static void results_do_not_depend_on_the_age_of_lists(void **state)
 {
     (void)state;
     for (int64_t seed = 0; seed < 6; seed++) {
@@ -142,26 +143,27 @@ static void lists_are_not_seen(void **state)
             assert_int_equal(lab_run(&whole, 13), 0);
             beside_a_hook(&l, seed);
             char *text = snapshot(&whole.w, &n);
-            assert_int_equal(put_back(&l.w, text, n, &err), 0);
+            assert_int_equal(restore(&l.w, text, n, &err), 0);
             free(text);
             assert_int_equal(lab_run(&whole, 400), 0);
             assert_int_equal(lab_run(&l, 400), 0);
-            same(&whole.w, &l.w, "patch", whole.w.step - 400);
+            same_state(&whole.w, &l.w, "patch", whole.w.step - 400);
             lab_free(&l);
         }
         lab_free(&whole);
     }
 }
 
-static void told_and_guided(lab *l)
+static void make_guided_with_surrogates(lab *l)
 {
-    scene_of_traffic(l, 3, "patch");
+    scene_of_inflow(l, 3, "patch");
     lab_set(l, "contact.surrogate=0.01");
     lab_make(l, 0);
 }
 
-/* Whether a floe that is told of a contact was let go of by the last step; was: who was guided before. */
-static int let_go(const fl_world *w, const uint8_t *was)
+/* True if the last step released a floe that has a contact by surrogate; was: floes that were guided
+ * before. */
+static int was_released(const fl_world *w, const uint8_t *was)
 {
     for (int64_t c = 0; c < w->n_pair; c++) {
         const fl_neighbour_pair *q = &w->pair[c];
@@ -174,15 +176,15 @@ static int let_go(const fl_world *w, const uint8_t *was)
     return 0;
 }
 
-/* What surrogates know of a contact does not hang on what held the floe when it was looked at. */
-static void who_is_let_go_is_told_as_before(void **state)
+/* The surrogate of a contact does not depend on the constraint of the floe when it was evaluated. */
+static void released_floes_keep_their_surrogates(void **state)
 {
     int found = 0;
     char *before = NULL;
     size_t n_before = 0;
     lab whole;
     (void)state;
-    told_and_guided(&whole);
+    make_guided_with_surrogates(&whole);
     uint8_t *const was = malloc((size_t)whole.w.n);
     assert_non_null(was);
     for (int k = 0; k < 1300; k++) {
@@ -190,18 +192,19 @@ static void who_is_let_go_is_told_as_before(void **state)
         free(before);
         before = snapshot(&whole.w, &n_before);
         assert_int_equal(lab_run(&whole, 1), 0);
-        if (!let_go(&whole.w, was)) continue;
+        if (!was_released(&whole.w, was)) continue;
         lab l;
         fl_err err = {0};
         size_t n = 0;
-        told_and_guided(&l);
+        make_guided_with_surrogates(&l);
         char *text = snapshot(&whole.w, &n);
-        if (found % 2) assert_int_equal(put_back(&l.w, before, n_before, &err), 0); /* as trials go on */
-        assert_int_equal(put_back(&l.w, text, n, &err), 0);
+        if (found % 2)
+            assert_int_equal(restore(&l.w, before, n_before, &err), 0); /* as in trials of the step search */
+        assert_int_equal(restore(&l.w, text, n, &err), 0);
         free(text);
         assert_int_equal(lab_run(&whole, 3), 0);
         assert_int_equal(lab_run(&l, 3), 0);
-        same(&whole.w, &l.w, "patch", whole.w.step - 3);
+        same_state(&whole.w, &l.w, "patch", whole.w.step - 3);
         lab_free(&l);
         found++;
     }
@@ -210,12 +213,12 @@ static void who_is_let_go_is_told_as_before(void **state)
     lab_free(&whole);
 }
 
-/* Read and written again it is the same, also of pairs that have just let go of each other; and a step later.
- */
-static void a_state_stays_what_it_is(void **state)
+/* A state that is read and written again is the same, also with pairs that have just separated; and one
+ * step later. */
+static void a_state_reads_back_unchanged(void **state)
 {
-    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {scene_of_everything, scene_of_wraps,
-                                                                     scene_of_surrogates, scene_of_seas};
+    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {
+        scene_of_everything, scene_of_periodic_cell, scene_of_surrogates, scene_of_seas};
     (void)state;
     for (size_t k = 0; k < sizeof SCENE / sizeof *SCENE; k++) {
         lab whole;
@@ -236,12 +239,12 @@ static void a_state_stays_what_it_is(void **state)
             SCENE[k](&l, 3, "patch");
             lab_make(&l, 0);
             char *text = snapshot(&whole.w, &n);
-            assert_int_equal(put_back(&l.w, text, n, &err), 0);
+            assert_int_equal(restore(&l.w, text, n, &err), 0);
             free(text);
-            same(&whole.w, &l.w, "patch", whole.w.step);
+            same_state(&whole.w, &l.w, "patch", whole.w.step);
             assert_int_equal(lab_run(&whole, 1), 0);
             assert_int_equal(lab_run(&l, 1), 0);
-            same(&whole.w, &l.w, "patch", whole.w.step);
+            same_state(&whole.w, &l.w, "patch", whole.w.step);
             lab_free(&l);
         }
         assert_true(loose > 10);
@@ -249,11 +252,11 @@ static void a_state_stays_what_it_is(void **state)
     }
 }
 
-/* A look of the error budget lets a step begin on the very time of its row, a rounding off that of the steps
- * before: the water was met at the time of these. */
-static void a_step_that_begins_anew_finds_the_water_it_had(void **state)
+/* The step search of the error budget starts a step exactly at the time of its row, which differs by
+ * rounding from the sum of the steps before; water was evaluated at the latter. */
+static void a_repeated_step_has_the_same_water(void **state)
 {
-    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {scene_of_seas, scene_of_glances};
+    void (*const SCENE[])(lab * l, int32_t side, const char *law) = {scene_of_seas, scene_of_sea_interval};
     (void)state;
     for (size_t k = 0; k < sizeof SCENE / sizeof *SCENE; k++)
         for (int64_t at = 1; at < 10; at++) {
@@ -267,23 +270,23 @@ static void a_step_that_begins_anew_finds_the_water_it_had(void **state)
             char *text = snapshot(&whole.w, &n);
             SCENE[k](&l, 2, "patch");
             lab_make(&l, 0);
-            assert_int_equal(put_back(&l.w, text, n, &err), 0);
+            assert_int_equal(restore(&l.w, text, n, &err), 0);
             free(text);
-            same(&whole.w, &l.w, "patch", at);
+            same_state(&whole.w, &l.w, "patch", at);
             assert_int_equal(lab_run(&whole, 9), 0);
             assert_int_equal(lab_run(&l, 9), 0);
-            same(&whole.w, &l.w, "patch", at);
+            same_state(&whole.w, &l.w, "patch", at);
             lab_free(&whole);
             lab_free(&l);
         }
 }
 
-/* Two spheres that hit each other and fly apart, or start apart, and a floe, all in water. */
-static void balls_that_part(lab *l, double x)
+/* Two spheres that collide and separate, or start apart, and a floe, all in water. */
+static void spheres_that_separate(lab *l, double x)
 {
     lab_start(l);
     lab_set(l, "run.gravity=9.81");
-    lab_set(l, "water.level=-0.3"); /* little of the weight floats, so that f - m g - lift is rounded */
+    lab_set(l, "water.level=-0.3"); /* nearly neutral buoyancy, so that f - m g - buoyancy is rounded */
     lab_set(l, "water.current=0.3 0.1 0");
     lab_set(l, "material.ice.young=1e6");
     lab_sphere(l, v3(-x, 0, 0), 0.5, v3(2, 0, 0.3), v3(0, 0, 0));
@@ -292,31 +295,30 @@ static void balls_that_part(lab *l, double x)
     lab_make(l, 0);
 }
 
-/* What presses on a body does not hang on whether there have been rows of spheres since the world was made.
- */
-static void rows_that_were_are_not_seen(void **state)
+/* The force on a body does not depend on whether sphere lists have existed since the world was made. */
+static void earlier_sphere_lists_have_no_effect(void **state)
 {
     lab whole, l;
     fl_err err = {0};
     size_t n = 0;
     (void)state;
-    balls_that_part(&whole, 0.53);
+    spheres_that_separate(&whole, 0.53);
     while (fl_contact_list_size(&whole.w) || whole.w.step < 10) assert_int_equal(lab_run(&whole, 10), 0);
     assert_true(whole.w.spheres.bodies > 0 && whole.w.contact_steps > 10);
-    balls_that_part(&l, 5.0);
+    spheres_that_separate(&l, 5.0);
     assert_int_equal(l.w.spheres.bodies, 0);
     char *text = snapshot(&whole.w, &n);
-    assert_int_equal(put_back(&l.w, text, n, &err), 0);
+    assert_int_equal(restore(&l.w, text, n, &err), 0);
     free(text);
     assert_int_equal(lab_run(&whole, 50), 0);
     assert_int_equal(lab_run(&l, 50), 0);
-    same(&whole.w, &l.w, "patch", whole.w.step - 50);
+    same_state(&whole.w, &l.w, "patch", whole.w.step - 50);
     lab_free(&whole);
     lab_free(&l);
 }
 
-/* Two boxes that are frozen together while their roundings lie in one another. */
-static void frozen_deep(lab *l)
+/* Two bonded boxes whose rounded edges overlap. */
+static void bonded_with_overlap(lab *l)
 {
     fl_err err = {0};
     lab_start(l);
@@ -329,9 +331,9 @@ static void frozen_deep(lab *l)
     lab_make(l, 1e-4);
 }
 
-/* Their bond ends; they part and meet, and part farther and meet again, by which their radii come back in
- * between, before what is near has to be listed anew: what was listed for smaller radii is not seen. */
-static void radii_that_were_are_not_seen(void **state)
+/* Their bond breaks. They separate, meet, separate farther and meet again, so that their radii are restored
+ * in between, before the neighbour list is renewed: a list made for smaller radii must have no effect. */
+static void earlier_radii_have_no_effect(void **state)
 {
     static const struct {
         double v; /* [m/s] */
@@ -343,8 +345,8 @@ static void radii_that_were_are_not_seen(void **state)
     size_t n = 0;
     double keep = 0.0;
     (void)state;
-    frozen_deep(&whole);
-    frozen_deep(&l);
+    bonded_with_overlap(&whole);
+    bonded_with_overlap(&l);
     fl_bond_end(&whole.w.bonds.bond[0]);
     whole.w.bonds.ended = 1;
     for (size_t k = 0; k < sizeof WAY / sizeof *WAY; k++) {
@@ -358,16 +360,16 @@ static void radii_that_were_are_not_seen(void **state)
     assert_true(keep > 0.0 && whole.w.pair[0].contact->radius_factor > keep &&
                 whole.w.pair[0].contact->radius_factor < 1.0);
     char *text = snapshot(&whole.w, &n);
-    assert_int_equal(put_back(&l.w, text, n, &err), 0);
+    assert_int_equal(restore(&l.w, text, n, &err), 0);
     free(text);
     assert_int_equal(lab_run(&whole, 5), 0);
     assert_int_equal(lab_run(&l, 5), 0);
-    same(&whole.w, &l.w, "patch", whole.w.step - 5);
+    same_state(&whole.w, &l.w, "patch", whole.w.step - 5);
     lab_free(&whole);
     lab_free(&l);
 }
 
-static void what_is_no_state_is_refused(void **state)
+static void invalid_states_are_refused(void **state)
 {
     static const struct {
         const char *of, *from, *to;
@@ -404,7 +406,7 @@ static void what_is_no_state_is_refused(void **state)
         lab into;
         scene_of_everything(&into, 2, NULL);
         lab_make(&into, 0);
-        assert_int_equal(put_back(&into.w, bad, strlen(bad), &err), -1);
+        assert_int_equal(restore(&into.w, bad, strlen(bad), &err), -1);
         assert_int_equal(err.code, FL_INPUT);
         assert_non_null(strstr(err.text, "snapshot:"));
         lab_free(&into);
@@ -414,7 +416,7 @@ static void what_is_no_state_is_refused(void **state)
     fl_err err = {0};
     scene_of_everything(&other, 3, NULL);
     lab_make(&other, 0);
-    assert_int_equal(put_back(&other.w, good, n, &err), -1);
+    assert_int_equal(restore(&other.w, good, n, &err), -1);
     lab_free(&other);
     free(good);
     lab_free(&l);
@@ -422,13 +424,13 @@ static void what_is_no_state_is_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(any_step_is_a_place_to_stop),
-                                       cmocka_unit_test(lists_are_not_seen),
-                                       cmocka_unit_test(who_is_let_go_is_told_as_before),
-                                       cmocka_unit_test(a_state_stays_what_it_is),
-                                       cmocka_unit_test(a_step_that_begins_anew_finds_the_water_it_had),
-                                       cmocka_unit_test(rows_that_were_are_not_seen),
-                                       cmocka_unit_test(radii_that_were_are_not_seen),
-                                       cmocka_unit_test(what_is_no_state_is_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_run_resumes_at_any_step),
+                                       cmocka_unit_test(results_do_not_depend_on_the_age_of_lists),
+                                       cmocka_unit_test(released_floes_keep_their_surrogates),
+                                       cmocka_unit_test(a_state_reads_back_unchanged),
+                                       cmocka_unit_test(a_repeated_step_has_the_same_water),
+                                       cmocka_unit_test(earlier_sphere_lists_have_no_effect),
+                                       cmocka_unit_test(earlier_radii_have_no_effect),
+                                       cmocka_unit_test(invalid_states_are_refused)};
     return cmocka_run_group_tests_name("restart", tests, NULL, NULL);
 }

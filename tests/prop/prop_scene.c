@@ -11,15 +11,15 @@
 #include "scene/scene_print.h"
 #include "scene/scene_value.h"
 
-/* One of n, by chance. */
-static int pick(fl_rng *g, int n) { return (int)(fl_rng_u64(g) % (uint64_t)n); }
+/* A random index below n. */
+static int random_index(fl_rng *g, int n) { return (int)(fl_rng_u64(g) % (uint64_t)n); }
 
-/* A number of a key's range, of any size, or its special word. */
-static void number(fl_rng *g, const fl_key *key, char *text, size_t size)
+/* A number in the range of a key, of any magnitude, or its special word. */
+static void random_number(fl_rng *g, const fl_key *key, char *text, size_t size)
 {
     double lo = -INFINITY, hi = INFINITY, x;
     char buf[FL_NUMBER_LEN];
-    if (key->special && pick(g, 4) == 0) {
+    if (key->special && random_index(g, 4) == 0) {
         snprintf(text, size, "%s", key->special);
         return;
     }
@@ -30,7 +30,7 @@ static void number(fl_rng *g, const fl_key *key, char *text, size_t size)
     }
     x = isfinite(lo) && isfinite(hi) ? fl_rng_in(g, lo, hi) : pow(10.0, fl_rng_in(g, -12.0, 12.0));
     if (isfinite(lo) && isinf(hi)) x += lo;
-    if (isinf(lo) && pick(g, 2)) x = -x;
+    if (isinf(lo) && random_index(g, 2)) x = -x;
     snprintf(text, size, "%s", fl_number_text(x, buf));
 }
 
@@ -40,48 +40,50 @@ static void random_value(fl_rng *g, const fl_key *key, char *text, size_t size)
     int count, k;
     fl_unit_list(key->unit, units, sizeof units);
     for (word = strtok_r(units, " ", &save), k = 1; word; word = strtok_r(NULL, " ", &save), k++)
-        if (pick(g, k) == 0) snprintf(unit, sizeof unit, "%s%s", pick(g, 2) ? " " : "", word);
+        if (random_index(g, k) == 0) snprintf(unit, sizeof unit, "%s%s", random_index(g, 2) ? " " : "", word);
     switch (key->type) {
     case FL_VALUE_F64:
-        if (key->choices) snprintf(text, size, "%s", pick(g, 2) ? "1" : "1.5");
+        if (key->choices) snprintf(text, size, "%s", random_index(g, 2) ? "1" : "1.5");
         else {
-            number(g, key, part[0], sizeof part[0]);
-            /* a unit could carry the number out of a bounded range */
+            random_number(g, key, part[0], sizeof part[0]);
+            /* a unit could move the number out of a bounded range */
             snprintf(text, size, "%s%s", part[0],
                      (key->special && strcmp(part[0], key->special) == 0) || key->unit == FL_UNIT_ONE ? ""
                                                                                                       : unit);
         }
         break;
     case FL_VALUE_VEC3:
-        for (k = 0; k < 3; k++) number(g, key, part[k], sizeof part[k]);
+        for (k = 0; k < 3; k++) random_number(g, key, part[k], sizeof part[k]);
         count = 0;
         for (k = 0; k < 3; k++) count += key->special && strcmp(part[k], key->special) == 0;
         snprintf(text, size, "%s %s %s %s", part[0], part[1], part[2], count == 3 ? "" : unit);
         break;
-    case FL_VALUE_I32: snprintf(text, size, "%d", 1 + pick(g, 1000)); break;
+    case FL_VALUE_I32: snprintf(text, size, "%d", 1 + random_index(g, 1000)); break;
     case FL_VALUE_WORDS:
     case FL_VALUE_WORD: { /* one of the choices */
         char copy[100];
         snprintf(copy, sizeof copy, "%s", key->choices);
         for (word = strtok_r(copy, "|", &save), k = 1; word; word = strtok_r(NULL, "|", &save))
-            if (pick(g, k++) == 0) snprintf(text, size, "%s", word);
+            if (random_index(g, k++) == 0) snprintf(text, size, "%s", word);
         break;
     }
     case FL_VALUE_FIXED:
         text[0] = '\0';
         for (k = 0; k < 6; k++)
-            if (pick(g, 2)) {
+            if (random_index(g, 2)) {
                 static const char *const dir[] = {"x ", "y ", "z ", "rx ", "ry ", "rz "};
                 strcat(text, dir[k]);
             }
         if (!text[0]) snprintf(text, size, "none");
         break;
-    case FL_VALUE_NAME: snprintf(text, size, "m-%d", pick(g, 5)); break;
-    case FL_VALUE_PATH: snprintf(text, size, "/dir %d/a=b#%d.dat", pick(g, 100), pick(g, 100)); break;
+    case FL_VALUE_NAME: snprintf(text, size, "m-%d", random_index(g, 5)); break;
+    case FL_VALUE_PATH:
+        snprintf(text, size, "/dir %d/a=b#%d.dat", random_index(g, 100), random_index(g, 100));
+        break;
     }
 }
 
-static char *written(const fl_scene *s)
+static char *scene_text(const fl_scene *s)
 {
     char *text = NULL;
     size_t n;
@@ -91,8 +93,8 @@ static char *written(const fl_scene *s)
     return text;
 }
 
-/* Every value that can be set is written so that it reads back to the same bytes, and the pairs with it. */
-static void what_is_set_is_written_and_read_back(void **state)
+/* Every value is written so that it reads back to the same bytes; likewise the pairs. */
+static void values_read_back_to_the_same_bytes(void **state)
 {
     (void)state;
     for (long c = 0; c < test_times(300); c++) {
@@ -100,20 +102,20 @@ static void what_is_set_is_written_and_read_back(void **state)
         fl_scene s, t;
         fl_err err = {0};
         char *first, *second, assignment[2000];
-        const int sets = pick(&g, 60);
+        const int sets = random_index(&g, 60);
         fl_scene_init(&s);
         fl_scene_set(&s, "material.m-0.density=1000", &err);
         for (int k = 0; k < sets; k++) {
-            const fl_key *key = &fl_key_table[pick(&g, fl_key_count)];
+            const fl_key *key = &fl_key_table[random_index(&g, fl_key_count)];
             const int names = fl_section_table[key->section].names;
             char value[1500];
             random_value(&g, key, value, sizeof value);
             if (names == 1)
                 snprintf(assignment, sizeof assignment, "%s.m-%d.%s=%s", fl_section_table[key->section].name,
-                         pick(&g, 3), key->key, value);
-            else if (names == 2 && pick(&g, 3))
-                snprintf(assignment, sizeof assignment, "contact m-%d %s.%s = %s", pick(&g, 3),
-                         pick(&g, 2) ? "structure" : "m-1", key->key, value);
+                         random_index(&g, 3), key->key, value);
+            else if (names == 2 && random_index(&g, 3))
+                snprintf(assignment, sizeof assignment, "contact m-%d %s.%s = %s", random_index(&g, 3),
+                         random_index(&g, 2) ? "structure" : "m-1", key->key, value);
             else
                 snprintf(assignment, sizeof assignment, "%s.%s=%s", fl_section_table[key->section].name,
                          key->key, value);
@@ -121,11 +123,11 @@ static void what_is_set_is_written_and_read_back(void **state)
                 fail_msg("seed %llu case %ld: %s: %s", (unsigned long long)test_seed(), c, assignment,
                          err.text);
         }
-        first = written(&s);
+        first = scene_text(&s);
         t = (fl_scene){0};
         if (fl_scene_read(&t, test_file("prop.scene", first, strlen(first)), &err))
             fail_msg("seed %llu case %ld: %s\n%s", (unsigned long long)test_seed(), c, err.text, first);
-        second = written(&t);
+        second = scene_text(&t);
         if (strcmp(first, second) != 0)
             fail_msg("seed %llu case %ld:\n%s\n%s", (unsigned long long)test_seed(), c, first, second);
         assert_int_equal(s.n_material, t.n_material);
@@ -144,7 +146,7 @@ static void what_is_set_is_written_and_read_back(void **state)
     }
 }
 
-/* A pair is the same from either side. */
+/* A pair is the same in both orders. */
 static void pairs_are_symmetric(void **state)
 {
     (void)state;
@@ -156,8 +158,8 @@ static void pairs_are_symmetric(void **state)
         for (int k = 0; k < 12; k++) {
             char assignment[200];
             snprintf(assignment, sizeof assignment,
-                     pick(&g, 2) ? "contact.m-%d.m-%d.friction=%d" : "material.m-%d.friction=0.%d%d",
-                     pick(&g, 3), pick(&g, 3), pick(&g, 9));
+                     random_index(&g, 2) ? "contact.m-%d.m-%d.friction=%d" : "material.m-%d.friction=0.%d%d",
+                     random_index(&g, 3), random_index(&g, 3), random_index(&g, 9));
             assert_int_equal(fl_scene_set(&s, assignment, &err), 0);
         }
         for (int32_t a = 0; a < s.n_material; a++)
@@ -170,7 +172,7 @@ static void pairs_are_symmetric(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_set_is_written_and_read_back),
+        cmocka_unit_test(values_read_back_to_the_same_bytes),
         cmocka_unit_test(pairs_are_symmetric),
     };
     return cmocka_run_group_tests_name("scene, properties", tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Floes that coast and rest: what they are off by, that no contact goes unnoticed, that they wake, and that
- * threads, stops and looks change no bit. */
+/* Sleeping floes, ballistic and resting: their error, detection of every contact, waking, and equal bits
+ * for any threads, stops and evaluations in between. */
 #define _GNU_SOURCE /* open_memstream */
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,8 +22,8 @@ static int threads = 1;
 
 enum sea { DRY, STILL, FACETS, WAVES, MASSES };
 
-/* Square floes of 1 m on a grid, each with a speed, a spin, a tilt and a height of its own. */
-static void floes(lab *l, enum sea sea, double pitch, double speed, uint64_t seed, double sleep)
+/* Square floes of 1 m on a grid, each with its own velocity, spin, tilt and height. */
+static void make_floes(lab *l, enum sea sea, double pitch, double speed, uint64_t seed, double sleep)
 {
     lab_start(l);
     lab_setf(l, "run.threads=%d", threads);
@@ -65,7 +65,7 @@ static void floes(lab *l, enum sea sea, double pitch, double speed, uint64_t see
     lab_make(l, 0);
 }
 
-static double apart(const lab *a, const lab *b)
+static double largest_distance(const lab *a, const lab *b)
 {
     double most = 0.0;
     for (int32_t k = 0; k < FLOES; k++) {
@@ -76,36 +76,36 @@ static double apart(const lab *a, const lab *b)
     return most;
 }
 
-/* Where nothing touches each step is off by less than asked for, and a floe by no more than what all its
- * steps are, each carried on by all that follow. */
-static void off_by_what_was_told(void **state)
+/* Without contacts the error of each step is below the tolerance, and that of a floe below the sum over its
+ * steps, each propagated by all later ones. */
+static void errors_stay_below_the_tolerance(void **state)
 {
     enum { STEPS = 500 };
     const double tol[] = {1e-4, 1e-5};
     (void)state;
     for (int sea = DRY; sea <= MASSES; sea++) {
         lab off;
-        floes(&off, (enum sea)sea, 4.0, 0.05, test_seed(), 0.0);
+        make_floes(&off, (enum sea)sea, 4.0, 0.05, test_seed(), 0.0);
         assert_int_equal(lab_run(&off, STEPS), 0);
         assert_int_equal(off.w.contact_steps, 0);
         for (int k = 0; k < 2; k++) {
             lab on;
-            floes(&on, (enum sea)sea, 4.0, 0.05, test_seed(), tol[k]);
+            make_floes(&on, (enum sea)sea, 4.0, 0.05, test_seed(), tol[k]);
             assert_int_equal(lab_run(&on, STEPS), 0);
             const fl_sleep_totals c = fl_sleep_sum_totals(&on.w);
             const double naps = (double)c.n_skips / FLOES;
             fl_sleep_advance_to_now(&on.w);
             if (k == 0) assert_true((double)c.ballistic_steps > 0.9 * STEPS * FLOES && naps < STEPS / 4.0);
             assert_true(c.max_error <= tol[k] &&
-                        apart(&on, &off) <= RADIUS * (naps * c.max_error_sum + tol[k]));
+                        largest_distance(&on, &off) <= RADIUS * (naps * c.max_error_sum + tol[k]));
             lab_free(&on);
         }
         lab_free(&off);
     }
 }
 
-/* The distance of cores i and j, in one cell. */
-static double distance(const fl_world *w, int32_t i, int32_t j)
+/* The distance of cores i and j in one cell. */
+static double core_distance(const fl_world *w, int32_t i, int32_t j)
 {
     const fl_bodies *b = &w->b;
     fl_vec3 a[16], c[16];
@@ -117,15 +117,15 @@ static double distance(const fl_world *w, int32_t i, int32_t j)
     return gap.overlap ? 0.0 : gap.d;
 }
 
-/* All pairs of all floes, looked at again and again: who overlaps touches, by the list of those who do. */
-static void no_contact_goes_unnoticed(void **state)
+/* All pairs of all floes, checked repeatedly: pairs that overlap are in the list of touching pairs. */
+static void every_contact_is_detected(void **state)
 {
     int64_t touched = 0;
     (void)state;
     for (int sea = DRY; sea <= WAVES; sea += 1 + (sea == STILL)) {
         lab l;
-        floes(&l, (enum sea)sea, 1.2, 0.5, test_seed() + (uint64_t)sea, 1e-4);
-        for (int look = 0; look < 24; look++) {
+        make_floes(&l, (enum sea)sea, 1.2, 0.5, test_seed() + (uint64_t)sea, 1e-4);
+        for (int sample = 0; sample < 24; sample++) {
             uint8_t live[FLOES][FLOES] = {{0}};
             assert_int_equal(lab_run(&l, 41), 0);
             for (int32_t c = 0; c < l.w.n_touching; c++) {
@@ -137,7 +137,7 @@ static void no_contact_goes_unnoticed(void **state)
             fl_sleep_advance_to_now(&l.w);
             for (int32_t i = 0; i < FLOES; i++)
                 for (int32_t j = i + 1; j < FLOES; j++)
-                    if (distance(&l.w, i, j) < 2.0 * RADIUS * (1.0 - 1e-9)) assert_true(live[i][j]);
+                    if (core_distance(&l.w, i, j) < 2.0 * RADIUS * (1.0 - 1e-9)) assert_true(live[i][j]);
             fl_sleep_restore(&l.w);
             assert_true(fl_state_hash(&l.w) == before);
         }
@@ -147,8 +147,8 @@ static void no_contact_goes_unnoticed(void **state)
     assert_true(touched > 100);
 }
 
-/* Five blocks on a floor, and one that slides into them when they rest. */
-static void heap(lab *l, double sleep)
+/* Five blocks on a floor, and one that slides into them when they are at rest. */
+static void make_heap(lab *l, double sleep)
 {
     lab_start(l);
     if (sleep > 0.0) lab_setf(l, "run.sleep=%.17g", sleep);
@@ -171,8 +171,8 @@ static void rest_and_wake(void **state)
     lab off, on;
     int32_t most = 0, woken = 0;
     (void)state;
-    heap(&off, 0.0);
-    heap(&on, tol);
+    make_heap(&off, 0.0);
+    make_heap(&on, tol);
     for (int k = 0; k < 300; k++) {
         const int32_t before = on.w.sleep.n_resting;
         assert_int_equal(lab_run(&off, 16), 0);
@@ -181,7 +181,8 @@ static void rest_and_wake(void **state)
         for (int32_t i = 0; i < 5 && woken == 0; i++)
             assert_true(v3_norm(v3_sub(on.w.b.x[i], off.w.b.x[i])) < 4.0 * tol * RADIUS);
         fl_sleep_restore(&on.w);
-        for (int32_t i = 0; i < on.w.n; i++) /* who is awake is asked again soon, also after a rest */
+        for (int32_t i = 0; i < on.w.n;
+             i++) /* bodies that are awake are checked again soon, also after a rest */
             assert_true(on.w.sleep.phase[i] != FL_AWAKE || on.w.sleep.phase_end[i] <= on.w.step + 100);
         most = on.w.sleep.n_resting > most ? on.w.sleep.n_resting : most;
         woken += on.w.sleep.n_resting == 0 && before >= 3;
@@ -195,9 +196,9 @@ static void rest_and_wake(void **state)
 
 enum { LEVELS = 5 };
 
-/* Blocks on one another, numbered in such an order that news travel along the list of pairs neither upward
- * nor downward. */
-static void stack(lab *l)
+/* Blocks on one another, numbered so that changes propagate along the list of pairs neither upward nor
+ * downward. */
+static void make_stack(lab *l)
 {
     lab_start(l);
     lab_set(l, "run.sleep=1e-3");
@@ -214,14 +215,14 @@ static void stack(lab *l)
     lab_make(l, 0);
 }
 
-/* Who touches one that has been awake for less than a window waits for him, and is ready then; each waited
- * for the other in turn. */
-static void all_rest_however_they_came(void **state)
+/* A body that touches one awake for less than a window waits for it, and is ready then.  Formerly each
+ * waited for the other in turn. */
+static void a_stack_comes_to_rest_in_any_order(void **state)
 {
     (void)state;
     for (int late = 0; late < LEVELS; late++) {
         lab l;
-        stack(&l);
+        make_stack(&l);
         for (int k = 0; k < 500 && l.w.sleep.n_resting < LEVELS; k++) assert_int_equal(lab_run(&l, 64), 0);
         assert_int_equal(l.w.sleep.n_resting, LEVELS);
         fl_sleep_wake_resting(&l.w);
@@ -233,9 +234,9 @@ static void all_rest_however_they_came(void **state)
     }
 }
 
-/* What a shelf bears in two periods of a wave, over weight and time, of a block that lies on it at that
+/* Impulse on a shelf in two periods of a wave, over weight and time, from a block that lies on it at that
  * height. */
-static double shelved(double top, double sleep, int64_t *rested)
+static double impulse_on_shelf(double top, double sleep, int64_t *rested)
 {
     lab l;
     lab_start(&l);
@@ -258,20 +259,20 @@ static double shelved(double top, double sleep, int64_t *rested)
     return bears;
 }
 
-/* A block that waves wet presses as they do; above them it rests. */
-static void waves_reach_who_rests(void **state)
+/* The load of a block that waves reach follows them; above the waves it rests. */
+static void waves_wake_wet_floes(void **state)
 {
     int64_t none, some;
     (void)state;
-    const double wet = shelved(0.1, 0.0, &none);
+    const double wet = impulse_on_shelf(0.1, 0.0, &none);
     assert_true(wet < 0.9);
-    assert_near(shelved(0.1, 1e-5, &some), wet, 1e-3);
-    assert_near(shelved(1.5, 1e-4, &some), shelved(1.5, 0.0, &none), 1e-3);
+    assert_near(impulse_on_shelf(0.1, 1e-5, &some), wet, 1e-3);
+    assert_near(impulse_on_shelf(1.5, 1e-4, &some), impulse_on_shelf(1.5, 0.0, &none), 1e-3);
     assert_true(none == 0 && some > 0);
 }
 
-/* A block that is held at a speed and pushes another goes at that speed, however slow. */
-static void who_is_led_does_not_rest(void **state)
+/* A block with a prescribed velocity that pushes another one keeps that velocity, however slow. */
+static void bodies_of_prescribed_speed_do_not_rest(void **state)
 {
     const double speed = 1e-4;
     fl_poly core = {0};
@@ -300,8 +301,8 @@ static void who_is_led_does_not_rest(void **state)
     lab_free(&l);
 }
 
-/* When a thin box that stands on its rounded lower edge, and leans by so much, has fallen [s]. */
-static double falls_at(double lean, double sleep)
+/* Time at which a thin box has fallen that stands on its rounded lower edge with an initial tilt [s]. */
+static double time_of_fall(double tilt, double sleep)
 {
     lab l;
     lab_start(&l);
@@ -314,7 +315,7 @@ static double falls_at(double lean, double sleep)
     lab_set(&l, "boundary.type=free free rigid");
     lab_set(&l, "boundary.min=none none 0");
     const fl_vec3 none = v3(0, 0, 0);
-    lab_box(&l, v3(0, 0, 0.5 - 2e-6), v3(0.5, 0.0501, 0.5), 0.05, q_about_axis(0, lean), none, none);
+    lab_box(&l, v3(0, 0, 0.5 - 2e-6), v3(0.5, 0.0501, 0.5), 0.05, q_about_axis(0, tilt), none, none);
     lab_make(&l, 0);
     while (l.w.b.x[0].z > 0.25 && fl_world_time(&l.w) < 60.0) assert_int_equal(lab_run(&l, 10), 0);
     const double t = fl_world_time(&l.w);
@@ -322,19 +323,19 @@ static double falls_at(double lean, double sleep)
     return t;
 }
 
-/* What falls does not rest on the way, though it begins so slowly that its path in a window is next to none:
- * it fell at 6.5 s in place of 4.0. */
-static void what_falls_does_not_rest(void **state)
+/* A falling body does not rest on its way, though it starts so slowly that its displacement in a window is
+ * very small: it fell at 6.5 s instead of 4.0. */
+static void falling_bodies_do_not_rest(void **state)
 {
     (void)state;
-    const double t = falls_at(1e-6, 0.0), late = falls_at(1e-6, 1e-5);
+    const double t = time_of_fall(1e-6, 0.0), late = time_of_fall(1e-6, 1e-5);
     assert_true(t > 3.0 && t < 6.0);
     assert_true(late < 1.1 * t);
 }
 
-/* All that a state has: odometers, books and what contacts remember with it.  Whether the books have been
- * looked at in between stands in them; without: that row. */
-static uint64_t everything(fl_world *w, int without)
+/* All state of a world: odometers, ledger and contact history.  It also contains a row that records whether
+ * the ledger was queried in between; without: leave out that row. */
+static uint64_t hash_of_all_state(fl_world *w, int without)
 {
     char *text = NULL;
     size_t n = 0;
@@ -349,8 +350,8 @@ static uint64_t everything(fl_world *w, int without)
     return h;
 }
 
-/* One thread, and two that stop on the way, one of them looked at all the time. */
-static void threads_stops_and_looks(void **state)
+/* One thread against two with stops, one of the runs queried all the time. */
+static void threads_stops_and_queries_keep_the_bits(void **state)
 {
     (void)state;
     for (int sea = DRY; sea <= MASSES + 1; sea++) {
@@ -363,8 +364,8 @@ static void threads_stops_and_looks(void **state)
             size_t n = 0;
             threads = way ? 2 : 1;
             for (int part = 0; part < 2; part++) {
-                if (sea > MASSES) heap(part ? &m : &l, 1e-3);
-                else floes(part ? &m : &l, (enum sea)sea, 1.2, 0.5, test_seed(), 1e-4);
+                if (sea > MASSES) make_heap(part ? &m : &l, 1e-3);
+                else make_floes(part ? &m : &l, (enum sea)sea, 1.2, 0.5, test_seed(), 1e-4);
             }
 
             const int64_t stop = sea > MASSES ? 901 : 251;
@@ -383,14 +384,14 @@ static void threads_stops_and_looks(void **state)
             assert_int_equal(fl_snapshot_read(&m.w, &in, &err), 0);
             fl_text_close(&in);
             free(text);
-            assert_true(everything(&m.w, 0) == everything(&l.w, 0));
+            assert_true(hash_of_all_state(&m.w, 0) == hash_of_all_state(&l.w, 0));
             const fl_sleep_totals c = fl_sleep_sum_totals(&l.w);
             assert_true(sea > MASSES ? c.resting_steps > 0 : c.ballistic_steps > 0);
             fl_world *go = way == 1 ? &m.w : &l.w;
             for (int k = 0; k < 150; k++) assert_int_equal(fl_step(go, &err), 0);
             for (int without = 0; without < 2 && way == 0; without++)
-                first[without] = everything(go, without);
-            assert_true(everything(go, way == 2) == first[way == 2]);
+                first[without] = hash_of_all_state(go, without);
+            assert_true(hash_of_all_state(go, way == 2) == first[way == 2]);
             lab_free(&l);
             lab_free(&m);
         }
@@ -401,14 +402,14 @@ static void threads_stops_and_looks(void **state)
 int main(int argc, char **argv)
 {
     (void)argc;
-    fl_parallel_limit_spin(argv); /* two threads, and tests at the same time */
-    const struct CMUnitTest tests[] = {cmocka_unit_test(off_by_what_was_told),
-                                       cmocka_unit_test(no_contact_goes_unnoticed),
+    fl_parallel_limit_spin(argv); /* two threads, and concurrent tests */
+    const struct CMUnitTest tests[] = {cmocka_unit_test(errors_stay_below_the_tolerance),
+                                       cmocka_unit_test(every_contact_is_detected),
                                        cmocka_unit_test(rest_and_wake),
-                                       cmocka_unit_test(all_rest_however_they_came),
-                                       cmocka_unit_test(what_falls_does_not_rest),
-                                       cmocka_unit_test(waves_reach_who_rests),
-                                       cmocka_unit_test(who_is_led_does_not_rest),
-                                       cmocka_unit_test(threads_stops_and_looks)};
+                                       cmocka_unit_test(a_stack_comes_to_rest_in_any_order),
+                                       cmocka_unit_test(falling_bodies_do_not_rest),
+                                       cmocka_unit_test(waves_wake_wet_floes),
+                                       cmocka_unit_test(bodies_of_prescribed_speed_do_not_rest),
+                                       cmocka_unit_test(threads_stops_and_queries_keep_the_bits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

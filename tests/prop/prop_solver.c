@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Laws of the whole solver, on heaps of random bodies: bits that depend on neither threads nor neighbour
- * search, momenta, and motion that depends on neither the order of the bodies, the place of the origin nor a
- * mirror. */
+/* Invariants of the whole solver on heaps of random bodies: bits that depend neither on threads nor on the
+ * neighbour search, conservation of momentum, and motion that does not depend on the order of bodies, the
+ * origin or a reflection. */
 #include <math.h>
 #include <stdlib.h>
 #include "sim/energy_balance.h"
@@ -10,21 +10,21 @@
 #include "support/small_world.h"
 #include "support/shapes.h"
 
-/* What to vary. */
+/* Parameters of a heap. */
 typedef struct {
-    int32_t side;     /* bodies along an edge of the heap                   */
+    int32_t side;     /* bodies along an edge of the heap */
     int32_t threads;  /* 0: 1                                               */
     int32_t every;    /* steps between searches; 0: when the skin is used up */
     double skin;      /* factor on it; 0: 1                                 */
-    int reversed;     /* the last body first                                */
+    int reversed;     /* reverse order of bodies */
     int walled;       /* gravity, rigid walls, a structure                  */
     const char *law;  /* NULL: patch */
     double dissipate; /* friction, and 1 - restitution                      */
-    double squeeze;   /* distance of the bodies over their size             */
-    fl_vec3 shift;    /* of everything                                   [m] */
+    double squeeze;   /* spacing of the bodies over their size */
+    fl_vec3 shift;    /* offset of everything [m] */
 } heap;
 
-static void put(lab *l, const heap *h, uint64_t seed, int32_t k)
+static void add_body(lab *l, const heap *h, uint64_t seed, int32_t k)
 {
     fl_rng g = fl_rng_of(seed, k, FL_RNG_TEST);
     fl_err err = {0};
@@ -50,11 +50,11 @@ static void put(lab *l, const heap *h, uint64_t seed, int32_t k)
     }
     }
     shape_move(&p, q_of_vector(v3_scale(0.05, turn)), v3_add(h->shift, v3_scale(h->squeeze, cell)));
-    /* inward, so that all of them meet soon */
+    /* inward, so that all of them collide soon */
     lab_poly(l, &p, r, v3_add(v3_scale(0.3, v), v3_scale(-0.3, cell)), v3_scale(0.3, w));
 }
 
-static void build(lab *l, const heap *h, uint64_t seed)
+static void make_heap(lab *l, const heap *h, uint64_t seed)
 {
     const int32_t n = h->side * h->side * h->side;
     const double half = 0.5 * h->side * h->squeeze + 0.05;
@@ -72,18 +72,18 @@ static void build(lab *l, const heap *h, uint64_t seed)
         lab_setf(l, "boundary.max=%.17g %.17g none", h->shift.x + half, h->shift.y + half);
         lab_wall(l, v3_add(h->shift, v3(-0.3, -0.3, half)), v3_add(h->shift, v3(0.3, 0.3, half + 1.0)), 2);
     }
-    for (int32_t k = 0; k < n; k++) put(l, h, seed, h->reversed ? n - 1 - k : k);
+    for (int32_t k = 0; k < n; k++) add_body(l, h, seed, h->reversed ? n - 1 - k : k);
     lab_make(l, 0);
     if (h->skin > 0.0) {
         l->w.skin *= h->skin;
-        l->w.last_search_step = -1; /* the list at hand is that of the old skin */
+        l->w.last_search_step = -1; /* the present list belongs to the old skin */
     }
 }
 
 static uint64_t hash_after(const heap *h, uint64_t seed, int64_t steps, int64_t *touching, int64_t *searches)
 {
     lab l;
-    build(&l, h, seed);
+    make_heap(&l, h, seed);
     assert_int_equal(lab_run(&l, steps), 0);
     const uint64_t hash = fl_state_hash(&l.w);
     *touching = l.w.contact_steps;
@@ -110,7 +110,7 @@ static void threads_give_the_same_bits(void **state)
             assert_true(got == hash);
             assert_true(touching == first);
         }
-        assert_true(first > 5000); /* pairs in contact, summed over steps */
+        assert_true(first > 5000); /* touching pairs, summed over steps */
     }
 }
 
@@ -148,8 +148,8 @@ static void the_search_does_not_matter(void **state)
     }
 }
 
-/* A sphere comes down on the highest line of a thick pole, which stands out from its polygon. */
-static uint64_t on_a_pole(int64_t seed, int every)
+/* A sphere moves down onto the highest line of a thick pole, which protrudes from its polygon. */
+static uint64_t hash_on_pole(int64_t seed, int every)
 {
     fl_rng g = fl_rng_of(test_seed(), seed, FL_RNG_TEST);
     const double thick = fl_rng_in(&g, 20, 150), turn = fl_rng_in(&g, 0, 6.3);
@@ -170,8 +170,8 @@ static uint64_t on_a_pole(int64_t seed, int every)
     return hash;
 }
 
-/* Boxes fly about an open sheet of two walls, through which some of them have been put. */
-static uint64_t about_a_sheet(int64_t seed, int every)
+/* Boxes move about an open sheet of two walls; some of them intersect it at the start. */
+static uint64_t hash_about_sheet(int64_t seed, int every)
 {
     static const int32_t TRIANGLE[4][3] = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
     static const fl_vec3 V[6] = {{-1.5, 0, -1.5}, {0, 0, -1.5},    {0, 0, 1.5},
@@ -200,14 +200,14 @@ static uint64_t about_a_sheet(int64_t seed, int every)
     return hash;
 }
 
-static void nor_beside_structures(void **state)
+static void the_search_does_not_matter_near_structures(void **state)
 {
     (void)state;
     for (int64_t seed = 0; seed < 60; seed++) {
-        const uint64_t pole = on_a_pole(seed, 0), sheet = about_a_sheet(seed, 0);
+        const uint64_t pole = hash_on_pole(seed, 0), sheet = hash_about_sheet(seed, 0);
         for (int every = 1; every < 8; every += 6) {
-            assert_true(on_a_pole(seed, every) == pole);
-            assert_true(about_a_sheet(seed, every) == sheet);
+            assert_true(hash_on_pole(seed, every) == pole);
+            assert_true(hash_about_sheet(seed, every) == sheet);
         }
     }
 }
@@ -218,7 +218,7 @@ static void momenta_are_conserved(void **state)
     for (long c = 0; c < test_times(3); c++) {
         const heap h = {.side = 4, .dissipate = c % 2 ? 0.5 : 0.0, .squeeze = 1.0};
         lab l;
-        build(&l, &h, test_seed() + (uint64_t)c);
+        make_heap(&l, &h, test_seed() + (uint64_t)c);
         fl_vec3 p[2], J[2];
         double ps = 0.0, Js = 0.0;
         for (int t = 0; t < 2; t++) {
@@ -241,7 +241,7 @@ static void momenta_are_conserved(void **state)
     }
 }
 
-/* Other sums, other roles in each pair: the same motion, but for what rounding grows to. */
+/* Other orders of sums, other roles in each pair: the same motion up to the growth of rounding. */
 static void the_order_of_bodies_does_not_matter(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void the_order_of_bodies_does_not_matter(void **state)
         lab l[2];
         for (int k = 0; k < 2; k++) {
             const heap h = {.side = 4, .reversed = k, .walled = 1, .dissipate = 0.4, .squeeze = 1.0};
-            build(&l[k], &h, test_seed() + (uint64_t)c);
+            make_heap(&l[k], &h, test_seed() + (uint64_t)c);
             assert_int_equal(lab_run(&l[k], 500), 0);
         }
         const int32_t n = l[0].w.n;
@@ -279,7 +279,7 @@ static void the_origin_does_not_matter(void **state)
                             .dissipate = 0.4,
                             .squeeze = 0.95,
                             .shift = k ? v3(1e6, -1e6, 1e6) : v3(0, 0, 0)};
-            build(&l[k], &h, test_seed() + (uint64_t)c);
+            make_heap(&l[k], &h, test_seed() + (uint64_t)c);
         }
         assert_int_equal(l[0].w.b.total, l[1].w.b.total);
         double largest = 0.0, worst = 0.0;
@@ -296,9 +296,9 @@ static void the_origin_does_not_matter(void **state)
     }
 }
 
-/* Two boxes meet face on face, rocking: what is seen of it in a mirror, x for -x, where other corners come
- * first and other places stand for the faces. */
-static void a_mirror_changes_nothing(void **state)
+/* Two boxes collide face to face with rotation, and the same scene reflected, x for -x, where other corners
+ * come first and other points represent the faces. */
+static void a_reflection_changes_nothing(void **state)
 {
     (void)state;
     for (long c = 0; c < test_times(30); c++) {
@@ -346,11 +346,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_give_the_same_bits),
         cmocka_unit_test(the_search_does_not_matter),
-        cmocka_unit_test(nor_beside_structures),
+        cmocka_unit_test(the_search_does_not_matter_near_structures),
         cmocka_unit_test(momenta_are_conserved),
         cmocka_unit_test(the_order_of_bodies_does_not_matter),
         cmocka_unit_test(the_origin_does_not_matter),
-        cmocka_unit_test(a_mirror_changes_nothing),
+        cmocka_unit_test(a_reflection_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* prop_summary.c -- runs may be added up in any order and in any groups, by way of files or not, and give the
- * bytes of one pass over all of them; and what a summary says of one run is what the whole record says. */
+/* prop_summary.c -- summaries of runs may be merged in any order and in any groups, through files or not,
+ * and give the bytes of one pass over all runs.  The summary of one run agrees with its whole record. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,17 +20,17 @@
 enum { RUNS = 7, TEXT = 1 << 20 };
 
 static fl_err err;
-static long the_case;
+static long current_case;
 
-static void must(int rc)
+static void check_result(int rc)
 {
     if (rc == 0) return;
-    print_error("seed %llu case %ld: %s\n", (unsigned long long)test_seed(), the_case, err.text);
+    print_error("seed %llu case %ld: %s\n", (unsigned long long)test_seed(), current_case, err.text);
     fail();
 }
 
-/* A record of one or two parts, of intervals that are equal or not, with runs of zeros and of equal values,
- * and sizes that differ by many powers of ten. */
+/* A record of one or two parts, with equal or unequal intervals, runs of zeros and of equal values, and
+ * magnitudes that differ by many powers of ten. */
 static const char *write_record(fl_rng *g, int run)
 {
     char name[40], buf[2][FL_NUMBER_LEN];
@@ -63,11 +63,11 @@ static void reduce(fl_summary *s, const char *path, const fl_record_selection *a
 {
     fl_run r = {0};
     int more;
-    must(fl_run_open(&r, path, ask, how, &err));
+    check_result(fl_run_open(&r, path, ask, how, &err));
     while ((more = fl_run_next(&r, &err)) > 0) {}
-    must(more);
-    must(fl_run_finish(&r, "#by loadstats --summary\n", &err));
-    must(fl_summary_merge(s, &r.sum, path, &err));
+    check_result(more);
+    check_result(fl_run_finish(&r, "#by loadstats --summary\n", &err));
+    check_result(fl_summary_merge(s, &r.sum, path, &err));
     fl_run_close(&r);
 }
 
@@ -75,46 +75,46 @@ static void text_of(fl_summary *s, char *text)
 {
     FILE *f = fmemopen(text, TEXT, "w");
     assert_non_null(f);
-    must(fl_summary_write(f, s, &err));
+    check_result(fl_summary_write(f, s, &err));
     assert_true(ftell(f) < TEXT - 1);
     fclose(f);
 }
 
-/* Merge the runs from lo on in a tree of random shape, some of its nodes through a file. */
-static void grow(fl_rng *g, fl_summary *s, const fl_summary *run, const int *order, int lo, int hi)
+/* Merges the runs from lo on in a tree of random shape, some of its nodes through a file. */
+static void merge_randomly(fl_rng *g, fl_summary *s, const fl_summary *run, const int *order, int lo, int hi)
 {
     static char text[TEXT];
     if (hi - lo == 1) {
-        must(fl_summary_merge(s, &run[order[lo]], "run", &err));
+        check_result(fl_summary_merge(s, &run[order[lo]], "run", &err));
     } else {
         const int cut = lo + 1 + (int)fl_rng_in(g, 0.0, hi - lo - 1.0);
         fl_summary a = {0}, b = {0};
-        grow(g, &a, run, order, lo, cut);
-        grow(g, &b, run, order, cut, hi);
-        must(fl_summary_merge(&a, &b, "b", &err));
+        merge_randomly(g, &a, run, order, lo, cut);
+        merge_randomly(g, &b, run, order, cut, hi);
+        check_result(fl_summary_merge(&a, &b, "b", &err));
         if (fl_rng_unit(g) < 0.5) {
             text_of(&a, text);
             const char *path = test_file("node", text, strlen(text));
             fl_summary_free(&a);
-            must(fl_summary_read(&a, path, &err));
+            check_result(fl_summary_read(&a, path, &err));
             unlink(path);
         }
-        must(fl_summary_merge(s, &a, "a", &err));
+        check_result(fl_summary_merge(s, &a, "a", &err));
         fl_summary_free(&a);
         fl_summary_free(&b);
     }
 }
 
-static void any_order_any_groups(void **state)
+static void any_merge_order_gives_the_same_bytes(void **state)
 {
     static char first[TEXT], other[TEXT];
     const fl_record_selection ask = {
         .signal = (const char *const[]){"fx"}, .signals = 1, .from = -INFINITY, .to = INFINITY};
     (void)state;
-    for (the_case = 0; the_case < test_times(20); the_case++) {
-        fl_rng g = fl_rng_of(test_seed(), the_case, FL_RNG_TEST);
+    for (current_case = 0; current_case < test_times(20); current_case++) {
+        fl_rng g = fl_rng_of(test_seed(), current_case, FL_RNG_TEST);
         const fl_summary_settings how = {
-            .separation = 0.5, .block = the_case % 2 ? 0.35 : 0.0, .rule = (int)(the_case % 3 == 1)};
+            .separation = 0.5, .block = current_case % 2 ? 0.35 : 0.0, .rule = (int)(current_case % 3 == 1)};
         fl_summary run[RUNS], all = {0};
         memset(run, 0, sizeof run);
         int order[RUNS];
@@ -133,11 +133,11 @@ static void any_order_any_groups(void **state)
                 order[k] = order[j];
                 order[j] = swap;
             }
-            grow(&g, &s, run, order, 0, RUNS);
+            merge_randomly(&g, &s, run, order, 0, RUNS);
             text_of(&s, other);
             if (strcmp(first, other) != 0) {
                 print_error("seed %llu case %ld: order %d gives another summary\n",
-                            (unsigned long long)test_seed(), the_case, again);
+                            (unsigned long long)test_seed(), current_case, again);
                 fail();
             }
             fl_summary_free(&s);
@@ -147,7 +147,7 @@ static void any_order_any_groups(void **state)
     }
 }
 
-static int64_t halves(const fl_rainflow *f)
+static int64_t half_cycles(const fl_rainflow *f)
 {
     int64_t n = 0;
     for (int32_t k = 0; k < f->cycles; k++) n += f->cycle[k].count < 0.75 ? 1 : 2;
@@ -155,28 +155,28 @@ static int64_t halves(const fl_rainflow *f)
 }
 
 /* The same record whole in memory. */
-static void says_what_the_record_says(void **state)
+static void a_summary_agrees_with_the_record(void **state)
 {
     (void)state;
-    for (the_case = 0; the_case < test_times(100); the_case++) {
-        fl_rng g = fl_rng_of(test_seed() + 1, the_case, FL_RNG_TEST);
+    for (current_case = 0; current_case < test_times(100); current_case++) {
+        fl_rng g = fl_rng_of(test_seed() + 1, current_case, FL_RNG_TEST);
         const char *const fx[] = {"fx"};
         fl_record_selection ask = {.signal = fx, .signals = 1, .from = -INFINITY, .to = INFINITY};
         const fl_summary_settings how = {
-            .separation = 0.5, .threshold = the_case % 2 ? 1.0 : 0.0, .block = 0.2};
+            .separation = 0.5, .threshold = current_case % 2 ? 1.0 : 0.0, .block = 0.2};
         const char *path = write_record(&g, 0);
         fl_summary sum = {0};
         fl_series s = {0};
-        if (the_case % 3 == 1) ask.from = 0.5;
-        if (the_case % 4 == 1) ask.to = 1.5;
-        if (fl_series_read(&s, path, &ask, &err)) { /* a record too short for the cut */
+        if (current_case % 3 == 1) ask.from = 0.5;
+        if (current_case % 4 == 1) ask.to = 1.5;
+        if (fl_series_read(&s, path, &ask, &err)) { /* a record too short for the filter */
             assert_int_equal(err.code, FL_INPUT);
             fl_run r = {0};
-            fl_err told = {0};
-            assert_int_equal(fl_run_open(&r, path, &ask, &how, &told), 0);
-            assert_int_equal(fl_run_next(&r, &told), 0);
-            assert_int_equal(fl_run_finish(&r, "", &told), -1);
-            assert_int_equal(told.code, FL_INPUT);
+            fl_err refusal = {0};
+            assert_int_equal(fl_run_open(&r, path, &ask, &how, &refusal), 0);
+            assert_int_equal(fl_run_next(&r, &refusal), 0);
+            assert_int_equal(fl_run_finish(&r, "", &refusal), -1);
+            assert_int_equal(refusal.code, FL_INPUT);
             fl_run_close(&r);
             err = (fl_err){0};
             unlink(path);
@@ -205,23 +205,23 @@ static void says_what_the_record_says(void **state)
             if (d.std > 1e-3 * large) assert_near_of(moment[3], d.kurtosis, 1e-9, 3.0 + fabs(d.kurtosis));
             assert_true(t->min == d.min && t->max == d.max && t->t_min == s.t[d.at_min] &&
                         t->t_max == s.t[d.at_max]);
-            must(fl_peaks_rayleigh(s.n, x, how.separation, how.threshold, &peaks, &err));
+            check_result(fl_peaks_rayleigh(s.n, x, how.separation, how.threshold, &peaks, &err));
             double sum_of_peaks = 0.0;
             for (int32_t k = 0; k < peaks.n; k++) sum_of_peaks += x[peaks.row[k]];
             assert_int_equal(t->peaks, peaks.n);
             assert_near_of(fl_exact_value(&t->peak_sum), sum_of_peaks, 1e-13, peaks.n * large);
-            must(fl_rainflow_count(&rain, how.rule, how.residue, s.n, x, &err));
+            check_result(fl_rainflow_count(&rain, how.rule, how.residue, s.n, x, &err));
             int64_t n = 0;
             for (int32_t k = 0; k < t->cycle.cap; k++) n += t->cycle.slot[k].n;
-            assert_int_equal(n, halves(&rain));
-            must(fl_sample_block_maxima(s.n, x, s.edge, how.block, &peaks, NULL, &err));
+            assert_int_equal(n, half_cycles(&rain));
+            check_result(fl_sample_block_maxima(s.n, x, s.edge, how.block, &peaks, NULL, &err));
             assert_int_equal(fl_multiset_size(&t->block), peaks.n);
             double highest = -INFINITY, found = -INFINITY;
             for (int32_t k = 0; k < peaks.n; k++) highest = fmax(highest, x[peaks.row[k]]);
             for (int32_t k = 0; k < t->block.n; k++) found = fmax(found, t->block.v[k].x);
             assert_true(highest == found);
-            /* The quantile lies in the class of the value of that rank, or beside it. */
-            must(fl_log_histogram_sort(&t->level, &sorted, &err));
+            /* The quantile lies in the class of the value of that rank, or in the next one. */
+            check_result(fl_log_histogram_sort(&t->level, &sorted, &err));
             q = fl_log_histogram_quantile(t->level.n, sorted, 0.5, t->min, t->max);
             double below = 0.0, above = 0.0, total = 0.0;
             const double slack = fabs(q) / 100;
@@ -242,7 +242,7 @@ static void says_what_the_record_says(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(any_order_any_groups),
-                                       cmocka_unit_test(says_what_the_record_says)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(any_merge_order_gives_the_same_bytes),
+                                       cmocka_unit_test(a_summary_agrees_with_the_record)};
     return cmocka_run_group_tests_name("summary", tests, NULL, NULL);
 }

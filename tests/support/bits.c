@@ -24,7 +24,7 @@ uint64_t bits_of(fl_world *w)
 void bits_of_scenes(char text[BITS_TEXT])
 {
     static void (*const SCENE[])(lab *, int32_t, const char *) = {
-        scene_of_everything, scene_of_wraps, scene_of_seas, scene_of_balls, scene_of_surrogates};
+        scene_of_everything, scene_of_periodic_cell, scene_of_seas, scene_of_spheres, scene_of_surrogates};
     int at = 0;
     for (size_t k = 0; k < sizeof SCENE / sizeof *SCENE; k++) {
         lab l;

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bits.h -- one number for every bit of a world: state, books and loads. */
+/* bits.h -- one hash of all bits of a world: state, ledger and loads. */
 #ifndef FL_TESTS_BITS_H
 #define FL_TESTS_BITS_H
 #include "world/world.h"
 
 uint64_t bits_of(fl_world *w);
 
-/* Of some scenes with something of everything after some steps: as hexadecimal numbers, one a
- * line, into text. */
+/* Hashes of some scenes of all kinds after some steps, as hexadecimal numbers, one a line, into text. */
 enum { BITS_TEXT = 200 };
 void bits_of_scenes(char text[BITS_TEXT]);
 

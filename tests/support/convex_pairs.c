@@ -12,13 +12,13 @@ enum { CORNERS = 12 };
 static double log_in(fl_rng *g, double lo, double hi) { return pow(10.0, fl_rng_in(g, lo, hi)); }
 static int below(fl_rng *g, int n) { return (int)(fl_rng_unit(g) * n); }
 
-static fl_vec3 some_direction(fl_rng *g)
+static fl_vec3 random_direction(fl_rng *g)
 {
     const double z = fl_rng_in(g, -1.0, 1.0), a = fl_rng_in(g, 0.0, 2.0 * PI), s = sqrt(1.0 - z * z);
     return v3(s * cos(a), s * sin(a), z);
 }
 
-static fl_mat3 some_turn(fl_rng *g)
+static fl_mat3 random_rotation(fl_rng *g)
 {
     const fl_quat q = {fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g)};
     return q_matrix(q_unit(q));
@@ -34,7 +34,7 @@ static int make(fl_poly *p, int32_t nv, const fl_vec3 *v, int32_t nf, const int3
 }
 
 /* Two copies of a ring of n corners, joined: prisms, frusta, boxes. */
-static int make_drum(fl_poly *p, int32_t n, const fl_vec3 *low, const fl_vec3 *high)
+static int make_prism(fl_poly *p, int32_t n, const fl_vec3 *low, const fl_vec3 *high)
 {
     fl_vec3 v[2 * CORNERS];
     int32_t first[CORNERS + 3], loop[6 * CORNERS], k = 0;
@@ -57,8 +57,8 @@ static int make_drum(fl_poly *p, int32_t n, const fl_vec3 *low, const fl_vec3 *h
     return make(p, 2 * n, v, n + 2, first, loop);
 }
 
-/* Corners of a convex polygon in an ellipse of half axes a, b; near > 0 puts the last that close to the
- * one before. */
+/* Corners of a convex polygon on an ellipse of half axes a, b; near > 0: the last corner lies that close to
+ * the one before. */
 static void ring(fl_rng *g, int32_t n, double a, double b, double near, fl_vec3 *out)
 {
     double at = fl_rng_in(g, 0.0, 2.0 * PI);
@@ -69,14 +69,14 @@ static void ring(fl_rng *g, int32_t n, double a, double b, double near, fl_vec3 
     }
 }
 
-static int make_drum_over(fl_poly *p, int32_t n, const fl_vec3 *base, double h, double scale, fl_vec3 lean)
+static int make_prism_over(fl_poly *p, int32_t n, const fl_vec3 *base, double h, double scale, fl_vec3 lean)
 {
     fl_vec3 low[CORNERS], high[CORNERS];
     for (int32_t i = 0; i < n; i++) {
         low[i] = v3_sub(base[i], v3(0, 0, h / 2));
         high[i] = v3_add(v3_scale(scale, base[i]), v3_add(lean, v3(0, 0, h / 2)));
     }
-    return make_drum(p, n, low, high);
+    return make_prism(p, n, low, high);
 }
 
 static int make_box(fl_poly *p, double x, double y, double z)
@@ -136,8 +136,8 @@ static int ordinary_shape(fl_poly *p, fl_rng *g)
     case 5: return make_double_pyramid(p, x, y, z);
     case 6:
     case 7: return make_box(p, x, y, z);
-    case 8: return make_drum_over(p, n, base, z, fl_rng_in(g, 0.3, 1.0), v3(x * fl_rng_unit(g), 0, 0));
-    default: return make_drum_over(p, n, base, z, 1.0, v3(0, 0, 0));
+    case 8: return make_prism_over(p, n, base, z, fl_rng_in(g, 0.3, 1.0), v3(x * fl_rng_unit(g), 0, 0));
+    default: return make_prism_over(p, n, base, z, 1.0, v3(0, 0, 0));
     }
 }
 
@@ -153,24 +153,24 @@ static int hostile_shape(fl_poly *p, fl_rng *g, double near)
     case 4: { /* an octagon on the lattice */
         const fl_vec3 o[8] = {{2, 1, 0},   {1, 2, 0},   {-1, 2, 0}, {-2, 1, 0},
                               {-2, -1, 0}, {-1, -2, 0}, {1, -2, 0}, {2, -1, 0}};
-        return make_drum_over(p, 8, o, z, 1.0, v3(0, 0, 0));
+        return make_prism_over(p, 8, o, z, 1.0, v3(0, 0, 0));
     }
     case 5: { /* a triangle on the lattice */
         const fl_vec3 o[3] = {{0, 0, 0}, {2 * x, 0, 0}, {0, 2 * y, 0}};
-        return below(g, 2) ? make_flat(p, 3, o) : make_drum_over(p, 3, o, z, 1.0, v3(0, 0, 0));
+        return below(g, 2) ? make_flat(p, 3, o) : make_prism_over(p, 3, o, z, 1.0, v3(0, 0, 0));
     }
     case 6: return make_double_pyramid(p, x, y, z);
     case 7: return make(p, 2, (fl_vec3[]){{0, 0, 0}, {2 * x, 0, 0}}, 0, (int32_t[]){0}, (int32_t[]){0});
     default: {
         const int32_t n = 4 + below(g, 4);
         ring(g, n, 2.0, 2.0, near, base);
-        return make_drum_over(p, n, base, 1.0, 1.0, v3(0, 0, 0));
+        return make_prism_over(p, n, base, 1.0, 1.0, v3(0, 0, 0));
     }
     }
 }
 
-/* All the quadrilaterals are flat. */
-int pair_globe(fl_poly *p, int32_t rings, int32_t around, fl_vec3 axis)
+/* All quadrilaterals are flat. */
+int pair_ellipsoid(fl_poly *p, int32_t rings, int32_t around, fl_vec3 axis)
 {
     const int32_t nv = rings * around + 2, nf = (rings + 1) * around, nl = 4 * nf;
     fl_vec3 *v = malloc((size_t)nv * sizeof *v);
@@ -222,14 +222,14 @@ static int make_column(fl_poly *p, int32_t n, fl_vec3 axis)
     return rc;
 }
 
-/* Of about 4 to 10 000 vertices, as many small ones as large. */
+/* About 4 to 10 000 vertices, uniform in the logarithm. */
 static int large_shape(fl_poly *p, fl_rng *g)
 {
     const double n = log_in(g, 0.7, 4.0), thin = below(g, 3) ? 1.0 : 0.01;
     const fl_vec3 axis = v3(thin * log_in(g, -0.5, 0.0), log_in(g, -0.5, 0.0), log_in(g, -0.5, 0.0));
     if (below(g, 3) == 0) return make_column(p, (int32_t)fmax(3.0, 0.5 * n), v3(axis.z, axis.y, axis.x));
     const int32_t around = (int32_t)fmax(3.0, sqrt(n) * fl_rng_in(g, 0.7, 1.4));
-    return pair_globe(p, (int32_t)fmax(1.0, (n - 2.0) / around), around, axis);
+    return pair_ellipsoid(p, (int32_t)fmax(1.0, (n - 2.0) / around), around, axis);
 }
 
 void pair_place(pair_case *q, int k, fl_vec3 o, fl_mat3 r)
@@ -240,9 +240,9 @@ void pair_place(pair_case *q, int k, fl_vec3 o, fl_mat3 r)
     *(k ? &q->b : &q->a) = (fl_solid){p, q->v[k], q->n[k], 0.0};
 }
 
-/* Shift both bodies so that b lies at the gap g below a along n: min over a of n.x - max over b of n.y =
+/* Shifts both bodies so that b lies at the gap g below a along n: min over a of n.x - max over b of n.y =
  * g. */
-static void set_apart(pair_case *q, fl_vec3 n, double g)
+static void set_gap(pair_case *q, fl_vec3 n, double g)
 {
     double la = INFINITY, hb = -INFINITY;
     for (int32_t i = 0; i < q->p[0].nv; i++) la = fmin(la, v3_dot(n, q->v[0][i]));
@@ -257,8 +257,8 @@ static double shortest_edge(const fl_poly *p)
     return p->size > 0.0 ? s / p->size : 1.0;
 }
 
-/* Room for the world vertices and normals of the two shapes that are there. */
-static int make_room(pair_case *q)
+/* Memory for the world vertices and normals of the two shapes. */
+static int allocate_world_arrays(pair_case *q)
 {
     for (int k = 0; k < 2; k++) {
         q->v[k] = malloc(((size_t)q->p[k].nv + 1) * sizeof *q->v[k]);
@@ -273,32 +273,32 @@ static int make_room(pair_case *q)
 
 static int ordinary(pair_case *q, fl_rng *g, int deep)
 {
-    if (ordinary_shape(&q->p[0], g) || ordinary_shape(&q->p[1], g) || make_room(q)) return -1;
-    pair_place(q, 0, v3(0, 0, 0), some_turn(g));
-    pair_place(q, 1, v3_scale((deep ? 0.2 * fl_rng_unit(g) : 0.3) * q->size, some_direction(g)),
-               some_turn(g));
+    if (ordinary_shape(&q->p[0], g) || ordinary_shape(&q->p[1], g) || allocate_world_arrays(q)) return -1;
+    pair_place(q, 0, v3(0, 0, 0), random_rotation(g));
+    pair_place(q, 1, v3_scale((deep ? 0.2 * fl_rng_unit(g) : 0.3) * q->size, random_direction(g)),
+               random_rotation(g));
     if (deep) return 0;
-    fl_vec3 n = some_direction(g);
+    fl_vec3 n = random_direction(g);
     if (q->p[0].nf && below(g, 2)) n = q->n[0][below(g, q->p[0].nf)];
     const int what = below(g, 5);
     double gap = q->size * log_in(g, -9.0, what == 0 ? 3.0 : 0.0);
     if (what == 1) gap = -0.3 * gap;
-    set_apart(q, n, gap);
+    set_gap(q, n, gap);
     return 0;
 }
 
 static int large(pair_case *q, fl_rng *g)
 {
-    if (large_shape(&q->p[0], g) || large_shape(&q->p[1], g) || make_room(q)) return -1;
+    if (large_shape(&q->p[0], g) || large_shape(&q->p[1], g) || allocate_world_arrays(q)) return -1;
     const fl_mat3 one = q_matrix(q_one());
     const int flush = below(g, 4) == 0, far = below(g, 6) == 0;
-    pair_place(q, 0, v3(0, 0, 0), flush ? one : some_turn(g));
-    pair_place(q, 1, v3_scale(0.3 * q->size, some_direction(g)), flush ? one : some_turn(g));
-    fl_vec3 n = flush ? v3(0, 0, 1) : some_direction(g);
+    pair_place(q, 0, v3(0, 0, 0), flush ? one : random_rotation(g));
+    pair_place(q, 1, v3_scale(0.3 * q->size, random_direction(g)), flush ? one : random_rotation(g));
+    fl_vec3 n = flush ? v3(0, 0, 1) : random_direction(g);
     if (!flush && below(g, 2)) n = q->n[0][below(g, q->p[0].nf)];
     const double gap = q->size * log_in(g, -9.0, below(g, 5) ? 0.0 : 3.0);
-    set_apart(q, n, below(g, 8) ? gap : -0.3 * gap);
-    const fl_vec3 away = v3_scale(1e6 * q->size, some_direction(g));
+    set_gap(q, n, below(g, 8) ? gap : -0.3 * gap);
+    const fl_vec3 away = v3_scale(1e6 * q->size, random_direction(g));
     for (int k = 0; k < 2 && far; k++)
         for (int32_t i = 0; i < q->p[k].nv; i++) q->v[k][i] = v3_add(q->v[k][i], away);
     return 0;
@@ -311,18 +311,18 @@ static int hostile(pair_case *q, fl_rng *g)
     const int same = below(g, 8) == 0;
     fl_err err = {0};
     if (same ? fl_poly_copy(&q->p[1], &q->p[0], &err) : hostile_shape(&q->p[1], g, near)) return -1;
-    if (make_room(q)) return -1;
+    if (allocate_world_arrays(q)) return -1;
     const fl_mat3 one = q_matrix(q_one());
     fl_mat3 turn = one, tilt = one;
-    if (below(g, 3) == 0) turn = some_turn(g);
+    if (below(g, 3) == 0) turn = random_rotation(g);
     if (below(g, 2)) {
         const int axis = below(g, 3);
         const double angle = log_in(g, -16.0, -3.0);
         const fl_quat t =
-            below(g, 2) ? q_about_axis(axis, angle) : q_of_vector(v3_scale(angle, some_direction(g)));
+            below(g, 2) ? q_about_axis(axis, angle) : q_of_vector(v3_scale(angle, random_direction(g)));
         tilt = q_matrix(q_mul(t, q_about_axis(below(g, 3), 0.0)));
     }
-    /* A shift on the lattice, so that edges and vertices come to lie over each other. */
+    /* A shift on the lattice, so that edges and vertices coincide or are aligned. */
     const fl_vec3 shift = v3(below(g, 9) - 4, below(g, 9) - 4, below(g, 9) - 4);
     pair_place(q, 0, v3(0, 0, 0), turn);
     for (int k = 0; k < 2; k++) { /* b: tilt, shift on the lattice of a, then the common turn */
@@ -341,10 +341,10 @@ static int hostile(pair_case *q, fl_rng *g)
                            : how == 1 ? -q->size * log_in(g, -9.0, -1.0)
                            : how == 2 ? ldexp(1.0, -below(g, 40))
                                       : q->size * log_in(g, -9.0, 1.0);
-        set_apart(q, n, gap);
+        set_gap(q, n, gap);
     }
     if (below(g, 6) == 0) {
-        const fl_vec3 far = v3_scale(1e6, some_direction(g));
+        const fl_vec3 far = v3_scale(1e6, random_direction(g));
         for (int k = 0; k < 2; k++)
             for (int32_t i = 0; i < q->p[k].nv; i++) q->v[k][i] = v3_add(q->v[k][i], far);
     }
@@ -354,7 +354,7 @@ static int hostile(pair_case *q, fl_rng *g)
 int pair_take(pair_case *q, fl_poly a, fl_poly b)
 {
     *q = (pair_case){.p = {a, b}};
-    if (make_room(q)) {
+    if (allocate_world_arrays(q)) {
         pair_free(q);
         return -1;
     }

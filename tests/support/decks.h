@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* decks.h -- decks of finite elements written in a test, and what is read of them.  For one source file each:
- * all of it is static. */
+/* decks.h -- finite-element input decks written in a test, and their import.  For one source file each: all
+ * of it is static. */
 #ifndef FL_TESTS_DECKS_H
 #define FL_TESTS_DECKS_H
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "support/near.h"
 
 static fl_err err;
-static fl_surface s; /* what was read last */
+static fl_surface s; /* surface of the last import */
 static char note[FL_MESH_NOTE];
 
 static inline int setup(void **state)
@@ -29,14 +29,14 @@ static inline int clear(void **state)
     return 0;
 }
 
-/* The text as a file called "deck". */
+/* Reads the text as a file called "deck". */
 static inline int read_some(const char *text, fl_import_options *w)
 {
     clear(NULL);
     return fl_mesh_read(&s, test_file("deck", text, strlen(text)), w, note, &err);
 }
 
-/* It is read, and this is how good it is. */
+/* Expects success; returns the quality of the mesh. */
 static inline fl_mesh_quality reads(const char *text)
 {
     fl_mesh_quality q;
@@ -46,7 +46,7 @@ static inline fl_mesh_quality reads(const char *text)
     return q;
 }
 
-/* What is like the pattern. */
+/* Expects success and a remark that matches the pattern. */
 static inline fl_mesh_quality takes(const char *text, const char *pattern)
 {
     const char *const list[] = {pattern};
@@ -59,7 +59,7 @@ static inline fl_mesh_quality takes(const char *text, const char *pattern)
     return q;
 }
 
-/* It is refused as it is, or else when every part and set is asked for, and the sentence has this in it. */
+/* Expects an error with this text, as the deck is, or else when every part and set is selected. */
 static inline void refuses(const char *text, const char *why)
 {
     const char *const list[] = {"*"};
@@ -69,7 +69,7 @@ static inline void refuses(const char *text, const char *why)
     if (!strstr(err.text, why)) fail_msg("\"%s\" is not in \"%s\"", why, err.text);
 }
 
-/* A remark has this in it. */
+/* Expects a remark with this text. */
 static inline void says(const char *what)
 {
     if (!strstr(note, what)) fail_msg("\"%s\" is not in \"%s\"", what, note);

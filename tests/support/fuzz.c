@@ -27,9 +27,9 @@
 #endif
 
 enum {
-    SECONDS = 30, /* of processor time for one input: corpora are kilobytes, a reader takes milliseconds */
-    GROWN_MAX = 1 << 20, /* a damaged copy stays below this */
-    WORK = 64 << 20      /* bytes of damaged copies a file may cost: 4000 copies of 16 kB */
+    SECONDS = 30, /* processor time for one input: corpora are kilobytes, a reader takes milliseconds */
+    GROWN_MAX = 1 << 20, /* largest size of a damaged copy */
+    WORK = 64 << 20      /* bytes of damaged copies per file: 4000 copies of 16 kB */
 };
 #define MEMORY ((rlim_t)2 << 30)
 
@@ -41,7 +41,7 @@ typedef struct {
 
 static bytes *corpus;
 static int32_t files, files_cap;
-static char now[700]; /* what is being tried, for the handler of the signal that ends it */
+static char now[700]; /* the current input, for the signal handler */
 static char scratch[600];
 static int scratch_fd = -1;
 
@@ -127,9 +127,9 @@ const char *fuzz_file(const unsigned char *data, size_t n)
     return scratch;
 }
 
-/* --- bytes ---------------------------------------------------------------------------------------------- */
+/* --- bytes -------------------------------------------------------------------------------------------- */
 
-/* Replace cut bytes at from by put[n]. */
+/* Replaces `cut` bytes at `from` by put[n]. */
 static void splice(bytes *b, int32_t from, int32_t cut, const void *put, int32_t n)
 {
     fl_err err = {0};
@@ -161,7 +161,7 @@ static bytes load(const char *path, const char *name)
     return b;
 }
 
-static int by_name(const void *a, const void *b)
+static int compare_names(const void *a, const void *b)
 {
     return strcmp(((const bytes *)a)->name, ((const bytes *)b)->name);
 }
@@ -180,14 +180,14 @@ static void load_corpus(const char *folder)
         corpus[files++] = load(path, e->d_name);
     }
     closedir(d);
-    if (files) qsort(corpus, (size_t)files, sizeof *corpus, by_name);
+    if (files) qsort(corpus, (size_t)files, sizeof *corpus, compare_names);
 }
 
-/* --- damage --------------------------------------------------------------------------------------------- */
+/* --- damage ------------------------------------------------------------------------------------------- */
 
 static int32_t below(fl_rng *g, int32_t n) { return n > 0 ? (int32_t)(fl_rng_u64(g) % (uint64_t)n) : 0; }
 
-/* The line at a random place: its first byte, and its length with the newline. */
+/* The line at a random position: its first byte, and its length with the newline. */
 static int32_t some_line(const bytes *b, fl_rng *g, int32_t *len)
 {
     int32_t from = below(g, b->n), to = from;
@@ -255,7 +255,7 @@ static void damage_once(bytes *b, fl_rng *g)
         }
         break;
     case 1: b->n = below(g, b->n); break;
-    case 2: /* a line once more, or very often */
+    case 2: /* a line repeated, once or very often */
         at = some_line(b, g, &len);
         if (len > (int32_t)sizeof part) break;
         memcpy(part, b->data + at, (size_t)len);
@@ -265,7 +265,7 @@ static void damage_once(bytes *b, fl_rng *g)
         at = some_line(b, g, &len);
         splice(b, at, len, NULL, 0);
         break;
-    case 4: /* a line elsewhere */
+    case 4: /* a line moved */
         at = some_line(b, g, &len);
         if (len > (int32_t)sizeof part) break;
         memcpy(part, b->data + at, (size_t)len);
@@ -277,7 +277,7 @@ static void damage_once(bytes *b, fl_rng *g)
     case 6:
     case 7:
     case 8: swap_number(b, g); break;
-    case 9: { /* a piece of another file of the corpus, in place of as much */
+    case 9: { /* a piece of another file of the corpus, in place of as many bytes */
         const bytes *o = &corpus[below(g, files)];
         len = o->n ? 1 + below(g, o->n < 4096 ? o->n : 4096) : 0;
         at = below(g, b->n);
@@ -285,7 +285,7 @@ static void damage_once(bytes *b, fl_rng *g)
                o->data + below(g, o->n - len + 1), len);
         break;
     }
-    case 10: /* any bytes */
+    case 10: /* random bytes */
         len = 1 + below(g, 16);
         for (int32_t i = 0; i < len; i++) part[i] = (unsigned char)fl_rng_u64(g);
         splice(b, below(g, b->n), 0, part, len);
@@ -297,7 +297,7 @@ static void damage_once(bytes *b, fl_rng *g)
         memcpy(b->data + below(g, b->n - 3), &count[below(g, 7)], 4);
         break;
     }
-    case 12: /* a word gone */
+    case 12: /* a word removed */
         at = below(g, b->n);
         for (len = 0; at + len < b->n && b->data[at + len] > ' '; len++) continue;
         splice(b, at, len, NULL, 0);
@@ -308,7 +308,7 @@ static void damage_once(bytes *b, fl_rng *g)
     }
 }
 
-/* Damaged copy m of file f: a function of the file, its name and m. */
+/* Damaged copy m of a file: a function of the file, its name and m. */
 static void damage(bytes *out, const bytes *file, int64_t m)
 {
     fl_rng g = fl_rng_of(fl_hash(FL_HASH_START, file->name, (int64_t)strlen(file->name)), m, FL_RNG_TEST);
@@ -317,17 +317,17 @@ static void damage(bytes *out, const bytes *file, int64_t m)
     for (int32_t k = 1 + below(&g, 4); k > 0; k--) damage_once(out, &g);
 }
 
-/* --- a file of the corpus ------------------------------------------------------------------------------- */
+/* --- a file of the corpus ----------------------------------------------------------------------------- */
 
-/* Processor time, not the clock's: a machine that is busy with other things is no defect of the reader. */
+/* Processor time, not elapsed time: the load of the machine must not fail a reader. */
 static void limit_time(time_t seconds)
 {
     const struct itimerval limit = {.it_value.tv_sec = seconds};
     setitimer(ITIMER_PROF, &limit, NULL);
 }
 
-/* The reader sees a copy of exactly n bytes, so that the sanitizer sees it look beyond. */
-static int try_it(fuzz_fn *one, const bytes *b)
+/* The reader gets a copy of exactly n bytes, so that the sanitizer detects reads beyond the end. */
+static int run_input(fuzz_fn *one, const bytes *b)
 {
     unsigned char *copy = malloc((size_t)b->n + (b->n == 0));
     if (!copy) die("memory");
@@ -344,7 +344,7 @@ static const char *verdict_text(int verdict)
     return verdict == FUZZ_READ      ? "read"
            : verdict == FUZZ_REFUSED ? "refused"
            : verdict == FUZZ_SYSTEM  ? "out of memory or another failure of the system"
-                                     : "return value and error at odds, or a promise broken";
+                                     : "return value and error disagree, or a postcondition is violated";
 }
 
 static int complain(int verdict)
@@ -356,8 +356,8 @@ static int complain(int verdict)
 
 static int replay(const char *name, const bytes *b, fuzz_fn *one, int *verdict)
 {
-    snprintf(now, sizeof now, "tests/fuzz/%s/%s as it is", name, b->name);
-    *verdict = try_it(one, b);
+    snprintf(now, sizeof now, "tests/fuzz/%s/%s unchanged", name, b->name);
+    *verdict = run_input(one, b);
     if (*verdict != FUZZ_READ && *verdict != FUZZ_REFUSED) return complain(*verdict);
     if (strncmp(b->name, "good", 4) == 0 && *verdict != FUZZ_READ) return complain(*verdict);
     if (strncmp(b->name, "bad", 3) == 0 && *verdict != FUZZ_REFUSED) return complain(*verdict);
@@ -370,19 +370,19 @@ static int replay_damaged(const char *name, const bytes *b, fuzz_fn *one, int64_
         snprintf(now, sizeof now, "tests/fuzz/%s/%s damaged (fuzz_%s --print tests/fuzz/%s/%s %lld)", name,
                  b->name, name, name, b->name, (long long)m);
         damage(work, b, m);
-        const int verdict = try_it(one, work);
+        const int verdict = run_input(one, work);
         if (verdict != FUZZ_READ && verdict != FUZZ_REFUSED) return complain(verdict);
     }
     return 0;
 }
 
-/* The first 200 allocations fail one by one, then some: what follows is more of the same rows. */
+/* The first 200 allocations fail one by one, then a sample: the rest are repetitions of the same rows. */
 static int replay_starved(const char *name, const bytes *b, fuzz_fn *one, int usual)
 {
     for (long k = 0;; k += k < 200 ? 1 : k / 8) {
         snprintf(now, sizeof now, "tests/fuzz/%s/%s with allocation %ld failing", name, b->name, k);
         fl_alloc_fail_after(k);
-        const int verdict = try_it(one, b);
+        const int verdict = run_input(one, b);
         const long refused = fl_alloc_refused();
         fl_alloc_fail_after(-1);
         if (refused == 0) return verdict == usual ? 0 : complain(verdict);
@@ -402,7 +402,7 @@ static int print_copy(const char *path, const char *number)
         return 2;
     }
     snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) : 1, slash ? path : ".");
-    load_corpus(folder); /* splices come from the whole of it */
+    load_corpus(folder); /* splices use the whole corpus */
     for (int32_t f = 0; f < files; f++)
         if (strcmp(corpus[f].name, slash ? slash + 1 : path) == 0) damage(&work, &corpus[f], (int64_t)m);
     if (!work.data) die(path);

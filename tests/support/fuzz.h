@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* fuzz.h -- a reader against its corpus, against thousands of damaged copies of it, and against memory that
- * runs out.  A target is
+/* fuzz.h -- a reader on its corpus, on thousands of damaged copies of it, and with failing allocations.  A
+ * target is
  *
  *     static int fuzz_one(const unsigned char *data, size_t n)
  *     {
@@ -19,13 +19,13 @@
 #include <stddef.h>
 #include "base/err.h"
 
-enum fuzz_says { FUZZ_READ, FUZZ_REFUSED, FUZZ_BROKEN, FUZZ_SYSTEM };
+enum fuzz_result { FUZZ_READ, FUZZ_REFUSED, FUZZ_BROKEN, FUZZ_SYSTEM };
 
-/* Does the reader do with these bytes what it promises?  FUZZ_BROKEN where it does not; else what
- * fuzz_verdict() says. */
+/* Runs the reader on these bytes.  Returns FUZZ_BROKEN if it violates its contract, else the result of
+ * fuzz_verdict(). */
 typedef int fuzz_fn(const unsigned char *data, size_t n);
 
-/* What a call that returned rc and err came to: FUZZ_READ (rc = 0, err empty), FUZZ_REFUSED (rc = -1 and one
+/* Classifies a call that returned rc and err: FUZZ_READ (rc = 0, err empty), FUZZ_REFUSED (rc = -1 and one
  * sentence on one line), FUZZ_SYSTEM (the same with FL_SYSTEM), FUZZ_BROKEN for anything else. */
 int fuzz_verdict(int rc, const fl_err *err);
 
@@ -33,18 +33,18 @@ int fuzz_verdict(int rc, const fl_err *err);
 const char *fuzz_file(const unsigned char *data, size_t n);
 
 /* For each file of the corpus, in the order of their names:
- *  - the file as it is;
- *  - damaged copies: bits flipped, ends cut, lines lost, repeated or swapped, numbers replaced by -1, 1e309,
- *    nan, 2147483648 and the like, parts of other corpus files spliced in.  Copy m of a file is the same on
- *    every run.  Their number is 400 when FLOE_QUICK is set, 4000 otherwise, or FLOE_FUZZ; fewer for files so
- *    long that this would take minutes;
- *  - the file as it is with allocation 0, 1, 2, ... and all after it failing, until none fails any more.
- * A reader is broken when it crashes, takes more than 30 s of processor time, leaves rc and err at odds,
- * reads what it must refuse or the reverse, runs out of 2 GiB of memory, or goes on after an allocation
- * failed.
+ *  - the unchanged file;
+ *  - damaged copies: bits flipped, ends cut, lines lost, repeated or swapped, numbers replaced by -1,
+ * 1e309, nan, 2147483648 and the like, parts of other corpus files spliced in.  Copy m of a file is the
+ * same in every run.  Their number is 400 when FLOE_QUICK is set, 4000 otherwise, or FLOE_FUZZ; fewer for
+ * files so long that this would take minutes;
+ *  - the unchanged file with allocation 0, 1, 2, ... and all later ones failing, until none fails any more.
+ * A reader is broken when it crashes, takes more than 30 s of processor time, leaves rc and err in
+ * disagreement, reads what it must refuse or the reverse, uses more than 2 GiB of memory, or continues
+ * after a failed allocation.
  *
- *   program [FOLDER]           the corpus, tests/fuzz/<name> unless named
- *   program --print FILE M     write damaged copy M of FILE to standard output, to look at a failure
+ *     program [FOLDER]           the corpus, tests/fuzz/<name> unless named
+ *     program --print FILE M     write damaged copy M of FILE to standard output, to examine a failure
  * Prints "N passed, N failed", a file being one, and returns the exit status. */
 int fuzz_main(int argc, char **argv, const char *name, fuzz_fn *one);
 

@@ -12,7 +12,7 @@
 
 static int finite3(fl_vec3 x) { return isfinite(x.x) && isfinite(x.y) && isfinite(x.z); }
 
-static int part_sound(const fl_part *p)
+static int part_is_valid(const fl_part *p)
 {
     if (!p->name || !*p->name || *p->name == '#' || p->id < 0 || (p->nt == 0 && p->nc == 0)) return 0;
     for (const char *c = p->name; *c; c++)
@@ -33,7 +33,7 @@ static int part_sound(const fl_part *p)
 int mesh_sound(const fl_surface *s)
 {
     for (int32_t i = 0; i < s->n; i++)
-        if (!part_sound(&s->part[i])) return 0;
+        if (!part_is_valid(&s->part[i])) return 0;
     return s->n > 0;
 }
 
@@ -62,7 +62,7 @@ int mesh_same(const fl_surface *a, const fl_surface *b)
     return 1;
 }
 
-/* The text of s, read again: FUZZ_READ when the same came back. */
+/* Writes s as text and reads it again: FUZZ_READ when the same surface came back. */
 static int round_trip(const fl_surface *s, fl_err *err)
 {
     char *text = NULL;
@@ -83,8 +83,8 @@ static int round_trip(const fl_surface *s, fl_err *err)
     return rc;
 }
 
-/* Welding may refuse a part that is too large to measure; nothing else may. */
-static int mend(fl_part *p, fl_err *err)
+/* Welding may refuse a part that is too large to measure; no other step may fail. */
+static int weld_and_orient(fl_part *p, fl_err *err)
 {
     fl_mesh_quality q;
     fl_orient_counts o;
@@ -94,8 +94,9 @@ static int mend(fl_part *p, fl_err *err)
     return q.inverted == 0 && q.incoherent <= 3 * o.one_sided * (int64_t)p->nt ? 0 : 1;
 }
 
-/* The same bytes, few at a time: the head may then not tell what they are, but what is read is sound. */
-static int through_a_window(const unsigned char *data, size_t n)
+/* The same bytes with a small read window: the format may then not be recognised, but a surface that is
+ * read is valid. */
+static int read_with_small_window(const unsigned char *data, size_t n)
 {
     fl_err err = {0};
     fl_surface s = {0};
@@ -118,12 +119,12 @@ int mesh_fuzz(const unsigned char *data, size_t n)
     verdict = fuzz_verdict(rc, &err);
     if (verdict == FUZZ_READ && !mesh_sound(&s)) verdict = FUZZ_BROKEN;
     if (verdict != FUZZ_READ && s.n) verdict = FUZZ_BROKEN;
-    if (verdict == FUZZ_READ) verdict = through_a_window(data, n);
+    if (verdict == FUZZ_READ) verdict = read_with_small_window(data, n);
     for (int32_t i = 0; i < s.n && verdict == FUZZ_READ; i++) {
-        rc = mend(&s.part[i], &err);
+        rc = weld_and_orient(&s.part[i], &err);
         verdict = rc > 0 ? FUZZ_BROKEN : fuzz_verdict(rc, &err);
         if (verdict == FUZZ_READ && s.part[i].nt == 0 && s.part[i].nc == 0)
-            goto done; /* all of it collapsed */
+            goto done; /* all triangles degenerate */
     }
     if (verdict == FUZZ_READ) verdict = round_trip(&s, &err);
 done:

@@ -7,49 +7,49 @@
 enum { NX = 3, NY = 2, NZ = 3 }; /* cells of the box that the L lies in */
 
 /* Is the cell in the body?  The leg stands under one end of the deck. */
-static int filled(int i, int j, int k)
+static int is_filled(int i, int j, int k)
 {
     (void)j;
     return k == NZ - 1 || i == 0;
 }
 
 /* No face of a cell is a rectangle, so that it never has two diagonals of one length. */
-static fl_vec3 place(double i, double j, double k)
+static fl_vec3 node_position(double i, double j, double k)
 {
     const double x = 1.5 * i + 0.25 * i * (i > 1.0), y = j + 0.125 * i, z = 0.75 * k + 0.0625 * j + 0.125 * i;
     return v3(x, y, z);
 }
 
-/* The number of the node at that place of the half-grid. */
+/* Number of the node at that position of the half-grid. */
 static int64_t node_at(model *m, int i, int j, int k)
 {
     const int64_t id = 7 + 10 * (((int64_t)(2 * NZ - k) * (2 * NY + 1) + j) * (2 * NX + 1) + i);
     for (int32_t n = 0; n < m->nodes; n++)
         if (m->id[n] == id) return id;
     m->id[m->nodes] = id;
-    m->x[m->nodes++] = place(0.5 * i, 0.5 * j, 0.5 * k);
+    m->x[m->nodes++] = node_position(0.5 * i, 0.5 * j, 0.5 * k);
     return id;
 }
 
 static const int CORNER[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0},
                                  {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
 
-/* The pieces that a cell is cut into, by its corners (8 is its centre).  Wedges and tetrahedra are cut alike
- * in every cell, along diagonals that neighbours share. */
+/* The elements of a cell, by its corners (8 is its centre).  Wedges and tetrahedra divide every cell in the
+ * same way, along diagonals that neighbours share. */
 static const char *const HEX[] = {"01234567", NULL};
 static const char *const WEDGE[] = {"012456", "023467", NULL};
 static const char *const TET[] = {"0126", "0236", "0376", "0746", "0456", "0516", NULL};
 static const char *const PYRAMID[] = {"01238", "47658", "04518", "15628", "26738", "37408", NULL};
 
-/* Pairs of corners that the mids lie between. */
-static const char *mids(enum fl_shape shape)
+/* Pairs of corners between which the mid-side nodes lie. */
+static const char *mid_side_corners(enum fl_shape shape)
 {
     if (shape == FL_TET10) return "011220031323";
     if (shape == FL_WEDGE15) return "011220344553031425";
     return shape == FL_HEX20 ? "011223304556677404152637" : "";
 }
 
-static void cell(model *m, enum fl_shape shape, int i, int j, int k)
+static void add_cell_elements(model *m, enum fl_shape shape, int i, int j, int k)
 {
     const char *const *piece = shape == FL_WEDGE6 || shape == FL_WEDGE15 ? WEDGE
                                : shape == FL_TET4 || shape == FL_TET10   ? TET
@@ -65,14 +65,14 @@ static void cell(model *m, enum fl_shape shape, int i, int j, int k)
             for (int d = 0; d < 3; d++)
                 at[n][d] = 2 * (d == 0 ? i : d == 1 ? j : k) + (*c == '8' ? 1 : CORNER[*c - '0'][d]);
         for (int c = 0; c < n; c++) e->node[c] = node_at(m, at[c][0], at[c][1], at[c][2]);
-        for (const char *p = mids(shape); *p; p += 2, n++) {
+        for (const char *p = mid_side_corners(shape); *p; p += 2, n++) {
             const int *a = at[p[0] - '0'], *b = at[p[1] - '0'];
             e->node[n] = node_at(m, (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2);
         }
     }
 }
 
-/* A face by its nodes, outward, and whose it is. */
+/* A face by its nodes, outward, and its part. */
 typedef struct {
     int n;
     int32_t part;
@@ -88,7 +88,7 @@ static int same_nodes(const face *a, const face *b)
     return met == a->n;
 }
 
-static int32_t outer(const model *m, face *f)
+static int32_t outer_faces(const model *m, face *f)
 {
     int32_t n = 0, kept = 0;
     static face all[MODEL_ELEMENTS * 6];
@@ -121,9 +121,9 @@ void model_make(model *m, enum fl_shape shape)
     for (int k = 0; k < NZ; k++)
         for (int j = 0; j < NY; j++)
             for (int i = 0; i < NX; i++)
-                if (filled(i, j, k)) cell(m, solid, i, j, k);
+                if (is_filled(i, j, k)) add_cell_elements(m, solid, i, j, k);
     if (solid == shape) return;
-    n = outer(m, f);
+    n = outer_faces(m, f);
     m->elements = 0;
     for (int32_t i = 0; i < n; i++) {
         model_element *e = &m->e[m->elements++];
@@ -132,7 +132,7 @@ void model_make(model *m, enum fl_shape shape)
     }
 }
 
-static fl_vec3 where(const model *m, int64_t id)
+static fl_vec3 position_of(const model *m, int64_t id)
 {
     for (int32_t n = 0; n < m->nodes; n++)
         if (m->id[n] == id) return m->x[n];
@@ -143,14 +143,14 @@ void model_surface(const model *m, fl_surface *s)
 {
     static face f[MODEL_ELEMENTS * 6];
     fl_err err = {0};
-    const int32_t n = outer(m, f);
+    const int32_t n = outer_faces(m, f);
     for (int32_t p = 0; p < MODEL_PARTS; p++) fl_surface_add(s, m->part[p], strlen(m->part[p]), &err);
     for (int32_t i = 0; i < n; i++) {
         fl_part *p = &s->part[f[i].part];
         int32_t loop[4];
         for (int c = 0; c < f[i].n; c++) {
             loop[c] = p->nv;
-            fl_surface_vertex(p, where(m, f[i].node[c]), &err);
+            fl_surface_vertex(p, position_of(m, f[i].node[c]), &err);
         }
         fl_facet_polygon(p, f[i].n, loop, &err);
     }
@@ -169,7 +169,7 @@ static int by_corners(const void *pa, const void *pb)
     return 0;
 }
 
-static corners *sorted(const fl_part *p)
+static corners *sorted_corners(const fl_part *p)
 {
     corners *c = calloc((size_t)p->nt + 1, sizeof *c);
     if (!c) abort();
@@ -200,8 +200,8 @@ int model_same(const fl_surface *a, const fl_surface *b)
         corners *c, *d;
         int same;
         if (k < 0 || b->part[k].nt != p->nt) return 0;
-        c = sorted(p);
-        d = sorted(&b->part[k]);
+        c = sorted_corners(p);
+        d = sorted_corners(&b->part[k]);
         same = 1;
         for (int32_t t = 0; t < p->nt; t++) same &= by_corners(&c[t], &d[t]) == 0;
         free(c);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* model.h -- one small body in finite elements, to be written in every format; and its surface, found by
+/* model.h -- a small finite-element body that can be written in every format; and its surface, found by
  * comparing every face with every other one. */
 #ifndef FL_TESTS_MODEL_H
 #define FL_TESTS_MODEL_H
@@ -30,12 +30,12 @@ typedef struct {
  * Coordinates are multiples of 1/16, so that any format holds them. */
 void model_make(model *m, enum fl_shape shape);
 
-/* Its surface: a part for each of its parts, faces of solids that no other solid has, outward; quadrilaterals
- * split by fl_facet_polygon(), mid-side nodes dropped. */
+/* The surface of the model: one part for each of its parts, of those faces of solids that no other solid
+ * has, outward.  Quadrilaterals are split by fl_facet_polygon(), mid-side nodes dropped. */
 void model_surface(const model *m, fl_surface *s);
 
-/* Have two surfaces the same triangles in parts of the same names?  Triangles are compared by the coordinates
- * of their corners, in any order of triangles and from any corner on, but not with another winding. */
+/* True if two surfaces have the same triangles in parts of the same names.  Triangles are compared by the
+ * coordinates of their corners, in any order and from any first corner, with the same winding. */
 int model_same(const fl_surface *a, const fl_surface *b);
 
 #endif

@@ -14,7 +14,7 @@ static fl_vec3 normal3(fl_rng *g)
     return x;
 }
 
-static void put(lab *l, int32_t side, int32_t k)
+static void add_body(lab *l, int32_t side, int32_t k)
 {
     static const char *const GROUP[] = {NULL, NULL,    NULL, NULL, "towed", NULL,
                                         NULL, "stiff", NULL, NULL, NULL};
@@ -79,16 +79,16 @@ void scene_of_everything(lab *l, int32_t side, const char *law)
     lab_cone(l, (fl_cone){v3(half - 0.7, half - 0.7, half - 0.1), v3(half - 0.7, half - 0.7, top + 1.0), 0.5,
                           0.3});
     lab_prism(l, 6, hook, half - 0.1, top + 0.5); /* not convex: a shell */
-    for (int32_t k = 0; k < side * side * side; k++) put(l, side, k);
+    for (int32_t k = 0; k < side * side * side; k++) add_body(l, side, k);
 }
 
-void scene_of_wraps(lab *l, int32_t side, const char *law)
+void scene_of_periodic_cell(lab *l, int32_t side, const char *law)
 {
     scene_of_everything(l, side, law);
     lab_set(l, "boundary.type=periodic periodic rigid");
 }
 
-void scene_of_balls(lab *l, int32_t side, const char *law)
+void scene_of_spheres(lab *l, int32_t side, const char *law)
 {
     const double half = 0.5 * side, middle = 0.5 * (side - 1);
     lab_start(l);
@@ -110,8 +110,8 @@ void scene_of_balls(lab *l, int32_t side, const char *law)
     }
 }
 
-/* The bodies next to k that have larger numbers, along x, y and z; along x the last one meets the first. */
-static void freeze(lab *l, int32_t side, int32_t k, fl_vec3 cell)
+/* The bodies next to k with larger numbers, along x, y and z; along x the last one neighbours the first. */
+static void bond_neighbours(lab *l, int32_t side, int32_t k, fl_vec3 cell)
 {
     const int32_t wide = side + 1, x = k % wide, y = k / wide % side, z = k / (wide * side);
     const int32_t next[3] = {x + 1 < wide ? k + 1 : k + 1 - wide, y + 1 < side ? k + wide : -1,
@@ -162,7 +162,7 @@ void scene_of_bonds(lab *l, int32_t side, const char *law)
         if (fl_ice_field_add(&l->field, k + 1, round ? 0.5 : 0.05, &p, NULL, k % 11 == 5 ? "towed" : NULL, v,
                              spin, &err))
             exit(1);
-        freeze(l, side, k, cell);
+        bond_neighbours(l, side, k, cell);
     }
 }
 
@@ -176,7 +176,7 @@ void scene_of_seas(lab *l, int32_t side, const char *law)
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
 }
 
-void scene_of_looks(lab *l, int32_t side, const char *law)
+void scene_of_water_interval(lab *l, int32_t side, const char *law)
 {
     scene_of_everything(l, side, law);
     lab_set(l, "water.every=4");
@@ -190,13 +190,13 @@ void scene_of_surrogates(lab *l, int32_t side, const char *law)
     lab_set(l, "contact.surrogate=0.01");
 }
 
-void scene_of_glances(lab *l, int32_t side, const char *law)
+void scene_of_sea_interval(lab *l, int32_t side, const char *law)
 {
     scene_of_seas(l, side, law);
     lab_set(l, "water.every=7");
 }
 
-void scene_of_traffic(lab *l, int32_t side, const char *law)
+void scene_of_inflow(lab *l, int32_t side, const char *law)
 {
     const double half = 0.5 * side - 0.4;
     scene_of_everything(l, side, law);
@@ -207,14 +207,14 @@ void scene_of_traffic(lab *l, int32_t side, const char *law)
     lab_set(l, "boundary.inflow_speed=20 m/s");
     lab_set(l, "boundary.drive=0.5 0 0");
     lab_set(l, "boundary.drive_width=0.7");
-    lab_set(l, "boundary.drive_fixed=x rz"); /* and some of those are held in y */
+    lab_set(l, "boundary.drive_fixed=x rz"); /* and some of them are held in y */
     lab_set(l, "group.towed.fixed=y ry"), lab_set(l, "group.towed.velocity=0 0.3 0");
     lab_set(l, "boundary.drive_foundation=1 kN/m3");
 }
 
-void scene_of_visits(lab *l, int32_t side, const char *law)
+void scene_of_inflow_interval(lab *l, int32_t side, const char *law)
 {
-    scene_of_traffic(l, side, law);
+    scene_of_inflow(l, side, law);
     lab_set(l, "water.wave=airy"), lab_set(l, "water.height=0.1"), lab_set(l, "water.period=5");
     lab_set(l, "water.every=5");
 }

@@ -5,7 +5,7 @@
 #include "geom/clip.h"
 #include "support/shapes.h"
 
-static void need(int rc, const fl_err *err, const char *what)
+static void check_result(int rc, const fl_err *err, const char *what)
 {
     if (rc == 0) return;
     fprintf(stderr, "%s: %s\n", what, err->text);
@@ -30,7 +30,7 @@ fl_quat shape_rotation(fl_rng *g)
 
 void shape_move(fl_poly *p, fl_quat q, fl_vec3 d)
 {
-    /* to_frame gives transpose(axes) (x - o): axes = transpose(R) and o = -transpose(R) d */
+    /* to_frame computes transpose(axes) (x - o): axes = transpose(R) and o = -transpose(R) d */
     const fl_mat3 axes = q_matrix(q_conj(q));
     fl_poly_to_frame(p, v3_neg(m3_mul(axes, d)), axes);
 }
@@ -40,9 +40,9 @@ void shape_copy_moved(fl_poly *to, const fl_poly *from, double s, fl_quat q, fl_
     fl_err err = {0};
     fl_vec3 *v = fl_alloc(from->nv, sizeof *v, &err);
     const fl_mat3 r = q_matrix(q);
-    if (!v) need(-1, &err, "copy");
+    if (!v) check_result(-1, &err, "copy");
     for (int32_t k = 0; k < from->nv; k++) v[k] = v3_madd(d, s, m3_mul(r, from->v[k]));
-    need(fl_poly_make(to, from->nv, v, from->nf, from->first, from->loop, &err), &err, "copy");
+    check_result(fl_poly_make(to, from->nv, v, from->nf, from->first, from->loop, &err), &err, "copy");
     free(v);
 }
 
@@ -50,7 +50,7 @@ void shape_random_box(fl_poly *p, fl_rng *g, double lo, double hi)
 {
     fl_err err = {0};
     const double x = fl_rng_in(g, lo, hi), y = fl_rng_in(g, lo, hi), z = fl_rng_in(g, lo, hi);
-    need(fl_poly_box(p, v3(pow(10.0, x), pow(10.0, y), pow(10.0, z)), &err), &err, "random box");
+    check_result(fl_poly_box(p, v3(pow(10.0, x), pow(10.0, y), pow(10.0, z)), &err), &err, "random box");
 }
 
 void shape_random_prism(fl_poly *p, fl_rng *g)
@@ -65,18 +65,18 @@ void shape_random_prism(fl_poly *p, fl_rng *g)
         const double t = start + 6.283185307179586 * (k + fl_rng_in(g, 0.0, 0.8)) / n;
         xy[k] = v3(a * cos(t), b * sin(t), 0.0);
     }
-    need(fl_poly_prism(p, n, xy, -0.5 * h, 0.5 * h, &err), &err, "random prism");
+    check_result(fl_poly_prism(p, n, xy, -0.5 * h, 0.5 * h, &err), &err, "random prism");
 }
 
-/* Cut as long as planes come out well: one that leaves a face too narrow is left out. */
-static void chip(fl_poly *p, fl_rng *g, fl_vec3 half, int cuts)
+/* Cuts while the planes give valid bodies; a cut that leaves a face too narrow is omitted. */
+static void cut_corners(fl_poly *p, fl_rng *g, fl_vec3 half, int cuts)
 {
     for (int k = 0; k < cuts; k++) {
         fl_err err = {0};
         const fl_vec3 n = shape_direction(g);
         const double reach = fabs(n.x) * half.x + fabs(n.y) * half.y + fabs(n.z) * half.z;
         const double c = reach * fl_rng_in(g, 0.3, 1.0);
-        if (fl_poly_cut(p, n, c, &err) && err.code != FL_NUMERIC) need(-1, &err, "random cut");
+        if (fl_poly_cut(p, n, c, &err) && err.code != FL_NUMERIC) check_result(-1, &err, "random cut");
     }
 }
 
@@ -84,8 +84,8 @@ void shape_random_polytope(fl_poly *p, fl_rng *g, int cuts)
 {
     fl_err err = {0};
     const fl_vec3 h = v3(fl_rng_in(g, 0.5, 2.0), fl_rng_in(g, 0.5, 2.0), fl_rng_in(g, 0.5, 2.0));
-    need(fl_poly_box(p, h, &err), &err, "random polytope");
-    chip(p, g, h, cuts);
+    check_result(fl_poly_box(p, h, &err), &err, "random polytope");
+    cut_corners(p, g, h, cuts);
 }
 
 void shape_random_sliver(fl_poly *p, fl_rng *g)
@@ -93,8 +93,8 @@ void shape_random_sliver(fl_poly *p, fl_rng *g)
     fl_err err = {0};
     const double thin = pow(10.0, fl_rng_in(g, -3.0, -1.0));
     const fl_vec3 h = fl_rng_unit(g) < 0.5 ? v3(1.0, fl_rng_in(g, 0.5, 1.0), thin) : v3(1.0, thin, thin);
-    need(fl_poly_box(p, h, &err), &err, "random sliver");
-    chip(p, g, h, 2);
+    check_result(fl_poly_box(p, h, &err), &err, "random sliver");
+    cut_corners(p, g, h, 2);
 }
 
 void shape_random(fl_poly *p, fl_rng *g)
@@ -120,7 +120,7 @@ void shape_regular(fl_poly *p, int faces, double r)
     int32_t first[21] = {0}, loop[60], nf = 0;
     fl_err err = {0};
     for (int32_t k = 0; k < n; k++) v[k] = v3_scale(r, v3_unit(from[k]));
-    /* A triple is a face when all vertices lie to one side of it. */
+    /* A triple is a face if all vertices lie on one side of it. */
     for (int32_t i = 0; i < n; i++)
         for (int32_t j = 0; j < n; j++)
             for (int32_t k = 0; k < n; k++) {
@@ -135,6 +135,6 @@ void shape_regular(fl_poly *p, int faces, double r)
                 nf++;
                 first[nf] = 3 * nf;
             }
-    need(nf == faces ? 0 : -1, &err, "regular body");
-    need(fl_poly_make(p, n, v, nf, first, loop, &err), &err, "regular body");
+    check_result(nf == faces ? 0 : -1, &err, "regular body");
+    check_result(fl_poly_make(p, n, v, nf, first, loop, &err), &err, "regular body");
 }

@@ -18,22 +18,22 @@
 #include "contact/pair_store.h"
 #include "support/small_world.h"
 
-static void must(int rc, const fl_err *err)
+static void check_result(int rc, const fl_err *err)
 {
     if (rc == 0) return;
     printf("lab: %s\n", err->text);
     exit(1);
 }
 
-double lab_told(void)
+double lab_surrogate_tolerance(void)
 {
-    const char *told = getenv("FLOE_SURROGATE");
-    return told ? atof(told) : 0.0;
+    const char *with_surrogate = getenv("FLOE_SURROGATE");
+    return with_surrogate ? atof(with_surrogate) : 0.0;
 }
 
 void lab_start(lab *l)
 {
-    /* half of the default step: what tests bound was settled with it */
+    /* half of the default step, with which the bounds of the tests were set */
     static const char *const KEYS[] = {"ice.file=-",           "run.gravity=0",  "run.duration=1",
                                        "run.threads=1",        "run.safety=0.1", "contact.friction=0",
                                        "contact.restitution=1"};
@@ -45,7 +45,7 @@ void lab_start(lab *l)
 void lab_set(lab *l, const char *assignment)
 {
     fl_err err = {0};
-    must(fl_scene_set(&l->scene, assignment, &err), &err);
+    check_result(fl_scene_set(&l->scene, assignment, &err), &err);
 }
 
 void lab_setf(lab *l, const char *fmt, ...)
@@ -61,14 +61,14 @@ void lab_setf(lab *l, const char *fmt, ...)
 void lab_poly(lab *l, fl_poly *core, double radius, fl_vec3 v, fl_vec3 spin)
 {
     fl_err err = {0};
-    must(fl_ice_field_add(&l->field, l->field.n + 1, radius, core, NULL, NULL, v, spin, &err), &err);
+    check_result(fl_ice_field_add(&l->field, l->field.n + 1, radius, core, NULL, NULL, v, spin, &err), &err);
 }
 
 void lab_box(lab *l, fl_vec3 centre, fl_vec3 half, double radius, fl_quat q, fl_vec3 v, fl_vec3 spin)
 {
     fl_err err = {0};
     fl_poly p = {0};
-    must(fl_poly_box(&p, v3(half.x - radius, half.y - radius, half.z - radius), &err), &err);
+    check_result(fl_poly_box(&p, v3(half.x - radius, half.y - radius, half.z - radius), &err), &err);
     fl_poly_to_frame(&p, v3(0, 0, 0), q_matrix(q_conj(q)));
     fl_poly_to_frame(&p, v3_neg(centre), q_matrix(q_one()));
     lab_poly(l, &p, radius, v, spin);
@@ -78,7 +78,7 @@ void lab_sphere(lab *l, fl_vec3 centre, double radius, fl_vec3 v, fl_vec3 spin)
 {
     fl_err err = {0};
     fl_poly p = {0};
-    must(fl_poly_make(&p, 1, &centre, 0, NULL, NULL, &err), &err);
+    check_result(fl_poly_make(&p, 1, &centre, 0, NULL, NULL, &err), &err);
     lab_poly(l, &p, radius, v, spin);
 }
 
@@ -87,7 +87,7 @@ void lab_capsule(lab *l, fl_vec3 centre, fl_vec3 half, double radius)
     fl_err err = {0};
     fl_poly p = {0};
     const fl_vec3 end[2] = {v3_sub(centre, half), v3_add(centre, half)};
-    must(fl_poly_make(&p, 2, end, 0, NULL, NULL, &err), &err);
+    check_result(fl_poly_make(&p, 2, end, 0, NULL, NULL, &err), &err);
     lab_poly(l, &p, radius, v3(0, 0, 0), v3(0, 0, 0));
 }
 
@@ -95,17 +95,17 @@ static fl_part *part(lab *l)
 {
     fl_err err = {0};
     const int32_t k = fl_surface_add(&l->surface, "part", 4, &err);
-    must(k < 0, &err);
+    check_result(k < 0, &err);
     return &l->surface.part[k];
 }
 
 void lab_cone(lab *l, fl_cone c)
 {
     fl_err err = {0};
-    must(fl_surface_cone(part(l), c, &err), &err);
+    check_result(fl_surface_cone(part(l), c, &err), &err);
 }
 
-/* The corners of an n by n grid on each of the six faces, one vertex each where faces meet. */
+/* The corners of an n by n grid on each of the six faces; faces share the vertices on their edges. */
 void lab_wall(lab *l, fl_vec3 lo, fl_vec3 hi, int n)
 {
     fl_err err = {0};
@@ -125,17 +125,19 @@ void lab_wall(lab *l, fl_vec3 lo, fl_vec3 hi, int n)
                         at[(axis + 2) % 3] = j + (c >= 2);
                         int32_t *k = &index[(at[0] * (n + 1) + at[1]) * (n + 1) + at[2]];
                         if (!*k) {
-                            must(fl_surface_vertex(p,
-                                                   v3(lo.x + s.x * at[0] / n, lo.y + s.y * at[1] / n,
-                                                      lo.z + s.z * at[2] / n),
-                                                   &err),
-                                 &err);
+                            check_result(fl_surface_vertex(p,
+                                                           v3(lo.x + s.x * at[0] / n, lo.y + s.y * at[1] / n,
+                                                              lo.z + s.z * at[2] / n),
+                                                           &err),
+                                         &err);
                             *k = p->nv;
                         }
                         v[c] = *k - 1;
                     }
-                    must(fl_surface_triangle(p, v[0], end ? v[1] : v[2], end ? v[2] : v[1], &err), &err);
-                    must(fl_surface_triangle(p, v[0], end ? v[2] : v[3], end ? v[3] : v[2], &err), &err);
+                    check_result(fl_surface_triangle(p, v[0], end ? v[1] : v[2], end ? v[2] : v[1], &err),
+                                 &err);
+                    check_result(fl_surface_triangle(p, v[0], end ? v[2] : v[3], end ? v[3] : v[2], &err),
+                                 &err);
                 }
             }
         }
@@ -150,15 +152,15 @@ void lab_prism(lab *l, int n, const fl_vec3 *xy, double z0, double z1)
     int32_t *down = calloc((size_t)n, sizeof *down), *up = calloc((size_t)n, sizeof *up);
     if (!down || !up) exit(1);
     for (int k = 0; k < 2 * n; k++)
-        must(fl_surface_vertex(p, v3(xy[k % n].x, xy[k % n].y, k < n ? z0 : z1), &err), &err);
+        check_result(fl_surface_vertex(p, v3(xy[k % n].x, xy[k % n].y, k < n ? z0 : z1), &err), &err);
     for (int k = 0; k < n; k++) {
         const int32_t wall[4] = {k, (k + 1) % n, n + (k + 1) % n, n + k};
         down[k] = n - 1 - k;
         up[k] = n + k;
-        must(fl_facet_polygon(p, 4, wall, &err), &err);
+        check_result(fl_facet_polygon(p, 4, wall, &err), &err);
     }
-    must(fl_facet_polygon(p, n, down, &err), &err);
-    must(fl_facet_polygon(p, n, up, &err), &err);
+    check_result(fl_facet_polygon(p, n, down, &err), &err);
+    check_result(fl_facet_polygon(p, n, up, &err), &err);
     free(down), free(up);
 }
 
@@ -168,17 +170,18 @@ void lab_make(lab *l, double dt)
     int32_t body;
     if (l->surface.n) lab_set(l, "structure.file=lab");
     const fl_scene_contact *const all = &l->scene.contact[0]; /* [contact], which lab_start() began */
-    const int told = lab_told() > 0.0 && fl_contact_law_uses(&fl_contact_laws[all->law], "surrogate") &&
-                     !(all->surrogate > 0.0);
-    if (told) lab_setf(l, "contact.surrogate=%.17g", lab_told());
-    must(fl_scene_check(&l->scene, &err), &err);
-    must(fl_world_make(&l->w, &l->scene, &l->field, l->surface.n ? &l->surface : NULL, &err), &err);
-    if (told && !l->w.surrogate_counts) {
-        printf("lab: no contact is told\n");
+    const int with_surrogate = lab_surrogate_tolerance() > 0.0 &&
+                               fl_contact_law_uses(&fl_contact_laws[all->law], "surrogate") &&
+                               !(all->surrogate > 0.0);
+    if (with_surrogate) lab_setf(l, "contact.surrogate=%.17g", lab_surrogate_tolerance());
+    check_result(fl_scene_check(&l->scene, &err), &err);
+    check_result(fl_world_make(&l->w, &l->scene, &l->field, l->surface.n ? &l->surface : NULL, &err), &err);
+    if (with_surrogate && !l->w.surrogate_counts) {
+        printf("lab: no contact has a surrogate\n");
         exit(1);
     }
     l->w.dt = dt > 0.0 ? dt : fl_automatic_step(&l->w, &body);
-    must(fl_step_start(&l->w, &err), &err);
+    check_result(fl_step_start(&l->w, &err), &err);
     l->made = 1;
 }
 
@@ -209,7 +212,7 @@ void lab_pose(fl_world *w, int32_t i, fl_vec3 x, fl_quat q)
     fl_body_update_spin(&w->b, i);
 }
 
-fl_pair lab_look(fl_world *w, int32_t i, int32_t j)
+fl_pair lab_evaluate_pair(fl_world *w, int32_t i, int32_t j)
 {
     fl_pair p;
     fl_pair_init(w, &p, i, j);
@@ -262,7 +265,7 @@ void lab_gas_on(lab *l, const char *law, double safety, int threads)
     fill_gas(l, safety);
 }
 
-void lab_gas_told(lab *l, double safety, double surrogate)
+void lab_gas_surrogate(lab *l, double safety, double surrogate)
 {
     lab_start(l);
     lab_setf(l, "contact.surrogate=%g", surrogate);

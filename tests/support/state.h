@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include "support/small_world.h"
 
-/* Reads the bytes into a fresh world of a lab whose scene has been checked; a fuzz_fn (fuzz.h) beside. */
+/* Reads the bytes into a new world of a lab whose scene has been checked; a fuzz_fn (fuzz.h). */
 int state_fuzz(const lab *of, const unsigned char *data, size_t n);
 
 #endif

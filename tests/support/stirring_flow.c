@@ -14,15 +14,15 @@
 
 enum { SMOOTH = 2 };
 
-static void must(int rc, const fl_err *err)
+static void check_result(int rc, const fl_err *err)
 {
     if (rc == 0) return;
     printf("eddies: %s\n", err->text);
     exit(1);
 }
 
-/* Cores of floes as voronoi-ice makes them: prisms over cells of n sites, smoothed twice. */
-static void voronoi(fl_poly *out, int32_t n)
+/* Cores of floes made like those of voronoi-ice: prisms over the cells of n sites, smoothed twice. */
+static void make_cores(fl_poly *out, int32_t n)
 {
     const double half = 0.5 * sqrt(AREA * n);
     const fl_vec2 lo = {-half, -half}, hi = {half, half};
@@ -32,13 +32,13 @@ static void voronoi(fl_poly *out, int32_t n)
     fl_err err = {0};
     if (!site) exit(1);
     fl_random_sites(n, 1, lo, hi, site);
-    must(fl_power_cells_build(&c, n, site, lo, hi, &err), &err);
+    check_result(fl_power_cells_build(&c, n, site, lo, hi, &err), &err);
     for (int k = 0; k < SMOOTH; k++) {
         fl_power_cells_centroids(&c, site);
         fl_power_cells_free(&c);
-        must(fl_power_cells_build(&c, n, site, lo, hi, &err), &err);
+        check_result(fl_power_cells_build(&c, n, site, lo, hi, &err), &err);
     }
-    must(fl_floes_make(&a, &c, CONCENTRATION, RADIUS, (fl_vec2){0, 0}, &err), &err);
+    check_result(fl_floes_make(&a, &c, CONCENTRATION, RADIUS, (fl_vec2){0, 0}, &err), &err);
     for (int32_t i = 0; i < n; i++) {
         const int32_t corners = a.first[i + 1] - a.first[i];
         fl_vec3 *xy = malloc((size_t)corners * sizeof *xy);
@@ -47,14 +47,14 @@ static void voronoi(fl_poly *out, int32_t n)
             const fl_vec2 v = a.core[a.first[i] + k];
             xy[k] = v3(v.x, v.y, 0);
         }
-        must(fl_poly_prism(&out[i], corners, xy, -0.4, 0.0, &err), &err);
+        check_result(fl_poly_prism(&out[i], corners, xy, -0.4, 0.0, &err), &err);
         free(xy);
     }
     free(site);
     fl_floes_free(&a), fl_power_cells_free(&c);
 }
 
-void eddies_start(lab *l, int32_t n, double speed)
+void stirring_flow_start(lab *l, int32_t n, double speed)
 {
     fl_poly *core = calloc((size_t)n, sizeof *core);
     int32_t *at = malloc((size_t)n * sizeof *at);
@@ -64,11 +64,11 @@ void eddies_start(lab *l, int32_t n, double speed)
     lab_set(l, "contact.stiffness_factor=0.025");
     lab_set(l, "contact.friction=0.3");
     lab_set(l, "contact.restitution=0.1");
-    voronoi(core, n);
+    make_cores(core, n);
     for (int32_t i = 0; i < n; i++) {
         const double x = PI / EDDY * core[i].v[0].x, y = PI / EDDY * core[i].v[0].y;
         lab_poly(l, &core[i], RADIUS, v3(speed * sin(x) * cos(y), -speed * cos(x) * sin(y), 0), v3(0, 0, 0));
     }
-    must(fl_ice_field_order(&l->field, at, &err), &err);
+    check_result(fl_ice_field_order(&l->field, at, &err), &err);
     free(core), free(at);
 }

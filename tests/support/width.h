@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* width.h -- all of prop_width and prop_avx2: the same bits for any width of vectors.  Functions that are
- * compiled for several (base/simd.h) are chosen when a program is loaded, by what __cpu_model tells of the
- * machine.  Here that is defined anew, as of a machine that has FEATURES, nothing or AVX2; prop_bits, beside
- * this program, has what the machine has.  Elsewhere than on x86-64 both are the same, and so is what is
- * compared. */
+/* width.h -- common part of prop_width and prop_avx2: the same bits for any vector width.  Functions that
+ * are compiled for several widths (base/simd.h) are selected when a program is loaded, by __cpu_model.
+ * Here __cpu_model is defined anew, for a machine that has FEATURES, nothing or AVX2; prop_bits, beside
+ * this program, uses those of the machine.  On other machines than x86-64 both are the same. */
 #ifndef FL_TESTS_WIDTH_H
 #define FL_TESTS_WIDTH_H
 #include <stdio.h>
@@ -22,32 +21,32 @@ struct processor {
     unsigned vendor, type, subtype, features[1];
 };
 extern struct processor __cpu_model;
-struct processor __cpu_model = {1, 0, 0, {FEATURES}}; /* known, so that nobody asks the machine */
+struct processor __cpu_model = {1, 0, 0, {FEATURES}}; /* initialised, so that the machine is not queried */
 extern unsigned __cpu_features2[4];
 unsigned __cpu_features2[4];
 int __cpu_indicator_init(void);
 int __cpu_indicator_init(void) { return 0; }
 
-/* What the wide functions that are taken need. */
+/* Features that the selected wide functions need. */
 static int machine_has(void)
 {
     unsigned a, b, c, d;
     return FEATURES == 0 || (__get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & bit_AVX2));
 }
 
-/* Nothing would be compared if the program took other functions all the same. */
-static int as_said(void)
+/* The comparison would be empty if the program selected other functions all the same. */
+static int selected_as_declared(void)
 {
     return (__builtin_cpu_supports("avx2") != 0) == (FEATURES != 0) && !__builtin_cpu_supports("avx512f");
 }
 #else
 static int machine_has(void) { return 1; }
-static int as_said(void) { return 1; }
+static int selected_as_declared(void) { return 1; }
 #endif
 
 static char other[700]; /* prop_bits */
 
-static void bits_are_those_of_the_machine(void **state)
+static void bits_equal_those_of_the_machine(void **state)
 {
     char mine[BITS_TEXT], got[BITS_TEXT] = "";
     (void)state;
@@ -61,16 +60,16 @@ static void bits_are_those_of_the_machine(void **state)
     assert_string_equal(mine, got);
 }
 
-static void width_is_as_said(void **state)
+static void width_is_as_declared(void **state)
 {
     (void)state;
-    assert_true(as_said());
+    assert_true(selected_as_declared());
 }
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(width_is_as_said),
-                                       cmocka_unit_test(bits_are_those_of_the_machine)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(width_is_as_declared),
+                                       cmocka_unit_test(bits_equal_those_of_the_machine)};
     const char *slash = argc > 0 ? strrchr(argv[0], '/') : NULL;
     snprintf(other, sizeof other, "'%.*sprop_bits' --bits", slash ? (int)(slash - argv[0]) + 1 : 0, argv[0]);
     return cmocka_run_group_tests_name("width", tests, NULL, NULL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Near pairs are shared out by the contacts of the step before, and each is looked at, whoever does. */
+/* Near pairs are divided among threads by the contacts of the previous step. Each pair is evaluated exactly
+ * once. */
 #include <string.h>
 #include "base/array.h"
 #include "contact/active_pairs.h"
@@ -7,8 +8,8 @@
 #include "support/near.h"
 #include "world/access.h"
 
-/* 144 floes in rows; those of a row touch one another, and are near the rows beside. */
-static void rows(lab *l, int threads)
+/* 144 floes in rows: floes of a row touch, and floes of neighbouring rows are near pairs. */
+static void make_floe_rows(lab *l, int threads)
 {
     lab_start(l);
     lab_setf(l, "run.threads=%d", threads);
@@ -20,12 +21,12 @@ static void rows(lab *l, int threads)
     assert_true(l->w.n_touching >= 12 * 11 && l->w.n_touching < l->w.n_pair / 2);
 }
 
-/* Contacts in a share, and that shares follow each other over all pairs. */
+/* Counts the contacts of a share. Consecutive shares cover all pairs. */
 static void shares_are_even(void **state)
 {
     (void)state;
     lab l;
-    rows(&l, 5);
+    make_floe_rows(&l, 5);
     const fl_world *w = &l.w;
     fl_share_active_pairs(&l.w);
     assert_int_equal(w->pair_share[0].next, 0);
@@ -40,12 +41,12 @@ static void shares_are_even(void **state)
     lab_free(&l);
 }
 
-/* Before anything touches, pairs count. */
-static void without_contacts_too(void **state)
+/* Before the first contact, shares are balanced by the number of pairs. */
+static void shares_are_even_without_contacts(void **state)
 {
     (void)state;
     lab l;
-    rows(&l, 3);
+    make_floe_rows(&l, 3);
     l.w.n_touching = 0;
     fl_share_active_pairs(&l.w);
     assert_int_equal(l.w.pair_share[0].next, 0);
@@ -57,54 +58,55 @@ static void without_contacts_too(void **state)
     lab_free(&l);
 }
 
-/* A team of any size, of one too. */
-static void all_are_looked_at(void **state)
+/* Any number of threads, one included. */
+static void every_pair_is_evaluated_once(void **state)
 {
     (void)state;
     lab l;
-    rows(&l, 4);
+    make_floe_rows(&l, 4);
     fl_world *w = &l.w;
     fl_err err = {0};
-    uint8_t *hit = fl_alloc(w->n_pair, 1, &err);
-    assert_non_null(hit);
-    memcpy(hit, w->pair_touches, (size_t)w->n_pair);
-    for (int team = 1; team <= 4; team++) {
+    uint8_t *touches = fl_alloc(w->n_pair, 1, &err);
+    assert_non_null(touches);
+    memcpy(touches, w->pair_touches, (size_t)w->n_pair);
+    for (int nthreads = 1; nthreads <= 4; nthreads++) {
         for (int32_t c = 0; c < w->n_pair; c++)
             w->pair_touches[c] = 2, w->pair[c].free_travel = -1.0, fl_set_next_check(w, c);
         fl_share_active_pairs(w);
-#pragma omp parallel num_threads(team)
+#pragma omp parallel num_threads(nthreads)
         fl_evaluate_active_pairs(w, 0.0, 0);
-        assert_memory_equal(w->pair_touches, hit, (size_t)w->n_pair);
+        assert_memory_equal(w->pair_touches, touches, (size_t)w->n_pair);
         for (int32_t t = 0; t < 4; t++) assert_true(w->pair_share[t].next >= w->pair_share[t].end);
     }
     assert_int_equal(w->failed, 0);
-    free(hit);
+    free(touches);
     lab_free(&l);
 }
 
-/* Who sleeps stays as it is. */
-static void sleepers_are_left_alone(void **state)
+/* The pairs of a sleeping body keep their state. */
+static void sleeping_pairs_are_not_evaluated(void **state)
 {
     (void)state;
     lab l;
-    rows(&l, 2);
+    make_floe_rows(&l, 2);
     fl_world *w = &l.w;
-    int32_t slept = 0;
+    int32_t sleeping = 0;
     for (int32_t c = 0; c < w->n_pair; c++)
         if (!w->pair[c].touching)
-            w->pair[c].free_travel = 1e9, fl_set_next_check(w, c), w->pair_touches[c] = 2, slept++;
-    assert_true(slept > 0);
+            w->pair[c].free_travel = 1e9, fl_set_next_check(w, c), w->pair_touches[c] = 2, sleeping++;
+    assert_true(sleeping > 0);
     fl_share_active_pairs(w);
     fl_evaluate_active_pairs(w, 0.0, 0);
-    for (int32_t c = 0; c < w->n_pair; c++) slept -= w->pair_touches[c] == 2 && w->pair[c].free_travel == 1e9;
-    assert_int_equal(slept, 0);
+    for (int32_t c = 0; c < w->n_pair; c++)
+        sleeping -= w->pair_touches[c] == 2 && w->pair[c].free_travel == 1e9;
+    assert_int_equal(sleeping, 0);
     lab_free(&l);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_are_even), cmocka_unit_test(without_contacts_too),
-        cmocka_unit_test(all_are_looked_at), cmocka_unit_test(sleepers_are_left_alone)};
+        cmocka_unit_test(shares_are_even), cmocka_unit_test(shares_are_even_without_contacts),
+        cmocka_unit_test(every_pair_is_evaluated_once), cmocka_unit_test(sleeping_pairs_are_not_evaluated)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,7 +18,8 @@ static fl_part box(double a, double b, double c, fl_vec3 at)
     return p;
 }
 
-/* A box of sides a, b, c: V, A, and about the centroid V (b^2 + c^2) / 12, wherever it stands. */
+/* A box of sides a, b, c at any position: volume V, surface area A, and about the centroid V (b^2 + c^2) /
+ * 12. */
 static void a_box_has_its_closed_form(void **state)
 {
     (void)state;
@@ -37,8 +38,8 @@ static void a_box_has_its_closed_form(void **state)
     }
 }
 
-/* A cylinder: V = pi r^2 h, along the axis V r^2 / 2, across V (3 r^2 + h^2) / 12; a cone of the same: V / 3,
- * 3 V r^2 / 10, and V (3 r^2 / 20 + 3 h^2 / 80).  A cut cone is the difference of two. */
+/* A cylinder: V = pi r^2 h, along the axis V r^2 / 2, across V (3 r^2 + h^2) / 12. A cone of the same size: V
+ * / 3, 3 V r^2 / 10, and V (3 r^2 / 20 + 3 h^2 / 80). A truncated cone is the difference of two cones. */
 static void round_solids_have_their_closed_forms(void **state)
 {
     const double r = 1.5, h = 4.0, v = PI * r * r * h;
@@ -85,9 +86,9 @@ static void quarter_turns_are_exact(void **state)
     assert_near(y.z, 0.5, 1e-15);
 }
 
-/* Whatever the map: V times s^3, A times s^2, J times s^5 and turned, normals outward, triangles and cones
- * alike. */
-static void maps_keep_what_they_must(void **state)
+/* For every map, V scales by s^3, A by s^2, and J by s^5 with the rotation. Normals stay outward. Triangles
+ * and cones behave alike. */
+static void maps_scale_volume_area_and_inertia(void **state)
 {
     (void)state;
     for (long k = 0; k < test_times(200); k++) {
@@ -97,7 +98,7 @@ static void maps_keep_what_they_must(void **state)
         fl_affine m = {fl_affine_rotation(axis, fl_rng_in(&g, -720, 720)), pow(10.0, fl_rng_in(&g, -3, 3)),
                        v3_scale(0.0, axis)};
         const fl_mat3 mirror = {{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-        m.t = v3_scale(3.0 * m.s, axis); /* farther out, coordinates themselves lose digits */
+        m.t = v3_scale(3.0 * m.s, axis); /* at larger offsets the coordinates themselves lose digits */
         fl_moments was, is;
         fl_mesh_quality q;
         if (k % 2) m.q = fl_affine_matrix_product(&m.q, &mirror);
@@ -123,7 +124,7 @@ static void maps_keep_what_they_must(void **state)
     }
 }
 
-static void nothing_has_no_moments(void **state)
+static void an_empty_part_has_no_moments(void **state)
 {
     const fl_part p = {0};
     (void)state;
@@ -134,7 +135,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_box_has_its_closed_form), cmocka_unit_test(round_solids_have_their_closed_forms),
-        cmocka_unit_test(quarter_turns_are_exact), cmocka_unit_test(maps_keep_what_they_must),
-        cmocka_unit_test(nothing_has_no_moments)};
+        cmocka_unit_test(quarter_turns_are_exact), cmocka_unit_test(maps_scale_volume_area_and_inertia),
+        cmocka_unit_test(an_empty_part_has_no_moments)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

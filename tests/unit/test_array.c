@@ -12,7 +12,7 @@ static void aligned_and_zero(void **state)
         assert_non_null(p);
         assert_true((uintptr_t)p % 64 == 0);
         for (int64_t k = 0; k < 3 * n; k++) assert_int_equal(p[k], 0);
-        memset(p, 1, (size_t)(3 * n)); /* all of it is ours */
+        memset(p, 1, (size_t)(3 * n)); /* the whole array is usable */
         free(p);
     }
     assert_int_equal(err.code, 0);
@@ -33,7 +33,7 @@ static void refuses_sizes_that_overflow(void **state)
     }
 }
 
-static void grows_and_keeps(void **state)
+static void growth_keeps_the_contents(void **state)
 {
     double *a = NULL;
     int32_t cap = 0, moves = 0;
@@ -48,7 +48,7 @@ static void grows_and_keeps(void **state)
     }
     assert_true(moves < 20); /* doubling: 8 2^14 > 100000 */
     for (int32_t n = 0; n < 100000; n++) assert_true(a[n] == n);
-    assert_int_equal(fl_grow(&a, &cap, 5, sizeof *a, &err), 0); /* never shrinks */
+    assert_int_equal(fl_grow(&a, &cap, 5, sizeof *a, &err), 0); /* the capacity never shrinks */
     assert_true(cap >= 100000);
     free(a);
 }
@@ -96,7 +96,7 @@ static void fails_from_the_nth_on(void **state)
     free(p);
 }
 
-static void first_failure_is_told(void **state)
+static void the_first_failure_is_reported(void **state)
 {
     fl_err err = {0};
     char longer[1000];
@@ -109,14 +109,14 @@ static void first_failure_is_told(void **state)
     assert_string_equal(err.text, "line 4");
     err = (fl_err){0};
     fl_fail(&err, FL_INPUT, "%s", longer);
-    assert_int_equal(strlen(err.text), sizeof err.text - 1); /* cut, not overrun */
+    assert_int_equal(strlen(err.text), sizeof err.text - 1); /* truncated, not overrun */
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(aligned_and_zero),      cmocka_unit_test(refuses_sizes_that_overflow),
-        cmocka_unit_test(grows_and_keeps),       cmocka_unit_test(growth_that_fails_changes_nothing),
-        cmocka_unit_test(fails_from_the_nth_on), cmocka_unit_test(first_failure_is_told)};
-    return cmocka_run_group_tests_name("mem", tests, NULL, NULL);
+        cmocka_unit_test(aligned_and_zero),          cmocka_unit_test(refuses_sizes_that_overflow),
+        cmocka_unit_test(growth_keeps_the_contents), cmocka_unit_test(growth_that_fails_changes_nothing),
+        cmocka_unit_test(fails_from_the_nth_on),     cmocka_unit_test(the_first_failure_is_reported)};
+    return cmocka_run_group_tests_name("array", tests, NULL, NULL);
 }

@@ -7,10 +7,10 @@
 
 enum { THREADS = 4, ROUNDS = 2000 };
 
-/* What the last of a team writes alone. */
+/* Written by the last thread that arrives. */
 typedef struct {
     int called, wrong;
-    int came[THREADS]; /* by each thread, before it waits */
+    int came[THREADS]; /* written by each thread before it waits */
 } book;
 
 static void check_alone(void *arg)
@@ -20,30 +20,30 @@ static void check_alone(void *arg)
     for (int t = 0; t < THREADS; t++) q->wrong += q->came[t] != q->called;
 }
 
-/* All have come when one goes on alone, and none goes on before that has: more threads than processors,
- * one of which is late now and then, so that the others fall asleep. */
+/* The callback runs after all threads have arrived, and no thread leaves before it has run. There are more
+ * threads than processors, and one is late at times, so that the others sleep. */
 static void test_all_wait_for_all(void **state)
 {
     (void)state;
-    fl_barrier gate;
+    fl_barrier barrier;
     book q = {0};
-    int early = 0, team = 0;
-    fl_barrier_make(&gate);
+    int early = 0, team_size = 0;
+    fl_barrier_make(&barrier);
 #pragma omp parallel num_threads(THREADS) reduction(+ : early)
     {
         const int n = omp_get_num_threads(), t = omp_get_thread_num();
-        if (t == 0) team = n;
+        if (t == 0) team_size = n;
         for (int round = 1; n == THREADS && round <= ROUNDS; round++) {
             if (t == round % THREADS && round % 100 == 0)
                 nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
             q.came[t] = round;
-            fl_barrier_wait(&gate, n, check_alone, &q);
-            early += q.called != round; /* the next cannot be booked before this one is through */
-            fl_barrier_wait(&gate, n, NULL, NULL);
+            fl_barrier_wait(&barrier, n, check_alone, &q);
+            early += q.called != round; /* the next round cannot be recorded before this one is complete */
+            fl_barrier_wait(&barrier, n, NULL, NULL);
         }
     }
-    fl_barrier_free(&gate);
-    assert_int_equal(team, THREADS);
+    fl_barrier_free(&barrier);
+    assert_int_equal(team_size, THREADS);
     assert_int_equal(q.called, ROUNDS);
     assert_int_equal(q.wrong, 0);
     assert_int_equal(early, 0);
@@ -51,21 +51,20 @@ static void test_all_wait_for_all(void **state)
 
 static void add_one(void *arg) { ++*(int *)arg; }
 
-static void test_one_alone_goes_through(void **state)
+static void test_one_thread_passes_alone(void **state)
 {
     (void)state;
-    fl_barrier gate;
+    fl_barrier barrier;
     int n = 0;
-    fl_barrier_make(&gate);
-    for (int k = 0; k < 3; k++) fl_barrier_wait(&gate, 1, add_one, &n);
-    fl_barrier_wait(&gate, 1, NULL, NULL);
-    fl_barrier_free(&gate);
+    fl_barrier_make(&barrier);
+    for (int k = 0; k < 3; k++) fl_barrier_wait(&barrier, 1, add_one, &n);
+    fl_barrier_wait(&barrier, 1, NULL, NULL);
+    fl_barrier_free(&barrier);
     assert_int_equal(n, 3);
 }
 
-/* Each number is taken once, by whomever, of any number of runs, also where there are fewer numbers than
- * runs. */
-static void test_all_is_taken_once(void **state)
+/* Each number is taken exactly once, for any number of ranges, also with fewer numbers than ranges. */
+static void test_every_item_is_taken_once(void **state)
 {
     (void)state;
     static const int32_t MANY[] = {0, 1, 3, 16, 1001};
@@ -93,8 +92,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_all_wait_for_all),
-        cmocka_unit_test(test_one_alone_goes_through),
-        cmocka_unit_test(test_all_is_taken_once),
+        cmocka_unit_test(test_one_thread_passes_alone),
+        cmocka_unit_test(test_every_item_is_taken_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,8 +8,8 @@
 #include "geom/clip.h"
 #include "ice/blocks.h"
 
-/* A triangular prism, as a sail is, and a box. */
-static void region(fl_poly *p, int kind)
+/* A triangular prism (a ridge sail) and a box. */
+static void make_region(fl_poly *p, int kind)
 {
     const fl_vec3 tri[3] = {{-2, 0, 0}, {3, 0, 0}, {0, 2, 0}};
     fl_err err = {0};
@@ -17,7 +17,7 @@ static void region(fl_poly *p, int kind)
     else assert_int_equal(fl_poly_box(p, (fl_vec3){2, 1.5, 1}, &err), 0);
 }
 
-/* Cells fill the region, each point of it being in the cell of the nearest site. */
+/* Cells fill the region: each point lies in the cell of its nearest site. */
 static void cells_are_those_of_the_nearest_site(void **state)
 {
     (void)state;
@@ -27,7 +27,7 @@ static void cells_are_those_of_the_nearest_site(void **state)
         fl_blocks b = {0};
         fl_err err = {0};
         fl_aabb box;
-        region(&r, k % 2);
+        make_region(&r, k % 2);
         box = fl_poly_aabb(&r);
         assert_int_equal(fl_blocks_cells(&b, &r, n, (uint64_t)k, 1000, k % 3, &err), 0);
         assert_near(b.cells_volume, b.region_volume, 1e-11);
@@ -50,7 +50,7 @@ static void cells_are_those_of_the_nearest_site(void **state)
     }
 }
 
-/* Blocks fill what was asked, stay in their cells, outer shapes too, and do not overlap. */
+/* Blocks have the requested volume, stay inside their cells with their outer shapes, and do not overlap. */
 static void blocks_fill_their_part_and_stay_apart(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void blocks_fill_their_part_and_stay_apart(void **state)
         fl_err err = {0};
         int64_t pairs = -1;
         double sum = 0.0;
-        region(&r, k % 2);
+        make_region(&r, k % 2);
         assert_int_equal(fl_blocks_cells(&b, &r, 40, (uint64_t)k, 0, 1, &err), 0);
         assert_int_equal(fl_blocks_shrink(&b, solid, radius, &err), 0);
         assert_near(b.solid_volume, solid * b.region_volume, 1e-9);
@@ -86,13 +86,13 @@ static void blocks_fill_their_part_and_stay_apart(void **state)
     }
 }
 
-static void what_cannot_be_filled_is_told(void **state)
+static void an_impossible_fill_is_reported(void **state)
 {
     (void)state;
     fl_poly r = {0};
     fl_blocks b = {0};
     fl_err err = {0};
-    region(&r, 0);
+    make_region(&r, 0);
     assert_int_equal(fl_blocks_cells(&b, &r, 100, 1, 0, 0, &err), 0);
     assert_int_equal(fl_blocks_shrink(&b, 0.9, 0.2, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
@@ -100,13 +100,13 @@ static void what_cannot_be_filled_is_told(void **state)
     fl_poly_free(&r);
 }
 
-/* A slab of cells as high as it is, which vanish together: as much as they fill then can be had, and no
- * core is a sheet, but not less. */
-static void what_is_thinner_than_its_radius_is_told(void **state)
+/* A slab one cell high, whose cells vanish together: the fill that is still possible is reached, and no core
+ * degenerates to a sheet. A larger fill is refused. */
+static void a_core_thinner_than_its_radius_is_reported(void **state)
 {
     (void)state;
     const fl_vec3 rim[4] = {{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}};
-    int told = 0, made = 0;
+    int refused = 0, made = 0;
     for (double solid = 0.02; solid < 0.4; solid += 0.02) {
         fl_poly r = {0};
         fl_blocks b = {0};
@@ -116,7 +116,7 @@ static void what_is_thinner_than_its_radius_is_told(void **state)
         const int rc = fl_blocks_shrink(&b, solid, 0.05, &err);
         if (rc) assert_int_equal(err.code, FL_INPUT);
         if (rc) assert_true(made == 0 && strstr(err.text, "vanish") != NULL);
-        told += rc != 0;
+        refused += rc != 0;
         made += rc == 0;
         for (int32_t i = 0; rc == 0 && i < b.n; i++)
             for (int32_t f = 0; f < b.core[i].nf; f++) {
@@ -128,17 +128,17 @@ static void what_is_thinner_than_its_radius_is_told(void **state)
         fl_blocks_free(&b);
         fl_poly_free(&r);
     }
-    assert_true(told > 0 && made > 0);
+    assert_true(refused > 0 && made > 0);
 }
 
-/* One more block leaves the sites of the others where they are. */
+/* One more block leaves the sites of the other blocks unchanged. */
 static void sites_are_counted(void **state)
 {
     (void)state;
     fl_poly r = {0};
     fl_blocks a = {0}, b = {0};
     fl_err err = {0};
-    region(&r, 1);
+    make_region(&r, 1);
     assert_int_equal(fl_blocks_cells(&a, &r, 20, 3, 5, 0, &err), 0);
     assert_int_equal(fl_blocks_cells(&b, &r, 21, 3, 5, 0, &err), 0);
     for (int32_t i = 0; i < 20; i++) assert_memory_equal(&a.site[i], &b.site[i], sizeof *a.site);
@@ -147,12 +147,12 @@ static void sites_are_counted(void **state)
     fl_poly_free(&r);
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     fl_poly r = {0};
     int rc = -1;
-    region(&r, 0);
+    make_region(&r, 0);
     for (long k = 0; rc; k += 1 + k / 16) {
         fl_blocks b = {0};
         fl_err err = {0};
@@ -173,9 +173,9 @@ int main(void)
     omp_set_num_threads(2);
     const struct CMUnitTest tests[] = {cmocka_unit_test(cells_are_those_of_the_nearest_site),
                                        cmocka_unit_test(blocks_fill_their_part_and_stay_apart),
-                                       cmocka_unit_test(what_cannot_be_filled_is_told),
-                                       cmocka_unit_test(what_is_thinner_than_its_radius_is_told),
+                                       cmocka_unit_test(an_impossible_fill_is_reported),
+                                       cmocka_unit_test(a_core_thinner_than_its_radius_is_reported),
                                        cmocka_unit_test(sites_are_counted),
-                                       cmocka_unit_test(memory_that_runs_out_is_told)};
+                                       cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

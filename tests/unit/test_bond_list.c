@@ -12,14 +12,14 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-static void freeze(lab *l, int32_t i, int32_t j, double area, fl_vec3 x)
+static void add_bond(lab *l, int32_t i, int32_t j, double area, fl_vec3 x)
 {
     fl_err err = {0};
     assert_int_equal(fl_ice_field_add_bond(&l->field, i, j, area, 1.0, x, &err), 0);
 }
 
 /* Two boxes with a common face, or two spheres that overlap from the start. */
-static void two(lab *l, int round)
+static void make_two_bodies(lab *l, int round)
 {
     lab_start(l);
     lab_set(l, "bond.on=true");
@@ -27,16 +27,16 @@ static void two(lab *l, int round)
         if (round) lab_sphere(l, v3(k * 0.98, 0, 0), 0.5, ZERO, ZERO);
         else lab_box(l, v3(k, 0, 0.1 * k), v3(0.5, 0.4, 0.3), 0.02, q_one(), ZERO, ZERO);
     }
-    freeze(l, 0, 1, 0.4, v3(round ? 0.49 : 0.5, 0, 0));
+    add_bond(l, 0, 1, 0.4, v3(round ? 0.49 : 0.5, 0, 0));
 }
 
-/* Where a bond stands there is no contact, and bodies at rest stay so. */
-static void what_is_frozen_has_no_contact(void **state)
+/* A bonded pair has no contact, and bodies at rest stay at rest. */
+static void bonded_pairs_have_no_contact(void **state)
 {
     (void)state;
     for (int round = 0; round < 2; round++) {
         lab l;
-        two(&l, round);
+        make_two_bodies(&l, round);
         lab_make(&l, 0);
         assert_int_equal(lab_run(&l, 20), 0);
         assert_int_equal(l.w.n_pair, 0);
@@ -44,7 +44,7 @@ static void what_is_frozen_has_no_contact(void **state)
         assert_near_of(v3_norm(l.w.b.v[0]), 0, 1e-12, 1);
         assert_near(l.w.bonds.bond[0].length, round ? 0.98 : 1.0, 1e-12);
         lab_free(&l);
-        two(&l, round);
+        make_two_bodies(&l, round);
         lab_set(&l, "bond.on=false");
         lab_make(&l, 1e-4);
         assert_int_equal(lab_run(&l, 20), 0);
@@ -54,50 +54,50 @@ static void what_is_frozen_has_no_contact(void **state)
     }
 }
 
-/* The face is the common part of the two, with the area of the record; of spheres a disc. */
+/* The face is the common part of the two sides, with the area of the record; for spheres it is a disc. */
 static void faces_are_those_of_the_shapes(void **state)
 {
     lab l;
     (void)state;
-    two(&l, 0);
+    make_two_bodies(&l, 0);
     lab_make(&l, 0);
     const fl_bond *c = &l.w.bonds.bond[0];
     assert_near(c->area, 0.4, 0);
     assert_near(2.0 * v3_norm(c->ai), 0.5, 1e-12); /* 0.6 m high, one 0.1 m above the other */
     assert_near(2.0 * v3_norm(c->bi), 0.8, 1e-12);
     lab_free(&l);
-    two(&l, 1);
+    make_two_bodies(&l, 1);
     lab_make(&l, 0);
     c = &l.w.bonds.bond[0];
     assert_near(3.0 * 3.14159265358979 * v3_norm2(c->ai) / 4.0, 9.0 / 16.0 * 0.4, 1e-12);
     lab_free(&l);
 }
 
-/* A bonded sphere turns its face along: spun, it winds the bond up and swings back. */
+/* A bonded sphere rotates its face: a spinning sphere twists the bond and swings back. */
 static void bonded_spheres_turn(void **state)
 {
     lab l;
     (void)state;
-    two(&l, 1);
+    make_two_bodies(&l, 1);
     lab_set(&l, "bond.normal_strength=none");
     lab_set(&l, "bond.shear_strength=none");
     lab_make(&l, 0);
     fl_body_set_spin(&l.w.b, 1, v3(0.3, 0, 0));
     fl_err err = {0};
     assert_int_equal(fl_step_start(&l.w, &err), 0);
-    double most = 0.0;
+    double largest = 0.0;
     for (int k = 0; k < 2000; k++) {
         assert_int_equal(lab_run(&l, 1), 0);
-        most = fmax(most, l.w.b.w[0].x);
+        largest = fmax(largest, l.w.b.w[0].x);
     }
-    assert_near(most, 0.3, 1e-3); /* equal bodies hand the spin over */
+    assert_near(largest, 0.3, 1e-3); /* equal bodies exchange the spin */
     fl_energy_update(&l.w);
     assert_near_of(l.w.ledger.residual, 0, 1e-3, l.w.ledger.throughput);
     lab_free(&l);
 }
 
-/* A floe that leaves takes its bonds along, and the books with them. */
-static void who_leaves_is_let_go(void **state)
+/* A floe that leaves takes its bonds with it, and the energy ledger accounts for them. */
+static void a_floe_that_leaves_loses_its_bonds(void **state)
 {
     lab l;
     (void)state;
@@ -108,8 +108,8 @@ static void who_leaves_is_let_go(void **state)
     lab_set(&l, "boundary.max=1.02 none none");
     for (int k = 0; k < 3; k++)
         lab_box(&l, v3(k - 0.5, 0, 0), v3(0.5, 0.4, 0.3), 0.02, q_one(), v3(4, 0.01 * k, 0), ZERO);
-    freeze(&l, 0, 1, 0.48, v3(0, 0, 0));
-    freeze(&l, 1, 2, 0.48, v3(1, 0, 0));
+    add_bond(&l, 0, 1, 0.48, v3(0, 0, 0));
+    add_bond(&l, 1, 2, 0.48, v3(1, 0, 0));
     lab_make(&l, 0);
     for (int k = 0; k < 4000 && l.w.inflow.n_left == 0; k++) assert_int_equal(lab_run(&l, 1), 0);
     assert_int_equal(l.w.inflow.n_left, 1);
@@ -121,17 +121,17 @@ static void who_leaves_is_let_go(void **state)
     lab_free(&l);
 }
 
-/* Bonds alone bound the step: of two bodies on one face omega^2 is at most that of its springs. */
-static void bonds_bound_the_step(void **state)
+/* Bonds alone limit the step: for two bodies on one face omega^2 is at most that of the face's springs. */
+static void bonds_limit_the_step(void **state)
 {
     lab l;
     (void)state;
-    two(&l, 0);
+    make_two_bodies(&l, 0);
     lab_make(&l, 0);
     const fl_bond *c = &l.w.bonds.bond[0];
-    const double least = c->kn * c->area * 2.0 * l.w.b.invm[0];
-    assert_true(fl_bond_list_omega2(&l.w, 0) >= least);
-    assert_true(fl_bond_list_omega2(&l.w, 0) < 20.0 * least);
+    const double lower_bound = c->kn * c->area * 2.0 * l.w.b.invm[0];
+    assert_true(fl_bond_list_omega2(&l.w, 0) >= lower_bound);
+    assert_true(fl_bond_list_omega2(&l.w, 0) < 20.0 * lower_bound);
     assert_near(fl_bond_list_max_omega2(&l.w, 0), fl_bond_list_omega2(&l.w, 0), 1e-9);
     assert_true(l.w.dt < 2.0 / sqrt(fl_bond_list_omega2(&l.w, 0)));
     fl_bond_end(&l.w.bonds.bond[0]);
@@ -139,7 +139,7 @@ static void bonds_bound_the_step(void **state)
     lab_free(&l);
 }
 
-static void what_is_no_bond_is_refused(void **state)
+static void invalid_bonds_are_refused(void **state)
 {
     lab l;
     fl_err err = {0};
@@ -154,7 +154,7 @@ static void what_is_no_bond_is_refused(void **state)
         strstr(err.text, "no bond in it, and [bond] is on: a field of voronoi-ice --bonded is expected"));
     err = (fl_err){0};
     lab_sphere(&l, ZERO, 0.5, ZERO, ZERO);
-    freeze(&l, 0, 1, 0.4, ZERO);
+    add_bond(&l, 0, 1, 0.4, ZERO);
     assert_int_equal(fl_world_make(&l.w, &l.scene, &l.field, NULL, &err), -1);
     assert_non_null(strstr(err.text, "has no length: their centres are 0 m apart across it"));
     lab_free(&l);
@@ -163,9 +163,9 @@ static void what_is_no_bond_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_frozen_has_no_contact), cmocka_unit_test(faces_are_those_of_the_shapes),
-        cmocka_unit_test(bonded_spheres_turn),           cmocka_unit_test(who_leaves_is_let_go),
-        cmocka_unit_test(bonds_bound_the_step),          cmocka_unit_test(what_is_no_bond_is_refused),
+        cmocka_unit_test(bonded_pairs_have_no_contact), cmocka_unit_test(faces_are_those_of_the_shapes),
+        cmocka_unit_test(bonded_spheres_turn),          cmocka_unit_test(a_floe_that_leaves_loses_its_bonds),
+        cmocka_unit_test(bonds_limit_the_step),         cmocka_unit_test(invalid_bonds_are_refused),
     };
-    return cmocka_run_group_tests_name("bonds of a world", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("bond_list", tests, NULL, NULL);
 }

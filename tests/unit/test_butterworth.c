@@ -48,7 +48,7 @@ static void gain_is_the_closed_form(void **state)
     }
 }
 
-/* The mean survives even where the poles are within 1e-5 of z = 1. */
+/* The mean survives also where the poles lie within 1e-5 of z = 1. */
 static void mean_survives_a_very_low_cut(void **state)
 {
     fl_err err = {0};
@@ -61,7 +61,7 @@ static void mean_survives_a_very_low_cut(void **state)
     }
 }
 
-/* A sine inside the band comes out with the squared gain and no shift. */
+/* A sine inside the pass band comes out with the squared gain and no phase shift. */
 static void zero_phase_has_the_squared_gain(void **state)
 {
     double x[N], y[N];
@@ -87,17 +87,17 @@ static void constants_and_lines_pass(void **state)
     for (int k = 0; k < N; k++) x[k] = 1e6;
     assert_int_equal(fl_butterworth_zero_phase(&f, N, x, y, &err), 0);
     for (int k = 0; k < N; k++) assert_near(y[k], 1e6, 1e-12);
-    /* The odd reflection continues a line as a line; only the start of the pad, long died out, does not
-     * know. */
+    /* The odd reflection continues a line as a line. Only the start of the pad, decayed long before,
+     * differs. */
     for (int k = 0; k < N; k++) x[k] = -5.0 + 0.25 * k;
     assert_int_equal(fl_butterworth_zero_phase(&f, N, x, y, &err), 0);
     for (int k = 0; k < N; k++) assert_near_of(y[k], x[k], 1e-6, 500.0);
-    /* In place is the same. */
+    /* in place gives the same */
     assert_int_equal(fl_butterworth_zero_phase(&f, N, x, x, &err), 0);
     assert_memory_equal(x, y, sizeof x);
 }
 
-/* Forward and backward: a record read from its end gives the filtered record read from its end. */
+/* Forward and backward: the filtered reverse of a record is the reverse of the filtered record. */
 static void ends_are_treated_alike(void **state)
 {
     double x[N], back[N], y[N];
@@ -112,7 +112,7 @@ static void ends_are_treated_alike(void **state)
     for (int k = 0; k < N; k++) assert_near_of(back[k], y[N - 1 - k], 1e-5, 1.0);
 }
 
-/* High and band pass have the closed gain too, for every order, and none at zero frequency. */
+/* High and band pass have the closed-form gain for every order, and none at zero frequency. */
 static void high_and_band_have_the_closed_gain(void **state)
 {
     (void)state;
@@ -143,7 +143,7 @@ static void high_and_band_have_the_closed_gain(void **state)
 /* Constantinides 1970: a band pass is the low pass of the cut f2 - f1 with
  * z^-1 -> -z^-1 (z^-1 - c) / (1 - c z^-1),
  * so that both have the same b0 and, but for the sign, the same last a; the numerator is (1 - z^-2)^N. */
-static void band_is_a_low_pass_transformed(void **state)
+static void a_band_pass_is_a_transformed_low_pass(void **state)
 {
     (void)state;
     for (int order = 1; order <= 6; order++) {
@@ -164,8 +164,8 @@ static void band_is_a_low_pass_transformed(void **state)
     }
 }
 
-/* A constant, and a straight line, leave nothing; a sine inside the band comes out with the squared gain. */
-static void drift_is_taken_out(void **state)
+/* A constant and a straight line leave nothing; a sine inside the band comes out with the squared gain. */
+static void drift_is_removed(void **state)
 {
     double x[N], y[N];
     fl_err err = {0};
@@ -187,8 +187,8 @@ static void drift_is_taken_out(void **state)
     }
 }
 
-/* What the pad is for: an impulse is gone when it has been crossed. */
-static void impulses_die_in_the_pad(void **state)
+/* The pad is long enough: an impulse has decayed at its end. */
+static void impulses_decay_within_the_pad(void **state)
 {
     enum { LONG = 20000 };
     static double x[LONG], y[LONG];
@@ -215,7 +215,7 @@ static void impulses_die_in_the_pad(void **state)
     }
 }
 
-static void limits_are_sentences(void **state)
+static void invalid_limits_are_reported(void **state)
 {
     fl_err err = {0};
     fl_butterworth f;
@@ -257,9 +257,9 @@ int main(void)
                                        cmocka_unit_test(constants_and_lines_pass),
                                        cmocka_unit_test(ends_are_treated_alike),
                                        cmocka_unit_test(high_and_band_have_the_closed_gain),
-                                       cmocka_unit_test(band_is_a_low_pass_transformed),
-                                       cmocka_unit_test(drift_is_taken_out),
-                                       cmocka_unit_test(impulses_die_in_the_pad),
-                                       cmocka_unit_test(limits_are_sentences)};
+                                       cmocka_unit_test(a_band_pass_is_a_transformed_low_pass),
+                                       cmocka_unit_test(drift_is_removed),
+                                       cmocka_unit_test(impulses_decay_within_the_pad),
+                                       cmocka_unit_test(invalid_limits_are_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,8 +22,8 @@ static fl_aabb random_box(fl_rng *g, double side, double lo, double hi)
     return (fl_aabb){v3_sub(c, h), v3_add(c, h)};
 }
 
-/* The query finds what a look at every box finds, each once. */
-static void compare(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_aabb q)
+/* The query finds the boxes that a test of every box finds, each once. */
+static void compare_with_brute_force(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_aabb q)
 {
     int32_t *out = malloc(((size_t)n + 1) * sizeof *out);
     assert_non_null(out);
@@ -41,11 +41,11 @@ static void compare(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_aabb q)
     free(out);
 }
 
-/* A walk about a point comes by every box within a distance, once; and by the nearest, when the distance
- * falls with what has been found. */
-static void walk_about(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_vec3 x, double within)
+/* A walk from a point visits every box within a distance once. With a distance that shrinks to the closest
+ * box found, it visits the nearest box. */
+static void check_walk(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_vec3 x, double within)
 {
-    int32_t *times = calloc((size_t)n + 1, sizeof *times), looks = 0;
+    int32_t *times = calloc((size_t)n + 1, sizeof *times), visits = 0;
     double nearest = INFINITY, found = INFINITY;
     assert_non_null(times);
     fl_bvh_walk at = fl_bvh_walk_from(t, box, x);
@@ -56,23 +56,23 @@ static void walk_about(const fl_bvh *t, const fl_aabb *box, int32_t n, fl_vec3 x
         nearest = fmin(nearest, d2);
     }
     at = fl_bvh_walk_from(t, box, x);
-    for (int32_t k; (k = fl_bvh_walk_next(&at, found)) >= 0; looks++)
+    for (int32_t k; (k = fl_bvh_walk_next(&at, found)) >= 0; visits++)
         found = fmin(found, sqrt(aabb_distance2(box[k], x)));
-    assert_true(n == 0 ? looks == 0 : found == sqrt(nearest));
+    assert_true(n == 0 ? visits == 0 : found == sqrt(nearest));
     free(times);
 }
 
-/* Some boxes in a tree. */
+/* Random boxes and their tree. */
 typedef struct {
     fl_rng g;
     int32_t n;
     fl_aabb *box;
     fl_bvh tree;
-} grove;
+} box_tree;
 
-static grove plant(int64_t seed)
+static box_tree make_random_tree(int64_t seed)
 {
-    grove w = {.g = fl_rng_of(test_seed(), seed, FL_RNG_TEST)};
+    box_tree w = {.g = fl_rng_of(test_seed(), seed, FL_RNG_TEST)};
     fl_err err = {0};
     w.n = (int32_t)fl_rng_in(&w.g, 0.0, 400.0);
     w.box = calloc((size_t)w.n + 1, sizeof *w.box);
@@ -82,35 +82,36 @@ static grove plant(int64_t seed)
     return w;
 }
 
-static void clear(grove *w)
+static void free_tree(box_tree *w)
 {
     fl_bvh_free(&w->tree);
     free(w->box);
 }
 
-static void walks_come_by_what_is_near(void **state)
+static void walks_visit_every_near_box(void **state)
 {
     (void)state;
     for (long c = 0; c < test_times(40); c++) {
-        grove w = plant(1000 + c);
+        box_tree w = make_random_tree(1000 + c);
         for (int k = 0; k < 20; k++) {
             const fl_aabb about = random_box(&w.g, 14.0, -3.0, 1.0);
-            walk_about(&w.tree, w.box, w.n, about.lo, k % 2 ? fl_rng_in(&w.g, 0.0, 8.0) : INFINITY);
+            check_walk(&w.tree, w.box, w.n, about.lo, k % 2 ? fl_rng_in(&w.g, 0.0, 8.0) : INFINITY);
         }
-        clear(&w);
+        free_tree(&w);
     }
 }
 
-static void finds_what_brute_force_finds(void **state)
+static void queries_find_what_brute_force_finds(void **state)
 {
     (void)state;
     for (long c = 0; c < test_times(40); c++) {
-        grove w = plant(c);
-        for (int32_t k = 0; k < w.n; k++) compare(&w.tree, w.box, w.n, w.box[k]);
-        for (int k = 0; k < 20; k++) compare(&w.tree, w.box, w.n, random_box(&w.g, 12.0, -3.0, 1.0));
-        compare(&w.tree, w.box, w.n, (fl_aabb){v3(-1e9, -1e9, -1e9), v3(1e9, 1e9, 1e9)});
-        compare(&w.tree, w.box, w.n, aabb_empty());
-        clear(&w);
+        box_tree w = make_random_tree(c);
+        for (int32_t k = 0; k < w.n; k++) compare_with_brute_force(&w.tree, w.box, w.n, w.box[k]);
+        for (int k = 0; k < 20; k++)
+            compare_with_brute_force(&w.tree, w.box, w.n, random_box(&w.g, 12.0, -3.0, 1.0));
+        compare_with_brute_force(&w.tree, w.box, w.n, (fl_aabb){v3(-1e9, -1e9, -1e9), v3(1e9, 1e9, 1e9)});
+        compare_with_brute_force(&w.tree, w.box, w.n, aabb_empty());
+        free_tree(&w);
     }
 }
 
@@ -126,7 +127,7 @@ static void size_ratio_of_a_million(void **state)
     assert_non_null(box);
     for (int k = 0; k < N; k++)
         box[k] = k % 300 == 0 ? random_box(&g, 100.0, 1.9, 2.0) : random_box(&g, 100.0, -4.0, -3.9);
-    for (int k = 1; k < N; k += 3) { /* small ones that touch by a hair, so that there are pairs to miss */
+    for (int k = 1; k < N; k += 3) { /* small boxes that barely touch, so that a pair can be missed */
         if (k % 300 == 299) continue;
         const fl_vec3 side = v3_sub(box[k].hi, box[k].lo);
         box[k + 1] = (fl_aabb){v3(box[k].hi.x, box[k].lo.y, box[k].lo.z),
@@ -134,7 +135,7 @@ static void size_ratio_of_a_million(void **state)
     }
     assert_int_equal(fl_bvh_build(&t, box, N, &err), 0);
     assert_true(t.nodes <= 2 * N + 1);
-    for (int k = 0; k < N; k++) compare(&t, box, N, box[k]);
+    for (int k = 0; k < N; k++) compare_with_brute_force(&t, box, N, box[k]);
     fl_bvh_free(&t);
     free(box);
 }
@@ -147,15 +148,15 @@ static void equal_boxes_and_few(void **state)
     (void)state;
     for (int k = 0; k < 100; k++) box[k] = (fl_aabb){v3(1, 2, 3), v3(4, 5, 6)};
     for (int32_t n = 0; n <= 100; n = n < 12 ? n + 1 : n + 22) {
-        assert_int_equal(fl_bvh_build(&t, box, n, &err), 0);      /* again in the same tree */
-        compare(&t, box, n, (fl_aabb){v3(4, 5, 6), v3(7, 7, 7)}); /* touching counts */
-        compare(&t, box, n, (fl_aabb){v3(4.1, 5, 6), v3(7, 7, 7)});
+        assert_int_equal(fl_bvh_build(&t, box, n, &err), 0); /* rebuilt in the same tree */
+        compare_with_brute_force(&t, box, n, (fl_aabb){v3(4, 5, 6), v3(7, 7, 7)}); /* touching boxes count */
+        compare_with_brute_force(&t, box, n, (fl_aabb){v3(4.1, 5, 6), v3(7, 7, 7)});
     }
     fl_bvh_free(&t);
-    fl_bvh_free(&t); /* a zeroed one */
+    fl_bvh_free(&t); /* a zeroed tree */
 }
 
-static void tells_how_much_room_it_wants(void **state)
+static void a_short_output_reports_the_size_needed(void **state)
 {
     fl_aabb box[50];
     fl_bvh t = {0};
@@ -171,7 +172,7 @@ static void tells_how_much_room_it_wants(void **state)
     fl_bvh_free(&t);
 }
 
-static void runs_out_of_memory_in_peace(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     fl_aabb box[50];
     (void)state;
@@ -191,9 +192,12 @@ static void runs_out_of_memory_in_peace(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(finds_what_brute_force_finds), cmocka_unit_test(size_ratio_of_a_million),
-        cmocka_unit_test(equal_boxes_and_few),          cmocka_unit_test(tells_how_much_room_it_wants),
-        cmocka_unit_test(runs_out_of_memory_in_peace),  cmocka_unit_test(walks_come_by_what_is_near),
+        cmocka_unit_test(queries_find_what_brute_force_finds),
+        cmocka_unit_test(size_ratio_of_a_million),
+        cmocka_unit_test(equal_boxes_and_few),
+        cmocka_unit_test(a_short_output_reports_the_size_needed),
+        cmocka_unit_test(allocation_failure_is_reported),
+        cmocka_unit_test(walks_visit_every_near_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@
 static fl_err err;
 static fl_bytes b;
 
-static int end(void **state)
+static int skip_text(void **state)
 {
     (void)state;
     fl_bytes_set_window(0);
@@ -27,15 +27,15 @@ static void open_with(const char *text, size_t n, int32_t window)
     if (fl_bytes_open(&b, test_file("text", text, n), &err)) fail_msg("%s", err.text);
 }
 
-/* Rows are the same however little of the file is seen at once: line ends of all kinds, lines that go on, a
- * byte order mark, no line end at the end. */
+/* Rows do not depend on the size of the window: all line ends, continued lines, a byte order mark, no line
+ * end at the end. */
 static void rows_do_not_depend_on_the_window(void **state)
 {
     (void)state;
     static const char text[] = "\xef\xbb\xbf"
                                "a b\r\n# no\r\n\r\nc \\\r\nd\\\n e\n\r\rf\rg \\\\ h\n#\n"
                                "a_word_that_is_longer_than_the_window_is i\nlast";
-    static const char want[] =
+    static const char expected[] =
         "1:a,b 6:c,d,e 9:f 10:g,\\\\,h 12:a_word_that_is_longer_than_the_window_is,i 13:last ";
     for (int32_t window = 3; window < 120; window++) {
         char got[400] = "";
@@ -48,24 +48,24 @@ static void rows_do_not_depend_on_the_window(void **state)
                 sprintf(got + strlen(got), "%s%s", b.field[k], k + 1 < b.words ? "," : " ");
         }
         assert_int_equal(more, 0);
-        assert_string_equal(got, want);
+        assert_string_equal(got, expected);
     }
 }
 
-static void lines_and_bytes_do_not_either(void **state)
+static void lines_and_bytes_do_not_depend_on_the_window(void **state)
 {
     (void)state;
     static const char text[] = "one\r\ntwo \r\r\nthree\n\n12345678";
     for (int32_t window = 1; window < 40; window++) {
-        static const char *const want[] = {"one", "two ", "", "three", ""};
+        static const char *const expected[] = {"one", "two ", "", "three", ""};
         const unsigned char *p;
         open_with(text, sizeof text - 1, window);
         for (int k = 0; k < 5; k++) {
             char *line;
             int32_t len;
             assert_int_equal(fl_bytes_line(&b, &line, &len, &err), 1);
-            assert_string_equal(line, want[k]);
-            assert_int_equal(len, strlen(want[k]));
+            assert_string_equal(line, expected[k]);
+            assert_int_equal(len, strlen(expected[k]));
         }
         for (int k = 0; k < 4; k++) {
             assert_int_equal(fl_bytes_read(&b, 2, &p, &err), 1);
@@ -77,15 +77,15 @@ static void lines_and_bytes_do_not_either(void **state)
     }
 }
 
-/* Numbers, marks and bytes that are only looked at. */
-static void numbers_and_marks_do_not_either(void **state)
+/* Numbers, marks and bytes that are read ahead without being consumed. */
+static void numbers_and_marks_do_not_depend_on_the_window(void **state)
 {
     (void)state;
     static const char text[] =
         "  1.5\t-2e3\r\n\n 3 nan 0.0000000000000000000000000000000000000000000000000000000000000"
         "0000000000000000000000000000000000000000000000000000000000000000000000000007\n"
         "$E\n$EndXY\n x$EndX\n\001\002$EndX\n$EndX \nrest 7";
-    static const double want[] = {1.5, -2000.0, 3.0};
+    static const double expected[] = {1.5, -2000.0, 3.0};
     for (int32_t window = 1; window < 300; window += 1 + window / 40) {
         const char *p;
         char *line;
@@ -95,10 +95,10 @@ static void numbers_and_marks_do_not_either(void **state)
         b.line = 1;
         for (int k = 0; k < 3; k++) {
             assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 1);
-            assert_true(x == want[k]);
+            assert_true(x == expected[k]);
         }
         assert_int_equal(b.line, 3);
-        assert_int_equal(fl_bytes_real(&b, 1, &x, &err), 1); /* whatever it is */
+        assert_int_equal(fl_bytes_real(&b, 1, &x, &err), 1); /* any byte */
         assert_true(x == 0.0);
         assert_int_equal(fl_bytes_real(&b, 0, &x, &err), 1);
         assert_near(x, 7e-137, 0.0);
@@ -123,8 +123,8 @@ static void numbers_and_marks_do_not_either(void **state)
     }
 }
 
-/* What a reader makes of a file does not depend on the window either. */
-static int same_through(const char *path, int32_t window)
+/* A mesh reader's result does not depend on the window either. */
+static int check_mesh_with_window(const char *path, int32_t window)
 {
     fl_surface whole = {0}, part = {0};
     char note[FL_MESH_NOTE];
@@ -133,7 +133,7 @@ static int same_through(const char *path, int32_t window)
     fl_bytes_set_window(0);
     if (fl_mesh_read(&whole, path, NULL, note, &err) == 0) {
         fl_bytes_set_window(window);
-        /* a small head may not tell what the file is */
+        /* a small head may be too short to identify the format */
         if (fl_mesh_read(&part, path, NULL, note, &err) == 0) same = mesh_same(&whole, &part);
     }
     fl_surface_free(&whole);
@@ -156,7 +156,7 @@ static void meshes_do_not_depend_on_the_window(void **state)
         while ((e = readdir(d)) != NULL) {
             snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
             for (int32_t window = 100; e->d_name[0] == 'g' && window < 3000; window += window / 3) {
-                const int how = same_through(path, window);
+                const int how = check_mesh_with_window(path, window);
                 if (how == 0) fail_msg("%s differs through a window of %d bytes", path, window);
                 same += how > 0;
             }
@@ -166,7 +166,7 @@ static void meshes_do_not_depend_on_the_window(void **state)
     }
 }
 
-static void without_memory_it_says_so(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     char *line;
@@ -188,11 +188,11 @@ static void without_memory_it_says_so(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(rows_do_not_depend_on_the_window, end),
-        cmocka_unit_test_teardown(lines_and_bytes_do_not_either, end),
-        cmocka_unit_test_teardown(numbers_and_marks_do_not_either, end),
-        cmocka_unit_test_teardown(meshes_do_not_depend_on_the_window, end),
-        cmocka_unit_test_teardown(without_memory_it_says_so, end),
+        cmocka_unit_test_teardown(rows_do_not_depend_on_the_window, skip_text),
+        cmocka_unit_test_teardown(lines_and_bytes_do_not_depend_on_the_window, skip_text),
+        cmocka_unit_test_teardown(numbers_and_marks_do_not_depend_on_the_window, skip_text),
+        cmocka_unit_test_teardown(meshes_do_not_depend_on_the_window, skip_text),
+        cmocka_unit_test_teardown(allocation_failure_is_reported, skip_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

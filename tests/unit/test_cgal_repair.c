@@ -31,7 +31,7 @@ static fl_soup soup_of(const fl_part *p)
     return s;
 }
 
-/* Repair p in place, and measure what is left after joining what lies in the same place. */
+/* Repairs p in place, and measures the result after joining coincident vertices. */
 static fl_mesh_quality repaired(fl_part *p, int32_t holes, fl_repair *did)
 {
     fl_soup s = soup_of(p);
@@ -49,7 +49,7 @@ static fl_mesh_quality repaired(fl_part *p, int32_t holes, fl_repair *did)
     return q;
 }
 
-static fl_crossing meetings(const fl_part *p)
+static fl_crossing count_crossings(const fl_part *p)
 {
     fl_soup s = soup_of(p);
     fl_crossing c;
@@ -58,14 +58,14 @@ static fl_crossing meetings(const fl_part *p)
     return c;
 }
 
-static void turn(fl_part *p, int32_t t)
+static void reverse_triangle(fl_part *p, int32_t t)
 {
     const int32_t keep = p->t[t].v[1];
     p->t[t].v[1] = p->t[t].v[2];
     p->t[t].v[2] = keep;
 }
 
-static void a_sound_box_is_left_alone(void **state)
+static void a_sound_box_stays_unchanged(void **state)
 {
     fl_surface s = {0};
     fl_part *p = part(&s);
@@ -83,7 +83,7 @@ static void a_sound_box_is_left_alone(void **state)
     fl_surface_free(&s);
 }
 
-static void doubles_and_turned_triangles_are_mended(void **state)
+static void doubled_and_reversed_triangles_are_repaired(void **state)
 {
     fl_surface s = {0};
     fl_part *p = part(&s);
@@ -91,7 +91,7 @@ static void doubles_and_turned_triangles_are_mended(void **state)
     fl_mesh_quality q;
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
-    for (int32_t t = 0; t < 12; t += 5) turn(p, t);
+    for (int32_t t = 0; t < 12; t += 5) reverse_triangle(p, t);
     fl_surface_triangle(p, p->t[4].v[1], p->t[4].v[2], p->t[4].v[0], &err);
     fl_surface_triangle(p, p->t[7].v[0], p->t[7].v[2], p->t[7].v[1], &err);
     q = repaired(p, 0, &did);
@@ -105,24 +105,24 @@ static void doubles_and_turned_triangles_are_mended(void **state)
 static void holes_are_closed_on_request(void **state)
 {
     (void)state;
-    for (int32_t most = 0; most < 6; most++) {
+    for (int32_t max_hole_edges = 0; max_hole_edges < 6; max_hole_edges++) {
         fl_surface s = {0};
         fl_part *p = part(&s);
         fl_repair did;
         fl_mesh_quality q;
         fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
-        p->nt -= 2; /* the top: a rim of four edges */
-        q = repaired(p, most, &did);
-        assert_int_equal(did.holes, most >= 4);
-        assert_int_equal(did.patched, most >= 4 ? 2 : 0);
-        assert_int_equal(did.bounding, most >= 4);
-        assert_int_equal(q.open, most >= 4 ? 0 : 4);
-        if (most >= 4) assert_near(q.volume, 1.0, 1e-15);
+        p->nt -= 2; /* the top: a boundary of four edges */
+        q = repaired(p, max_hole_edges, &did);
+        assert_int_equal(did.holes, max_hole_edges >= 4);
+        assert_int_equal(did.patched, max_hole_edges >= 4 ? 2 : 0);
+        assert_int_equal(did.bounding, max_hole_edges >= 4);
+        assert_int_equal(q.open, max_hole_edges >= 4 ? 0 : 4);
+        if (max_hole_edges >= 4) assert_near(q.volume, 1.0, 1e-15);
         fl_surface_free(&s);
     }
 }
 
-static void cavities_look_inward(void **state)
+static void cavities_are_oriented_inward(void **state)
 {
     fl_surface s = {0};
     fl_part *p = part(&s);
@@ -140,8 +140,8 @@ static void cavities_look_inward(void **state)
     fl_surface_free(&s);
 }
 
-/* A brace that ends inside a leg is no cavity: nothing is turned where surfaces cross. */
-static void crossing_bodies_are_told_of(void **state)
+/* A brace that ends inside a leg is no cavity: nothing is reversed where surfaces cross. */
+static void crossing_bodies_are_counted(void **state)
 {
     fl_surface s = {0};
     fl_part *p = part(&s);
@@ -151,15 +151,14 @@ static void crossing_bodies_are_told_of(void **state)
     fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
     fl_facet_box(p, v3(0.5, 0.25, 0.25), v3(2, 0.75, 0.75), &err);
     q = repaired(p, 0, &did);
-    assert_true(meetings(p).crossings > 0);
+    assert_true(count_crossings(p).crossings > 0);
     assert_int_equal(did.bounding, 0);
     assert_near(q.volume, 1.375, 1e-15);
     fl_surface_free(&s);
 }
 
-/* A box one edge of which has a corner in the middle on one side only, the gap filled by a triangle of no
- * area. */
-static void triangles_of_one_line_are_taken_out(void **state)
+/* A box with one edge divided by a corner on one side only; the gap is filled by a triangle without area. */
+static void collinear_triangles_are_removed(void **state)
 {
     fl_surface s = {0};
     fl_part *p = part(&s);
@@ -192,7 +191,7 @@ static void triangles_of_one_line_are_taken_out(void **state)
     fl_surface_free(&s);
 }
 
-static void branched_edges_stay_what_they_are(void **state)
+static void branched_edges_stay_unchanged(void **state)
 {
     fl_surface s = {0};
     fl_part *p = part(&s);
@@ -204,7 +203,7 @@ static void branched_edges_stay_what_they_are(void **state)
     fl_facet_box(p, v3(1, 1, 0), v3(2, 2, 1), &err);
     fl_part_weld(p, 0.0, &w, &err);
     q = repaired(p, 0, &did);
-    assert_int_equal(meetings(p).crossings + meetings(p).touching, 0); /* they share an edge */
+    assert_int_equal(count_crossings(p).crossings + count_crossings(p).touching, 0); /* they share an edge */
     assert_int_equal(q.branched, 1);
     assert_int_equal(q.open, 0);
     assert_int_equal(q.vertices, 14);
@@ -212,7 +211,7 @@ static void branched_edges_stay_what_they_are(void **state)
     fl_surface_free(&s);
 }
 
-static void nothing_is_mended_to_nothing(void **state)
+static void an_empty_soup_stays_empty(void **state)
 {
     fl_surface s = {0};
     fl_soup none;
@@ -227,9 +226,9 @@ static void nothing_is_mended_to_nothing(void **state)
     fl_surface_free(&s);
 }
 
-/* Triangles on any three of a few points, many of them on one line, in one place, doubled: nothing crashes,
- * the answer is sound, and is the same the second time. */
-static void any_soup_is_survived(void **state)
+/* Triangles on any three of a few points, many of them collinear, coincident or doubled: no crash, a sound
+ * result, and the same result on the second run. */
+static void no_triangle_soup_crashes(void **state)
 {
     (void)state;
     for (long k = 0; k < test_times(300); k++) {
@@ -271,7 +270,7 @@ static void any_soup_is_survived(void **state)
     }
 }
 
-static void failure_leaves_the_soup(void **state)
+static void a_failure_leaves_the_soup_unchanged(void **state)
 {
     fl_surface s = {0};
     fl_part *p = part(&s);
@@ -293,15 +292,15 @@ static void failure_leaves_the_soup(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_sound_box_is_left_alone),
-                                       cmocka_unit_test(doubles_and_turned_triangles_are_mended),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_sound_box_stays_unchanged),
+                                       cmocka_unit_test(doubled_and_reversed_triangles_are_repaired),
                                        cmocka_unit_test(holes_are_closed_on_request),
-                                       cmocka_unit_test(cavities_look_inward),
-                                       cmocka_unit_test(crossing_bodies_are_told_of),
-                                       cmocka_unit_test(triangles_of_one_line_are_taken_out),
-                                       cmocka_unit_test(branched_edges_stay_what_they_are),
-                                       cmocka_unit_test(nothing_is_mended_to_nothing),
-                                       cmocka_unit_test(any_soup_is_survived),
-                                       cmocka_unit_test(failure_leaves_the_soup)};
+                                       cmocka_unit_test(cavities_are_oriented_inward),
+                                       cmocka_unit_test(crossing_bodies_are_counted),
+                                       cmocka_unit_test(collinear_triangles_are_removed),
+                                       cmocka_unit_test(branched_edges_stay_unchanged),
+                                       cmocka_unit_test(an_empty_soup_stays_empty),
+                                       cmocka_unit_test(no_triangle_soup_crashes),
+                                       cmocka_unit_test(a_failure_leaves_the_soup_unchanged)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

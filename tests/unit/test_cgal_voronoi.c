@@ -17,8 +17,8 @@ static void neighbours_of(int32_t n, const fl_vec2 *site, int32_t *first, int32_
     assert_int_equal(fl_cgal_neighbours(n, site, name, first, near, &err), 0);
 }
 
-/* Sites in another order, under their old names, have the same neighbours in the same order. */
-static void names_go_before_numbers(void **state)
+/* Sites in another order with their old names have the same neighbours in the same order. */
+static void neighbours_are_ordered_by_site_names(void **state)
 {
     (void)state;
     fl_vec2 site[N], other[N];
@@ -64,8 +64,8 @@ static void few_sites_and_sites_on_a_line(void **state)
     free(near);
 }
 
-/* A cell touches another when some point is nearest to both: the Delaunay pairs are those with a circle
- * through both and nothing inside, which is tried here against every third site, n^3. */
+/* Two cells are neighbours if some point is nearest to both. Delaunay pairs have a circle through both sites
+ * and no site inside; here every third site is tested, n^3. */
 static void neighbours_are_those_with_an_empty_circle(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void two_sites_at_one_point_are_named(void **state)
     assert_string_equal(err.text, "sites 0 and 2 are the same point (1, 0)");
 }
 
-static void no_memory_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     const fl_vec2 site[3] = {{0, 0}, {1, 0}, {0, 1}};
@@ -137,8 +137,8 @@ static void no_memory_is_told(void **state)
     assert_null(near);
 }
 
-/* Points of a line in steps of one ulp, where the determinant in doubles says all three things. */
-static void turns_are_exact(void **state)
+/* Points of a line in steps of one ulp, for which the determinant in doubles gives all three signs. */
+static void orientation_is_exact(void **state)
 {
     (void)state;
     const fl_vec2 b = {12.0, 12.0}, c = {24.0, 24.0};
@@ -152,16 +152,16 @@ static void turns_are_exact(void **state)
             wrong += (det > 0.0) - (det < 0.0) != left;
         }
     }
-    assert_true(wrong > 100); /* else this test tests nothing */
+    assert_true(wrong > 100); /* otherwise this test checks nothing */
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(names_go_before_numbers),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(neighbours_are_ordered_by_site_names),
                                        cmocka_unit_test(few_sites_and_sites_on_a_line),
                                        cmocka_unit_test(neighbours_are_those_with_an_empty_circle),
                                        cmocka_unit_test(two_sites_at_one_point_are_named),
-                                       cmocka_unit_test(no_memory_is_told),
-                                       cmocka_unit_test(turns_are_exact)};
+                                       cmocka_unit_test(allocation_failure_is_reported),
+                                       cmocka_unit_test(orientation_is_exact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@ static void box(fl_poly *p, double x, double y, double z)
     assert_int_equal(fl_poly_box(p, v3(x, y, z), &err), 0);
 }
 
-static void planes_beside_the_body(void **state)
+static void planes_that_miss_the_body(void **state)
 {
     (void)state;
     fl_err err = {0};
@@ -30,7 +30,7 @@ static void planes_beside_the_body(void **state)
     assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), 0.5, &err), 0); /* along a face */
     assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), 0.5 - 4e-13, &err), 0);
     assert_ptr_equal(p.v, at);
-    assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), -0.5, &err), 0); /* leaves the lower face only */
+    assert_int_equal(fl_poly_cut(&p, v3(0, 0, 1), -0.5, &err), 0); /* leaves only the lower face */
     assert_int_equal(p.nv, 0);
     assert_null(p.v);
     box(&p, 0.5, 0.5, 0.5);
@@ -48,7 +48,7 @@ static void planes_through_vertices_and_edges(void **state)
     fl_err err = {0};
     fl_poly p;
     box(&p, 0.5, 0.5, 0.5);
-    /* through four parallel edges' ends: two triangles and a rectangle */
+    /* through the ends of four parallel edges: two triangles and a rectangle */
     assert_int_equal(fl_poly_cut(&p, v3_unit(v3(1, 1, 0)), 0.0, &err), 0);
     assert_int_equal(p.nv, 6);
     assert_int_equal(p.nf, 5);
@@ -127,8 +127,8 @@ static void box_moves_its_faces(void **state)
     fl_poly_free(&p);
 }
 
-/* A prism whose polygon has a short side loses that side when its faces move in, and the box with a chipped
- * corner loses the chip's edges when they move out. */
+/* A prism whose polygon has a short side loses that side when its faces move inward. A box with a chipped
+ * corner loses the chip's edges when its faces move outward. */
 static void faces_vanish(void **state)
 {
     (void)state;
@@ -151,8 +151,8 @@ static void faces_vanish(void **state)
     box(&p, 1, 1, 1);
     assert_int_equal(fl_poly_cut(&p, v3_unit(v3(1, 1, 1)), 1.7, &err), 0);
     assert_int_equal(p.nf, 7);
-    /* the chip's plane stands 0.0320 behind the corner; moving in by 0.05 brings the corner, at sqrt 3 times
-     * the pace, behind it */
+    /* the chip's plane is 0.0320 behind the corner; moving inward by 0.05 moves the corner, sqrt 3 times as
+     * fast, behind it */
     assert_int_equal(fl_poly_offset(&q, &p, -0.05, &err), 0);
     assert_int_equal(q.nf, 6);
     assert_near(volume(&q), 1.9 * 1.9 * 1.9, 1e-14);
@@ -160,9 +160,9 @@ static void faces_vanish(void **state)
     fl_poly_free(&p);
 }
 
-/* At the apex of a pyramid more than three faces meet: on a regular one they still do after the move, on a
- * crooked one they part and a ridge grows. */
-static void apexes_split(void **state)
+/* At the apex of a pyramid more than three faces meet. On a regular pyramid they still do after the move; on
+ * an irregular one they separate and a ridge appears. */
+static void apexes_may_split(void **state)
 {
     (void)state;
     fl_err err = {0};
@@ -214,7 +214,7 @@ static void cores_without_height(void **state)
                             nv == 1 ? "a point has no faces to move" : "a segment has no faces to move");
         fl_poly_free(&p);
     }
-    /* a blade: its edge flies off to r / sin(half the angle) */
+    /* a blade: its edge moves out to r / sin(half the angle) */
     const fl_vec3 blade[3] = {{0, 0, 0}, {1, -1e-6, 0}, {1, 1e-6, 0}};
     err = (fl_err){0};
     assert_int_equal(fl_poly_prism(&p, 3, blade, 0.0, 1e-6, &err), 0);
@@ -224,8 +224,8 @@ static void cores_without_height(void **state)
     fl_poly_free(&p);
 }
 
-/* By the same number, whether its faces stay or are cut with each other. */
-static void a_corner_may_fly_so_far_and_no_farther(void **state)
+/* The limit is the same whether the faces stay or are intersected with each other. */
+static void corners_may_move_only_so_far(void **state)
 {
     (void)state;
     const fl_vec3 wedge[3] = {{0, 0, 0}, {1, -5e-7, 0}, {1, 5e-7, 0}};
@@ -239,7 +239,7 @@ static void a_corner_may_fly_so_far_and_no_farther(void **state)
     assert_int_equal(fl_poly_offset(&q, &p, 0.05, &err), -1); /* 100 km */
     assert_int_equal(err.code, FL_INPUT);
     assert_string_equal(err.text,
-                        "a corner is so sharp that moving the faces by 0.05 m throws it beyond 10500 m");
+                        "a corner is so sharp that moving the faces by 0.05 m moves it beyond 10500 m");
     fl_poly_free(&p);
     err = (fl_err){0};
     assert_int_equal(fl_poly_make(&p, 4, needle, 4, first, loop, &err), 0);
@@ -248,7 +248,7 @@ static void a_corner_may_fly_so_far_and_no_farther(void **state)
     fl_poly_free(&p);
 }
 
-static void memory_may_run_out(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     for (int what = 0; what < 3; what++)
@@ -274,11 +274,15 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planes_beside_the_body), cmocka_unit_test(planes_through_vertices_and_edges),
-        cmocka_unit_test(flat_and_thin_cores),    cmocka_unit_test(box_moves_its_faces),
-        cmocka_unit_test(faces_vanish),           cmocka_unit_test(apexes_split),
-        cmocka_unit_test(cores_without_height),   cmocka_unit_test(a_corner_may_fly_so_far_and_no_farther),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(planes_that_miss_the_body),
+        cmocka_unit_test(planes_through_vertices_and_edges),
+        cmocka_unit_test(flat_and_thin_cores),
+        cmocka_unit_test(box_moves_its_faces),
+        cmocka_unit_test(faces_vanish),
+        cmocka_unit_test(apexes_may_split),
+        cmocka_unit_test(cores_without_height),
+        cmocka_unit_test(corners_may_move_only_so_far),
+        cmocka_unit_test(allocation_failure_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,9 +6,9 @@
 
 #define TOL 1e-14
 
-/* A nearest point proves itself: p belongs to the body, x - p = d n, and no vertex lies beyond the plane
- * across n through p.  Inside, d is the largest height over a face. */
-static void proves_itself(const fl_poly *p, fl_vec3 x, fl_closest_point q)
+/* A closest point certifies itself: p belongs to the body, x - p = d n, and no vertex lies beyond the plane
+ * across n through p. Inside, d is the largest height over a face. */
+static void check_closest_point(const fl_poly *p, fl_vec3 x, fl_closest_point q)
 {
     const double size = p->size + v3_norm(x);
     double top = -INFINITY;
@@ -25,7 +25,7 @@ static void proves_itself(const fl_poly *p, fl_vec3 x, fl_closest_point q)
         assert_true(q.d * v3_dot(q.n, v3_sub(p->v[v], q.p)) <= 16 * TOL * size * size);
 }
 
-static void nearest_points_of_polyhedra_prove_themselves(void **state)
+static void closest_points_of_polyhedra_are_certified(void **state)
 {
     (void)state;
     for (int k = 0; k < test_times(300); k++) {
@@ -35,13 +35,13 @@ static void nearest_points_of_polyhedra_prove_themselves(void **state)
         else shape_regular(&p, k % 20 ? 20 : 8, 1.0);
         for (int m = 0; m < 50; m++) {
             const fl_vec3 x = v3_scale(pow(10.0, fl_rng_in(&g, -2, 1.5)), shape_direction(&g));
-            proves_itself(&p, x, fl_closest_on_poly(&p, x));
+            check_closest_point(&p, x, fl_closest_on_poly(&p, x));
             /* over a vertex, an edge, a face, and on them */
             const fl_vec3 v = p.v[(int)fl_rng_in(&g, 0, p.nv)];
-            proves_itself(&p, v3_madd(v, 0.1, x), fl_closest_on_poly(&p, v3_madd(v, 0.1, x)));
+            check_closest_point(&p, v3_madd(v, 0.1, x), fl_closest_on_poly(&p, v3_madd(v, 0.1, x)));
             const fl_edge e = p.edge[(int)fl_rng_in(&g, 0, p.ne)];
             const fl_vec3 mid = v3_lerp(p.v[e.a], p.v[e.b], fl_rng_unit(&g));
-            proves_itself(&p, mid, fl_closest_on_poly(&p, mid));
+            check_closest_point(&p, mid, fl_closest_on_poly(&p, mid));
         }
         fl_poly_free(&p);
     }
@@ -71,9 +71,8 @@ static void distance_is_continuous_through_zero(void **state)
     }
 }
 
-/* In the plane of a flat polygon and beside it there is a distance: floes of one thickness float at one
- * height. */
-static void flat_polygons_have_no_inside(void **state)
+/* A distance is defined also in the plane of a flat polygon: floes of one thickness float at one height. */
+static void flat_polygons_have_no_interior(void **state)
 {
     (void)state;
     const fl_vec3 v[4] = {v3(-1, -1, 0), v3(1, -1, 0), v3(1, 1, 0), v3(-1, 1, 0)};
@@ -96,7 +95,7 @@ static void flat_polygons_have_no_inside(void **state)
     fl_poly_free(&p);
 }
 
-static void points_and_segments_are_bodies_too(void **state)
+static void points_and_segments_are_bodies(void **state)
 {
     (void)state;
     const fl_vec3 v[2] = {v3(0, 0, 0), v3(2, 0, 0)};
@@ -107,7 +106,7 @@ static void points_and_segments_are_bodies_too(void **state)
     assert_near(fl_closest_on_poly(&point, v3(3, 4, 0)).d, 5.0, TOL);
     assert_near(fl_closest_on_poly(&segment, v3(1, 0.5, 0)).d, 0.5, TOL);
     assert_near(fl_closest_on_poly(&segment, v3(5, 4, 0)).d, 5.0, TOL);
-    const fl_closest_point q = fl_closest_on_poly(&point, v3(0, 0, 0)); /* no direction of its own: z */
+    const fl_closest_point q = fl_closest_on_poly(&point, v3(0, 0, 0)); /* no unique direction: z */
     assert_true(q.d == 0.0 && q.n.z == 1.0);
     fl_poly_free(&point);
     fl_poly_free(&segment);
@@ -119,7 +118,7 @@ static double cone_support(double r0, double r1, double h, fl_vec3 n)
     return fmax(r0 * rho, r1 * rho + h * n.z);
 }
 
-static void nearest_points_of_cones_prove_themselves(void **state)
+static void closest_points_of_cones_are_certified(void **state)
 {
     (void)state;
     for (int k = 0; k < test_times(20000); k++) {
@@ -132,7 +131,7 @@ static void nearest_points_of_cones_prove_themselves(void **state)
         const fl_closest_point q = fl_closest_on_cone(r0, r1, h, x);
         assert_near_of(v3_norm(q.n), 1.0, TOL, 1.0);
         assert_near_of(v3_norm(v3_sub(x, v3_madd(q.p, q.d, q.n))), 0.0, TOL, 4.0);
-        /* the plane across n through p leaves the body behind; in or out, that makes d the distance */
+        /* the body lies behind the plane across n through p; this makes d the distance, inside and outside */
         if (fabs(q.d) > 1e-6) assert_near_of(v3_dot(q.n, q.p), cone_support(r0, r1, h, q.n), 1e-9, 1.0);
         if (q.d >= 0.0) continue;
         for (int m = 0; m < 20; m++) { /* no other way out is shorter */
@@ -142,14 +141,14 @@ static void nearest_points_of_cones_prove_themselves(void **state)
     }
 }
 
-static void ties_of_cones_have_one_answer(void **state)
+static void ties_of_cones_are_resolved_uniquely(void **state)
 {
     (void)state;
     fl_closest_point q =
-        fl_closest_on_cone(0.5, 0.5, 2.0, v3(0, 0, 1)); /* on the axis: nearest is the side, along x */
+        fl_closest_on_cone(0.5, 0.5, 2.0, v3(0, 0, 1)); /* on the axis: the side is closest, along x */
     assert_near(q.d, -0.5, TOL);
     assert_near(q.n.x, 1.0, TOL);
-    q = fl_closest_on_cone(1.0, 1.0, 1.0, v3(0, 0, 0.5)); /* both ends: the lower */
+    q = fl_closest_on_cone(1.0, 1.0, 1.0, v3(0, 0, 0.5)); /* both ends are equally close: the lower */
     assert_near(q.d, -0.5, TOL);
     assert_near(q.n.z, -1.0, TOL);
     q = fl_closest_on_cone(0.5, 0.5, 2.0, v3(0, 0, 2.5)); /* over the axis */
@@ -158,7 +157,8 @@ static void ties_of_cones_have_one_answer(void **state)
     q = fl_closest_on_cone(0.5, 0.5, 2.0, v3(0.5, 0, 2.25)); /* over the rim */
     assert_near(q.d, 0.25, TOL);
     assert_near(q.n.z, 1.0, TOL);
-    q = fl_closest_on_cone(0.5, 0.5, 2.0, v3(0.5, 0, 2.0)); /* on the rim: no direction of its own, but one */
+    q = fl_closest_on_cone(0.5, 0.5, 2.0,
+                           v3(0.5, 0, 2.0)); /* on the rim: the direction is not unique, but one is chosen */
     assert_true(q.d <= 0.0 && fabs(q.d) < TOL);
     assert_near(v3_norm(q.n), 1.0, TOL);
     q = fl_closest_on_cone(1.0, 0.0, 1.0, v3(0, 0, 1.5)); /* over the apex */
@@ -172,12 +172,12 @@ static void ties_of_cones_have_one_answer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nearest_points_of_polyhedra_prove_themselves),
+        cmocka_unit_test(closest_points_of_polyhedra_are_certified),
         cmocka_unit_test(distance_is_continuous_through_zero),
-        cmocka_unit_test(flat_polygons_have_no_inside),
-        cmocka_unit_test(points_and_segments_are_bodies_too),
-        cmocka_unit_test(nearest_points_of_cones_prove_themselves),
-        cmocka_unit_test(ties_of_cones_have_one_answer),
+        cmocka_unit_test(flat_polygons_have_no_interior),
+        cmocka_unit_test(points_and_segments_are_bodies),
+        cmocka_unit_test(closest_points_of_cones_are_certified),
+        cmocka_unit_test(ties_of_cones_are_resolved_uniquely),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,7 +29,7 @@ static void a_line_and_a_table_agree(void **state)
                 fl_concentration_at(&b, (fl_vec2){99.0, 0.0}) == 0.9);
     fl_concentration_free(&a);
     fl_concentration_free(&b);
-    /* along another direction it runs from one corner of the box to the opposite one */
+    /* in another direction it runs from one corner of the box to the opposite one */
     assert_int_equal(fl_concentration_linear(&a, acos(-1.0) / 4.0, 0.1, 0.5, LO, HI, &err), 0);
     assert_near(fl_concentration_at(&a, LO), 0.1, 1e-14);
     assert_near(fl_concentration_at(&a, HI), 0.5, 1e-14);
@@ -37,7 +37,7 @@ static void a_line_and_a_table_agree(void **state)
     fl_concentration_free(&a);
 }
 
-static void wrong_tables_are_told(void **state)
+static void invalid_tables_are_reported(void **state)
 {
     (void)state;
     static const char *const text[] = {"",          "s[m] c\n",       "0 0\n",          "0 1\n",
@@ -52,14 +52,15 @@ static void wrong_tables_are_told(void **state)
     }
 }
 
-/* Each floe covers its part to rounding, all together what all parts ask for, held ones or not. */
-static void floes_cover_their_parts(void **state)
+/* Each floe covers its share to rounding, and all floes together cover the requested area, fixed floes
+ * included. */
+static void floes_cover_their_share(void **state)
 {
     (void)state;
     for (int k = 0; k < 12; k++) {
         const int32_t n = 50 + 20 * k;
         fl_vec2 site[300];
-        double part[300], area[300], want = 0.0, off = 1.0, radius = 0.05 * (k % 3);
+        double part[300], area[300], expected = 0.0, off = 1.0, radius = 0.05 * (k % 3);
         fl_concentration_gradient g = {0};
         fl_power_cells c = {0};
         fl_floes a = {0};
@@ -77,12 +78,12 @@ static void floes_cover_their_parts(void **state)
         fl_power_cells_centroids(&c, site);
         for (int32_t i = 0; i < n; i++) {
             part[i] = fl_concentration_at(&g, site[i]);
-            want += part[i] * area[i];
+            expected += part[i] * area[i];
         }
         assert_int_equal(fl_floes_make_graded(&a, &c, part, radius, (fl_vec2){0, 0}, &off, &err), 0);
         assert_int_equal(fl_certificate_make(&cert, &a, &err), 0);
         assert_int_equal(cert.overlaps, 0);
-        assert_near(cert.total_area, want, 1e-12);
+        assert_near(cert.total_area, expected, 1e-12);
         if (a.limited == 0) assert_true(off < 1e-12);
         assert_true(off < 0.05);
         fl_floes_free(&a);
@@ -91,7 +92,7 @@ static void floes_cover_their_parts(void **state)
     }
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     fl_vec2 site[10];
@@ -125,7 +126,7 @@ static void memory_that_runs_out_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_line_and_a_table_agree), cmocka_unit_test(wrong_tables_are_told),
-        cmocka_unit_test(floes_cover_their_parts), cmocka_unit_test(memory_that_runs_out_is_told)};
+        cmocka_unit_test(a_line_and_a_table_agree), cmocka_unit_test(invalid_tables_are_reported),
+        cmocka_unit_test(floes_cover_their_share), cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,20 +21,21 @@
 
 #define TOL 1e-11 /* rounding of coordinates of a few metres, over an overlap of centimetres */
 
-static void near3(fl_vec3 a, fl_vec3 b, double size)
+static void assert_near3(fl_vec3 a, fl_vec3 b, double size)
 {
     assert_near_of(v3_norm(v3_sub(a, b)), 0.0, TOL, size);
 }
 
-/* Bodies as rows see them, but for what they foresee: pairs that the world does not know foresee nothing. */
-static void show(fl_world *w, int32_t n)
+/* Updates the sphere states without predicted changes of velocity: pairs outside the world have none. */
+static void update_states(fl_world *w, int32_t n)
 {
     fl_sphere_states_update(w, 0, n, 0.5 * w->dt);
     for (int32_t k = 0; k < n; k++) w->spheres.state[k].dv = w->spheres.state[k].rdw = v3(0, 0, 0);
 }
 
-/* One row after another as the kernel of all other pairs sees it, through impact, sticking and sliding. */
-static void like_any_other_pair(void **state)
+/* Evaluates one sphere contact after another by the general pair kernel, through impact, sticking and
+ * sliding. */
+static void sphere_pairs_match_general_pairs(void **state)
 {
     int64_t touched = 0, slid = 0;
     (void)state;
@@ -47,7 +48,8 @@ static void like_any_other_pair(void **state)
         lab_start(&l);
         lab_set(&l, "material.ice.young=1 MPa");
         lab_setf(&l, "contact.friction=%g", fl_rng_in(&g, 0.0, 0.6));
-        /* with damping rows take it that spheres come from where they were, and of arms the same part */
+        /* with damping, the contact list assumes that spheres come from their previous positions, and takes
+         * the same share of lever arms */
         const double loosely = k % 2 ? 1e8 : 1.0;
         lab_setf(&l, "contact.restitution=%g", k % 2 ? fl_rng_in(&g, 0.05, 0.9) : 1.0);
         lab_sphere(&l, v3_scale(1.001 * ra, n), ra, v3_madd(across, -1.0, n),
@@ -58,26 +60,26 @@ static void like_any_other_pair(void **state)
         fl_pair other;
         fl_pair_init(&l.w, &other, 0, 1);
         for (int s = 0; s < 200; s++) {
-            /* the step without its end: contacts see the velocities in the middle */
+            /* a step without its second half: contacts use the velocities at mid-step */
             fl_bodies *b = &l.w.b;
             for (int i = 0; i < 2; i++) fl_kick(b, i, 0.5 * l.w.dt), fl_drift(b, i, l.w.dt);
-            show(&l.w, 2);
+            update_states(&l.w, 2);
             fl_sphere_chunk_evaluate(&l.w, 0, l.w.dt, 1);
             fl_pair_evaluate(&l.w, &other, 0, l.w.dt, 1);
             const fl_pair p = lab_pair(&l, 0);
             const double F = loosely * v3_norm(other.force), T = F * (ra + rb);
             assert_int_equal(p.touching, other.touching);
             if (p.touching) {
-                near3(p.force, other.force, F), near3(p.force_damping, other.force_damping, F),
-                    near3(p.force_friction, other.force_friction, F);
-                near3(p.torque_i, other.torque_i, T), near3(p.torque_j, other.torque_j, T),
-                    near3(p.torque_i_friction, other.torque_i_friction, T);
-                near3(p.springs.force, other.springs.force, F);
+                assert_near3(p.force, other.force, F), assert_near3(p.force_damping, other.force_damping, F),
+                    assert_near3(p.force_friction, other.force_friction, F);
+                assert_near3(p.torque_i, other.torque_i, T), assert_near3(p.torque_j, other.torque_j, T),
+                    assert_near3(p.torque_i_friction, other.torque_i_friction, T);
+                assert_near3(p.springs.force, other.springs.force, F);
                 assert_near_of(p.springs.k, other.springs.k, TOL, other.springs.k + 1.0);
                 assert_near(p.max_approach_speed, other.max_approach_speed, 1e-12);
                 assert_near_of(p.energy, other.energy, TOL, F * ra);
                 assert_near_of(p.spring_energy, other.spring_energy, TOL, F * ra);
-                /* a bound that is no more than Frobenius' fourth root above the largest eigenvalue */
+                /* an upper bound: at most Frobenius' fourth root above the largest eigenvalue */
                 assert_true(p.omega2_i <= other.omega2_i * (1 + TOL) && other.omega2_i <= 1.26 * p.omega2_i);
                 assert_true(p.omega2_j <= other.omega2_j * (1 + TOL) && other.omega2_j <= 1.26 * p.omega2_j);
                 slid += v3_norm(p.force_friction) >=
@@ -91,7 +93,7 @@ static void like_any_other_pair(void **state)
                 fl_sphere_add_forces(&l.w, i, &b->f[i], &b->t[i]);
                 fl_kick(b, i, 0.5 * l.w.dt);
             }
-            near3(b->f[0], other.force, F + 1e-300), near3(b->t[1], other.torque_j, T + 1e-300);
+            assert_near3(b->f[0], other.force, F + 1e-300), assert_near3(b->t[1], other.torque_j, T + 1e-300);
         }
         fl_pair_free(&other);
         lab_free(&l);
@@ -99,10 +101,11 @@ static void like_any_other_pair(void **state)
     assert_true(touched > 20 * test_times(40) && slid > 0 && slid < touched);
 }
 
-/* Damping of rows goes by the speeds of the end of a step, with what the contact itself changes. */
-static void damped_by_the_speed_at_the_end(void **state)
+/* Damping of sphere contacts uses the speeds at the end of the step, including the change by the contact
+ * itself. */
+static void damping_uses_the_speed_at_the_end(void **state)
 {
-    int64_t pulled = 0, touched = 0;
+    int64_t without_force = 0, touched = 0;
     (void)state;
     for (int k = 0; k < test_times(20); k++) {
         lab l;
@@ -136,9 +139,9 @@ static void damped_by_the_speed_at_the_end(void **state)
                                                          elastic - had, damped, 0.0),
                              normal = fl_normal_damped_force(elastic, chi, ends);
                 assert_true(fabs(v3_dot(p.force, n) - normal) < 1e-5 * elastic);
-                near3(p.force_damping, v3_madd(p.force, -elastic, n), elastic);
+                assert_near3(p.force_damping, v3_madd(p.force, -elastic, n), elastic);
                 had = elastic, damped = v3_dot(p.force_damping, n);
-                pulled += normal == 0.0, touched++;
+                without_force += normal == 0.0, touched++;
             }
             for (int i = 0; i < 2; i++) {
                 b->f[i] = b->t[i] = v3(0, 0, 0);
@@ -149,11 +152,11 @@ static void damped_by_the_speed_at_the_end(void **state)
         }
         lab_free(&l);
     }
-    assert_true(touched > 20 * test_times(20) && pulled < touched);
+    assert_true(touched > 20 * test_times(20) && without_force < touched);
 }
 
-/* What is damping of the force on a ball at rest that a current holds against a wall: the share. */
-static double damped_at_rest(double safety)
+/* Share of damping in the force on a sphere at rest that a current presses against a wall. */
+static double damping_share_at_rest(double safety)
 {
     lab l;
     lab_start(&l);
@@ -176,39 +179,40 @@ static double damped_at_rest(double safety)
     return v3_norm(p.force_damping) / v3_norm(p.force);
 }
 
-/* Drag takes part in what rows foresee: nothing is, but for what drag by the square of the speed does between
- * the halves of a step, to order 2. */
-static void held_by_a_current(void **state)
+/* Drag is included in the predicted velocities: the share is zero but for quadratic drag between the halves
+ * of a step, to order 2. */
+static void predicted_velocities_include_drag(void **state)
 {
     (void)state;
-    const double long_steps = damped_at_rest(0.4), half = damped_at_rest(0.2);
+    const double long_steps = damping_share_at_rest(0.4), half = damping_share_at_rest(0.2);
     assert_true(long_steps < 2e-3 && half < 0.3 * long_steps);
 }
 
-/* One step of the only sphere and wall as wall_contact.h takes it, and as all other pairs go; whether they touch. */
-static int step_both(fl_world *w, fl_pair *p, fl_pair *other)
+/* One step of the only sphere and wall by wall_contact.h and by the general pair force. Returns whether they
+ * touch. */
+static int step_both_paths(fl_world *w, fl_pair *p, fl_pair *other)
 {
     assert_int_equal(w->spheres.walls, 1);
     fl_wall_contact_to_pair(w, 0, other);
     fl_pair_evaluate(w, other, 0, w->dt, 1);
-    show(w, 1);
+    update_states(w, 1);
     fl_sphere_chunk_evaluate(w, 0, w->dt, 1);
     fl_wall_contact_to_pair(w, 0, p);
     assert_int_equal(p->touching, other->touching);
     return p->touching;
 }
 
-static void same(const fl_pair *p, const fl_pair *other, double r, double far)
+static void assert_same_pair(const fl_pair *p, const fl_pair *other, double r, double far)
 {
     const double F = v3_norm(other->force), T = F * far;
-    near3(p->force, other->force, F), near3(p->force_damping, other->force_damping, F),
-        near3(p->force_friction, other->force_friction, F);
-    near3(p->torque_i, other->torque_i, T), near3(p->torque_j, other->torque_j, T),
-        near3(p->torque_i_damping, other->torque_i_damping, T);
-    near3(p->torque_j_damping, other->torque_j_damping, T),
-        near3(p->torque_i_friction, other->torque_i_friction, T),
-        near3(p->torque_j_friction, other->torque_j_friction, T);
-    near3(p->springs.force, other->springs.force, F);
+    assert_near3(p->force, other->force, F), assert_near3(p->force_damping, other->force_damping, F),
+        assert_near3(p->force_friction, other->force_friction, F);
+    assert_near3(p->torque_i, other->torque_i, T), assert_near3(p->torque_j, other->torque_j, T),
+        assert_near3(p->torque_i_damping, other->torque_i_damping, T);
+    assert_near3(p->torque_j_damping, other->torque_j_damping, T),
+        assert_near3(p->torque_i_friction, other->torque_i_friction, T),
+        assert_near3(p->torque_j_friction, other->torque_j_friction, T);
+    assert_near3(p->springs.force, other->springs.force, F);
     assert_near_of(p->springs.k, other->springs.k, TOL, other->springs.k + 1.0);
     assert_near(p->max_approach_speed, other->max_approach_speed, 1e-12),
         assert_near(p->overlap, other->overlap, 1e-9);
@@ -219,7 +223,7 @@ static void same(const fl_pair *p, const fl_pair *other, double r, double far)
 }
 
 /* Spheres that roll, slide and bounce on a floor. */
-static void leaning_like_any_other_pair(void **state)
+static void wall_contacts_match_general_pairs(void **state)
 {
     int64_t touched = 0, slid = 0;
     (void)state;
@@ -242,15 +246,15 @@ static void leaning_like_any_other_pair(void **state)
             fl_pair p, other;
             assert_int_equal(lab_run(&l, 1), 0);
             if (w->spheres.walls == 0) continue;
-            if (step_both(w, &p, &other)) {
+            if (step_both_paths(w, &p, &other)) {
                 const double F = v3_norm(other.force);
                 fl_vec3 f = v3(0, 0, 0), t = v3(0, 0, 0);
-                same(&p, &other, r, 10.0);
+                assert_same_pair(&p, &other, r, 10.0);
                 fl_wall_add_forces(w, 1, &f, &t);
-                near3(f, v3_neg(other.force), F), near3(t, other.torque_j, 10.0 * F);
+                assert_near3(f, v3_neg(other.force), F), assert_near3(t, other.torque_j, 10.0 * F);
                 f = t = v3(0, 0, 0);
                 fl_sphere_add_forces(w, 0, &f, &t);
-                near3(f, other.force, F), near3(t, other.torque_i, F);
+                assert_near3(f, other.force, F), assert_near3(t, other.torque_i, F);
                 slid += p.law->friction > 0.0 &&
                         v3_norm(p.force_friction) >= 0.999 * p.law->friction * fabs(p.force.z);
                 touched++;
@@ -262,8 +266,9 @@ static void leaning_like_any_other_pair(void **state)
     assert_true(touched > 20 * test_times(20) && slid > 0 && slid < touched);
 }
 
-/* A centre on the wall and behind it is pushed out as one before it; whoever lets go forgets. */
-static void leaning_deep_and_not(void **state)
+/* A centre on the wall or behind it is pushed out like one in front of it. A contact that ends loses its
+ * history. */
+static void deep_and_grazing_wall_contacts_match(void **state)
 {
     lab l;
     fl_pair p, other;
@@ -271,7 +276,7 @@ static void leaning_deep_and_not(void **state)
     lab_start(&l);
     lab_set(&l, "material.ice.young=1 MPa");
     lab_set(&l, "contact.friction=0.3");
-    lab_set(&l, "contact.restitution=1"); /* rows take it that a sphere comes from where it was */
+    lab_set(&l, "contact.restitution=1"); /* spheres come from their previous positions */
     lab_set(&l, "boundary.type=free free rigid");
     lab_set(&l, "boundary.min=none none 0");
     lab_sphere(&l, v3(0, 0, 0.99), 1.0, v3(0.1, 0, -0.1), v3(0, 0, 0));
@@ -280,22 +285,22 @@ static void leaning_deep_and_not(void **state)
     static const double HEIGHT[] = {0.99, 0.5, 1e-9, 0.0, -1e-9, -0.5, -1.0, -3.0};
     for (size_t k = 0; k < sizeof HEIGHT / sizeof *HEIGHT; k++) {
         l.w.b.x[0].z = HEIGHT[k];
-        assert_true(step_both(&l.w, &p, &other));
-        same(&p, &other, 1.0, 10.0);
+        assert_true(step_both_paths(&l.w, &p, &other));
+        assert_same_pair(&p, &other, 1.0, 10.0);
         assert_near_of(p.overlap, 1.0 - HEIGHT[k], TOL, 1.0);
         fl_pair_free(&other);
     }
     assert_true(l.w.spheres.wall[0].contact.spring_stiffness > 0.0);
     l.w.b.x[0].z = 1.01;
-    assert_false(step_both(&l.w, &p, &other));
+    assert_false(step_both_paths(&l.w, &p, &other));
     assert_true(l.w.spheres.wall[0].contact.spring_stiffness == 0.0 &&
                 l.w.spheres.wall[0].contact.max_approach_speed == 0.0);
     fl_pair_free(&other);
     lab_free(&l);
 }
 
-/* By the manual's laws, and on elastic walls, spheres are pairs as all others. */
-static void leaning_on_what(void **state)
+/* With the laws of the manual and on elastic walls, spheres are general pairs. */
+static void only_hertz_on_rigid_walls_is_fast(void **state)
 {
     static const char *const KEYS[] = {"contact.law=core", "contact.law=manual",
                                        "boundary.type=free free elastic"};
@@ -316,8 +321,8 @@ static void leaning_on_what(void **state)
     }
 }
 
-/* What damping and friction of the sums take out at the velocities of now [W]. */
-static void works_of(const fl_world *w, double *damping, double *friction)
+/* Power dissipated by damping and friction of the sums, at the current velocities [W]. */
+static void powers_of(const fl_world *w, double *damping, double *friction)
 {
     for (int32_t k = 0; k < w->n; k++) {
         const fl_sphere_sum *q = &w->spheres.sum[k];
@@ -326,12 +331,12 @@ static void works_of(const fl_world *w, double *damping, double *friction)
     }
 }
 
-/* Sums, works and counts over chunks against those over pairs. */
-static void sums_over_pairs(void **state)
+/* Sums, work and counts over chunks against those over pairs. */
+static void chunk_sums_match_pair_sums(void **state)
 {
     lab l;
     (void)state;
-    scene_of_balls(&l, 9, "patch"); /* 729 bodies: three chunks */
+    scene_of_spheres(&l, 9, "patch"); /* 729 bodies: three chunks */
     lab_make(&l, 0);
     assert_int_equal(lab_run(&l, 60), 0);
     fl_world *w = &l.w;
@@ -339,7 +344,7 @@ static void sums_over_pairs(void **state)
     fl_vec3 *f = calloc((size_t)w->b.total, sizeof *f), *t = calloc((size_t)w->b.total, sizeof *t);
     assert_true(f && t);
     fl_pair_iterator at = {.w = w};
-    double damping = 0.0, friction = 0.0, elastic = 0.0, spring = 0.0, size = 0.0, worst = 0.0, most = 0.0;
+    double damping = 0.0, friction = 0.0, elastic = 0.0, spring = 0.0, size = 0.0, worst = 0.0, largest = 0.0;
     int64_t touching = 0;
     int32_t i = -1, j = -1;
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
@@ -353,7 +358,7 @@ static void sums_over_pairs(void **state)
         friction -= v3_dot(p->force_friction, dv) + v3_dot(p->torque_i_friction, w->b.w[i]) +
                     v3_dot(p->torque_j_friction, w->b.w[j]);
         elastic += p->energy, spring += p->spring_energy;
-        size += v3_norm(p->force), most = fmax(most, v3_norm(p->force));
+        size += v3_norm(p->force), largest = fmax(largest, v3_norm(p->force));
         worst = fmax(worst, p->overlap / (w->b.radius[i] + w->b.radius[j]));
         touching++;
     }
@@ -361,37 +366,37 @@ static void sums_over_pairs(void **state)
     for (int32_t k = 0; k < w->n; k++) {
         fl_vec3 fk = v3(0, 0, 0), tk = v3(0, 0, 0);
         fl_sphere_add_forces(w, k, &fk, &tk);
-        near3(fk, f[k], most), near3(tk, t[k], most);
+        assert_near3(fk, f[k], largest), assert_near3(tk, t[k], largest);
     }
     double d = 0.0, r = 0.0, e = 0.0, s = 0.0;
-    works_of(w, &d, &r), fl_contact_list_energy(w, &e, &s);
+    powers_of(w, &d, &r), fl_contact_list_energy(w, &e, &s);
     const fl_sphere_totals all = fl_contact_list_totals(w);
-    assert_near_of(d, damping, TOL, most), assert_near_of(r, friction, TOL, most);
+    assert_near_of(d, damping, TOL, largest), assert_near_of(r, friction, TOL, largest);
     assert_near(e, elastic, 1e-11), assert_near(s, spring, 1e-11);
     assert_near(all.force_sum, size, 1e-11), assert_near(all.max_overlap, worst, 1e-11);
     assert_int_equal(all.touching, touching);
-    /* made again from what the rows hold: the same bits */
+    /* rebuilt from the contact records: the same bits */
     fl_err err = {0};
     double d2 = 0.0, r2 = 0.0;
     assert_int_equal(fl_contact_list_index(w, &err), 0);
-    works_of(w, &d2, &r2);
+    powers_of(w, &d2, &r2);
     assert_true(d == d2 && r == r2);
-    /* and with other rows at hand, which do not touch */
+    /* and with other records, which do not touch */
     w->skin *= 3.0, w->last_search_step = -1;
     const int32_t rows = w->spheres.n;
     assert_int_equal(fl_neighbour_list_update(w, &err), 0);
     assert_true(w->spheres.n > rows);
     assert_int_equal(fl_contact_list_index(w, &err), 0);
     d2 = r2 = 0.0;
-    works_of(w, &d2, &r2);
+    powers_of(w, &d2, &r2);
     assert_true(d == d2 && r == r2);
     free(f), free(t);
     lab_free(&l);
 }
 
-/* Spheres that do not go several at a time, since something holds some of them, or water goes with them, or
- * waves: their books close as those of all others do, by the order of the step. */
-static void one_by_one(void **state)
+/* Spheres that cannot be advanced in batches, because of fixed directions, added mass or waves: their energy
+ * ledger closes as that of other bodies does, to the order of the step. */
+static void single_spheres_balance_energy(void **state)
 {
     static const char *const KEYS[][2] = {{"group.some.fixed=rx", NULL},
                                           {"group.some.fixed=z", NULL},
@@ -433,8 +438,8 @@ static void one_by_one(void **state)
     }
 }
 
-/* Centres that are one push along z; contacts have the same bits wherever they stand in a batch. */
-static void batches(void **state)
+/* Centres separated by one overlap along z: contacts have the same bits at every position in a batch. */
+static void contacts_do_not_depend_on_their_batch(void **state)
 {
     static fl_sphere_batch a, b;
     (void)state;
@@ -482,14 +487,14 @@ static void batches(void **state)
     assert_true(a.n[0][5] == 0.0 && a.n[1][5] == 0.0 && a.n[2][5] == 1.0);
 }
 
-/* Chunks that end their step at once, and those that wait for what others lead to them, by thread. */
-static void whichever_share(void **state)
+/* Chunks that end their step at once, and chunks that wait for contacts of other chunks, by thread. */
+static void results_do_not_depend_on_the_shares(void **state)
 {
     uint64_t first = 0;
     (void)state;
     for (int threads = 1; threads <= 3; threads++) {
         lab l;
-        scene_of_balls(&l, 10, "patch"); /* 1000 bodies: four chunks */
+        scene_of_spheres(&l, 10, "patch"); /* 1000 bodies: four chunks */
         lab_setf(&l, "run.threads=%d", threads);
         lab_make(&l, 0);
         assert_int_equal(lab_run(&l, 15), 0);
@@ -514,13 +519,13 @@ static void whichever_share(void **state)
     }
 }
 
-/* Pairs above one another, the second of the k-th k cells away: as if it were in this one.  In turns so
- * many ways that a byte tells them, and more. */
-static void whichever_image(void **state)
+/* Pairs above one another, the second of the k-th pair k cells away: evaluated as if it were in this cell.
+ * The numbers of distinct image shifts are one that fits a byte, and one that does not. */
+static void every_periodic_image_matches(void **state)
 {
     enum { PAIRS = 300 };
     static fl_vec3 f[2 * PAIRS];
-    double most = 0.0;
+    double largest = 0.0;
     (void)state;
     for (int cells = 0; cells <= PAIRS; cells += PAIRS / 2) {
         lab l;
@@ -542,21 +547,21 @@ static void whichever_image(void **state)
         for (int32_t i = 0; i < l.w.n; i++) {
             fl_vec3 F = v3(0, 0, 0), T = v3(0, 0, 0);
             fl_sphere_add_forces(&l.w, i, &F, &T);
-            if (cells == 0) f[i] = F, most = fmax(most, v3_norm(F));
-            assert_near_of(v3_norm(v3_sub(F, f[i])), 0.0, 1e-9, most); /* 5000 m of an overlap of 16 mm */
+            if (cells == 0) f[i] = F, largest = fmax(largest, v3_norm(F));
+            assert_near_of(v3_norm(v3_sub(F, f[i])), 0.0, 1e-9, largest); /* 5000 m of an overlap of 16 mm */
         }
-        assert_true(most > 0.0);
+        assert_true(largest > 0.0);
         lab_free(&l);
     }
 }
 
-static void out_of_memory(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     for (long n = 0; n < 1000; n++) {
         lab l;
         fl_err err = {0};
-        scene_of_balls(&l, 4, "patch");
+        scene_of_spheres(&l, 4, "patch");
         lab_make(&l, 0);
         l.w.skin *= 2.0, l.w.last_search_step = -1;
         fl_alloc_fail_after(n);
@@ -571,17 +576,17 @@ static void out_of_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(like_any_other_pair),
-                                       cmocka_unit_test(damped_by_the_speed_at_the_end),
-                                       cmocka_unit_test(held_by_a_current),
-                                       cmocka_unit_test(leaning_like_any_other_pair),
-                                       cmocka_unit_test(leaning_deep_and_not),
-                                       cmocka_unit_test(leaning_on_what),
-                                       cmocka_unit_test(one_by_one),
-                                       cmocka_unit_test(sums_over_pairs),
-                                       cmocka_unit_test(batches),
-                                       cmocka_unit_test(whichever_share),
-                                       cmocka_unit_test(whichever_image),
-                                       cmocka_unit_test(out_of_memory)};
-    return cmocka_run_group_tests_name("balls", tests, NULL, NULL);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sphere_pairs_match_general_pairs),
+                                       cmocka_unit_test(damping_uses_the_speed_at_the_end),
+                                       cmocka_unit_test(predicted_velocities_include_drag),
+                                       cmocka_unit_test(wall_contacts_match_general_pairs),
+                                       cmocka_unit_test(deep_and_grazing_wall_contacts_match),
+                                       cmocka_unit_test(only_hertz_on_rigid_walls_is_fast),
+                                       cmocka_unit_test(single_spheres_balance_energy),
+                                       cmocka_unit_test(chunk_sums_match_pair_sums),
+                                       cmocka_unit_test(contacts_do_not_depend_on_their_batch),
+                                       cmocka_unit_test(results_do_not_depend_on_the_shares),
+                                       cmocka_unit_test(every_periodic_image_matches),
+                                       cmocka_unit_test(allocation_failure_is_reported)};
+    return cmocka_run_group_tests_name("contact_list", tests, NULL, NULL);
 }

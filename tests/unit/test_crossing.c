@@ -9,24 +9,24 @@ static const double TWO_PI = 6.283185307179586477;
 static fl_err err;
 static fl_part p;
 
-static int end(void **state)
+static int free_part(void **state)
 {
     (void)state;
     fl_part_free(&p);
     return 0;
 }
 
-/* The search by all threads finds what the search of CGAL does, pair for pair of them. */
-static fl_crossing agree(void)
+/* The parallel search finds the pairs that the search of CGAL finds, one by one. */
+static fl_crossing compare_with_cgal(void)
 {
     const fl_soup s = {p.nv, p.nt, p.nv ? &p.v[0].x : NULL, p.nt ? p.t[0].v : NULL};
-    fl_crossing want, got;
-    if (fl_cgal_crossings(&s, &want, &err)) fail_msg("%s", err.text);
+    fl_crossing expected, got;
+    if (fl_cgal_crossings(&s, &expected, &err)) fail_msg("%s", err.text);
     for (int threads = 1; threads <= 3; threads++) {
         omp_set_num_threads(threads);
         if (fl_part_crossings(&p, &got, &err)) fail_msg("%s", err.text);
-        assert_int_equal(got.crossings, want.crossings);
-        assert_int_equal(got.touching, want.touching);
+        assert_int_equal(got.crossings, expected.crossings);
+        assert_int_equal(got.touching, expected.touching);
     }
     return got;
 }
@@ -41,9 +41,9 @@ static void triangle(int32_t a, int32_t b, int32_t c)
     if (fl_surface_triangle(&p, a, b, c, &err)) fail_msg("%s", err.text);
 }
 
-/* Corners on a small lattice of whole numbers, turned or not, near the origin or far from it: pairs that
- * share, touch, lie in one plane, cover each other, of no area. */
-static void it_finds_what_cgal_finds(void **state)
+/* Corners on a small integer lattice, rotated or not, near the origin or far from it: pairs that share,
+ * touch, are coplanar, cover each other, or have no area. */
+static void the_search_finds_what_cgal_finds(void **state)
 {
     int64_t crossings = 0, touching = 0;
     for (int k = 0; k < test_times(30); k++) {
@@ -63,15 +63,15 @@ static void it_finds_what_cgal_finds(void **state)
             const int32_t d = (int32_t)(fl_rng_u64(&g) % (uint64_t)nv);
             if (d != a && d != b) triangle(a, b, d);
         }
-        c = agree();
+        c = compare_with_cgal();
         crossings += c.crossings;
         touching += c.touching;
-        end(state);
+        free_part(state);
     }
     assert_true(crossings > 500 && touching > 50);
 }
 
-/* A sheet of n by n squares, each cut in two: flat, bent, rough; a second one through it at an angle. */
+/* A sheet of n by n squares of two triangles: flat, bent, rough. A second sheet crosses it at an angle. */
 static void sheet(int n, double bend, double rough, double tilt)
 {
     const int32_t first = p.nv;
@@ -90,24 +90,24 @@ static void sheet(int n, double bend, double rough, double tilt)
         }
 }
 
-static void sheets_are_sound_until_one_passes_through(void **state)
+static void sheets_cross_only_where_one_passes_through(void **state)
 {
     static const double row[][3] = {{0, 0, 0}, {0, 0, 0.5}, {0.1, 0, 0}, {0, 0.05, 0.3}, {0.02, 0.2, 1.0}};
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         fl_crossing c;
         sheet(30, row[k][0], row[k][1], row[k][2]);
-        c = agree();
+        c = compare_with_cgal();
         assert_int_equal(c.crossings, 0);
         assert_int_equal(c.touching, 0);
         sheet(20, 0.0, 0.01, row[k][2] + 0.7);
-        c = agree();
+        c = compare_with_cgal();
         assert_true(c.crossings > 10);
-        end(state);
+        free_part(state);
     }
 }
 
-/* The mantle of a cone of n facets about an axis through o at an angle to the vertical, from a circle of
- * radius r up to one of radius q, or with q = 0 to a tip; with a bottom of n more when it is wanted. */
+/* The side of a cone of n facets about an axis through o at an angle to the vertical, from a circle of radius
+ * r up to one of radius q, or to a tip with q = 0. With bottom, n more facets close it below. */
 static void cone(int n, fl_vec3 o, double tilt, double r, double q, double height, int bottom)
 {
     const int32_t first = p.nv;
@@ -125,9 +125,9 @@ static void cone(int n, fl_vec3 o, double tilt, double r, double q, double heigh
     }
 }
 
-/* Slivers whose boxes are all in one another, which are looked at in bundles; and what passes through them,
- * lies on them or touches them is found all the same. */
-static void cones_are_sound_until_something_passes_through(void **state)
+/* Slivers whose boxes all overlap, which are tested in groups. Triangles that cross, lie on or touch them are
+ * found all the same. */
+static void cones_cross_only_where_something_passes_through(void **state)
 {
     static const double tilt[] = {0.0, 0.3, 0.9553}; /* the last one: along a diagonal */
     for (size_t k = 0; k < sizeof tilt / sizeof *tilt; k++)
@@ -136,31 +136,31 @@ static void cones_are_sound_until_something_passes_through(void **state)
             const double q = tip ? 0.0 : 0.4;
             fl_crossing c;
             cone(190, o, tilt[k], 2.0, q, 5.0, 1);
-            c = agree();
+            c = compare_with_cgal();
             assert_int_equal(c.crossings + c.touching, 0);
             cone(40, v3(o.x + 0.5, o.y, o.z + 0.5), tilt[k] + 0.5, 0.7, 0.6, 6.0, 0);
-            assert_true(agree().crossings > 100);
-            end(state);
+            assert_true(compare_with_cgal().crossings > 100);
+            free_part(state);
             cone(190, o, tilt[k], 2.0, q, 5.0, 1);
             cone(190, v3(o.x + 0.03, o.y + 0.02, o.z - 0.1), tilt[k], 2.0, q, 5.0,
-                 0); /* beside itself by little */
-            assert_true(agree().crossings > 100);
-            end(state);
+                 0); /* next to itself, shifted by little */
+            assert_true(compare_with_cgal().crossings > 100);
+            free_part(state);
         }
 }
 
-/* Of 40 000 triangles, which looked at pair by pair would be more than 10^8 of them. */
-static void large_cones_take_no_time(void **state)
+/* Among 40 000 triangles; pair by pair, these would be more than 10^8 tests. */
+static void large_cones_are_fast(void **state)
 {
     fl_crossing c;
     cone(20000, v3(0, 0, 0), 0.0, 5.0, 0.0, 10.0, 1);
     cone(20000, v3(0, 0, -20.0), 0.0, 5.0, 1.0, 10.0, 0);
     if (fl_part_crossings(&p, &c, &err)) fail_msg("%s", err.text);
     assert_int_equal(c.crossings + c.touching, 0);
-    end(state);
+    free_part(state);
 }
 
-static void small_parts_and_no_memory(void **state)
+static void small_parts_and_allocation_failure(void **state)
 {
     fl_crossing c;
     int rc = -1;
@@ -169,11 +169,11 @@ static void small_parts_and_no_memory(void **state)
     vertex(1, 0, 0);
     vertex(0, 1, 0);
     triangle(0, 1, 2);
-    assert_int_equal(agree().crossings, 0);
+    assert_int_equal(compare_with_cgal().crossings, 0);
     triangle(0, 2, 1); /* on the first */
-    assert_int_equal(agree().crossings, 1);
+    assert_int_equal(compare_with_cgal().crossings, 1);
     for (int k = 2; k < 40; k++) triangle(0, 1, 2);
-    assert_int_equal(agree().crossings, 40 * 39 / 2);
+    assert_int_equal(compare_with_cgal().crossings, 40 * 39 / 2);
     for (long fail = 0; rc; fail++) {
         err = (fl_err){0};
         fl_alloc_fail_after(fail);
@@ -181,17 +181,17 @@ static void small_parts_and_no_memory(void **state)
         fl_alloc_fail_after(-1);
         assert_int_equal(err.code, rc ? FL_SYSTEM : 0);
     }
-    end(state);
+    free_part(state);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(it_finds_what_cgal_finds, end),
-        cmocka_unit_test_teardown(sheets_are_sound_until_one_passes_through, end),
-        cmocka_unit_test_teardown(cones_are_sound_until_something_passes_through, end),
-        cmocka_unit_test_teardown(large_cones_take_no_time, end),
-        cmocka_unit_test_teardown(small_parts_and_no_memory, end),
+        cmocka_unit_test_teardown(the_search_finds_what_cgal_finds, free_part),
+        cmocka_unit_test_teardown(sheets_cross_only_where_one_passes_through, free_part),
+        cmocka_unit_test_teardown(cones_cross_only_where_something_passes_through, free_part),
+        cmocka_unit_test_teardown(large_cones_are_fast, free_part),
+        cmocka_unit_test_teardown(small_parts_and_allocation_failure, free_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,22 +10,22 @@
 
 enum { TEXT = 2000 };
 
-/* The same bits and the same end as strtod(), for a text that is a number from its start. */
-static void check(const char *text, long k)
+/* The same bits and the same end as strtod(), for a text that begins with a number. */
+static void compare_with_strtod(const char *text, long k)
 {
     char *end;
-    const double want = strtod(text, &end);
+    const double expected = strtod(text, &end);
     double x = 99.0;
     const char *stop = fl_decimal_read(text, &x);
-    if (stop == end && memcmp(&x, &want, sizeof x) == 0) return;
+    if (stop == end && memcmp(&x, &expected, sizeof x) == 0) return;
     print_error("seed %llu case %ld: \"%s\" reads as %a, %a is expected\n", (unsigned long long)test_seed(),
-                k, text, x, want);
+                k, text, x, expected);
     fail();
 }
 
 static void known_texts(void **state)
 {
-    /* Ties, ends of the range, subnormals, digits without end, numbers that cost others their fame. */
+    /* Ties, ends of the range, subnormals, long digit strings, and known hard cases. */
     static const char *const text[] = {
         "0",
         "-0",
@@ -77,23 +77,23 @@ static void known_texts(void **state)
         "1e5.5",
         "-12\t13"};
     (void)state;
-    for (size_t k = 0; k < sizeof text / sizeof *text; k++) check(text[k], (long)k);
+    for (size_t k = 0; k < sizeof text / sizeof *text; k++) compare_with_strtod(text[k], (long)k);
 }
 
-static void no_numbers(void **state)
+static void text_without_a_number(void **state)
 {
     static const char *const text[] = {"", ".", "-", "+", "+.", "e5", ".e5", "--1", "inf", "nan", " 1", "x"};
     double x = 99.0;
     (void)state;
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) assert_null(fl_decimal_read(text[k], &x));
     assert_true(x == 99.0);
-    /* strtod() would take these for more than they are. */
+    /* strtod() accepts more of these than a decimal number. */
     assert_string_equal(fl_decimal_read("0x10", &x), "x10");
     assert_true(x == 0.0);
 }
 
-/* Doubles of all magnitudes, with as many digits as are needed, and with fewer and more. */
-static void doubles(void **state)
+/* Doubles of all magnitudes, with the digits needed, and with fewer and more. */
+static void printed_doubles_read_back(void **state)
 {
     char text[TEXT];
     (void)state;
@@ -104,21 +104,21 @@ static void doubles(void **state)
         memcpy(&x, &bits, sizeof x);
         if (!isfinite(x)) continue;
         snprintf(text, sizeof text, "%.*g", 1 + (int)(fl_rng_u64(&g) % 22), x);
-        check(text, k);
+        compare_with_strtod(text, k);
         snprintf(text, sizeof text, "%.*f", (int)(fl_rng_u64(&g) % 20), fl_rng_in(&g, -1e7, 1e7));
-        check(text, k);
+        compare_with_strtod(text, k);
     }
 }
 
-/* Digits at random, with a point and an exponent at random. */
-static void digits(void **state)
+/* Random digits, with a point and an exponent at random. */
+static void random_digits(void **state)
 {
     char text[TEXT];
     (void)state;
     for (long k = 0; k < test_times(100000); k++) {
         fl_rng g = fl_rng_of(test_seed() + 1, k, FL_RNG_TEST);
         const int n = 1 + (int)(fl_rng_u64(&g) % (k % 10 ? 25 : 400)), point = (int)(fl_rng_u64(&g) % 30);
-        const int same = k % 7 == 0; /* long runs of zeros and nines are where roundings hide */
+        const int same = k % 7 == 0; /* long runs of zeros and nines are the hard cases of rounding */
         int len = 0;
         for (int i = 0; i < n; i++) {
             if (i == point) text[len++] = '.';
@@ -126,12 +126,12 @@ static void digits(void **state)
         }
         if (k % 3) snprintf(text + len, sizeof text - (size_t)len, "e%d", (int)(fl_rng_u64(&g) % 700) - 370);
         else text[len] = '\0';
-        check(text, k);
+        compare_with_strtod(text, k);
     }
 }
 
-/* The point halfway between two doubles, in full, a digit short, and a digit more to either side. */
-static void halfway(void **state)
+/* The point halfway between two doubles: in full, one digit shorter, and one digit more to either side. */
+static void halfway_cases(void **state)
 {
     char text[TEXT];
     (void)state;
@@ -149,24 +149,24 @@ static void halfway(void **state)
         const char *const more[] = {"", "0000000000000000000000000000", "00000000000000000000001", "1"};
         for (int i = 0; i < 4; i++) {
             sprintf(last, "%s%s", more[i], exponent);
-            check(text, k);
+            compare_with_strtod(text, k);
         }
         if (last[-1] == '.') continue;
-        last[-1]--; /* the last digit is no zero: just below the tie */
+        last[-1]--; /* the last digit is not zero: just below the tie */
         sprintf(last, "9999%s", exponent);
-        check(text, k);
+        compare_with_strtod(text, k);
         const int keep = 17 + (int)(fl_rng_u64(&g) % 6);
         if (last - text > keep) {
             sprintf(text + keep, "%s", exponent);
-            check(text, k);
+            compare_with_strtod(text, k);
         }
     }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(known_texts), cmocka_unit_test(no_numbers),
-                                       cmocka_unit_test(doubles), cmocka_unit_test(digits),
-                                       cmocka_unit_test(halfway)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(known_texts), cmocka_unit_test(text_without_a_number),
+                                       cmocka_unit_test(printed_doubles_read_back),
+                                       cmocka_unit_test(random_digits), cmocka_unit_test(halfway_cases)};
     return cmocka_run_group_tests_name("decimal", tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ static fl_elements e;
 static fl_bytes b;
 static fl_deck d;
 
-static void open_deck(const char *text)
+static void open_lines(const char *text)
 {
     const char *path = test_file("a.inp", text, strlen(text));
     err = (fl_err){0};
@@ -59,7 +59,7 @@ static void open_deck(const char *text)
     fl_deck_start(&d, &e, &b);
 }
 
-static int shut(void **state)
+static int close_lines(void **state)
 {
     (void)state;
     fl_deck_free(&d);
@@ -72,7 +72,7 @@ static void lines_end_in_every_way(void **state)
 {
     (void)state;
     static const char *const line[] = {"one", "two  2", "", "four", "", "six"};
-    open_deck("one \r\ntwo  2\t\n\nfour\r\rsix");
+    open_lines("one \r\ntwo  2\t\n\nfour\r\rsix");
     for (int k = 0; k < 6; k++) {
         assert_int_equal(fl_deck_line(&d, &err), 1);
         assert_string_equal(d.line, line[k]);
@@ -87,13 +87,13 @@ static void lines_end_in_every_way(void **state)
     assert_int_equal(fl_deck_line(&d, &err), 0);
 }
 
-static void included_lines_stand_between(void **state)
+static void included_lines_are_inserted(void **state)
 {
     (void)state;
     const char *name = strrchr(test_file("b.inp", "inner\n", 6), '/') + 1;
     char included[200];
     snprintf(included, sizeof included, "%s", name);
-    open_deck("before\nafter\n");
+    open_lines("before\nafter\n");
     assert_int_equal(fl_deck_line(&d, &err), 1);
     assert_int_equal(fl_deck_include(&d, included, &err), 0);
     assert_int_equal(fl_deck_line(&d, &err), 1);
@@ -115,14 +115,14 @@ static void included_lines_stand_between(void **state)
     assert_int_equal(fl_deck_include(&d, "-", &err), -1);
 }
 
-/* Two files that include one another under ever other names, and one that is included without end. */
-static void inclusion_ends(void **state)
+/* Two files that include one another under changing names, and one that includes itself endlessly. */
+static void endless_inclusion_is_refused(void **state)
 {
     (void)state;
     char name[300] = "", included[100];
     int rc = 0;
     snprintf(included, sizeof included, "%s", strrchr(test_file("b.inp", "inner\n", 6), '/') + 1);
-    open_deck("line\n");
+    open_lines("line\n");
     assert_int_equal(fl_deck_line(&d, &err), 1);
     for (int k = 0; k < 17 && rc == 0; k++) {
         snprintf(name + strlen(name), sizeof name - strlen(name), "./");
@@ -151,10 +151,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reals_of_every_kind),
         cmocka_unit_test(whole_numbers_and_blanks),
-        cmocka_unit_test_teardown(lines_end_in_every_way, shut),
-        cmocka_unit_test_teardown(included_lines_stand_between, shut),
-        cmocka_unit_test_teardown(inclusion_ends, shut),
-        cmocka_unit_test_teardown(zero_bytes_are_refused, shut),
+        cmocka_unit_test_teardown(lines_end_in_every_way, close_lines),
+        cmocka_unit_test_teardown(included_lines_are_inserted, close_lines),
+        cmocka_unit_test_teardown(endless_inclusion_is_refused, close_lines),
+        cmocka_unit_test_teardown(zero_bytes_are_refused, close_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

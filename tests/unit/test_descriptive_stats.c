@@ -6,7 +6,7 @@
 #include "stat/descriptive_stats.h"
 #include "support/near.h"
 
-/* Twenty loads; the numbers to hold them to are of scipy 1.10. */
+/* Twenty loads; the reference values are of scipy 1.10. */
 static const double SAMPLE[] = {52.1, 60.3, 47.8, 71.5, 66.2, 58.4,  83.7, 49.9, 55.0, 91.2,
                                 62.6, 77.3, 68.8, 45.2, 59.7, 102.4, 73.1, 64.5, 53.6, 80.9};
 enum { N = sizeof SAMPLE / sizeof *SAMPLE };
@@ -28,7 +28,7 @@ static void known_moments(void **state)
     assert_int_equal(d.at_max, 15);
 }
 
-/* A row that lasts twice as long counts as two rows; cutting all rows in two changes nothing. */
+/* A row that lasts twice as long counts as two rows. Halving all rows changes nothing. */
 static void weight_is_repetition(void **state)
 {
     double x[3 * N], w[N], p[5] = {0.0, 0.25, 0.5, 0.9, 1.0}, q[5], qr[5];
@@ -55,7 +55,7 @@ static void weight_is_repetition(void **state)
     for (int k = 0; k < 5; k++) assert_near(q[k], qr[k], 1e-12);
 }
 
-static int compare(const void *a, const void *b)
+static int compare_doubles(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -71,7 +71,7 @@ static void equal_weights_are_gsl_quantiles(void **state)
         double p = fl_rng_unit(&g), q;
         for (int k = 0; k < n; k++) x[k] = floor(fl_rng_in(&g, -20.0, 20.0));
         assert_int_equal(fl_compute_quantiles(n, x, NULL, 1, &p, &q, &err), 0);
-        qsort(x, (size_t)n, sizeof *x, compare);
+        qsort(x, (size_t)n, sizeof *x, compare_doubles);
         assert_near_of(q, gsl_stats_quantile_from_sorted_data(x, 1, (size_t)n, p), 1e-13, 20.0);
     }
 }
@@ -85,7 +85,7 @@ static void ends_of_the_quantiles_are_the_extremes(void **state)
     assert_int_equal(fl_compute_quantiles(3, x, w, 3, p, q, &err), 0);
     assert_near(q[0], -1.0, 0.0);
     assert_near(q[1], 3.0, 0.0);
-    /* middles 3.5, 7.2, 7.45; half way is 5.475 */
+    /* middles 3.5, 7.2, 7.45; halfway is 5.475 */
     assert_near(q[2], -1.0 + 3.0 * (5.475 - 3.5) / 3.7, 1e-14);
 }
 
@@ -126,7 +126,7 @@ static void constant_has_no_shape(void **state)
     assert_true(isnan(d.std_sample));
 }
 
-static void highest_share(void **state)
+static void mean_of_the_highest_share(void **state)
 {
     const double x[] = {9.0, 6.0, 5.0, 3.0, 2.0, 1.0};
     (void)state;
@@ -145,6 +145,6 @@ int main(void)
                                        cmocka_unit_test(ends_of_the_quantiles_are_the_extremes),
                                        cmocka_unit_test(normal_sample),
                                        cmocka_unit_test(constant_has_no_shape),
-                                       cmocka_unit_test(highest_share)};
+                                       cmocka_unit_test(mean_of_the_highest_share)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

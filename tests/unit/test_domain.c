@@ -11,8 +11,8 @@
 #include "ice/waterplane_cut.h"
 #include "mesh/gstruct.h"
 
-/* A star of n corners about c, its radii random between a and b. */
-static void star(fl_domain *d, fl_rng *g, int32_t n, fl_vec2 c, double a, double b)
+/* A star of n corners about c, with random radii between a and b. */
+static void make_star(fl_domain *d, fl_rng *g, int32_t n, fl_vec2 c, double a, double b)
 {
     fl_vec2 v[64];
     fl_err err = {0};
@@ -28,7 +28,7 @@ static double ring_area(const fl_domain *d, int32_t r)
     return fl_polygon_area(d->first[r + 1] - d->first[r], d->v + d->first[r]);
 }
 
-static void cut(fl_pieces *p, const fl_domain *d, int32_t n, uint64_t seed, double least)
+static void cut_cells(fl_pieces *p, const fl_domain *d, int32_t n, uint64_t seed, double min_share)
 {
     fl_vec2 site[300];
     fl_power_cells c = {0};
@@ -38,12 +38,12 @@ static void cut(fl_pieces *p, const fl_domain *d, int32_t n, uint64_t seed, doub
     assert_int_equal(fl_power_cells_build(&c, n, site, (fl_vec2){d->lo.x - 1, d->lo.y - 1},
                                           (fl_vec2){d->hi.x + 1, d->hi.y + 1}, &err),
                      0);
-    assert_int_equal(fl_domain_cut(p, &c, d, least, &err), 0);
+    assert_int_equal(fl_domain_cut(p, &c, d, min_share, &err), 0);
     fl_power_cells_free(&c);
 }
 
-/* Stars with star-shaped islands wholly inside: the pieces have the area of the outline less the islands,
- * are convex, do not overlap, and have their middles inside. */
+/* Stars with star-shaped islands inside. The pieces have the area of the outline less the islands, are
+ * convex, do not overlap, and have their centroids inside. */
 static void pieces_fill_the_water_and_no_more(void **state)
 {
     (void)state;
@@ -54,16 +54,16 @@ static void pieces_fill_the_water_and_no_more(void **state)
         fl_pieces p = {0};
         fl_faces f = {0};
         fl_err err = {0};
-        double want, sum = 0.0;
-        star(&d, &g, 3 + (int32_t)(seed % 30), (fl_vec2){0, 0}, 10.0, 14.0);
+        double expected, sum = 0.0;
+        make_star(&d, &g, 3 + (int32_t)(seed % 30), (fl_vec2){0, 0}, 10.0, 14.0);
         for (int32_t k = 0; k < islands; k++)
-            star(&d, &g, 3 + k, (fl_vec2){2.0 * cos(2.1 * k), 2.0 * sin(2.1 * k)}, 0.3, 1.2);
-        want = ring_area(&d, 0);
-        assert_true(want > 0.0);
-        for (int32_t k = 0; k < islands; k++) want += ring_area(&d, 1 + k); /* clockwise: negative */
+            make_star(&d, &g, 3 + k, (fl_vec2){2.0 * cos(2.1 * k), 2.0 * sin(2.1 * k)}, 0.3, 1.2);
+        expected = ring_area(&d, 0);
+        assert_true(expected > 0.0);
+        for (int32_t k = 0; k < islands; k++) expected += ring_area(&d, 1 + k); /* clockwise: negative */
         assert_int_equal(fl_domain_build(&d, &err), 0);
-        cut(&p, &d, n, seed, 0.0);
-        assert_near(p.area, want, 1e-11);
+        cut_cells(&p, &d, n, seed, 0.0);
+        assert_near(p.area, expected, 1e-11);
         assert_true(p.dropped_area == 0.0 && p.dropped == 0);
         for (int32_t i = 0; i < p.cells.n; i++) {
             const int32_t m = p.cells.first[i + 1] - p.cells.first[i];
@@ -76,7 +76,7 @@ static void pieces_fill_the_water_and_no_more(void **state)
             }
             if (i > 0 && i < p.largest) assert_true(p.parent[i] > p.parent[i - 1]);
         }
-        assert_near(sum, want, 1e-11);
+        assert_near(sum, expected, 1e-11);
         {
             const fl_floes as = {.n = p.cells.n, .first = p.cells.first, .outer = p.cells.v};
             assert_int_equal(fl_faces_find(&f, &as, &err), 0);
@@ -88,7 +88,7 @@ static void pieces_fill_the_water_and_no_more(void **state)
     }
 }
 
-static void slivers_are_told(void **state)
+static void slivers_are_reported(void **state)
 {
     (void)state;
     const fl_vec2 box[4] = {{0, 0}, {0, 5}, {10, 5}, {10, 0}}, strip[4] = {{4, -1}, {6, -1}, {6, 6}, {4, 6}};
@@ -99,8 +99,8 @@ static void slivers_are_told(void **state)
     assert_int_equal(fl_domain_add(&d, 4, strip, &err), 0);
     assert_int_equal(fl_domain_build(&d, &err), 0);
     assert_int_equal(fl_domain_is_convex(&d), 0);
-    cut(&all, &d, 100, 1, 0.0);
-    cut(&some, &d, 100, 1, 0.2);
+    cut_cells(&all, &d, 100, 1, 0.0);
+    cut_cells(&some, &d, 100, 1, 0.2);
     assert_near(all.area, 40.0, 1e-13);
     assert_near(some.area, 40.0, 1e-13);
     assert_true(some.dropped > 0 && some.dropped_area > 0.0);
@@ -125,7 +125,7 @@ static void islands_may_overlap(void **state)
                          fl_domain_add(&d, 4, b, &err) | fl_domain_add(&d, 4, over, &err) |
                          fl_domain_build(&d, &err),
                      0);
-    cut(&p, &d, 40, 3, 0.0);
+    cut_cells(&p, &d, 40, 3, 0.0);
     assert_near(p.area, 100.0 - 28.0 - 1.0, 1e-13);
     assert_int_equal(fl_domain_contains(&d, (fl_vec2){5, 5}, &err), 0);
     assert_int_equal(fl_domain_contains(&d, (fl_vec2){1, 1}, &err), 1);
@@ -135,7 +135,7 @@ static void islands_may_overlap(void **state)
     fl_domain_free(&d);
 }
 
-static void wrong_rings_are_told(void **state)
+static void invalid_rings_are_reported(void **state)
 {
     (void)state;
     const fl_vec2 cross[4] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}}, thin[3] = {{0, 0}, {1, 0}, {1e-6, 1e-6}},
@@ -157,8 +157,9 @@ static void wrong_rings_are_told(void **state)
     fl_domain_free(&d);
 }
 
-/* What a structure takes up between two levels: a cube of two meshes, a cone, one beside the levels. */
-static void structures_are_kept_out(void **state)
+/* The section that a structure takes between two levels: a cube in two meshes, a cone, and one beyond the
+ * levels. */
+static void structures_are_cut_out(void **state)
 {
     (void)state;
     static const char text[] =
@@ -176,7 +177,7 @@ static void structures_are_kept_out(void **state)
     assert_int_equal(fl_waterplane_keep_out(&d, &s, -0.5, 0.5, 0.25, 0.01, &kept, &err), 0);
     assert_int_equal(kept, 2);
     assert_int_equal(d.rings, 3);
-    /* the cone is widest at the lower level: 1.525 there, and the polygon stands off by 0.01 and rounding */
+    /* the cone is widest at the lower level: 1.525 there, and the polygon is larger by 0.01 and rounding */
     for (int32_t k = d.first[1]; k < d.first[2]; k++) far = fmax(far, hypot(d.v[k].x - 3.0, d.v[k].y - 3.0));
     assert_true(far >= 1.525 + 0.25 && far <= 1.525 + 0.25 + 0.011);
     assert_true(-ring_area(&d, 1) >= PI * 1.775 * 1.775);
@@ -188,7 +189,7 @@ static void structures_are_kept_out(void **state)
     fl_surface_free(&s);
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     const fl_vec2 box[4] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}}, a[4] = {{2, 2}, {6, 2}, {6, 6}, {2, 6}},
@@ -215,10 +216,10 @@ static void memory_that_runs_out_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pieces_fill_the_water_and_no_more),
-                                       cmocka_unit_test(slivers_are_told),
+                                       cmocka_unit_test(slivers_are_reported),
                                        cmocka_unit_test(islands_may_overlap),
-                                       cmocka_unit_test(wrong_rings_are_told),
-                                       cmocka_unit_test(structures_are_kept_out),
-                                       cmocka_unit_test(memory_that_runs_out_is_told)};
+                                       cmocka_unit_test(invalid_rings_are_reported),
+                                       cmocka_unit_test(structures_are_cut_out),
+                                       cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

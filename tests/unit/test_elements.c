@@ -14,7 +14,7 @@ static fl_elements e;
 static fl_surface s;
 static fl_bytes b;
 
-static int begin(void **state)
+static int begin_elements(void **state)
 {
     (void)state;
     fl_elements_free(&e);
@@ -24,7 +24,7 @@ static int begin(void **state)
     return fl_elements_start(&e, "test.inp", &err);
 }
 
-static int end(void **state)
+static int end_elements(void **state)
 {
     (void)state;
     fl_elements_free(&e);
@@ -32,22 +32,22 @@ static int end(void **state)
     return 0;
 }
 
-static int32_t part(const char *name) { return fl_string_table_add(&e.parts, name, &err); }
+static int32_t add_part(const char *name) { return fl_string_table_add(&e.parts, name, &err); }
 
-static void node(int64_t id, double x, double y, double z)
+static void add_node(int64_t id, double x, double y, double z)
 {
     assert_true(fl_elements_add_node(&e, 0, id, v3(x, y, z), &err) >= 0);
 }
 
-/* Add an element of the nodes that follow, numbered as they stand in the text. */
-static int32_t add(int64_t id, enum fl_shape shape, int32_t p, const int64_t *n)
+/* Adds an element of the nodes that follow, numbered in the order of the text. */
+static int32_t add_element(int64_t id, enum fl_shape shape, int32_t p, const int64_t *n)
 {
     const int32_t k = fl_elements_add(&e, 0, id, shape, p, n, &err);
     assert_true(k >= 0);
     return k;
 }
 
-static fl_mesh_quality surface(fl_import_options *w)
+static fl_mesh_quality build_surface(fl_import_options *w)
 {
     fl_mesh_quality q = {0};
     if (fl_elements_surface(&e, &s, &b, w, &err)) fail_msg("%s", err.text);
@@ -58,7 +58,7 @@ static fl_mesh_quality surface(fl_import_options *w)
 
 /* --- the solid shapes ----------------------------------------------------------------------------------- */
 
-/* Corners of the unit cube, of the wedge and the pyramid and the tetrahedron in it. */
+/* Corners of the unit cube, and of the wedge, the pyramid and the tetrahedron in it. */
 static const double HEX[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                  {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 static const double WEDGE[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
@@ -75,30 +75,30 @@ static const struct solid {
     const double (*x)[3];
     const int (*mid)[2];
     double volume;
-    int triangles, pieces; /* of its surface; with --subdivide */
+    int triangles, pieces; /* area of the surface; with --subdivide */
 } SOLID[] = {{FL_TET4, FL_TET10, TET, TET_MID, 1.0 / 6.0, 4, 16},
              {FL_PYRAMID5, FL_PYRAMID13, PYRAMID, PYRAMID_MID, 1.0 / 3.0, 6, 22},
              {FL_WEDGE6, FL_WEDGE15, WEDGE, WEDGE_MID, 0.5, 8, 26},
              {FL_HEX8, FL_HEX20, HEX, HEX_MID, 1.0, 12, 36}};
 enum { SOLIDS = sizeof SOLID / sizeof *SOLID };
 
-/* Nodes 10, 20, ... of a solid, mirrored in x when mirror is -1; straight edges. */
+/* Nodes 10, 20, ... of a solid, mirrored in x if mirror is -1; straight edges. */
 static void put_solid(const struct solid *k, enum fl_shape shape, double mirror)
 {
     const int corners = fl_shape_corners(shape), n = fl_shape_nodes(shape);
     int64_t id[20];
     for (int i = 0; i < n; i++) id[i] = 10 * (i + 1);
-    for (int i = 0; i < corners; i++) node(id[i], mirror * k->x[i][0], k->x[i][1], k->x[i][2]);
+    for (int i = 0; i < corners; i++) add_node(id[i], mirror * k->x[i][0], k->x[i][1], k->x[i][2]);
     for (int i = corners; i < n; i++) {
         const double *p = k->x[k->mid[i - corners][0]], *q = k->x[k->mid[i - corners][1]];
-        node(id[i], mirror * (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2);
+        add_node(id[i], mirror * (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2);
     }
-    add(1, shape, part("solid"), id);
+    add_element(1, shape, add_part("solid"), id);
 }
 
-/* Each solid, of either hand, with straight edges, cut at its mid-side nodes or not: closed, outward, and its
- * volume to rounding. */
-static void solids_are_closed_and_look_outward(void **state)
+/* Each solid, of either handedness, with straight edges, subdivided at its mid-side nodes or not: closed,
+ * outward, and its volume to rounding. */
+static void solids_are_closed_and_oriented_outward(void **state)
 {
     for (int k = 0; k < SOLIDS; k++)
         for (int way = 0; way < 8; way++) {
@@ -106,20 +106,21 @@ static void solids_are_closed_and_look_outward(void **state)
             const int pieces = (way & 5) == 5;
             fl_import_options w = {.subdivide = way & 4};
             fl_mesh_quality q;
-            assert_int_equal(begin(state), 0);
+            assert_int_equal(begin_elements(state), 0);
             put_solid(&SOLID[k], shape, way & 2 ? -1.0 : 1.0);
-            q = surface(&w);
+            q = build_surface(&w);
             assert_int_equal(q.triangles, pieces ? SOLID[k].pieces : SOLID[k].triangles);
             assert_true(q.closed && q.open == 0 && q.incoherent == 0 && q.branched == 0);
             assert_near(q.volume, SOLID[k].volume, 1e-15);
             assert_int_equal(strstr(b.note, "left-handed") != NULL, (way & 2) != 0);
             assert_int_equal(strstr(b.note, "mid-side") != NULL, (way & 5) == 1);
-            end(state);
+            end_elements(state);
         }
-    begin(state);
+    begin_elements(state);
 }
 
-/* Each face of each solid has the corners its mid-side nodes lie between, and each edge has a mid. */
+/* Each face of each solid has the corners between which its mid-side nodes lie, and each edge has a mid-side
+ * node. */
 static void faces_list_the_edges(void **state)
 {
     (void)state;
@@ -139,7 +140,7 @@ static void faces_list_the_edges(void **state)
     }
 }
 
-/* A hexahedron whose nodes repeat is the wedge, the pyramid or the tetrahedron that is left of it. */
+/* A hexahedron with repeated nodes is the wedge, pyramid or tetrahedron that remains. */
 static void collapsed_solids_are_what_is_left(void **state)
 {
     static const struct {
@@ -154,34 +155,34 @@ static void collapsed_solids_are_what_is_left(void **state)
     };
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         fl_mesh_quality q;
-        assert_int_equal(begin(state), 0);
-        for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
-        add(1, FL_HEX8, part("p"), row[k].n);
-        q = surface(NULL);
+        assert_int_equal(begin_elements(state), 0);
+        for (int i = 0; i < 8; i++) add_node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
+        add_element(1, FL_HEX8, add_part("p"), row[k].n);
+        q = build_surface(NULL);
         assert_int_equal(q.triangles, row[k].triangles);
         assert_true(q.closed);
         assert_near(q.volume, row[k].volume, 1e-15);
-        end(state);
+        end_elements(state);
     }
-    begin(state);
+    begin_elements(state);
 }
 
 /* --- many elements -------------------------------------------------------------------------------------- */
 
 /* A block of nx by ny by nz cubes in parts a (the lower half in x) and b. */
-static void block(int nx, int ny, int nz)
+static void add_block(int nx, int ny, int nz)
 {
     int64_t id = 0;
     for (int k = 0; k <= nz; k++)
         for (int j = 0; j <= ny; j++)
-            for (int i = 0; i <= nx; i++) node(1 + i + (nx + 1) * (j + (ny + 1) * k), i, j, k);
+            for (int i = 0; i <= nx; i++) add_node(1 + i + (nx + 1) * (j + (ny + 1) * k), i, j, k);
     for (int k = 0; k < nz; k++)
         for (int j = 0; j < ny; j++)
             for (int i = 0; i < nx; i++) {
                 const int64_t o = 1 + i + (nx + 1) * (j + (ny + 1) * k), up = (nx + 1) * (ny + 1);
                 const int64_t n[8] = {o,      o + 1,      o + nx + 2,      o + nx + 1,
                                       o + up, o + up + 1, o + up + nx + 2, o + up + nx + 1};
-                add(++id, FL_HEX8, part(2 * i < nx ? "a" : "b"), n);
+                add_element(++id, FL_HEX8, add_part(2 * i < nx ? "a" : "b"), n);
             }
 }
 
@@ -189,14 +190,14 @@ static void faces_between_solids_are_interior(void **state)
 {
     (void)state;
     fl_mesh_quality q, one;
-    block(4, 3, 5);
-    q = surface(NULL);
+    add_block(4, 3, 5);
+    q = build_surface(NULL);
     assert_int_equal(q.triangles, 4 * (4 * 3 + 3 * 5 + 4 * 5));
     assert_int_equal(s.n, 2);
     assert_int_equal(fl_part_measure(&s.part[0], &one, &err), 0);
     assert_int_equal(one.triangles, 2 * (3 * 5 + 2 * 2 * 3 + 2 * 2 * 5));
     assert_false(one.closed);
-    /* what is one body is closed once the parts are taken together */
+    /* one body is closed when its parts are taken together */
     for (int32_t t = 0; t < s.part[1].nt; t++) {
         fl_tri *x = &s.part[1].t[t];
         assert_int_equal(fl_surface_triangle(&s.part[0], x->v[0] + s.part[0].nv, x->v[1] + s.part[0].nv,
@@ -211,32 +212,32 @@ static void faces_between_solids_are_interior(void **state)
     assert_near(one.volume, 60.0, 1e-14);
 }
 
-/* A part that is taken alone has the faces that the other one would have covered. */
+/* A part taken alone also has the faces that the other part would cover. */
 static void a_part_taken_alone_is_closed(void **state)
 {
     (void)state;
     const char *const pattern[] = {"B"};
-    char hit[1] = {0};
-    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = hit};
+    char matches[1] = {0};
+    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = matches};
     fl_mesh_quality q;
-    block(4, 3, 5);
-    q = surface(&w);
+    add_block(4, 3, 5);
+    q = build_surface(&w);
     assert_int_equal(s.n, 1);
     assert_string_equal(s.part[0].name, "b");
-    assert_true(q.closed && hit[0]);
+    assert_true(q.closed && matches[0]);
     assert_near(q.volume, 30.0, 1e-14);
 }
 
-/* A set takes its elements out of their parts: whole ones, single faces, free faces. */
-static void sets_are_taken_when_they_are_asked_for(void **state)
+/* A set takes its elements out of their parts: whole elements, single faces, free faces. */
+static void only_selected_sets_become_parts(void **state)
 {
     const char *const all[] = {"*"}, *const face[] = {"side"}, *const skin[] = {"skin", "a"};
     fl_import_options w = {.pattern = all, .patterns = 1};
     fl_mesh_quality q;
     for (int way = 0; way < 4; way++) {
         int32_t side, shell, top;
-        assert_int_equal(begin(state), 0);
-        block(2, 2, 2);
+        assert_int_equal(begin_elements(state), 0);
+        add_block(2, 2, 2);
         side = fl_string_table_add(&e.sets, "side", &err);
         shell = fl_string_table_add(&e.sets, "skin", &err);
         top = fl_string_table_add(&e.sets, "top", &err);
@@ -248,11 +249,12 @@ static void sets_are_taken_when_they_are_asked_for(void **state)
         assert_int_equal(fl_elements_pick(&e, (fl_pick){0, side, 6, 0}, &err), 0); /* no such face */
         w.pattern = way == 2 ? face : way == 3 ? skin : all;
         w.patterns = way == 3 ? 2 : 1;
-        q = surface(way ? &w : NULL);
-        if (way == 0) { /* not asked for: parts alone */
+        q = build_surface(way ? &w : NULL);
+        if (way == 0) { /* not selected: parts only */
             assert_int_equal(s.n, 2);
             assert_int_equal(q.triangles, 48);
-        } else if (way == 1) { /* each face once: side first, then the rest of the skin; nothing for top */
+        } else if (way ==
+                   1) { /* each face once: side first, then the rest of the skin; nothing is left for top */
             assert_int_equal(q.triangles, 48);
             assert_int_equal(s.n, 2);
             assert_string_equal(s.part[0].name, "side");
@@ -262,22 +264,22 @@ static void sets_are_taken_when_they_are_asked_for(void **state)
         } else if (way == 2) {
             assert_int_equal(q.triangles, 8);
             assert_near(q.area, 4.0, 1e-15);
-            for (int32_t t = 0; t < 8; t++) { /* it looks out of the solid */
+            for (int32_t t = 0; t < 8; t++) { /* oriented out of the solid */
                 const fl_vec3 *x = s.part[0].v;
                 const int32_t *v = s.part[0].t[t].v;
                 assert_true(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])).x < 0.0);
             }
-        } else { /* a alone has a face at x = 1 which no set took, and which is no free face of the whole */
+        } else { /* a alone has a face at x = 1 that no set took and that is no free face of the whole */
             assert_int_equal(q.triangles, 48 + 8);
         }
-        end(state);
+        end_elements(state);
     }
-    begin(state);
+    begin_elements(state);
 }
 
-/* Elements that a file has twice count once, in the part of the first: solids, of either hand, shells and
- * lines; a set of the second one's faces takes those of the first. */
-static void twins_count_once(void **state)
+/* Duplicate elements of a file count once, in the part of the first: solids of either handedness, shells and
+ * lines. A set of the second one's faces takes those of the first. */
+static void duplicate_elements_count_once(void **state)
 {
     const char *const all[] = {"*"}, *const second[] = {"b"};
     const int64_t hex[8] = {1, 2, 3, 4, 5, 6, 7, 8}, turned[8] = {5, 6, 7, 8, 1, 2, 3, 4};
@@ -285,23 +287,24 @@ static void twins_count_once(void **state)
         fl_import_options w = {.pattern = way == 1 ? all : second, .patterns = 1};
         fl_mesh_quality q;
         int32_t set;
-        assert_int_equal(begin(state), 0);
-        for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
-        node(9, 3, 0, 0);
-        node(10, 3, 1, 0);
-        node(11, 3, 0, 1);
-        add(1, FL_HEX8, part("a"), hex);
-        add(2, FL_HEX8, part("b"), turned);
-        add(3, FL_TRI3, part("a"), (const int64_t[]){9, 10, 11});
-        add(4, FL_TRI3, part("b"), (const int64_t[]){11, 9, 10});
-        for (int k = 0; k < 3; k++) { /* two of one radius, and one more */
-            const int32_t l = add(5 + k, FL_LINE2, part("b"), (const int64_t[]){1 + k % 2, 2 - k % 2});
+        assert_int_equal(begin_elements(state), 0);
+        for (int i = 0; i < 8; i++) add_node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
+        add_node(9, 3, 0, 0);
+        add_node(10, 3, 1, 0);
+        add_node(11, 3, 0, 1);
+        add_element(1, FL_HEX8, add_part("a"), hex);
+        add_element(2, FL_HEX8, add_part("b"), turned);
+        add_element(3, FL_TRI3, add_part("a"), (const int64_t[]){9, 10, 11});
+        add_element(4, FL_TRI3, add_part("b"), (const int64_t[]){11, 9, 10});
+        for (int k = 0; k < 3; k++) { /* two of one radius, and one of another */
+            const int32_t l =
+                add_element(5 + k, FL_LINE2, add_part("b"), (const int64_t[]){1 + k % 2, 2 - k % 2});
             fl_elements_set_radius(&e, l, k < 2 ? 0.5 : 0.6, 0.5, &err);
         }
         set = fl_string_table_add(&e.sets, "top", &err);
         for (int k = 0; k < 2; k++)
             assert_int_equal(fl_elements_pick(&e, (fl_pick){k, set, k == 0, 0}, &err), 0); /* z = 1 */
-        q = surface(way ? &w : NULL);
+        q = build_surface(way ? &w : NULL);
         assert_int_equal(q.cones, 2);
         assert_int_equal(q.triangles, 13);
         assert_int_equal(s.n, way == 0 ? 2 : way == 1 ? 3 : 1);
@@ -312,26 +315,28 @@ static void twins_count_once(void **state)
             assert_int_equal(s.part[0].nt, 13);
         }
         if (way == 1) assert_int_equal(s.part[2].nt, 2);
-        end(state);
+        end_elements(state);
     }
-    begin(state);
+    begin_elements(state);
 }
 
-/* Shells on the faces of a solid: left out, or the face goes to their part when parts are chosen by name, and
- * looks out of the solid whatever their own side is. */
-static void shells_on_solids_are_no_second_face(void **state)
+/* Shells on the faces of a solid are left out; when parts are chosen by name the face goes to the shell's
+ * part. The face is oriented out of the solid, whatever the shell's own side. */
+static void shells_on_solids_add_no_second_face(void **state)
 {
     const char *const all[] = {"*"}, *const skin[] = {"skin"};
     for (int way = 0; way < 3; way++) {
         fl_import_options w = {.pattern = way == 1 ? all : skin, .patterns = 1};
         fl_mesh_quality q;
-        assert_int_equal(begin(state), 0);
-        block(2, 1, 1);
-        add(101, FL_QUAD4, part("skin"), (const int64_t[]){1, 4, 10, 7}); /* x = 0, wound inward */
-        add(102, FL_QUAD4, part("skin"), (const int64_t[]){1, 7, 10, 4}); /* once more, outward */
-        add(103, FL_QUAD4, part("skin"), (const int64_t[]){2, 5, 11, 8}); /* between the two cubes */
-        add(104, FL_TRI3, part("fin"), (const int64_t[]){3, 6, 7});       /* on no face */
-        q = surface(way ? &w : NULL);
+        assert_int_equal(begin_elements(state), 0);
+        add_block(2, 1, 1);
+        add_element(101, FL_QUAD4, add_part("skin"),
+                    (const int64_t[]){1, 4, 10, 7}); /* x = 0, wound inward */
+        add_element(102, FL_QUAD4, add_part("skin"), (const int64_t[]){1, 7, 10, 4}); /* again, outward */
+        add_element(103, FL_QUAD4, add_part("skin"),
+                    (const int64_t[]){2, 5, 11, 8});                            /* between the two cubes */
+        add_element(104, FL_TRI3, add_part("fin"), (const int64_t[]){3, 6, 7}); /* on no face */
+        q = build_surface(way ? &w : NULL);
         if (way == 0) {
             assert_int_equal(q.triangles, 21);
             assert_int_equal(s.n, 3);
@@ -351,9 +356,9 @@ static void shells_on_solids_are_no_second_face(void **state)
                     assert_true(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])).x < 0.0);
             }
         }
-        end(state);
+        end_elements(state);
     }
-    begin(state);
+    begin_elements(state);
 }
 
 /* --- shells and lines ----------------------------------------------------------------------------------- */
@@ -364,14 +369,14 @@ static void shells_keep_their_side(void **state)
     for (int behind = 0; behind < 2; behind++) {
         fl_import_options w = {.pattern = pattern, .patterns = 1};
         int32_t k, v[3];
-        assert_int_equal(begin(state), 0);
-        node(5, 0, 0, 0);
-        node(6, 2, 0, 0);
-        node(7, 2, 1, 0);
-        node(8, 0, 1, 0);
-        k = add(1, FL_QUAD4, part("plate"), (const int64_t[]){5, 6, 7, 8});
+        assert_int_equal(begin_elements(state), 0);
+        add_node(5, 0, 0, 0);
+        add_node(6, 2, 0, 0);
+        add_node(7, 2, 1, 0);
+        add_node(8, 0, 1, 0);
+        k = add_element(1, FL_QUAD4, add_part("plate"), (const int64_t[]){5, 6, 7, 8});
         fl_elements_pick(&e, (fl_pick){k, fl_string_table_add(&e.sets, "under", &err), 0, 1}, &err);
-        assert_int_equal(surface(behind ? &w : NULL).triangles, 2);
+        assert_int_equal(build_surface(behind ? &w : NULL).triangles, 2);
         assert_string_equal(s.part[0].name, behind ? "under" : "plate");
         for (int t = 0; t < 2; t++) {
             const fl_vec3 *x = s.part[0].v;
@@ -379,24 +384,24 @@ static void shells_keep_their_side(void **state)
             assert_near(v3_cross(v3_sub(x[v[1]], x[v[0]]), v3_sub(x[v[2]], x[v[0]])).z, behind ? -2.0 : 2.0,
                         0.0);
         }
-        end(state);
+        end_elements(state);
     }
-    begin(state);
+    begin_elements(state);
 }
 
-/* The diagonal does not depend on where the list of the element starts, or on its direction: with equal ones
- * it is that through the lowest number. */
-static void quadrilaterals_are_cut_by_the_numbers(void **state)
+/* The diagonal does not depend on where an element's list starts or on its direction: with equal diagonals it
+ * passes through the lowest number. */
+static void quadrilaterals_are_split_by_node_numbers(void **state)
 {
     for (int way = 0; way < 8; way++) {
         static const int64_t id[4] = {40, 10, 30, 20};
         static const double x[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         int64_t n[4];
-        assert_int_equal(begin(state), 0);
-        for (int i = 0; i < 4; i++) node(id[i], x[i][0], x[i][1], 0);
+        assert_int_equal(begin_elements(state), 0);
+        for (int i = 0; i < 4; i++) add_node(id[i], x[i][0], x[i][1], 0);
         for (int i = 0; i < 4; i++) n[i] = id[(way & 4 ? way + 4 - i : way + i) & 3];
-        add(1, FL_QUAD4, part("p"), n);
-        surface(NULL);
+        add_element(1, FL_QUAD4, add_part("p"), n);
+        build_surface(NULL);
         for (int t = 0; t < 2; t++) { /* both triangles have (1, 0), node 10, and (0, 1), node 20 */
             int seen = 0;
             for (int i = 0; i < 3; i++) {
@@ -405,12 +410,12 @@ static void quadrilaterals_are_cut_by_the_numbers(void **state)
             }
             assert_int_equal(seen, 3);
         }
-        end(state);
+        end_elements(state);
     }
-    begin(state);
+    begin_elements(state);
 }
 
-/* Shells of second order: 4, 6 and 8 triangles; one mid left out; the sagitta in the remark. */
+/* Second-order shells: 4, 6 and 8 triangles; one mid-side node missing; the sagitta in the remark. */
 static void curved_shells_are_subdivided(void **state)
 {
     static const int64_t full[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9}, some[9] = {1, 2, 3, 4, 5, 0, 7, 8, 9};
@@ -428,24 +433,24 @@ static void curved_shells_are_subdivided(void **state)
         for (int fine = 0; fine < 2; fine++) {
             fl_import_options w = {.subdivide = fine};
             fl_mesh_quality q;
-            assert_int_equal(begin(state), 0);
-            for (int i = 0; i < 4; i++) node(1 + i, HEX[i][0], HEX[i][1], 0);
-            node(5, 0.5, 0, 0.125);
-            node(6, 1, 0.5, 0);
-            node(7, 0.5, 1, 0.125);
-            node(8, 0, 0.5, 0);
-            node(9, 0.5, 0.5, 0.125);
-            node(10, 0.5, 0.5, 0);
-            add(1, row[k].shape, part("p"), row[k].n);
-            q = surface(&w);
+            assert_int_equal(begin_elements(state), 0);
+            for (int i = 0; i < 4; i++) add_node(1 + i, HEX[i][0], HEX[i][1], 0);
+            add_node(5, 0.5, 0, 0.125);
+            add_node(6, 1, 0.5, 0);
+            add_node(7, 0.5, 1, 0.125);
+            add_node(8, 0, 0.5, 0);
+            add_node(9, 0.5, 0.5, 0.125);
+            add_node(10, 0.5, 0.5, 0);
+            add_element(1, row[k].shape, add_part("p"), row[k].n);
+            q = build_surface(&w);
             assert_int_equal(q.triangles, fine ? row[k].triangles : k == 0 || k == 5 ? 1 : 2);
             if (fine) assert_true(q.area > 0.5 && q.patches == 1 && q.incoherent == 0);
             else
                 assert_non_null(
                     strstr(b.note, "1 faces and lines were left out, the largest sagitta is 0.125"));
-            end(state);
+            end_elements(state);
         }
-    begin(state);
+    begin_elements(state);
 }
 
 static void lines_become_cones(void **state)
@@ -453,15 +458,16 @@ static void lines_become_cones(void **state)
     (void)state;
     const int64_t n[3] = {1, 2, 3};
     fl_import_options w = {.subdivide = 1};
-    const int32_t p = part("legs");
-    node(1, 0, 0, 0);
-    node(2, 0, 0, 4);
-    node(3, 1, 0, 2);
-    assert_int_equal(fl_elements_set_radius(&e, add(1, FL_LINE2, p, n), 0.5, 0.5, &err), 0);
-    assert_int_equal(fl_elements_set_radius(&e, add(2, FL_LINE3, p, n), 0.5, 0.25, &err), 0);
-    add(3, FL_LINE2, p, n); /* without a section */
-    assert_int_equal(fl_elements_set_radius(&e, add(4, FL_LINE2, p, (const int64_t[]){1, 1}), 1, 1, &err), 0);
-    surface(&w);
+    const int32_t p = add_part("legs");
+    add_node(1, 0, 0, 0);
+    add_node(2, 0, 0, 4);
+    add_node(3, 1, 0, 2);
+    assert_int_equal(fl_elements_set_radius(&e, add_element(1, FL_LINE2, p, n), 0.5, 0.5, &err), 0);
+    assert_int_equal(fl_elements_set_radius(&e, add_element(2, FL_LINE3, p, n), 0.5, 0.25, &err), 0);
+    add_element(3, FL_LINE2, p, n); /* without a section */
+    assert_int_equal(
+        fl_elements_set_radius(&e, add_element(4, FL_LINE2, p, (const int64_t[]){1, 1}), 1, 1, &err), 0);
+    build_surface(&w);
     assert_int_equal(s.part[0].nc, 3);
     assert_near(s.part[0].cone[1].r1, 0.375, 0.0);
     assert_near(s.part[0].cone[2].p0.x, 1.0, 0.0);
@@ -471,32 +477,32 @@ static void lines_become_cones(void **state)
 
 /* --- numbers, scopes, complaints ------------------------------------------------------------------------ */
 
-static void scopes_keep_equal_numbers_apart(void **state)
+static void scopes_separate_equal_numbers(void **state)
 {
     (void)state;
     const int64_t n[3] = {1, 2, 3};
     for (int scope = 0; scope < 2; scope++) {
         for (int i = 0; i < 3; i++)
             assert_true(fl_elements_add_node(&e, scope, i + 1, v3(TET[i][0], TET[i][1], scope), &err) >= 0);
-        assert_int_equal(fl_elements_add(&e, scope, 1, FL_TRI3, part("p"), n, &err), scope);
+        assert_int_equal(fl_elements_add(&e, scope, 1, FL_TRI3, add_part("p"), n, &err), scope);
     }
-    assert_int_equal(fl_elements_add(&e, 0, -1, FL_TRI3, part("p"), n, &err), 2); /* without a number */
-    assert_int_equal(fl_elements_add(&e, 0, -1, FL_TRI3, part("p"), n, &err), 3);
-    assert_int_equal(surface(NULL).triangles, 4);
+    assert_int_equal(fl_elements_add(&e, 0, -1, FL_TRI3, add_part("p"), n, &err), 2); /* without a number */
+    assert_int_equal(fl_elements_add(&e, 0, -1, FL_TRI3, add_part("p"), n, &err), 3);
+    assert_int_equal(build_surface(NULL).triangles, 4);
     assert_non_null(strstr(b.note, "6 nodes; elements: tri3 4"));
 }
 
-/* A node may come after its element; what comes twice counts once, and is told. */
-static void later_lines_win_and_say_so(void **state)
+/* A node may come after its element. A repeated node counts once and is reported. */
+static void later_lines_win_and_are_reported(void **state)
 {
     (void)state;
     const int64_t n[3] = {1, 2, 3}, m[3] = {3, 2, 1};
-    add(7, FL_TRI3, part("p"), n);
-    for (int i = 0; i < 3; i++) node(i + 1, TET[i][0], TET[i][1], 0);
-    node(1, 0, 0, 0);  /* the same again is nothing */
-    node(1, -1, 0, 0); /* moved */
-    add(7, FL_TRI3, part("p"), m);
-    assert_near(surface(NULL).area, 1.0, 1e-15);
+    add_element(7, FL_TRI3, add_part("p"), n);
+    for (int i = 0; i < 3; i++) add_node(i + 1, TET[i][0], TET[i][1], 0);
+    add_node(1, 0, 0, 0);  /* identical repetition is ignored */
+    add_node(1, -1, 0, 0); /* moved */
+    add_element(7, FL_TRI3, add_part("p"), m);
+    assert_near(build_surface(NULL).area, 1.0, 1e-15);
     assert_non_null(strstr(b.note, "1 nodes were moved"));
     assert_non_null(strstr(b.note, "1 elements were replaced"));
 }
@@ -506,56 +512,56 @@ static void complaints_name_file_and_line(void **state)
     (void)state;
     const int64_t n[3] = {1, 2, 99}, zero[3] = {1, 0, 2};
     e.line = 4;
-    node(1, 0, 0, 0);
+    add_node(1, 0, 0, 0);
     assert_int_equal(fl_elements_add_node(&e, 0, 2, v3(0, NAN, 0), &err), -1);
     assert_string_equal(err.text, "test.inp:4: node 2 is at 0 nan 0, finite coordinates are expected");
     err = (fl_err){0};
     e.line = 5;
-    assert_int_equal(fl_elements_add(&e, 0, 1, FL_TRI3, part("p"), zero, &err), -1);
+    assert_int_equal(fl_elements_add(&e, 0, 1, FL_TRI3, add_part("p"), zero, &err), -1);
     assert_string_equal(err.text,
                         "test.inp:5: corner 2 of the element is node 0, a number of 1 or more is expected");
     err = (fl_err){0};
-    node(2, 1, 0, 0);
+    add_node(2, 1, 0, 0);
     assert_int_equal(fl_elements_set_file(&e, "more.inp", &err), 0);
     e.line = 12;
-    add(1, FL_TRI3, part("p"), n);
+    add_element(1, FL_TRI3, add_part("p"), n);
     e.line = 20;
     assert_int_equal(fl_elements_surface(&e, &s, &b, NULL, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
     assert_string_equal(err.text, "more.inp:12: the element refers to node 99, which is not defined");
 }
 
-static void what_is_passed_over_is_told(void **state)
+static void skipped_elements_are_reported(void **state)
 {
     (void)state;
     const int64_t flat[8] = {1, 2, 3, 4, 1, 2, 3, 4}, hex[8] = {1, 2, 3, 4, 5, 6, 7, 8};
-    for (int i = 0; i < 8; i++) node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
+    for (int i = 0; i < 8; i++) add_node(i + 1, HEX[i][0], HEX[i][1], HEX[i][2]);
     for (int k = 0; k < 3; k++) assert_int_equal(fl_elements_skip(&e, "SPRING1", &err), 0);
     assert_int_equal(fl_elements_skip(&e, "MASS", &err), 0);
-    for (int k = 0; k < 3; k++) { /* wedges on one face, of different nodes elsewhere */
+    for (int k = 0; k < 3; k++) { /* wedges on one face, with other nodes elsewhere */
         const int64_t wedge[6] = {1, 2, 3, 11 + 3 * k, 12 + 3 * k, 13 + 3 * k};
-        for (int i = 0; i < 3; i++) node(wedge[3 + i], HEX[i][0], HEX[i][1], k ? k : -1);
-        add(k + 1, FL_WEDGE6, part("p"), wedge);
+        for (int i = 0; i < 3; i++) add_node(wedge[3 + i], HEX[i][0], HEX[i][1], k ? k : -1);
+        add_element(k + 1, FL_WEDGE6, add_part("p"), wedge);
     }
-    add(9, FL_HEX8, part("p"), flat);
-    add(10, FL_TRI3, part("p"), hex + 3);
-    assert_int_equal(surface(NULL).triangles, 3 * 7 + 1);
+    add_element(9, FL_HEX8, add_part("p"), flat);
+    add_element(10, FL_TRI3, add_part("p"), hex + 3);
+    assert_int_equal(build_surface(NULL).triangles, 3 * 7 + 1);
     assert_non_null(strstr(b.note, "without a surface, skipped: SPRING1 3, MASS 1"));
     assert_non_null(strstr(b.note, "1 solids have no volume"));
     assert_non_null(strstr(b.note, "1 faces belong to three or more solids"));
 }
 
-/* Whatever allocation fails, it is said, and nothing is lost or freed twice. */
-static void without_memory_it_says_so(void **state)
+/* Each failing allocation is reported, and nothing is lost or freed twice. */
+static void allocation_failure_is_reported(void **state)
 {
     const char *const pattern[] = {"*"};
     int rc = -1;
-    end(state);
+    end_elements(state);
     for (long fail = 0; rc; fail++) {
         fl_import_options w = {.pattern = pattern, .patterns = 1, .subdivide = 1};
         err = (fl_err){0};
         fl_alloc_fail_after(fail);
-        rc = begin(state);
+        rc = begin_elements(state);
         for (int i = 0; rc == 0 && i < 8; i++)
             rc = fl_elements_add_node(&e, 0, i + 1, v3(HEX[i][0], HEX[i][1], HEX[i][2]), &err) < 0;
         if (rc == 0) {
@@ -570,33 +576,33 @@ static void without_memory_it_says_so(void **state)
         }
         fl_alloc_fail_after(-1);
         assert_int_equal(rc ? FL_SYSTEM : 0, err.code);
-        if (rc) end(state);
+        if (rc) end_elements(state);
         assert_true(fail < 500);
     }
     assert_int_equal(s.n, 2);
 }
 
-#define TEST(f) cmocka_unit_test_setup_teardown(f, begin, end)
+#define TEST(f) cmocka_unit_test_setup_teardown(f, begin_elements, end_elements)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(solids_are_closed_and_look_outward),
+        TEST(solids_are_closed_and_oriented_outward),
         TEST(faces_list_the_edges),
         TEST(collapsed_solids_are_what_is_left),
         TEST(faces_between_solids_are_interior),
         TEST(a_part_taken_alone_is_closed),
-        TEST(sets_are_taken_when_they_are_asked_for),
-        TEST(twins_count_once),
-        TEST(shells_on_solids_are_no_second_face),
+        TEST(only_selected_sets_become_parts),
+        TEST(duplicate_elements_count_once),
+        TEST(shells_on_solids_add_no_second_face),
         TEST(shells_keep_their_side),
-        TEST(quadrilaterals_are_cut_by_the_numbers),
+        TEST(quadrilaterals_are_split_by_node_numbers),
         TEST(curved_shells_are_subdivided),
         TEST(lines_become_cones),
-        TEST(scopes_keep_equal_numbers_apart),
-        TEST(later_lines_win_and_say_so),
+        TEST(scopes_separate_equal_numbers),
+        TEST(later_lines_win_and_are_reported),
         TEST(complaints_name_file_and_line),
-        TEST(what_is_passed_over_is_told),
-        TEST(without_memory_it_says_so),
+        TEST(skipped_elements_are_reported),
+        TEST(allocation_failure_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,7 @@ static void volumes_count_overlaps_once(void **state)
     fl_part_free(&result);
 }
 
-/* Random boxes of a coarse grid, whose faces and edges coincide, far from the origin: the sum over its cells. */
+/* Random boxes of a grid, with faces and edges that coincide, far from the origin: a sum over cells. */
 static void volumes_are_those_of_cells(void **state)
 {
     (void)state;

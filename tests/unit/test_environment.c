@@ -11,7 +11,7 @@
 #include "water/still_water_batch.h"
 
 /* A box of 10 x 10 x 1 m with its centre at z, in water of 1025 kg/m3. */
-static void floe(lab *l, double z, fl_vec3 v, fl_vec3 spin)
+static void make_floe(lab *l, double z, fl_vec3 v, fl_vec3 spin)
 {
     lab_start(l);
     lab_set(l, "run.gravity=9.81");
@@ -27,7 +27,7 @@ static void buoyancy_carries_the_weight_at_the_draft(void **state)
 {
     (void)state;
     lab l;
-    floe(&l, 0.5 - DRAFT, v3(0, 0, 0), v3(0, 0, 0));
+    make_floe(&l, 0.5 - DRAFT, v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 1e-3);
     fl_world *w = &l.w;
     const double weight = 90000.0 * 9.81;
@@ -37,19 +37,19 @@ static void buoyancy_carries_the_weight_at_the_draft(void **state)
     assert_near_of(v3_norm(w->b.t[0]), 0.0, 1e-14, weight);
     assert_near(w->sea.wetted_area[0], 100.0 + 40.0 * DRAFT, 1e-14);
     assert_near(w->sea.drag_radius[0], sqrt(50.25), 1e-14);
-    /* rho g V d/2: the water that was displaced stands half a draft higher now */
+    /* rho g V d/2: the displaced water is half a draft higher */
     assert_near(fl_environment_energy(&w->sea, &w->b, 0), weight * 0.5 * DRAFT, 1e-13);
     lab_free(&l);
 }
 
-/* Lift and energy when it is raised: F = -dU/dz, up to where it leaves the water. */
+/* Lift and energy of a body that is raised: F = -dU/dz, until it leaves the water. */
 static void lift_is_the_gradient_of_the_energy(void **state)
 {
     (void)state;
     for (int k = 0; k < 30; k++) {
         const double z = -0.7 + 0.05 * k, h = 1e-5;
         lab l;
-        floe(&l, z, v3(0, 0, 0), v3(0, 0, 0));
+        make_floe(&l, z, v3(0, 0, 0), v3(0, 0, 0));
         lab_make(&l, 1e-3);
         fl_world *w = &l.w;
         double u[2];
@@ -69,11 +69,11 @@ static void lift_is_the_gradient_of_the_energy(void **state)
     }
 }
 
-static void drag_is_the_exact_decay_and_books_its_work(void **state)
+static void drag_is_the_exact_decay_and_records_its_work(void **state)
 {
     (void)state;
     lab l;
-    floe(&l, 0.5 - DRAFT, v3(3, 4, 0), v3(0, 0, 0.1));
+    make_floe(&l, 0.5 - DRAFT, v3(3, 4, 0), v3(0, 0, 0.1));
     lab_set(&l, "water.current=1 0 0");
     lab_make(&l, 1e-3);
     fl_world *w = &l.w;
@@ -86,9 +86,9 @@ static void drag_is_the_exact_decay_and_books_its_work(void **state)
     const double spin = 0.5 * 0.005 * 1025 * area * pow(50.25, 1.5) / (90000.0 * 200.0 / 12.0);
     assert_near(w->b.w[0].z, 0.1 / (1.0 + spin * 0.1 * h), 1e-13);
     assert_near(w->sea.drag_loss[0], kinetic - fl_body_kinetic_energy(&w->b, 0), 1e-14);
-    /* in two steps of the half: the same, since the decay is exact */
+    /* in two half steps: the same, since the decay is exact */
     lab m;
-    floe(&m, 0.5 - DRAFT, v3(3, 4, 0), v3(0, 0, 0.1));
+    make_floe(&m, 0.5 - DRAFT, v3(3, 4, 0), v3(0, 0, 0.1));
     lab_set(&m, "water.current=1 0 0");
     lab_make(&m, 1e-3);
     for (int k = 0; k < 2; k++) fl_environment_drag(&m.w.sea, &m.w.b, 0, 0.5 * h, k);
@@ -98,11 +98,11 @@ static void drag_is_the_exact_decay_and_books_its_work(void **state)
     lab_free(&l);
 }
 
-static void wind_takes_hold_of_what_is_dry(void **state)
+static void wind_acts_on_the_dry_part(void **state)
 {
     (void)state;
     lab l;
-    floe(&l, 0.5 - DRAFT, v3(0, 0, 0), v3(0, 0, 0));
+    make_floe(&l, 0.5 - DRAFT, v3(0, 0, 0), v3(0, 0, 0));
     lab_set(&l, "water.drag_force_coef=0");
     lab_set(&l, "wind.velocity=20 0 0");
     lab_set(&l, "wind.density=1.293");
@@ -119,12 +119,12 @@ static void wind_takes_hold_of_what_is_dry(void **state)
     lab_free(&l);
 }
 
-/* Drag of a body that is held along x: the held velocity stays, and what holds it does the work. */
-static void what_is_held_is_not_dragged(void **state)
+/* Drag of a body that is fixed along x: the prescribed velocity stays, and the constraint does the work. */
+static void drag_does_not_move_fixed_directions(void **state)
 {
     (void)state;
     lab l;
-    floe(&l, 0.5 - DRAFT, v3(2, 2, 0), v3(0, 0, 0));
+    make_floe(&l, 0.5 - DRAFT, v3(2, 2, 0), v3(0, 0, 0));
     lab_make(&l, 1e-3);
     fl_world *w = &l.w;
     w->b.fixed_dof[0] = FL_DOF_X;
@@ -139,7 +139,7 @@ static void what_is_held_is_not_dragged(void **state)
 }
 
 /* A sphere and a capsule float by their round shape. */
-static void round_bodies_float_round(void **state)
+static void rounded_bodies_float_by_their_round_shape(void **state)
 {
     (void)state;
     const double pi = 3.141592653589793;
@@ -160,14 +160,14 @@ static void round_bodies_float_round(void **state)
     }
 }
 
-/* water.every is of waves: a look at still water costs no more than what would stand in for it. */
-static void still_water_is_looked_at_in_each_step(void **state)
+/* water.every concerns waves: evaluating still water costs no more than an extrapolation would. */
+static void still_water_is_evaluated_in_each_step(void **state)
 {
     uint64_t hash[2];
     (void)state;
     for (int k = 0; k < 2; k++) {
         lab l;
-        floe(&l, 0.5 - DRAFT + 0.03, v3(0.1, 0, 0), v3(0.01, 0.02, 0));
+        make_floe(&l, 0.5 - DRAFT + 0.03, v3(0.1, 0, 0), v3(0.01, 0.02, 0));
         if (k) lab_set(&l, "water.every=1000");
         lab_make(&l, 1e-3);
         assert_null(l.w.sea.sample);
@@ -178,24 +178,24 @@ static void still_water_is_looked_at_in_each_step(void **state)
     assert_true(hash[0] == hash[1]);
 }
 
-static void ripples(lab *l, double dt, int every)
+static void make_floe_in_ripples(lab *l, double dt, int every)
 {
-    floe(l, 0.5 - DRAFT + 0.03, v3(0, 0, 0), v3(0.01, 0.02, 0));
+    make_floe(l, 0.5 - DRAFT + 0.03, v3(0, 0, 0), v3(0.01, 0.02, 0));
     lab_set(l, "water.drag_force_coef=0"), lab_set(l, "water.drag_moment_coef=0");
     lab_set(l, "water.wave=airy"), lab_set(l, "water.height=1e-3"), lab_set(l, "water.period=10");
     lab_setf(l, "water.every=%d", every);
     lab_make(l, dt);
 }
 
-/* Heave, roll and pitch of a floe without drag for 40 periods, the waves looked at 20 times in each: where
- * its buoyancy was carried on in a straight line they grew to five times what they were. */
-static void what_heaves_between_looks_gains_nothing(void **state)
+/* Heave, roll and pitch of a floe without drag for 40 periods, the waves sampled 20 times in each.
+ * Extrapolating its buoyancy linearly made the motions grow to five times their amplitude. */
+static void heave_between_evaluations_gains_no_energy(void **state)
 {
     enum { RUNS = 10 };
     double heave[RUNS], turn[RUNS];
     lab l;
     (void)state;
-    ripples(&l, 5e-3, 18);
+    make_floe_in_ripples(&l, 5e-3, 18);
     for (int k = 0; k < RUNS; k++) {
         heave[k] = turn[k] = 0.0;
         for (int s = 0; s < 1500; s++) {
@@ -210,18 +210,18 @@ static void what_heaves_between_looks_gains_nothing(void **state)
     lab_free(&l);
 }
 
-/* rho g A/m of a box 1 m high that floats at DRAFT is g over that. */
-static void looks_at_waves_are_often_enough(void **state)
+/* rho g A/m of a floating box 1 m high at draft DRAFT is g/DRAFT. */
+static void waves_are_sampled_often_enough(void **state)
 {
     fl_err err = {0};
-    int turns;
+    int rotational;
     lab l;
     (void)state;
-    ripples(&l, 5e-3, 18);
+    make_floe_in_ripples(&l, 5e-3, 18);
     fl_world *w = &l.w;
     w->b.q[0] = q_one();
-    assert_near(fl_environment_omega2(&w->sea, &w->b, 0, &turns), 9.81 / DRAFT, 1e-12);
-    assert_false(turns);
+    assert_near(fl_environment_omega2(&w->sea, &w->b, 0, &rotational), 9.81 / DRAFT, 1e-12);
+    assert_false(rotational);
     assert_int_equal(fl_check_wave_sampling(w, &err), 0);
     w->sea.sample_every = 19;
     assert_int_equal(fl_check_wave_sampling(w, &err), -1);
@@ -229,7 +229,7 @@ static void looks_at_waves_are_often_enough(void **state)
     assert_string_equal(err.text,
                         "water.every: 19 steps of 0.005 s, and body 1 heaves with a period of 1.88 s: 19 "
                         "samples in it; at most 18 steps expected, or a smaller run.dt");
-    /* one that is held moves with nothing, and the waves themselves are left */
+    /* a fixed floe does not move, and only the waves remain */
     w->b.fixed_dof[0] = FL_DOF_Z | FL_DOF_RX | FL_DOF_RY;
     w->sea.sample_every = 100;
     assert_int_equal(fl_check_wave_sampling(w, &err), 0);
@@ -254,8 +254,9 @@ static void a_scene_without_water_allocates_none(void **state)
 
 enum { SEVERAL = 45 };
 
-/* Prisms and others: afloat the right way up or turned over, askew, deep under, high above; some at rest. */
-static void add_flotsam(lab *l, int wind, int shear, int along)
+/* Prisms and other shapes: afloat upright or turned over, inclined, deep under water, high above; some at
+ * rest. */
+static void add_random_float(lab *l, int wind, int shear, int along)
 {
     lab_set(l, "run.gravity=9.81");
     lab_set(l, "water.current=0.5 0.1 0");
@@ -280,22 +281,22 @@ static void add_flotsam(lab *l, int wind, int shear, int along)
     lab_make(l, 1e-3);
 }
 
-static void flotsam(lab *l, int wind, int shear, int along, int facets)
+static void make_floats(lab *l, int wind, int shear, int along, int facets)
 {
     lab_start(l);
     if (facets) lab_set(l, "water.drag=facet");
     if (facets && wind) lab_set(l, "wind.drag=facet");
-    if (facets) { /* what is round has none */
+    if (facets) { /* rounded shapes have no facets */
         const fl_vec3 ends[2] = {{-0.5, 50, 0}, {0.5, 50, 0}};
         fl_err err = {0};
         fl_poly rod;
         assert_int_equal(fl_poly_make(&rod, 2, ends, 0, NULL, NULL, &err), 0);
         lab_poly(l, &rod, 0.3, v3(0.3, 0, 0), v3(0, 0.2, 0.1));
     }
-    add_flotsam(l, wind, shear, along);
+    add_random_float(l, wind, shear, along);
 }
 
-static void same_bits(const void *a, const void *b, size_t bytes) { assert_memory_equal(a, b, bytes); }
+static void assert_same_bits(const void *a, const void *b, size_t bytes) { assert_memory_equal(a, b, bytes); }
 
 /* A force with an impulse: an acceleration along x, and a rotation that decays. */
 static void accelerate(const fl_environment *s, fl_bodies *b, int32_t i, double h)
@@ -317,7 +318,7 @@ static void work_of_an_impulse_is_booked(void **state)
     const double h = 0.5;
     for (int fixed = 0; fixed < 2; fixed++) {
         lab l;
-        floe(&l, 9.0, v3(1, 2, 0), v3(0, 0, 0.4)); /* in the air: without drag */
+        make_floe(&l, 9.0, v3(1, 2, 0), v3(0, 0, 0.4)); /* in the air: without drag */
         lab_make(&l, 1e-3);
         fl_bodies *b = &l.w.b;
         if (fixed) b->fixed_dof[0] = FL_DOF_X;
@@ -333,7 +334,7 @@ static void work_of_an_impulse_is_booked(void **state)
     }
 }
 
-static void several_meet_the_sea_as_one_does(void **state)
+static void water_forces_of_a_batch_have_the_same_bits(void **state)
 {
     (void)state;
     int32_t afloat = 0;
@@ -341,7 +342,8 @@ static void several_meet_the_sea_as_one_does(void **state)
         const double h = way & 4 ? 0.3 : 1e-3;
         const size_t numbers = SEVERAL * sizeof(double), vectors = SEVERAL * sizeof(fl_vec3);
         lab l, m;
-        flotsam(&l, way & 1, way & 2, way & 8, way & 16), flotsam(&m, way & 1, way & 2, way & 8, way & 16);
+        make_floats(&l, way & 1, way & 2, way & 8, way & 16),
+            make_floats(&m, way & 1, way & 2, way & 8, way & 16);
         fl_world *one = &l.w, *all = &m.w;
         if (way & 4) add_force(&one->sea), add_force(&all->sea);
         for (int32_t k = 0; k < SEVERAL; k++) {
@@ -368,26 +370,26 @@ static void several_meet_the_sea_as_one_does(void **state)
             fl_body_batch_store_velocities(&s, &all->b);
             afloat += n - others;
         }
-        same_bits(one->b.f, all->b.f, vectors), same_bits(one->b.t, all->b.t, vectors);
-        same_bits(one->b.v, all->b.v, vectors), same_bits(one->b.w, all->b.w, vectors);
-        same_bits(one->b.L, all->b.L, vectors);
-        if (way & 8) same_bits(one->b.flow_velocity, all->b.flow_velocity, vectors);
+        assert_same_bits(one->b.f, all->b.f, vectors), assert_same_bits(one->b.t, all->b.t, vectors);
+        assert_same_bits(one->b.v, all->b.v, vectors), assert_same_bits(one->b.w, all->b.w, vectors);
+        assert_same_bits(one->b.L, all->b.L, vectors);
+        if (way & 8) assert_same_bits(one->b.flow_velocity, all->b.flow_velocity, vectors);
         assert_true(!one->sea.flow_velocity == !(way & 2) && !one->sea.wind_work == !(way & 1));
-        if (one->sea.flow_velocity) same_bits(one->sea.flow_velocity, all->sea.flow_velocity, vectors);
-        same_bits(one->sea.wetted_area, all->sea.wetted_area, numbers),
-            same_bits(one->sea.buoyancy, all->sea.buoyancy, numbers);
-        same_bits(one->sea.drag_loss, all->sea.drag_loss, numbers);
-        if (one->sea.wind_work) same_bits(one->sea.wind_work, all->sea.wind_work, numbers);
+        if (one->sea.flow_velocity) assert_same_bits(one->sea.flow_velocity, all->sea.flow_velocity, vectors);
+        assert_same_bits(one->sea.wetted_area, all->sea.wetted_area, numbers),
+            assert_same_bits(one->sea.buoyancy, all->sea.buoyancy, numbers);
+        assert_same_bits(one->sea.drag_loss, all->sea.drag_loss, numbers);
+        if (one->sea.wind_work) assert_same_bits(one->sea.wind_work, all->sea.wind_work, numbers);
         lab_free(&l), lab_free(&m);
     }
     assert_true(afloat > 32 * SEVERAL / 8 && afloat < 32 * SEVERAL / 4 * 3);
 }
 
-/* Two looks at the waves, the second a little later and elsewhere, so that all of it changes. */
-static void look_twice(fl_world *w)
+/* Samples the waves twice; the second sample is a little later and elsewhere, so that all values change. */
+static void sample_waves_twice(fl_world *w)
 {
-    for (int look = 0; look < 2; look++) {
-        w->sea.sample_now = 1, w->sea.time = 0.02 * look;
+    for (int pass = 0; pass < 2; pass++) {
+        w->sea.sample_now = 1, w->sea.time = 0.02 * pass;
         for (int32_t k = 0; k < SEVERAL; k++) {
             fl_body_external_force(w, k);
             w->b.x[k] = v3_madd(w->b.x[k], 0.02, w->b.v[k]);
@@ -397,7 +399,7 @@ static void look_twice(fl_world *w)
     w->sea.sample_now = 0, w->sea.time = 0.03;
 }
 
-static void several_ride_on_waves_as_one_does(void **state)
+static void wave_forces_of_a_batch_have_the_same_bits(void **state)
 {
     (void)state;
     const size_t vectors = SEVERAL * sizeof(fl_vec3);
@@ -410,10 +412,10 @@ static void several_ride_on_waves_as_one_does(void **state)
             lab_set(to, "water.wave=airy"), lab_set(to, "water.height=0.4"), lab_set(to, "water.period=3");
             lab_set(to, "water.direction=30 deg"), lab_set(to, "water.every=10");
             if (way & 1) lab_set(to, "water.drag=facet");
-            add_flotsam(to, 0, 0, way & 2);
+            add_random_float(to, 0, 0, way & 2);
         }
         fl_world *one = &l.w, *all = &m.w;
-        look_twice(one), look_twice(all);
+        sample_waves_twice(one), sample_waves_twice(all);
         for (int32_t k = 0; k < SEVERAL; k++) fl_body_external_force(one, k);
         for (int32_t from = 0, n; from < SEVERAL; from += n) {
             int32_t at[FL_BODY_BATCH], left[FL_BODY_BATCH];
@@ -430,11 +432,11 @@ static void several_ride_on_waves_as_one_does(void **state)
             for (int32_t k = 0; k < others; k++) fl_body_external_force(all, from + left[k]);
             afloat += n - others;
         }
-        same_bits(one->b.f, all->b.f, vectors), same_bits(one->b.t, all->b.t, vectors);
-        same_bits(one->sea.water_force, all->sea.water_force, vectors),
-            same_bits(one->sea.water_moment, all->sea.water_moment, vectors);
-        same_bits(one->sea.flow_velocity, all->sea.flow_velocity, vectors);
-        if (way & 2) same_bits(one->b.flow_velocity, all->b.flow_velocity, vectors);
+        assert_same_bits(one->b.f, all->b.f, vectors), assert_same_bits(one->b.t, all->b.t, vectors);
+        assert_same_bits(one->sea.water_force, all->sea.water_force, vectors),
+            assert_same_bits(one->sea.water_moment, all->sea.water_moment, vectors);
+        assert_same_bits(one->sea.flow_velocity, all->sea.flow_velocity, vectors);
+        if (way & 2) assert_same_bits(one->b.flow_velocity, all->b.flow_velocity, vectors);
         lab_free(&l), lab_free(&m);
     }
     assert_true(afloat > 4 * SEVERAL / 8 && afloat < 4 * SEVERAL / 4 * 3);
@@ -445,16 +447,16 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(buoyancy_carries_the_weight_at_the_draft),
         cmocka_unit_test(lift_is_the_gradient_of_the_energy),
-        cmocka_unit_test(drag_is_the_exact_decay_and_books_its_work),
-        cmocka_unit_test(wind_takes_hold_of_what_is_dry),
-        cmocka_unit_test(what_is_held_is_not_dragged),
-        cmocka_unit_test(round_bodies_float_round),
+        cmocka_unit_test(drag_is_the_exact_decay_and_records_its_work),
+        cmocka_unit_test(wind_acts_on_the_dry_part),
+        cmocka_unit_test(drag_does_not_move_fixed_directions),
+        cmocka_unit_test(rounded_bodies_float_by_their_round_shape),
         cmocka_unit_test(work_of_an_impulse_is_booked),
-        cmocka_unit_test(several_meet_the_sea_as_one_does),
-        cmocka_unit_test(several_ride_on_waves_as_one_does),
-        cmocka_unit_test(still_water_is_looked_at_in_each_step),
-        cmocka_unit_test(what_heaves_between_looks_gains_nothing),
-        cmocka_unit_test(looks_at_waves_are_often_enough),
+        cmocka_unit_test(water_forces_of_a_batch_have_the_same_bits),
+        cmocka_unit_test(wave_forces_of_a_batch_have_the_same_bits),
+        cmocka_unit_test(still_water_is_evaluated_in_each_step),
+        cmocka_unit_test(heave_between_evaluations_gains_no_energy),
+        cmocka_unit_test(waves_are_sampled_often_enough),
         cmocka_unit_test(a_scene_without_water_allocates_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,7 +10,7 @@ static void make_peaks(int32_t n, const double *x, fl_peaks *p)
     assert_int_equal(fl_peaks_rayleigh(n, x, 0.5, 0.0, p, &err), 0);
 }
 
-/* 0 2 4 6 8 10 5 0: at 1 s a row the way up takes 5 s, that down 2 s. */
+/* 0 2 4 6 8 10 5 0: at 1 s a row the rise takes 5 s, the fall 2 s. */
 static void triangle_by_hand(void **state)
 {
     const double x[] = {0, 2, 4, 6, 8, 10, 5, 0}, edge[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
@@ -31,7 +31,7 @@ static void triangle_by_hand(void **state)
     fl_peaks_free(&p);
 }
 
-/* Two peaks over a trough of 2, and values below 0, which are no foot. */
+/* Two peaks over a trough of 2, and values below 0, which do not count as a foot. */
 static void trough_and_foot_by_hand(void **state)
 {
     const double x[] = {-4, 6, 2, 2, 10, -10}, edge[] = {0, 2, 4, 6, 8, 10, 12};
@@ -48,14 +48,15 @@ static void trough_and_foot_by_hand(void **state)
     assert_near(b.fall, 2.0 * 0.8 * 10.0 / 20.0, 1e-14);
     assert_near(a.duration, 2.0 * (3.0 / 10.0 + 3.0 / 4.0), 1e-14);
     assert_near(b.duration, 2.0 * (5.0 / 8.0 + 5.0 / 20.0), 1e-14);
-    /* The first does not come down to a tenth of its peak: it counts to the end of the event. */
+    /* The first peak does not fall to a tenth of its height: it counts to the end of the event. */
     const fl_event c = fl_event_of(6, x, edge, &p, 0, 0.1);
     assert_near(c.duration, 6.0 - (3.0 - 2.0 * 5.4 / 10.0), 1e-14);
     fl_peaks_free(&p);
 }
 
-/* Every row is in one event, impulses add up, times follow the scale of time, and not that of the load. */
-static void random_records(void **state)
+/* Every row is in one event, impulses add up, times follow the time scale and do not depend on the load
+ * scale. */
+static void random_records_are_covered_by_events(void **state)
 {
     enum { N = 200 };
     (void)state;
@@ -98,6 +99,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(triangle_by_hand),
                                        cmocka_unit_test(trough_and_foot_by_hand),
-                                       cmocka_unit_test(random_records)};
+                                       cmocka_unit_test(random_records_are_covered_by_events)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

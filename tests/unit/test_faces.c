@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "ice/faces.h"
 
-static void make(fl_floes *a, int32_t n, uint64_t seed, int smooth, double radius, fl_vec2 shift)
+static void make_floes(fl_floes *a, int32_t n, uint64_t seed, int smooth, double radius, fl_vec2 shift)
 {
     const fl_vec2 lo = {-4.0, -3.0}, hi = {4.0, 3.0};
     fl_vec2 site[500];
@@ -22,9 +22,9 @@ static void make(fl_floes *a, int32_t n, uint64_t seed, int smooth, double radiu
     fl_power_cells_free(&c);
 }
 
-/* Every side lies on another one or on the outline; the faces of n cells of one plane graph with e inner
- * edges: each cell of a convex field has its sides, so 2 e + outline sides = all sides. */
-static void sides_pair_up(void **state)
+/* Every side lies on another one or on the outline. For the faces of n cells of a plane graph with e inner
+ * edges, all sides = 2 e + outline sides, since each cell of a convex field keeps its sides. */
+static void sides_form_pairs(void **state)
 {
     (void)state;
     for (uint64_t seed = 0; seed < 40; seed++) {
@@ -34,12 +34,12 @@ static void sides_pair_up(void **state)
         fl_faces f = {0};
         fl_err err = {0};
         double area = 0.0;
-        make(&a, n, seed, (int)(seed % 4), 0.0, shift);
+        make_floes(&a, n, seed, (int)(seed % 4), 0.0, shift);
         assert_int_equal(fl_faces_find(&f, &a, &err), 0);
         for (int32_t i = 0; i < n; i++)
             area += fl_polygon_area(a.first[i + 1] - a.first[i], a.outer + a.first[i]);
         assert_near(area, 48.0, 1e-7);
-        /* corners, and sides that were too short, may be lost: they are shorter than 1e-3 of a floe's size */
+        /* corners and very short sides may be lost: they are shorter than 1e-3 of a floe's size */
         assert_near_of(f.perimeter - 2.0 * f.total_length, 28.0, 1e-3 / sqrt(n), f.perimeter);
         assert_true(f.max_overlap <= f.tolerance);
         for (int32_t k = 0; k < f.n; k++) {
@@ -53,15 +53,15 @@ static void sides_pair_up(void **state)
     }
 }
 
-/* With a dilation radius short sides may be lost, and only those. */
-static void rounded_floes_lose_short_sides_only(void **state)
+/* With a dilation radius only short sides may be lost. */
+static void rounding_drops_only_short_sides(void **state)
 {
     (void)state;
     fl_floes a = {0};
     fl_faces f = {0};
     fl_err err = {0};
     double area = 0.0;
-    make(&a, 100, 3, 3, 0.05, (fl_vec2){0, 0});
+    make_floes(&a, 100, 3, 3, 0.05, (fl_vec2){0, 0});
     assert_int_equal(fl_faces_find(&f, &a, &err), 0);
     for (int32_t i = 0; i < a.n; i++)
         area += fl_polygon_area(a.first[i + 1] - a.first[i], a.outer + a.first[i]);
@@ -73,8 +73,8 @@ static void rounded_floes_lose_short_sides_only(void **state)
     fl_floes_free(&a);
 }
 
-/* Three rectangles by hand: a long side on two shorter ones, and one that overlaps by a known depth. */
-static void pieces_of_sides_are_found(void **state)
+/* Three rectangles: a long side on two shorter ones, and one that overlaps by a known depth. */
+static void partial_sides_are_matched(void **state)
 {
     (void)state;
     int32_t first[5] = {0, 4, 8, 12, 16};
@@ -88,11 +88,11 @@ static void pieces_of_sides_are_found(void **state)
     assert_int_equal(f.face[0].j, 1);
     assert_int_equal(f.face[1].j, 2);
     assert_near(f.total_length, 3.5, 1e-15);
-    assert_near(f.face[0].a.x, 1.5, 1e-15); /* counter-clockwise round the long one */
+    assert_near(f.face[0].a.x, 1.5, 1e-15); /* counter-clockwise around the long one */
     assert_true(f.face[0].b.x == 0.0 && f.face[0].b.y == 1.0);
     assert_true(f.max_overlap <= 0.0);
     fl_faces_free(&f);
-    outer[12] = (fl_vec2){3.75, 0.5}; /* the fourth reaches into the first by a quarter */
+    outer[12] = (fl_vec2){3.75, 0.5}; /* the fourth overlaps the first by a quarter */
     outer[13] = (fl_vec2){6, 0.5};
     outer[14] = (fl_vec2){6, 0.75};
     outer[15] = (fl_vec2){3.75, 0.75};
@@ -103,12 +103,12 @@ static void pieces_of_sides_are_found(void **state)
     fl_faces_free(&f);
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     fl_floes a = {0};
     int rc = -1;
-    make(&a, 30, 1, 1, 0.0, (fl_vec2){0, 0});
+    make_floes(&a, 30, 1, 1, 0.0, (fl_vec2){0, 0});
     for (long k = 0; rc; k++) {
         fl_faces f = {0};
         fl_err err = {0};
@@ -126,7 +126,7 @@ static void memory_that_runs_out_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sides_pair_up), cmocka_unit_test(rounded_floes_lose_short_sides_only),
-        cmocka_unit_test(pieces_of_sides_are_found), cmocka_unit_test(memory_that_runs_out_is_told)};
+        cmocka_unit_test(sides_form_pairs), cmocka_unit_test(rounding_drops_only_short_sides),
+        cmocka_unit_test(partial_sides_are_matched), cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

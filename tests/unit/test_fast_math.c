@@ -61,5 +61,5 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(exponential), cmocka_unit_test(logarithm_and_power),
                                        cmocka_unit_test(cosine_and_sine)};
-    return cmocka_run_group_tests_name("expo", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("fast_math", tests, NULL, NULL);
 }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A list of matches is made for as far as is worth it, and what it leaves out bears on no bit. */
+/* A list of feature pairs covers a chosen margin of motion. The pairs it omits change no bit of the
+ * result. */
 #include <math.h>
 #include <string.h>
 #include "base/pi.h"
 #include "base/rng.h"
 #include "patch/feature_pairs.h"
+#include "patch/patch_points.h"
 #include "narrow/overlap.h"
 #include "support/near.h"
 #include "support/shapes.h"
@@ -12,31 +14,31 @@
 #define RADIUS 0.05
 #define R (2.0 * RADIUS)
 
-static uint64_t bits(uint64_t sum, double x)
+static uint64_t hash_double(uint64_t sum, double x)
 {
     uint64_t b;
     memcpy(&b, &x, sizeof b);
     return (sum ^ b) * 0x100000001b3u;
 }
 
-/* The places of a where it stands at x, turned by q, over b; their bits. */
-static uint64_t look(fl_patch_points *w, const fl_poly *a, const fl_poly *b, fl_quat q, fl_vec3 x,
-                     fl_feature_pairs *l)
+/* Hash of the patch points of a, at x with rotation q, over b. */
+static uint64_t hash_points(fl_patch_points *w, const fl_poly *a, const fl_poly *b, fl_quat q, fl_vec3 x,
+                            fl_feature_pairs *l)
 {
-    const fl_penetration apart = {0};
+    const fl_penetration separate = {0};
     uint64_t sum = 0;
     assert_int_equal(fl_patch_points_transform(w, a, q_matrix(q), x), 0);
-    assert_int_equal(fl_patch_points_find(w, a, b, RADIUS, RADIUS, v3(1, 0, 0), &apart, l), 0);
+    assert_int_equal(fl_patch_points_find(w, a, b, RADIUS, RADIUS, v3(1, 0, 0), &separate, l), 0);
     for (int32_t k = 0; k < w->n; k++) {
         const fl_patch_point *p = &w->point[k];
-        sum = bits(bits(bits(bits(sum, p->u), p->du), p->p.x), p->n.y);
+        sum = hash_double(hash_double(hash_double(hash_double(sum, p->u), p->du), p->p.x), p->n.y);
     }
     return sum;
 }
 
-/* Two boxes side by side, one of which slides and turns, at first slowly; and two long ones, whose ends move
- * much farther than what touches. */
-static void what_is_left_out_bears_on_no_bit(void **state)
+/* Two boxes side by side, one of which slides and turns, slowly at first; and two long boxes, whose ends move
+ * much farther than the contact. */
+static void omitted_pairs_change_no_bit(void **state)
 {
     (void)state;
     for (int far = 0; far < 2; far++) {
@@ -44,7 +46,7 @@ static void what_is_left_out_bears_on_no_bit(void **state)
         fl_poly a = {0}, b = {0};
         fl_feature_pairs kept = {0};
         fl_err err = {0};
-        int lists = 0, places = 0;
+        int lists = 0, points = 0;
         assert_int_equal(fl_poly_box(&a, v3(0.5, far ? 1.2 : 0.6, 0.2), &err) ||
                              fl_poly_box(&b, v3(0.5, far ? 30.0 : 0.7, 0.25), &err),
                          0);
@@ -56,25 +58,25 @@ static void what_is_left_out_bears_on_no_bit(void **state)
                 v3((far ? 2e-3 : 1e-3) * sin(0.3 * k), 1e-3 * cos(0.2 * k), 2e-3 * sin(0.02 * k)));
             fl_feature_pairs fresh = {0};
             y += 2e-5 * k;
-            const uint64_t once = look(&w, &a, &b, q, x, &fresh);
-            assert_true(look(&w, &a, &b, q, x, &kept) == once);
+            const uint64_t once = hash_points(&w, &a, &b, q, x, &fresh);
+            assert_true(hash_points(&w, &a, &b, q, x, &kept) == once);
             fl_feature_pairs_free(&fresh);
             lists += kept.uses == 1;
-            places += w.n;
+            points += w.n;
         }
         assert_in_range(lists, 10, 200);
-        assert_true(places > 4000);
+        assert_true(points > 4000);
         fl_feature_pairs_free(&kept);
         fl_patch_points_free(&w);
         fl_poly_free(&a), fl_poly_free(&b);
     }
 }
 
-/* What lies in the middle of a face needs its plane alone: no side of it can come near. */
-static void sides_that_are_far_are_not_listed(void **state)
+/* A feature over the middle of a face needs only the face's plane: no side of the face can be close. */
+static void distant_sides_are_not_listed(void **state)
 {
     (void)state;
-    const fl_penetration apart = {0};
+    const fl_penetration separate = {0};
     fl_patch_points w = {0};
     fl_poly a = {0}, b = {0};
     fl_feature_pairs l = {0};
@@ -82,7 +84,7 @@ static void sides_that_are_far_are_not_listed(void **state)
     assert_int_equal(fl_poly_box(&a, v3(0.5, 0.6, 0.2), &err) || fl_poly_box(&b, v3(3, 3, 0.3), &err), 0);
     const fl_vec3 x = v3(0.1, 0.2, 0.5 + 0.9 * R);
     assert_int_equal(fl_patch_points_transform(&w, &a, q_matrix(q_of_vector(v3(1e-3, 0, 0.3))), x), 0);
-    assert_int_equal(fl_patch_points_find(&w, &a, &b, RADIUS, RADIUS, v3(0, 0, 1), &apart, &l), 0);
+    assert_int_equal(fl_patch_points_find(&w, &a, &b, RADIUS, RADIUS, v3(0, 0, 1), &separate, &l), 0);
     assert_true(w.n > 10 && l.n > 8);
     assert_int_equal(l.planes[0], 1);
     fl_feature_pairs_free(&l);
@@ -90,12 +92,12 @@ static void sides_that_are_far_are_not_listed(void **state)
     fl_poly_free(&a), fl_poly_free(&b);
 }
 
-/* At a steady v from look to look the list is used up after margin/(2 v) of them, half of it being for turns:
- * the margin becomes the root of 4 R 2 v, between its bounds. */
+/* At a steady motion v between evaluations a list lasts margin/(2 v) of them, half of the margin being for
+ * rotations. The margin tends to sqrt(4 R 2 v), between its bounds. */
 static void the_margin_follows_the_motion(void **state)
 {
     (void)state;
-    static const double SPEED[] = {1e-6, 1e-5, 1e-4, 5e-4, 2e-3, 0.05}; /* over R */
+    static const double SPEED[] = {1e-6, 1e-5, 1e-4, 5e-4, 2e-3, 0.05}; /* relative to R */
     fl_patch_points w = {0};
     fl_poly a = {0}, b = {0};
     fl_err err = {0};
@@ -108,7 +110,7 @@ static void the_margin_follows_the_motion(void **state)
         assert_true(fl_feature_pairs_margin(&l, R) > 0.0);
         for (int lists = 0, k = 0; lists < 8 && k < 100000; k++) {
             const double y = v * k - 4.0;
-            look(&w, &a, &b, (fl_quat){1, 0, 0, 0}, v3(1.0 + 0.9 * R, y, 0), &l);
+            hash_points(&w, &a, &b, (fl_quat){1, 0, 0, 0}, v3(1.0 + 0.9 * R, y, 0), &l);
             lists += l.uses == 1;
             margin = l.margin, found = w.n;
             if (v * k > 8.0) break;
@@ -122,16 +124,16 @@ static void the_margin_follows_the_motion(void **state)
 }
 
 /* Sum of u. */
-static double measure(const fl_patch_points *w)
+static double sum_of_u(const fl_patch_points *w)
 {
     double sum = 0.0;
     for (int32_t k = 0; k < w->n; k++) sum += w->point[k].u;
     return sum;
 }
 
-/* A box on the cap of a prism of many corners, whose numbers need 32 bits: the measure of the contact is that
- * on a prism of four. */
-static void many_sides_are_as_few(void **state)
+/* A box on the cap of a prism with many corners, whose indices need 32 bits: the sum equals that on a prism
+ * of four corners. */
+static void many_corners_match_few_corners(void **state)
 {
     (void)state;
     enum { MANY = 4200 };
@@ -151,15 +153,15 @@ static void many_sides_are_as_few(void **state)
                          fl_poly_prism(&many, MANY, xy, -1, 0, &err),
                      0);
     const fl_vec3 x = v3(0.1, 0.2, 0.2 + 0.9 * R), up = v3(0, 0, 1);
-    const fl_penetration apart = {0};
+    const fl_penetration separate = {0};
     assert_int_equal(fl_patch_points_transform(&w, &a, q_matrix(q), x), 0);
-    assert_int_equal(fl_patch_points_find(&w, &a, &few, RADIUS, RADIUS, up, &apart, &l), 0);
-    const double u = measure(&w);
-    const int32_t places = w.n;
-    assert_int_equal(fl_patch_points_find(&w, &a, &many, RADIUS, RADIUS, up, &apart, &m), 0);
+    assert_int_equal(fl_patch_points_find(&w, &a, &few, RADIUS, RADIUS, up, &separate, &l), 0);
+    const double u = sum_of_u(&w);
+    const int32_t points = w.n;
+    assert_int_equal(fl_patch_points_find(&w, &a, &many, RADIUS, RADIUS, up, &separate, &m), 0);
     assert_true(u > 0.0 && !l.width && m.width);
-    assert_near(measure(&w), u, 1e-12);
-    assert_int_equal(w.n, places);
+    assert_near(sum_of_u(&w), u, 1e-12);
+    assert_int_equal(w.n, points);
     assert_true(fl_feature_pairs_bytes(&l) < 3000.0);
     fl_feature_pairs_free(&l), fl_feature_pairs_free(&m);
     fl_patch_points_free(&w);
@@ -168,9 +170,8 @@ static void many_sides_are_as_few(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_out_bears_on_no_bit),
-                                       cmocka_unit_test(sides_that_are_far_are_not_listed),
-                                       cmocka_unit_test(the_margin_follows_the_motion),
-                                       cmocka_unit_test(many_sides_are_as_few)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(omitted_pairs_change_no_bit), cmocka_unit_test(distant_sides_are_not_listed),
+        cmocka_unit_test(the_margin_follows_the_motion), cmocka_unit_test(many_corners_match_few_corners)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

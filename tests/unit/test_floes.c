@@ -28,8 +28,8 @@ static void make_cells(fl_power_cells *c, int32_t n, uint64_t seed, int smooth)
     }
 }
 
-/* What every field must be: area as asked, measured by adding up; the outer polygon is the core's offset and
- * stays in its cell by half the inset of the floe; no overlap. */
+/* Conditions of every field: the requested area, measured by summation; the outer polygon is the offset of
+ * the core and stays in its cell by half the inset of the floe; no overlap. */
 static void check_field(const fl_power_cells *c, const fl_floes *a, double concentration, double radius)
 {
     fl_certificate cert;
@@ -56,10 +56,10 @@ static void check_field(const fl_power_cells *c, const fl_floes *a, double conce
     assert_true(cert.min_gap > 0.0);
 }
 
-static void concentration_is_met_and_nothing_overlaps(void **state)
+static void concentration_is_reached_without_overlap(void **state)
 {
     (void)state;
-    static const double asked[] = {0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95};
+    static const double requested[] = {0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95};
     for (int s = 0; s < test_times(30); s++) {
         const double radius[3] = {0.0, 0.05, 0.12};
         fl_power_cells c = {0};
@@ -67,19 +67,19 @@ static void concentration_is_met_and_nothing_overlaps(void **state)
         for (int k = 0; k < 8; k++) {
             fl_floes a = {0};
             fl_err err = {0};
-            if (fl_floes_make(&a, &c, asked[k], radius[s % 3], (fl_vec2){0, 0}, &err))
-                fail_msg("seed %d concentration %g: %s", s, asked[k], err.text);
+            if (fl_floes_make(&a, &c, requested[k], radius[s % 3], (fl_vec2){0, 0}, &err))
+                fail_msg("seed %d concentration %g: %s", s, requested[k], err.text);
             assert_int_equal(a.n, 120);
-            check_field(&c, &a, asked[k], radius[s % 3]);
+            check_field(&c, &a, requested[k], radius[s % 3]);
             fl_floes_free(&a);
         }
         fl_power_cells_free(&c);
     }
 }
 
-/* The solver takes mass and buoyancy from the core's faces moved outward: these volumes must be the ice that
- * was asked for. */
-static void the_solver_sees_the_ice_that_was_asked_for(void **state)
+/* The solver takes mass and buoyancy from the core's faces moved outward: these volumes must equal the
+ * requested ice. */
+static void the_solver_sees_the_requested_ice(void **state)
 {
     (void)state;
     const double thickness = 0.6, radius = 0.1;
@@ -108,8 +108,8 @@ static void the_solver_sees_the_ice_that_was_asked_for(void **state)
     fl_power_cells_free(&c);
 }
 
-/* Dense fields of coarse floes: nearly every short side asks for a decision. */
-static void dense_and_coarse_fields_settle(void **state)
+/* Dense fields of coarse floes: nearly every short side requires a decision. */
+static void dense_and_coarse_fields_converge(void **state)
 {
     (void)state;
     int made = 0;
@@ -126,7 +126,7 @@ static void dense_and_coarse_fields_settle(void **state)
             made++;
         } else {
             assert_int_equal(err.code,
-                             FL_INPUT); /* the radius takes more of the corners than there is water */
+                             FL_INPUT); /* the radius removes more at the corners than there is open water */
         }
         fl_floes_free(&a);
         fl_power_cells_free(&c);
@@ -156,7 +156,7 @@ static void one_floe_is_a_rectangle(void **state)
     fl_power_cells_free(&c);
 }
 
-static void refused(const fl_power_cells *c, double concentration, double radius, const char *why)
+static void expect_refusal(const fl_power_cells *c, double concentration, double radius, const char *why)
 {
     fl_floes a = {0};
     fl_err err = {0};
@@ -166,19 +166,19 @@ static void refused(const fl_power_cells *c, double concentration, double radius
     if (!strstr(err.text, why)) fail_msg("\"%s\" where \"%s\" is expected", err.text, why);
 }
 
-static void what_cannot_be_is_refused(void **state)
+static void impossible_requests_are_refused(void **state)
 {
     (void)state;
     fl_vec2 site[4] = {{-10, 0}, {10, 0}, {0.3, 0.0}, {0.0, 15.0}};
     fl_power_cells c = {0};
     fl_err err = {0};
     make_cells(&c, 100, 1, 2);
-    refused(&c, 0.5, 5.0, "too little for a core inside a dilation radius of 5 m");
-    refused(&c, 0.01, 0.5, "of the area at least, 0.01 is requested");
-    refused(&c, 1.0 - 1e-7, 0.5, "of the area at most, 0.9999999 is requested");
+    expect_refusal(&c, 0.5, 5.0, "too little for a core inside a dilation radius of 5 m");
+    expect_refusal(&c, 0.01, 0.5, "of the area at least, 0.01 is requested");
+    expect_refusal(&c, 1.0 - 1e-7, 0.5, "of the area at most, 0.9999999 is requested");
     fl_power_cells_free(&c);
     assert_int_equal(fl_power_cells_build(&c, 3, site, LO, HI, &err), 0);
-    refused(&c, 0.5, 5.2, "the cell of floe 2 has an inscribed radius");
+    expect_refusal(&c, 0.5, 5.2, "the cell of floe 2 has an inscribed radius");
     fl_power_cells_free(&c);
 }
 
@@ -201,7 +201,7 @@ static void threads_change_nothing(void **state)
     fl_power_cells_free(&c);
 }
 
-static void floes_that_go_leave_the_others(void **state)
+static void removing_floes_keeps_the_others(void **state)
 {
     (void)state;
     fl_power_cells c = {0};
@@ -232,8 +232,8 @@ static void floes_that_go_leave_the_others(void **state)
     fl_power_cells_free(&c);
 }
 
-/* Squares of side 1 in a row, `gap` between them; the last one `by` lower than the others. */
-static void squares(fl_floes *a, int32_t n, double gap, double by)
+/* Squares of side 1 in a row with `gap` between them; the last one is lower by `by`. */
+static void make_squares(fl_floes *a, int32_t n, double gap, double by)
 {
     fl_err err = {0};
     *a = (fl_floes){.n = n, .inset = 1e-3};
@@ -248,7 +248,7 @@ static void squares(fl_floes *a, int32_t n, double gap, double by)
     }
 }
 
-static void the_certificate_sees_what_is_wrong(void **state)
+static void the_certificate_measures_gaps_and_overlaps(void **state)
 {
     (void)state;
     const double gap[] = {0.5, 1e-9, 0.0, -1e-9, -0.2};
@@ -256,7 +256,7 @@ static void the_certificate_sees_what_is_wrong(void **state)
         fl_floes a;
         fl_certificate c;
         fl_err err = {0};
-        squares(&a, 10, gap[k], 0.0);
+        make_squares(&a, 10, gap[k], 0.0);
         assert_int_equal(fl_certificate_make(&c, &a, &err), 0);
         assert_int_equal(c.overlaps, gap[k] > 0.0 ? 0 : 9);
         assert_near_of(c.min_gap, gap[k] > 0.0 ? gap[k] : 0.0, 1e-14, 1.0);
@@ -268,22 +268,22 @@ static void the_certificate_sees_what_is_wrong(void **state)
     fl_floes a; /* far apart: the search must widen; corner to corner 3 and 4 */
     fl_certificate c;
     fl_err err = {0};
-    squares(&a, 2, 3.0, 5.0);
+    make_squares(&a, 2, 3.0, 5.0);
     assert_int_equal(fl_certificate_make(&c, &a, &err), 0);
     assert_near(c.min_gap, 5.0, 1e-15);
     fl_floes_free(&a);
 }
 
-/* A corner on the line of its neighbours, two corners in one place, a polygon that runs the wrong way round
- * and one that crosses itself: each is seen, and a sound one is not. */
-static void the_certificate_sees_what_is_bent(void **state)
+/* A corner on the line of its neighbours, two coincident corners, a clockwise polygon and a self-crossing one
+ * are each detected; a sound one is not. */
+static void the_certificate_detects_invalid_polygons(void **state)
 {
     (void)state;
     for (int k = 0; k < 5; k++) {
         fl_floes a;
         fl_certificate c;
         fl_err err = {0};
-        squares(&a, 10, 0.5, 0.0);
+        make_squares(&a, 10, 0.5, 0.0);
         fl_vec2 *v = (k & 1 ? a.core : a.outer) + 4 * 7;
         const fl_vec2 was[4] = {v[0], v[1], v[2], v[3]};
         /* halves are exact: v[1], v[2] and v[3] lie on one line */
@@ -299,7 +299,7 @@ static void the_certificate_sees_what_is_bent(void **state)
     }
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     fl_power_cells c = {0};
@@ -322,15 +322,15 @@ static void memory_that_runs_out_is_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(concentration_is_met_and_nothing_overlaps),
-                                       cmocka_unit_test(the_solver_sees_the_ice_that_was_asked_for),
-                                       cmocka_unit_test(dense_and_coarse_fields_settle),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(concentration_is_reached_without_overlap),
+                                       cmocka_unit_test(the_solver_sees_the_requested_ice),
+                                       cmocka_unit_test(dense_and_coarse_fields_converge),
                                        cmocka_unit_test(one_floe_is_a_rectangle),
-                                       cmocka_unit_test(what_cannot_be_is_refused),
+                                       cmocka_unit_test(impossible_requests_are_refused),
                                        cmocka_unit_test(threads_change_nothing),
-                                       cmocka_unit_test(floes_that_go_leave_the_others),
-                                       cmocka_unit_test(the_certificate_sees_what_is_wrong),
-                                       cmocka_unit_test(the_certificate_sees_what_is_bent),
-                                       cmocka_unit_test(memory_that_runs_out_is_told)};
+                                       cmocka_unit_test(removing_floes_keeps_the_others),
+                                       cmocka_unit_test(the_certificate_measures_gaps_and_overlaps),
+                                       cmocka_unit_test(the_certificate_detects_invalid_polygons),
+                                       cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

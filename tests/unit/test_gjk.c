@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Distance and depth where the answer is known, on bodies that are hard or hardly bodies; pairs of
+/* Distance and depth of pairs with a known answer, on hard and degenerate bodies; arithmetic of pairs of
  * doubles. */
 #include "support/near.h"
 #include <float.h>
@@ -38,7 +38,7 @@ static void pairs_of_doubles_keep_106_bits(void **state)
         assert_true(fabs(dd_sub(dd_mul(dd_div(x, y), y), x).h) <= 0x1p-100);
         assert_true(fabs(dd_sub(dd_sub(dd_add(x, y), y), x).h) <= 0x1p-100);
     }
-    /* A difference of coordinates a million metres off is exact. */
+    /* A difference of coordinates a million metres from the origin is exact. */
     const fl_ddv d = ddv_diff(v3(1e6 + 0.1, 1e-9, 1), v3(0.1, 1e6, 1));
     assert_true(d.y.h + d.y.l == d.y.h && d.y.l != 0.0 && d.z.h == 0.0);
 }
@@ -58,13 +58,13 @@ static void points_and_segments_are_cores(void **state)
     assert_true(g.na == 1 && g.nb == 2 && g.ib[0] == 0 && g.ib[1] == 1);
     g = gap_of(CORE(s), CORE(t)); /* the end of one over the middle of the other */
     assert_true(g.d == 3.0 && g.na == 2 && g.nb == 1 && g.ib[0] == 0);
-    g = gap_of(CORE(s), CORE(u)); /* parallel, partly abreast */
+    g = gap_of(CORE(s), CORE(u)); /* parallel, overlapping in part */
     assert_true(g.d == 4.0 && g.n.y == -1.0);
     g = gap_of(CORE(s), CORE(s));
     assert_true(g.overlap);
 }
 
-static void repeated_and_flat_vertices_do_no_harm(void **state)
+static void repeated_and_coplanar_vertices_are_handled(void **state)
 {
     (void)state;
     /* A square given with its corners twice, its centre, and points on its sides. */
@@ -81,7 +81,7 @@ static void repeated_and_flat_vertices_do_no_harm(void **state)
     assert_true(g.overlap);
 }
 
-static void a_foul_cache_is_no_harm(void **state)
+static void an_invalid_cache_changes_nothing(void **state)
 {
     (void)state;
     pair_case q;
@@ -90,15 +90,15 @@ static void a_foul_cache_is_no_harm(void **state)
         const fl_core a = fl_solid_core(&q.a), b = fl_solid_core(&q.b);
         const fl_gap cold = gap_of(a, b);
         fl_gap g;
-        fl_gjk_cache foul[] = {{-3, {0}, {0}},
-                               {4, {0, 0, 0, 0}, {0, 0, 0, 0}},
-                               {7, {1 << 30, -1, 5, 5}, {0, 1, 2, 3}},
-                               {INT32_MAX, {a.n - 1, 0, a.n / 2, 0}, {0, b.n - 1, 0, b.n / 2}}};
-        for (size_t f = 0; f < sizeof foul / sizeof *foul; f++) {
-            fl_gjk(a, b, &foul[f], &g);
+        fl_gjk_cache invalid[] = {{-3, {0}, {0}},
+                                  {4, {0, 0, 0, 0}, {0, 0, 0, 0}},
+                                  {7, {1 << 30, -1, 5, 5}, {0, 1, 2, 3}},
+                                  {INT32_MAX, {a.n - 1, 0, a.n / 2, 0}, {0, b.n - 1, 0, b.n / 2}}};
+        for (size_t f = 0; f < sizeof invalid / sizeof *invalid; f++) {
+            fl_gjk(a, b, &invalid[f], &g);
             assert_int_equal(g.overlap, cold.overlap);
             assert_near_of(g.d, cold.d, 1e-14, q.size + cold.d);
-            assert_true(foul[f].n >= 1 && foul[f].n <= 4);
+            assert_true(invalid[f].n >= 1 && invalid[f].n <= 4);
         }
         pair_free(&q);
     }
@@ -112,8 +112,7 @@ static fl_poly box(double x, double y, double z)
     return p;
 }
 
-/* H02, H03, H04: equal boxes and plates with all edges over each other, at every distance, wherever they
- * are. */
+/* H02, H03, H04: equal boxes and plates with all edges over each other, at every distance and position. */
 static void aligned_boxes_and_plates(void **state)
 {
     (void)state;
@@ -144,7 +143,7 @@ static void aligned_boxes_and_plates(void **state)
         }
 }
 
-/* H11: the same body twice, in the same place. */
+/* H11: the same body twice at the same position. */
 static void coincident_bodies_get_one_direction(void **state)
 {
     (void)state;
@@ -167,8 +166,8 @@ static void coincident_bodies_get_one_direction(void **state)
         assert_memory_equal(&first.pb, &again.pb, sizeof first.pb);
     }
     pair_free(&q);
-    /* Two points, two segments on one line, a segment in a polygon's plane: depth 0, a direction all the
-     * same. */
+    /* Two points, two segments on one line, a segment in a polygon's plane: depth 0 with a valid
+     * direction. */
     fl_err err = {0};
     fl_poly s[2], p[2];
     const fl_vec3 v[] = {{0, 0, 0}, {2, 0, 0}};
@@ -189,7 +188,7 @@ static void coincident_bodies_get_one_direction(void **state)
     pair_free(&q);
 }
 
-/* A box of 2 in a box of 10 x 8 x 6: out by the nearest face; and by edges where those are nearest. */
+/* A box of 2 in a box of 10 x 8 x 6: the way out is the nearest face, or an edge where that is nearer. */
 static void depth_is_the_shortest_way_out(void **state)
 {
     (void)state;
@@ -207,7 +206,7 @@ static void depth_is_the_shortest_way_out(void **state)
     assert_near(deep.depth, 3.75, 1e-15); /* by -z: 3 + 1 - 0.25 */
     assert_true(deep.n.z == -1.0);
     pair_free(&q);
-    /* Two cubes of side 2, each stood on an edge, the edges crossed and 0.3 into each other. */
+    /* Two cubes of side 2, each standing on an edge, the edges crossed and overlapping by 0.3. */
     const double h = sqrt(2.0);
     assert_int_equal(pair_take(&q, box(2, 2, 2), box(2, 2, 2)), 0);
     pair_place(&q, 0, v3(0, 0, 2.0 * h - 0.3), q_matrix(q_of_vector(v3(atan(1.0), 0, 0))));
@@ -222,7 +221,7 @@ static void depth_is_the_shortest_way_out(void **state)
     pair_free(&q);
 }
 
-/* H12, H15: the distance of crossing edges as they turn parallel, at 1e-9 of their length. */
+/* H12, H15: the distance of crossing edges as they become parallel, at 1e-9 of their length. */
 static void nearly_parallel_edges(void **state)
 {
     (void)state;
@@ -234,8 +233,8 @@ static void nearly_parallel_edges(void **state)
     }
 }
 
-/* H20: the pair carried away; the coordinates are on a grid that both places have, so the answer is the
- * same. */
+/* H20: the pair far from the origin; the coordinates lie on a grid that both positions share, so the answer
+ * is the same. */
 static void far_from_the_origin(void **state)
 {
     (void)state;
@@ -257,7 +256,7 @@ static void far_from_the_origin(void **state)
     }
 }
 
-/* Thousands of vertices, a plane with more than are copied out. */
+/* Thousands of vertices, and a plane with more than the copied ones. */
 static void many_vertices(void **state)
 {
     (void)state;
@@ -281,20 +280,20 @@ static void many_vertices(void **state)
 }
 
 /* Sine of the angle between the oracle's direction and n. */
-static double off(const oracle_gap *o, fl_vec3 n)
+static double direction_error(const oracle_gap *o, fl_vec3 n)
 {
     const fl_vec3 h = v3((double)o->n[0], (double)o->n[1], (double)o->n[2]),
                   l = v3((double)(o->n[0] - h.x), (double)(o->n[1] - h.y), (double)(o->n[2] - h.z));
     return v3_norm(v3_add(v3_cross(h, n), v3_cross(l, n)));
 }
 
-static double best_off(const pair_case *q, const oracle_gap *o, fl_vec3 n)
+static double smallest_direction_error(const pair_case *q, const oracle_gap *o, fl_vec3 n)
 {
-    return fmin(off(o, n), (double)oracle_off(&q->a, &q->b, o, n));
+    return fmin(direction_error(o, n), (double)oracle_off(&q->a, &q->b, o, n));
 }
 
-/* The pairs that long runs of prop_gjk once got wrong, all of them hostile. */
-static void pairs_that_were_wrong(void **state)
+/* Pairs that prop_gjk once got wrong in long runs, all of them degenerate. */
+static void pairs_that_failed_before(void **state)
 {
     enum { DEPTH, NEAR, TIE };
     static const struct {
@@ -302,9 +301,9 @@ static void pairs_that_were_wrong(void **state)
         int64_t k;
         int why;
     } row[] = {
-        /* Edges that are parallel to 1e-12 and less: their product in doubles turned by 1e-16 over that, and
-         * the depth was too large; or their arcs on the sphere of normals missed each other by rounding,
-         * and they were not tried. */
+        /* Edges parallel to 1e-12 and less: their product in doubles was rotated by 1e-16 divided by that,
+         * and the depth was too large; or their arcs on the sphere of normals missed each other by rounding
+         * and were not tried. */
         {1, 458048, DEPTH},
         {1, 711408, DEPTH},
         {1, 1270896, DEPTH},
@@ -320,17 +319,17 @@ static void pairs_that_were_wrong(void **state)
         {1, 8303424, DEPTH},
         {1, 8685600, DEPTH},
         {1, 9029424, DEPTH},
-        /* Cores 1e-12 to 1e-5 of their size apart: of the parts of the last simplex the nearest was taken,
-         * by distances that were equal to 106 bits, and n was off by the root of that. */
+        /* Cores 1e-12 to 1e-5 of their size apart: the nearest feature of the last simplex was chosen by
+         * distances equal to 106 bits, and n was wrong by the root of that. */
         {1, 753074, NEAR},
         {1, 3155974, NEAR},
         {1, 6599071, NEAR},
         {1, 9268217, NEAR},
-        /* And a triangle with sides parallel to 1e-9, on which the walk took the last place of a distance of
-         * 1e-11 for a rise and ended early. */
+        /* A triangle with sides parallel to 1e-9, on which the hill climb took the last digit of a distance
+         * of 1e-11 for a rise and ended early. */
         {101, 6409413, NEAR},
-        /* Edges and faces that lie nearly on one line as seen along n: both directions held to the rounding
-         * of doubles, and which was found showed where the search began. */
+        /* Edges and faces nearly collinear in the projection along n: both directions are valid to the
+         * rounding of doubles, and the result depended on the start of the search. */
         {1, 1295404, TIE},
         {1, 4806974, TIE},
         {1, 5188350, TIE},
@@ -356,10 +355,10 @@ static void pairs_that_were_wrong(void **state)
         } else {
             assert_true(fabs((double)(o.d - (real)g.d)) <= 1e-15 * q.size);
             assert_true(fabs((double)(oracle_room(&q.a, &q.b, g.n) - (real)g.d)) <= 1e-15 * q.size);
-            if (o.d > 1e-9L * (real)q.size) assert_true(best_off(&q, &o, g.n) <= 1e-12);
+            if (o.d > 1e-9L * (real)q.size) assert_true(smallest_direction_error(&q, &o, g.n) <= 1e-12);
             assert_true(v3_norm(v3_add(back.n, g.n)) <= 1e-12);
         }
-        for (int c = 0; c < 40; c++) { /* from wherever the search may begin */
+        for (int c = 0; c < 40; c++) { /* for every start of the search */
             fl_rng r = fl_rng_of(test_seed(), c, FL_RNG_TEST);
             fl_gjk_cache start = {.n = 1 + c % 4};
             for (int k = 0; k < start.n; k++) {
@@ -381,15 +380,15 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_of_doubles_keep_106_bits),
         cmocka_unit_test(points_and_segments_are_cores),
-        cmocka_unit_test(repeated_and_flat_vertices_do_no_harm),
-        cmocka_unit_test(a_foul_cache_is_no_harm),
+        cmocka_unit_test(repeated_and_coplanar_vertices_are_handled),
+        cmocka_unit_test(an_invalid_cache_changes_nothing),
         cmocka_unit_test(aligned_boxes_and_plates),
         cmocka_unit_test(coincident_bodies_get_one_direction),
         cmocka_unit_test(depth_is_the_shortest_way_out),
         cmocka_unit_test(nearly_parallel_edges),
         cmocka_unit_test(far_from_the_origin),
         cmocka_unit_test(many_vertices),
-        cmocka_unit_test(pairs_that_were_wrong),
+        cmocka_unit_test(pairs_that_failed_before),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

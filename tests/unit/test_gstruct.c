@@ -11,7 +11,7 @@
 
 static const char *file(const char *text) { return test_file("g", text, strlen(text)); }
 
-static void reads_what_it_says(void **state)
+static void a_file_is_read_as_documented(void **state)
 {
     static const char text[] = "#g_struct 1\n#by hand\n"
                                "part 4 leg # the first\n"
@@ -39,7 +39,7 @@ static void reads_what_it_says(void **state)
     unlink(test_path("g"));
 }
 
-static void comes_back_the_same(void **state)
+static void a_round_trip_keeps_the_bytes(void **state)
 {
     fl_surface s = {0}, again = {0};
     fl_err err = {0};
@@ -76,10 +76,10 @@ static void comes_back_the_same(void **state)
     unlink(test_path("g"));
 }
 
-static void each_fault_has_its_sentence(void **state)
+static void each_fault_has_its_message(void **state)
 {
     static const struct {
-        const char *text, *says; /* behind the name of the file */
+        const char *text, *message; /* after the name of the file */
     } fault[] = {
         {"", ": empty, a g_struct file is expected"},
         {"hello\n", ":1: \"hello\" does not open a g_struct file, \"#g_struct 1\" is expected"},
@@ -117,7 +117,7 @@ static void each_fault_has_its_sentence(void **state)
         assert_int_equal(fl_gstruct_read(&s, path, &err), -1);
         assert_int_equal(err.code, FL_INPUT);
         assert_int_equal(strncmp(err.text, path, strlen(path)), 0);
-        assert_string_equal(err.text + strlen(path), fault[k].says);
+        assert_string_equal(err.text + strlen(path), fault[k].message);
         assert_null(s.part);
     }
     unlink(test_path("g"));
@@ -125,8 +125,8 @@ static void each_fault_has_its_sentence(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(reads_what_it_says),
-                                       cmocka_unit_test(comes_back_the_same),
-                                       cmocka_unit_test(each_fault_has_its_sentence)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_file_is_read_as_documented),
+                                       cmocka_unit_test(a_round_trip_keeps_the_bytes),
+                                       cmocka_unit_test(each_fault_has_its_message)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,9 +17,9 @@ static void the_curve_has_its_ends(void **state)
     assert_true(fl_hilbert_index(LAST, LAST) == UINT32_C(0xaaaaaaaa));
 }
 
-/* Every place of the first 4^6 is taken once, in the corner of 2^6 squares a side, and the next is beside it.
- */
-static void the_curve_fills_and_does_not_jump(void **state)
+/* Each of the first 4^6 indices is one cell in the corner of 2^6 squares a side, and the next cell is its
+ * neighbour. */
+static void the_curve_is_continuous_and_fills_the_square(void **state)
 {
     (void)state;
     enum { SIDE = 64 };
@@ -39,10 +39,10 @@ static void the_curve_fills_and_does_not_jump(void **state)
         assert_int_equal(abs(x[k] - x[k - 1]) + abs(y[k] - y[k - 1]), 1);
 }
 
-/* The order is one of all points, and its way through n random ones of a unit square is short: the shortest
- * there is takes 0.7124 sqrt(n) (Beardwood, Halton & Hammersley, Proc. Camb. Phil. Soc. 55 (1959) 299), this
- * one less than half as much again; the order in which they came takes 0.52 n. */
-static void the_order_is_a_short_way(void **state)
+/* The order is a permutation of all points. Its path through n random points of a unit square is short: the
+ * shortest path is 0.7124 sqrt(n) (Beardwood, Halton & Hammersley, Proc. Camb. Phil. Soc. 55 (1959) 299),
+ * this one is less than 1.5 times as long, and that in the input order is 0.52 n. */
+static void the_path_through_points_is_short(void **state)
 {
     (void)state;
     enum { N = 20000 };
@@ -92,8 +92,9 @@ static void equal_points_keep_their_order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_curve_has_its_ends), cmocka_unit_test(the_curve_fills_and_does_not_jump),
-        cmocka_unit_test(the_order_is_a_short_way), cmocka_unit_test(equal_points_keep_their_order)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_curve_has_its_ends),
+                                       cmocka_unit_test(the_curve_is_continuous_and_fills_the_square),
+                                       cmocka_unit_test(the_path_through_points_is_short),
+                                       cmocka_unit_test(equal_points_keep_their_order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

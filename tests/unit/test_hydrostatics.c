@@ -4,7 +4,7 @@
 #include "structure/hydrostatics.h"
 #include "support/small_world.h"
 
-static void a_box_anywhere(void **state)
+static void a_box_at_any_position(void **state)
 {
     lab l;
     fl_hydrostatics f = {0};
@@ -36,9 +36,9 @@ static void a_box_anywhere(void **state)
     lab_free(&l);
 }
 
-static void an_l_in_plan_and_water_through_vertices(void **state)
+static void an_l_shape_with_water_through_its_vertices(void **state)
 {
-    /* not convex, and the water plane goes through a row of vertices */
+    /* not convex, and the water plane passes through a row of vertices */
     const fl_vec3 L[6] = {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
     lab l;
     fl_err err = {0};
@@ -51,13 +51,13 @@ static void an_l_in_plan_and_water_through_vertices(void **state)
         assert_int_equal(fl_hydrostatics_add(&f, &l.surface.part[0], level, v3(0, 0, 0), &err), 0);
         assert_int_equal(fl_hydrostatics_finish(&f, level, v3(0, 0, 0), &err), 0);
         assert_near(f.volume, 12, 1e-11);
-        if (k != 1) assert_near(f.area, 6, 1e-11); /* all of it under water has no section */
+        if (k != 1) assert_near(f.area, 6, 1e-11); /* a submerged body has no waterplane section */
         else assert_near_of(f.area, 0, 1e-11, 1.0);
     }
     lab_free(&l);
 }
 
-static void what_does_not_float_is_told(void **state)
+static void a_body_that_cannot_float_is_reported(void **state)
 {
     lab l;
     fl_err err = {0};
@@ -81,8 +81,8 @@ static void what_does_not_float_is_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_anywhere),
-                                       cmocka_unit_test(an_l_in_plan_and_water_through_vertices),
-                                       cmocka_unit_test(what_does_not_float_is_told)};
-    return cmocka_run_group_tests_name("flotation", tests, NULL, NULL);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_at_any_position),
+                                       cmocka_unit_test(an_l_shape_with_water_through_its_vertices),
+                                       cmocka_unit_test(a_body_that_cannot_float_is_reported)};
+    return cmocka_run_group_tests_name("hydrostatics", tests, NULL, NULL);
 }

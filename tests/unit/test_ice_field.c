@@ -46,10 +46,10 @@ static void a_field_is_read_whole(void **state)
     fl_ice_field_free(&a);
 }
 
-static char *written(const fl_ice_field *a, char *buf, size_t room)
+static char *write_field(const fl_ice_field *a, char *buf, size_t capacity)
 {
     fl_history_line by;
-    FILE *f = fmemopen(buf, room, "w");
+    FILE *f = fmemopen(buf, capacity, "w");
     assert_non_null(f);
     fl_history_line_start(&by, "test");
     fl_ice_field_write(f, a, &by);
@@ -57,7 +57,7 @@ static char *written(const fl_ice_field *a, char *buf, size_t room)
     return buf;
 }
 
-static void what_is_written_reads_back(void **state)
+static void a_written_field_reads_back(void **state)
 {
     (void)state;
     static const char text[] = "#g-polys 1\n#by a 1\npoly 7 0.1 1 0\nv 0.1 1e-300 -3.3333333333333335\n"
@@ -66,16 +66,16 @@ static void what_is_written_reads_back(void **state)
     fl_ice_field a = {0}, b = {0};
     fl_err err;
     assert_int_equal(read_text(&a, text, &err), 0);
-    assert_int_equal(read_text(&b, written(&a, once, sizeof once), &err), 0);
+    assert_int_equal(read_text(&b, write_field(&a, once, sizeof once), &err), 0);
     assert_true(b.core[0].v[0].x == 0.1 && b.core[0].v[0].y == 1e-300 && b.spin[0].x == 1e-200);
     assert_string_equal(b.history, "#by a 1\n#by test " FL_VERSION "\n");
-    written(&b, twice, sizeof twice); /* its history has one line more, the bodies are the same */
+    write_field(&b, twice, sizeof twice); /* its history has one line more, the bodies are the same */
     assert_string_equal(strstr(once, "\npoly"), strstr(twice, "\npoly"));
     fl_ice_field_free(&a);
     fl_ice_field_free(&b);
 }
 
-static void refused(const char *text, const char *where_and_why)
+static void expect_refusal(const char *text, const char *where_and_why)
 {
     fl_ice_field a = {0};
     fl_err err;
@@ -89,65 +89,68 @@ static void refused(const char *text, const char *where_and_why)
         fail_msg("\"%s\" where \"%s\" is expected", err.text, head);
 }
 
-static void faults_are_told_with_their_line(void **state)
+static void faults_are_reported_with_their_line(void **state)
 {
     (void)state;
-    refused("", " empty, a g-polys file is expected");
-    refused("#g_struct 1\n", "1: this is a g_struct file, a g-polys file is expected");
-    refused("#g-polys 3\n", "1: g-polys version 3 is newer than this program, which reads up to 2");
-    refused("#g-polys 1\n\n", "2: the file ends without a body, a poly record is expected");
-    refused("#g-polys 1\nv 0 0 0\n", "2: v found before the first poly");
-    refused("#g-polys 1\nploy 1 1 1 0\n", "2: unknown record \"ploy\", the nearest is \"poly\"");
-    refused("#g-polys 1\npoly 1 1 1\n", "2: number of faces is missing after 4 fields");
-    refused("#g-polys 1\npoly -1 1 1 0\nv 0 0 0\n",
-            "2: id is \"-1\", a whole number from 0 to 2147483647 is expected");
-    refused("#g-polys 1\npoly 1 nan 1 0\nv 0 0 0\n", "2: radius is \"nan\", a finite number is expected");
-    refused("#g-polys 1\npoly 1 -0.1 1 0\nv 0 0 0\n",
-            "2: body 1 has radius -0.1 m, 0 to 1e+09 m is expected");
-    refused("#g-polys 1\npoly 1 0 1 0\nv 0 0 0\n",
-            "2: body 1 is a point of radius 0 and has no volume, a radius above 0 is expected");
-    refused("#g-polys 1\npoly 1 0 2 0\nv 0 0 0\nv 1 0 0\n", "2: body 1 is a segment of radius 0");
-    refused("#g-polys 1\npoly 1 0 4 2\n", "2: body 1 is a flat polygon of radius 0");
-    refused("#g-polys 1\npoly 1 1 2 1\n", "2: body 1 has 2 vertices and 1 faces, no face is expected");
-    refused("#g-polys 1\npoly 1 1 4 0\n",
-            "2: body 1 has 4 vertices and 0 faces, faces that close it are expected");
-    refused("#g-polys 1\npoly 1 1 0 0\n",
-            "2: number of vertices is \"0\", a whole number from 1 to 2147483646 is expected");
-    refused("#g-polys 1\npoly 1 1 1 0 colour=red\n", "2: unknown key \"colour\", the nearest is \"group\"");
-    refused("#g-polys 1\npoly 1 1 1 0 material=\n", "2: \"material=\" found, key=value is expected");
-    refused("#g-polys 1\npoly 1 1 1 0 ice\n", "2: \"ice\" found, key=value is expected");
-    refused("#g-polys 1\npoly 1 1 1 0 group=a group=a\n", "2: group is given twice");
-    refused("#g-polys 1\npoly 1 1 1 0\nv 0 0\n", "3: z is missing after 3 fields");
-    refused("#g-polys 1\npoly 1 1 1 0\nv 0 0 0 0\n", "3: \"0\" was not expected after 4 fields");
-    refused("#g-polys 1\npoly 1 1 1 0\nv 0 inf 0\n", "3: y is \"inf\", a finite number is expected");
-    refused("#g-polys 1\npoly 1 1 1 0\nv 0 2e9 0\n", "3: vertex (0, 2e+09, 0) m is farther than 1e+09 m");
-    refused("#g-polys 1\npoly 1 1 1 0\nv 0 0 0\nv 0 0 0\n",
-            "4: body 1 has its 1 vertices, another one follows");
-    refused("#g-polys 1\npoly 1 1 1 0\nv 0 0 0\nf 3 0 0 0\n",
-            "4: body 1 has its 0 faces, another one follows");
-    refused("#g-polys 1\npoly 9 1 2000000000 6\nv 0 0 0\n",
-            "2: body 9 announces 2000000000 vertices and 6 faces, 1 and 0 follow");
-    refused("#g-polys 1\npoly 9 1 2 0\nv 0 0 0\npoly 1 1 1 0\n",
-            "2: body 9 announces 2 vertices and 0 faces, 1 and 0 follow");
-    refused("#g-polys 1\npoly 9 1 2 0\nvel 0 0 0 0 0 0\n",
-            "3: vel comes before the last vertex and face of body 9");
-    refused("#g-polys 1\npoly 9 1 1 0\nv 0 0 0\nvel 0 0 0 0 0 0\nvel 0 0 0 0 0 0\n",
-            "5: body 9 has two vel records");
-    refused("#g-polys 1\npoly 9 1 1 0\nv 0 0 0\nvel 0 0 0 0 0\n", "4: wz is missing after 6 fields");
-    refused("#g-polys 1\npoly 9 1 8 6\nf 3 0 1 2\n",
-            "3: body 9 announces 8 vertices, a face follows after 0");
-    refused("#g-polys 1\npoly 9 1 8 6\n" CUBE_V "f 4 0 1 2 8\n",
-            "11: vertex of the face is \"8\", a whole number from 0 to 7 is expected");
-    refused("#g-polys 1\npoly 9 1 8 6\n" CUBE_V "f 2 0 1\n",
-            "11: number of corners is \"2\", a whole number from 3 to 8 is expected");
-    refused("#g-polys 1\npoly 9 1 8 6\n" CUBE_V "f 4 0 1 2\n",
-            "11: vertex of the face is missing after 5 fields");
-    refused("#g-polys 1\npoly 4 1 1 0\nv 0 0 0\npoly 2 1 1 0\nv 0 0 0\npoly 4 1 1 0\nv 0 0 0\n"
-            "poly 2 1 1 0\nv 0 0 0\n",
-            "6: body 4 is already on line 2, another id is expected");
+    expect_refusal("", " empty, a g-polys file is expected");
+    expect_refusal("#g_struct 1\n", "1: this is a g_struct file, a g-polys file is expected");
+    expect_refusal("#g-polys 3\n", "1: g-polys version 3 is newer than this program, which reads up to 2");
+    expect_refusal("#g-polys 1\n\n", "2: the file ends without a body, a poly record is expected");
+    expect_refusal("#g-polys 1\nv 0 0 0\n", "2: v found before the first poly");
+    expect_refusal("#g-polys 1\nploy 1 1 1 0\n", "2: unknown record \"ploy\", the nearest is \"poly\"");
+    expect_refusal("#g-polys 1\npoly 1 1 1\n", "2: number of faces is missing after 4 fields");
+    expect_refusal("#g-polys 1\npoly -1 1 1 0\nv 0 0 0\n",
+                   "2: id is \"-1\", a whole number from 0 to 2147483647 is expected");
+    expect_refusal("#g-polys 1\npoly 1 nan 1 0\nv 0 0 0\n",
+                   "2: radius is \"nan\", a finite number is expected");
+    expect_refusal("#g-polys 1\npoly 1 -0.1 1 0\nv 0 0 0\n",
+                   "2: body 1 has radius -0.1 m, 0 to 1e+09 m is expected");
+    expect_refusal("#g-polys 1\npoly 1 0 1 0\nv 0 0 0\n",
+                   "2: body 1 is a point of radius 0 and has no volume, a radius above 0 is expected");
+    expect_refusal("#g-polys 1\npoly 1 0 2 0\nv 0 0 0\nv 1 0 0\n", "2: body 1 is a segment of radius 0");
+    expect_refusal("#g-polys 1\npoly 1 0 4 2\n", "2: body 1 is a flat polygon of radius 0");
+    expect_refusal("#g-polys 1\npoly 1 1 2 1\n", "2: body 1 has 2 vertices and 1 faces, no face is expected");
+    expect_refusal("#g-polys 1\npoly 1 1 4 0\n",
+                   "2: body 1 has 4 vertices and 0 faces, faces that close it are expected");
+    expect_refusal("#g-polys 1\npoly 1 1 0 0\n",
+                   "2: number of vertices is \"0\", a whole number from 1 to 2147483646 is expected");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0 colour=red\n",
+                   "2: unknown key \"colour\", the nearest is \"group\"");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0 material=\n", "2: \"material=\" found, key=value is expected");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0 ice\n", "2: \"ice\" found, key=value is expected");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0 group=a group=a\n", "2: group is given twice");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0\nv 0 0\n", "3: z is missing after 3 fields");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0\nv 0 0 0 0\n", "3: \"0\" was not expected after 4 fields");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0\nv 0 inf 0\n", "3: y is \"inf\", a finite number is expected");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0\nv 0 2e9 0\n",
+                   "3: vertex (0, 2e+09, 0) m is farther than 1e+09 m");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0\nv 0 0 0\nv 0 0 0\n",
+                   "4: body 1 has its 1 vertices, another one follows");
+    expect_refusal("#g-polys 1\npoly 1 1 1 0\nv 0 0 0\nf 3 0 0 0\n",
+                   "4: body 1 has its 0 faces, another one follows");
+    expect_refusal("#g-polys 1\npoly 9 1 2000000000 6\nv 0 0 0\n",
+                   "2: body 9 announces 2000000000 vertices and 6 faces, 1 and 0 follow");
+    expect_refusal("#g-polys 1\npoly 9 1 2 0\nv 0 0 0\npoly 1 1 1 0\n",
+                   "2: body 9 announces 2 vertices and 0 faces, 1 and 0 follow");
+    expect_refusal("#g-polys 1\npoly 9 1 2 0\nvel 0 0 0 0 0 0\n",
+                   "3: vel comes before the last vertex and face of body 9");
+    expect_refusal("#g-polys 1\npoly 9 1 1 0\nv 0 0 0\nvel 0 0 0 0 0 0\nvel 0 0 0 0 0 0\n",
+                   "5: body 9 has two vel records");
+    expect_refusal("#g-polys 1\npoly 9 1 1 0\nv 0 0 0\nvel 0 0 0 0 0\n", "4: wz is missing after 6 fields");
+    expect_refusal("#g-polys 1\npoly 9 1 8 6\nf 3 0 1 2\n",
+                   "3: body 9 announces 8 vertices, a face follows after 0");
+    expect_refusal("#g-polys 1\npoly 9 1 8 6\n" CUBE_V "f 4 0 1 2 8\n",
+                   "11: vertex of the face is \"8\", a whole number from 0 to 7 is expected");
+    expect_refusal("#g-polys 1\npoly 9 1 8 6\n" CUBE_V "f 2 0 1\n",
+                   "11: number of corners is \"2\", a whole number from 3 to 8 is expected");
+    expect_refusal("#g-polys 1\npoly 9 1 8 6\n" CUBE_V "f 4 0 1 2\n",
+                   "11: vertex of the face is missing after 5 fields");
+    expect_refusal("#g-polys 1\npoly 4 1 1 0\nv 0 0 0\npoly 2 1 1 0\nv 0 0 0\npoly 4 1 1 0\nv 0 0 0\n"
+                   "poly 2 1 1 0\nv 0 0 0\n",
+                   "6: body 4 is already on line 2, another id is expected");
 }
 
-/* A wrong core is told with the line of its poly record and the id. */
+/* An invalid core is reported with the line of its poly record and the id. */
 #define BALLS "poly 7 0.5 1 0\nv 0 0 0\npoly 3 0.5 1 0\nv 1 0 0\npoly 5 0.5 1 0\nv 2 0 0\n"
 
 static void bonds_are_read_sorted_and_written(void **state)
@@ -162,55 +165,56 @@ static void bonds_are_read_sorted_and_written(void **state)
     assert_true(a.bond[0].i == 0 && a.bond[0].j == 1 && a.bond[1].i == 1 && a.bond[1].j == 2);
     assert_true(a.bond[0].area == 2.0 && a.bond[0].length == 1.0);
     assert_true(a.bond[0].x.x == 0.5 && a.bond[0].x.y == -1.0 && a.bond[0].x.z == 3.0);
-    written(&a, once, sizeof once);
+    write_field(&a, once, sizeof once);
     assert_non_null(strstr(once, "#g-polys 2\n"));
     assert_non_null(strstr(once, "\nbond 7 3 2 1 0.5 -1 3\nbond 3 5 0.25 0.5 1.5 0 0\n"));
     assert_int_equal(read_text(&b, once, &err), 0);
     assert_int_equal(b.bonds, 2);
-    b.bonds = 0; /* without them it is a file that older readers take */
-    assert_non_null(strstr(written(&b, once, sizeof once), "#g-polys 1\n"));
+    b.bonds = 0; /* without bonds the file is one that older readers accept */
+    assert_non_null(strstr(write_field(&b, once, sizeof once), "#g-polys 1\n"));
     fl_ice_field_free(&a);
     fl_ice_field_free(&b);
 }
 
-static void wrong_bonds_are_told_with_their_line(void **state)
+static void invalid_bonds_are_reported_with_their_line(void **state)
 {
     (void)state;
-    refused("#g-polys 1\n" BALLS "bond 3 5 1 1 0 0 0\n",
-            "8: a bond is of g-polys 2, the file says g-polys 1");
-    refused("#g-polys 2\n" BALLS "bond 3 3 1 1 0 0 0\n",
-            "8: body 3 is bonded to itself, two bodies are expected");
-    refused("#g-polys 2\n" BALLS "bond 3 4 1 1 0 0 0\n",
-            "8: the bond names body 4, which is not in the file");
-    refused("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0 0\nbond 5 3 1 1 0 0 0\n",
-            "9: bodies 3 and 5 are bonded on line 8 already");
-    refused("#g-polys 2\n" BALLS "bond 3 5 0 1 0 0 0\n",
-            "8: the bond has area 0 m2 and length 1 m, more than 0 is expected");
-    refused("#g-polys 2\n" BALLS "bond 3 5 1 -1 0 0 0\n", "8: the bond has area 1 m2 and length -1 m");
-    refused("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0\n", "8: z is missing after 7 fields");
-    refused("#g-polys 2\n" BALLS "bond 3 5 1 1 0 2e9 0\n", "8: centroid (0, 2e+09, 0) m is farther than");
-    refused("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0 0\nv 0 0 0\n", "9: v found behind a bond");
-    refused("#g-polys 2\npoly 1 1 1 0\nbond 1 2 1 1 0 0 0\n",
-            "2: body 1 announces 1 vertices and 0 faces, 0 and 0 follow");
+    expect_refusal("#g-polys 1\n" BALLS "bond 3 5 1 1 0 0 0\n",
+                   "8: a bond is of g-polys 2, the file says g-polys 1");
+    expect_refusal("#g-polys 2\n" BALLS "bond 3 3 1 1 0 0 0\n",
+                   "8: body 3 is bonded to itself, two bodies are expected");
+    expect_refusal("#g-polys 2\n" BALLS "bond 3 4 1 1 0 0 0\n",
+                   "8: the bond names body 4, which is not in the file");
+    expect_refusal("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0 0\nbond 5 3 1 1 0 0 0\n",
+                   "9: bodies 3 and 5 are bonded on line 8 already");
+    expect_refusal("#g-polys 2\n" BALLS "bond 3 5 0 1 0 0 0\n",
+                   "8: the bond has area 0 m2 and length 1 m, more than 0 is expected");
+    expect_refusal("#g-polys 2\n" BALLS "bond 3 5 1 -1 0 0 0\n", "8: the bond has area 1 m2 and length -1 m");
+    expect_refusal("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0\n", "8: z is missing after 7 fields");
+    expect_refusal("#g-polys 2\n" BALLS "bond 3 5 1 1 0 2e9 0\n",
+                   "8: centroid (0, 2e+09, 0) m is farther than");
+    expect_refusal("#g-polys 2\n" BALLS "bond 3 5 1 1 0 0 0\nv 0 0 0\n", "9: v found behind a bond");
+    expect_refusal("#g-polys 2\npoly 1 1 1 0\nbond 1 2 1 1 0 0 0\n",
+                   "2: body 1 announces 1 vertices and 0 faces, 0 and 0 follow");
 }
 
-static void wrong_cores_are_told_with_their_id(void **state)
+static void invalid_cores_are_reported_with_their_id(void **state)
 {
     (void)state;
-    refused("#g-polys 1\n\npoly 12 1 8 6\n" CUBE_V
-            "f 4 0 1 2 3\nf 4 4 5 6 7\nf 4 0 1 5 4\nf 4 1 2 6 5\nf 4 2 3 7 6\nf 4 3 0 4 7\n",
-            "3: body 12: ");
-    refused("#g-polys 1\npoly 12 1 8 5\n" CUBE_V
-            "f 4 3 2 1 0\nf 4 4 5 6 7\nf 4 0 1 5 4\nf 4 1 2 6 5\nf 4 2 3 7 6\n",
-            "2: body 12: ");
-    /* a cube whose upper face has a dent: vertex 8 stands inside */
-    refused("#g-polys 1\npoly 12 1 9 9\n" CUBE_V "v 0.5 0.5 0.5\n"
-            "f 4 3 2 1 0\nf 4 0 1 5 4\nf 4 1 2 6 5\nf 4 2 3 7 6\nf 4 3 0 4 7\n"
-            "f 3 4 5 8\nf 3 5 6 8\nf 3 6 7 8\nf 3 7 4 8\n",
-            "2: body 12: ");
+    expect_refusal("#g-polys 1\n\npoly 12 1 8 6\n" CUBE_V
+                   "f 4 0 1 2 3\nf 4 4 5 6 7\nf 4 0 1 5 4\nf 4 1 2 6 5\nf 4 2 3 7 6\nf 4 3 0 4 7\n",
+                   "3: body 12: ");
+    expect_refusal("#g-polys 1\npoly 12 1 8 5\n" CUBE_V
+                   "f 4 3 2 1 0\nf 4 4 5 6 7\nf 4 0 1 5 4\nf 4 1 2 6 5\nf 4 2 3 7 6\n",
+                   "2: body 12: ");
+    /* a cube whose upper face has a dent: vertex 8 lies inside */
+    expect_refusal("#g-polys 1\npoly 12 1 9 9\n" CUBE_V "v 0.5 0.5 0.5\n"
+                   "f 4 3 2 1 0\nf 4 0 1 5 4\nf 4 1 2 6 5\nf 4 2 3 7 6\nf 4 3 0 4 7\n"
+                   "f 3 4 5 8\nf 3 5 6 8\nf 3 6 7 8\nf 3 7 4 8\n",
+                   "2: body 12: ");
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     static const char text[] = "#g-polys 2\n#by a 1\npoly 0 1e-3 8 6 material=ice group=g\n" CUBE_V CUBE_F
@@ -231,7 +235,7 @@ static void memory_that_runs_out_is_told(void **state)
 }
 
 /* Spheres on a line, listed and numbered in two ways, with a bond between the first and the third along x. */
-static void the_order_is_the_bodies_own(void **state)
+static void the_order_depends_only_on_the_bodies(void **state)
 {
     static const char *const text[2] = {
         "#g-polys 2\npoly 1 0.5 1 0 material=ice\nv 2 0 0\npoly 2 0.25 1 0 group=far material=steel\nv 0 0 "
@@ -264,11 +268,11 @@ static void the_order_is_the_bodies_own(void **state)
     }
 }
 
-/* A large field: the same order however it was listed, and most neighbours within a few hundred places. */
-static void a_large_field_follows_a_curve(void **state)
+/* A large field: the same order for every input order, and most neighbours within a few hundred positions. */
+static void a_large_field_follows_the_hilbert_curve(void **state)
 {
     enum { SIDE = 80, N = SIDE * SIDE };
-    static int32_t place[2][N + 1], at[N];
+    static int32_t position[2][N + 1], at[N];
     (void)state;
     for (int k = 0; k < 2; k++) {
         fl_ice_field a = {0};
@@ -282,25 +286,25 @@ static void a_large_field_follows_a_curve(void **state)
                              0);
         }
         assert_int_equal(fl_ice_field_order(&a, at, &err), 0);
-        for (int32_t i = 0; i < N; i++) place[k][a.id[i]] = i;
+        for (int32_t i = 0; i < N; i++) position[k][a.id[i]] = i;
         fl_ice_field_free(&a);
     }
-    assert_memory_equal(place[0], place[1], sizeof place[0]);
+    assert_memory_equal(position[0], position[1], sizeof position[0]);
     int32_t near = 0;
-    for (int32_t c = 0; c + SIDE < N; c++) near += abs(place[0][c + 1 + SIDE] - place[0][c + 1]) < 256;
+    for (int32_t c = 0; c + SIDE < N; c++) near += abs(position[0][c + 1 + SIDE] - position[0][c + 1]) < 256;
     assert_true(near > 0.85 * N);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_field_is_read_whole),
-                                       cmocka_unit_test(the_order_is_the_bodies_own),
-                                       cmocka_unit_test(a_large_field_follows_a_curve),
-                                       cmocka_unit_test(what_is_written_reads_back),
-                                       cmocka_unit_test(faults_are_told_with_their_line),
+                                       cmocka_unit_test(the_order_depends_only_on_the_bodies),
+                                       cmocka_unit_test(a_large_field_follows_the_hilbert_curve),
+                                       cmocka_unit_test(a_written_field_reads_back),
+                                       cmocka_unit_test(faults_are_reported_with_their_line),
                                        cmocka_unit_test(bonds_are_read_sorted_and_written),
-                                       cmocka_unit_test(wrong_bonds_are_told_with_their_line),
-                                       cmocka_unit_test(wrong_cores_are_told_with_their_id),
-                                       cmocka_unit_test(memory_that_runs_out_is_told)};
+                                       cmocka_unit_test(invalid_bonds_are_reported_with_their_line),
+                                       cmocka_unit_test(invalid_cores_are_reported_with_their_id),
+                                       cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

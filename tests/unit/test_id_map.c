@@ -3,7 +3,7 @@
 #include "mesh/id_map.h"
 #include "support/near.h"
 
-static void numbers_are_counted_as_they_appear(void **state)
+static void ids_are_indexed_in_order_of_appearance(void **state)
 {
     (void)state;
     fl_id_map s = {0};
@@ -22,8 +22,8 @@ static void numbers_are_counted_as_they_appear(void **state)
     assert_int_equal(s.n, 0);
 }
 
-/* The same numbers in several scopes, dense, in steps of a power of two, and negative: all are kept apart. */
-static void many_numbers_keep_their_places(void **state)
+/* The same numbers in several scopes, dense, in steps of a power of two, and negative: all stay distinct. */
+static void many_ids_keep_their_indices(void **state)
 {
     (void)state;
     fl_id_map s = {0};
@@ -41,8 +41,8 @@ static void many_numbers_keep_their_places(void **state)
     fl_id_map_free(&s);
 }
 
-/* Rising with gaps over several scopes, then one out of order, then all of it again: indices never change. */
-static void any_order_gives_the_same(void **state)
+/* Ascending with gaps over several scopes, then one out of order, then all again: indices never change. */
+static void any_order_gives_the_same_indices(void **state)
 {
     (void)state;
     fl_id_map s = {0};
@@ -67,7 +67,7 @@ static void any_order_gives_the_same(void **state)
     fl_id_map_free(&s);
 }
 
-static void without_memory_nothing_is_added(void **state)
+static void a_failed_allocation_adds_nothing(void **state)
 {
     (void)state;
     for (long fail = 0;; fail++) {
@@ -92,10 +92,10 @@ static void without_memory_nothing_is_added(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_are_counted_as_they_appear),
-        cmocka_unit_test(many_numbers_keep_their_places),
-        cmocka_unit_test(any_order_gives_the_same),
-        cmocka_unit_test(without_memory_nothing_is_added),
+        cmocka_unit_test(ids_are_indexed_in_order_of_appearance),
+        cmocka_unit_test(many_ids_keep_their_indices),
+        cmocka_unit_test(any_order_gives_the_same_indices),
+        cmocka_unit_test(a_failed_allocation_adds_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 #include "mesh/import_options.h"
 #include "support/near.h"
 
-static void names_are_like_patterns(void **state)
+static void names_match_patterns(void **state)
 {
     (void)state;
     static const struct {
@@ -41,8 +41,8 @@ static void names_are_like_patterns(void **state)
             fail_msg("\"%s\" and \"%s\"", row[k].pattern, row[k].name);
 }
 
-/* A pattern that makes a matcher which tries everything run for years. */
-static void stars_take_no_time(void **state)
+/* A pattern for which a backtracking matcher runs for years. */
+static void many_stars_are_fast(void **state)
 {
     (void)state;
     char pattern[200], name[2001];
@@ -53,18 +53,18 @@ static void stars_take_no_time(void **state)
     assert_false(fl_pattern_matches(pattern, name));
 }
 
-static void wishes_record_what_they_met(void **state)
+static void options_record_what_they_matched(void **state)
 {
     (void)state;
     const char *const pattern[] = {"leg*", "deck", "nothing"};
-    char hit[3] = {0};
+    char matches[3] = {0};
     fl_string_table seen = {0};
     fl_err err = {0};
-    fl_import_options w = {.pattern = pattern, .patterns = 3, .matched = hit, .available = &seen};
+    fl_import_options w = {.pattern = pattern, .patterns = 3, .matched = matches, .available = &seen};
     assert_int_equal(fl_import_selects(&w, "leg 1", &err), 1);
     assert_int_equal(fl_import_selects(&w, "hull", &err), 0);
     assert_int_equal(fl_import_selects(&w, "DECK", &err), 1);
-    assert_true(hit[0] && hit[1] && !hit[2]);
+    assert_true(matches[0] && matches[1] && !matches[2]);
     assert_int_equal(seen.n, 3);
     assert_string_equal(seen.name[1], "hull");
     assert_true(fl_import_by_name(&w));
@@ -79,9 +79,9 @@ static void wishes_record_what_they_met(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_like_patterns),
-        cmocka_unit_test(stars_take_no_time),
-        cmocka_unit_test(wishes_record_what_they_met),
+        cmocka_unit_test(names_match_patterns),
+        cmocka_unit_test(many_stars_are_fast),
+        cmocka_unit_test(options_record_what_they_matched),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

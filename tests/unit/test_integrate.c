@@ -12,7 +12,7 @@
 
 #define TURNS (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)
 
-static fl_vec3 random3(fl_rng *g)
+static fl_vec3 random_vector(fl_rng *g)
 {
     fl_vec3 a;
     a.x = fl_rng_normal(g);
@@ -21,8 +21,8 @@ static fl_vec3 random3(fl_rng *g)
     return a;
 }
 
-/* One body of mass 2 and moments I, turned and moving by chance; held turns at rest. */
-static void random_body(fl_bodies *b, fl_rng *g, fl_vec3 I, unsigned hold)
+/* One body of mass 2 and moments I, in random orientation and motion; fixed rotations at rest. */
+static void random_body(fl_bodies *b, fl_rng *g, fl_vec3 I, unsigned fixed)
 {
     fl_err err = {0};
     assert_int_equal(fl_bodies_alloc(b, 1, 1, &err), 0);
@@ -31,44 +31,45 @@ static void random_body(fl_bodies *b, fl_rng *g, fl_vec3 I, unsigned hold)
     fl_body_set_inertia(b, 0, I);
     b->bounding_radius[0] = 1.0;
     b->q[0] = shape_rotation(g);
-    b->fixed_dof[0] = (uint8_t)hold;
-    b->v[0] = random3(g);
-    fl_vec3 w = random3(g);
-    if (hold & FL_DOF_RX) w.x = 0.0;
-    if (hold & FL_DOF_RY) w.y = 0.0;
-    if (hold & FL_DOF_RZ) w.z = 0.0;
+    b->fixed_dof[0] = (uint8_t)fixed;
+    b->v[0] = random_vector(g);
+    fl_vec3 w = random_vector(g);
+    if (fixed & FL_DOF_RX) w.x = 0.0;
+    if (fixed & FL_DOF_RY) w.y = 0.0;
+    if (fixed & FL_DOF_RZ) w.z = 0.0;
     fl_body_update_spin(b, 0);
     fl_body_set_spin(b, 0, w);
 }
 
-static double apart(fl_vec3 a, fl_vec3 b) { return v3_norm(v3_sub(a, b)); }
+static double distance_between(fl_vec3 a, fl_vec3 b) { return v3_norm(v3_sub(a, b)); }
 
-static double turned(fl_quat a, fl_quat b)
+static double rotation_between(fl_quat a, fl_quat b)
 {
     const fl_quat d = q_mul(q_conj(a), b);
     return 2.0 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
 }
 
-static void a_kick_changes_momenta_alone(void **state)
+static void a_kick_changes_only_momenta(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 1, FL_RNG_TEST);
     fl_bodies b;
     (void)state;
     random_body(&b, &g, v3(1, 2, 3), 0);
-    const fl_vec3 x = b.x[0], v = b.v[0], L = b.L[0], f = b.f[0] = random3(&g), t = b.t[0] = random3(&g);
+    const fl_vec3 x = b.x[0], v = b.v[0], L = b.L[0], f = b.f[0] = random_vector(&g),
+                  t = b.t[0] = random_vector(&g);
     const fl_quat q = b.q[0];
     fl_kick(&b, 0, 0.3);
-    assert_near_of(apart(b.v[0], v3_madd(v, 0.3 / 2.0, f)), 0.0, 1e-15, 1.0);
-    assert_near_of(apart(b.L[0], v3_madd(L, 0.3, t)), 0.0, 1e-15, 1.0);
+    assert_near_of(distance_between(b.v[0], v3_madd(v, 0.3 / 2.0, f)), 0.0, 1e-15, 1.0);
+    assert_near_of(distance_between(b.L[0], v3_madd(L, 0.3, t)), 0.0, 1e-15, 1.0);
     assert_memory_equal(&b.x[0], &x, sizeof x);
     assert_memory_equal(&b.q[0], &q, sizeof q);
     const fl_vec3 s = m3_tmul(fl_body_axes(&b, 0), b.L[0]);
-    assert_near_of(apart(b.w[0], m3_mul(fl_body_axes(&b, 0), v3(s.x, s.y / 2.0, s.z / 3.0))), 0.0, 1e-14,
-                   1.0);
+    assert_near_of(distance_between(b.w[0], m3_mul(fl_body_axes(&b, 0), v3(s.x, s.y / 2.0, s.z / 3.0))), 0.0,
+                   1e-14, 1.0);
     fl_bodies_free(&b);
 }
 
-/* Moments (I, I, J) or (J, I, I) are turned exactly: round L by |L|/I t, after round the axis by (1/J - 1/I)
+/* Moments (I, I, J) or (J, I, I) are rotated exactly: about L by |L|/I t, then about the axis by (1/J - 1/I)
  * L_axis t. */
 static void a_symmetric_top_turns_exactly(void **state)
 {
@@ -77,7 +78,7 @@ static void a_symmetric_top_turns_exactly(void **state)
     for (int c = 0; c < 60; c++) {
         const double few = fl_rng_in(&g, 0.2, 1.0), more = fl_rng_in(&g, 1.0, 1.9),
                      dt = fl_rng_in(&g, 0.0, 0.5);
-        const int axis = c % 3 == 2 ? 0 : 2; /* of the different moment; a ball at c % 3 == 0 */
+        const int axis = c % 3 == 2 ? 0 : 2; /* index of the distinct moment; a sphere for c % 3 == 0 */
         const fl_vec3 I = c % 3 == 0  ? v3(more, more, more)
                           : axis == 0 ? v3(few, more, more)
                                       : v3(1, 1, more);
@@ -87,16 +88,16 @@ static void a_symmetric_top_turns_exactly(void **state)
         const fl_quat q = b.q[0];
         const fl_vec3 L = b.L[0];
         const double along = v3_dot(m3_col(fl_body_axes(&b, 0), axis), L);
-        const fl_quat want = q_mul(q_of_vector(v3_scale(dt / mid, L)),
-                                   q_mul(q, q_about_axis(axis, dt * (1.0 / other - 1.0 / mid) * along)));
+        const fl_quat expected = q_mul(q_of_vector(v3_scale(dt / mid, L)),
+                                       q_mul(q, q_about_axis(axis, dt * (1.0 / other - 1.0 / mid) * along)));
         fl_drift(&b, 0, dt);
-        assert_near_of(turned(b.q[0], want), 0.0, 1e-14, 1.0);
+        assert_near_of(rotation_between(b.q[0], expected), 0.0, 1e-14, 1.0);
         assert_memory_equal(&b.L[0], &L, sizeof L);
         fl_bodies_free(&b);
     }
 }
 
-static void a_drift_goes_back_the_way_it_came(void **state)
+static void a_drift_is_reversible(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 3, FL_RNG_TEST);
     (void)state;
@@ -107,22 +108,22 @@ static void a_drift_goes_back_the_way_it_came(void **state)
         const fl_vec3 x = b.x[0];
         for (int k = 0; k < 100; k++) fl_drift(&b, 0, 0.05);
         for (int k = 0; k < 100; k++) fl_drift(&b, 0, -0.05);
-        assert_near_of(turned(b.q[0], q), 0.0, 1e-12, 1.0);
-        assert_near_of(apart(b.x[0], x), 0.0, 1e-13, 5.0);
+        assert_near_of(rotation_between(b.q[0], q), 0.0, 1e-12, 1.0);
+        assert_near_of(distance_between(b.x[0], x), 0.0, 1e-13, 5.0);
         const fl_quat n = b.q[0];
         assert_near(n.w * n.w + n.x * n.x + n.y * n.y + n.z * n.z, 1.0, 1e-15);
         fl_bodies_free(&b);
     }
 }
 
-/* No point of the core goes farther in a step than the odometer says. */
-static void the_odometer_is_a_bound(void **state)
+/* No point of the core moves farther in a step than the travel counter says. */
+static void the_travel_counter_is_an_upper_bound(void **state)
 {
     (void)state;
-    for (unsigned hold = 0; hold < 64; hold += 4) {
-        fl_rng g = fl_rng_of(test_seed(), 200 + hold, FL_RNG_TEST);
+    for (unsigned fixed = 0; fixed < 64; fixed += 4) {
+        fl_rng g = fl_rng_of(test_seed(), 200 + fixed, FL_RNG_TEST);
         fl_bodies b;
-        random_body(&b, &g, v3(1, 1.5, 2.2), hold);
+        random_body(&b, &g, v3(1, 1.5, 2.2), fixed);
         double worst = 0.0;
         for (int k = 0; k < 1000; k++) {
             const fl_vec3 x = b.x[0];
@@ -132,7 +133,7 @@ static void the_odometer_is_a_bound(void **state)
             for (int p = 0; p < 20; p++) {
                 const fl_vec3 a = shape_direction(&g); /* bound = 1 */
                 const double path =
-                    apart(v3_add(x, m3_mul(R, a)), v3_add(b.x[0], m3_mul(fl_body_axes(&b, 0), a)));
+                    distance_between(v3_add(x, m3_mul(R, a)), v3_add(b.x[0], m3_mul(fl_body_axes(&b, 0), a)));
                 worst = fmax(worst, path / (b.odometer[0] - before));
             }
         }
@@ -142,37 +143,38 @@ static void the_odometer_is_a_bound(void **state)
     }
 }
 
-/* Under any forces, for every set of held directions: what is held keeps its bits, and what is free moves. */
-static void what_is_held_stays(void **state)
+/* For any forces and every set of fixed directions, fixed components keep their bits and free ones move. */
+static void fixed_directions_stay(void **state)
 {
     (void)state;
-    for (unsigned hold = 0; hold < 64; hold++) {
-        fl_rng g = fl_rng_of(test_seed(), hold, FL_RNG_TEST);
+    for (unsigned fixed = 0; fixed < 64; fixed++) {
+        fl_rng g = fl_rng_of(test_seed(), fixed, FL_RNG_TEST);
         fl_bodies b;
-        random_body(&b, &g, v3(1, 1.5, 2.2), hold);
+        random_body(&b, &g, v3(1, 1.5, 2.2), fixed);
         const fl_vec3 v = b.v[0], w = b.w[0];
         for (int k = 0; k < 500; k++) {
-            b.f[0] = random3(&g);
-            b.t[0] = random3(&g);
+            b.f[0] = random_vector(&g);
+            b.t[0] = random_vector(&g);
             fl_kick(&b, 0, 0.01);
             fl_drift(&b, 0, 0.02);
             fl_kick(&b, 0, 0.01);
         }
-        assert_int_equal(b.v[0].x == v.x, (hold & FL_DOF_X) != 0);
-        assert_int_equal(b.v[0].y == v.y, (hold & FL_DOF_Y) != 0);
-        assert_int_equal(b.v[0].z == v.z, (hold & FL_DOF_Z) != 0);
-        assert_int_equal(b.w[0].x == w.x, (hold & FL_DOF_RX) != 0);
-        assert_int_equal(b.w[0].y == w.y, (hold & FL_DOF_RY) != 0);
-        assert_int_equal(b.w[0].z == w.z, (hold & FL_DOF_RZ) != 0);
+        assert_int_equal(b.v[0].x == v.x, (fixed & FL_DOF_X) != 0);
+        assert_int_equal(b.v[0].y == v.y, (fixed & FL_DOF_Y) != 0);
+        assert_int_equal(b.v[0].z == v.z, (fixed & FL_DOF_Z) != 0);
+        assert_int_equal(b.w[0].x == w.x, (fixed & FL_DOF_RX) != 0);
+        assert_int_equal(b.w[0].y == w.y, (fixed & FL_DOF_RY) != 0);
+        assert_int_equal(b.w[0].z == w.z, (fixed & FL_DOF_RZ) != 0);
         const fl_vec3 s = m3_tmul(fl_body_axes(&b, 0), b.L[0]);
-        assert_near_of(apart(m3_mul(fl_body_axes(&b, 0), v3(s.x, s.y / 1.5, s.z / 2.2)), b.w[0]), 0.0, 1e-13,
-                       v3_norm(b.w[0]));
+        assert_near_of(distance_between(m3_mul(fl_body_axes(&b, 0), v3(s.x, s.y / 1.5, s.z / 2.2)), b.w[0]),
+                       0.0, 1e-13, v3_norm(b.w[0]));
         fl_bodies_free(&b);
     }
 }
 
-/* Held about x and y, a body without torque turns about z for ever at one speed, however its axes lie. */
-static void two_held_turns_leave_an_axle(void **state)
+/* Fixed about x and y, a body without torque rotates about z at one speed for ever, in every orientation of
+ * its axes. */
+static void two_fixed_rotations_leave_an_axle(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 4, FL_RNG_TEST);
     (void)state;
@@ -188,15 +190,17 @@ static void two_held_turns_leave_an_axle(void **state)
             fl_kick(&b, 0, 0.5 * dt);
         }
         assert_near(b.w[0].z, w, 1e-11);
-        assert_near_of(turned(b.q[0], q_mul(q_of_vector(v3(0, 0, fmod(w * dt * steps, 2.0 * PI))), q)), 0.0,
-                       1e-9, 1.0);
-        assert_near_of(b.work_of_constraints[0], 0.0, 1e-15, 1.0); /* what holds at rest does no work */
+        assert_near_of(
+            rotation_between(b.q[0], q_mul(q_of_vector(v3(0, 0, fmod(w * dt * steps, 2.0 * PI))), q)), 0.0,
+            1e-9, 1.0);
+        assert_near_of(b.work_of_constraints[0], 0.0, 1e-15, 1.0); /* a constraint at rest does no work */
         fl_bodies_free(&b);
     }
 }
 
-/* One held turn: L keeps its free components, and the energy errs by the order of the step squared. */
-static void one_held_turn_keeps_energy(void **state)
+/* One fixed rotation: L keeps its free components, and the energy error is of the second order in the
+ * step. */
+static void one_fixed_rotation_conserves_energy(void **state)
 {
     (void)state;
     for (int c = 0; c < 10; c++) {
@@ -218,9 +222,9 @@ static void one_held_turn_keeps_energy(void **state)
     }
 }
 
-/* The work of what holds is force times held velocity, to rounding: none where it stands still.  And kinetic
- * energy is that work and the work of the rest. */
-static void the_work_of_holding_is_booked(void **state)
+/* The work of a constraint is force times prescribed velocity, to rounding, and zero where that is zero.
+ * Kinetic energy is the sum of that work and of the other work. */
+static void the_work_of_constraints_is_recorded(void **state)
 {
     const double speed[] = {0.0, 3.0};
     (void)state;
@@ -245,9 +249,9 @@ static void the_work_of_holding_is_booked(void **state)
     }
 }
 
-/* A turn held at a speed: a lopsided body driven about z, no torque from outside: the drive's work is what
- * its kinetic energy gains, and over whole turns none. */
-static void the_work_of_a_held_turn_is_booked(void **state)
+/* A prescribed rotation: an asymmetric body driven about z without external torque. The work of the drive is
+ * the gain of kinetic energy, zero over whole turns. */
+static void the_work_of_a_prescribed_rotation_is_recorded(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 6, FL_RNG_TEST);
     fl_bodies b;
@@ -255,21 +259,21 @@ static void the_work_of_a_held_turn_is_booked(void **state)
     random_body(&b, &g, v3(1, 1.5, 2.2), FL_DOF_RZ);
     fl_body_set_spin(&b, 0, v3(0.2, 0.1, 2.0));
     const double before = fl_body_kinetic_energy(&b, 0);
-    double worst = 0.0, most = 0.0;
+    double worst = 0.0, largest = 0.0;
     for (int k = 0; k < 4000; k++) {
         fl_drift(&b, 0, 5e-4);
         worst = fmax(worst, fabs(fl_body_kinetic_energy(&b, 0) - before - b.work_of_constraints[0]));
-        most = fmax(most, fabs(b.work_of_constraints[0]));
+        largest = fmax(largest, fabs(b.work_of_constraints[0]));
         assert_true(b.w[0].z == 2.0);
     }
-    assert_true(most > 0.01 * before);
+    assert_true(largest > 0.01 * before);
     assert_near_of(worst, 0.0, 1e-5, before); /* order 2 of 5e-4 s at 2 rad/s */
     fl_bodies_free(&b);
 }
 
-/* Through the solver: a floe of a group that is held in z and all turns and driven in x pushes another along;
- * the ledger closes with the work of the drive. */
-static void a_driven_group_pays_for_what_it_pushes(void **state)
+/* Through the solver: a floe of a group, fixed in z and all rotations and driven in x, pushes another one.
+ * The ledger closes with the work of the drive. */
+static void a_driven_group_does_the_work_on_what_it_pushes(void **state)
 {
     double residual[2];
     (void)state;
@@ -301,16 +305,16 @@ static void a_driven_group_pays_for_what_it_pushes(void **state)
     assert_true(residual[1] < 0.5 * residual[0]); /* order 2, a quarter, over few steps */
 }
 
-/* Held directions keep their speed though water moves with the body, and the books close. */
-static void held_with_added_mass(void **state)
+/* Fixed directions keep their speed with added mass, and the energy ledger closes. */
+static void prescribed_velocity_with_added_mass(void **state)
 {
     (void)state;
-    const unsigned hold[] = {0,
-                             FL_DOF_X,
-                             FL_DOF_X | FL_DOF_Y | FL_DOF_Z,
-                             FL_DOF_Z | FL_DOF_RX,
-                             TURNS,
-                             FL_DOF_Y | FL_DOF_RY | FL_DOF_RZ};
+    const unsigned fixed[] = {0,
+                              FL_DOF_X,
+                              FL_DOF_X | FL_DOF_Y | FL_DOF_Z,
+                              FL_DOF_Z | FL_DOF_RX,
+                              TURNS,
+                              FL_DOF_Y | FL_DOF_RY | FL_DOF_RZ};
     for (int k = 0; k < 6; k++) {
         fl_rng g = fl_rng_of(test_seed(), 60 + k, FL_RNG_TEST);
         fl_bodies b;
@@ -318,18 +322,18 @@ static void held_with_added_mass(void **state)
         double off[2];
         for (int fine = 0; fine < 2; fine++) {
             g = fl_rng_of(test_seed(), 60 + k, FL_RNG_TEST);
-            random_body(&b, &g, v3(1, 2, 3), hold[k]);
+            random_body(&b, &g, v3(1, 2, 3), fixed[k]);
             assert_int_equal(fl_bodies_alloc_added_mass(&b, &err), 0);
             b.added_mass[0] = v3(0.3, 1.0, 5.0);
             const fl_vec3 v = b.v[0];
             const double start = fl_body_kinetic_energy(&b, 0);
             for (int s = 0; s < (fine ? 2000 : 1000); s++) {
-                fl_kick(&b, 0, fine ? 5e-4 : 1e-3); /* no force: what holds has nothing to do in it */
+                fl_kick(&b, 0, fine ? 5e-4 : 1e-3); /* no force: the constraint does no work */
                 fl_drift(&b, 0, fine ? 1e-3 : 2e-3);
             }
-            if (hold[k] & FL_DOF_X) assert_true(b.v[0].x == v.x);
-            if (hold[k] & FL_DOF_Y) assert_true(b.v[0].y == v.y);
-            if (hold[k] & FL_DOF_Z) assert_true(b.v[0].z == v.z);
+            if (fixed[k] & FL_DOF_X) assert_true(b.v[0].x == v.x);
+            if (fixed[k] & FL_DOF_Y) assert_true(b.v[0].y == v.y);
+            if (fixed[k] & FL_DOF_Z) assert_true(b.v[0].z == v.z);
             off[fine] = fabs(fl_body_kinetic_energy(&b, 0) - b.work_of_constraints[0] - start);
             assert_near_of(off[fine], 0.0, 1e-3, start);
             fl_bodies_free(&b);
@@ -340,8 +344,8 @@ static void held_with_added_mass(void **state)
 
 enum { SEVERAL = 53 };
 
-/* Tops, bricks and balls, some at rest, and some that spin `wild` times as fast as the others. */
-static void crowd(fl_bodies *b, double wild)
+/* Symmetric tops, bricks and spheres, some at rest, some with `wild` times the spin of the others. */
+static void make_bodies(fl_bodies *b, double spin_factor)
 {
     fl_err err = {0};
     assert_int_equal(fl_bodies_alloc(b, SEVERAL, SEVERAL, &err), 0);
@@ -357,16 +361,16 @@ static void crowd(fl_bodies *b, double wild)
                                                : v3(1, 2, 2.5));
         b->bounding_radius[i] = b->is_isotropic[i] ? 0.0 : 1.5;
         b->q[i] = shape_rotation(&g);
-        b->v[i] = random3(&g), b->f[i] = random3(&g), b->t[i] = random3(&g);
+        b->v[i] = random_vector(&g), b->f[i] = random_vector(&g), b->t[i] = random_vector(&g);
         fl_body_update_spin(b, i);
-        const fl_vec3 spin = random3(&g);
-        if (i % 5) fl_body_set_spin(b, i, v3_scale(i % 11 == 3 ? wild : 1.0, spin));
+        const fl_vec3 spin = random_vector(&g);
+        if (i % 5) fl_body_set_spin(b, i, v3_scale(i % 11 == 3 ? spin_factor : 1.0, spin));
         else b->t[i] = v3(0, 0, 0);
     }
 }
 
-/* They move water with them, that flows; balls the same every way. */
-static void immerse(fl_bodies *b)
+/* Adds water mass and a flow; spheres have isotropic added mass. */
+static void add_water(fl_bodies *b)
 {
     fl_rng g = fl_rng_of(test_seed(), 2, FL_RNG_TEST);
     assert_int_equal(fl_bodies_alloc_added_mass(b, NULL), 0);
@@ -374,11 +378,11 @@ static void immerse(fl_bodies *b)
         const double even = fl_rng_in(&g, 0.1, 1.0);
         b->added_mass[i] =
             b->is_isotropic[i] ? v3(even, even, even) : v3(even, fl_rng_in(&g, 0.1, 1.0), i % 3);
-        b->flow_velocity[i] = i % 4 ? random3(&g) : v3(0, 0, 0);
+        b->flow_velocity[i] = i % 4 ? random_vector(&g) : v3(0, 0, 0);
     }
 }
 
-static void move_few(fl_bodies *b, int32_t from, int32_t to, double h, int pushed)
+static void move_in_batches(fl_bodies *b, int32_t from, int32_t to, double h, int with_kick)
 {
     int32_t at[FL_BODY_BATCH];
     fl_body_batch_water along, *const water = b->added_mass ? &along : NULL;
@@ -388,7 +392,7 @@ static void move_few(fl_bodies *b, int32_t from, int32_t to, double h, int pushe
     fl_body_batch_load_forces(&s, b);
     fl_body_batch_load_pose(&s, b);
     if (water) fl_body_batch_load_water(water, b, &s);
-    if (pushed && !water) fl_body_batch_kick_momentum(&s);
+    if (with_kick && !water) fl_body_batch_kick_momentum(&s);
     else fl_body_batch_update_axes(&s), fl_body_batch_kick(&s, water);
     const int done = fl_body_batch_drift(&s, water);
     fl_body_batch_store_velocities(&s, b);
@@ -397,35 +401,35 @@ static void move_few(fl_bodies *b, int32_t from, int32_t to, double h, int pushe
     for (int32_t k = from; k < to && !done; k++) fl_drift(b, k, 2.0 * h);
 }
 
-/* Runs of balls, and of others, some at a time. */
-static void move_all(fl_bodies *b, int32_t from, int32_t to, double h, double dt, int pushed)
+/* Runs of spheres and of other bodies, in batches. */
+static void move_in_full_batches(fl_bodies *b, int32_t from, int32_t to, double h, double dt, int with_kick)
 {
     for (int32_t i = from, end; i < to; i = end) {
         for (end = i + 1; end < to && b->is_isotropic[end] == b->is_isotropic[i] && end < i + FL_BODY_BATCH;)
             end++;
-        if (!b->is_isotropic[i]) move_few(b, i, end, h, pushed);
+        if (!b->is_isotropic[i]) move_in_batches(b, i, end, h, with_kick);
         else if (!b->added_mass) fl_kick_drift_isotropic(b, i, end, h, dt);
         else
             for (int32_t k = i; k < end; k++) fl_kick(b, k, h), fl_drift(b, k, dt);
     }
 }
 
-static void several_at_a_time(void **state)
+static void a_batch_has_the_bits_of_single_bodies(void **state)
 {
     (void)state;
-    /* few terms of the series do; of some, of all the others; some turn by more than a radian a step */
-    const double wild[] = {1.0, 5.0, 500.0};
+    /* low orders of the series suffice for some bodies; some rotate by more than a radian a step */
+    const double spin_factor[] = {1.0, 5.0, 500.0};
     for (int way = 0; way < 6; way++) {
         fl_bodies one, all;
-        crowd(&one, wild[way % 3]), crowd(&all, wild[way % 3]);
-        if (way >= 3) immerse(&one), immerse(&all);
+        make_bodies(&one, spin_factor[way % 3]), make_bodies(&all, spin_factor[way % 3]);
+        if (way >= 3) add_water(&one), add_water(&all);
         for (int k = 0; k < 40; k++) {
             for (int32_t i = 0; i < SEVERAL; i++) {
                 fl_kick(&one, i, 0.005);
                 fl_drift(&one, i, 0.01);
             }
-            move_all(&all, 0, 20, 0.005, 0.01, k % 2);
-            move_all(&all, 20, SEVERAL, 0.005, 0.01, k % 2);
+            move_in_full_batches(&all, 0, 20, 0.005, 0.01, k % 2);
+            move_in_full_batches(&all, 20, SEVERAL, 0.005, 0.01, k % 2);
             for (int32_t i = 0; i < SEVERAL; i++) {
                 assert_memory_equal(&one.x[i], &all.x[i], sizeof one.x[i]);
                 assert_memory_equal(&one.v[i], &all.v[i], sizeof one.v[i]);
@@ -441,8 +445,8 @@ static void several_at_a_time(void **state)
     }
 }
 
-/* Both series, on either side of where the longer one begins. */
-static void the_series_are_whole(void **state)
+/* Both series, on either side of the argument where the longer one begins. */
+static void the_series_agree_with_the_functions(void **state)
 {
     (void)state;
     for (double x2 = 1e-14; x2 <= Q_HALF_ANGLE2_MAX; x2 *= 1.01) {
@@ -455,19 +459,19 @@ static void the_series_are_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(held_with_added_mass),
-        cmocka_unit_test(several_at_a_time),
-        cmocka_unit_test(the_series_are_whole),
-        cmocka_unit_test(a_kick_changes_momenta_alone),
+        cmocka_unit_test(prescribed_velocity_with_added_mass),
+        cmocka_unit_test(a_batch_has_the_bits_of_single_bodies),
+        cmocka_unit_test(the_series_agree_with_the_functions),
+        cmocka_unit_test(a_kick_changes_only_momenta),
         cmocka_unit_test(a_symmetric_top_turns_exactly),
-        cmocka_unit_test(a_drift_goes_back_the_way_it_came),
-        cmocka_unit_test(the_odometer_is_a_bound),
-        cmocka_unit_test(what_is_held_stays),
-        cmocka_unit_test(two_held_turns_leave_an_axle),
-        cmocka_unit_test(one_held_turn_keeps_energy),
-        cmocka_unit_test(the_work_of_holding_is_booked),
-        cmocka_unit_test(the_work_of_a_held_turn_is_booked),
-        cmocka_unit_test(a_driven_group_pays_for_what_it_pushes),
+        cmocka_unit_test(a_drift_is_reversible),
+        cmocka_unit_test(the_travel_counter_is_an_upper_bound),
+        cmocka_unit_test(fixed_directions_stay),
+        cmocka_unit_test(two_fixed_rotations_leave_an_axle),
+        cmocka_unit_test(one_fixed_rotation_conserves_energy),
+        cmocka_unit_test(the_work_of_constraints_is_recorded),
+        cmocka_unit_test(the_work_of_a_prescribed_rotation_is_recorded),
+        cmocka_unit_test(a_driven_group_does_the_work_on_what_it_pushes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,8 +10,8 @@
 #include "law/tangent.h"
 #include "support/shapes.h"
 
-static fl_vec3 tangent(fl_friction_springs *s, const fl_friction_contact *c, fl_vec3 v, double spin,
-                       double twist, double dt, double *moment)
+static fl_vec3 friction_force(fl_friction_springs *s, const fl_friction_contact *c, fl_vec3 v, double spin,
+                              double twist, double dt, double *moment)
 {
     const fl_friction_motion by = {
         .v = v, .v_end = v, .spin = spin, .spin_end = spin, .mean_spin = twist, .half_step = 0.5 * dt};
@@ -37,7 +37,7 @@ static void damping_is_that_of_the_table(void **state)
         assert_near_of(fl_damping_linear(row[k].e), row[k].zeta, 5.01e-6,
                        1.0); /* half a digit of the table */
         assert_near_of(fl_damping_hunt_crossley(row[k].e), row[k].D, 5.01e-6, 1.0);
-        assert_near(fl_damping_tsuji(row[k].e), row[k].alpha, 2e-3); /* the fit's accuracy */
+        assert_near(fl_damping_tsuji(row[k].e), row[k].alpha, 2e-3); /* accuracy of the fit */
     }
 }
 
@@ -60,13 +60,12 @@ static void damping_of_every_restitution_is_finite(void **state)
     assert_near(fl_damping_linear(-1.0), fl_damping_linear(FL_MIN_RESTITUTION), 1e-15);
 }
 
-/* A mass on n equal contacts, each of which knows its own part alone; as steps take it, forces at their ends.
- */
+/* A mass on n equal contacts, each of which knows only its own share; forces act at the ends of steps. */
 typedef struct {
-    double x, v, E, D; /* E, D: of one contact */
+    double x, v, E, D; /* energy E and damping D of one contact */
 } damped_mass;
 
-static void damped_step(damped_mass *s, double omega, double C, int n, double dt, double *foreseen)
+static void step_damped_mass(damped_mass *s, double omega, double C, int n, double dt, double *foreseen)
 {
     const double before = -(s->E + s->D) * n, k = omega * omega / n;
     s->v += 0.5 * dt * before, s->x += dt * s->v;
@@ -77,7 +76,7 @@ static void damped_step(damped_mass *s, double omega, double C, int n, double dt
     *foreseen = d;
 }
 
-static void damping_of_one_goes_by_the_speed_at_the_end(void **state)
+static void damping_of_one_contact_uses_the_speed_at_the_end(void **state)
 {
     (void)state;
     for (int k = 0; k < test_times(50); k++) {
@@ -86,13 +85,14 @@ static void damping_of_one_goes_by_the_speed_at_the_end(void **state)
         damped_mass s = {.x = 0.0, .v = 1.0};
         for (int i = 0; i < 40; i++) {
             double d;
-            damped_step(&s, omega, C, 1, dt, &d);
+            step_damped_mass(&s, omega, C, 1, dt, &d);
             assert_near_of(d, s.v, 1e-11, 1.0);
         }
     }
 }
 
-/* Up to 0.7 of 2/omega, however much damps, of however many: S08 to S24 of verify_step and verify_stable_step_packed. */
+/* Up to 0.7 of 2/omega, for any damping and any number of contacts: S08 to S24 of verify_step and
+ * verify_stable_step_packed. */
 static void damping_of_many_is_stable(void **state)
 {
     static const int N[] = {1, 2, 3, 6, 12, 100};
@@ -100,12 +100,12 @@ static void damping_of_many_is_stable(void **state)
     for (size_t k = 0; k < sizeof N / sizeof *N; k++)
         for (double C = 0.01; C < 1e5; C *= 1.5) {
             damped_mass s = {.x = 0.0, .v = 1.0};
-            double d, most = 0.0;
+            double d, largest = 0.0;
             for (int i = 0; i < 4000; i++) {
-                damped_step(&s, 2.0, C / N[k], N[k], 0.7, &d);
-                most = fmax(most, fabs(s.v));
+                step_damped_mass(&s, 2.0, C / N[k], N[k], 0.7, &d);
+                largest = fmax(largest, fabs(s.v));
             }
-            assert_true(most < 30.0 && fabs(s.v) <= 1.0);
+            assert_true(largest < 30.0 && fabs(s.v) <= 1.0);
         }
 }
 
@@ -114,7 +114,7 @@ static void damping_solves_its_equation(void **state)
     (void)state;
     for (int k = 1; k < 100; k++) {
         const double e = 0.01 * k, D = fl_damping_hunt_crossley(e);
-        /* without the logarithm, whose argument is beyond doubles for small e */
+        /* without the logarithm, the argument of which loses all digits for small e */
         assert_near_of((1.0 + D) * exp(-D * (1.0 + e)), 1.0 - e * D, 1e-14, 1.0);
         assert_true(D > 0.0 && e * D < 1.0);
         assert_near(fl_damping_linear_restitution(fl_damping_linear(e)), e, 1e-13);
@@ -125,9 +125,9 @@ static void damping_solves_its_equation(void **state)
     assert_near(fl_damping_linear_restitution(1.0 + 1e-8), exp(-2.0), 1e-6);
 }
 
-/* An impact of unit speed on a spring, du/ds = -s (1 + D u)/u, stores what the closure says; the floor of a
- * slow contact never cuts into it, and the ratio that it leaves is what it says. */
-static void a_slow_contact_is_damped_as_an_impact_at_the_most(void **state)
+/* An impact of unit speed on a spring, du/ds = -s (1 + D u)/u, stores the energy of the closed form. The
+ * lower bound for slow contacts never reduces it, and leaves the stated ratio. */
+static void a_slow_contact_is_damped_at_most_as_an_impact(void **state)
 {
     (void)state;
     for (int k = 0; k <= 100; k++) {
@@ -154,7 +154,7 @@ static void a_slow_contact_is_damped_as_an_impact_at_the_most(void **state)
 /* --- material, normal
  * --------------------------------------------------------------------------------------- */
 
-static void material_gives_hertz_and_punch(void **state)
+static void material_gives_hertz_and_flat_punch(void **state)
 {
     (void)state;
     const fl_elastic_constants ice = {1e9, 0.3}, rigid = {INFINITY, 0.0};
@@ -167,12 +167,12 @@ static void material_gives_hertz_and_punch(void **state)
     assert_near(fl_material_radius(0.1, 0.0), 0.1, 0.0);
     assert_near(fl_material_radius(0.0, 0.3), 0.3, 0.0);
     assert_near(fl_material_hertz(same, 0.05), 4.0 / 3.0 * same * sqrt(0.05), 1e-15);
-    /* six places make the punch: 2 E* a, a the radius of the circle of that area, times beta */
+    /* six points represent the punch: 2 E* a, a the radius of the circle of that area, times beta */
     assert_near(fl_material_punch(same, PI * 4.0), 2.0 * same * 1.02 * 2.0, 1e-15);
 }
 
 /* phi' = s^n and (s^n)' = slope, by central differences at the optimal width cbrt(eps): error 4e-11. */
-static void normal_powers_derive_from_one_another(void **state)
+static void normal_powers_are_derivatives_of_one_another(void **state)
 {
     const double exponent[] = {1.0, 1.5}, h = 6e-6;
     (void)state;
@@ -199,10 +199,10 @@ static void normal_powers_derive_from_one_another(void **state)
 static void manual_modes_are_those_of_the_table(void **state)
 {
     static const double overlap[] = {1e-4, 1e-3, 1e-2};
-    static const double want[][6] = {/* VV, VF, EP literal, EP si, EF literal, FF [N] */
-                                     {164, 232, 819, 216e3, 1.16e3, 224e3},
-                                     {5.18e3, 7.33e3, 25.9e3, 2.16e6, 36.6e3, 2.24e6},
-                                     {164e3, 232e3, 819e3, 21.6e6, 1.16e6, 22.4e6}};
+    static const double expected[][6] = {/* VV, VF, EP literal, EP si, EF literal, FF [N] */
+                                         {164, 232, 819, 216e3, 1.16e3, 224e3},
+                                         {5.18e3, 7.33e3, 25.9e3, 2.16e6, 36.6e3, 2.24e6},
+                                         {164e3, 232e3, 819e3, 21.6e6, 1.16e6, 22.4e6}};
     static const struct {
         fl_manual_kind touch;
         int si;
@@ -217,7 +217,8 @@ static void manual_modes_are_those_of_the_table(void **state)
                 .kind = mode[m].touch, .length = 5.0, .area = 12.5, .r_low = 0.1, .r_high = 0.1, .edge = 5.0};
             double n;
             const double k = fl_manual_stiffness(&c, modulus, overlap[s], mode[m].si, 0, &n);
-            assert_near(k * fl_normal_power(overlap[s], n), want[s][m], 5e-3); /* three digits are printed */
+            assert_near(k * fl_normal_power(overlap[s], n), expected[s][m],
+                        5e-3); /* three digits are printed */
         }
     }
 }
@@ -232,14 +233,14 @@ static void manual_crossed_edges(void **state)
         const double angle = k * PI / 18.0;
         const fl_manual_contact c = {
             .kind = FL_MANUAL_EE, .sine = sin(angle), .r_low = 0.1, .r_high = 0.3, .edge = 5.0};
-        const double R = sqrt(0.03) / sin(angle), want = fl_material_hertz(modulus, R);
-        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 0, &n), want, 1e-12);
+        const double R = sqrt(0.03) / sin(angle), expected = fl_material_hertz(modulus, R);
+        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 0, &n), expected, 1e-12);
         assert_near(n, 1.5, 0.0);
-        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 1, &n), want * sqrt(2.0), 1e-12);
+        assert_near(fl_manual_stiffness(&c, modulus, overlap, 0, 1, &n), expected * sqrt(2.0), 1e-12);
     }
     fl_manual_contact c = {.kind = FL_MANUAL_EE, .r_low = 0.1, .r_high = 0.1, .edge = 5.0};
-    /* parallel: half the radius one way, edge^2/(4 s) the other.  With the angle the first grows by sin^2/4
-     * at most. */
+    /* parallel: half the radius in one direction, edge^2/(4 s) in the other. With the angle the first grows
+     * by sin^2/4 at most. */
     const double parallel = fl_manual_stiffness(&c, modulus, overlap, 0, 0, &n);
     assert_near(parallel, fl_material_hertz(modulus, sqrt(0.05 * 25.0 / (4.0 * overlap))), 1e-12);
     double before = parallel;
@@ -282,13 +283,13 @@ static void manual_damping_by_its_exponent(void **state)
 /* --- friction
  * ------------------------------------------------------------------------------------------------ */
 
-/* A point that slips. */
-static fl_vec3 rub(fl_friction_springs *s, fl_vec3 n, fl_vec3 v, double twist, double dt, double k, double g,
-                   double limit)
+/* A sliding point. */
+static fl_vec3 slide_point(fl_friction_springs *s, fl_vec3 n, fl_vec3 v, double twist, double dt, double k,
+                           double g, double limit)
 {
     const fl_friction_contact c = {.n = n, .k = k, .g = g, .limit = limit};
     double moment;
-    return tangent(s, &c, v, 0.0, twist, dt, &moment);
+    return friction_force(s, &c, v, 0.0, twist, dt, &moment);
 }
 
 static void friction_sticks_slides_and_comes_back(void **state)
@@ -299,37 +300,37 @@ static void friction_sticks_slides_and_comes_back(void **state)
     fl_vec3 f = v3(0, 0, 0);
     (void)state;
     for (int i = 1; i <= 5; i++) {
-        f = rub(&s, n, v, 0.0, dt, k, 0.0, limit);
+        f = slide_point(&s, n, v, 0.0, dt, k, 0.0, limit);
         assert_near(f.x, -k * dt * i, 1e-14);
         assert_near_of(f.z, 0.0, 1e-15, limit);
     }
-    for (int i = 0; i < 5; i++) f = rub(&s, n, v, 0.0, dt, k, 0.0, limit);
+    for (int i = 0; i < 5; i++) f = slide_point(&s, n, v, 0.0, dt, k, 0.0, limit);
     assert_near(f.x, -limit, 1e-14);
     assert_near(fl_tangent_energy(s), 0.5 * limit * limit / k, 1e-14);
-    f = rub(&s, n, v3_neg(v), 0.0, dt, k, 0.0, limit); /* turning round it gives way at once */
+    f = slide_point(&s, n, v3_neg(v), 0.0, dt, k, 0.0, limit); /* torsion about it slides at once */
     assert_near(f.x, -limit + k * dt, 1e-14);
-    f = rub(&s, n, v3(0, 0, 0), 0.0, dt, k, 0.0, 0.0); /* no load, no friction */
+    f = slide_point(&s, n, v3(0, 0, 0), 0.0, dt, k, 0.0, 0.0); /* no load, no friction */
     assert_near(v3_norm(f), 0.0, 0.0);
     s = (fl_friction_springs){.force = v3(1, 0, 0), .k = k};
-    f = rub(&s, n, v, 0.0, dt, 0.0, 0.0, limit); /* no stiffness, no force */
+    f = slide_point(&s, n, v, 0.0, dt, 0.0, 0.0, limit); /* no stiffness, no force */
     assert_near(v3_norm(f), 0.0, 0.0);
     assert_near(fl_tangent_energy(s), 0.0, 0.0);
 }
 
-/* The memory turns with the normal and with the pair about it, and keeps its length. */
-static void friction_rolls_with_the_contact(void **state)
+/* The stored vector rotates with the normal and with the pair about it, and keeps its length. */
+static void friction_memory_rotates_with_the_contact(void **state)
 {
     fl_friction_springs s = {.force = v3(3, 0, 0), .k = 1000.0};
     const int turns = 1000;
     (void)state;
     for (int i = 1; i <= turns; i++) {
         const double a = 0.5 * PI * i / turns;
-        const fl_vec3 f = rub(&s, v3(-sin(a), 0, cos(a)), v3(0, 0, 0), 0.0, 1e-3, 1000.0, 0.0, 100.0);
+        const fl_vec3 f = slide_point(&s, v3(-sin(a), 0, cos(a)), v3(0, 0, 0), 0.0, 1e-3, 1000.0, 0.0, 100.0);
         assert_near(v3_norm(f), 3.0, 1e-13);
     }
     assert_near_of(s.force.z, 3.0, 1e-6, 3.0);
     for (int i = 0; i < turns; i++) /* a quarter turn about n = -x */
-        rub(&s, v3(-1, 0, 0), v3(0, 0, 0), 0.5 * PI, 1.0 / turns, 1000.0, 0.0, 100.0);
+        slide_point(&s, v3(-1, 0, 0), v3(0, 0, 0), 0.5 * PI, 1.0 / turns, 1000.0, 0.0, 100.0);
     assert_near(v3_norm(s.force), 3.0, 1e-12);
     /* each turn is made along the tangent: error (pi/2)^3/(3 N^2) */
     assert_near_of(s.force.y, 3.0, 2e-6, 3.0);
@@ -340,23 +341,23 @@ static void friction_damping_stays_within_the_limit(void **state)
     fl_friction_springs s = {.k = 1000.0};
     const fl_vec3 n = v3(0, 0, 1);
     (void)state;
-    fl_vec3 f = rub(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 2.0, 5.0);
+    fl_vec3 f = slide_point(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 2.0, 5.0);
     assert_near(f.x, -1.0 - 2.0, 1e-14);
-    assert_near(s.force.x, -1.0, 1e-14); /* the spring does not remember the damping */
-    f = rub(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 1e6, 5.0);
+    assert_near(s.force.x, -1.0, 1e-14); /* the spring does not store the damping force */
+    f = slide_point(&s, n, v3(1, 0, 0), 0.0, 1e-3, 1000.0, 1e6, 5.0);
     assert_near(f.x, -5.0, 1e-14);
     assert_near(s.force.x, -2.0, 1e-14);
 }
 
 /* n.K n of K = 1 + one one^T + two two^T. */
-static double projected(fl_vec3 n, fl_vec3 one, fl_vec3 two)
+static double projected_matrix(fl_vec3 n, fl_vec3 one, fl_vec3 two)
 {
     const double a = v3_dot(n, one), b = v3_dot(n, two);
     return 1.0 + a * a + b * b;
 }
 
-/* Across n the sum of what moves, of springs and of damping is what fl_tangent_damping() says it solves, by a
- * product with the projected matrix. */
+/* In the tangent plane the sum of the moving mass, the springs and the damping satisfies the equation of
+ * fl_tangent_damping(), checked with the projected matrix. */
 static void friction_damping_solves_its_equation(void **state)
 {
     (void)state;
@@ -381,13 +382,13 @@ static void friction_damping_solves_its_equation(void **state)
         const fl_friction_wrench x =
             fl_tangent_damping(c, (fl_friction_wrench){v, r[0]}, (fl_friction_wrench){way, r[1]},
                                (fl_friction_wrench){old, r[2]}, 0.5 * dt, 0.0);
-        /* the point then moves so, and the contact stands for so many */
-        const double across = 0.5 * (3.0 + v3_norm2(one) + v3_norm2(two) - projected(n, one, two)),
+        /* the point then moves with this velocity, and the contact represents `count` of them */
+        const double across = 0.5 * (3.0 + v3_norm2(one) + v3_norm2(two) - projected_matrix(n, one, two)),
                      all = fl_damping_implicit_weight(0.5 * dt * coef * across, many, 2.0 * many);
-        const fl_vec3 push = v3_madd(v3_scale(all, v3_sub(x.f, old)), 1.0, way);
-        const fl_vec3 eased = v3_madd(v3_madd(push, v3_dot(one, push), one), v3_dot(two, push), two);
-        fl_vec3 then = v3_madd(v, 0.5 * dt, eased);
-        /* of the old, which does not lie across, only what does counts */
+        const fl_vec3 rhs = v3_madd(v3_scale(all, v3_sub(x.f, old)), 1.0, way);
+        const fl_vec3 product = v3_madd(v3_madd(rhs, v3_dot(one, rhs), one), v3_dot(two, rhs), two);
+        fl_vec3 then = v3_madd(v, 0.5 * dt, product);
+        /* of the old force, which is not tangential, only the tangential part */
         const fl_vec3 flat = v3_madd(old, -v3_dot(old, n), n), off = v3_sub(flat, old),
                       more = v3_scale(all, off),
                       less = v3_madd(v3_madd(more, v3_dot(one, more), one), v3_dot(two, more), two);
@@ -401,8 +402,9 @@ static void friction_damping_solves_its_equation(void **state)
     }
 }
 
-/* Whatever the history of slip, load and stiffness, as long as slip ends where it began friction has taken
- * work: the force on A does -f.v dt against the slip.  Trapezoids, as the spring's own energy goes. */
+/* For any history of slip, load and stiffness with slip returning to its start, friction has dissipated
+ * energy: the force on A does the work -f.v dt against the slip. Trapezoids, as for the spring's own
+ * energy. */
 static void friction_creates_no_energy(void **state)
 {
     (void)state;
@@ -411,79 +413,79 @@ static void friction_creates_no_energy(void **state)
         const double dt = 1e-3, base = 1000.0, a1 = fl_rng_in(&g, 1, 20), a2 = fl_rng_in(&g, 1, 20),
                      b = fl_rng_in(&g, 1, 20), mu = fl_rng_in(&g, 0.05, 5), damp = fl_rng_in(&g, 0, 3);
         fl_friction_springs s = {0};
-        double taken = 0.0, moved = 0.0;
+        double dissipated = 0.0, moved = 0.0;
         fl_vec3 before = v3(0, 0, 0);
         const fl_vec3 n = v3(0, 0, 1);
         for (int i = 1; i <= 20000; i++) {
             const double t = i * dt, depth = 0.5 * (1.0 - cos(b * t)), k = base * sqrt(depth);
             const fl_vec3 v = v3(sin(a1 * t), cos(a2 * t), 0);
-            const fl_vec3 f = rub(&s, n, v, 0.0, dt, k, damp, mu * base * depth * sqrt(depth));
+            const fl_vec3 f = slide_point(&s, n, v, 0.0, dt, k, damp, mu * base * depth * sqrt(depth));
             assert_true(v3_norm(f) <= mu * base * depth * sqrt(depth) * (1.0 + 1e-15));
-            taken -= 0.5 * dt * v3_dot(v3_add(f, before), v);
+            dissipated -= 0.5 * dt * v3_dot(v3_add(f, before), v);
             moved += dt * v3_norm(v);
             before = f;
-            /* what it has given back so far never exceeds what was put in; the rule errs by order dt of the
+            /* energy returned so far never exceeds the energy put in; the rule's error is of order dt of the
              * work */
-            if (taken - fl_tangent_energy(s) < -2.0 * dt * base * moved) {
+            if (dissipated - fl_tangent_energy(s) < -2.0 * dt * base * moved) {
                 print_error("seed %llu case %ld\n", (unsigned long long)test_seed(), c);
                 assert_true(0);
             }
         }
-        assert_true(taken > fl_tangent_energy(s));
+        assert_true(dissipated > fl_tangent_energy(s));
     }
 }
 
-/* The closed path that a plain incremental spring gains on: load, slip, unload, slip back.  Loaded by k1,
- * unloaded by k2 < k1: plain, the force k1 x would be met by k2 only. */
+/* The closed path on which a plain incremental spring gains energy: load, slip, unload, slip back. Loaded by
+ * k1 and unloaded by k2 < k1, the plain force k1 x would be opposed by k2 only. */
 static void friction_unloads_along_its_stiffness(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1), there = v3(1, 0, 0), still = v3(0, 0, 0);
     const double k1 = 1000.0, k2 = 250.0, dt = 1e-4, far = 1e9;
     fl_friction_springs s = {.k = k1};
     (void)state;
-    for (int i = 0; i < 100; i++) rub(&s, n, there, 0.0, dt, k1, 0.0, far);
-    const double held = fl_tangent_energy(s);
+    for (int i = 0; i < 100; i++) slide_point(&s, n, there, 0.0, dt, k1, 0.0, far);
+    const double stored = fl_tangent_energy(s);
     assert_near(s.force.x, -k1 * 100 * dt, 1e-12);
-    rub(&s, n, still, 0.0, dt, k2, 0.0, far);
+    slide_point(&s, n, still, 0.0, dt, k2, 0.0, far);
     assert_near(s.force.x, -k2 * 100 * dt, 1e-12);
-    assert_near(fl_tangent_energy(s), held * k2 / k1, 1e-12);
-    for (int i = 0; i < 100; i++) rub(&s, n, v3_neg(there), 0.0, dt, k2, 0.0, far);
+    assert_near(fl_tangent_energy(s), stored * k2 / k1, 1e-12);
+    for (int i = 0; i < 100; i++) slide_point(&s, n, v3_neg(there), 0.0, dt, k2, 0.0, far);
     assert_near_of(s.force.x, 0.0, 1e-12, k1 * 100 * dt);
-    /* stiffer again, the force stays as it is: incremental */
+    /* stiffer again, the force stays: incremental */
     s = (fl_friction_springs){.force = v3(-7, 0, 0), .k = k2};
-    rub(&s, n, still, 0.0, dt, k1, 0.0, far);
+    slide_point(&s, n, still, 0.0, dt, k1, 0.0, far);
     assert_near(s.force.x, -7.0, 1e-15);
     assert_true(fl_tangent_energy(s) < 49.0 / (2.0 * k2));
 }
 
-/* What falls takes force with it, also where that is found out later; what was only taken for stiffer keeps
- * its energy, and what was taken for softer its force. */
-static void friction_measured_anew_makes_no_energy(void **state)
+/* A falling stiffness reduces the force in proportion, also where the fall is found later. A stiffness that
+ * was only overestimated keeps its energy, one that was underestimated keeps its force. */
+static void a_corrected_stiffness_creates_no_energy(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1), rest = v3(0, 0, 0);
     const double dt = 1e-3, limit = 500.0;
     fl_friction_springs s = {.k = 1000.0};
     (void)state;
-    rub(&s, n, v3(1, 0, 0), 0.0, dt, 1000.0, 0.0, limit);
+    slide_point(&s, n, v3(1, 0, 0), 0.0, dt, 1000.0, 0.0, limit);
     fl_friction_springs fallen = s;
-    assert_near(rub(&fallen, n, rest, 0.0, dt, 900.0, 0.0, limit).x, -0.9, 1e-14);
-    const double held = fl_tangent_energy(s);
+    assert_near(slide_point(&fallen, n, rest, 0.0, dt, 900.0, 0.0, limit).x, -0.9, 1e-14);
+    const double stored = fl_tangent_energy(s);
     fallen = s;
-    fl_tangent_rescale(&fallen, 0.95, 1); /* told to fall to 1000, it fell to 950 */
-    assert_near(rub(&fallen, n, rest, 0.0, dt, 950.0, 0.0, limit).x, -0.95, 1e-14);
+    fl_tangent_rescale(&fallen, 0.95, 1); /* predicted to fall to 1000, it fell to 950 */
+    assert_near(slide_point(&fallen, n, rest, 0.0, dt, 950.0, 0.0, limit).x, -0.95, 1e-14);
     fallen = s;
     fl_tangent_rescale(&fallen, 1.05, 1);
-    assert_near(rub(&fallen, n, rest, 0.0, dt, 1050.0, 0.0, limit).x, -1.05, 1e-14);
+    assert_near(slide_point(&fallen, n, rest, 0.0, dt, 1050.0, 0.0, limit).x, -1.05, 1e-14);
     fl_tangent_rescale(&s, 0.9, 0);
-    assert_near(fl_tangent_energy(s), held, 1e-14);
-    assert_near(rub(&s, n, rest, 0.0, dt, 900.0, 0.0, limit).x, -sqrt(0.9), 1e-14);
+    assert_near(fl_tangent_energy(s), stored, 1e-14);
+    assert_near(slide_point(&s, n, rest, 0.0, dt, 900.0, 0.0, limit).x, -sqrt(0.9), 1e-14);
     assert_near(s.k, 900.0, 1e-14);
     fl_tangent_rescale(&s, 1.1, 0);
-    assert_near(rub(&s, n, rest, 0.0, dt, 990.0, 0.0, limit).x, -sqrt(0.9), 1e-14);
+    assert_near(slide_point(&s, n, rest, 0.0, dt, 990.0, 0.0, limit).x, -sqrt(0.9), 1e-14);
 }
 
-/* The force does not jump as a spring begins to slide, whichever way the surfaces go: against its pull, or
- * along with it, its limit falling. */
+/* The force is continuous where a spring begins to slide, for every direction of slip: against its force, or
+ * with it while its limit falls. */
 static void friction_is_continuous_where_it_begins_to_slide(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1), v = v3(0.1, 0, 0);
@@ -492,15 +494,15 @@ static void friction_is_continuous_where_it_begins_to_slide(void **state)
     for (int way = -1; way <= 1; way += 2)
         for (int e = -1; e <= 1; e++) {
             fl_friction_springs s = {v3(f, 0, 0), k, 0.0, 0.0};
-            assert_near(rub(&s, n, v3_scale(way, v), 0.0, dt, k, g, f * (1.0 + 1e-6 * e)).x, f, 3e-5);
+            assert_near(slide_point(&s, n, v3_scale(way, v), 0.0, dt, k, g, f * (1.0 + 1e-6 * e)).x, f, 3e-5);
         }
-    /* and far from it damping is whole */
+    /* and far from the limit damping is complete */
     fl_friction_springs s = {v3(f, 0, 0), k, 0.0, 0.0};
-    assert_near(rub(&s, n, v, 0.0, dt, k, g, 2.0 * f).x, f - g * v.x, 1e-6);
+    assert_near(slide_point(&s, n, v, 0.0, dt, k, g, 2.0 * f).x, f - g * v.x, 1e-6);
 }
 
-/* A spring under a stiffness that rises and falls again: k = t (2 - t), v = cos 3t, F = -int k v dt up to
- * t = 1, and F/k = F(1) - int v dt from there on.  Off by a quarter at half the step. */
+/* A spring with a stiffness that rises and falls again: k = t (2 - t), v = cos 3t, F = -int k v dt up to t =
+ * 1, and F/k = F(1) - int v dt after it. Half the step leaves a quarter of the error. */
 static void friction_springs_are_of_order_two(void **state)
 {
     const fl_vec3 n = v3(0, 0, 1);
@@ -515,7 +517,7 @@ static void friction_springs_are_of_order_two(void **state)
         fl_vec3 f = v3(0, 0, 0);
         for (int i = 1; i <= steps; i++) {
             const double t = i * dt;
-            f = rub(&s, n, v3(cos(3.0 * (t - 0.5 * dt)), 0, 0), 0.0, dt, t * (2.0 - t), 0.0, 100.0);
+            f = slide_point(&s, n, v3(cos(3.0 * (t - 0.5 * dt)), 0, 0), 0.0, dt, t * (2.0 - t), 0.0, 100.0);
         }
         off[fine] = fabs(f.x - truth);
     }
@@ -523,10 +525,10 @@ static void friction_springs_are_of_order_two(void **state)
     assert_near_of(off[0] / off[1], 4.0, 0.1, 4.0);
 }
 
-/* What slides goes along e' = -(k/limit)(v - (v.e) e): with v that turns evenly, from across it, against the
- * same in steps a hundredth as long; and in the end it lags behind -v by the angle of which the sine is
- * Omega limit/(k |v|), whatever the step, which in the last row is a hundred times as long as it takes. */
-static void what_slides_follows_the_way_to_order_two(void **state)
+/* Sliding follows e' = -(k/limit)(v - (v.e) e). With v rotating at constant rate, from a perpendicular start,
+ * it is compared with steps a hundredth as long. In the end e lags behind -v by the angle with sine Omega
+ * limit/(k |v|), for every step; the step of the last row is a hundred times the time constant. */
+static void sliding_follows_the_path_to_order_two(void **state)
 {
     static const struct {
         double k, dt;
@@ -536,7 +538,7 @@ static void what_slides_follows_the_way_to_order_two(void **state)
     (void)state;
     for (int r = 0; r < 4; r++) {
         fl_vec3 e[2];
-        double late = 0.0;
+        double lag = 0.0;
         for (int fine = 0; fine < 2; fine++) {
             const double dt = fine ? 0.01 * row[r].dt : row[r].dt;
             const fl_friction_contact c = {.n = v3(0, 0, 1), .k = row[r].k, .limit = limit};
@@ -546,52 +548,52 @@ static void what_slides_follows_the_way_to_order_two(void **state)
                 const fl_friction_motion by = {.v = v3(cos(mid), sin(mid), 0),
                                                .v_end = v3(cos(at), sin(at), 0)};
                 s = fl_tangent_step(s, c, by, dt).springs;
-                late = v3_cross(by.v_end, s.force).z;
+                lag = v3_cross(by.v_end, s.force).z;
             }
             e[fine] = s.force;
             assert_near(v3_norm(e[fine]), limit, 1e-14);
         }
         if (r < 3) off[r] = v3_norm(v3_sub(e[0], e[1]));
-        else assert_near(late, omega * limit / row[r].k, 0.02);
+        else assert_near(lag, omega * limit / row[r].k, 0.02);
     }
     assert_true(off[0] < 1.1e-3);
     assert_near_of(off[0] / off[1], 4.0, 0.2, 4.0);
     assert_near_of(off[1] / off[2], 4.0, 0.1, 4.0);
 }
 
-/* Turning on the spot: a spring of k arm^2 about the normal up to limit arm; with slip the two share the
- * limit. */
-static void friction_turns_and_shares_its_limit(void **state)
+/* Rotation on the spot: a torsional spring of k arm^2 about the normal up to limit arm; with slip the two
+ * share the limit. */
+static void torsion_and_sliding_share_the_limit(void **state)
 {
     const double k = 1000.0, dt = 1e-3, arm = 0.2, limit = 5.0, spin = 3.0;
     const fl_friction_contact c = {.n = v3(0, 0, 1), .k = k, .limit = limit, .arm = arm};
     fl_friction_springs s = {.k = k, .k_turn = k * arm * arm};
-    double m = 0.0, taken = 0.0, before = 0.0;
+    double m = 0.0, dissipated = 0.0, before = 0.0;
     (void)state;
-    tangent(&s, &c, v3(0, 0, 0), spin, 0.0, dt, &m);
+    friction_force(&s, &c, v3(0, 0, 0), spin, 0.0, dt, &m);
     assert_near(m, -k * arm * arm * spin * dt, 1e-14);
-    for (int i = 0; i < 100; i++) tangent(&s, &c, v3(0, 0, 0), spin, 0.0, dt, &m);
+    for (int i = 0; i < 100; i++) friction_force(&s, &c, v3(0, 0, 0), spin, 0.0, dt, &m);
     assert_near(m, -limit * arm, 1e-14);
     assert_near(fl_tangent_energy(s), 0.5 * limit * limit / k, 1e-14);
-    /* slip and turn of equal speed at the arm: each takes 1/sqrt(2) of the limit */
+    /* slip and rotation of equal speed at the arm: each takes 1/sqrt(2) of the limit */
     fl_vec3 f = v3(0, 0, 0);
-    for (int i = 0; i < 20000; i++) f = tangent(&s, &c, v3(spin * arm, 0, 0), spin, 0.0, dt, &m);
+    for (int i = 0; i < 20000; i++) f = friction_force(&s, &c, v3(spin * arm, 0, 0), spin, 0.0, dt, &m);
     assert_near(f.x, -limit / sqrt(2.0), 1e-6);
     assert_near(m, -limit * arm / sqrt(2.0), 1e-6);
-    /* whatever it does, it takes work */
+    /* work is always dissipated */
     s = (fl_friction_springs){0};
     for (int i = 1; i <= 20000; i++) {
         const double t = i * dt, w = 2.0 * sin(3.0 * t);
         const fl_vec3 v = v3(cos(5.0 * t), sin(2.0 * t), 0);
-        f = tangent(&s, &c, v, w, 0.0, dt, &m);
+        f = friction_force(&s, &c, v, w, 0.0, dt, &m);
         const double power = -(v3_dot(f, v) + m * w);
-        taken += 0.5 * dt * (power + before);
+        dissipated += 0.5 * dt * (power + before);
         before = power;
-        assert_true(taken - fl_tangent_energy(s) > -2.0 * dt * k * dt * i);
+        assert_true(dissipated - fl_tangent_energy(s) > -2.0 * dt * k * dt * i);
     }
-    assert_true(taken > fl_tangent_energy(s));
+    assert_true(dissipated > fl_tangent_energy(s));
     const fl_friction_contact point = {.n = v3(0, 0, 1), .k = k, .limit = limit};
-    tangent(&s, &point, v3(1, 0, 0), spin, 0.0, dt, &m); /* a point does not turn */
+    friction_force(&s, &point, v3(1, 0, 0), spin, 0.0, dt, &m); /* a point has no torsion */
     assert_near(m, 0.0, 0.0);
 }
 
@@ -600,26 +602,26 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(damping_is_that_of_the_table),
         cmocka_unit_test(damping_of_every_restitution_is_finite),
-        cmocka_unit_test(damping_of_one_goes_by_the_speed_at_the_end),
+        cmocka_unit_test(damping_of_one_contact_uses_the_speed_at_the_end),
         cmocka_unit_test(damping_of_many_is_stable),
         cmocka_unit_test(damping_solves_its_equation),
-        cmocka_unit_test(a_slow_contact_is_damped_as_an_impact_at_the_most),
-        cmocka_unit_test(material_gives_hertz_and_punch),
-        cmocka_unit_test(normal_powers_derive_from_one_another),
+        cmocka_unit_test(a_slow_contact_is_damped_at_most_as_an_impact),
+        cmocka_unit_test(material_gives_hertz_and_flat_punch),
+        cmocka_unit_test(normal_powers_are_derivatives_of_one_another),
         cmocka_unit_test(manual_modes_are_those_of_the_table),
         cmocka_unit_test(manual_crossed_edges),
         cmocka_unit_test(manual_sharp_sides_are_finite),
         cmocka_unit_test(manual_damping_by_its_exponent),
         cmocka_unit_test(friction_sticks_slides_and_comes_back),
-        cmocka_unit_test(friction_rolls_with_the_contact),
+        cmocka_unit_test(friction_memory_rotates_with_the_contact),
         cmocka_unit_test(friction_damping_stays_within_the_limit),
         cmocka_unit_test(friction_damping_solves_its_equation),
         cmocka_unit_test(friction_creates_no_energy),
-        cmocka_unit_test(friction_measured_anew_makes_no_energy),
+        cmocka_unit_test(a_corrected_stiffness_creates_no_energy),
         cmocka_unit_test(friction_is_continuous_where_it_begins_to_slide),
         cmocka_unit_test(friction_springs_are_of_order_two),
-        cmocka_unit_test(what_slides_follows_the_way_to_order_two),
-        cmocka_unit_test(friction_turns_and_shares_its_limit),
+        cmocka_unit_test(sliding_follows_the_path_to_order_two),
+        cmocka_unit_test(torsion_and_sliding_share_the_limit),
         cmocka_unit_test(friction_unloads_along_its_stiffness),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,7 +9,7 @@
 
 static fl_err err;
 
-static void limits(void **state)
+static void bins_have_stated_limits(void **state)
 {
     static const double x[] = {0.0,    -0.0,    1.0,    -1.0,    1.5,  3.999, 1e100, -1e100, DBL_MIN,
                                5e-324, -5e-324, 1e-310, -1e-310, 1e-5, 127.0, 128.0, -0.1,   DBL_MAX / 2};
@@ -21,7 +21,7 @@ static void limits(void **state)
         const int32_t key = fl_log_bin_key(x[k]);
         const double a = fl_log_bin_lower(key), b = fl_log_bin_upper(key);
         assert_true(x[k] > 0.0 ? a <= x[k] && x[k] < b : a < x[k] && x[k] <= b);
-        /* Neighbours leave no gap, and the limits name the class. */
+        /* Neighbouring bins leave no gap, and the limits identify the bin. */
         assert_true(fl_log_bin_lower(key + 1) == b && fl_log_bin_upper(key - 1) == a);
         assert_int_equal(fl_log_bin_key(0.5 * a + 0.5 * b), key);
         if (fabs(x[k]) >= DBL_MIN) assert_true(b - a <= fabs(x[k]) / 128 * (1.0 + 1.0 / 128));
@@ -34,7 +34,7 @@ static void limits(void **state)
     }
 }
 
-static void times(void **state)
+static void sums_of_fixed_times(void **state)
 {
     fl_fixed_time sum = {0, 0};
     (void)state;
@@ -46,7 +46,8 @@ static void times(void **state)
     assert_true(fl_fixed_time_seconds(fl_fixed_time_of(0x1p-65)) == 0.0);
 }
 
-/* Quantiles and highest shares against those of the values themselves, within what the header says. */
+/* Quantiles and means of the highest share against those of the values themselves, within the error of the
+ * header. */
 static void quantiles(void **state)
 {
     enum { N = 5000 };
@@ -75,7 +76,7 @@ static void quantiles(void **state)
         assert_int_equal(n, N);
         assert_int_equal(fl_compute_quantiles(N, x, w, 7, p, q, &err), 0);
         for (int j = 0; j < 7; j++) {
-            /* Where values are sparse the exact one is itself a choice within their spacing. */
+            /* Where values are sparse, the exact quantile is itself a choice within their spacing. */
             const double got = fl_log_histogram_quantile(c.n, sorted, p[j], lo, hi),
                          spacing = j % 6 ? 0.05 : 0.0;
             assert_near_of(got, q[j], 1.0, fabs(q[j]) / 128 + spacing);
@@ -88,7 +89,7 @@ static void quantiles(void **state)
     }
 }
 
-static void highest(void **state)
+static void means_of_the_highest_share(void **state)
 {
     const double x[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 100}, down[] = {100, 9, 8, 7, 6, 5, 4, 3, 2, 1};
     const double share[] = {1.0, 1.0 / 3.0, 0.1, 0.01};
@@ -107,7 +108,8 @@ static void highest(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(limits), cmocka_unit_test(times),
-                                       cmocka_unit_test(quantiles), cmocka_unit_test(highest)};
-    return cmocka_run_group_tests_name("classes", tests, NULL, NULL);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(bins_have_stated_limits),
+                                       cmocka_unit_test(sums_of_fixed_times), cmocka_unit_test(quantiles),
+                                       cmocka_unit_test(means_of_the_highest_share)};
+    return cmocka_run_group_tests_name("log_histogram", tests, NULL, NULL);
 }

@@ -56,18 +56,19 @@ static void sphere_and_capsule(void **state)
     fl_poly_free(&p);
     assert_int_equal(fl_poly_make(&p, 2, v, 0, NULL, NULL, &err), 0);
     assert_int_equal(fl_mass_of(&m, &p, r, &err), 0);
-    const double cyl = PI * r * r * l, ball = 4.0 / 3 * PI * r * r * r;
-    assert_near(m.volume, cyl + ball, 1e-14);
-    assert_near(m.inertia.x, cyl * r * r / 2 + ball * 0.4 * r * r, 1e-14);
+    const double cyl = PI * r * r * l, sphere_volume = 4.0 / 3 * PI * r * r * r;
+    assert_near(m.volume, cyl + sphere_volume, 1e-14);
+    assert_near(m.inertia.x, cyl * r * r / 2 + sphere_volume * 0.4 * r * r, 1e-14);
     assert_near(m.inertia.y,
-                cyl * (l * l / 12 + r * r / 4) + ball * (0.4 * r * r + l * l / 4 + 0.375 * l * r), 1e-14);
+                cyl * (l * l / 12 + r * r / 4) + sphere_volume * (0.4 * r * r + l * l / 4 + 0.375 * l * r),
+                1e-14);
     assert_near(m.inertia.z, m.inertia.y, 1e-14);
     assert_near(fabs(v3_dot(m3_col(m.axes, 0), v3(0, 0.6, 0.8))), 1.0, 1e-15);
     fl_poly_free(&p);
 }
 
-/* A regular polygon of many sides is nearly a disc: P + B(r) is then a disc with a rounded rim, whose volume
- * and moments are integrals of the half circle. */
+/* A regular polygon of many sides is nearly a disc: P + B(r) is then a disc with a rounded rim, the volume
+ * and moments of which are integrals over the half circle. */
 static void flat_core_is_a_pancake(void **state)
 {
     (void)state;
@@ -94,7 +95,8 @@ static void flat_core_is_a_pancake(void **state)
         axial += 0.5 * PI * w * w * w * w * dz;
         across += (0.25 * PI * w * w * w * w + PI * w * w * z * z) * dz;
     }
-    const double rim = 4.0 * PI * PI / (3.0 * N * N); /* the polygon misses its circle by this in area */
+    const double rim =
+        4.0 * PI * PI / (3.0 * N * N); /* the polygon is smaller than the circle by this area */
     assert_near(m.volume, vol, rim);
     assert_near(m.inertia.z, axial, 2 * rim);
     assert_near(m.inertia.x, across, 2 * rim);
@@ -108,8 +110,8 @@ static void flat_core_is_a_pancake(void **state)
     fl_poly_free(&p);
 }
 
-/* The moments of P + B(r), counted on a grid that is fine enough for three digits: the corner formulae by
- * another road. */
+/* The moments of P + B(r), counted on a grid fine enough for three digits: an independent check of the corner
+ * formulae. */
 static void round_moments_match_a_count(void **state)
 {
     (void)state;
@@ -120,7 +122,7 @@ static void round_moments_match_a_count(void **state)
         fl_poly p;
         fl_mass m;
         shape_regular(&p, faces, 1.0);
-        /* uneven, so that no moment is right by symmetry */
+        /* unequal, so that no moment is right by symmetry */
         fl_poly q;
         fl_vec3 v[12];
         for (int32_t k = 0; k < p.nv; k++)
@@ -170,9 +172,9 @@ static void round_moments_match_a_count(void **state)
         const double cell = step * step * step, tol = 4e-3;
         assert_near(n * cell, m.volume, tol);
         assert_near_of(v3_norm(v3_sub(v3_scale(1 / n, s), m.centre)), 0.0, tol, 1.0);
-        const double want[6] = {m.second.m[0][0], m.second.m[1][1], m.second.m[2][2],
-                                m.second.m[0][1], m.second.m[0][2], m.second.m[1][2]};
-        for (int k = 0; k < 6; k++) assert_near_of(xx[k] * cell, want[k], tol, m.second.m[0][0]);
+        const double expected[6] = {m.second.m[0][0], m.second.m[1][1], m.second.m[2][2],
+                                    m.second.m[0][1], m.second.m[0][2], m.second.m[1][2]};
+        for (int k = 0; k < 6; k++) assert_near_of(xx[k] * cell, expected[k], tol, m.second.m[0][0]);
         fl_poly_free(&p);
         fl_poly_free(&q);
     }
@@ -189,11 +191,11 @@ static void cube_volume_follows_steiner(void **state)
         fl_poly p;
         fl_mass m;
         assert_int_equal(fl_poly_box(&p, v3(s / 2, s / 2, s / 2), &err), 0);
-        const double want = s * s * s + 6 * s * s * r + 3 * PI * s * r * r + 4 * PI * r * r * r / 3;
-        assert_near(fl_dilate_volume(&p, r), want, 1e-14);
+        const double expected = s * s * s + 6 * s * s * r + 3 * PI * s * r * r + 4 * PI * r * r * r / 3;
+        assert_near(fl_dilate_volume(&p, r), expected, 1e-14);
         assert_near(fl_dilate_area(&p, r), 6 * s * s + 6 * PI * s * r + 4 * PI * r * r, 1e-14);
         assert_int_equal(fl_mass_of(&m, &p, r, &err), 0);
-        assert_near(m.volume, want, 1e-14);
+        assert_near(m.volume, expected, 1e-14);
         fl_poly_free(&p);
     }
 }
@@ -237,7 +239,7 @@ static void far_from_the_origin(void **state)
         fl_mass m, n;
         shape_random_polytope(&p, &g, 6);
         const double r = fl_rng_in(&g, 0.0, 0.3);
-        /* a shift that is a power of two moves the vertices without rounding them much */
+        /* a shift by a power of two moves the vertices almost without rounding */
         shape_copy_moved(&q, &p, 1.0, q_one(), v3(1048576, -1048576, 524288));
         assert_int_equal(fl_mass_of(&m, &p, r, &err), 0);
         assert_int_equal(fl_mass_of(&n, &q, r, &err), 0);

@@ -23,7 +23,7 @@ static void known_intervals(void **state)
     assert_near(e.high, 2.0, 0.0);
 }
 
-/* The upper end of a sample with a long upper tail satisfies the equation that it comes from. */
+/* The upper end of a sample with a long upper tail satisfies its defining equation. */
 static void ends_solve_the_equation(void **state)
 {
     const double x[] = {1, 2, 2, 3, 4, 12};
@@ -39,7 +39,7 @@ static void ends_solve_the_equation(void **state)
     assert_near(T + a * T * T / 3.0 + a * a * T * T * T / 27.0 + a / 6.0, -t, 1e-10);
 }
 
-/* Loads in other units, or of the other sign, have their interval in those units, or turned round. */
+/* Loads in other units or of the other sign have the interval in those units, or mirrored. */
 static void scale_shift_and_sign(void **state)
 {
     (void)state;

@@ -14,9 +14,9 @@ typedef struct {
     fl_vec3 v[MOST];
     fl_tri t[MOST];
     int32_t region[MOST], across[3 * MOST];
-} flat;
+} flat_mesh;
 
-static flat m;
+static flat_mesh m;
 static const fl_vec3 UP = {0, 0, 1};
 
 static void link_sides(void)
@@ -29,8 +29,8 @@ static void link_sides(void)
     }
 }
 
-/* n by n cells of [0, 1]^2 of which keep says which are there. */
-static void cells(int n, int (*keep)(double x, double y))
+/* n by n cells of [0, 1]^2; keep() selects the cells that exist. */
+static void make_cells(int n, int (*keep)(double x, double y))
 {
     m.nv = m.nt = 0;
     for (int j = 0; j <= n; j++)
@@ -54,8 +54,8 @@ static double twice_area(int32_t a, int32_t b, int32_t c)
     return v3_cross(v3_sub(m.v[b], m.v[a]), v3_sub(m.v[c], m.v[a])).z;
 }
 
-/* Convex, together as large as the triangles, and every triangle in its own. */
-static fl_merged_faces made(double tol)
+/* Polygons are convex, have together the area of the triangles, and every triangle lies in its own. */
+static fl_merged_faces merge_mesh(double tol)
 {
     fl_merged_faces o = {0};
     fl_err err = {0};
@@ -77,12 +77,12 @@ static fl_merged_faces made(double tol)
     return o;
 }
 
-static void a_square_is_one_tile_in_any_order(void **state)
+static void a_square_becomes_one_polygon_in_any_order(void **state)
 {
     (void)state;
     int32_t first[4] = {0};
     for (int turn = 0; turn < 4; turn++) {
-        cells(12, NULL);
+        make_cells(12, NULL);
         for (int32_t t = m.nt - 1; t > 0 && turn; t--) {
             fl_rng g = fl_rng_of(test_seed(), 100 * turn + t, FL_RNG_TEST);
             const int32_t u = (int32_t)fl_rng_in(&g, 0.0, t + 0.999);
@@ -90,7 +90,7 @@ static void a_square_is_one_tile_in_any_order(void **state)
             m.t[t] = m.t[u], m.t[u] = swap;
         }
         link_sides();
-        fl_merged_faces o = made(1e-9);
+        fl_merged_faces o = merge_mesh(1e-9);
         assert_int_equal(o.n, 1);
         assert_int_equal(o.first[1], 4);
         if (!turn) memcpy(first, o.loop, sizeof first);
@@ -102,28 +102,28 @@ static void a_square_is_one_tile_in_any_order(void **state)
 
 static int l_shape(double x, double y) { return x < 0.5 || y < 0.5; }
 static int frame(double x, double y) { return fabs(x - 0.5) > 0.2 || fabs(y - 0.5) > 0.2; }
-static int board(double x, double y) { return ((int)(4 * x) + (int)(4 * y)) % 2; }
+static int checkerboard(double x, double y) { return ((int)(4 * x) + (int)(4 * y)) % 2; }
 
-/* At most 4 times as many as need be would be 8 and 16 without inner vertices. */
-static void what_is_not_convex_becomes_few(void **state)
+/* At most 4 times as many as needed would be 8 and 16 without inner vertices. */
+static void a_non_convex_face_becomes_few_polygons(void **state)
 {
     (void)state;
-    cells(20, l_shape);
-    fl_merged_faces o = made(1e-9);
+    make_cells(20, l_shape);
+    fl_merged_faces o = merge_mesh(1e-9);
     assert_in_range(o.n, 2, 40);
     fl_merged_faces_free(&o);
-    cells(20, frame);
-    o = made(1e-9);
+    make_cells(20, frame);
+    o = merge_mesh(1e-9);
     assert_in_range(o.n, 4, 60);
     fl_merged_faces_free(&o);
-    /* squares that hang together by their corners only, as eight regions of one number */
-    cells(20, board);
-    o = made(1e-9);
+    /* squares that share only corners, as eight regions of one number */
+    make_cells(20, checkerboard);
+    o = merge_mesh(1e-9);
     assert_in_range(o.n, 8, 60);
     fl_merged_faces_free(&o);
 }
 
-static void a_disc_is_cut_by_chords(void **state)
+static void a_disc_is_divided_by_chords(void **state)
 {
     (void)state;
     const int32_t n = 200;
@@ -135,17 +135,16 @@ static void a_disc_is_cut_by_chords(void **state)
         m.t[m.nt++] = (fl_tri){{k, (k + 1) % n, n}};
     }
     link_sides();
-    fl_merged_faces o = made(1e-9);
-    assert_int_equal(o.n, 4); /* 198 triangles of corners, 62 a tile */
+    fl_merged_faces o = merge_mesh(1e-9);
+    assert_int_equal(o.n, 4); /* 198 triangles of corners, 62 per polygon */
     fl_merged_faces_free(&o);
 }
 
-/* As coordinates from a file of 32-bit floats: corners of the rim stand in and out by less than the
- * tolerance. */
+/* As coordinates from a file of 32-bit floats: corners of the rim are off by less than the tolerance. */
 static void rounded_corners_are_straight(void **state)
 {
     (void)state;
-    cells(12, NULL);
+    make_cells(12, NULL);
     for (int32_t v = 0; v < m.nv; v++) {
         fl_rng g = fl_rng_of(test_seed(), v, FL_RNG_TEST);
         m.v[v] = v3_add(m.v[v], v3(fl_rng_in(&g, -1e-7, 1e-7), fl_rng_in(&g, -1e-7, 1e-7), 0));
@@ -158,11 +157,11 @@ static void rounded_corners_are_straight(void **state)
     fl_merged_faces_free(&o);
 }
 
-static void regions_stay_apart(void **state)
+static void regions_are_not_merged(void **state)
 {
     (void)state;
     const fl_vec3 up[2] = {UP, UP};
-    cells(8, NULL);
+    make_cells(8, NULL);
     for (int32_t t = 0; t < m.nt; t++) m.region[t] = m.v[m.t[t].v[0]].x + m.v[m.t[t].v[1]].x >= 1.0 ? 1 : 0;
     m.region[0] = -1;
     fl_merged_faces o = {0};
@@ -176,11 +175,11 @@ static void regions_stay_apart(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_square_is_one_tile_in_any_order),
-        cmocka_unit_test(what_is_not_convex_becomes_few),
-        cmocka_unit_test(a_disc_is_cut_by_chords),
+        cmocka_unit_test(a_square_becomes_one_polygon_in_any_order),
+        cmocka_unit_test(a_non_convex_face_becomes_few_polygons),
+        cmocka_unit_test(a_disc_is_divided_by_chords),
         cmocka_unit_test(rounded_corners_are_straight),
-        cmocka_unit_test(regions_stay_apart),
+        cmocka_unit_test(regions_are_not_merged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lies under a face is summed up apart, and comes to the same. */
+/* The mesh under a face is summed separately, with the same result. */
 #include <math.h>
 #include "base/pi.h"
 #include "base/rng.h"
+#include "patch/patch_law.h"
+#include "patch/plane_distances.h"
 #include "structure/mesh_contact.h"
 #include "support/near.h"
 
 #define RADIUS 0.05
 
-/* A sheet of n by n cells on 2 m that bends by 1/8 1/m one way and 1/5 1/m the other, convex or hollow, and
- * is rough by `rough`; its seams lean by `lean`. */
-static void sheet(fl_surface *s, int n, double hollow, double rough, double lean)
+/* A sheet of n by n cells on 2 m with curvatures 1/8 1/m and 1/5 1/m, convex or hollow, with roughness
+ * `rough`; its seams are inclined by `incline`. */
+static void make_sheet(fl_surface *s, int n, double hollow, double rough, double incline)
 {
     fl_err err = {0};
     assert_true(fl_surface_add(s, "sheet", 5, &err) == 0);
@@ -18,7 +20,7 @@ static void sheet(fl_surface *s, int n, double hollow, double rough, double lean
     for (int j = 0; j <= n; j++) {
         for (int i = 0; i <= n; i++) {
             fl_rng g = fl_rng_of(test_seed(), j * (n + 1) + i, FL_RNG_TEST);
-            const double x = 2.0 * i / n - 1.0 + lean * j / n, y = 2.0 * j / n - 1.0;
+            const double x = 2.0 * i / n - 1.0 + incline * j / n, y = 2.0 * j / n - 1.0;
             const double z = -hollow * (x * x / 16.0 + y * y / 10.0) + fl_rng_in(&g, -rough, rough);
             assert_int_equal(fl_surface_vertex(p, v3(x, y, z), &err), 0);
         }
@@ -51,17 +53,17 @@ static sums sums_of(const fl_patch_points *w)
     return q;
 }
 
-static void it_is_the_same(void **state)
+static void sums_under_a_face_are_the_same(void **state)
 {
     (void)state;
     static const struct {
         int n;
-        double hollow, rough, lean;
+        double hollow, rough, incline;
     } CASE[5] = {{40, 1.0, 0.0, 0.07},
                  {60, 1.0, 1e-3, 0.07},
                  {40, -0.3, 0.0, 0.07},
                  {25, 0.0, 2e-3, 0.07},
-                 {40, 1.0, 0.0, 0.0}}; /* of which the sides of a face are seams, and the corners corners */
+                 {40, 1.0, 0.0, 0.0}}; /* the sides of a face are seams, and the corners are corners */
     fl_patch_points w = {0};
     fl_mesh_contact_work near = {0};
     fl_err err = {0};
@@ -69,8 +71,8 @@ static void it_is_the_same(void **state)
     for (int c = 0; c < 5; c++) {
         fl_surface surface = {0};
         fl_structure st = {0};
-        const int on_seams = CASE[c].lean == 0.0;
-        sheet(&surface, CASE[c].n, CASE[c].hollow, CASE[c].rough, CASE[c].lean);
+        const int on_seams = CASE[c].incline == 0.0;
+        make_sheet(&surface, CASE[c].n, CASE[c].hollow, CASE[c].rough, CASE[c].incline);
         assert_int_equal(fl_structure_build(&st, &surface, &err), 0);
         const fl_piece *piece = &st.piece[0];
         assert_int_equal(piece->kind, FL_PIECE_MESH);
@@ -79,7 +81,7 @@ static void it_is_the_same(void **state)
             fl_poly box = {0};
             fl_feature_pairs l = {0};
             double distance;
-            /* on a side, and on an edge of it; of some so thin that faces lie over all its sides */
+            /* on a side, and on an edge of it; some so thin that faces lie over all its sides */
             const double wide = on_seams ? 0.05 * (4 + k % 9) : fl_rng_in(&g, 0.2, 0.6), deep = on_seams ? 0.4
                                                                                                 : k % 5 == 4
                                                                                                     ? 0.012
@@ -100,7 +102,7 @@ static void it_is_the_same(void **state)
             assert_int_equal(
                 fl_mesh_contact_points(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, &l, &distance), 0);
             const sums fast = sums_of(&w);
-            const int32_t places = w.n;
+            const int32_t points = w.n;
             double shares = 0.0;
             for (int32_t i = 0; i < w.features; i++) {
                 shares += w.feature[i].force;
@@ -115,7 +117,7 @@ static void it_is_the_same(void **state)
                             all += 3.0 * w.point[i].du * v3_norm(w.point[i].n);
                 assert_near(shares, all, 1e-12);
             }
-            /* none behind the surface, or both would have its places */
+            /* none behind the surface, or both would have its points */
             if (l.candidates == 0) {
                 const fl_patch_core A = {&box, w.va, w.na, RADIUS, 1.0},
                                     B = {&piece->core, piece->core.v, piece->core.n, 0.0, -1.0};
@@ -125,17 +127,17 @@ static void it_is_the_same(void **state)
                     fl_feature_pairs_evaluate(&w, &l, &A, &B, RADIUS, 0.0, FL_PATCH_RIM_WIDTH * RADIUS, 0.0),
                     0);
                 const sums slow = sums_of(&w);
-                /* of rough sheets some tiles of two triangles are flat within 1e-6 of the size only, so that
-                 * a face is not quite the plane that it is taken for */
+                /* on rough sheets some pairs of triangles are flat only within 1e-6 of the size, so that a
+                 * face is not quite the plane assumed */
                 const double same = CASE[c].rough > 0.0 ? 1e-3 : 1e-12;
                 /* s is known to the rounding of coordinates of metres */
                 const double off = same * v3_norm(slow.f) + 1e-15 * slow.ddu;
                 assert_near_of(fast.u, slow.u, 1.0, same * slow.u + 1e-15 * slow.du);
                 assert_near_of(v3_norm(v3_sub(fast.f, slow.f)), 0.0, 1.0, off);
                 assert_near_of(v3_norm(v3_sub(fast.m, slow.m)), 0.0, 1.0, off);
-                saved += w.n - places;
+                saved += w.n - points;
             }
-            fl_feature_pairs_free(&l);
+            fl_mesh_under_face_free_pairs(&l);
             fl_poly_free(&box);
         }
         fl_structure_free(&st);
@@ -146,8 +148,8 @@ static void it_is_the_same(void **state)
     fl_mesh_contact_work_free(&near);
 }
 
-/* Looked at with a list that was made for another pose, and with one for this: every bit. */
-static void lists_leave_no_trace(void **state)
+/* Evaluated with a list made for another pose, and with one made for this pose: every bit is the same. */
+static void old_lists_change_no_bit(void **state)
 {
     (void)state;
     fl_patch_points w = {0};
@@ -157,7 +159,7 @@ static void lists_leave_no_trace(void **state)
     fl_poly box = {0};
     fl_err err = {0};
     int moved = 0;
-    sheet(&surface, 40, 1.0, 0.0, 0.07);
+    make_sheet(&surface, 40, 1.0, 0.0, 0.07);
     assert_int_equal(fl_structure_build(&st, &surface, &err), 0);
     assert_int_equal(fl_poly_box(&box, v3(0.5, 0.3, 0.3), &err), 0);
     const fl_piece *piece = &st.piece[0];
@@ -169,23 +171,24 @@ static void lists_leave_no_trace(void **state)
         const fl_vec3 at = v3_sub(
             v3(fl_rng_in(&g, -0.3, 0.3), fl_rng_in(&g, -0.3, 0.3), 0.3 + fl_rng_in(&g, 0, 0.04)), piece->x);
         sums seen[2];
-        int32_t places[2];
+        int32_t points[2];
         double distance;
-        for (int way = 0; way < 3; way++) { /* elsewhere, here with the same list, here with another */
+        for (int way = 0; way < 3;
+             way++) { /* the other body elsewhere, with the same list, and here again with another */
             fl_feature_pairs *l = way < 2 ? &old : &new;
             const fl_vec3 x = way ? at : v3_add(at, v3(4e-4, -3e-4, 2e-4));
             assert_int_equal(fl_patch_points_transform(&w, &box, q_matrix(q), x), 0);
             assert_int_equal(
                 fl_mesh_contact_points(&w, &near, &box, piece, RADIUS, 2.0 * RADIUS, l, &distance), 0);
-            if (way) seen[way - 1] = sums_of(&w), places[way - 1] = w.n;
+            if (way) seen[way - 1] = sums_of(&w), points[way - 1] = w.n;
         }
         moved += old.n != new.n;
-        assert_int_equal(places[0], places[1]);
+        assert_int_equal(points[0], points[1]);
         assert_memory_equal(&seen[0], &seen[1], sizeof seen[0]);
-        fl_feature_pairs_free(&old);
-        fl_feature_pairs_free(&new);
+        fl_mesh_under_face_free_pairs(&old);
+        fl_mesh_under_face_free_pairs(&new);
     }
-    assert_true(moved > 0); /* or nothing has been shown */
+    assert_true(moved > 0); /* otherwise nothing has been shown */
     fl_poly_free(&box);
     fl_structure_free(&st);
     fl_surface_free(&surface);
@@ -195,7 +198,7 @@ static void lists_leave_no_trace(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_the_same),
-                                       cmocka_unit_test(lists_leave_no_trace)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_under_a_face_are_the_same),
+                                       cmocka_unit_test(old_lists_change_no_bit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,7 +27,7 @@ static void windows_by_hand(void **state)
     assert_near(y[2], (1 + 4 + 2 + 16) / 5.0, 1e-14);
 }
 
-/* A sine comes out with its gain, sin(M a) / (M sin a) for windows of M rows, a = pi f h, and no shift. */
+/* A sine comes out with the gain sin(M a) / (M sin a) for windows of M rows, a = pi f h, and no shift. */
 static void sine_has_its_gain(void **state)
 {
     double edge[N + 1], x[N], y[N];
@@ -42,9 +42,9 @@ static void sine_has_its_gain(void **state)
     }
 }
 
-/* Against the sum over every overlap, for random intervals; a constant of any size stays to its last digits.
- */
-static void random_records(void **state)
+/* Against the sum over every overlap, for random intervals; a constant of any size stays to its last
+ * digits. */
+static void random_records_match_the_overlap_sum(void **state)
 {
     (void)state;
     for (int run = 0; run < test_times(50); run++) {
@@ -75,7 +75,7 @@ static void random_records(void **state)
     }
 }
 
-static void limits_are_sentences(void **state)
+static void invalid_limits_are_reported(void **state)
 {
     const double edge[] = {0, 1, 2}, x[] = {1, 2};
     double y[2];
@@ -95,7 +95,7 @@ static void limits_are_sentences(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(windows_by_hand), cmocka_unit_test(sine_has_its_gain),
-                                       cmocka_unit_test(random_records),
-                                       cmocka_unit_test(limits_are_sentences)};
+                                       cmocka_unit_test(random_records_match_the_overlap_sum),
+                                       cmocka_unit_test(invalid_limits_are_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

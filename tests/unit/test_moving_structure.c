@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What of a structure moves, by the sections of the scene. */
+/* Motion of structure parts as given by the sections of the scene. */
 #include "sim/setup.h"
 #include "support/near.h"
 #include <math.h>
@@ -12,7 +12,7 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-static void three_parts(lab *l)
+static void make_three_parts(lab *l)
 {
     lab_start(l);
     lab_sphere(l, v3(100, 0, 0), 0.1, ZERO, ZERO);
@@ -21,11 +21,11 @@ static void three_parts(lab *l)
     lab_cone(l, (fl_cone){v3(8, 0, -1), v3(8, 0, 1), 0.5, 0.5});
 }
 
-static void what_stands_still_has_no_mover(void **state)
+static void fixed_parts_have_no_motion(void **state)
 {
     lab l;
     (void)state;
-    three_parts(&l);
+    make_three_parts(&l);
     lab_make(&l, 1e-3);
     assert_int_equal(l.w.moving.movers.n, 0);
     assert_null(l.w.moving.mover_of_piece);
@@ -38,10 +38,10 @@ static void each_part_moves_as_its_section_says(void **state)
     lab l;
     fl_loads_motion m;
     (void)state;
-    three_parts(&l);
+    make_three_parts(&l);
     lab_set(&l, "structure.velocity=1 0 0");
     lab_set(&l, "part.part_2.velocity=0 2 0");
-    lab_set(&l, "part.part_3.reference=8 0 0"); /* nothing else: it stands */
+    lab_set(&l, "part.part_3.reference=8 0 0"); /* no other part moves */
     lab_make(&l, 1e-3);
     assert_int_equal(l.w.moving.movers.n, 2);
     assert_int_equal(fl_motion_columns(&l.w), FL_LOADS_TRANSLATION);
@@ -59,13 +59,13 @@ static void each_part_moves_as_its_section_says(void **state)
     lab_free(&l);
 }
 
-/* A load on one that turns is told about its reference, wherever that is by now. */
-static void columns_tell_turn_and_acceleration(void **state)
+/* The moment on a rotating part is taken about its reference point at its current position. */
+static void columns_hold_rotation_and_acceleration(void **state)
 {
     lab l;
     fl_loads_motion m;
     (void)state;
-    three_parts(&l);
+    make_three_parts(&l);
     lab_set(&l, "structure.spin=0 0 2");
     lab_set(&l, "part.part_2.free=x");
     lab_set(&l, "part.part_2.mass=2");
@@ -73,7 +73,7 @@ static void columns_tell_turn_and_acceleration(void **state)
     lab_set(&l, "part.part_2.damping=1 0 0");
     lab_make(&l, 1e-3);
     assert_int_equal(fl_motion_columns(&l.w), FL_LOADS_ROTATION);
-    l.w.moving.movers.b.x[1].x = 0.5; /* from its reference, the origin */
+    l.w.moving.movers.b.x[1].x = 0.5; /* from its reference point, the origin */
     lab_run(&l, 1);
     fl_part_motion(&l.w, 1, 1e-3, &m);
     assert_near(m.a.x, (-8 * m.u.x - m.v.x) / 2, 1e-13);
@@ -85,14 +85,14 @@ static void columns_tell_turn_and_acceleration(void **state)
     lab_free(&l);
 }
 
-static void the_step_knows_mass_and_springs(void **state)
+static void mass_and_springs_limit_the_step(void **state)
 {
     double dt[2];
     int32_t body = -1;
     (void)state;
     for (int k = 0; k < 2; k++) {
         lab l;
-        three_parts(&l);
+        make_three_parts(&l);
         lab_set(&l, "part.part_2.free=x");
         lab_set(&l, "part.part_2.mass=1000");
         lab_setf(&l, "part.part_2.stiffness=%g 0 0", k ? 1e13 : 1e3);
@@ -108,8 +108,8 @@ static void the_step_knows_mass_and_springs(void **state)
     assert_near(dt[1], 0.1 * 2.0 / sqrt(1e13 / 1000), 1e-2);
 }
 
-/* A box that floats, on a spring of its own besides. */
-static void the_sea_counts_in_critical_damping(void **state)
+/* A floating box with an additional spring. */
+static void added_mass_counts_in_critical_damping(void **state)
 {
     const double D = 0.05, m = 1025.0 * 2 * 2 * 1, k = 3e4;
     lab l;
@@ -129,10 +129,10 @@ static void the_sea_counts_in_critical_damping(void **state)
     lab_free(&l);
 }
 
-static void complaints(void **state)
+static void invalid_motions_are_reported(void **state)
 {
     static const struct {
-        const char *set[4], *says;
+        const char *set[4], *message;
     } wrong[] = {
         {{"structure.free=x"}, "structure.mass: free directions have a mass, and none is given"},
         {{"structure.mass=1"}, "a mass bears on free directions, and none of x y z is free"},
@@ -159,16 +159,16 @@ static void complaints(void **state)
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         lab l;
         fl_err err = {0};
-        three_parts(&l);
+        make_three_parts(&l);
         lab_set(&l, "structure.file=lab");
         for (int s = 0; s < 4 && wrong[k].set[s]; s++) lab_set(&l, wrong[k].set[s]);
         assert_int_equal(fl_scene_check(&l.scene, &err), -1);
-        if (!strstr(err.text, wrong[k].says)) fail_msg("%s", err.text);
+        if (!strstr(err.text, wrong[k].message)) fail_msg("%s", err.text);
         lab_free(&l);
     }
     lab l;
     fl_err err = {0};
-    three_parts(&l);
+    make_three_parts(&l);
     lab_set(&l, "structure.file=lab");
     lab_set(&l, "part.leg.velocity=1 0 0");
     assert_int_equal(fl_scene_check(&l.scene, &err), 0);
@@ -186,11 +186,11 @@ static void complaints(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_stands_still_has_no_mover),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fixed_parts_have_no_motion),
                                        cmocka_unit_test(each_part_moves_as_its_section_says),
-                                       cmocka_unit_test(columns_tell_turn_and_acceleration),
-                                       cmocka_unit_test(the_step_knows_mass_and_springs),
-                                       cmocka_unit_test(the_sea_counts_in_critical_damping),
-                                       cmocka_unit_test(complaints)};
-    return cmocka_run_group_tests_name("ride", tests, NULL, NULL);
+                                       cmocka_unit_test(columns_hold_rotation_and_acceleration),
+                                       cmocka_unit_test(mass_and_springs_limit_the_step),
+                                       cmocka_unit_test(added_mass_counts_in_critical_damping),
+                                       cmocka_unit_test(invalid_motions_are_reported)};
+    return cmocka_run_group_tests_name("moving_structure", tests, NULL, NULL);
 }

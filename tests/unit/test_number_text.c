@@ -27,7 +27,7 @@ static void shortest_text(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
         assert_string_equal(fl_number_text(known[k].x, buf), known[k].text);
-    /* 16 digits of the largest double round up beyond it and read as infinity: 17 are wanted. */
+    /* 16 digits of the largest double round up beyond it and read as infinity: 17 are needed. */
     assert_string_equal(fl_number_text(1.7976931348623157e308, buf), "1.7976931348623157e+308");
 }
 
@@ -52,21 +52,21 @@ static void text_reads_back(void **state)
     }
 }
 
-/* What the C library prints with the fewest digits that read back is what is printed without it. */
-static void same_as_library(double x)
+/* The text equals the shortest text of the C library that reads back. */
+static void compare_with_library(double x)
 {
-    char buf[FL_NUMBER_LEN], theirs[FL_NUMBER_LEN];
+    char buf[FL_NUMBER_LEN], library_text[FL_NUMBER_LEN];
     if (!isfinite(x) || x == 0.0) return;
     for (int digits = 15; digits <= 17; digits++) {
-        snprintf(theirs, sizeof theirs, "%.*g", digits, x);
-        if (strtod(theirs, NULL) == x) break;
+        snprintf(library_text, sizeof library_text, "%.*g", digits, x);
+        if (strtod(library_text, NULL) == x) break;
     }
-    assert_string_equal(fl_number_text(x, buf), theirs);
+    assert_string_equal(fl_number_text(x, buf), library_text);
 }
 
-/* Random bits, coordinates, thousandths, whole numbers, decimals of every length and size; every power of
- * ten and of two, with what stands beside it; exact halves of the last digit. */
-static void text_is_that_of_the_library(void **state)
+/* Random bits, coordinates, thousandths, integers, decimals of every length and size; every power of ten and
+ * of two with its neighbours; exact halves of the last digit. */
+static void text_equals_that_of_the_library(void **state)
 {
     (void)state;
     const long n = test_times(20000);
@@ -76,34 +76,35 @@ static void text_is_that_of_the_library(void **state)
         char text[40];
         double x;
         memcpy(&x, &bits, sizeof x);
-        same_as_library(x);
+        compare_with_library(x);
         snprintf(text, sizeof text, "%.*e", (int)(fl_rng_u64(&g) % 18), x);
-        same_as_library(strtod(text, NULL));
-        same_as_library(fl_rng_in(&g, -1e3, 1e3));
-        same_as_library(round(fl_rng_in(&g, -1e6, 1e6)) / 1000.0);
+        compare_with_library(strtod(text, NULL));
+        compare_with_library(fl_rng_in(&g, -1e3, 1e3));
+        compare_with_library(round(fl_rng_in(&g, -1e6, 1e6)) / 1000.0);
         for (double size = 1e-6; size < 1e9; size *= 10.0)
-            same_as_library((double)(float)fl_rng_in(&g, -size, size)); /* the last digit is often a half */
-        same_as_library((double)(fl_rng_u64(&g) >> fl_rng_u64(&g) % 64));
-        same_as_library(ldexp((double)(fl_rng_u64(&g) % 1000000), (int)(fl_rng_u64(&g) % 160) - 80));
+            compare_with_library(
+                (double)(float)fl_rng_in(&g, -size, size)); /* the last digit is often a half */
+        compare_with_library((double)(fl_rng_u64(&g) >> fl_rng_u64(&g) % 64));
+        compare_with_library(ldexp((double)(fl_rng_u64(&g) % 1000000), (int)(fl_rng_u64(&g) % 160) - 80));
     }
     for (int e = -330; e <= 308; e++)
         for (int d = 1; d < 100; d++) {
             char text[40];
             snprintf(text, sizeof text, "%de%d", d, e);
             const double x = strtod(text, NULL);
-            same_as_library(x);
-            same_as_library(-nextafter(x, 0.0));
-            same_as_library(nextafter(x, INFINITY));
+            compare_with_library(x);
+            compare_with_library(-nextafter(x, 0.0));
+            compare_with_library(nextafter(x, INFINITY));
         }
     for (int e = -1074; e < 1024; e++)
         for (int m = 1; m < 8; m += 2) {
-            same_as_library(ldexp(m, e));
-            same_as_library(nextafter(ldexp(m, e), 0.0));
-            same_as_library(nextafter(ldexp(m, e), INFINITY));
+            compare_with_library(ldexp(m, e));
+            compare_with_library(nextafter(ldexp(m, e), 0.0));
+            compare_with_library(nextafter(ldexp(m, e), INFINITY));
         }
 }
 
-static void text_not_finite(void **state)
+static void non_finite_numbers_as_text(void **state)
 {
     char buf[FL_NUMBER_LEN];
     (void)state;
@@ -140,8 +141,8 @@ static void reads_doubles(void **state)
     }
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         double x = 99;
-        if (fl_number_f64(bad[k], &x) != -1) fail_msg("\"%s\" was taken for %g", bad[k], x);
-        assert_true(x == 99); /* untouched */
+        if (fl_number_f64(bad[k], &x) != -1) fail_msg("\"%s\" was accepted for %g", bad[k], x);
+        assert_true(x == 99); /* unchanged */
     }
 }
 
@@ -162,7 +163,7 @@ static void reads_integers(void **state)
     assert_int_equal(fl_number_i32("-1", 0, 7, &x), -1);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         if (fl_number_i32(bad[k], INT32_MIN, INT32_MAX, &x) != -1)
-            fail_msg("\"%s\" was taken for %d", bad[k], x);
+            fail_msg("\"%s\" was accepted for %d", bad[k], x);
     assert_int_equal(x, 7);
 }
 
@@ -172,7 +173,7 @@ static void reads_seeds(void **state)
     static const char *const bad[] = {"", "-1", "+1", "18446744073709551616", "1.0", " 1", "1 ", "0x1"};
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
-        if (fl_number_u64(bad[k], &x) != -1) fail_msg("\"%s\" was taken", bad[k]);
+        if (fl_number_u64(bad[k], &x) != -1) fail_msg("\"%s\" was accepted", bad[k]);
     assert_true(x == 99);
     assert_int_equal(fl_number_u64("18446744073709551615", &x), 0);
     assert_true(x == UINT64_MAX);
@@ -184,10 +185,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(shortest_text),
                                        cmocka_unit_test(text_reads_back),
-                                       cmocka_unit_test(text_not_finite),
+                                       cmocka_unit_test(non_finite_numbers_as_text),
                                        cmocka_unit_test(reads_doubles),
                                        cmocka_unit_test(reads_integers),
                                        cmocka_unit_test(reads_seeds),
-                                       cmocka_unit_test(text_is_that_of_the_library)};
-    return cmocka_run_group_tests_name("num", tests, NULL, NULL);
+                                       cmocka_unit_test(text_equals_that_of_the_library)};
+    return cmocka_run_group_tests_name("number_text", tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
 #include "stat/oscillator.h"
 #include "support/near.h"
 
-/* Without damping (u, v/w) turns by 2 atan(w h / 2) a step and keeps its length. */
+/* Without damping (u, v/w) rotates by 2 atan(w h / 2) a step and keeps its length. */
 static void step_is_a_rotation(void **state)
 {
     const fl_oscillator o = {.frequency = 0.7};
@@ -19,7 +19,7 @@ static void step_is_a_rotation(void **state)
     }
 }
 
-static void what_stands_still_stays(void **state)
+static void a_state_of_rest_stays(void **state)
 {
     const double edge[] = {0, 1, 1.5, 4}, same[] = {-3, -3, -3}, none[] = {0, 0, 0};
     const fl_oscillator o = {2.0, 0.05};
@@ -40,7 +40,7 @@ static void what_stands_still_stays(void **state)
     assert_near(r.error, 0.0, 0.0);
 }
 
-/* A load that sets in suddenly: 1 + exp(-z pi / sqrt(1 - z^2)) half a period later, and w^2 F at once. */
+/* A load that starts suddenly: 1 + exp(-z pi / sqrt(1 - z^2)) half a period later, and w^2 F at once. */
 static void sudden_load(void **state)
 {
     const double edge[] = {0, 1, 41}, x[] = {0, -2};
@@ -58,8 +58,8 @@ static void sudden_load(void **state)
     assert_true(at[1].u < -1.0);
 }
 
-/* Equal loads in pieces are one load, whatever the pieces. */
-static void pieces_make_no_difference(void **state)
+/* Equal loads in pieces are one load, for any division. */
+static void splitting_a_load_changes_nothing(void **state)
 {
     enum { N = 500 };
     const double whole[] = {0, 1, 6}, x[] = {0, 1};
@@ -99,9 +99,9 @@ static void limits_and_lock_in(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step_is_a_rotation), cmocka_unit_test(what_stands_still_stays),
-        cmocka_unit_test(sudden_load), cmocka_unit_test(pieces_make_no_difference),
-        cmocka_unit_test(limits_and_lock_in)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(step_is_a_rotation),
+                                       cmocka_unit_test(a_state_of_rest_stays), cmocka_unit_test(sudden_load),
+                                       cmocka_unit_test(splitting_a_load_changes_nothing),
+                                       cmocka_unit_test(limits_and_lock_in)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Walls inside a surface: which side of its skin looks outward, and the bodies it was put together of. */
+/* Walls inside a surface: which side of the skin is outward, and the bodies of which it was assembled. */
 #include <math.h>
 #include "base/array.h"
 #include "base/rng.h"
@@ -17,9 +17,9 @@ static fl_err err;
 
 enum { N = 4 }; /* vertices along a side of the honeycomb */
 
-static int32_t at(int i, int j, int k) { return (i * N + j) * N + k; }
+static int32_t vertex_index(int i, int j, int k) { return (i * N + j) * N + k; }
 
-static void square(fl_part *p, const int32_t v[4], fl_rng *g)
+static void add_square(fl_part *p, const int32_t v[4], fl_rng *g)
 {
     for (int h = 0; h < 2; h++) {
         const int32_t a = v[0], b = v[1 + h], c = v[2 + h];
@@ -28,7 +28,7 @@ static void square(fl_part *p, const int32_t v[4], fl_rng *g)
     }
 }
 
-/* All walls of 3 x 3 x 3 cells, wound at random: each triangle, or each wall as a whole. */
+/* All walls of 3 x 3 x 3 cells, with random winding: each triangle, or each wall as a whole. */
 static fl_part honeycomb(fl_rng *g)
 {
     fl_part p = {0};
@@ -37,25 +37,32 @@ static fl_part honeycomb(fl_rng *g)
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N - 1; j++)
             for (int k = 0; k < N - 1; k++) {
-                square(&p, (int32_t[]){at(i, j, k), at(i, j + 1, k), at(i, j + 1, k + 1), at(i, j, k + 1)},
-                       g);
-                square(&p, (int32_t[]){at(j, i, k), at(j + 1, i, k), at(j + 1, i, k + 1), at(j, i, k + 1)},
-                       g);
-                square(&p, (int32_t[]){at(j, k, i), at(j + 1, k, i), at(j + 1, k + 1, i), at(j, k + 1, i)},
-                       g);
+                add_square(&p,
+                           (int32_t[]){vertex_index(i, j, k), vertex_index(i, j + 1, k),
+                                       vertex_index(i, j + 1, k + 1), vertex_index(i, j, k + 1)},
+                           g);
+                add_square(&p,
+                           (int32_t[]){vertex_index(j, i, k), vertex_index(j + 1, i, k),
+                                       vertex_index(j + 1, i, k + 1), vertex_index(j, i, k + 1)},
+                           g);
+                add_square(&p,
+                           (int32_t[]){vertex_index(j, k, i), vertex_index(j + 1, k, i),
+                                       vertex_index(j + 1, k + 1, i), vertex_index(j, k + 1, i)},
+                           g);
             }
     return p;
 }
 
-/* The way out of the honeycomb as it was made, at the middle of a triangle of its skin; 0 inside. */
-static fl_vec3 way_out(const fl_vec3 x[3])
+/* Outward direction of the honeycomb before rotation, at the centroid of a triangle of its skin; 0 inside. */
+static fl_vec3 outward_of(const fl_vec3 x[3])
 {
     const fl_vec3 c = v3_scale(1.0 / 3.0, v3_add(x[0], v3_add(x[1], x[2])));
-    const double most = N - 1, o = 1e-9;
-    return v3((c.x > most - o) - (c.x < o), (c.y > most - o) - (c.y < o), (c.z > 0.5 * most - o) - (c.z < o));
+    const double upper = N - 1, o = 1e-9;
+    return v3((c.x > upper - o) - (c.x < o), (c.y > upper - o) - (c.y < o),
+              (c.z > 0.5 * upper - o) - (c.z < o));
 }
 
-static void the_skin_of_a_honeycomb_looks_outward(void **state)
+static void the_skin_of_a_honeycomb_is_oriented_outward(void **state)
 {
     (void)state;
     for (int64_t k = 0; k < 50; k++) {
@@ -73,7 +80,7 @@ static void the_skin_of_a_honeycomb_looks_outward(void **state)
         for (int32_t t = 0; t < p.nt; t++) {
             fl_vec3 x[3], y[3];
             for (int c = 0; c < 3; c++) x[c] = was.v[p.t[t].v[c]], y[c] = p.v[p.t[t].v[c]];
-            const fl_vec3 out = way_out(x), n = v3_cross(v3_sub(y[1], y[0]), v3_sub(y[2], y[0]));
+            const fl_vec3 out = outward_of(x), n = v3_cross(v3_sub(y[1], y[0]), v3_sub(y[2], y[0]));
             if (v3_norm(out) > 0.0) assert_true(v3_dot(n, m3_mul(R, out)) > 0.0);
         }
         assert_int_equal(fl_part_drop_inner_walls(&p, &gone, &err), 0);
@@ -85,8 +92,8 @@ static void the_skin_of_a_honeycomb_looks_outward(void **state)
     }
 }
 
-/* A box beside the first one of p, which has the wall between them. */
-static void another_without_its_wall(fl_part *p)
+/* A box next to the first one of p, without the wall between them. */
+static void add_open_box(fl_part *p)
 {
     int32_t kept = 12;
     fl_facet_box(p, v3(1, 0, 0), v3(2, 1, 1), &err);
@@ -97,7 +104,7 @@ static void another_without_its_wall(fl_part *p)
     p->nt = kept;
 }
 
-/* Two boxes side by side, the second inside out, and a fin on the first. */
+/* Two boxes side by side, the second inverted, and a fin on the first. */
 static void boxes_that_share_a_wall(void **state)
 {
     (void)state;
@@ -108,7 +115,7 @@ static void boxes_that_share_a_wall(void **state)
         fl_orient_counts o;
         int32_t gone;
         fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
-        another_without_its_wall(&p);
+        add_open_box(&p);
         for (int32_t t = 12; t < 22; t++) {
             const int32_t keep = p.t[t].v[1];
             p.t[t].v[1] = p.t[t].v[2];
@@ -128,13 +135,13 @@ static void boxes_that_share_a_wall(void **state)
         assert_int_equal(gone, 2);
         assert_int_equal(fl_part_measure(&p, &q, &err), 0);
         assert_int_equal(q.branched, fin);
-        assert_near(q.volume, 2.0 + fin / 12.0, 1e-14); /* the cone from the middle over the fin */
+        assert_near(q.volume, 2.0 + fin / 12.0, 1e-14); /* the cone from the centre over the fin */
         fl_part_free(&p);
     }
 }
 
-/* A plate of two sides is no wall, by itself or on a box; two boxes end to end are one, though another passes
- * through both and has a corner in common with each. */
+/* A two-sided plate is no wall, alone or on a box. Two boxes end to end are one, though another body passes
+ * through both and shares a corner with each. */
 static void double_walls_go_and_plates_stay(void **state)
 {
     fl_part p = {0};
@@ -162,7 +169,7 @@ static void double_walls_go_and_plates_stay(void **state)
     fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
     fl_facet_box(&p, v3(1, 0, 0), v3(2, 1, 1), &err);
     fl_facet_cone(&p, &(fl_cone){v3(1, .5, -1), v3(1, .5, 2), .3, .3}, 8, &err);
-    p.v[p.t[24].v[0]] = v3(0, 0, 0), p.v[p.t[24].v[1]] = v3(1, 0, 0); /* it has an edge of the first */
+    p.v[p.t[24].v[0]] = v3(0, 0, 0), p.v[p.t[24].v[1]] = v3(1, 0, 0); /* shares an edge with the first */
     assert_int_equal(fl_part_weld(&p, 0.0, &w, &err), 0);
     assert_int_equal(fl_part_drop_inner_walls(&p, &gone, &err), 0);
     assert_int_equal(gone, 4);
@@ -172,9 +179,9 @@ static void double_walls_go_and_plates_stay(void **state)
     fl_part_free(&p);
 }
 
-/* A plate of two sides by itself, on a box, and on a box that lacks its lid: on others both sides go, and
- * what was closed is. */
-static void fins_go_with_both_sides(void **state)
+/* A two-sided plate alone, on a box, and on a box without its lid: on other bodies both sides are removed,
+ * and closed bodies stay closed. */
+static void fins_are_removed_on_both_sides(void **state)
 {
     (void)state;
     for (int k = 0; k < 3; k++) {
@@ -206,9 +213,9 @@ static void fins_go_with_both_sides(void **state)
     }
 }
 
-/* What goes by itself is told by itself: one box within another that has a wall, two that overlap in part
- * of a face and have an edge in common, which must stay as they are. */
-static void bodies_by_themselves_are_left_alone(void **state)
+/* Separate bodies are judged separately: a box inside another that has a wall, and two that overlap in part
+ * of a face and share an edge, which must stay unchanged. */
+static void separate_bodies_stay_unchanged(void **state)
 {
     fl_part p = {0};
     fl_edges e;
@@ -216,7 +223,7 @@ static void bodies_by_themselves_are_left_alone(void **state)
     uint8_t side[36];
     (void)state;
     fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
-    another_without_its_wall(&p);
+    add_open_box(&p);
     fl_facet_box(&p, v3(.25, .25, .25), v3(.75, .75, .75), &err);
     assert_int_equal(fl_part_weld(&p, 0.0, &w, &err), 0);
     assert_int_equal(fl_edges_make(&e, &p, &err), 0);
@@ -226,7 +233,7 @@ static void bodies_by_themselves_are_left_alone(void **state)
                          p.v[p.t[t].v[0]].x == 1 && p.v[p.t[t].v[1]].x == 1 && p.v[p.t[t].v[2]].x == 1
                              ? FL_OUTER_NONE
                              : FL_OUTER_FRONT);
-    for (int32_t t = 22; t < 34; t++) assert_int_equal(side[t], FL_OUTER_BOTH); /* its volume tells */
+    for (int32_t t = 22; t < 34; t++) assert_int_equal(side[t], FL_OUTER_BOTH); /* found by its volume */
     fl_edges_free(&e);
     fl_part_free(&p);
     p = (fl_part){0};
@@ -240,24 +247,24 @@ static void bodies_by_themselves_are_left_alone(void **state)
     fl_part_free(&p);
 }
 
-static void bodies_that_share_edges_are_kept_apart(void **state)
+static void bodies_that_share_edges_stay_separate(void **state)
 {
     fl_part p = {0};
     fl_weld w;
-    int32_t shell[36], odd;
+    int32_t shell[36], odd_edges;
     (void)state;
     fl_facet_box(&p, v3(0, 0, 0), v3(1, 1, 1), &err);
     fl_facet_box(&p, v3(1, 1, 0), v3(2, 2, 1), &err);
     fl_facet_box(&p, v3(0, 1, 0), v3(1, 3, 1), &err); /* walls of both, a wall of the first, and edges */
     assert_int_equal(fl_part_weld(&p, 0.0, &w, &err), 0);
-    assert_int_equal(fl_part_connected(&p, shell, &odd, &err), 0);
-    assert_int_equal(odd, 0);
+    assert_int_equal(fl_part_connected(&p, shell, &odd_edges, &err), 0);
+    assert_int_equal(odd_edges, 0);
     for (int32_t t = 0; t < 36; t++) assert_int_equal(shell[t], t / 12 * 12);
     fl_part_free(&p);
 }
 
-/* Triangles that come twice, either way round: one of each two is the skin. */
-static void doubled_triangles_are_one_behind_the_other(void **state)
+/* Triangles that occur twice, in either winding: one of each two is the skin. */
+static void one_of_two_coincident_triangles_is_skin(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 7, FL_RNG_TEST);
     (void)state;
@@ -273,7 +280,7 @@ static void doubled_triangles_are_one_behind_the_other(void **state)
             if (chance < 1) fl_surface_triangle(&p, v[1], v[2], v[0], &err);
             else if (chance < 2) fl_surface_triangle(&p, v[0], v[2], v[1], &err);
         }
-        if (p.nt == 24) p.nt--; /* two boxes, each closed, would not tell */
+        if (p.nt == 24) p.nt--; /* two boxes, each closed, would not show it */
         assert_int_equal(fl_edges_make(&e, &p, &err), 0);
         assert_int_equal(fl_part_outer_sides(&p, &e, side, &err), 0);
         for (int32_t t = 0; t < p.nt; t++) {
@@ -289,13 +296,13 @@ static void doubled_triangles_are_one_behind_the_other(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_skin_of_a_honeycomb_looks_outward),
+        cmocka_unit_test(the_skin_of_a_honeycomb_is_oriented_outward),
         cmocka_unit_test(boxes_that_share_a_wall),
         cmocka_unit_test(double_walls_go_and_plates_stay),
-        cmocka_unit_test(fins_go_with_both_sides),
-        cmocka_unit_test(bodies_by_themselves_are_left_alone),
-        cmocka_unit_test(doubled_triangles_are_one_behind_the_other),
-        cmocka_unit_test(bodies_that_share_edges_are_kept_apart),
+        cmocka_unit_test(fins_are_removed_on_both_sides),
+        cmocka_unit_test(separate_bodies_stay_unchanged),
+        cmocka_unit_test(one_of_two_coincident_triangles_is_skin),
+        cmocka_unit_test(bodies_that_share_edges_stay_separate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Near pairs have room of their own while they touch, and not for long after. */
+/* A near pair has storage of its own while it touches, and is released soon after. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +12,8 @@
 #include "support/small_world.h"
 #include "support/near.h"
 
-/* Two floes that bounce off each other; the first is run into. */
-static void two(lab *l, const char *more)
+/* Two floes that collide and rebound; the first one is at rest. */
+static void make_two_floes(lab *l, const char *more)
 {
     lab_start(l);
     lab_set(l, "contact.stiffness_factor=0.05");
@@ -23,15 +23,15 @@ static void two(lab *l, const char *more)
     lab_make(l, 2e-4);
 }
 
-static void room_comes_and_goes(void **state)
+static void storage_is_kept_only_while_pairs_touch(void **state)
 {
     (void)state;
     lab l;
-    two(&l, NULL);
+    make_two_floes(&l, NULL);
     int had = 0, freed = 0;
     for (int k = 0; k < 600; k++) {
         assert_int_equal(lab_run(&l, 1), 0);
-        if (l.w.n_pair == 0) break; /* they have parted for good */
+        if (l.w.n_pair == 0) break; /* they have separated for good */
         const fl_neighbour_pair *q = &l.w.pair[0];
         if (q->touching) {
             assert_non_null(q->contact);
@@ -53,14 +53,14 @@ static void room_comes_and_goes(void **state)
     lab_free(&l);
 }
 
-/* A pair with and without room of its own is the same pair. */
-static void nothing_is_forgotten_that_lasts(void **state)
+/* A pair with and without storage of its own gives the same results. */
+static void touching_pairs_keep_their_history(void **state)
 {
     (void)state;
     lab l;
     fl_pair p, q;
-    two(&l, NULL);
-    lab_run(&l, 3); /* not yet there, but looked at */
+    make_two_floes(&l, NULL);
+    lab_run(&l, 3); /* not yet in contact, but evaluated */
     fl_neighbour_pair *near = &l.w.pair[0];
     assert_null(near->contact);
     assert_true(near->has_axis);
@@ -81,8 +81,9 @@ static void nothing_is_forgotten_that_lasts(void **state)
     lab_free(&l);
 }
 
-/* What kept a sphere from rolling on a floe goes with the room: it was lost with each contact that ended. */
-static void what_rolled_is_freed(void **state)
+/* The rolling springs of a sphere on a floe are freed with the storage; they were once leaked with each
+ * contact that ended. */
+static void rolling_state_is_freed_with_the_contact(void **state)
 {
     (void)state;
     lab l;
@@ -109,7 +110,7 @@ static void what_rolled_is_freed(void **state)
 }
 
 /* Boxes, capsules and a sphere over a wall, in every order of two. */
-static void all_kinds(lab *l, double stiffness)
+static void make_all_kinds(lab *l, double stiffness)
 {
     lab_start(l);
     lab_set(l, "boundary.min=none none 0");
@@ -122,12 +123,12 @@ static void all_kinds(lab *l, double stiffness)
     lab_make(l, 1e-6);
 }
 
-/* What auto takes, given, is auto: of a face, or Hertz' where one of the two is round. */
-static void stiffness_is_given_to_all_kinds(void **state)
+/* The automatic stiffness, given explicitly, gives the same: that of a face, or Hertz' for rounded bodies. */
+static void a_given_stiffness_acts_on_all_kinds(void **state)
 {
     (void)state;
-    lab l, told;
-    all_kinds(&l, 0.0);
+    lab l, explicit_world;
+    make_all_kinds(&l, 0.0);
     const fl_bodies *b = &l.w.b;
     for (int32_t i = 0; i < l.w.n; i++) {
         for (int32_t j = i + 1; j < b->total; j++) {
@@ -137,18 +138,18 @@ static void stiffness_is_given_to_all_kinds(void **state)
             const double area =
                 j == l.w.n ? l.w.max_face_area[i] : fmin(l.w.max_face_area[i], l.w.max_face_area[j]);
             const double R = fl_material_radius(b->radius[i], b->radius[j]);
-            all_kinds(&told, face ? fl_material_punch(E, area) : fl_material_hertz(E, R));
-            const fl_pair_spring given = fl_pair_stiffness(&told.w, i, j);
+            make_all_kinds(&explicit_world, face ? fl_material_punch(E, area) : fl_material_hertz(E, R));
+            const fl_pair_spring given = fl_pair_stiffness(&explicit_world.w, i, j);
             assert_true(fabs(given.k / k - 1.0) < 1e-14);
             assert_true(given.exponent == s.exponent && given.points == s.points);
-            lab_free(&told);
+            lab_free(&explicit_world);
         }
     }
     lab_free(&l);
 }
 
-/* kappa s^(3/2), as that of a sphere. */
-static void a_capsule_stands_on_its_end(void **state)
+/* kappa s^(3/2), as for a sphere. */
+static void a_capsule_on_its_end_is_a_sphere(void **state)
 {
     (void)state;
     lab l;
@@ -164,16 +165,16 @@ static void a_capsule_stands_on_its_end(void **state)
     lab_free(&l);
 }
 
-static void without_memory_the_step_says_so(void **state)
+static void allocation_failure_ends_the_step(void **state)
 {
     (void)state;
     lab l;
     fl_err err = {0};
-    two(&l, NULL);
+    make_two_floes(&l, NULL);
     int rc = 0;
     for (int k = 0; k < 600 && rc == 0; k++) {
-        const int soon = l.w.n_pair && !l.w.pair[0].contact;
-        if (soon) fl_alloc_fail_after(0);
+        const int fail_allocation = l.w.n_pair && !l.w.pair[0].contact;
+        if (fail_allocation) fl_alloc_fail_after(0);
         rc = fl_step(&l.w, &err);
         fl_alloc_fail_after(-1);
     }
@@ -182,8 +183,8 @@ static void without_memory_the_step_says_so(void **state)
     lab_free(&l);
 }
 
-/* Wherever it runs out on the way through a hit, of which a surrogate tells a part. */
-static void without_memory_a_surrogate_says_so(void **state)
+/* Allocation failure at any point of an impact, part of which a surrogate evaluates. */
+static void allocation_failure_with_a_surrogate_is_reported(void **state)
 {
     (void)state;
     int rc = -1;
@@ -191,7 +192,7 @@ static void without_memory_a_surrogate_says_so(void **state)
     for (; rc; after++) {
         lab l;
         fl_err err = {0};
-        two(&l, "contact.surrogate=0.01");
+        make_two_floes(&l, "contact.surrogate=0.01");
         lab_run(&l, 3);
         assert_null(l.w.pair[0].contact);
         rc = 0;
@@ -206,8 +207,8 @@ static void without_memory_a_surrogate_says_so(void **state)
     assert_true(after > 3);
 }
 
-/* Twice the bodies take as much again, between bounds that a core and its arrays have. */
-static void the_footprint_follows_the_bodies(void **state)
+/* Twice as many bodies take as much memory again, within bounds given by a core and its arrays. */
+static void memory_use_follows_the_bodies(void **state)
 {
     (void)state;
     double all[2];
@@ -226,9 +227,9 @@ static void the_footprint_follows_the_bodies(void **state)
     assert_true(all[1] - all[0] > 64 * 700.0 && all[1] - all[0] < 64 * 1400.0);
 }
 
-/* `core` knows of no nearest pair there: the nose of an arrow meets the side of a box, none of whose corners
- * is near. */
-static void patch_stands_in_where_parts_are_not_convex(void **state)
+/* `core` finds no closest pair there: the tip of an arrow meets the side of a box, none of the corners of
+ * which is close. */
+static void non_convex_parts_use_law_patch(void **state)
 {
     static const char *const law[] = {"contact.law=patch", "contact.law=core", "contact.law=manual-si"};
     const fl_vec3 arrow[] = {{0, 0, 0}, {3, -1, 0}, {2, 0, 0}, {3, 1, 0}};
@@ -241,7 +242,7 @@ static void patch_stands_in_where_parts_are_not_convex(void **state)
         lab_prism(&l, 4, arrow, -2.0, 2.0);
         lab_box(&l, v3(-0.49, 0, 0), v3(0.5, 0.8, 0.3), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_make(&l, 1e-6);
-        const fl_pair p = lab_look(&l.w, 0, 1);
+        const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
         assert_int_equal(p.touching, 1);
         assert_true(p.points == FL_POINTS_PATCH && p.force.x < 0.0);
         f[k] = p.force;
@@ -252,14 +253,14 @@ static void patch_stands_in_where_parts_are_not_convex(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(patch_stands_in_where_parts_are_not_convex),
-                                       cmocka_unit_test(room_comes_and_goes),
-                                       cmocka_unit_test(nothing_is_forgotten_that_lasts),
-                                       cmocka_unit_test(what_rolled_is_freed),
-                                       cmocka_unit_test(stiffness_is_given_to_all_kinds),
-                                       cmocka_unit_test(a_capsule_stands_on_its_end),
-                                       cmocka_unit_test(without_memory_a_surrogate_says_so),
-                                       cmocka_unit_test(without_memory_the_step_says_so),
-                                       cmocka_unit_test(the_footprint_follows_the_bodies)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(non_convex_parts_use_law_patch),
+                                       cmocka_unit_test(storage_is_kept_only_while_pairs_touch),
+                                       cmocka_unit_test(touching_pairs_keep_their_history),
+                                       cmocka_unit_test(rolling_state_is_freed_with_the_contact),
+                                       cmocka_unit_test(a_given_stiffness_acts_on_all_kinds),
+                                       cmocka_unit_test(a_capsule_on_its_end_is_a_sphere),
+                                       cmocka_unit_test(allocation_failure_with_a_surrogate_is_reported),
+                                       cmocka_unit_test(allocation_failure_ends_the_step),
+                                       cmocka_unit_test(memory_use_follows_the_bodies)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

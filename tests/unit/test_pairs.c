@@ -17,13 +17,13 @@ static fl_aabb random_box(fl_rng *g, double side, double lo, double hi)
     return (fl_aabb){v3_sub(c, h), v3_add(c, h)};
 }
 
-/* n boxes that move, then `held` ones, then `wide` half-spaces. */
-static fl_aabb *scene(fl_rng *g, int32_t n, int32_t held, int32_t wide)
+/* n moving boxes, then `held` fixed ones, then `wide` half-spaces. */
+static fl_aabb *make_boxes(fl_rng *g, int32_t n, int32_t fixed, int32_t wide)
 {
-    fl_aabb *box = calloc((size_t)(n + held + wide) + 1, sizeof *box);
+    fl_aabb *box = calloc((size_t)(n + fixed + wide) + 1, sizeof *box);
     assert_non_null(box);
-    for (int32_t k = 0; k < n + held; k++) box[k] = random_box(g, 10.0, -4.0, k % 50 == 0 ? 2.0 : 0.3);
-    for (int32_t k = n + held; k < n + held + wide; k++) {
+    for (int32_t k = 0; k < n + fixed; k++) box[k] = random_box(g, 10.0, -4.0, k % 50 == 0 ? 2.0 : 0.3);
+    for (int32_t k = n + fixed; k < n + fixed + wide; k++) {
         box[k] = (fl_aabb){v3(-INFINITY, -INFINITY, -INFINITY), v3(INFINITY, INFINITY, INFINITY)};
         if (k % 2) box[k].hi.x = -5.0;
         else box[k].lo.z = 5.0;
@@ -32,7 +32,7 @@ static fl_aabb *scene(fl_rng *g, int32_t n, int32_t held, int32_t wide)
 }
 
 /* All pairs (i, j), i < n, i < j, whose boxes meet, in order. */
-static void compare(const fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total)
+static void compare_with_brute_force(const fl_pairs *p, const fl_aabb *box, int32_t n, int32_t total)
 {
     int64_t at = 0;
     for (int32_t i = 0; i < n; i++) {
@@ -47,31 +47,31 @@ static void compare(const fl_pairs *p, const fl_aabb *box, int32_t n, int32_t to
     assert_true(p->first[n] == at);
 }
 
-static void finds_what_brute_force_finds(void **state)
+static void pairs_are_those_of_brute_force(void **state)
 {
     fl_pairs p = {0};
     (void)state;
     for (long c = 0; c < test_times(30); c++) {
         fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
         fl_err err = {0};
-        const int32_t n = (int32_t)fl_rng_in(&g, 0, 300), held = (int32_t)fl_rng_in(&g, 0, 40),
+        const int32_t n = (int32_t)fl_rng_in(&g, 0, 300), fixed = (int32_t)fl_rng_in(&g, 0, 40),
                       wide = (int32_t)fl_rng_in(&g, 0, 6);
-        fl_aabb *box = scene(&g, n, held, wide);
-        assert_int_equal(fl_pairs_find(&p, box, n, n + held + wide, wide, &err),
+        fl_aabb *box = make_boxes(&g, n, fixed, wide);
+        assert_int_equal(fl_pairs_find(&p, box, n, n + fixed + wide, wide, &err),
                          0); /* the lists are used again */
-        compare(&p, box, n, n + held + wide);
+        compare_with_brute_force(&p, box, n, n + fixed + wide);
         free(box);
     }
     fl_pairs_free(&p);
     fl_pairs_free(&p);
 }
 
-/* What has been let go of is found again, in the same space and without the same. */
-static void what_is_dropped_comes_again(void **state)
+/* Cleared lists are found again, with the same memory and without it. */
+static void cleared_pairs_are_found_again(void **state)
 {
     (void)state;
     fl_rng g = fl_rng_of(test_seed(), 7, FL_RNG_TEST);
-    fl_aabb *box = scene(&g, 200, 10, 1);
+    fl_aabb *box = make_boxes(&g, 200, 10, 1);
     uint8_t away[200] = {[3] = 1, [150] = 1};
     fl_pairs p = {.period = v3(40, 0, 0), .absent = away};
     fl_err err = {0};
@@ -92,12 +92,12 @@ static void what_is_dropped_comes_again(void **state)
     free(partner), free(box);
 }
 
-static void threads_give_the_same_lists(void **state)
+static void lists_do_not_depend_on_the_threads(void **state)
 {
-    const int32_t n = 1500, held = 20, wide = 2;
+    const int32_t n = 1500, fixed = 20, wide = 2;
     const int threads[] = {1, 2, 3, 8};
     fl_rng g = fl_rng_of(test_seed(), 1, FL_RNG_TEST);
-    fl_aabb *box = scene(&g, n, held, wide);
+    fl_aabb *box = make_boxes(&g, n, fixed, wide);
     fl_pairs one = {0};
     const int before = omp_get_max_threads();
     (void)state;
@@ -105,9 +105,9 @@ static void threads_give_the_same_lists(void **state)
         fl_pairs p = {0};
         fl_err err = {0};
         omp_set_num_threads(threads[k]);
-        assert_int_equal(fl_pairs_find(&p, box, n, n + held + wide, wide, &err), 0);
+        assert_int_equal(fl_pairs_find(&p, box, n, n + fixed + wide, wide, &err), 0);
         if (k == 0) {
-            compare(&p, box, n, n + held + wide);
+            compare_with_brute_force(&p, box, n, n + fixed + wide);
             one = p;
             continue;
         }
@@ -120,9 +120,9 @@ static void threads_give_the_same_lists(void **state)
     free(box);
 }
 
-/* A large and a million times smaller body in one domain, thousands of them: no known pair is missed (H09).
- */
-static void misses_none_at_a_size_ratio_of_a_million(void **state)
+/* A large body and thousands of bodies a million times smaller in one domain: no known pair is missed
+ * (H09). */
+static void no_pair_is_missed_at_a_size_ratio_of_a_million(void **state)
 {
     enum { PAIRS = 2000 };
     const int32_t n = 2 * PAIRS + 1;
@@ -133,7 +133,7 @@ static void misses_none_at_a_size_ratio_of_a_million(void **state)
     (void)state;
     assert_non_null(box);
     box[0] = (fl_aabb){v3(-100, -100, -100), v3(100, 100, 100)};
-    for (int32_t k = 1; k < n; k += 2) { /* on its six faces, two and two overlapping by a tenth */
+    for (int32_t k = 1; k < n; k += 2) { /* on its six faces, in pairs that overlap by a tenth */
         fl_vec3 c = v3(fl_rng_in(&g, -99, 99), fl_rng_in(&g, -99, 99), 100.0);
         if (k % 3 == 1) c = v3(c.y, -c.z, c.x);
         if (k % 3 == 2) c = v3(c.z, c.x, c.y);
@@ -149,15 +149,15 @@ static void misses_none_at_a_size_ratio_of_a_million(void **state)
         assert_int_equal(big, 1);
         assert_int_equal(small, 1);
     }
-    compare(&p, box, n, n);
+    compare_with_brute_force(&p, box, n, n);
     fl_pairs_free(&p);
     free(box);
 }
 
-static void runs_out_of_memory_in_peace(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 3, FL_RNG_TEST);
-    fl_aabb *box = scene(&g, 200, 5, 1);
+    fl_aabb *box = make_boxes(&g, 200, 5, 1);
     int done = 0;
     (void)state;
     for (int64_t after = 0; !done && after < 100; after++) {
@@ -176,16 +176,17 @@ static void runs_out_of_memory_in_peace(void **state)
     free(box);
 }
 
-/* The same with images: every pair of images in reach, brute force over more of them than can meet. */
-static void finds_images(void **state)
+/* The same with periodic images: every pair of images in reach, by brute force over more images than can
+ * touch. */
+static void periodic_images_are_found(void **state)
 {
     fl_pairs p = {0};
     (void)state;
     for (long c = 0; c < test_times(30); c++) {
         fl_rng g = fl_rng_of(test_seed(), c, FL_RNG_TEST);
         fl_err err = {0};
-        const int32_t n = (int32_t)fl_rng_in(&g, 0, 100), held = (int32_t)fl_rng_in(&g, 0, 10),
-                      total = n + held;
+        const int32_t n = (int32_t)fl_rng_in(&g, 0, 100), fixed = (int32_t)fl_rng_in(&g, 0, 10),
+                      total = n + fixed;
         const int32_t which = (int32_t)fl_rng_in(&g, 1, 8);
         int64_t at = 0;
         p.period = v3(which & 1 ? 20.0 : 0, which & 2 ? 23.0 : 0, which & 4 ? 21.0 : 0);
@@ -219,12 +220,12 @@ static void finds_images(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(finds_what_brute_force_finds),
-        cmocka_unit_test(finds_images),
-        cmocka_unit_test(what_is_dropped_comes_again),
-        cmocka_unit_test(threads_give_the_same_lists),
-        cmocka_unit_test(misses_none_at_a_size_ratio_of_a_million),
-        cmocka_unit_test(runs_out_of_memory_in_peace),
+        cmocka_unit_test(pairs_are_those_of_brute_force),
+        cmocka_unit_test(periodic_images_are_found),
+        cmocka_unit_test(cleared_pairs_are_found_again),
+        cmocka_unit_test(lists_do_not_depend_on_the_threads),
+        cmocka_unit_test(no_pair_is_missed_at_a_size_ratio_of_a_million),
+        cmocka_unit_test(allocation_failure_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,8 +22,8 @@ static void make_cells(fl_power_cells *c, int32_t n, uint64_t seed, int smooth)
     }
 }
 
-/* The area asked for, S sides that turn left by less than 4 pi / S, and every outer corner inside its cell
- * by the floe's inset. */
+/* The requested area, S sides that turn left by less than 4 pi / S, and every outer corner inside its cell by
+ * the floe's inset. */
 static void floes_are_round_and_inside(void **state)
 {
     (void)state;
@@ -53,22 +53,23 @@ static void floes_are_round_and_inside(void **state)
     }
 }
 
-/* A square cell of side s: K is a square, and the floe an S-gon on the square with round corners of radius
- * r = q s / 2, whose area for many sides comes to that of the opening, s^2 - (4 - pi) r^2. */
-static void many_sides_come_to_the_opening(void **state)
+/* A square cell of side s: K is a square, and the floe an S-gon on the square with round corners of radius r
+ * = q s / 2. For many sides its area tends to that of the rounded square, s^2 - (4 - pi) r^2. */
+static void many_sides_approach_the_rounded_square(void **state)
 {
     (void)state;
     const fl_vec2 lo = {-1.0, -1.0}, hi = {1.0, 1.0};
-    const double r = FL_PANCAKES_ROUNDNESS, most = 4.0 - (4.0 - acos(-1.0)) * r * r;
+    const double r = FL_PANCAKES_ROUNDNESS, max_area = 4.0 - (4.0 - acos(-1.0)) * r * r;
     const fl_vec2 site = {0.1, 0.2};
     fl_power_cells cells = {0};
     fl_floes a = {0};
     fl_err err = {0};
     assert_int_equal(fl_power_cells_build(&cells, 1, &site, lo, hi, &err), 0);
-    assert_int_equal(fl_pancakes_make(&a, &cells, 120, 0.999 * most / 4.0, 0.0, (fl_vec2){0, 0}, &err), 0);
+    assert_int_equal(fl_pancakes_make(&a, &cells, 120, 0.999 * max_area / 4.0, 0.0, (fl_vec2){0, 0}, &err),
+                     0);
     assert_true(a.inset < 5e-4);
     fl_floes_free(&a);
-    assert_int_equal(fl_pancakes_make(&a, &cells, 120, most / 4.0, 0.0, (fl_vec2){0, 0}, &err), -1);
+    assert_int_equal(fl_pancakes_make(&a, &cells, 120, max_area / 4.0, 0.0, (fl_vec2){0, 0}, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
     err = (fl_err){0};
     assert_int_equal(fl_pancakes_make(&a, &cells, 12, 0.5, 1.5, (fl_vec2){0, 0}, &err), -1);
@@ -76,7 +77,7 @@ static void many_sides_come_to_the_opening(void **state)
     fl_power_cells_free(&cells);
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     fl_power_cells cells = {0};
@@ -99,7 +100,7 @@ static void memory_that_runs_out_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(floes_are_round_and_inside),
-                                       cmocka_unit_test(many_sides_come_to_the_opening),
-                                       cmocka_unit_test(memory_that_runs_out_is_told)};
+                                       cmocka_unit_test(many_sides_approach_the_rounded_square),
+                                       cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Panels and events have the load of their part, wherever and by whatever law the ice presses. */
+/* Panels and events add up to the load of their part, for every position and contact law. */
 #include "support/near.h"
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-static fl_vec3 panels_of(const fl_world *w, int32_t part)
+static fl_vec3 panel_impulse(const fl_world *w, int32_t part)
 {
     fl_vec3 sum = ZERO;
     for (int32_t k = w->panel_load.first[part]; k < w->panel_load.first[part + 1]; k++)
@@ -17,7 +17,7 @@ static fl_vec3 panels_of(const fl_world *w, int32_t part)
     return sum;
 }
 
-static fl_vec3 events_of(const fl_world *w, int32_t part)
+static fl_vec3 event_impulse(const fl_world *w, int32_t part)
 {
     fl_vec3 sum = ZERO;
     for (int32_t k = 0; k < w->panel_load.events; k++)
@@ -25,35 +25,35 @@ static fl_vec3 events_of(const fl_world *w, int32_t part)
     return sum;
 }
 
-static void sums_are_the_load(void **state)
+static void panel_sums_are_the_part_load(void **state)
 {
     static const char *const LAW[] = {"patch", "core", "manual", "manual-si"};
     (void)state;
     for (int law = 0; law < 4; law++) {
         lab l;
-        double most = 0.0;
+        double largest = 0.0;
         scene_of_everything(&l, 3, LAW[law]);
         lab_set(&l, "output.panels=panels");
         lab_set(&l, "output.events=events");
         lab_make(&l, 0);
         assert_int_equal(lab_run(&l, 200), 0);
-        for (int32_t p = 0; p < l.w.parts; p++) most = fmax(most, v3_norm(l.w.part_impulse[p]));
-        assert_true(most > 0.0);
+        for (int32_t p = 0; p < l.w.parts; p++) largest = fmax(largest, v3_norm(l.w.part_impulse[p]));
+        assert_true(largest > 0.0);
         for (int32_t p = 0; p < l.w.parts; p++) {
             const fl_vec3 load = l.w.part_impulse[p];
-            assert_near_of(v3_norm(v3_sub(panels_of(&l.w, p), load)), 0.0, 1e-12, most);
-            assert_near_of(v3_norm(v3_sub(events_of(&l.w, p), load)), 0.0, 1e-12, most);
+            assert_near_of(v3_norm(v3_sub(panel_impulse(&l.w, p), load)), 0.0, 1e-12, largest);
+            assert_near_of(v3_norm(v3_sub(event_impulse(&l.w, p), load)), 0.0, 1e-12, largest);
         }
         fl_panels_end_interval(&l.w);
         fl_events_end_interval(&l.w);
-        assert_near(v3_norm(panels_of(&l.w, 0)), 0.0, 0);
+        assert_near(v3_norm(panel_impulse(&l.w, 0)), 0.0, 0);
         assert_int_equal(l.w.panel_load.events, 0);
         lab_free(&l);
     }
 }
 
-/* A ball on a face of 2 n^2 triangles loads the one it is over, also when the face has moved. */
-static void the_nearest_triangle_has_it(void **state)
+/* A sphere on a face of 2 n^2 triangles loads the triangle below it, also after the face has moved. */
+static void the_nearest_triangle_takes_the_load(void **state)
 {
     (void)state;
     for (int kind = 0; kind < 3; kind++) {
@@ -84,12 +84,12 @@ static void the_nearest_triangle_has_it(void **state)
     }
 }
 
-/* A face that lies flat on many triangles presses on all that are under it, and on no other. */
-static void a_face_is_spread(void **state)
+/* A face that lies flat on many triangles loads all triangles under it, and no other. */
+static void a_face_is_spread_over_triangles(void **state)
 {
     enum { N = 20 };
     lab l;
-    double mean = 0.0, under = 0.0, least = INFINITY, most = 0.0;
+    double mean = 0.0, under = 0.0, smallest = INFINITY, largest = 0.0;
     fl_vec3 middle = ZERO;
     (void)state;
     lab_start(&l);
@@ -107,19 +107,19 @@ static void a_face_is_spread(void **state)
         if (p->centroid.z < 0.0 || dx > 0.9 + 0.3 || dy > 0.6 + 0.3) assert_near(pressure, 0, 0);
         else if (dx < 0.9 - 0.3 && dy < 0.6 - 0.3) {
             under += p->area;
-            least = fmin(least, -pressure);
-            most = fmax(most, -pressure);
+            smallest = fmin(smallest, -pressure);
+            largest = fmax(largest, -pressure);
         }
     }
     assert_true(under > 0.5);
-    assert_near(least, most, 1e-9); /* even */
+    assert_near(smallest, largest, 1e-9); /* uniform */
     assert_near(mean, l.w.part_impulse[0].z, 1e-12);
     assert_near_of(middle.x / mean, 0.1, 0.02, 1.0);
     assert_near_of(middle.y / mean, -0.05, 0.02, 1.0);
     lab_free(&l);
 }
 
-/* A face that lies flat has its area; a cone is one panel. */
+/* A flat contact has the area of its face; a cone is one panel. */
 static void an_event_has_its_area(void **state)
 {
     lab l;
@@ -145,9 +145,9 @@ static void an_event_has_its_area(void **state)
     lab_free(&l);
 }
 
-/* A floe lies on a dome of triangles of 0.1 m: each bears where it is, so that panels together have the
- * moment of the load, but for their own size. */
-static void a_dome_bears_triangle_by_triangle(void **state)
+/* A floe lies on a dome of triangles of 0.1 m. Each triangle is loaded at its position, so that panels
+ * together have the moment of the load, to the size of a panel. */
+static void a_dome_is_loaded_triangle_by_triangle(void **state)
 {
     enum { N = 40 };
     (void)state;
@@ -180,7 +180,7 @@ static void a_dome_bears_triangle_by_triangle(void **state)
         loaded += l.w.panel_load.impulse[k].z < 0.0;
     }
     const fl_vec3 load = l.w.part_impulse[0];
-    assert_near_of(v3_norm(v3_sub(panels_of(&l.w, 0), load)), 0.0, 1e-12, v3_norm(load));
+    assert_near_of(v3_norm(v3_sub(panel_impulse(&l.w, 0), load)), 0.0, 1e-12, v3_norm(load));
     assert_near_of(v3_norm(v3_sub(moment, l.w.part_moment[0])), 0.0, 0.01, v3_norm(load));
     assert_in_range(loaded, 20, 200);
     lab_free(&l);
@@ -189,8 +189,8 @@ static void a_dome_bears_triangle_by_triangle(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_are_the_load), cmocka_unit_test(the_nearest_triangle_has_it),
-        cmocka_unit_test(a_face_is_spread), cmocka_unit_test(an_event_has_its_area),
-        cmocka_unit_test(a_dome_bears_triangle_by_triangle)};
-    return cmocka_run_group_tests_name("press", tests, NULL, NULL);
+        cmocka_unit_test(panel_sums_are_the_part_load), cmocka_unit_test(the_nearest_triangle_takes_the_load),
+        cmocka_unit_test(a_face_is_spread_over_triangles), cmocka_unit_test(an_event_has_its_area),
+        cmocka_unit_test(a_dome_is_loaded_triangle_by_triangle)};
+    return cmocka_run_group_tests_name("panel_load", tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 
 enum { N = 100000 };
 
-static void small_sums(void **state)
+static void sums_have_the_defined_order(void **state)
 {
     const double x[] = {1.0, 2.0, 4.0};
     (void)state;
@@ -17,9 +17,9 @@ static void small_sums(void **state)
     assert_true(fl_parallel_sum(x, 3) == 7.0);
 }
 
-/* The order is the data's: the bits are those of the definition, for lengths about the block and any
- * number of threads. */
-static void one_order(void **state)
+/* The order of summation is set by the data: the bits are those of the definition, for lengths around the
+ * block size and any number of threads. */
+static void sums_do_not_depend_on_the_threads(void **state)
 {
     static double x[N];
     static const int64_t length[] = {1, 1023, 1024, 1025, 2048, 5000, N};
@@ -41,7 +41,7 @@ static void one_order(void **state)
     }
 }
 
-/* One in the last bit, one in the first, one byte more, another order: another hash. */
+/* A change of the last bit, of the first, one byte more, another order: each gives another hash. */
 static void hash_sees_every_bit(void **state)
 {
     unsigned char buf[67];
@@ -57,12 +57,12 @@ static void hash_sees_every_bit(void **state)
     }
     assert_true(fl_hash(fl_hash(FL_HASH_START, "aaaaaaaa", 8), "bbbbbbbb", 8) !=
                 fl_hash(fl_hash(FL_HASH_START, "bbbbbbbb", 8), "aaaaaaaa", 8));
-    /* whole words chain as one block */
+    /* whole words in pieces hash as one block */
     assert_true(fl_hash(fl_hash(FL_HASH_START, buf, 16), buf + 16, 24) == fl_hash(FL_HASH_START, buf, 40));
     assert_true(fl_hash(FL_HASH_START, buf, 0) == FL_HASH_START);
 }
 
-/* Doubles differ in their high bits; both halves of the hash must follow. */
+/* Doubles differ in their high bits; both halves of the hash must depend on them. */
 static void hash_mixes_both_halves(void **state)
 {
     uint64_t low = 0, high = 0;
@@ -84,8 +84,8 @@ static void hash_mixes_both_halves(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(small_sums), cmocka_unit_test(one_order),
-                                       cmocka_unit_test(hash_sees_every_bit),
-                                       cmocka_unit_test(hash_mixes_both_halves)};
-    return cmocka_run_group_tests_name("par", tests, NULL, NULL);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sums_have_the_defined_order), cmocka_unit_test(sums_do_not_depend_on_the_threads),
+        cmocka_unit_test(hash_sees_every_bit), cmocka_unit_test(hash_mixes_both_halves)};
+    return cmocka_run_group_tests_name("parallel", tests, NULL, NULL);
 }

@@ -7,8 +7,8 @@
 #include "stat/peaks.h"
 #include "support/near.h"
 
-static void expect(int32_t n, const double *x, double ratio, double threshold, int32_t count,
-                   const int32_t *at)
+static void expect_peaks(int32_t n, const double *x, double ratio, double threshold, int32_t count,
+                         const int32_t *at)
 {
     fl_err err = {0};
     fl_peaks p = {0};
@@ -23,21 +23,21 @@ static void rule_by_hand(void **state)
     const double x[] = {0, 4, 3, 6, 1, 5, 2, 4, 0, 8, 0};
     (void)state;
     /* 4 | 3 | 6: 3 is not below 2; 6 | 1 | 5: below 2.5; 5 | 2 | 4: not below 2; then the zero before 8 */
-    expect(11, x, 0.5, 0.0, 3, (int32_t[]){3, 5, 9});
-    expect(11, x, 1.0, 0.0, 5, (int32_t[]){1, 3, 5, 7, 9});
-    expect(11, x, 0.0, 0.0, 1, (int32_t[]){9}); /* nothing is below nothing */
-    expect(11, x, 0.5, 5.0, 2, (int32_t[]){3, 9});
-    expect(11, x, 0.5, 8.0, 0, NULL);
+    expect_peaks(11, x, 0.5, 0.0, 3, (int32_t[]){3, 5, 9});
+    expect_peaks(11, x, 1.0, 0.0, 5, (int32_t[]){1, 3, 5, 7, 9});
+    expect_peaks(11, x, 0.0, 0.0, 1, (int32_t[]){9}); /* a ratio of nothing separates nothing */
+    expect_peaks(11, x, 0.5, 5.0, 2, (int32_t[]){3, 9});
+    expect_peaks(11, x, 0.5, 8.0, 0, NULL);
 }
 
-/* The low between two peaks counts although smaller maxima lie in it. */
-static void small_maxima_do_not_hide_the_low(void **state)
+/* The trough between two peaks counts although smaller maxima lie in it. */
+static void small_maxima_do_not_hide_a_trough(void **state)
 {
     const double x[] = {0, 10, 2, 3, 2.5, 9, 0}, merged[] = {0, 10, 6, 7, 6.5, 9, 0};
     (void)state;
-    expect(7, x, 0.5, 0.0, 2, (int32_t[]){1, 5});
-    expect(7, merged, 0.5, 0.0, 1, (int32_t[]){1});
-    expect(7, x, 0.5, 5.0, 2, (int32_t[]){1, 5}); /* the same with the small ones under the threshold */
+    expect_peaks(7, x, 0.5, 0.0, 2, (int32_t[]){1, 5});
+    expect_peaks(7, merged, 0.5, 0.0, 1, (int32_t[]){1});
+    expect_peaks(7, x, 0.5, 5.0, 2, (int32_t[]){1, 5}); /* the same with the small ones under the threshold */
 }
 
 static void plateaus_and_ends(void **state)
@@ -45,15 +45,15 @@ static void plateaus_and_ends(void **state)
     const double flat[] = {0, 5, 5, 5, 0, 0, 7, 7, 8, 0}, rising[] = {1, 2, 3}, ends[] = {9, 1, 9},
                  same[] = {2, 2, 2};
     (void)state;
-    expect(10, flat, 0.5, 0.0, 2, (int32_t[]){1, 8});
-    expect(3, rising, 0.5, 0.0, 0, NULL);
-    expect(3, ends, 0.5, 0.0, 0, NULL);
-    expect(3, same, 0.5, 0.0, 0, NULL);
-    expect(1, same, 0.5, 0.0, 0, NULL);
-    expect(3, (double[]){-3, -1, -3}, 0.5, 0.0, 0, NULL); /* not above the threshold of 0 */
+    expect_peaks(10, flat, 0.5, 0.0, 2, (int32_t[]){1, 8});
+    expect_peaks(3, rising, 0.5, 0.0, 0, NULL);
+    expect_peaks(3, ends, 0.5, 0.0, 0, NULL);
+    expect_peaks(3, same, 0.5, 0.0, 0, NULL);
+    expect_peaks(1, same, 0.5, 0.0, 0, NULL);
+    expect_peaks(3, (double[]){-3, -1, -3}, 0.5, 0.0, 0, NULL); /* not above the threshold of 0 */
 }
 
-/* Against the definition: every two neighbours are separate, and no larger maximum was dropped. */
+/* Against the definition: neighbouring peaks are separate, and no larger maximum was dropped. */
 static void random_records_obey_the_rule(void **state)
 {
     enum { N = 300 };
@@ -69,7 +69,7 @@ static void random_records_obey_the_rule(void **state)
             double low = INFINITY, high = 0.0;
             for (int32_t j = p.row[k]; j <= p.row[k + 1]; j++) low = fmin(low, x[j]);
             assert_true(low < 0.5 * fmin(x[p.row[k]], x[p.row[k + 1]]));
-            /* What was dropped between two peaks is no larger than the larger of them. */
+            /* A maximum dropped between two peaks is no larger than the larger of them. */
             for (int32_t j = p.row[k]; j <= p.row[k + 1]; j++) high = fmax(high, x[j]);
             assert_near(high, fmax(x[p.row[k]], x[p.row[k + 1]]), 0.0);
         }
@@ -77,7 +77,7 @@ static void random_records_obey_the_rule(void **state)
     }
 }
 
-static void memory_that_runs_out(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     const double x[] = {0, 1, 0};
     fl_err err = {0};
@@ -102,7 +102,7 @@ static void ranks_and_positions(void **state)
     assert_near(fl_plotting_position(4, 4), 0.8, 1e-16);
 }
 
-static void classes_hold_everything_once(void **state)
+static void bins_hold_everything_once(void **state)
 {
     fl_histogram h = {0};
     fl_err err = {0};
@@ -124,11 +124,11 @@ static void classes_hold_everything_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(rule_by_hand),
-                                       cmocka_unit_test(small_maxima_do_not_hide_the_low),
+                                       cmocka_unit_test(small_maxima_do_not_hide_a_trough),
                                        cmocka_unit_test(plateaus_and_ends),
                                        cmocka_unit_test(random_records_obey_the_rule),
-                                       cmocka_unit_test(memory_that_runs_out),
+                                       cmocka_unit_test(allocation_failure_is_reported),
                                        cmocka_unit_test(ranks_and_positions),
-                                       cmocka_unit_test(classes_hold_everything_once)};
+                                       cmocka_unit_test(bins_hold_everything_once)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@
 
 static const fl_vec2 LO = {-4.0, -3.0}, HI = {4.0, 3.0};
 
-static void make(fl_power_cells *c, int32_t n, uint64_t seed, const int periodic[2])
+static void make_cells(fl_power_cells *c, int32_t n, uint64_t seed, const int periodic[2])
 {
     fl_vec2 site[300];
     fl_err err = {0};
@@ -20,7 +20,7 @@ static void make(fl_power_cells *c, int32_t n, uint64_t seed, const int periodic
 }
 
 /* k x k copies of polygons. */
-static fl_floes tile(int32_t n, const int32_t *first, const fl_vec2 *v, int kx, int ky)
+static fl_floes tile_copies(int32_t n, const int32_t *first, const fl_vec2 *v, int kx, int ky)
 {
     fl_floes t = {0};
     fl_err err = {0};
@@ -38,8 +38,8 @@ static fl_floes tile(int32_t n, const int32_t *first, const fl_vec2 *v, int kx, 
     return t;
 }
 
-/* The cells have the area of the field, and m x m copies of them share all sides but those round the whole:
- * what has no partner then is m times that of one copy, along x and along y. */
+/* The cells have the area of the field. In m x m copies all sides are shared but those around the whole, and
+ * the length of sides without a partner is m times that of one copy, along x and along y. */
 static void copies_fit_without_a_seam(void **state)
 {
     (void)state;
@@ -49,12 +49,12 @@ static void copies_fit_without_a_seam(void **state)
         double area = 0.0, open[4];
         fl_power_cells c = {0};
         fl_err err = {0};
-        make(&c, n, seed, periodic);
+        make_cells(&c, n, seed, periodic);
         for (int32_t i = 0; i < n; i++)
             area += fl_polygon_area(c.first[i + 1] - c.first[i], c.v + c.first[i]);
         assert_near(area, 48.0, 1e-13);
         for (int k = 1; k < 4; k++) {
-            fl_floes t = tile(n, c.first, c.v, periodic[0] ? k : 1, periodic[1] ? k : 1);
+            fl_floes t = tile_copies(n, c.first, c.v, periodic[0] ? k : 1, periodic[1] ? k : 1);
             fl_faces f = {0};
             assert_int_equal(fl_faces_find(&f, &t, &err), 0);
             assert_true(f.max_overlap <= f.tolerance);
@@ -67,15 +67,15 @@ static void copies_fit_without_a_seam(void **state)
     }
 }
 
-/* A side and its partner name each other. */
-static void neighbours_are_sites(void **state)
+/* A side and its partner refer to each other. */
+static void neighbours_are_mutual(void **state)
 {
     (void)state;
     const int both[2] = {1, 1}, none[2] = {0, 0};
     fl_power_cells c = {0}, d = {0};
     fl_vec2 site[80];
     fl_err err = {0};
-    make(&c, 80, 5, both);
+    make_cells(&c, 80, 5, both);
     for (int32_t i = 0; i < 80; i++)
         for (int32_t k = c.first[i]; k < c.first[i + 1]; k++) {
             const int32_t j = c.side[k].tag;
@@ -85,7 +85,7 @@ static void neighbours_are_sites(void **state)
             assert_true(back);
         }
     fl_power_cells_free(&c);
-    make(&c, 80, 5, none); /* without a period they are the plain cells, bit for bit */
+    make_cells(&c, 80, 5, none); /* without a period they are the plain cells, bit for bit */
     fl_random_sites(80, 5, LO, HI, site);
     assert_int_equal(fl_power_cells_build(&d, 80, site, LO, HI, &err), 0);
     assert_memory_equal(c.first, d.first, 81 * sizeof *c.first);
@@ -94,7 +94,7 @@ static void neighbours_are_sites(void **state)
     fl_power_cells_free(&d);
 }
 
-static void points_are_brought_back(void **state)
+static void points_are_wrapped_into_the_cell(void **state)
 {
     (void)state;
     const int x[2] = {1, 0}, both[2] = {1, 1};
@@ -106,7 +106,7 @@ static void points_are_brought_back(void **state)
     assert_true(p.x >= -4.0 && p.x < 4.0);
 }
 
-static void memory_that_runs_out_is_told(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     const int both[2] = {1, 1};
@@ -129,7 +129,7 @@ static void memory_that_runs_out_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(copies_fit_without_a_seam), cmocka_unit_test(neighbours_are_sites),
-        cmocka_unit_test(points_are_brought_back), cmocka_unit_test(memory_that_runs_out_is_told)};
+        cmocka_unit_test(copies_fit_without_a_seam), cmocka_unit_test(neighbours_are_mutual),
+        cmocka_unit_test(points_are_wrapped_into_the_cell), cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,8 +12,8 @@ static const fl_vec3 cube_v[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
 static const int32_t cube_first[7] = {0, 4, 8, 12, 16, 20, 24};
 static const int32_t cube_loop[24] = {3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
 
-static void refused(int32_t nv, const fl_vec3 *v, int32_t nf, const int32_t *first, const int32_t *loop,
-                    const char *sentence)
+static void expect_refusal(int32_t nv, const fl_vec3 *v, int32_t nf, const int32_t *first,
+                           const int32_t *loop, const char *sentence)
 {
     fl_err err = {0};
     fl_poly p = {.nv = 77};
@@ -37,7 +37,7 @@ static void cube_has_its_parts(void **state)
         const fl_edge s = p.edge[e];
         assert_true(s.a < s.b);
         if (e) assert_true(p.edge[e - 1].a < s.a || (p.edge[e - 1].a == s.a && p.edge[e - 1].b < s.b));
-        /* a to b runs round left, b to a round right */
+        /* a to b has its loop on the left, b to a on the right */
         int found = 0;
         for (int side = 0; side < 2; side++) {
             const int32_t f = side ? s.right : s.left, from = side ? s.b : s.a, to = side ? s.a : s.b;
@@ -79,93 +79,93 @@ static void points_segments_polygons(void **state)
     assert_int_equal(p.ne, 4);
     for (int e = 0; e < 4; e++) assert_near(fl_poly_compute_bend(&p, e), PI, 1e-15);
     fl_poly_free(&p);
-    refused(2, (fl_vec3[2]){{1, 2, 3}, {1, 2, 3}}, 0, NULL, NULL,
-            "vertices 0 and 1 coincide: a sphere has one vertex");
-    refused(3, v, 0, NULL, NULL, "a core of 3 vertices needs at least 2 faces, 0 given");
-    refused(1, v, 1, first, loop, "a core of 1 vertex has no faces, 1 given");
-    refused(2, v, 2, first, loop, "a core of 2 vertices has no faces, 2 given");
-    refused(0, v, 0, NULL, NULL, "a core needs a vertex");
-    refused(4, v, -1, NULL, NULL, "-1 faces are not possible");
+    expect_refusal(2, (fl_vec3[2]){{1, 2, 3}, {1, 2, 3}}, 0, NULL, NULL,
+                   "vertices 0 and 1 coincide: a sphere has one vertex");
+    expect_refusal(3, v, 0, NULL, NULL, "a core of 3 vertices needs at least 2 faces, 0 given");
+    expect_refusal(1, v, 1, first, loop, "a core of 1 vertex has no faces, 1 given");
+    expect_refusal(2, v, 2, first, loop, "a core of 2 vertices has no faces, 2 given");
+    expect_refusal(0, v, 0, NULL, NULL, "a core needs a vertex");
+    expect_refusal(4, v, -1, NULL, NULL, "-1 faces are not possible");
 }
 
-static void each_fault_has_its_sentence(void **state)
+static void each_fault_has_its_message(void **state)
 {
     (void)state;
     fl_vec3 v[9];
     int32_t loop[24], first[7];
     for (int fault = 0; fault < 14; fault++) {
         int32_t nv = 8, nf = 6;
-        const char *say = "";
+        const char *message = "";
         memcpy(v, cube_v, sizeof cube_v);
         memcpy(loop, cube_loop, sizeof loop);
         memcpy(first, cube_first, sizeof first);
         switch (fault) {
         case 0:
             memcpy(loop + 12, (int32_t[4]){5, 6, 2, 1}, 4 * sizeof *loop);
-            say = "face 3 is turned inside out";
+            message = "face 3 is turned inside out";
             break;
         case 1:
             for (int k = 0; k < 24; k++) loop[k] = cube_loop[k / 4 * 4 + 3 - k % 4];
-            say = "face 0 is turned inside out";
+            message = "face 0 is turned inside out";
             break;
         case 2:
             v[6] = v3(0.5, 0.5, 0.5);
-            say = "face 1 is not flat: its vertices span 0.384900179459751 m across its plane";
+            message = "face 1 is not flat: its vertices span 0.384900179459751 m across its plane";
             break;
         case 3:
             v[1].x = NAN;
-            say = "vertex 1 is not finite";
+            message = "vertex 1 is not finite";
             break;
         case 4:
             loop[3] = 8;
-            say = "face 0 names vertex 8, but there are 8 (0 to 7)";
+            message = "face 0 names vertex 8, but there are 8 (0 to 7)";
             break;
         case 5:
             loop[3] = -1;
-            say = "face 0 names vertex -1, but there are 8 (0 to 7)";
+            message = "face 0 names vertex -1, but there are 8 (0 to 7)";
             break;
         case 6:
             nf = 5;
-            say = "the edge of vertices 0 and 3, on face 0, has no second face: the core is not closed";
+            message = "the edge of vertices 0 and 3, on face 0, has no second face: the core is not closed";
             break;
         case 7:
             nv = 9;
             v[8] = v3(0.5, 0.5, 0.5);
-            say = "vertex 8 belongs to no face";
+            message = "vertex 8 belongs to no face";
             break;
         case 8:
             loop[1] = loop[0];
-            say = "face 0 names vertex 3 twice";
+            message = "face 0 names vertex 3 twice";
             break;
         case 9:
             v[2] = v[1];
-            say = "vertices 2 and 1 coincide: they are 0 m apart";
+            message = "vertices 2 and 1 coincide: they are 0 m apart";
             break;
         case 10:
             first[3] = first[2] + 2;
-            say = "face 2 has 2 vertices, at least 3 are wanted";
+            message = "face 2 has 2 vertices, at least 3 are wanted";
             break;
         case 11:
             first[0] = 1;
-            say = "face 0 starts at 1 of the index list, not at 0";
+            message = "face 0 starts at 1 of the index list, not at 0";
             break;
         case 12:
             v[0].y = 1e200;
-            say = "a vertex lies 1e+200 m away";
+            message = "a vertex lies 1e+200 m away";
             break;
         case 13:
             first[4] = INT32_MIN;
-            say = "face 3 has -2147483660 vertices, at least 3 are wanted";
+            message = "face 3 has -2147483660 vertices, at least 3 are wanted";
             break;
         }
-        if (fault == 2) { /* the digits are not the point */
+        if (fault == 2) { /* the digits are not compared */
             fl_err err = {0};
             fl_poly p;
             assert_int_equal(fl_poly_make(&p, nv, v, nf, first, loop, &err), -1);
-            assert_memory_equal(err.text, say, 32);
+            assert_memory_equal(err.text, message, 32);
             continue;
         }
-        refused(nv, v, nf, first, loop, say);
+        expect_refusal(nv, v, nf, first, loop, message);
     }
 }
 
@@ -203,7 +203,7 @@ static void concave_bodies_are_refused(void **state)
     err = (fl_err){0};
     assert_int_equal(fl_poly_prism(&p, 4, spike, 0.0, 1.0, &err), -1);
     assert_non_null(strstr(err.text, "face 0 is not convex at vertex 2"));
-    /* the wrong way round */
+    /* clockwise */
     const fl_vec3 square[4] = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
     err = (fl_err){0};
     assert_int_equal(fl_poly_prism(&p, 4, square, 0.0, 1.0, &err), -1);
@@ -222,10 +222,11 @@ static void flat_bodies_with_many_faces_are_refused(void **state)
     /* a tetrahedron of no height: two triangles above, two below */
     const fl_vec3 v[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     const int32_t first[5] = {0, 3, 6, 9, 12}, loop[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
-    refused(4, v, 4, first, loop, "the core is flat and has 4 faces: a flat core has two, one each way");
+    expect_refusal(4, v, 4, first, loop,
+                   "the core is flat and has 4 faces: a flat core has two, one each way");
     /* a needle: all vertices on a line */
     const fl_vec3 w[4] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-    refused(4, w, 4, first, loop, "face 0 has no area: its vertices lie on a line");
+    expect_refusal(4, w, 4, first, loop, "face 0 has no area: its vertices lie on a line");
 }
 
 static void two_bodies_are_not_one(void **state)
@@ -243,25 +244,28 @@ static void two_bodies_are_not_one(void **state)
         loop[24 + k] = 8 + cube_loop[k];
     }
     for (int k = 0; k < 13; k++) first[k] = 4 * k;
-    refused(16, v, 12, first, loop, "the faces form 2 separate surfaces, one is wanted");
+    expect_refusal(16, v, 12, first, loop, "the faces form 2 separate surfaces, one is wanted");
     /* one cube, its top face given twice */
     memcpy(loop, cube_loop, sizeof cube_loop);
     memcpy(loop + 24, cube_loop + 4, 4 * sizeof *loop);
-    refused(8, v, 7, first, loop, "the edge of vertices 4 and 5, on face 6, belongs to more than two faces");
-    /* corners written once for each face: closed to the eye only */
+    expect_refusal(8, v, 7, first, loop,
+                   "the edge of vertices 4 and 5, on face 6, belongs to more than two faces");
+    /* corners repeated for each face: closed only in appearance */
     for (int k = 0; k < 24; k++) loop[k] = cube_loop[k];
     loop[4] = 8 + 4;
     v[12] = v[4];
-    refused(13, (fl_vec3[13]){v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[4], v[4], v[4], v[4], v[4]},
-            6, first, loop, "vertex 8 belongs to no face");
+    expect_refusal(
+        13, (fl_vec3[13]){v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[4], v[4], v[4], v[4], v[4]}, 6,
+        first, loop, "vertex 8 belongs to no face");
     memcpy(v + 8, v + 4, sizeof *v);
     loop[4] = 8;
-    refused(9, v, 6, first, loop,
-            "the edge of vertices 5 and 4, on face 2, has no second face: the core is not closed (some "
-            "vertices coincide)");
+    expect_refusal(
+        9, v, 6, first, loop,
+        "the edge of vertices 5 and 4, on face 2, has no second face: the core is not closed (some "
+        "vertices coincide)");
 }
 
-static void straight_corners_and_shared_planes_are_fine(void **state)
+static void straight_corners_and_coplanar_faces_are_accepted(void **state)
 {
     (void)state;
     /* a cube whose top is two triangles and whose edge 0-1 has a vertex in the middle */
@@ -275,13 +279,13 @@ static void straight_corners_and_shared_planes_are_fine(void **state)
     fl_poly p;
     assert_int_equal(fl_poly_make(&p, 9, v, 7, first, loop, &err), 0);
     assert_int_equal(p.ne, 14);
-    double least = 9.0;
-    for (int e = 0; e < p.ne; e++) least = fmin(least, fl_poly_compute_bend(&p, e));
-    assert_near_of(least, 0.0, 1e-15, 1.0);
+    double smallest = 9.0;
+    for (int e = 0; e < p.ne; e++) smallest = fmin(smallest, fl_poly_compute_bend(&p, e));
+    assert_near_of(smallest, 0.0, 1e-15, 1.0);
     fl_poly_free(&p);
 }
 
-static void big_prisms_take_the_quick_way(void **state)
+static void large_prisms_are_checked_fast(void **state)
 {
     (void)state;
     const int n = 5000;
@@ -293,7 +297,7 @@ static void big_prisms_take_the_quick_way(void **state)
         xy[k] = v3(10.0 * cos(6.283185307179586 * k / n), 10.0 * sin(6.283185307179586 * k / n), 0.0);
     assert_int_equal(fl_poly_prism(&p, n, xy, -1.0, 1.0, &err), 0);
     assert_int_equal(p.ne, 3 * n);
-    /* a face turned, a corner pushed in */
+    /* a face reversed, a corner pushed in */
     int32_t *loop = fl_alloc(p.first[p.nf], sizeof *loop, &err);
     assert_non_null(loop);
     memcpy(loop, p.loop, (size_t)p.first[p.nf] * sizeof *loop);
@@ -305,7 +309,7 @@ static void big_prisms_take_the_quick_way(void **state)
     xy[7] = v3_scale(0.999, xy[7]);
     assert_int_equal(fl_poly_prism(&q, n, xy, -1.0, 1.0, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
-    /* roof: the same with triangulated ends would hide the dent from the faces, so the edges must see it */
+    /* roof: with triangulated ends the faces would not show the dent, so the edges must */
     int32_t *first = fl_alloc(2 * n + 1, sizeof *first, &err), *tri = fl_alloc(6 * n, sizeof *tri, &err);
     fl_vec3 *v = fl_alloc(n + 2, sizeof *v, &err);
     assert_true(first && tri && v);
@@ -365,7 +369,7 @@ static void copies_and_frames(void **state)
     }
 }
 
-static void memory_may_run_out(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     for (int after = 0; after < 3; after++) {
@@ -384,7 +388,7 @@ static void memory_may_run_out(void **state)
     }
 }
 
-static void what_is_stripped_has_its_corners_and_faces(void **state)
+static void a_compact_polyhedron_has_corners_and_faces(void **state)
 {
     (void)state;
     const fl_vec3 xy[5] = {{0, 0, 0}, {4, 0, 0}, {5, 3, 0}, {2, 5, 0}, {-1, 3, 0}};
@@ -402,7 +406,7 @@ static void what_is_stripped_has_its_corners_and_faces(void **state)
     assert_int_equal(q.ne, 0);
     assert_null(q.edge);
     assert_near(q.size, p.size, 0.0);
-    /* what is left makes the whole again */
+    /* the remaining data restore the whole */
     assert_int_equal(fl_poly_make(&r, q.nv, q.v, q.nf, q.first, q.loop, &err), 0);
     assert_int_equal(r.ne, p.ne);
     assert_memory_equal(r.v, p.v, (size_t)p.nv * sizeof *p.v);
@@ -418,15 +422,15 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_has_its_parts),
         cmocka_unit_test(points_segments_polygons),
-        cmocka_unit_test(each_fault_has_its_sentence),
+        cmocka_unit_test(each_fault_has_its_message),
         cmocka_unit_test(concave_bodies_are_refused),
         cmocka_unit_test(flat_bodies_with_many_faces_are_refused),
         cmocka_unit_test(two_bodies_are_not_one),
-        cmocka_unit_test(straight_corners_and_shared_planes_are_fine),
-        cmocka_unit_test(big_prisms_take_the_quick_way),
+        cmocka_unit_test(straight_corners_and_coplanar_faces_are_accepted),
+        cmocka_unit_test(large_prisms_are_checked_fast),
         cmocka_unit_test(copies_and_frames),
-        cmocka_unit_test(what_is_stripped_has_its_corners_and_faces),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(a_compact_polyhedron_has_corners_and_faces),
+        cmocka_unit_test(allocation_failure_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

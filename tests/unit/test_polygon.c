@@ -58,7 +58,7 @@ static void cuts_through_corners_leave_no_empty_side(void **state)
     assert_int_equal(fl_polygon_cut(4, v, side, (fl_polygon_side){1.0, 0.0, -0.5, 9}), 0);
 }
 
-/* Each side's two corners lie on its line, and what is cut off and what is left add up. */
+/* Each side's corners lie on its line, and the two parts of a cut add up. */
 static void two_halves_add_up(void **state)
 {
     (void)state;
@@ -89,7 +89,7 @@ struct shape {
     fl_polygon_side side[MANY];
 };
 
-/* Until the first side goes, A(d) = A - P d + d^2 sum tan(turn / 2). */
+/* Until the first side vanishes, A(d) = A - P d + d^2 sum tan(turn / 2). */
 static void small_insets_follow_their_law(void **state)
 {
     (void)state;
@@ -111,8 +111,8 @@ static void small_insets_follow_their_law(void **state)
     assert_true(whole > test_times(2000) / 4);
 }
 
-/* Going in by steps drops the same sides as going in at once, and ends at the inscribed circle, which no side
- * cuts and three sides touch, or two that face each other. */
+/* Insets in steps drop the same sides as one inset, and end at the inscribed circle, which no side cuts and
+ * which touches three sides, or two opposite ones. */
 static void insets_add_up(void **state)
 {
     (void)state;
@@ -140,7 +140,7 @@ static void insets_add_up(void **state)
             assert_true(first.n < MANY && k < 100);
         }
         assert_near(depth, inradius, 1e-12);
-        once = first; /* just before the end, all that is left is about the centre of the circle */
+        once = first; /* just before the end, the remaining polygon lies about the centre of the circle */
         once.n = fl_polygon_inset(once.n, once.v, once.side, inradius * (1.0 - 1e-9), &depth);
         assert_true(once.n >= 3);
         for (int32_t e = 0; e < first.n; e++)
@@ -171,8 +171,8 @@ static void inscribed_circles_are_known(void **state)
     assert_true(depth == 0.5);
 }
 
-/* A square with one corner cut by a side of length e: at turns of 45 degrees it loses 2 d tan(22.5). */
-static void a_short_side_goes_when_its_length_is_used_up(void **state)
+/* A square with one corner cut by a side of length e: at angles of 45 degrees it loses 2 d tan(22.5). */
+static void a_short_side_vanishes_at_its_own_inset(void **state)
 {
     (void)state;
     const double r = sqrt(0.5), e = 0.1, goes = e / (2.0 * tan(PI / 8.0));
@@ -200,7 +200,7 @@ static void outset_undoes_inset(void **state)
         fl_polygon_outset(n, v, d, w);
         fl_polygon_corners(n, a, 0.0, v);
         assert_near_of(fl_polygon_area(n, w), fl_polygon_area(n, v), 1e-9,
-                       4.0); /* short sides know their direction less well */
+                       4.0); /* directions of short sides are less accurate */
     }
 }
 
@@ -226,7 +226,7 @@ int main(void)
                                        cmocka_unit_test(small_insets_follow_their_law),
                                        cmocka_unit_test(insets_add_up),
                                        cmocka_unit_test(inscribed_circles_are_known),
-                                       cmocka_unit_test(a_short_side_goes_when_its_length_is_used_up),
+                                       cmocka_unit_test(a_short_side_vanishes_at_its_own_inset),
                                        cmocka_unit_test(outset_undoes_inset),
                                        cmocka_unit_test(distances_of_squares)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,9 +21,10 @@ static void sites_do_not_depend_on_their_number(void **state)
         assert_true(many[i].x >= LO.x && many[i].x < HI.x && many[i].y >= LO.y && many[i].y < HI.y);
 }
 
-static int32_t size(const fl_power_cells *c, int32_t i) { return c->first[i + 1] - c->first[i]; }
+static int32_t side_count(const fl_power_cells *c, int32_t i) { return c->first[i + 1] - c->first[i]; }
 
-/* The cells fill the rectangle; each side is the other's side turned round, or a wall; the site is inside. */
+/* The cells fill the rectangle; each side is the reversed side of a neighbour, or a wall; the site is
+ * inside. */
 static void cells_tile_the_rectangle(void **state)
 {
     (void)state;
@@ -35,16 +36,16 @@ static void cells_tile_the_rectangle(void **state)
         fl_random_sites(N, test_seed() + (uint64_t)s, LO, HI, site);
         assert_int_equal(fl_power_cells_build(&c, N, site, LO, HI, &err), 0);
         for (int32_t i = 0; i < N; i++) {
-            area += fl_polygon_area(size(&c, i), c.v + c.first[i]);
+            area += fl_polygon_area(side_count(&c, i), c.v + c.first[i]);
             for (int32_t k = c.first[i]; k < c.first[i + 1]; k++) {
                 const int32_t j = c.side[k].tag;
-                int32_t twin = 0;
+                int32_t partners = 0;
                 assert_true(fl_polygon_side_distance(c.side[k], site[i]) <= 0.0);
                 if (j < 0) continue;
                 for (int32_t m = c.first[j]; m < c.first[j + 1]; m++)
-                    twin += c.side[m].tag == i && c.side[m].nx == -c.side[k].nx &&
-                            c.side[m].ny == -c.side[k].ny && c.side[m].c == -c.side[k].c;
-                assert_int_equal(twin, 1);
+                    partners += c.side[m].tag == i && c.side[m].nx == -c.side[k].nx &&
+                                c.side[m].ny == -c.side[k].ny && c.side[m].c == -c.side[k].c;
+                assert_int_equal(partners, 1);
             }
         }
         assert_near(area, (HI.x - LO.x) * (HI.y - LO.y), 1e-13);
@@ -52,8 +53,8 @@ static void cells_tile_the_rectangle(void **state)
     }
 }
 
-/* Four cells meet in each inner corner of a lattice; the side between diagonal neighbours is empty, or as
- * long as rounding makes it. */
+/* Four cells meet in each inner corner of a lattice; the side between diagonal neighbours is empty, or of the
+ * length of rounding. */
 static void a_lattice_gives_squares(void **state)
 {
     (void)state;
@@ -64,7 +65,7 @@ static void a_lattice_gives_squares(void **state)
     assert_int_equal(fl_power_cells_build(&c, 100, site, (fl_vec2){0, 0}, (fl_vec2){10, 10}, &err), 0);
     for (int32_t i = 0; i < 100; i++) {
         const fl_vec2 *v = c.v + c.first[i];
-        const int32_t n = size(&c, i);
+        const int32_t n = side_count(&c, i);
         int sides = 0;
         for (int32_t k = 0; k < n; k++) {
             const double l = hypot(v[(k + 1) % n].x - v[k].x, v[(k + 1) % n].y - v[k].y);
@@ -92,13 +93,13 @@ static void one_site_and_sites_on_a_line(void **state)
     assert_true(fl_polygon_area(4, c.v) == 24.0);
     fl_power_cells_free(&c);
     assert_int_equal(fl_power_cells_build(&c, 3, site, LO, HI, &err), 0);
-    assert_near(fl_polygon_area(size(&c, 0), c.v + c.first[0]), 7.5, 1e-15);
-    assert_near(fl_polygon_area(size(&c, 1), c.v + c.first[1]), 9.0, 1e-15);
-    assert_near(fl_polygon_area(size(&c, 2), c.v + c.first[2]), 7.5, 1e-15);
+    assert_near(fl_polygon_area(side_count(&c, 0), c.v + c.first[0]), 7.5, 1e-15);
+    assert_near(fl_polygon_area(side_count(&c, 1), c.v + c.first[1]), 9.0, 1e-15);
+    assert_near(fl_polygon_area(side_count(&c, 2), c.v + c.first[2]), 7.5, 1e-15);
     fl_power_cells_free(&c);
 }
 
-static void threads_change_nothing(void **state)
+static void threads_do_not_change_the_cells(void **state)
 {
     (void)state;
     fl_vec2 site[N];
@@ -117,7 +118,7 @@ static void threads_change_nothing(void **state)
     fl_power_cells_free(&b);
 }
 
-static void faults_are_told(void **state)
+static void faults_are_reported(void **state)
 {
     (void)state;
     const fl_vec2 site[2] = {{1.0, 2.0}, {1.0, 2.0}};
@@ -144,7 +145,7 @@ int main(void)
                                        cmocka_unit_test(cells_tile_the_rectangle),
                                        cmocka_unit_test(a_lattice_gives_squares),
                                        cmocka_unit_test(one_site_and_sites_on_a_line),
-                                       cmocka_unit_test(threads_change_nothing),
-                                       cmocka_unit_test(faults_are_told)};
+                                       cmocka_unit_test(threads_do_not_change_the_cells),
+                                       cmocka_unit_test(faults_are_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

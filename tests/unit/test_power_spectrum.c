@@ -9,7 +9,7 @@
 
 enum { N = 1000 };
 
-static fl_power_spectrum made(int32_t n, const double *x, double fs, int32_t length, int taper)
+static fl_power_spectrum make_spectrum(int32_t n, const double *x, double fs, int32_t length, int taper)
 {
     fl_err err = {0};
     fl_power_spectrum s;
@@ -17,13 +17,13 @@ static fl_power_spectrum made(int32_t n, const double *x, double fs, int32_t len
     return s;
 }
 
-/* 2 sin(2 pi 10 t) at 100 Hz in Hann windows of 1000: the numbers of scipy 1.10. */
-static void sine_of_scipy(void **state)
+/* 2 sin(2 pi 10 t) at 100 Hz in Hann windows of 1000: reference values of scipy 1.10. */
+static void a_sine_has_the_spectrum_of_scipy(void **state)
 {
     double x[4 * N];
     (void)state;
     for (int k = 0; k < 4 * N; k++) x[k] = 2.0 * sin(2.0 * PI * 10.0 * k / 100.0);
-    fl_power_spectrum s = made(4 * N, x, 100.0, N, FL_TAPER_HANN);
+    fl_power_spectrum s = make_spectrum(4 * N, x, 100.0, N, FL_TAPER_HANN);
     assert_int_equal(s.segments, 7);
     assert_int_equal(s.n, 501);
     assert_near(s.psd[100], 13.3333, 1e-5);
@@ -33,13 +33,13 @@ static void sine_of_scipy(void **state)
     assert_near(fl_power_spectrum_dominant(&s, &at), 10.0, 1e-12);
     assert_int_equal(at, 100);
     assert_near(fl_power_spectrum_share(&s, at), 1.0, 1e-12);
-    /* the lobe holds a quarter on either side: sqrt(f^2 + df^2 / 3) */
+    /* the lobe has a quarter on either side: sqrt(f^2 + df^2 / 3) */
     assert_near(fl_power_spectrum_crossing_rate(&s), sqrt(100.0 + 0.01 / 3.0), 1e-12);
     fl_power_spectrum_free(&s);
     assert_null(s.psd);
 }
 
-/* One segment without a window is the periodogram, whatever its length. */
+/* One segment without a window is the periodogram, for any length. */
 static void one_segment_is_the_periodogram(void **state)
 {
     static const int32_t length[] = {4, 5, 7, 12, 97, 128};
@@ -49,7 +49,7 @@ static void one_segment_is_the_periodogram(void **state)
         fl_rng g = fl_rng_of(test_seed(), L, FL_RNG_TEST);
         double x[128], mean = 0.0;
         for (int k = 0; k < L; k++) mean += (x[k] = fl_rng_in(&g, -1.0, 3.0)) / L;
-        fl_power_spectrum s = made(L, x, 2.0, L, FL_TAPER_NONE);
+        fl_power_spectrum s = make_spectrum(L, x, 2.0, L, FL_TAPER_NONE);
         assert_int_equal(s.segments, 1);
         assert_near(s.dof, 2.0, 0.0);
         for (int32_t k = 1; k < s.n; k++) {
@@ -64,8 +64,8 @@ static void one_segment_is_the_periodogram(void **state)
     }
 }
 
-/* The power is the weighted square of what was transformed: Parseval, for each window and any length. */
-static void power_is_that_of_the_segments(void **state)
+/* The power is the weighted square of the transformed values: Parseval, for each window and any length. */
+static void power_equals_that_of_the_segments(void **state)
 {
     (void)state;
     for (int taper = 0; taper < FL_TAPERS; taper++) {
@@ -73,7 +73,7 @@ static void power_is_that_of_the_segments(void **state)
             double x[N], mean = 0.0, top = 0.0, below = 0.0;
             fl_rng g = fl_rng_of(test_seed(), L, FL_RNG_TEST);
             for (int k = 0; k < N; k++) mean += (x[k] = 5.0 + fl_rng_in(&g, -1.0, 1.0)) / N;
-            fl_power_spectrum s = made(N, x, 8.0, L, taper);
+            fl_power_spectrum s = make_spectrum(N, x, 8.0, L, taper);
             for (int j = 0; j < s.segments; j++) {
                 for (int i = 0; i < L; i++) {
                     const double u = 2.0 * PI * i / L;
@@ -92,7 +92,7 @@ static void power_is_that_of_the_segments(void **state)
     }
 }
 
-static void lengths_suit_the_transform(void **state)
+static void segment_lengths_suit_the_transform(void **state)
 {
     (void)state;
     assert_int_equal(fl_spectrum_segment_length(3), 3);
@@ -108,7 +108,7 @@ static void lengths_suit_the_transform(void **state)
         assert_int_equal(rest, 1);
         assert_true(9 * (int64_t)L <= 2 * (int64_t)n);
         assert_true(27 * (int64_t)L >
-                    4 * (int64_t)n); /* such products are never further apart than 4 and 6 */
+                    4 * (int64_t)n); /* such products are never further apart than a ratio of 6 to 4 */
     }
     assert_true(fl_spectrum_segment_length(INT32_MAX) > 400000000);
 }
@@ -119,22 +119,22 @@ static void records_without_a_frequency(void **state)
     int32_t at;
     (void)state;
     for (int k = 0; k < 64; k++) x[k] = 7.0;
-    fl_power_spectrum s = made(64, x, 1.0, 16, FL_TAPER_HANN);
+    fl_power_spectrum s = make_spectrum(64, x, 1.0, 16, FL_TAPER_HANN);
     assert_near(fl_power_spectrum_variance(&s), 0.0, 0.0);
     assert_true(isnan(fl_power_spectrum_dominant(&s, &at)));
     assert_int_equal(at, -1);
     assert_true(isnan(fl_power_spectrum_crossing_rate(&s)));
     fl_power_spectrum_free(&s);
-    /* A slope has less than two periods, whatever is said of it. */
+    /* A slope has fewer than two periods, for every setting. */
     for (int k = 0; k < 64; k++) x[k] = k;
-    s = made(64, x, 1.0, 64, FL_TAPER_HANN);
+    s = make_spectrum(64, x, 1.0, 64, FL_TAPER_HANN);
     assert_true(isnan(fl_power_spectrum_dominant(&s, NULL)));
     fl_power_spectrum_interval(&s, 0, &low, &high);
     assert_true(low >= 0.0 && low <= s.psd[0] && s.psd[0] <= high);
     fl_power_spectrum_free(&s);
 }
 
-static void limits_are_sentences(void **state)
+static void invalid_limits_are_reported(void **state)
 {
     double x[64] = {0};
     fl_err err = {0};
@@ -159,11 +159,11 @@ static void limits_are_sentences(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sine_of_scipy),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_sine_has_the_spectrum_of_scipy),
                                        cmocka_unit_test(one_segment_is_the_periodogram),
-                                       cmocka_unit_test(power_is_that_of_the_segments),
-                                       cmocka_unit_test(lengths_suit_the_transform),
+                                       cmocka_unit_test(power_equals_that_of_the_segments),
+                                       cmocka_unit_test(segment_lengths_suit_the_transform),
                                        cmocka_unit_test(records_without_a_frequency),
-                                       cmocka_unit_test(limits_are_sentences)};
+                                       cmocka_unit_test(invalid_limits_are_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

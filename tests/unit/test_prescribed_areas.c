@@ -14,8 +14,8 @@ static const fl_vec2 HEXAGON[] = {{10, 0}, {5, 9}, {-5, 9}, {-10, 0}, {-5, -9}, 
 static const fl_outline RECTANGLE = {.lo = {-20, -5}, .hi = {20, 5}};
 static const fl_outline POLYGON = {.lo = {-10, -9}, .hi = {10, 9}, .n = 6, .v = HEXAGON};
 
-/* Diameters of 1:100, in no order, that add up to part of the outline. */
-static void sizes(int32_t n, const fl_outline *in, double part, double *area)
+/* Diameters of 1:100 in random order that add up to part of the outline. */
+static void make_sizes(int32_t n, const fl_outline *in, double part, double *area)
 {
     const fl_sizes s = {.kind = FL_SIZES_POWER, .beta = 2.8, .dmin = 1.0, .dmax = 100.0};
     double ascending[N];
@@ -23,13 +23,13 @@ static void sizes(int32_t n, const fl_outline *in, double part, double *area)
     for (int32_t i = 0; i < n; i++) area[i] = ascending[(int64_t)i * 7 % n];
 }
 
-static void discs_stand_apart(void **state)
+static void discs_are_separate(void **state)
 {
     (void)state;
     static double area[N], w[N];
     static fl_vec2 site[N];
     fl_err err = {0};
-    sizes(N, &POLYGON, 1.0, area);
+    make_sizes(N, &POLYGON, 1.0, area);
     assert_int_equal(fl_prescribed_areas_sites(N, test_seed(), area, &POLYGON, site, w, &err), 0);
     for (int32_t i = 0; i < N; i++) {
         assert_true(w[i] > 0.0 && w[i] <= FL_SITE_DISC_COVER * area[i] / 3.14159 &&
@@ -49,7 +49,7 @@ static void cells_get_their_areas(void **state)
         fl_power_cells c = {0};
         fl_err err = {0};
         double sum = 0.0;
-        sizes(N, in, 1.0, area);
+        make_sizes(N, in, 1.0, area);
         assert_int_equal(fl_prescribed_areas_sites(N, test_seed() + (uint64_t)s, area, in, site, w, &err), 0);
         assert_int_equal(fl_prescribed_areas_solve(&c, N, site, w, area, in, 1e-9, &err), 0);
         fl_power_cells_areas(&c, got);
@@ -70,7 +70,7 @@ static void cells_get_their_areas(void **state)
     }
 }
 
-/* Cells of asked areas in one call: they are right, fill the outline, and no smoothing makes them empty. */
+/* Cells of given areas in one call: they are right, fill the outline, and no smoothing makes them empty. */
 static void cells_in_one_call(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void cells_in_one_call(void **state)
         fl_power_cells c = {0};
         fl_err err = {0};
         double sum = 0.0;
-        sizes(N, &POLYGON, 1.0, area);
+        make_sizes(N, &POLYGON, 1.0, area);
         assert_int_equal(fl_prescribed_areas_cells(&c, N, test_seed(), area, &POLYGON, smooth, &err), 0);
         fl_power_cells_areas(&c, got);
         for (int32_t i = 0; i < N; i++) {
@@ -91,7 +91,7 @@ static void cells_in_one_call(void **state)
     }
 }
 
-/* Two sites in a square: the wall lies where the smaller one gets a fifth, and weights tell where. */
+/* Two sites in a square: the weights place the wall where the smaller cell has a fifth. */
 static void two_cells(void **state)
 {
     (void)state;
@@ -119,7 +119,7 @@ static void floes_get_their_areas(void **state)
     fl_floes a[2] = {{0}};
     double off[2] = {0}, sum = 0.0;
     fl_err err = {0};
-    sizes(N, &RECTANGLE, 0.8, area);
+    make_sizes(N, &RECTANGLE, 0.8, area);
     for (int k = 0; k < 2; k++) {
         omp_set_num_threads(1 + 2 * k);
         assert_int_equal(fl_prescribed_areas_floes(&c[k], &a[k], N, test_seed(), area, &RECTANGLE, 2, 0.8,
@@ -143,7 +143,7 @@ static void floes_get_their_areas(void **state)
     }
 }
 
-static void failures_are_told(void **state)
+static void failures_are_reported(void **state)
 {
     (void)state;
     static double area[N];
@@ -152,7 +152,7 @@ static void failures_are_told(void **state)
     double off;
     fl_err err = {0};
     int rc = -1;
-    sizes(N, &RECTANGLE, 0.8, area);
+    make_sizes(N, &RECTANGLE, 0.8, area);
     assert_int_equal(fl_prescribed_areas_floes(&c, &a, N, test_seed(), area, &RECTANGLE, 0, 0.8, 0.5,
                                                (fl_vec2){0, 0}, &off, &err),
                      -1);
@@ -177,9 +177,9 @@ static void failures_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(discs_stand_apart),     cmocka_unit_test(cells_get_their_areas),
+        cmocka_unit_test(discs_are_separate),    cmocka_unit_test(cells_get_their_areas),
         cmocka_unit_test(cells_in_one_call),     cmocka_unit_test(two_cells),
-        cmocka_unit_test(floes_get_their_areas), cmocka_unit_test(failures_are_told),
+        cmocka_unit_test(floes_get_their_areas), cmocka_unit_test(failures_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,13 +9,13 @@
 
 #define EPS DBL_EPSILON
 
-static fl_vec3 some_vector(fl_rng *g, double size)
+static fl_vec3 random_vector(fl_rng *g, double size)
 {
     const double x = fl_rng_normal(g), y = fl_rng_normal(g), z = fl_rng_normal(g);
     return v3_scale(size, v3_unit(v3(x, y, z)));
 }
 
-static fl_quat some_quat(fl_rng *g)
+static fl_quat random_rotation(fl_rng *g)
 {
     const double w = fl_rng_normal(g), x = fl_rng_normal(g), y = fl_rng_normal(g), z = fl_rng_normal(g);
     return q_unit((fl_quat){w, x, y, z});
@@ -30,7 +30,7 @@ static void expect_vector(fl_vec3 a, fl_vec3 b, double tol)
 }
 
 /* Quarter and third turns have exact matrices: no rounding is allowed. */
-static void exact_turns(void **state)
+static void quarter_and_third_turns_are_exact(void **state)
 {
     (void)state;
     const fl_vec3 v = v3(1.0, 20.0, 300.0);
@@ -58,8 +58,8 @@ static void handedness(void **state)
     }
 }
 
-/* Against the C library in long double, over the range a step may turn a body and far beyond.  The header
- * promises 2e-16 up to half a radian and a slow growth from there. */
+/* Against the C library in long double, over the range of rotations of a step and far beyond. The header
+ * promises 2e-16 up to half a radian and slow growth beyond. */
 static void half_angles(void **state)
 {
     (void)state;
@@ -77,7 +77,7 @@ static void half_angles(void **state)
             /* small angles keep their relative precision */
             if (a < 1e-3) assert_near(s, (double)sinl(0.5L * a), 4 * EPS);
         }
-        const fl_vec3 r = some_vector(&g, a);
+        const fl_vec3 r = random_vector(&g, a);
         const fl_quat q = q_of_vector(r);
         assert_near_of(sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z), 1.0, 4e-15, 1.0);
         assert_near_of(q.x * r.y - q.y * r.x, 0.0, 4 * EPS, a);
@@ -91,13 +91,13 @@ static void products_compose(void **state)
     const long n = test_times(20000);
     for (long k = 0; k < n; k++) {
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
-        const fl_quat a = some_quat(&g), b = some_quat(&g);
-        const fl_vec3 v = some_vector(&g, pow(10.0, fl_rng_in(&g, -6.0, 6.0)));
+        const fl_quat a = random_rotation(&g), b = random_rotation(&g);
+        const fl_vec3 v = random_vector(&g, pow(10.0, fl_rng_in(&g, -6.0, 6.0)));
         expect_vector(q_rotate(q_mul(a, b), v), q_rotate(a, q_rotate(b, v)), 16 * EPS);
         expect_vector(m3_tmul(q_matrix(a), q_rotate(a, v)), v, 16 * EPS);
         expect_vector(q_rotate(q_conj(a), v), m3_tmul(q_matrix(a), v), 8 * EPS);
         assert_near(v3_norm(q_rotate(a, v)), v3_norm(v), 16 * EPS);
-        const fl_vec3 w = some_vector(&g, 1.0); /* turning keeps the cross product: no mirror */
+        const fl_vec3 w = random_vector(&g, 1.0); /* rotation preserves the cross product: no mirror */
         expect_vector(v3_cross(q_rotate(a, v3_unit(v)), q_rotate(a, w)), q_rotate(a, v3_cross(v3_unit(v), w)),
                       1e-12);
     }
@@ -117,7 +117,7 @@ static void matrix_and_back(void **state)
         if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0) continue;
         const fl_quat q = q_unit((fl_quat){c[0], c[1], c[2], c[3]}), p = q_of_matrix(q_matrix(q));
         const double dot = q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z, sign = dot < 0 ? -1.0 : 1.0;
-        /* the same turn, whichever of the two signs */
+        /* the same rotation with either sign */
         assert_near_of(sign * p.w, q.w, 8 * EPS, 1.0);
         assert_near_of(sign * p.x, q.x, 8 * EPS, 1.0);
         assert_near_of(sign * p.y, q.y, 8 * EPS, 1.0);
@@ -126,7 +126,7 @@ static void matrix_and_back(void **state)
     }
 }
 
-static void vectors(void **state)
+static void rotation_vectors(void **state)
 {
     (void)state;
     const fl_vec3 zero = v3_unit(v3(0, 0, 0)), c = v3_cross(v3(1, 2, 3), v3(4, 5, 6)),
@@ -136,7 +136,7 @@ static void vectors(void **state)
     assert_true(half.x == 1 && half.y == 3 && half.z == 6);
     for (long k = 0; k < 1000; k++) {
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
-        const fl_vec3 n = some_vector(&g, 1.0), t = v3_normal_to(n);
+        const fl_vec3 n = random_vector(&g, 1.0), t = v3_normal_to(n);
         assert_near(v3_norm(t), 1.0, 4 * EPS);
         assert_near_of(v3_dot(n, t), 0.0, 4 * EPS, 1.0);
     }
@@ -146,8 +146,11 @@ static void vectors(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(exact_turns),     cmocka_unit_test(handedness),
-                                       cmocka_unit_test(half_angles),     cmocka_unit_test(products_compose),
-                                       cmocka_unit_test(matrix_and_back), cmocka_unit_test(vectors)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(quarter_and_third_turns_are_exact),
+                                       cmocka_unit_test(handedness),
+                                       cmocka_unit_test(half_angles),
+                                       cmocka_unit_test(products_compose),
+                                       cmocka_unit_test(matrix_and_back),
+                                       cmocka_unit_test(rotation_vectors)};
     return cmocka_run_group_tests_name("quat", tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 
 static fl_rainflow f;
 
-static void count(int rule, int residue, int32_t n, const double *x)
+static void count_cycles(int rule, int residue, int32_t n, const double *x)
 {
     fl_err err = {0};
     assert_int_equal(fl_rainflow_count(&f, rule, residue, n, x, &err), 0);
@@ -28,7 +28,7 @@ static double all_cycles(void)
     return sum;
 }
 
-static double miner(double m)
+static double miner_sum(double m)
 {
     const fl_sn_curve sn = {m, 1.0, 0.0, 0.0};
     double sum = 0.0;
@@ -42,33 +42,33 @@ static const double ASTM[] = {-2, 1, -3, 5, -1, 3, -4, 4, -2};
 static void example_of_astm(void **state)
 {
     (void)state;
-    count(FL_RAINFLOW_ASTM, FL_RESIDUE_HALF, 9, ASTM);
+    count_cycles(FL_RAINFLOW_ASTM, FL_RESIDUE_HALF, 9, ASTM);
     assert_near(cycles_of(3.0), 0.5, 0.0);
     assert_near(cycles_of(4.0), 1.5, 0.0);
     assert_near(cycles_of(6.0), 0.5, 0.0);
     assert_near(cycles_of(8.0), 1.0, 0.0);
     assert_near(cycles_of(9.0), 0.5, 0.0);
     assert_near(all_cycles(), 4.0, 0.0);
-    assert_near(miner(3.0), 1094.0, 1e-13);
-    assert_near(miner(4.0), 8449.0, 1e-13);
-    assert_near(miner(5.0), 67838.0, 1e-13);
+    assert_near(miner_sum(3.0), 1094.0, 1e-13);
+    assert_near(miner_sum(4.0), 8449.0, 1e-13);
+    assert_near(miner_sum(5.0), 67838.0, 1e-13);
     assert_near(fl_rainflow_equivalent(f.cycles, f.cycle, 3.0), cbrt(1094.0 / 4.0), 1e-14);
 }
 
-/* By hand: -1 3 is the one inner range; the rest goes 1 up, down, up ... with ranges 3 4 8 9 8 6. */
+/* By hand: -1 3 is the only inner range; the rest goes 1 up, down, up ... with ranges 3 4 8 9 8 6. */
 static void example_by_four_points(void **state)
 {
     (void)state;
-    count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_NONE, 9, ASTM);
+    count_cycles(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_NONE, 9, ASTM);
     assert_int_equal(f.cycles, 1);
     assert_near(f.cycle[0].range, 4.0, 0.0);
     assert_near(f.cycle[0].mean, 1.0, 0.0);
     /* Half cycles for the residue: the same counts as by ASTM. */
-    count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_HALF, 9, ASTM);
+    count_cycles(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_HALF, 9, ASTM);
     assert_near(cycles_of(4.0), 1.5, 0.0);
-    assert_near(miner(5.0), 67838.0, 1e-13);
-    /* Repeated: from the highest point 5 round to itself, 5 -4 4 -3 5, with the range 3 of 1 -2 inside. */
-    count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, 9, ASTM);
+    assert_near(miner_sum(5.0), 67838.0, 1e-13);
+    /* Repeated: from the highest point 5 around to itself, 5 -4 4 -3 5, with the range 3 of 1 -2 inside. */
+    count_cycles(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, 9, ASTM);
     assert_near(cycles_of(9.0), 1.0, 0.0);
     assert_near(cycles_of(7.0), 1.0, 0.0);
     assert_near(cycles_of(4.0), 1.0, 0.0);
@@ -81,26 +81,25 @@ static void records_without_cycles(void **state)
     const double same[] = {2, 2, 2}, up[] = {1, 2, 2, 5}, two[] = {1, 4}, flat[] = {0, 3, 3, 0, 0, 3};
     (void)state;
     for (int rule = 0; rule < FL_RAINFLOW_RULES; rule++) {
-        count(rule, FL_RESIDUE_HALF, 0, NULL);
+        count_cycles(rule, FL_RESIDUE_HALF, 0, NULL);
         assert_int_equal(f.cycles, 0);
-        count(rule, FL_RESIDUE_HALF, 3, same);
+        count_cycles(rule, FL_RESIDUE_HALF, 3, same);
         assert_int_equal(f.cycles, 0);
-        count(rule, FL_RESIDUE_HALF, 4, up);
+        count_cycles(rule, FL_RESIDUE_HALF, 4, up);
         assert_near(cycles_of(4.0), 0.5, 0.0);
         assert_int_equal(f.cycles, 1);
-        count(rule, FL_RESIDUE_HALF, 2, two);
+        count_cycles(rule, FL_RESIDUE_HALF, 2, two);
         assert_near(cycles_of(3.0), 0.5, 0.0);
-        count(rule, FL_RESIDUE_HALF, 6, flat);
+        count_cycles(rule, FL_RESIDUE_HALF, 6, flat);
         assert_near(cycles_of(3.0), 1.5, 0.0);
-        count(rule, FL_RESIDUE_REPEAT, 3, same);
+        count_cycles(rule, FL_RESIDUE_REPEAT, 3, same);
         assert_int_equal(f.cycles, 0);
     }
     assert_near(fl_rainflow_equivalent(0, NULL, 3.0), 0.0, 0.0);
 }
 
-/* With half cycles for the residue both rules count the same ranges; every range is counted once: the sum of
- * the counted ranges is half the way of the record.  A closed record repeated gives whole cycles, and as
- * many. */
+/* With half cycles for the residue both rules count the same ranges. Every range is counted once: their sum
+ * is half the total variation of the record. A closed record repeated gives as many whole cycles. */
 static void random_records(void **state)
 {
     enum { N = 200 };
@@ -111,13 +110,13 @@ static void random_records(void **state)
         for (int k = 0; k < N; k++) x[k] = floor(fl_rng_in(&g, 0.0, 30.0));
         x[N] = x[0];
         for (int k = 0; k < N; k++) way += fabs(x[k + 1] - x[k]);
-        count(FL_RAINFLOW_ASTM, FL_RESIDUE_HALF, N + 1, x);
+        count_cycles(FL_RAINFLOW_ASTM, FL_RESIDUE_HALF, N + 1, x);
         for (int32_t k = 0; k < f.cycles; k++) sum += f.cycle[k].range * f.cycle[k].count;
         assert_near(sum, 0.5 * way, 1e-13);
-        astm = miner(3.0);
-        count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_HALF, N + 1, x);
-        assert_near(miner(3.0), astm, 1e-13);
-        count(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, N + 1, x);
+        astm = miner_sum(3.0);
+        count_cycles(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_HALF, N + 1, x);
+        assert_near(miner_sum(3.0), astm, 1e-13);
+        count_cycles(FL_RAINFLOW_FOUR_POINT, FL_RESIDUE_REPEAT, N + 1, x);
         sum = 0.0;
         for (int32_t k = 0; k < f.cycles; k++) {
             sum += f.cycle[k].range * f.cycle[k].count;
@@ -127,7 +126,7 @@ static void random_records(void **state)
     }
 }
 
-static void lines(void **state)
+static void damage_lines(void **state)
 {
     const fl_sn_curve one = {3.0, 1e12, 0.0, 0.0}, two = {3.0, 1e12, 5.0, 10.0},
                       cut = {3.0, 1e12, INFINITY, 10.0};
@@ -140,7 +139,7 @@ static void lines(void **state)
     assert_near(fl_sn_damage(&one, 0.0, 1e9), 0.0, 0.0);
 }
 
-static void memory_that_runs_out(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     fl_rainflow_free(&f);
@@ -157,11 +156,9 @@ static void memory_that_runs_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(example_of_astm),
-                                       cmocka_unit_test(example_by_four_points),
-                                       cmocka_unit_test(records_without_cycles),
-                                       cmocka_unit_test(random_records),
-                                       cmocka_unit_test(lines),
-                                       cmocka_unit_test(memory_that_runs_out)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(example_of_astm),        cmocka_unit_test(example_by_four_points),
+        cmocka_unit_test(records_without_cycles), cmocka_unit_test(random_records),
+        cmocka_unit_test(damage_lines),           cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ static void nothing_and_a_constant_mean(void **state)
 }
 
 /* Every cycle is in the cell whose printed limits hold it, and none is lost. */
-static void random_cycles_are_where_they_belong(void **state)
+static void random_cycles_are_in_their_cells(void **state)
 {
     enum { N = 500 };
     (void)state;
@@ -89,7 +89,7 @@ static void random_cycles_are_where_they_belong(void **state)
     }
 }
 
-static void memory_that_runs_out(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     const fl_cycle one = {1, 0, 1};
     fl_err err = {0};
@@ -106,6 +106,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_by_hand), cmocka_unit_test(nothing_and_a_constant_mean),
-        cmocka_unit_test(random_cycles_are_where_they_belong), cmocka_unit_test(memory_that_runs_out)};
+        cmocka_unit_test(random_cycles_are_in_their_cells), cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,7 +15,7 @@ static void triangle(fl_surface *s, fl_vec3 a, fl_vec3 b, fl_vec3 c)
     fl_surface_triangle(&s->part[i], 0, 1, 2, &err);
 }
 
-static int32_t at(const fl_raster *r, double u, double v)
+static int32_t part_at(const fl_raster *r, double u, double v)
 {
     return r->part[(int64_t)((v - r->v0) / r->pixel) * r->w + (int64_t)((u - r->u0) / r->pixel)];
 }
@@ -42,16 +42,17 @@ static void a_box_shows_its_faces(void **state)
             }
             assert_int_equal(seen, lround(100 * size[axes.right] * size[axes.up]));
             assert_int_equal(fl_raster_lines(&r, &s, 25.0, &err), 0);
-            assert_true(at(&r, 0.01, 1.05) == FL_RASTER_LINE || at(&r, -0.01, 1.05) == FL_RASTER_LINE);
-            assert_int_equal(at(&r, 1.05, 1.05), 0); /* the diagonal of a face is no edge */
+            assert_true(part_at(&r, 0.01, 1.05) == FL_RASTER_LINE ||
+                        part_at(&r, -0.01, 1.05) == FL_RASTER_LINE);
+            assert_int_equal(part_at(&r, 1.05, 1.05), 0); /* the diagonal of a face is no edge */
             fl_raster_free(&r);
             fl_raster_free(&r);
         }
     fl_surface_free(&s);
 }
 
-/* Three beams, each over the next: no order of drawing is right, and each pixel is. */
-static void a_ring_of_beams_hides_as_it_must(void **state)
+/* Three beams, each over the next: no drawing order is right, yet each pixel is. */
+static void a_ring_of_beams_is_occluded_correctly(void **state)
 {
     (void)state;
     for (int first = 0; first < 3; first++) {
@@ -68,39 +69,39 @@ static void a_ring_of_beams_hides_as_it_must(void **state)
         fl_raster_fill(&r, &s);
         for (int i = 0; i < 3; i++) {
             const double a = 2.0943951023931953 * ((i + first) % 3), c = cos(a), n = sin(a);
-            /* where the middles of two beams meet: the one near its high end is seen */
+            /* where the centre lines of two beams cross: the one near its high end is seen */
             const fl_vec3 x = v3(sqrt(3.0), -1.0, 0);
-            assert_int_equal(at(&r, c * x.x - n * x.y, n * x.x + c * x.y), i);
+            assert_int_equal(part_at(&r, c * x.x - n * x.y, n * x.x + c * x.y), i);
         }
         fl_raster_free(&r);
         fl_surface_free(&s);
     }
 }
 
-static fl_vec3 slope(double x, double y) { return v3(x, y, 0.1 / 3 + 0.0731 * x + 0.0377 * y); }
+static fl_vec3 plane_at(double x, double y) { return v3(x, y, 0.1 / 3 + 0.0731 * x + 0.0377 * y); }
 
-/* Two faces in one plane, which differ by rounding: the first one is seen, everywhere. */
-static void of_faces_in_one_place_the_first_is_seen(void **state)
+/* Two faces in one plane that differ by rounding: the first one is seen everywhere. */
+static void the_first_of_coincident_faces_is_seen(void **state)
 {
     fl_surface s = {0};
     fl_raster r;
     int64_t seen[2] = {0};
     (void)state;
-    triangle(&s, slope(-1.1, -0.9), slope(1.3, -0.7), slope(0.3, 1.7));
+    triangle(&s, plane_at(-1.1, -0.9), plane_at(1.3, -0.7), plane_at(0.3, 1.7));
     for (int k = 0; k < 2; k++) {
         assert_int_equal(fl_raster_start(&r, (fl_view_axes){0, 1, 2, 1}, 400, 400, -2, -2, 0.01, &err), 0);
         fl_raster_fill(&r, &s);
         for (int i = 0; i < 400 * 400; i++) seen[k] += r.part[i] == 0;
         fl_raster_free(&r);
-        triangle(&s, slope(-2.1, -2.7), slope(2.9, -1.3), slope(-0.2, 2.9));
+        triangle(&s, plane_at(-2.1, -2.7), plane_at(2.9, -1.3), plane_at(-0.2, 2.9));
     }
     assert_true(seen[0] > 10000);
     assert_int_equal(seen[1], seen[0]);
     fl_surface_free(&s);
 }
 
-/* Two that pass through each other show where they do; an edge behind a face is not drawn. */
-static void what_lies_behind_is_hidden(void **state)
+/* Two faces that cross are both seen where they are in front; an edge behind a face is not drawn. */
+static void hidden_parts_are_not_drawn(void **state)
 {
     fl_surface s = {0};
     fl_raster r;
@@ -110,12 +111,12 @@ static void what_lies_behind_is_hidden(void **state)
     triangle(&s, v3(0.5, 0.5, -3), v3(1, 0.5, -3), v3(0.5, 1, -3));
     assert_int_equal(fl_raster_start(&r, (fl_view_axes){0, 1, 2, 1}, 100, 100, -0.5, -0.5, 0.05, &err), 0);
     fl_raster_fill(&r, &s);
-    assert_int_equal(at(&r, 1.8, 1), 1); /* z = x / 4 crosses z = 1/2 at x = 2 */
-    assert_int_equal(at(&r, 2.2, 1), 0);
-    assert_int_equal(at(&r, 0.6, 0.6), 1);
+    assert_int_equal(part_at(&r, 1.8, 1), 1); /* z = x / 4 crosses z = 1/2 at x = 2 */
+    assert_int_equal(part_at(&r, 2.2, 1), 0);
+    assert_int_equal(part_at(&r, 0.6, 0.6), 1);
     assert_int_equal(fl_raster_lines(&r, &s, 25.0, &err), 0);
-    assert_int_equal(at(&r, 0.76, 0.74), 1); /* on the hidden one's longest side */
-    assert_int_equal(at(&r, 0.01, 1), FL_RASTER_LINE);
+    assert_int_equal(part_at(&r, 0.76, 0.74), 1); /* on the hidden one's longest side */
+    assert_int_equal(part_at(&r, 0.01, 1), FL_RASTER_LINE);
     fl_raster_free(&r);
     fl_alloc_fail_after(1);
     assert_int_equal(fl_raster_start(&r, (fl_view_axes){0, 1, 2, 1}, 9, 9, 0, 0, 1, &err), -1);
@@ -125,8 +126,9 @@ static void what_lies_behind_is_hidden(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_faces_in_one_place_the_first_is_seen), cmocka_unit_test(a_box_shows_its_faces),
-        cmocka_unit_test(a_ring_of_beams_hides_as_it_must), cmocka_unit_test(what_lies_behind_is_hidden)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_first_of_coincident_faces_is_seen),
+                                       cmocka_unit_test(a_box_shows_its_faces),
+                                       cmocka_unit_test(a_ring_of_beams_is_occluded_correctly),
+                                       cmocka_unit_test(hidden_parts_are_not_drawn)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@ static void fields_of_every_kind(void **state)
     (void)state;
     static const char *const text[] = {
         CUBE HEX,
-        /* small field: touching numbers, E left out, three-digit exponents, tabs, comments, continuation
+        /* small field: adjoining numbers, E left out, three-digit exponents, tabs, comments, continuation
          * marks; in a deck with its control sections, letters of either case, CRLF */
         "$ a deck\r\nSOL 101\r\nCEND\r\nTITLE = A CHEXA, 1\r\n  SPC = 2\r\nBEGIN BULK\r\n$ nodes\r\n"
         "grid           1         0.0E+00-0.0E-010.0E+000\r\nGRID           2        1.-0    0.0      0.\r\n"
@@ -34,7 +34,7 @@ static void fields_of_every_kind(void **state)
         "\nGRID,8,,,1.,1.\n"
         "CHEXA*                 1               1               1               2\n"
         "*                      3               4               5               6\n+       7       8\n",
-        /* the same with what is blank left blank, continued by blanks and by a comma */
+        /* the same with blank fields left blank, continued by blanks and by a comma */
         CUBE "CHEXA   1       1       1       2       3       4       5       6\n        7       8\n",
         CUBE "CHEXA,1,1,1,2,3,4,5,6\n,7,8\n", "BEGIN,BULK\n" CUBE "CHEXA,1,,1,2,3,4,5,6,,\n,7,8\n"};
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
@@ -90,10 +90,25 @@ static void elements_of_every_kind(void **state)
         "CSET1,3\nCMETHOD,1\n");
     says("skipped: CELAS2 2, CONM2 1, CBUSH 1, RBE2 1, PLOTEL 1, CTRIAX6 1");
     refuses(CUBE HEX "=,*1,=,*1.,==\n", "deck:11: replication (=) is not read");
-    refuses("BEGIN SUPER=1\n" CUBE HEX, "BEGIN SUPER is not read");
+    static const char *const model[] = {
+        "BEGIN SUPER=1",         "begin bulk super = 12", "BEGIN BULK SUPER 1", "BEGIN AUXMODEL=1",
+        "BEGIN BULK,AUXMODEL=1", "BEGIN BULK ARBMODEL=2", "BEGIN BULK MODULE=1"};
+    for (size_t k = 0; k < sizeof model / sizeof *model; k++) {
+        char deck[1000];
+        snprintf(deck, sizeof deck, "BEGIN BULK\n" CUBE HEX "%s\n" CUBE HEX, model[k]);
+        refuses(deck, "is not read: export one model");
+    }
+    assert_near(reads("BEGIN BULK SUPER=0\n" CUBE HEX).volume, 1.0, 0.0); /* the residual structure */
+    assert_near(reads("BEGIN BULK\n" CUBE HEX "PSOLID,1,1\n").volume, 1.0, 0.0);
+    /* acoustic fluids are not structure, wherever their property stands */
+    assert_near(reads("PSOLID,2,1,,,,,PFLUID\n" CUBE HEX "CHEXA,2,2,1,2,3,4,5,6,+\n+,7,8\n").volume, 1.0,
+                0.0);
+    says("elements: hex8 1");
+    says("skipped: solids of PFLUID 1");
+    refuses(CUBE HEX "PSOLID,1,1,,,,,FFLUID\n", "no triangles");
 }
 
-static void lines_have_radii(void **state)
+static void line_elements_have_radii(void **state)
 {
     (void)state;
     reads("GRID,1\nGRID,2,,4.\nCBAR,1,1,1,2,0.,0.,1.\nCBEAM,2,2,1,2\nCROD,3,3,1,2\nCTUBE,4,4,1,2\nCONROD,5,1,"
@@ -117,7 +132,7 @@ static void lines_have_radii(void **state)
     refuses("GRID,1\nGRID,2,,4.\nCONROD,1,1,2,1,-1.\n", "CONROD 1 has the area -1");
 }
 
-static void parts_have_the_names_of_comments(void **state)
+static void parts_are_named_by_comments(void **state)
 {
     (void)state;
     reads(CUBE "CTRIA3,1,1,1,2,3\nCTRIA3,2,2,1,2,4\nCTRIA3,3,3,1,2,5\nCTRIA3,4,4,1,2,6\nCTRIA3,5,5,1,2,7\n"
@@ -132,8 +147,8 @@ static void parts_have_the_names_of_comments(void **state)
 
 /* --- coordinate systems --------------------------------------------------------------------------------- */
 
-/* Where the corner of the triangle of grids 1, 91, 92 is. */
-static void grid_is_at(const char *text, double x, double y, double z)
+/* Expects the corner of the triangle of grids 1, 91, 92 at (x, y, z). */
+static void expect_grid_at(const char *text, double x, double y, double z)
 {
     char deck[2000];
     snprintf(deck, sizeof deck, "%sGRID,91,0,50.\nGRID,92,0,0.,50.\nCTRIA3,1,1,1,91,92\n", text);
@@ -150,32 +165,32 @@ static void grids_stand_in_systems(void **state)
     static const char moved[] = "CORD2R,5,,10.,0.,0.,10.,0.,1.\n,10.,1.,0.\n"; /* x along y, at (10, 0, 0) */
     char deck[1000];
     snprintf(deck, sizeof deck, "GRID,1,5,1.,2.,3.\n%s", moved); /* given before its system */
-    grid_is_at(deck, 8, 1, 3);
+    expect_grid_at(deck, 8, 1, 3);
     snprintf(deck, sizeof deck, "%sGRID,1,,1.,2.,3.\nGRDSET,,5\n", moved); /* by default, given last */
-    grid_is_at(deck, 8, 1, 3);
+    expect_grid_at(deck, 8, 1, 3);
     snprintf(deck, sizeof deck, "%sGRID,1,0,1.,2.,3.\nGRDSET,,5\n", moved);
-    grid_is_at(deck, 1, 2, 3);
+    expect_grid_at(deck, 1, 2, 3);
     /* a cylinder and a sphere in the moved one: quarter turns are exact */
     snprintf(deck, sizeof deck, "CORD2C,6,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,6,2.,90.,3.\n%s", moved);
-    grid_is_at(deck, 8, 0, 3);
+    expect_grid_at(deck, 8, 0, 3);
     snprintf(deck, sizeof deck, "CORD2S,6,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,6,2.,90.,90.\n%s", moved);
-    grid_is_at(deck, 8, 0, 0);
-    grid_is_at("CORD2S,6,0,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,6,2.,60.,0.\n", 1.7320508075688772, 0, 1);
-    /* by grids, which stand in systems themselves; two systems on one line */
+    expect_grid_at(deck, 8, 0, 0);
+    expect_grid_at("CORD2S,6,0,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,6,2.,60.,0.\n", 1.7320508075688772, 0, 1);
+    /* by grids, which are given in systems themselves; two systems on one line */
     snprintf(
         deck, sizeof deck,
         "%sCORD1C,8,11,12,13,9,11,13,12\nGRID,11,5,1.\nGRID,12,5,2.\nGRID,13,5,1.,1.\nGRID,1,8,2.,0.,4.\n",
         moved);
-    grid_is_at(deck, 8, 5, 0);
+    expect_grid_at(deck, 8, 5, 0);
     snprintf(
         deck, sizeof deck,
         "%sCORD1R,8,11,12,13,9,11,13,12\nGRID,11,5,1.\nGRID,12,5,2.\nGRID,13,5,1.,1.\nGRID,1,9,2.,0.,4.\n",
         moved);
-    grid_is_at(deck, 6, 3, 0);
-    grid_is_at("CORD2R*,5,,10.,0.\n*,0.,10.,0.,1.\n*,10.,1.,0.\nGRID,1,5,1.,2.,3.\n", 8, 1, 3);
+    expect_grid_at(deck, 6, 3, 0);
+    expect_grid_at("CORD2R*,5,,10.,0.\n*,0.,10.,0.,1.\n*,10.,1.,0.\nGRID,1,5,1.,2.,3.\n", 8, 1, 3);
 }
 
-static void broken_systems(void **state)
+static void invalid_systems_are_refused(void **state)
 {
     (void)state;
 #define TRI "CTRIA3,1,1,1,2,3\n"
@@ -195,7 +210,7 @@ static void broken_systems(void **state)
     refuses("GRDSET,,-3\n" CUBE HEX, "GRDSET names coordinate system -3");
 }
 
-/* A chain of systems that goes round every stack is refused, and a long one that is legal is read. */
+/* A circular chain of systems is refused, and a long legal one is read. */
 static void chains_of_systems(void **state)
 {
     (void)state;
@@ -212,7 +227,7 @@ static void chains_of_systems(void **state)
 
 /* --- files ---------------------------------------------------------------------------------------------- */
 
-static void files_are_included(void **state)
+static void included_files_are_read(void **state)
 {
     (void)state;
     char deck[2000], name[200];
@@ -222,17 +237,23 @@ static void files_are_included(void **state)
     snprintf(deck, sizeof deck, "include \"%.5s\n%s\" $ over two lines\n" HEX, name, name + 5);
     assert_near(reads(deck).volume, 1.0, 0.0);
     snprintf(deck, sizeof deck, HEX "  INCLUDE %s\n", name);
-    refuses(deck,
-            "unknown format"); /* without quotes it could be anything, so it does not tell the kind ... */
+    refuses(
+        deck,
+        "unknown format"); /* without quotes it could be anything, so it does not identify the format ... */
     snprintf(deck, sizeof deck, "BEGIN BULK\n" HEX "  INCLUDE %s\n", name);
-    assert_near(reads(deck).volume, 1.0, 0.0); /* ... but is read */
+    assert_near(reads(deck).volume, 1.0, 0.0); /* ... but it is read */
     refuses("INCLUDE 'none.bdf'\n", "deck:1: the file included here cannot be read: ");
+    /* before BEGIN BULK it holds commands */
+    assert_near(reads("SOL 101\nINCLUDE 'none.inc'\nCEND\nBEGIN BULK\n" CUBE HEX).volume, 1.0, 0.0);
+    says("1 INCLUDE before BEGIN BULK could not be read");
+    refuses("BEGIN BULK\n" CUBE HEX "INCLUDE 'none.inc'\n", "deck:12: the file included here cannot be read");
+    refuses(CUBE HEX "INCLUDE 'none.inc'\nENDDATA\n", "deck:11: the file included here cannot be read");
     refuses("INCLUDE 'none.bdf\n", "deck:1: the name of the file to include has no closing quote");
     refuses("BEGIN BULK\nINCLUDE '\n'\n", "a file to include is expected");
 }
 
-/* What only looks like a deck, and decks that look like something else. */
-static void kinds_are_told_apart(void **state)
+/* Text that only resembles a deck, and decks that resemble another format. */
+static void other_decks_are_recognised(void **state)
 {
     (void)state;
     refuses("GRIDDLE CAKES\n", "unknown format");
@@ -245,11 +266,9 @@ static void kinds_are_told_apart(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(fields_of_every_kind),   TEST(elements_of_every_kind),
-        TEST(lines_have_radii),       TEST(parts_have_the_names_of_comments),
-        TEST(grids_stand_in_systems), TEST(broken_systems),
-        TEST(chains_of_systems),      TEST(files_are_included),
-        TEST(kinds_are_told_apart),
+        TEST(fields_of_every_kind),        TEST(elements_of_every_kind),  TEST(line_elements_have_radii),
+        TEST(parts_are_named_by_comments), TEST(grids_stand_in_systems),  TEST(invalid_systems_are_refused),
+        TEST(chains_of_systems),           TEST(included_files_are_read), TEST(other_decks_are_recognised),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

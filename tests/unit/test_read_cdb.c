@@ -5,7 +5,7 @@
 #include "geom/moments.h"
 #include "support/decks.h"
 
-static fl_aabb box(void) { return fl_surface_aabb(&s); }
+static fl_aabb bounding_box(void) { return fl_surface_aabb(&s); }
 
 #define NODES                                                                                                \
     "NBLOCK,6,SOLID\n(3i8,6e20.13)\n"                                                                        \
@@ -23,8 +23,8 @@ static fl_aabb box(void) { return fl_surface_aabb(&s); }
     "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7   8\n"                         \
     "  -1\n"
 
-/* Rows are cut at their columns: numbers touch, have exponents of three digits, or are short. */
-static void columns_are_those_of_the_format(void **state)
+/* Rows are divided at their columns: numbers adjoin, have exponents of three digits, or are short. */
+static void fields_follow_the_format_line(void **state)
 {
     (void)state;
     reads("ET,1,SHELL181\n"
@@ -40,7 +40,8 @@ static void columns_are_those_of_the_format(void **state)
           "     -1\n");
     assert_int_equal(s.n, 1);
     assert_int_equal(s.part[0].nt, 2);
-    assert_true(box().lo.y == -6.01203 && box().lo.z == -125.0 && box().hi.x == 10.0 && box().hi.z == 0.0);
+    assert_true(bounding_box().lo.y == -6.01203 && bounding_box().lo.z == -125.0 &&
+                bounding_box().hi.x == 10.0 && bounding_box().hi.z == 0.0);
 }
 
 static void line_ends_may_be_of_any_kind(void **state)
@@ -55,10 +56,10 @@ static void line_ends_may_be_of_any_kind(void **state)
     }
     reads(crlf);
     assert_int_equal(s.part[0].nt, 12);
-    assert_near(box().hi.z, 3.0, 0.0);
+    assert_near(bounding_box().hi.z, 3.0, 0.0);
 }
 
-/* An element goes to the smallest component it is in; ranges are closed by a negative number. */
+/* An element belongs to the smallest component that holds it; ranges end with a negative number. */
 static void components_are_parts(void **state)
 {
     static const char text[] = "ET,1,63\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
@@ -73,8 +74,8 @@ static void components_are_parts(void **state)
                                "        10        11       -12\n"
                                "CMBLOCK,SOME_NODES,NODE,       1\n(8i10)\n         1\n";
     const char *pattern[] = {"all*"};
-    char hit[1] = {0};
-    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = hit};
+    char matches[1] = {0};
+    fl_import_options w = {.pattern = pattern, .patterns = 1, .matched = matches};
     (void)state;
     reads(text);
     assert_int_equal(s.n, 3);
@@ -88,10 +89,10 @@ static void components_are_parts(void **state)
     assert_int_equal(read_some(text, &w), 0);
     assert_int_equal(s.n, 1);
     assert_int_equal(s.part[0].nt, 8);
-    assert_int_equal(hit[0], 1);
+    assert_int_equal(matches[0], 1);
 }
 
-static void types_come_as_a_block_too(void **state)
+static void types_may_come_as_a_block(void **state)
 {
     (void)state;
     reads(
@@ -104,7 +105,7 @@ static void types_come_as_a_block_too(void **state)
     assert_non_null(strstr(note, "routine 174 1"));
 }
 
-static void counts_are_only_told(void **state)
+static void counts_are_only_hints(void **state)
 {
     (void)state;
     reads("ET,1,185\n" NODES "EBLOCK,19,SOLID,9,2000000000\n(19i4)\n"
@@ -139,21 +140,21 @@ static void lines_have_the_radius_of_their_section(void **state)
     assert_non_null(strstr(note, "1 lines"));
 }
 
-static void single_commands_work_beside_blocks(void **state)
+static void single_commands_mix_with_blocks(void **state)
 {
     (void)state;
     reads("*SET,tid,4\ncid = 3\net,tid,185\net,cid,200\nkeyopt,3,1,6\n" NODES
           "type,tid\nen,1,1,2,3,4,5,6,7,8\nn,9,0,0,5\nn,10,2,0,5\nn,11,2,1,5.0\nn,_pilot,1,2,3\n"
           "type,3\ne,9,10,11,11\nen,_p,1\n");
     assert_int_equal(s.part[0].nt, 13);
-    assert_near(box().hi.z, 5.0, 0.0);
+    assert_near(bounding_box().hi.z, 5.0, 0.0);
     assert_non_null(strstr(note, "2 commands"));
     reads("ET,1,95\n" NODES "E,1,2,3,4,5,6,7,8\nEMORE\nFINISH\n");
     assert_int_equal(s.part[0].nt, 12);
 }
 
 /* As CDWRITE and Workbench write them. */
-static void commands_may_be_cut(void **state)
+static void commands_may_be_abbreviated(void **state)
 {
     (void)state;
     reads("ET,        1,200\nKEYOP,        1, 1,       10\n" NODES "EBLOCK,19,SOLID,9,1\n(19i4)\n"
@@ -184,7 +185,7 @@ static void what_is_no_mesh_is_passed_over(void **state)
     assert_int_equal(s.part[0].nt, 12);
 }
 
-/* A right tetrahedron of legs 2 with its mid-side nodes, as an element of n nodes; `nodes` are its columns. */
+/* Read an element of n nodes of a right tetrahedron of legs 2 with its mid-side nodes. */
 static void read_element(int routine, int key, int n, const char *nodes)
 {
     char deck[2000];
@@ -274,7 +275,7 @@ static void edges_are_divided_on_both_sides(void **state)
     assert_true(q.closed);
 }
 
-static void bad_decks_are_told_where_and_why(void **state)
+static void bad_decks_are_reported_with_their_line(void **state)
 {
     (void)state;
     refuses("ET,1,185\nNBLOCK,6,SOLID\n(3i8,6e20.13)\n       1       0       0 0.0\n", "ends inside NBLOCK");
@@ -306,7 +307,7 @@ static void bad_decks_are_told_where_and_why(void **state)
     refuses("ET,1,185\n" NODES, "no triangles");
 }
 
-static void release(void **state)
+static void free_all(void **state)
 {
     (void)state;
     fl_surface_free(&s);
@@ -315,19 +316,19 @@ static void release(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_are_those_of_the_format),
+        cmocka_unit_test(fields_follow_the_format_line),
         cmocka_unit_test(line_ends_may_be_of_any_kind),
         cmocka_unit_test(components_are_parts),
-        cmocka_unit_test(types_come_as_a_block_too),
-        cmocka_unit_test(counts_are_only_told),
+        cmocka_unit_test(types_may_come_as_a_block),
+        cmocka_unit_test(counts_are_only_hints),
         cmocka_unit_test(routine_decides_the_shape),
         cmocka_unit_test(edges_are_divided_on_both_sides),
         cmocka_unit_test(what_is_no_mesh_is_passed_over),
         cmocka_unit_test(lines_have_the_radius_of_their_section),
-        cmocka_unit_test(single_commands_work_beside_blocks),
-        cmocka_unit_test(commands_may_be_cut),
-        cmocka_unit_test(bad_decks_are_told_where_and_why),
-        cmocka_unit_test(release),
+        cmocka_unit_test(single_commands_mix_with_blocks),
+        cmocka_unit_test(commands_may_be_abbreviated),
+        cmocka_unit_test(bad_decks_are_reported_with_their_line),
+        cmocka_unit_test(free_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

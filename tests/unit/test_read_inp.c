@@ -43,8 +43,8 @@ static void lines_of_every_kind(void **state)
     assert_string_equal(s.part[0].name, "All_of_it,_really");
 }
 
-/* Quadratic elements go over two lines; a comma behind the last node of a complete element is nothing. */
-static void elements_go_on(void **state)
+/* Quadratic elements take two lines; a comma after the last node of a complete element is ignored. */
+static void elements_continue_over_lines(void **state)
 {
     (void)state;
     fl_mesh_quality q =
@@ -58,9 +58,9 @@ static void elements_go_on(void **state)
     refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n*STEP\n", "deck:11: element 1 has 3 nodes, 4 are expected");
 }
 
-/* What CalculiX reads as well: a mark before the first comment, stars alone, nodes behind those of the type,
- * instances that a flat deck names and has not. */
-static void decks_are_taken_as_calculix_does(void **state)
+/* Other input that CalculiX reads: a mark before the first comment, stars alone, more nodes than the type
+ * has, instance names in a flat deck. */
+static void decks_are_read_as_by_calculix(void **state)
 {
     (void)state;
     fl_mesh_quality q = reads(">** a beam\n*\n" CUBE "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8, 1, 2,\n"
@@ -105,9 +105,9 @@ static void types_have_shapes(void **state)
         snprintf(names, sizeof names, "%s", row[k].names);
         for (word = strtok(names, " "); word; word = strtok(NULL, " ")) {
             fl_inp_type t = {0};
-            const int taken = fl_inp_type_of(word, &t);
-            if (taken != (row[k].shape >= 0) || (taken && (int)t.shape != row[k].shape)) fail_msg("%s", word);
-            if (taken) assert_int_equal(t.nodes, fl_shape_nodes(t.shape));
+            const int known = fl_inp_type_of(word, &t);
+            if (known != (row[k].shape >= 0) || (known && (int)t.shape != row[k].shape)) fail_msg("%s", word);
+            if (known) assert_int_equal(t.nodes, fl_shape_nodes(t.shape));
         }
     }
 }
@@ -123,8 +123,8 @@ static void other_types_are_counted(void **state)
     assert_non_null(strstr(err.text, "no triangles"));
 }
 
-/* A beam of three nodes has its middle second; one more node may turn its section. */
-static void lines_have_radii(void **state)
+/* A beam of three nodes has its middle node second; one more node may orient its section. */
+static void line_elements_have_radii(void **state)
 {
     (void)state;
     static const char deck[] =
@@ -145,7 +145,7 @@ static void lines_have_radii(void **state)
     assert_near(s.part[0].cone[0].r0, 0.5, 0.0);
     assert_near(s.part[1].cone[0].r1, 0.5, 0.0);
     assert_near(s.part[2].cone[0].r1, 1.0, 1e-15);
-    /* a leg in pieces, numbered this way and that, with a brace at the joint */
+    /* a leg in pieces, numbered in both directions, with a brace at the joint */
     reads("*NODE\n1, 0, 0, -9\n2, 0, 0, 0\n3, 0, 0, 4\n4, 5\n5, 0, 0, 6\n*ELEMENT, TYPE=B31, ELSET=A\n"
           "1, 1, 2\n2, 3, 2\n3, 2, 4\n4, 3, 5\n*BEAM SECTION, SECTION=CIRC, ELSET=A\n.5\n");
     says("3 lines that continue one another were merged into 1\n");
@@ -168,7 +168,7 @@ static void lines_have_radii(void **state)
         "1, 1, 2, 3, 4, 5, 6, 7, 8\n*ELEMENT, TYPE=C3D8, ELSET=REST\n2, 2, 12, 13, 3, 6, 16, 17, 7\n"        \
         "3, 12, 22, 23, 13, 16, 26, 27, 17\n4, 22, 32, 33, 23, 26, 36, 37, 27\n"
 
-static void sets_name_sets(void **state)
+static void sets_may_contain_sets(void **state)
 {
     (void)state;
     static const char deck[] = ROW
@@ -187,7 +187,7 @@ static void sets_name_sets(void **state)
         assert_int_equal(s.n, 1);
         assert_near(q.volume, row[k].volume, 1e-15);
     }
-    assert_int_equal(reads(deck).triangles, 36); /* not asked for, sets are nothing */
+    assert_int_equal(reads(deck).triangles, 36); /* sets that are not selected have no effect */
     assert_int_equal(s.n, 2);
     refuses(ROW "*ELSET, ELSET=A\n1, NONE\n", "\"A\" refers to \"NONE\", which is not defined");
     refuses(ROW "*ELSET, ELSET=A\nB\n*ELSET, ELSET=B\nC\n*ELSET, ELSET=C\nA\n", "\"A\" contains itself");
@@ -195,8 +195,8 @@ static void sets_name_sets(void **state)
     refuses(ROW "*ELSET, GENERATE\n1, 5\n", "*ELSET needs ELSET=");
 }
 
-/* Sets that name each other twice over, sixty deep; and a chain longer than any stack should bear. */
-static void sets_of_sets_take_no_time(void **state)
+/* Sets that name each other twice, sixty deep; and a chain too long for recursion. */
+static void nested_sets_are_fast(void **state)
 {
     (void)state;
     char *deck = malloc(4000000);
@@ -219,7 +219,7 @@ static void sets_of_sets_take_no_time(void **state)
 }
 
 /* The mean of the corners of the triangles, and the sum of their normals. */
-static void side(fl_vec3 *middle, fl_vec3 *normal)
+static void face_mean(fl_vec3 *middle, fl_vec3 *normal)
 {
     *middle = *normal = v3(0, 0, 0);
     for (int32_t i = 0; i < s.n; i++)
@@ -232,8 +232,8 @@ static void side(fl_vec3 *middle, fl_vec3 *normal)
         }
 }
 
-/* S1 to S6 of each solid by the tables of the manual: the side that it must be, outward. */
-static void faces_are_where_the_manual_says(void **state)
+/* S1 to S6 of each solid by the tables of the manual: the expected side, oriented outward. */
+static void faces_follow_the_manual(void **state)
 {
     (void)state;
     static const struct {
@@ -256,16 +256,16 @@ static void faces_are_where_the_manual_says(void **state)
                      CUBE "*ELEMENT, TYPE=%s, ELSET=E\n7, %s\n*SURFACE, NAME=F, TYPE=ELEMENT\n%s, S%d\n",
                      row[k].type, row[k].nodes, f % 2 ? "E" : "7", f + 1);
             takes(deck, "F");
-            side(&middle, &normal);
+            face_mean(&middle, &normal);
             assert_near_of(v3_norm(v3_sub(normal, row[k].normal[f])), 0.0, 1e-15, 1.0);
         }
 }
 
-static void surfaces_take_faces(void **state)
+static void surfaces_select_faces(void **state)
 {
     (void)state;
     fl_vec3 middle, normal;
-    /* no face: all that is outside; a set whose faces are its own; edges and nodes are nothing */
+    /* no face: all outer faces; a set with its own faces; edges and nodes are ignored */
     static const char deck[] =
         ROW "*SURFACE, NAME=SKIN\nREST,\n*SURFACE, TYPE=ELEMENT, NAME=TOP\nFIRST, S2\n3, s2\n"
             "*SURFACE, NAME=ALL, COMBINE=UNION\ntop\nskin\n*SURFACE, NAME=N, TYPE=NODE\n1, 2\n"
@@ -276,10 +276,10 @@ static void surfaces_take_faces(void **state)
     assert_near(takes(deck, "top").area, 2.0, 1e-15);
     assert_near(takes(deck, "all").area, 14.0, 1e-15);
     takes(deck, "under");
-    side(&middle, &normal);
+    face_mean(&middle, &normal);
     assert_near(normal.x, -1.0, 1e-15);
     takes(deck, "over");
-    side(&middle, &normal);
+    face_mean(&middle, &normal);
     assert_near(normal.x, 1.0, 1e-15);
     assert_near(takes(deck, "rim").area, 1.0, 1e-15);
     says("1 lines of surfaces name edges");
@@ -290,7 +290,7 @@ static void surfaces_take_faces(void **state)
 
 #define PART(name, text) "*PART, NAME=" name "\n" text "*END PART\n"
 
-static void instances_are_moved_then_turned(void **state)
+static void instances_are_translated_then_rotated(void **state)
 {
     (void)state;
     static const char deck[] = PART("Cube", CUBE HEX) PART(
@@ -322,7 +322,7 @@ static void instances_are_moved_then_turned(void **state)
     assert_near(takes(deck, "two").volume, 1.0, 1e-15);
 }
 
-static void other_assemblies(void **state)
+static void other_assemblies_are_read(void **state)
 {
     (void)state;
     /* an instance with a mesh of its own, moved as a whole; radii and sets of a part in each instance */
@@ -345,7 +345,7 @@ static void other_assemblies(void **state)
     assert_near(q.area, 2.0, 0.0);
     assert_near(q.box.lo.z, 1.0, 0.0);
     assert_near(q.box.hi.z, 8.0, 0.0);
-    /* parts alone, and parts left over */
+    /* parts alone, and unused parts */
     q = reads(PART("A", CUBE HEX) PART("B", CUBE HEX));
     assert_int_equal(s.n, 2);
     says("no *INSTANCE: 2 parts were taken where they are defined");
@@ -354,7 +354,7 @@ static void other_assemblies(void **state)
     says("1 parts have no *INSTANCE");
 }
 
-static void broken_assemblies(void **state)
+static void invalid_assemblies_are_refused(void **state)
 {
     (void)state;
     refuses(PART("P", CUBE HEX) "*INSTANCE, NAME=I, PART=Q\n", "there is no part Q");
@@ -384,8 +384,8 @@ static void broken_assemblies(void **state)
 static void systems_place_nodes(void **state)
 {
     (void)state;
-    /* a cylinder's quarter turns are exact; a moved and turned system; one whose axis is projected; and none
-     */
+    /* a cylinder's quarter turns are exact; a moved and rotated system; one with a projected axis; and
+     * none */
     fl_mesh_quality q =
         reads("*NODE, SYSTEM=C\n1, 2, 0, 0\n2, 2, 90., 0\n3, 2, 180, 0\n4, 2, 270, 0\n*ELEMENT, TYPE=S4\n"
               "1, 1, 2, 3, 4\n");
@@ -426,7 +426,7 @@ static void meshes_are_generated(void **state)
     assert_near(q.volume, 16.0, 1e-15);
     assert_string_equal(s.part[0].name, "BODY");
     assert_near(takes(deck, "EALL").volume, 16.0, 1e-15);
-    reads(CUBE HEX "*ELEMENT, TYPE=MASS\n5, 1\n*ELGEN\n5, 3\n"); /* of what was skipped */
+    reads(CUBE HEX "*ELEMENT, TYPE=MASS\n5, 1\n*ELGEN\n5, 3\n"); /* of the skipped input */
     refuses("*NODE\n1\n2, 1\n*NGEN\n1, 4\n", "*NGEN refers to node 4, which is not defined yet");
     refuses("*NODE\n1\n4, 1\n*NGEN\n1, 4, 2\n", "nodes 1 to 4 by 2: steps that end there are expected");
     refuses("*NODE\n1\n4, 1\n*NGEN, LINE=C\n1, 4, 1, 9\n", "*NGEN on arcs and parabolas is not read");
@@ -440,7 +440,7 @@ static void meshes_are_generated(void **state)
 
 /* --- files and refusals --------------------------------------------------------------------------------- */
 
-static void files_are_included(void **state)
+static void included_files_are_read(void **state)
 {
     (void)state;
     char deck[1200], nodes[200], mesh[200];
@@ -459,7 +459,7 @@ static void files_are_included(void **state)
     refuses(deck, "is included in itself");
 }
 
-static void what_is_not_read_is_named(void **state)
+static void unsupported_input_is_named(void **state)
 {
     (void)state;
     static const char *const word[] = {"NCOPY, OLD SET=A",           "ELCOPY", "NFILL", "NMAP", "PARAMETER",
@@ -479,8 +479,7 @@ static void what_is_not_read_is_named(void **state)
     refuses("*ELEMENT, TYPE=S3\n1, 1, 0, 3\n", "corner 2 of the element is node 0");
 }
 
-/* Names are bytes: GBK (two lines end in bytes that look like commas and stars to nobody), Latin-1, quotes.
- */
+/* Names are bytes: GBK (two lines end in bytes that look like commas and stars), Latin-1, quotes. */
 static void names_are_bytes(void **state)
 {
     (void)state;
@@ -498,22 +497,22 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(lines_of_every_kind),
-        TEST(elements_go_on),
-        TEST(decks_are_taken_as_calculix_does),
+        TEST(elements_continue_over_lines),
+        TEST(decks_are_read_as_by_calculix),
         TEST(types_have_shapes),
         TEST(other_types_are_counted),
-        TEST(lines_have_radii),
-        TEST(sets_name_sets),
-        TEST(sets_of_sets_take_no_time),
-        TEST(faces_are_where_the_manual_says),
-        TEST(surfaces_take_faces),
-        TEST(instances_are_moved_then_turned),
-        TEST(other_assemblies),
-        TEST(broken_assemblies),
+        TEST(line_elements_have_radii),
+        TEST(sets_may_contain_sets),
+        TEST(nested_sets_are_fast),
+        TEST(faces_follow_the_manual),
+        TEST(surfaces_select_faces),
+        TEST(instances_are_translated_then_rotated),
+        TEST(other_assemblies_are_read),
+        TEST(invalid_assemblies_are_refused),
         TEST(systems_place_nodes),
         TEST(meshes_are_generated),
-        TEST(files_are_included),
-        TEST(what_is_not_read_is_named),
+        TEST(included_files_are_read),
+        TEST(unsupported_input_is_named),
         TEST(names_are_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

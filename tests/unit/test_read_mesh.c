@@ -16,23 +16,24 @@
 static fl_err err;
 static char note[FL_MESH_NOTE];
 
-/* The float32 next to x.  By way of memory: gcc 12 drops a pair of conversions there and back when it packs
- * two of them into one register. */
-static double single(double x)
+/* The float32 nearest to x, stored and loaded: gcc 12 drops a pair of conversions there and back when it
+ * packs two of them into one register. */
+static double to_float32(double x)
 {
     volatile float y = (float)x;
     return (double)y;
 }
 
 /* The model: a frustum on the grid of float32, so that each format can hold it. */
-static void model(fl_surface *s)
+static void make_model(fl_surface *s)
 {
     const fl_cone c = {v3(0, 0, -2), v3(0, 0, 3), 2, 1};
     const int32_t i = fl_surface_add(s, "model", 5, &err);
     fl_part *p = &s->part[i];
     fl_weld w;
     fl_facet_cone(p, &c, 24, &err);
-    for (int32_t v = 0; v < p->nv; v++) p->v[v] = v3(single(p->v[v].x), single(p->v[v].y), single(p->v[v].z));
+    for (int32_t v = 0; v < p->nv; v++)
+        p->v[v] = v3(to_float32(p->v[v].x), to_float32(p->v[v].y), to_float32(p->v[v].z));
     fl_part_weld(p, 0.0, &w, &err);
 }
 
@@ -93,7 +94,7 @@ static void put_ply_binary(FILE *f, const fl_part *p, int big, int wide)
 
 enum { STL_ASCII, STL_BINARY, OBJ, OFF, PLY, PLY_LITTLE, PLY_BIG, PLY_DOUBLE, G_STRUCT, KINDS };
 
-static char *written(const fl_surface *s, int kind, size_t *n)
+static char *write_model(const fl_surface *s, int kind, size_t *n)
 {
     char *text = NULL;
     FILE *f = open_memstream(&text, n);
@@ -123,13 +124,13 @@ static void the_same_model_in_every_format(void **state)
         fl_weld w;
         size_t n = 0;
         char *text;
-        model(&s);
-        text = written(&s, kind, &n);
+        make_model(&s);
+        text = write_model(&s, kind, &n);
         assert_int_equal(fl_mesh_read(&got, test_file("model", text, n), NULL, note, &err), 0);
         assert_string_equal(note, "");
         assert_int_equal(got.n, 1);
         assert_int_equal(fl_part_weld(&got.part[0], 0.0, &w, &err), 0);
-        free(got.part[0].name); /* files without a name give it that of the file */
+        free(got.part[0].name); /* files without a name give it the file's name */
         got.part[0].name = strdup("model");
         assert_int_equal(mesh_same(&s, &got), 1);
         free(text);
@@ -148,8 +149,8 @@ static void line_ends_do_not_matter(void **state)
         fl_surface s = {0}, plain = {0}, other = {0};
         size_t n = 0, m = 3;
         char *text, *dos;
-        model(&s);
-        text = written(&s, kinds[k], &n);
+        make_model(&s);
+        text = write_model(&s, kinds[k], &n);
         dos = malloc(2 * n + 3);
         assert_non_null(dos);
         memcpy(dos, "\xef\xbb\xbf", 3);
@@ -181,7 +182,7 @@ static fl_surface read_text(const char *text)
 
 #define FACET "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
 
-static void solids_are_parts(void **state)
+static void solids_become_parts(void **state)
 {
     fl_surface s = read_text("solid leg one\n" FACET "endsolid leg one\nSOLID\n" FACET FACET
                              "endsolid\nsolid none\nendsolid none\nsolid leg  one\n" FACET "endsolid");
@@ -198,7 +199,7 @@ static void solids_are_parts(void **state)
 
 #define FOUR "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
 
-static void objects_groups_and_materials_are_parts(void **state)
+static void objects_groups_and_materials_become_parts(void **state)
 {
     static const struct {
         const char *text, *names[3];
@@ -226,7 +227,7 @@ static void objects_groups_and_materials_are_parts(void **state)
     }
 }
 
-static void remarks_are_made(void **state)
+static void remarks_are_reported(void **state)
 {
     fl_surface s = read_text(FOUR "curv2 1 2\nsurf 0 1\nf 1 2 3\nl 1 2\ns off\n");
     (void)state;
@@ -234,7 +235,7 @@ static void remarks_are_made(void **state)
     fl_surface_free(&s);
 }
 
-/* A second file adds its parts under names and numbers of its own, and its history. */
+/* A second file adds its parts under its own names and numbers, and its history. */
 static void files_add_up(void **state)
 {
     static const char own[] = "#g_struct 1\n#by a\npart 7 leg\ncone 0 0 0 1 0 0 1 1\n";
@@ -255,8 +256,8 @@ static void files_add_up(void **state)
     unlink(test_path("a"));
 }
 
-/* Files of other kinds are named, with what to export instead. */
-static void what_is_foreign_is_named(void **state)
+/* Files of other formats are named, with the export to use instead. */
+static void unsupported_formats_are_named(void **state)
 {
     static const struct {
         const char *text;
@@ -294,10 +295,10 @@ static void what_is_foreign_is_named(void **state)
     unlink(test_path("a"));
 }
 
-static void each_fault_has_its_sentence(void **state)
+static void each_fault_has_its_message(void **state)
 {
     static const struct {
-        const char *text, *says; /* behind the name of the file */
+        const char *text, *says; /* after the name of the file */
     } fault[] = {
         {"", ": empty, a mesh is expected"},
         {"solid a\nendsolid a\n", ": no triangles"},
@@ -341,8 +342,7 @@ static void each_fault_has_its_sentence(void **state)
     unlink(test_path("bad"));
 }
 
-/* 84 + 50 n decides, whatever the first word says; a count that was never filled in is taken from the size.
- * */
+/* 84 + 50 n decides, whatever the first word is; a count that was never filled in is taken from the size. */
 static void size_decides_on_binary(void **state)
 {
     fl_surface s = {0}, got = {0};
@@ -350,8 +350,8 @@ static void size_decides_on_binary(void **state)
     size_t n = 0;
     char *text;
     (void)state;
-    model(&s);
-    text = written(&s, STL_BINARY, &n);
+    make_model(&s);
+    text = write_model(&s, STL_BINARY, &n);
     assert_int_equal(n, 84 + 50 * (size_t)s.part[0].nt);
     memcpy(text, "solid liar", 10);
     assert_int_equal(fl_mesh_read(&got, test_file("b", text, n), NULL, note, &err), 0);
@@ -482,12 +482,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_model_in_every_format),
                                        cmocka_unit_test(line_ends_do_not_matter),
-                                       cmocka_unit_test(solids_are_parts),
-                                       cmocka_unit_test(objects_groups_and_materials_are_parts),
-                                       cmocka_unit_test(remarks_are_made),
+                                       cmocka_unit_test(solids_become_parts),
+                                       cmocka_unit_test(objects_groups_and_materials_become_parts),
+                                       cmocka_unit_test(remarks_are_reported),
                                        cmocka_unit_test(files_add_up),
-                                       cmocka_unit_test(what_is_foreign_is_named),
-                                       cmocka_unit_test(each_fault_has_its_sentence),
+                                       cmocka_unit_test(unsupported_formats_are_named),
+                                       cmocka_unit_test(each_fault_has_its_message),
                                        cmocka_unit_test(size_decides_on_binary),
                                        cmocka_unit_test(the_refusal_lists_every_format),
                                        cmocka_unit_test(the_manual_page_lists_every_format),

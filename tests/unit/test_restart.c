@@ -13,7 +13,7 @@ static const char HISTORY[] = "#by voronoi-ice 1 --seed 7\n#by dem-solve 1 a.sce
 static const fl_restart_part PART[3] = {
     {"scene", "#scene 1\npart end 3\n", 20}, {"empty", "", 0}, {"state", "a b\nc\n", 6}};
 
-static char *contents(const char *path, int64_t *n)
+static char *read_contents(const char *path, int64_t *n)
 {
     fl_err err = {0};
     char *text = calloc(1, 5000);
@@ -26,7 +26,7 @@ static char *contents(const char *path, int64_t *n)
     return text;
 }
 
-static void what_is_written_reads_back(void **state)
+static void a_written_checkpoint_reads_back(void **state)
 {
     const char *path = test_path("a.ckpt");
     fl_err err = {0};
@@ -54,7 +54,7 @@ static void what_is_written_reads_back(void **state)
     unlink(path);
 }
 
-/* Any change of any byte, and any loss at the end. */
+/* Any change of any byte, and any truncation. */
 static void damage_is_found(void **state)
 {
     const char *path = test_path("a.ckpt");
@@ -62,7 +62,7 @@ static void damage_is_found(void **state)
     int64_t n;
     (void)state;
     assert_int_equal(fl_restart_write(path, HISTORY, PART, 3, &err), 0);
-    char *good = contents(path, &n);
+    char *good = read_contents(path, &n);
     unlink(path);
     for (int64_t k = 0; k < 2 * n; k++) {
         fl_restart r = {0};
@@ -81,7 +81,7 @@ static void damage_is_found(void **state)
     free(good);
 }
 
-static void others_are_refused(void **state)
+static void other_files_are_refused(void **state)
 {
     static const struct {
         const char *text, *says;
@@ -104,8 +104,8 @@ static void others_are_refused(void **state)
     }
 }
 
-/* An older one holds together as ever, and is not gone on from. */
-static void an_older_one_tells_its_number(void **state)
+/* An older version is intact as a file, but a run does not resume from it. */
+static void an_older_version_is_named(void **state)
 {
     (void)state;
     for (int old = 1; old >= 0; old--) {
@@ -128,8 +128,8 @@ static void an_older_one_tells_its_number(void **state)
     }
 }
 
-/* The last good one stays when the next cannot be written. */
-static void the_last_one_stays(void **state)
+/* The last good checkpoint stays when the next one cannot be written. */
+static void the_last_checkpoint_stays(void **state)
 {
     const char *path = test_path("a.ckpt");
     char folder[300], inside[320];
@@ -137,7 +137,7 @@ static void the_last_one_stays(void **state)
     int64_t n, m;
     (void)state;
     assert_int_equal(fl_restart_write(path, HISTORY, PART, 3, &err), 0);
-    char *before = contents(path, &n);
+    char *before = read_contents(path, &n);
     snprintf(folder, sizeof folder, "%s.part", path); /* the temporary name is taken by a folder */
     snprintf(inside, sizeof inside, "%s/no/such", folder);
     assert_int_equal(fl_restart_write(inside, HISTORY, PART, 3, &why), -1);
@@ -145,7 +145,7 @@ static void the_last_one_stays(void **state)
     why = (fl_err){0};
     assert_int_equal(fl_restart_write("/dev/full", HISTORY, PART, 3, &why), -1);
     assert_int_equal(why.code, FL_SYSTEM);
-    char *after = contents(path, &m);
+    char *after = read_contents(path, &m);
     assert_int_equal(n, m);
     assert_memory_equal(before, after, (size_t)n);
     free(before);
@@ -156,8 +156,8 @@ static void the_last_one_stays(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_reads_back), cmocka_unit_test(damage_is_found),
-        cmocka_unit_test(others_are_refused), cmocka_unit_test(an_older_one_tells_its_number),
-        cmocka_unit_test(the_last_one_stays)};
+        cmocka_unit_test(a_written_checkpoint_reads_back), cmocka_unit_test(damage_is_found),
+        cmocka_unit_test(other_files_are_refused), cmocka_unit_test(an_older_version_is_named),
+        cmocka_unit_test(the_last_checkpoint_stays)};
     return cmocka_run_group_tests_name("restart file", tests, NULL, NULL);
 }

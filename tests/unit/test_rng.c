@@ -24,7 +24,7 @@ static void philox_known_answers(void **state)
         pi);
 }
 
-/* Seed, entity and purpose each start their own sequence; the same three start the same one. */
+/* Seed, entity and purpose each start their own sequence; equal values of the three start the same one. */
 static void streams_differ(void **state)
 {
     (void)state;
@@ -39,12 +39,12 @@ static void streams_differ(void **state)
     for (int k = 0; k < 100; k++) assert_true(fl_rng_u64(&a) != first);
 }
 
-/* Mean, variance and correlation of neighbours of n numbers.  Their standard errors for uniforms are
- * 1/sqrt(12 n), 1/sqrt(180 n), 1/(12 sqrt n); five of them are allowed: once in 1.7 million seeds. */
+/* Mean, variance and correlation of neighbours of n numbers. Their standard errors for uniforms are 1/sqrt(12
+ * n), 1/sqrt(180 n), 1/(12 sqrt n); five of them are allowed: exceeded once in 1.7 million seeds. */
 static void uniform_moments(void **state)
 {
     enum { N = 200000 };
-    double s = 0.0, s2 = 0.0, lag = 0.0, last = 0.5, least = 1.0, most = 0.0;
+    double s = 0.0, s2 = 0.0, correlation = 0.0, last = 0.5, smallest = 1.0, largest = 0.0;
     fl_rng g = fl_rng_of(test_seed(), 0, FL_RNG_TEST);
     (void)state;
     for (int k = 0; k < N; k++) {
@@ -52,15 +52,15 @@ static void uniform_moments(void **state)
         assert_true(x >= 0.0 && x < 1.0 && floor(x * 0x1p53) == x * 0x1p53);
         s += x - 0.5;
         s2 += (x - 0.5) * (x - 0.5);
-        lag += (x - 0.5) * (last - 0.5);
+        correlation += (x - 0.5) * (last - 0.5);
         last = x;
-        least = fmin(least, x);
-        most = fmax(most, x);
+        smallest = fmin(smallest, x);
+        largest = fmax(largest, x);
     }
     assert_near_of(s / N, 0.0, 5.0, 1.0 / sqrt(12.0 * N));
     assert_near_of(s2 / N, 1.0 / 12.0, 5.0, 1.0 / sqrt(180.0 * N));
-    assert_near_of(lag / N, 0.0, 5.0, 1.0 / (12.0 * sqrt(N)));
-    assert_true(least < 20.0 / N && most > 1.0 - 20.0 / N);
+    assert_near_of(correlation / N, 0.0, 5.0, 1.0 / (12.0 * sqrt(N)));
+    assert_true(smallest < 20.0 / N && largest > 1.0 - 20.0 / N);
     for (int k = 0; k < 1000; k++) {
         const double x = fl_rng_in(&g, -3.0, 5.0);
         assert_true(x >= -3.0 && x <= 5.0);

@@ -15,7 +15,7 @@ static const fl_record_selection FX = {
 static const fl_summary_settings HOW = {.separation = 0.5};
 
 /* A loads table of one part, equal intervals of 0.5 s, from the values of fx. */
-static const char *record(const char *name, int n, const double *fx)
+static const char *write_record(const char *name, int n, const double *fx)
 {
     char *text = malloc((size_t)(40 * n + 100));
     int len = sprintf(text, "#loads 1\n#by test 1\nt part fx[N]\n");
@@ -25,20 +25,20 @@ static const char *record(const char *name, int n, const double *fx)
     return path;
 }
 
-static void run_to_end(fl_run *r, const char *path, const fl_record_selection *ask,
+static void run_to_end(fl_run *r, const char *path, const fl_record_selection *selection,
                        const fl_summary_settings *how)
 {
     int more;
     err = (fl_err){0};
-    assert_int_equal(fl_run_open(r, path, ask, how, &err), 0);
+    assert_int_equal(fl_run_open(r, path, selection, how, &err), 0);
     while ((more = fl_run_next(r, &err)) > 0) {}
     assert_int_equal(more, 0);
     assert_int_equal(fl_run_finish(r, "#by loadstats --summary\n", &err), 0);
     unlink(path);
 }
 
-/* halves of cycles whose range lies in the class of x */
-static int64_t cycles_of(const fl_summary_signal *s, double x)
+/* number of half cycles with a range in the bin of x */
+static int64_t cycles_in_bin(const fl_summary_signal *s, double x)
 {
     for (int32_t k = 0; k < s->cycle.cap; k++)
         if (s->cycle.slot[k].n && s->cycle.slot[k].key == fl_log_bin_key(x)) return s->cycle.slot[k].n;
@@ -52,16 +52,16 @@ static void cycles(void **state)
     const int64_t astm[] = {1, 3, 1, 2, 1};
     fl_run r = {0};
     (void)state;
-    run_to_end(&r, record("astm", 9, fx), &FX, &HOW);
+    run_to_end(&r, write_record("astm", 9, fx), &FX, &HOW);
     assert_int_equal(r.sum.entry[0].cycle.n, 5);
-    for (int k = 0; k < 5; k++) assert_int_equal(cycles_of(&r.sum.entry[0], range[k]), astm[k]);
+    for (int k = 0; k < 5; k++) assert_int_equal(cycles_in_bin(&r.sum.entry[0], range[k]), astm[k]);
     fl_run_close(&r);
     /* Four points, the residue left out: one cycle of range 4. */
     const fl_summary_settings four = {
         .separation = 0.5, .rule = FL_RAINFLOW_FOUR_POINT, .residue = FL_RESIDUE_NONE};
-    run_to_end(&r, record("iso", 9, fx), &FX, &four);
+    run_to_end(&r, write_record("iso", 9, fx), &FX, &four);
     assert_int_equal(r.sum.entry[0].cycle.n, 1);
-    assert_int_equal(cycles_of(&r.sum.entry[0], 4.0), 2);
+    assert_int_equal(cycles_in_bin(&r.sum.entry[0], 4.0), 2);
     fl_run_close(&r);
 }
 
@@ -71,7 +71,7 @@ static void blocks_and_extremes(void **state)
     const fl_summary_settings how = {.separation = 0.5, .block = 2.0};
     fl_run r = {0};
     (void)state;
-    run_to_end(&r, record("blocks", 10, fx), &FX, &how);
+    run_to_end(&r, write_record("blocks", 10, fx), &FX, &how);
     assert_int_equal(r.sum.n, 2); /* leg, and the total, which is the same */
     for (int k = 0; k < 2; k++) {
         fl_summary_signal *s = &r.sum.entry[k];
@@ -91,32 +91,32 @@ static void blocks_and_extremes(void **state)
     }
     assert_string_equal(r.sum.history, "#by test 1\n#by loadstats --summary\n");
     fl_run_close(&r);
-    /* A cut, whose blocks begin where it does. */
-    fl_record_selection ask = FX;
-    ask.from = 1.0;
-    ask.to = 4.0;
-    run_to_end(&r, record("cut", 10, fx), &ask, &how);
+    /* A selected interval, where blocks start at its beginning. */
+    fl_record_selection selection = FX;
+    selection.from = 1.0;
+    selection.to = 4.0;
+    run_to_end(&r, write_record("cut", 10, fx), &selection, &how);
     assert_int_equal(r.sum.entry[0].rows, 6);
     assert_int_equal(fl_multiset_size(&r.sum.entry[0].block), 1);
     assert_true(r.sum.entry[0].block.v[0].x == 2.0);
     fl_run_close(&r);
 }
 
-static void complaints(void **state)
+static void errors_are_reported(void **state)
 {
     const double fx[] = {1, 2, 3};
-    fl_record_selection ask = FX;
+    fl_record_selection selection = FX;
     fl_run r = {0};
-    char want[900];
+    char expected[900];
     (void)state;
-    ask.from = 10.0;
-    const char *path = record("late", 3, fx);
+    selection.from = 10.0;
+    const char *path = write_record("late", 3, fx);
     err = (fl_err){0};
-    assert_int_equal(fl_run_open(&r, path, &ask, &HOW, &err), 0);
+    assert_int_equal(fl_run_open(&r, path, &selection, &HOW, &err), 0);
     assert_int_equal(fl_run_next(&r, &err), 0);
     assert_int_equal(fl_run_finish(&r, "", &err), -1);
-    snprintf(want, sizeof want, "%s: the cut leaves no row, the record ends at 1.5 s", path);
-    assert_string_equal(err.text, want);
+    snprintf(expected, sizeof expected, "%s: the cut leaves no row, the record ends at 1.5 s", path);
+    assert_string_equal(err.text, expected);
     fl_run_close(&r);
     unlink(path);
     const char text[] = "#other 1\nt fx\n0 1\n1e14 2\n3e14 1\n";
@@ -124,14 +124,15 @@ static void complaints(void **state)
     err = (fl_err){0};
     assert_int_equal(fl_run_open(&r, path, &FX, &HOW, &err), 0);
     assert_int_equal(fl_run_next(&r, &err), -1);
-    snprintf(want, sizeof want, "%s: a row lasts for 1e+14 s, at most 1.09951e+12 s can be summed up", path);
-    assert_string_equal(err.text, want);
+    snprintf(expected, sizeof expected, "%s: a row lasts for 1e+14 s, at most 1.09951e+12 s can be summed up",
+             path);
+    assert_string_equal(err.text, expected);
     assert_int_equal(err.code, FL_INPUT);
     fl_run_close(&r);
     unlink(path);
 }
 
-/* When all values have been seen, no row allocates anything more: memory does not grow with the record. */
+/* Once all values have occurred, further rows allocate nothing: memory does not grow with the record. */
 static void memory_is_constant(void **state)
 {
     enum { PERIOD = 500, FIRST = 5000, ROWS = 100000 };
@@ -143,7 +144,7 @@ static void memory_is_constant(void **state)
         const int i = k % PERIOD;
         fx[k] = 1e4 * sin(0.37 * i) * sin(0.011 * i * i);
     }
-    const char *path = record("rows", ROWS, fx);
+    const char *path = write_record("rows", ROWS, fx);
     err = (fl_err){0};
     assert_int_equal(fl_run_open(&r, path, &FX, &HOW, &err), 0);
     for (int k = 0; k < FIRST; k++) assert_int_equal(fl_run_next(&r, &err), 1);
@@ -162,6 +163,7 @@ static void memory_is_constant(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(cycles), cmocka_unit_test(blocks_and_extremes),
-                                       cmocka_unit_test(complaints), cmocka_unit_test(memory_is_constant)};
-    return cmocka_run_group_tests_name("reduce", tests, NULL, NULL);
+                                       cmocka_unit_test(errors_are_reported),
+                                       cmocka_unit_test(memory_is_constant)};
+    return cmocka_run_group_tests_name("run_summary", tests, NULL, NULL);
 }

@@ -13,7 +13,7 @@
 
 #define ICE "[ice]\nfile = ice.dat\n"
 
-/* The behaviour of one text: read it, and check it. */
+/* Reads one text and checks it. */
 static int load(fl_scene *s, const char *text, fl_err *err)
 {
     *s = (fl_scene){0};
@@ -22,26 +22,26 @@ static int load(fl_scene *s, const char *text, fl_err *err)
                                                                                                         : 0;
 }
 
-static void good(fl_scene *s, const char *text)
+static void load_good(fl_scene *s, const char *text)
 {
     fl_err err;
     if (load(s, text, &err)) fail_msg("%s: %s", text, err.text);
 }
 
-static void accepted(const char *text)
+static void expect_accepted(const char *text)
 {
     fl_scene s;
-    good(&s, text);
+    load_good(&s, text);
     fl_scene_free(&s);
 }
 
-/* The text is refused, and what is said after "case.scene" is `tail`. */
-static void refused(const char *text, const char *tail)
+/* Expects a refusal of the text; `tail` is the message after "case.scene". */
+static void expect_refusal(const char *text, const char *tail)
 {
     fl_scene s;
     fl_err err;
     const char *at;
-    if (load(&s, text, &err) == 0) fail_msg("taken, but %s is expected:\n%s", tail, text);
+    if (load(&s, text, &err) == 0) fail_msg("accepted, but %s is expected:\n%s", tail, text);
     at = strstr(err.text, "case.scene");
     if (!at || strcmp(at + strlen("case.scene"), tail) != 0)
         fail_msg("for\n%s\nit says   %s\nwanted    ...case.scene%s", text, err.text, tail);
@@ -49,19 +49,19 @@ static void refused(const char *text, const char *tail)
     fl_scene_free(&s);
 }
 
-/* --set with this assignment, and the check behind it, says exactly this. */
-static void set_refused(const char *assignment, const char *says)
+/* Expects exactly this message from --set with this assignment and the check after it. */
+static void expect_set_refusal(const char *assignment, const char *says)
 {
     fl_scene s;
     fl_err err = {0};
-    good(&s, ICE);
+    load_good(&s, ICE);
     if (fl_scene_set(&s, assignment, &err) == 0) assert_int_equal(fl_scene_check(&s, &err), -1);
     assert_string_equal(err.text, says);
     assert_int_equal(err.code, FL_USAGE);
     fl_scene_free(&s);
 }
 
-static char *written(const fl_scene *s)
+static char *write_scene(const fl_scene *s)
 {
     char *text = NULL;
     size_t n;
@@ -98,11 +98,11 @@ static void every_default_reads_back(void **state)
         assert_true(fl_key_find((int)fl_manual_table[w].section, fl_manual_table[w].key) >= 0);
 }
 
-static void the_least_scene_has_the_stated_defaults(void **state)
+static void the_smallest_scene_has_the_stated_defaults(void **state)
 {
     fl_scene s;
     (void)state;
-    good(&s, ICE);
+    load_good(&s, ICE);
     assert_near(s.run.duration, 60.0, 0);
     assert_near(s.run.dt, 0.0, 0);
     assert_near(s.run.gravity.z, -9.81, 0);
@@ -149,7 +149,7 @@ static void values_carry_units(void **state)
         fl_address at;
         fl_scene s;
         fl_err err = {0};
-        good(&s, ICE);
+        load_good(&s, ICE);
         snprintf(assignment, sizeof assignment, " %s = %s ", row[k].key, row[k].text);
         if (fl_scene_set(&s, assignment, &err)) fail_msg("%s", err.text);
         assert_int_equal(fl_address_read(row[k].key, &at, err.text, sizeof err.text), 0);
@@ -172,15 +172,15 @@ static void vectors_take_one_number_or_three(void **state)
 {
     fl_scene s;
     (void)state;
-    good(&s, ICE "[run]\ngravity = 0\n");
+    load_good(&s, ICE "[run]\ngravity = 0\n");
     assert_false(signbit(s.run.gravity.z)); /* as when it is read again, written in full */
-    good(&s, ICE "[run]\ngravity = -0 0 -0\n");
+    load_good(&s, ICE "[run]\ngravity = -0 0 -0\n");
     assert_false(signbit(s.run.gravity.x) || signbit(s.run.gravity.z));
-    good(&s, ICE "[run]\ngravity = 1 2 -3\n");
+    load_good(&s, ICE "[run]\ngravity = 1 2 -3\n");
     assert_near(s.run.gravity.y, 2.0, 0);
     assert_near(s.run.gravity.z, -3.0, 0);
     fl_scene_free(&s);
-    good(&s, ICE "[water]\ncurrent = 50 cm/s\n[boundary]\nmin = -50 mm none 1\nmax = 1 none 2 km\n");
+    load_good(&s, ICE "[water]\ncurrent = 50 cm/s\n[boundary]\nmin = -50 mm none 1\nmax = 1 none 2 km\n");
     assert_near(s.water.current.x, 0.5, 0);
     assert_near(s.water.current.y, 0.0, 0);
     assert_near(s.boundary.min.x, -0.05, 0);
@@ -191,14 +191,14 @@ static void vectors_take_one_number_or_three(void **state)
     fl_scene_free(&s);
 }
 
-static void grammar_is_as_scene_5_says(void **state)
+static void the_grammar_is_that_of_scene_5(void **state)
 {
     char text[4000], folder[600];
     fl_scene s;
     (void)state;
     /* byte order mark, CRLF, comments, a section opened twice, # inside a word, no newline at the end */
-    good(&s, "\xEF\xBB\xBF#scene 1\r\n; c\r\n[ run ] # c\r\n  duration=5 s ; c\r\n\r\n[ice]\r\nfile = "
-             "a#b.dat\r\n[run]\r\ndt\t=\t1 ms");
+    load_good(&s, "\xEF\xBB\xBF#scene 1\r\n; c\r\n[ run ] # c\r\n  duration=5 s ; c\r\n\r\n[ice]\r\nfile = "
+                  "a#b.dat\r\n[run]\r\ndt\t=\t1 ms");
     assert_near(s.run.duration, 5.0, 0);
     assert_near(s.run.dt, 1e-3, 0);
     assert_string_equal(strrchr(s.ice.file, '/'), "/a#b.dat");
@@ -207,12 +207,12 @@ static void grammar_is_as_scene_5_says(void **state)
     memset(folder, 'd', 500);
     folder[500] = '\0';
     snprintf(text, sizeof text, "[ice]\nfile = /%s/ice = cold.dat   # comment\n", folder);
-    good(&s, text);
+    load_good(&s, text);
     assert_int_equal(strlen(s.ice.file), 500 + 16);
     assert_string_equal(s.ice.file + 501, "/ice = cold.dat");
     fl_scene_free(&s);
     /* paths start from the scene's folder */
-    good(&s, "[ice]\nfile = sub/ice.dat\n[output]\nstate = /abs/state.dat\nframes=none\n");
+    load_good(&s, "[ice]\nfile = sub/ice.dat\n[output]\nstate = /abs/state.dat\nframes=none\n");
     assert_string_equal(s.ice.file + strlen(s.ice.file) - 12, "/sub/ice.dat");
     assert_true(s.ice.file[0] == '/');
     assert_string_equal(s.output.state, "/abs/state.dat");
@@ -220,15 +220,16 @@ static void grammar_is_as_scene_5_says(void **state)
     fl_scene_free(&s);
 }
 
-static void words_of_the_manual_are_read_bare(void **state)
+static void keys_of_the_manual_are_read(void **state)
 {
     fl_scene s;
     (void)state;
-    good(&s, "expperiment duration\t120\ngravity 9.8\nnproc = 4\nndtsrc 10\ndtoutInfo "
-             "0.1\ndtoutAni=2\ndtoutAni_draw 4\ndtoutfile 100\noutput file number 3\nrestitution 0.4\nmus "
-             "0.2\nmubed 0.1\nstructvelx 0.1\nstructvely=-0.2\nstructvelz 0\nbound_type 1\nwaterdepth "
-             "20\nwatervel 0.5\nwindvel 6\nisbonding 0\nn_strength 6e5\nt_strength 5e5\n" ICE
-             "[structure]\nfile=s\n[boundary]\nmin = 0 0 none\n");
+    load_good(&s,
+              "expperiment duration\t120\ngravity 9.8\nnproc = 4\nndtsrc 10\ndtoutInfo "
+              "0.1\ndtoutAni=2\ndtoutAni_draw 4\ndtoutfile 100\noutput file number 3\nrestitution 0.4\nmus "
+              "0.2\nmubed 0.1\nstructvelx 0.1\nstructvely=-0.2\nstructvelz 0\nbound_type 1\nwaterdepth "
+              "20\nwatervel 0.5\nwindvel 6\nisbonding 0\nn_strength 6e5\nt_strength 5e5\n" ICE
+              "[structure]\nfile=s\n[boundary]\nmin = 0 0 none\n");
     assert_near(s.run.duration, 120.0, 0);
     assert_near(s.run.gravity.z, -9.8, 0);
     assert_int_equal(s.run.threads, 4);
@@ -251,176 +252,195 @@ static void words_of_the_manual_are_read_bare(void **state)
     assert_near(s.bond.normal_strength, 6e5, 0);
     assert_near(s.bond.shear_strength, 5e5, 0);
     fl_scene_free(&s);
-    refused("bound_type 5\n" ICE,
-            ":1: bound_type is \"5\", 1 (rigid), 2 (elastic), 3 (periodic) or 4 (free) is expected");
-    refused("bound_type 3\n" ICE,
-            ":1: a periodic boundary has no bounds: boundary.min or boundary.max is expected");
-    refused("windvel 18\n" ICE, ":1: windvel is \"18\", a Beaufort number from 0 to 17 is expected");
-    good(&s, "isbonding 1\n" ICE);
+    expect_refusal("bound_type 5\n" ICE,
+                   ":1: bound_type is \"5\", 1 (rigid), 2 (elastic), 3 (periodic) or 4 (free) is expected");
+    expect_refusal("bound_type 3\n" ICE,
+                   ":1: a periodic boundary has no bounds: boundary.min or boundary.max is expected");
+    expect_refusal("windvel 18\n" ICE, ":1: windvel is \"18\", a Beaufort number from 0 to 17 is expected");
+    load_good(&s, "isbonding 1\n" ICE);
     assert_int_equal(s.bond.on, 1);
     fl_scene_free(&s);
-    refused("\ngravitiy 9\n" ICE,
-            ":2: \"gravitiy\" before the first section is not a word of the manual, nearest is \"gravity\"");
-    refused("output file numbers = 9\n" ICE, ":1: \"output file numbers\" before the first section is not a "
-                                             "word of the manual, nearest is \"output file number\"");
-    refused("structvelx 1\nstructvely 1\nstructvelx 2\n" ICE,
-            ":3: structure.velocity was given on line 2 already");
-    refused("gravity\n" ICE, ":1: run.gravity has no value");
+    expect_refusal(
+        "\ngravitiy 9\n" ICE,
+        ":2: \"gravitiy\" before the first section is not a word of the manual, nearest is \"gravity\"");
+    expect_refusal("output file numbers = 9\n" ICE,
+                   ":1: \"output file numbers\" before the first section is not a "
+                   "word of the manual, nearest is \"output file number\"");
+    expect_refusal("structvelx 1\nstructvely 1\nstructvelx 2\n" ICE,
+                   ":3: structure.velocity was given on line 2 already");
+    expect_refusal("gravity\n" ICE, ":1: run.gravity has no value");
 }
 
 static void each_complaint_names_file_and_line(void **state)
 {
     (void)state;
-    refused("[run]\nduration = abc\n" ICE,
-            ":2: run.duration is \"abc\", a number in s is expected (units: s ms us min h)");
-    refused("[run]\nduration = 5 m\n" ICE,
-            ":2: run.duration has the unit \"m\", one of s ms us min h is expected");
-    refused("[run]\nduration = -1 s\n" ICE, ":2: run.duration is -1 s, a value above 0 s is expected");
-    refused("[run]\nduration = nan\n" ICE,
-            ":2: run.duration is \"nan\", a number in s is expected (units: s ms us min h)");
-    refused("[run]\nduration = 1e999\n" ICE,
-            ":2: run.duration is \"1e999\", a number in s is expected (units: s ms us min h)");
-    refused("[run]\nduration = 1 2\n" ICE,
-            ":2: run.duration is \"1 2\", a number in s is expected (units: s ms us min h)");
-    refused("[run]\nduration = 1 s s\n" ICE,
-            ":2: run.duration is \"1 s s\", a number in s is expected (units: s ms us min h)");
-    refused("[run]\nduration = 2,5\n" ICE,
-            ":2: run.duration is \"2,5\", a decimal point and blanks are expected, not a comma");
-    refused("[run]\nduration =\n" ICE, ":2: run.duration has no value");
-    refused("[run]\nduration 5\n" ICE, ":2: \"duration 5\" is no section and no key = value");
-    refused("[run]\n= 5\n" ICE, ":2: no key stands before =");
-    refused("[run\nduration = 5\n" ICE, ":1: \"[run\" lacks the ] of a section");
-    refused("[run] duration = 5\n" ICE, ":1: \" duration = 5\" after a section is not expected");
-    refused("[run]\ndurration = 5\n" ICE, ":2: unknown key \"durration\" in [run], nearest is \"duration\"");
-    refused("[watter]\n" ICE, ":1: unknown section [watter], nearest is [water]");
-    refused("[]\n" ICE, ":1: unknown section [], nearest is [run]");
-    refused("[water deep]\n" ICE, ":1: [water deep] has 1 name, [water] is expected");
-    refused("[material]\n" ICE, ":1: [material] has 0 names, [material NAME] is expected");
-    refused("[contact ice]\n" ICE, ":1: [contact ice] has 1 name, [contact A B] is expected");
-    refused("[group a/b]\n" ICE,
-            ":1: \"a/b\" cannot be a name: letters, digits, _ + -, at most 47 characters");
-    refused("[material structure]\n" ICE,
-            ":1: a material cannot be called \"structure\": that word names a place in [contact A B]");
-    refused("[run]\ndt = 1\n\n[run]\ndt = 2\n" ICE, ":5: run.dt was given on line 2 already");
-    refused("[contact ice ice]\nfriction = 0.1\nfriction = 0.2\n" ICE,
-            ":3: contact ice ice.friction was given on line 2 already");
-    refused("gravity 9\n[run]\ngravity = 9\n" ICE, ":3: run.gravity was given on line 1 already");
-    refused("#scene 2\n" ICE, ":1: scene version 2 is newer than this program, which reads up to 1");
-    refused("[run]\ndt = 1 ms\nerror = 0.1\n" ICE,
-            ":3: run.error chooses the step and run.dt sets it: only one of them is expected");
-    refused("[run]\nsleep = 1e-5\nerror = 0.1\n" ICE,
-            ":2: run.error repeats windows with other steps, in which no floe can sleep: either run.error or "
-            "run.sleep is expected");
-    refused("[run]\nsleep = 1e-5\n[water]\nevery = 2\n" ICE,
-            ":4: sleeping floes (run.sleep) evaluate the water when they wake: water.every = 1 is expected");
-    refused("[run]\nerror = 0.1\n[contact]\nsurrogate = 0.001\n" ICE,
-            ":4: run.error compares steps of different sizes, which a surrogate would disturb: either "
-            "run.error or surrogate in [contact] is expected");
-    refused("[run]\nerror = 0.1\n[contact ice boundary]\nsurrogate = 0.001\n" ICE,
-            ":4: run.error compares steps of different sizes, which a surrogate would disturb: either "
-            "run.error or surrogate in [contact ice boundary] is expected");
-    refused("[contact]\nlaw = core\nsurrogate = 0.001\n" ICE, ":3: surrogate applies to law = patch only");
-    refused("[contact]\nlaw = manual\n[contact ice boundary]\nsurrogate = 0.001\n" ICE,
-            ":4: surrogate applies to law = patch only");
-    refused("[contact]\nsurrogate = 0.5\n" ICE,
-            ":2: contact.surrogate is 0.5, a value at least 0 and at most 0.1 is expected");
-    refused("[water]\nevery = 0\n" ICE,
-            ":2: water.every is \"0\", a whole number from 1 to 1000 is expected");
-    refused("[run]\nerror = 100%\n" ICE, ":2: run.error is 100%, a value above 0 and below 1 is expected");
-    refused("[run]\nthreads = 2.5\n" ICE,
-            ":2: run.threads is \"2.5\", a whole number from 1 to 1024 is expected");
-    refused("[run]\ngravity = -9.81\n" ICE, ":2: run.gravity is -9.81: one number is the size of a downward "
-                                            "vector and cannot be negative, three give another direction");
-    refused("[run]\ngravity = 1 2\n" ICE,
-            ":2: run.gravity is \"1 2\", one number or three in m/s2 are expected (units: m/s2 m/s^2)");
-    refused("[material ice]\npoisson = 0.5\n" ICE,
-            ":2: material.poisson is 0.5, a value at least 0 and below 0.5 is expected");
-    refused("[contact]\nlaw = pach\n" ICE,
-            ":2: contact.law is \"pach\", one of patch manual manual-si core is expected, nearest is patch");
-    refused("[contact]\nexponent = 2\n" ICE,
-            ":2: contact.exponent is \"2\", one of 1 1.5 is expected, nearest is 1");
-    refused("[group a]\nfixed = x x\n" ICE,
-            ":2: group.fixed is \"x x\", none or some of x y z rx ry rz, each once, is expected");
-    refused("[ice]\nmaterial = a b\n", ":2: ice.material is \"a b\", a name of letters, digits, _ + - and at "
-                                       "most 47 characters is expected");
-    refused("include =\n" ICE, ":1: include needs the name of a file");
-    refused("include = -\n" ICE, ":1: include needs the name of a file");
+    expect_refusal("[run]\nduration = abc\n" ICE,
+                   ":2: run.duration is \"abc\", a number in s is expected (units: s ms us min h)");
+    expect_refusal("[run]\nduration = 5 m\n" ICE,
+                   ":2: run.duration has the unit \"m\", one of s ms us min h is expected");
+    expect_refusal("[run]\nduration = -1 s\n" ICE, ":2: run.duration is -1 s, a value above 0 s is expected");
+    expect_refusal("[run]\nduration = nan\n" ICE,
+                   ":2: run.duration is \"nan\", a number in s is expected (units: s ms us min h)");
+    expect_refusal("[run]\nduration = 1e999\n" ICE,
+                   ":2: run.duration is \"1e999\", a number in s is expected (units: s ms us min h)");
+    expect_refusal("[run]\nduration = 1 2\n" ICE,
+                   ":2: run.duration is \"1 2\", a number in s is expected (units: s ms us min h)");
+    expect_refusal("[run]\nduration = 1 s s\n" ICE,
+                   ":2: run.duration is \"1 s s\", a number in s is expected (units: s ms us min h)");
+    expect_refusal("[run]\nduration = 2,5\n" ICE,
+                   ":2: run.duration is \"2,5\", a decimal point and blanks are expected, not a comma");
+    expect_refusal("[run]\nduration =\n" ICE, ":2: run.duration has no value");
+    expect_refusal("[run]\nduration 5\n" ICE, ":2: \"duration 5\" is no section and no key = value");
+    expect_refusal("[run]\n= 5\n" ICE, ":2: no key stands before =");
+    expect_refusal("[run\nduration = 5\n" ICE, ":1: \"[run\" lacks the ] of a section");
+    expect_refusal("[run] duration = 5\n" ICE, ":1: \" duration = 5\" after a section is not expected");
+    expect_refusal("[run]\ndurration = 5\n" ICE,
+                   ":2: unknown key \"durration\" in [run], nearest is \"duration\"");
+    expect_refusal("[watter]\n" ICE, ":1: unknown section [watter], nearest is [water]");
+    expect_refusal("[]\n" ICE, ":1: unknown section [], nearest is [run]");
+    expect_refusal("[water deep]\n" ICE, ":1: [water deep] has 1 name, [water] is expected");
+    expect_refusal("[material]\n" ICE, ":1: [material] has 0 names, [material NAME] is expected");
+    expect_refusal("[contact ice]\n" ICE, ":1: [contact ice] has 1 name, [contact A B] is expected");
+    expect_refusal("[group a/b]\n" ICE,
+                   ":1: \"a/b\" cannot be a name: letters, digits, _ + -, at most 47 characters");
+    expect_refusal("[material structure]\n" ICE,
+                   ":1: a material cannot be called \"structure\": that word names a place in [contact A B]");
+    expect_refusal("[run]\ndt = 1\n\n[run]\ndt = 2\n" ICE, ":5: run.dt was given on line 2 already");
+    expect_refusal("[contact ice ice]\nfriction = 0.1\nfriction = 0.2\n" ICE,
+                   ":3: contact ice ice.friction was given on line 2 already");
+    expect_refusal("gravity 9\n[run]\ngravity = 9\n" ICE, ":3: run.gravity was given on line 1 already");
+    expect_refusal("#scene 2\n" ICE, ":1: scene version 2 is newer than this program, which reads up to 1");
+    expect_refusal("[run]\ndt = 1 ms\nerror = 0.1\n" ICE,
+                   ":3: run.error chooses the step and run.dt sets it: only one of them is expected");
+    expect_refusal(
+        "[run]\nsleep = 1e-5\nerror = 0.1\n" ICE,
+        ":2: run.error repeats windows with other steps, in which no floe can sleep: either run.error or "
+        "run.sleep is expected");
+    expect_refusal(
+        "[run]\nsleep = 1e-5\n[water]\nevery = 2\n" ICE,
+        ":4: sleeping floes (run.sleep) evaluate the water when they wake: water.every = 1 is expected");
+    expect_refusal("[run]\nerror = 0.1\n[contact]\nsurrogate = 0.001\n" ICE,
+                   ":4: run.error compares steps of different sizes, which a surrogate would disturb: either "
+                   "run.error or surrogate in [contact] is expected");
+    expect_refusal("[run]\nerror = 0.1\n[contact ice boundary]\nsurrogate = 0.001\n" ICE,
+                   ":4: run.error compares steps of different sizes, which a surrogate would disturb: either "
+                   "run.error or surrogate in [contact ice boundary] is expected");
+    expect_refusal("[contact]\nlaw = core\nsurrogate = 0.001\n" ICE,
+                   ":3: surrogate applies to law = patch only");
+    expect_refusal("[contact]\nlaw = manual\n[contact ice boundary]\nsurrogate = 0.001\n" ICE,
+                   ":4: surrogate applies to law = patch only");
+    expect_refusal("[contact]\nsurrogate = 0.5\n" ICE,
+                   ":2: contact.surrogate is 0.5, a value at least 0 and at most 0.1 is expected");
+    expect_refusal("[water]\nevery = 0\n" ICE,
+                   ":2: water.every is \"0\", a whole number from 1 to 1000 is expected");
+    expect_refusal("[run]\nerror = 100%\n" ICE,
+                   ":2: run.error is 100%, a value above 0 and below 1 is expected");
+    expect_refusal("[run]\nthreads = 2.5\n" ICE,
+                   ":2: run.threads is \"2.5\", a whole number from 1 to 1024 is expected");
+    expect_refusal("[run]\ngravity = -9.81\n" ICE,
+                   ":2: run.gravity is -9.81: one number is the size of a downward "
+                   "vector and cannot be negative, three give another direction");
+    expect_refusal(
+        "[run]\ngravity = 1 2\n" ICE,
+        ":2: run.gravity is \"1 2\", one number or three in m/s2 are expected (units: m/s2 m/s^2)");
+    expect_refusal("[material ice]\npoisson = 0.5\n" ICE,
+                   ":2: material.poisson is 0.5, a value at least 0 and below 0.5 is expected");
+    expect_refusal(
+        "[contact]\nlaw = pach\n" ICE,
+        ":2: contact.law is \"pach\", one of patch manual manual-si core is expected, nearest is patch");
+    expect_refusal("[contact]\nexponent = 2\n" ICE,
+                   ":2: contact.exponent is \"2\", one of 1 1.5 is expected, nearest is 1");
+    expect_refusal("[group a]\nfixed = x x\n" ICE,
+                   ":2: group.fixed is \"x x\", none or some of x y z rx ry rz, each once, is expected");
+    expect_refusal("[ice]\nmaterial = a b\n",
+                   ":2: ice.material is \"a b\", a name of letters, digits, _ + - and at "
+                   "most 47 characters is expected");
+    expect_refusal("include =\n" ICE, ":1: include needs the name of a file");
+    expect_refusal("include = -\n" ICE, ":1: include needs the name of a file");
 }
 
-static void parts_are_held_against_each_other(void **state)
+static void sections_are_checked_against_each_other(void **state)
 {
     (void)state;
-    refused("[run]\nduration = 5\n", ": the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
-    refused("", ": the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
-    refused("\n[ice]\nshape = round\n",
-            ":2: the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
-    refused(ICE "[structure]\n",
-            ":3: [structure] has no file: file = FILE, or --structure FILE, is expected");
-    refused("[ice]\nfile = -\n[structure]\nfile = -\n",
-            ":2: standard input can be only one of scene, ice and structure");
-    refused(ICE "material = cheese\n", ":3: there is no [material cheese]");
-    refused(ICE "[structure]\nfile = s\nmaterial = cheese\n", ":5: there is no [material cheese]");
-    refused(ICE "[contact ice cheese]\n", ":3: there is no [material cheese]");
-    refused(ICE "[contact structure boundary]\n",
-            ":3: [contact structure boundary] names no material: structure and boundary never touch");
-    refused(ICE "[contact]\nmanual_eq18 = true\n",
-            ":4: manual_eq18 applies to law = manual and manual-si only");
-    refused(ICE "[run]\nduration = 1\ndt = 2\n", ":5: run.dt is 2 s, at most the duration, 1 s, is expected");
-    refused(ICE "[output]\nstate = -\n",
-            ":4: output.state is \"-\", and standard output carries the loads: a file is expected");
-    refused(ICE "[output]\nstate = /a\nenergy = /a\n",
-            ":5: output.energy is \"/a\", which is output.state already");
-    refused("[ice]\nfile = /a\n[output]\nstate = /a\n", ":4: output.state is \"/a\", which is an input");
-    refused(ICE "[boundary]\nmin = 0 0 0\nmax = 1 0 1\n",
-            ":5: boundary.max of y is 0 m, more than its min, 0 m, is expected");
-    refused(ICE "[boundary]\ntype = free elastic free\n",
-            ":4: an elastic boundary has no bounds: boundary.min or boundary.max is expected");
-    refused(ICE "[boundary]\ntype = free rigid\n",
-            ":4: boundary.type is \"free rigid\", one word or three, for x, y and z, are expected");
-    refused(ICE "[boundary]\ntype = free rigid free free\n",
-            ":4: boundary.type is \"free rigid free free\", one word or three, for x, y and z, are expected");
-    refused(ICE "[boundary]\ntype = periodic\nmin = 0 0 none\nmax = 1 none none\n",
-            ":4: y is periodic and has one bound: boundary.min and boundary.max of y, or none of the two, "
-            "are expected");
-    refused(ICE "[boundary]\ntype = periodic\nmin = 0 0 0\nmax = 1 1 1\n[water]\n",
-            ":4: z is periodic, but [water] has one surface: only one of the two is expected");
-    refused(ICE "[boundary]\ntype = free\ndrive = 1\n",
-            ":5: boundary.drive has no effect without boundary.drive_width or drive_group");
-    refused(ICE "[boundary]\ntype = free\ninflow_speed = 1\n",
-            ":5: boundary.inflow_speed has no effect without boundary.inflow");
-    accepted(ICE "[boundary]\ntype = free\ninflow = none\ninflow_speed = 1\n");
-    refused(ICE "[run]\nerror_of = fx\n", ":4: run.error_of has no effect without run.error");
-    refused(ICE "[bond]\nshear_strength = 1 MPa\n", ":4: bond.shear_strength has no effect without bond.on");
-    accepted(ICE "[bond]\non = false\nshear_strength = 1 MPa\n");
-    refused(ICE "[contact]\nexponent = 1.5\n", ":4: exponent applies to law = core only");
-    refused(ICE "[contact]\nlaw = manual\nrolling = 0.1\n",
-            ":5: rolling applies to law = patch and core only");
-    accepted(ICE "[contact]\nlaw = core\nexponent = 1.5\n");
-    refused(ICE "[boundary]\ntype = free\ndrive_width = 1\n",
-            ":5: boundary.drive has no direction along x or y: drive_edge is expected");
-    refused(ICE "[boundary]\ntype = free\ndrive = 1\ndrive_width = 1\ndrive_group = a\n",
-            ":7: drive_width and drive_group both say which floes are driven: one is expected");
-    refused(ICE "[boundary]\ntype = free\ndrive = 1 0 1\ndrive_width = 1\n",
-            ":5: boundary.drive along z is 1 m/s, and z is not among drive_fixed");
-    refused(ICE "[boundary]\ninflow = ice\nmin = 0 0 0\n",
-            ":4: inflow along x needs boundary.type = free in x, and boundary.min and boundary.max of it");
-    refused(ICE "[boundary]\ntype = free\ninflow = ice\nmin = 0 0 0\nmax = 1 1 1\n",
-            ":5: water.current does not point into the domain there: boundary.inflow_speed, or another "
-            "inflow_from, is expected");
-    refused(ICE "[boundary]\ntype = free\ninflow = file\nmin = 0 0 0\nmax = 1 1 1\n",
-            ":5: boundary.inflow is file: inflow_file = FILE is expected");
-    refused(ICE "[boundary]\n",
-            ":3: a rigid boundary has no bounds: boundary.min or boundary.max is expected");
-    refused(ICE "[group a]\nfixed = x\nvelocity = 0 1 0\n",
-            ":5: group.velocity along y is 1 m/s, and y is not among the fixed directions");
+    expect_refusal("[run]\nduration = 5\n",
+                   ": the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
+    expect_refusal("", ": the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
+    expect_refusal("\n[ice]\nshape = round\n",
+                   ":2: the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
+    expect_refusal(ICE "[structure]\n",
+                   ":3: [structure] has no file: file = FILE, or --structure FILE, is expected");
+    expect_refusal("[ice]\nfile = -\n[structure]\nfile = -\n",
+                   ":2: standard input can be only one of scene, ice and structure");
+    expect_refusal(ICE "material = cheese\n", ":3: there is no [material cheese]");
+    expect_refusal(ICE "[structure]\nfile = s\nmaterial = cheese\n", ":5: there is no [material cheese]");
+    expect_refusal(ICE "[contact ice cheese]\n", ":3: there is no [material cheese]");
+    expect_refusal(ICE "[contact structure boundary]\n",
+                   ":3: [contact structure boundary] names no material: structure and boundary never touch");
+    expect_refusal(ICE "[contact]\nmanual_eq18 = true\n",
+                   ":4: manual_eq18 applies to law = manual and manual-si only");
+    expect_refusal(ICE "[run]\nduration = 1\ndt = 2\n",
+                   ":5: run.dt is 2 s, at most the duration, 1 s, is expected");
+    expect_refusal(ICE "[output]\nstate = -\n",
+                   ":4: output.state is \"-\", and standard output carries the loads: a file is expected");
+    expect_refusal(ICE "[output]\nstate = /a\nenergy = /a\n",
+                   ":5: output.energy is \"/a\", which is output.state already");
+    expect_refusal("[ice]\nfile = /a\n[output]\nstate = /a\n",
+                   ":4: output.state is \"/a\", which is an input");
+    expect_refusal(ICE "[boundary]\nmin = 0 0 0\nmax = 1 0 1\n",
+                   ":5: boundary.max of y is 0 m, more than its min, 0 m, is expected");
+    expect_refusal(ICE "[boundary]\ntype = free elastic free\n",
+                   ":4: an elastic boundary has no bounds: boundary.min or boundary.max is expected");
+    expect_refusal(ICE "[boundary]\ntype = free rigid\n",
+                   ":4: boundary.type is \"free rigid\", one word or three, for x, y and z, are expected");
+    expect_refusal(
+        ICE "[boundary]\ntype = free rigid free free\n",
+        ":4: boundary.type is \"free rigid free free\", one word or three, for x, y and z, are expected");
+    expect_refusal(
+        ICE "[boundary]\ntype = periodic\nmin = 0 0 none\nmax = 1 none none\n",
+        ":4: y is periodic and has one bound: boundary.min and boundary.max of y, or none of the two, "
+        "are expected");
+    expect_refusal(ICE "[boundary]\ntype = periodic\nmin = 0 0 0\nmax = 1 1 1\n[water]\n",
+                   ":4: z is periodic, but [water] has one surface: only one of the two is expected");
+    expect_refusal(ICE "[boundary]\ntype = free\ndrive = 1\n",
+                   ":5: boundary.drive has no effect without boundary.drive_width or drive_group");
+    expect_refusal(ICE "[boundary]\ntype = free\ninflow_speed = 1\n",
+                   ":5: boundary.inflow_speed has no effect without boundary.inflow");
+    expect_accepted(ICE "[boundary]\ntype = free\ninflow = none\ninflow_speed = 1\n");
+    expect_refusal(ICE "[run]\nerror_of = fx\n", ":4: run.error_of has no effect without run.error");
+    expect_refusal(ICE "[bond]\nshear_strength = 1 MPa\n",
+                   ":4: bond.shear_strength has no effect without bond.on");
+    expect_accepted(ICE "[bond]\non = false\nshear_strength = 1 MPa\n");
+    expect_refusal(ICE "[contact]\nexponent = 1.5\n", ":4: exponent applies to law = core only");
+    expect_refusal(ICE "[contact]\nlaw = manual\nrolling = 0.1\n",
+                   ":5: rolling applies to law = patch and core only");
+    expect_accepted(ICE "[contact]\nlaw = core\nexponent = 1.5\n");
+    expect_refusal(ICE "[boundary]\ntype = free\ndrive_width = 1\n",
+                   ":5: boundary.drive has no direction along x or y: drive_edge is expected");
+    expect_refusal(ICE "[boundary]\ntype = free\ndrive = 1\ndrive_width = 1\ndrive_group = a\n",
+                   ":7: drive_width and drive_group both say which floes are driven: one is expected");
+    expect_refusal(ICE "[boundary]\ntype = free\ndrive = 1 0 1\ndrive_width = 1\n",
+                   ":5: boundary.drive along z is 1 m/s, and z is not among drive_fixed");
+    expect_refusal(
+        ICE "[boundary]\ninflow = ice\nmin = 0 0 0\n",
+        ":4: inflow along x needs boundary.type = free in x, and boundary.min and boundary.max of it");
+    expect_refusal(
+        ICE "[boundary]\ntype = free\ninflow = ice\nmin = 0 0 0\nmax = 1 1 1\n",
+        ":5: water.current does not point into the domain there: boundary.inflow_speed, or another "
+        "inflow_from, is expected");
+    expect_refusal(ICE "[boundary]\ntype = free\ninflow = file\nmin = 0 0 0\nmax = 1 1 1\n",
+                   ":5: boundary.inflow is file: inflow_file = FILE is expected");
+    expect_refusal(ICE "[boundary]\n",
+                   ":3: a rigid boundary has no bounds: boundary.min or boundary.max is expected");
+    expect_refusal(ICE "[group a]\nfixed = x\nvelocity = 0 1 0\n",
+                   ":5: group.velocity along y is 1 m/s, and y is not among the fixed directions");
 }
 
-static void set_overrules_the_file(void **state)
+static void set_overrides_the_file(void **state)
 {
     fl_scene s;
     fl_err err = {0};
     (void)state;
-    good(&s, ICE "[run]\nduration = 5\n");
+    load_good(&s, ICE "[run]\nduration = 5\n");
     assert_int_equal(fl_scene_set(&s, "run.duration=1 min", &err), 0);
     assert_int_equal(fl_scene_set(&s, "run.duration = 2 min", &err), 0);
     assert_int_equal(fl_scene_set(&s, "contact.ice.ice.friction=0.5", &err), 0);
@@ -439,17 +459,18 @@ static void set_overrules_the_file(void **state)
     assert_true(s.water.head.present);
     assert_string_equal(s.output.state, "here.dat"); /* from the working folder */
     fl_scene_free(&s);
-    set_refused("run.duration", "--set: \"run.duration\" is not section.key=value");
-    set_refused("ice.file=#x",
-                "--set: ice.file is \"#x\", a path without control characters and comments is expected");
-    set_refused("run=5", "--set: \"run\" is a section, section.key=value is expected");
-    set_refused("runn.dt=5", "--set: unknown section [runn], nearest is [run]");
-    set_refused("run.dtt=5", "--set: unknown key \"dtt\" in [run], nearest is \"dt\"");
-    set_refused("run.dt=", "--set: run.dt has no value");
-    set_refused("run.dt=1 h", "--set: run.dt is 3600 s, at most the duration, 60 s, is expected");
-    set_refused("material.young=5", "--set: [material] has 0 names, [material NAME] is expected");
-    set_refused("group.a.velocity=1 0 0",
-                "--set: group.velocity along x is 1 m/s, and x is not among the fixed directions");
+    expect_set_refusal("run.duration", "--set: \"run.duration\" is not section.key=value");
+    expect_set_refusal(
+        "ice.file=#x",
+        "--set: ice.file is \"#x\", a path without control characters and comments is expected");
+    expect_set_refusal("run=5", "--set: \"run\" is a section, section.key=value is expected");
+    expect_set_refusal("runn.dt=5", "--set: unknown section [runn], nearest is [run]");
+    expect_set_refusal("run.dtt=5", "--set: unknown key \"dtt\" in [run], nearest is \"dt\"");
+    expect_set_refusal("run.dt=", "--set: run.dt has no value");
+    expect_set_refusal("run.dt=1 h", "--set: run.dt is 3600 s, at most the duration, 60 s, is expected");
+    expect_set_refusal("material.young=5", "--set: [material] has 0 names, [material NAME] is expected");
+    expect_set_refusal("group.a.velocity=1 0 0",
+                       "--set: group.velocity along x is 1 m/s, and x is not among the fixed directions");
 }
 
 static void a_failed_set_changes_nothing(void **state)
@@ -458,25 +479,26 @@ static void a_failed_set_changes_nothing(void **state)
     fl_err err = {0};
     char *before, *after;
     (void)state;
-    good(&s, ICE);
-    before = written(&s);
+    load_good(&s, ICE);
+    before = write_scene(&s);
     assert_int_equal(fl_scene_set(&s, "material.snow.density=-1", &err), -1);
     assert_int_equal(fl_scene_set(&s, "water.density=heavy", &err), -1);
-    after = written(&s);
+    after = write_scene(&s);
     assert_string_equal(before, after);
     free(before);
     free(after);
     fl_scene_free(&s);
 }
 
-static void pairs_take_the_nearest_word(void **state)
+static void pairs_use_the_most_specific_section(void **state)
 {
     fl_scene s;
     fl_scene_contact c;
     int32_t ice, snow;
     (void)state;
-    good(&s, ICE "[structure]\nfile = s\n[boundary]\nmin = 0 0 0\nstiffness = 3e6\n[material snow]\nfriction "
-                 "= 0.6\nrestitution = 0.1\n");
+    load_good(&s, ICE
+              "[structure]\nfile = s\n[boundary]\nmin = 0 0 0\nstiffness = 3e6\n[material snow]\nfriction "
+              "= 0.6\nrestitution = 0.1\n");
     ice = fl_scene_find_material(&s, "ice");
     snow = fl_scene_find_material(&s, "snow");
     assert_near(fl_scene_pair(&s, ice, ice).friction, 0.3, 0);
@@ -489,15 +511,16 @@ static void pairs_take_the_nearest_word(void **state)
     assert_true(fl_scene_pair(&s, ice, ice).damping < 0);
     fl_scene_free(&s);
 
-    good(&s, ICE "[structure]\nfile = s\nfriction = 0.4\n[contact]\nlaw = core\nfriction = 0.9\nrestitution "
-                 "= 0.7\n[contact steel ice]\nlaw = manual\nstiffness = 5 kN/m\n[contact ice "
-                 "structure]\nstiffness = auto\ndamping = 2\n[contact boundary ice]\nrestitution = 0\n");
+    load_good(&s,
+              ICE "[structure]\nfile = s\nfriction = 0.4\n[contact]\nlaw = core\nfriction = 0.9\nrestitution "
+                  "= 0.7\n[contact steel ice]\nlaw = manual\nstiffness = 5 kN/m\n[contact ice "
+                  "structure]\nstiffness = auto\ndamping = 2\n[contact boundary ice]\nrestitution = 0\n");
     ice = fl_scene_find_material(&s, "ice");
     c = fl_scene_pair(&s, ice, FL_SCENE_STRUCTURE);
     assert_near(c.friction, 0.4, 0);                            /* [structure] over [contact] */
     assert_near(c.restitution, 0.7, 0);                         /* [contact] over the materials */
     assert_string_equal(fl_contact_laws[c.law].name, "manual"); /* the structure's material */
-    assert_near(c.stiffness, 5000.0, 0);                        /* auto gives the word on */
+    assert_near(c.stiffness, 5000.0, 0);                        /* auto passes the choice on */
     assert_near(c.damping, 2.0, 0);
     assert_string_equal(c.b, "structure");
     assert_string_equal(fl_contact_laws[fl_scene_pair(&s, ice, ice).law].name, "core");
@@ -506,7 +529,7 @@ static void pairs_take_the_nearest_word(void **state)
     fl_scene_free(&s);
 }
 
-static void included_files_are_overruled_by_the_scene(void **state)
+static void the_scene_overrides_included_files(void **state)
 {
     static const char materials[] =
         "[material snow]\ndensity = 400\nyoung = 10 MPa\n[ice]\nmaterial = snow\n";
@@ -517,7 +540,7 @@ static void included_files_are_overruled_by_the_scene(void **state)
     (void)state;
     name = strrchr(test_file("mat.scene", materials, strlen(materials)), '/') + 1;
     snprintf(text, sizeof text, "include = %s\n" ICE "[material snow]\ndensity = 350\n", name);
-    good(&s, text);
+    load_good(&s, text);
     assert_near(s.material[fl_scene_find_material(&s, "snow")].density, 350.0, 0);
     assert_near(s.material[fl_scene_find_material(&s, "snow")].young, 1e7, 0);
     assert_string_equal(s.ice.material, "snow");
@@ -533,7 +556,7 @@ static void included_files_are_overruled_by_the_scene(void **state)
     snprintf(text, sizeof text, "include %s\ninclude %s\n" ICE, name, name);
     assert_int_equal(load(&s, text, &err), -1);
     assert_non_null(strstr(err.text, "mat.scene:2: material snow.density was given on line 2 of"));
-    /* a file that is not there */
+    /* a missing file */
     assert_int_equal(load(&s, "include nowhere.scene\n" ICE, &err), -1);
     assert_non_null(strstr(err.text, "nowhere.scene: No such file"));
     assert_int_equal(err.code, FL_INPUT);
@@ -553,8 +576,8 @@ static void old_names_are_still_read(void **state)
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         const char *old = row[k][0], *new = row[k][1], *value = row[k][2];
         snprintf(text, sizeof text, ICE "[contact]\nlaw = manual\n%s = %s\n", old, value);
-        good(&s, text);
-        char *print = written(&s);
+        load_good(&s, text);
+        char *print = write_scene(&s);
         snprintf(line, sizeof line, "\n%s = %s\n", new, value);
         if (!strstr(print, line)) fail_msg("%s is not among\n%s", line, print);
         snprintf(line, sizeof line, "\n%s = ", old);
@@ -567,53 +590,54 @@ static void old_names_are_still_read(void **state)
             snprintf(text, sizeof text, ICE "[contact]\nlaw = manual\n%s = %s\n%s = %s\n", first ? old : new,
                      value, first ? new : old, value);
             snprintf(line, sizeof line, ":6: contact.%s (old name %s) was given on line 5 already", new, old);
-            refused(text, line);
+            expect_refusal(text, line);
         }
     }
-    good(&s, ICE "[contact]\nsoftening = 0.25\ntangential = 0.5\n");
+    load_good(&s, ICE "[contact]\nsoftening = 0.25\ntangential = 0.5\n");
     assert_near(fl_scene_pair(&s, 0, 0).stiffness_factor, 0.25, 0);
     assert_near(fl_scene_pair(&s, 0, 0).tangential_ratio, 0.5, 0);
     fl_scene_free(&s);
-    refused(ICE "[contact]\nsoftening = 2\n",
-            ":4: contact.stiffness_factor is 2, a value above 0 and at most 1 is expected");
+    expect_refusal(ICE "[contact]\nsoftening = 2\n",
+                   ":4: contact.stiffness_factor is 2, a value above 0 and at most 1 is expected");
 }
 
-/* What goes with bonds, and what does not. */
+/* Keys that bonds allow, and keys that they exclude. */
 static void bonds_are_checked(void **state)
 {
     fl_scene s;
     (void)state;
-    good(&s, ICE "[bond]\non = true\nnormal_strength = none\nenergy = 12 J/m2\n");
+    load_good(&s, ICE "[bond]\non = true\nnormal_strength = none\nenergy = 12 J/m2\n");
     assert_true(isinf(s.bond.normal_strength) && s.bond.young == 0.0 && s.bond.poisson < 0.0);
     assert_near(s.bond.energy, 12.0, 0);
     assert_true(s.bond.shear_energy < 0.0 && s.bond.mixing == 2);
     fl_scene_free(&s);
-    refused(ICE "[bond]\non = true\n[run]\nsleep = 0.01\n",
-            ":6: bonded floes do not sleep: either run.sleep or bond.on is expected");
-    refused(ICE "[bond]\non = true\n[boundary]\ntype = free\nmin = 0 none none\nmax = 9 none none\ninflow = "
-                "ice\ninflow_speed = 1\n",
-            ":9: inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
-    refused(ICE "[bond]\non = true\nsoftening = stretch\n",
-            ":5: softening needs a fracture energy: bond.energy is expected");
-    refused(ICE "[bond]\non = true\nenergy = 10\nnormal_strength = none\nsoftening = weaken\n",
-            ":7: softening = weaken lowers both strengths, but one is none: a number is expected");
+    expect_refusal(ICE "[bond]\non = true\n[run]\nsleep = 0.01\n",
+                   ":6: bonded floes do not sleep: either run.sleep or bond.on is expected");
+    expect_refusal(
+        ICE "[bond]\non = true\n[boundary]\ntype = free\nmin = 0 none none\nmax = 9 none none\ninflow = "
+            "ice\ninflow_speed = 1\n",
+        ":9: inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
+    expect_refusal(ICE "[bond]\non = true\nsoftening = stretch\n",
+                   ":5: softening needs a fracture energy: bond.energy is expected");
+    expect_refusal(ICE "[bond]\non = true\nenergy = 10\nnormal_strength = none\nsoftening = weaken\n",
+                   ":7: softening = weaken lowers both strengths, but one is none: a number is expected");
 }
 
-static void what_is_written_reads_back(void **state)
+static void a_written_scene_reads_back(void **state)
 {
     fl_scene s, t;
     fl_err err = {0};
     char *first, *second;
     (void)state;
-    good(
+    load_good(
         &s, ICE
         "[structure]\nfile = s\n[contact ice structure]\nfriction = 0.1\n[group tug]\nfixed = x rz\nvelocity "
         "= 0.3 0 0\n[water]\n[wind]\n[bond]\n[boundary]\ntype = free\nmax = 1 none 3\n[material snow]\n");
-    first = written(&s);
+    first = write_scene(&s);
     t = (fl_scene){0};
     if (fl_scene_read(&t, test_file("echo.scene", first, strlen(first)), &err)) fail_msg("%s", err.text);
     assert_int_equal(fl_scene_check(&t, &err), 0);
-    second = written(&t);
+    second = write_scene(&t);
     assert_string_equal(first, second);
     free(first);
     free(second);
@@ -621,7 +645,7 @@ static void what_is_written_reads_back(void **state)
     fl_scene_free(&t);
 }
 
-static char *explained(const char *key, fl_err *err, int *rc)
+static char *explain_key(const char *key, fl_err *err, int *rc)
 {
     char *text = NULL;
     size_t n;
@@ -632,11 +656,11 @@ static char *explained(const char *key, fl_err *err, int *rc)
     return text;
 }
 
-static void explain_tells_all_there_is(void **state)
+static void explain_shows_every_key(void **state)
 {
     fl_err err;
     int rc;
-    char *text = explained("water.density", &err, &rc);
+    char *text = explain_key("water.density", &err, &rc);
     (void)state;
     assert_int_equal(rc, 0);
     assert_string_equal(
@@ -644,31 +668,31 @@ static void explain_tells_all_there_is(void **state)
         "water.density: mass per volume of the water\n  value    a number in kg/m3 (units: kg/m3 kg/m^3 t/m3 "
         "t/m^3 g/cm3 g/cm^3), above 0\n  default  1025 kg/m3\n  source   sea water 1005 to 1035\n");
     free(text);
-    text = explained("material.friction", &err, &rc);
+    text = explain_key("material.friction", &err, &rc);
     assert_non_null(strstr(text, "  default  0.3 (steel: 0.15)\n  manual   mus\n"));
     free(text);
-    text = explained("material ice.friction", &err, &rc);
+    text = explain_key("material ice.friction", &err, &rc);
     assert_int_equal(rc, 0);
     free(text);
-    text = explained("bond.softening", &err, &rc);
+    text = explain_key("bond.softening", &err, &rc);
     assert_non_null(strstr(text, "one of keep, stretch, weaken\n"));
     free(text);
-    text = explained("contact.softening", &err, &rc); /* an old name */
+    text = explain_key("contact.softening", &err, &rc); /* an old name */
     assert_int_equal(rc, 0);
     assert_true(strncmp(text, "contact.stiffness_factor: ", 26) == 0);
     assert_non_null(strstr(text, "\n  was      contact.softening, which is still read\n"));
     free(text);
     for (int s = 0; s < FL_SECTIONS; s++) {
-        text = explained(fl_section_table[s].name, &err, &rc);
+        text = explain_key(fl_section_table[s].name, &err, &rc);
         assert_int_equal(rc, 0);
         for (int k = fl_key_first(s); k < fl_key_first(s + 1); k++)
             assert_non_null(strstr(text, fl_key_table[k].key));
         free(text);
     }
-    free(explained("watr.density", &err, &rc));
+    free(explain_key("watr.density", &err, &rc));
     assert_int_equal(rc, -1);
     assert_string_equal(err.text, "unknown section [watr], nearest is [water]");
-    free(explained("water.dansity", &err, &rc));
+    free(explain_key("water.dansity", &err, &rc));
     assert_string_equal(err.text, "unknown key \"dansity\" in [water], nearest is \"density\"");
     assert_int_equal(err.code, FL_USAGE);
 }
@@ -708,21 +732,21 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_default_reads_back),
-        cmocka_unit_test(the_least_scene_has_the_stated_defaults),
+        cmocka_unit_test(the_smallest_scene_has_the_stated_defaults),
         cmocka_unit_test(values_carry_units),
         cmocka_unit_test(vectors_take_one_number_or_three),
-        cmocka_unit_test(grammar_is_as_scene_5_says),
-        cmocka_unit_test(words_of_the_manual_are_read_bare),
+        cmocka_unit_test(the_grammar_is_that_of_scene_5),
+        cmocka_unit_test(keys_of_the_manual_are_read),
         cmocka_unit_test(each_complaint_names_file_and_line),
-        cmocka_unit_test(parts_are_held_against_each_other),
-        cmocka_unit_test(set_overrules_the_file),
+        cmocka_unit_test(sections_are_checked_against_each_other),
+        cmocka_unit_test(set_overrides_the_file),
         cmocka_unit_test(a_failed_set_changes_nothing),
-        cmocka_unit_test(pairs_take_the_nearest_word),
-        cmocka_unit_test(included_files_are_overruled_by_the_scene),
+        cmocka_unit_test(pairs_use_the_most_specific_section),
+        cmocka_unit_test(the_scene_overrides_included_files),
         cmocka_unit_test(old_names_are_still_read),
         cmocka_unit_test(bonds_are_checked),
-        cmocka_unit_test(what_is_written_reads_back),
-        cmocka_unit_test(explain_tells_all_there_is),
+        cmocka_unit_test(a_written_scene_reads_back),
+        cmocka_unit_test(explain_shows_every_key),
         cmocka_unit_test(the_manual_page_lists_every_key),
     };
     return cmocka_run_group_tests_name("scene", tests, NULL, NULL);

@@ -14,19 +14,19 @@
 static fl_err err;
 static const fl_record_selection ALL = {.from = -INFINITY, .to = INFINITY};
 
-static int read_text(fl_series *s, const fl_record_selection *ask, const char *data)
+static int read_text(fl_series *s, const fl_record_selection *selection, const char *data)
 {
     err = (fl_err){0};
-    return fl_series_read(s, test_file("series", data, strlen(data)), ask, &err);
+    return fl_series_read(s, test_file("series", data, strlen(data)), selection, &err);
 }
 
-static void expect_told(int code, int line, const char *says)
+static void expect_message(int code, int line, const char *message)
 {
-    char want[1200];
-    if (line) snprintf(want, sizeof want, "%s:%d: %s", test_path("series"), line, says);
-    else snprintf(want, sizeof want, "%s: %s", test_path("series"), says);
+    char expected[1200];
+    if (line) snprintf(expected, sizeof expected, "%s:%d: %s", test_path("series"), line, message);
+    else snprintf(expected, sizeof expected, "%s: %s", test_path("series"), message);
     assert_int_equal(err.code, code);
-    assert_string_equal(err.text, want);
+    assert_string_equal(err.text, expected);
 }
 
 #define HEAD "#loads 1\n#by dem-solve 0.1.0 a.scene\nt[s] part fx[N] fy[N] fz[N] fpeak[N] contacts\n"
@@ -35,7 +35,7 @@ static const char TWO[] = HEAD "1 a 3 4 12 20 1\n1 b 0 0 0 0 0\n"
                                "3 b 6 8 0 11 2\n3 a 0 0 0 1 0\n" /* the order of the parts may change */
                                "4 a 1 -2 2 4 1\n4 b -1 2 -2 4 1\n";
 
-static void parts_and_total(void **state)
+static void parts_add_up_to_the_total(void **state)
 {
     fl_series s;
     (void)state;
@@ -58,92 +58,92 @@ static void parts_and_total(void **state)
     fl_series_free(&s);
 }
 
-static void asking(void **state)
+static void signals_are_selected(void **state)
 {
     const char *const force[] = {"f"}, *const peak[] = {"fpeak", "contacts"}, *const wrong[] = {"fpeek"};
     fl_series s;
-    fl_record_selection ask = ALL;
+    fl_record_selection selection = ALL;
     (void)state;
-    ask.part = "b";
-    ask.signal = force;
-    ask.signals = 1;
-    assert_int_equal(read_text(&s, &ask, TWO), 0);
+    selection.part = "b";
+    selection.signal = force;
+    selection.signals = 1;
+    assert_int_equal(read_text(&s, &selection, TWO), 0);
     assert_int_equal(s.parts, 1);
     assert_string_equal(s.part[0], "b");
     assert_memory_equal(s.x[0], ((double[]){0, 10, 3}), 3 * sizeof(double));
     fl_series_free(&s);
-    ask.part = "total";
-    assert_int_equal(read_text(&s, &ask, TWO), 0);
+    selection.part = "total";
+    assert_int_equal(read_text(&s, &selection, TWO), 0);
     assert_int_equal(s.parts, 1);
     assert_memory_equal(s.x[0], ((double[]){13, 10, 0}), 3 * sizeof(double));
     fl_series_free(&s);
-    ask.part = NULL;
-    ask.signal = peak;
-    ask.signals = 2;
-    assert_int_equal(read_text(&s, &ask, TWO), 0);
+    selection.part = NULL;
+    selection.signal = peak;
+    selection.signals = 2;
+    assert_int_equal(read_text(&s, &selection, TWO), 0);
     assert_int_equal(s.parts, 3);
     assert_null(s.x[2 * 2]); /* largest forces of different times do not add up */
     assert_memory_equal(s.x[2 * 2 + 1], ((double[]){1, 2, 2}), 3 * sizeof(double));
     fl_series_free(&s);
-    ask.part = "total";
-    assert_int_equal(read_text(&s, &ask, TWO), -1);
+    selection.part = "total";
+    assert_int_equal(read_text(&s, &selection, TWO), -1);
     assert_int_equal(err.code, FL_USAGE);
     assert_string_equal(err.text, "fpeak has no total: its sum over the parts is meaningless");
-    ask.part = NULL;
-    ask.signal = wrong;
-    ask.signals = 1;
-    assert_int_equal(read_text(&s, &ask, TWO), -1);
-    expect_told(FL_INPUT, 3, "no column fpeek in this loads table, the nearest is fpeak");
-    ask = ALL;
-    ask.part = "bb";
-    assert_int_equal(read_text(&s, &ask, TWO), -1);
-    expect_told(FL_INPUT, 0, "no part bb, the nearest is b");
+    selection.part = NULL;
+    selection.signal = wrong;
+    selection.signals = 1;
+    assert_int_equal(read_text(&s, &selection, TWO), -1);
+    expect_message(FL_INPUT, 3, "no column fpeek in this loads table, the nearest is fpeak");
+    selection = ALL;
+    selection.part = "bb";
+    assert_int_equal(read_text(&s, &selection, TWO), -1);
+    expect_message(FL_INPUT, 0, "no part bb, the nearest is b");
 }
 
-static void cuts(void **state)
+static void selected_intervals(void **state)
 {
     fl_series s;
-    fl_record_selection ask = ALL;
+    fl_record_selection selection = ALL;
     (void)state;
-    ask.from = 1.0;
-    ask.to = 3.0;
-    assert_int_equal(read_text(&s, &ask, TWO), 0);
+    selection.from = 1.0;
+    selection.to = 3.0;
+    assert_int_equal(read_text(&s, &selection, TWO), 0);
     assert_int_equal(s.n, 1);
     assert_memory_equal(s.edge, ((double[]){1, 3}), 2 * sizeof(double));
     assert_near(s.x[2 * 4][0], 6.0, 0.0);
     fl_series_free(&s);
-    ask = ALL;
-    ask.last = 3.0;
-    assert_int_equal(read_text(&s, &ask, TWO), 0);
+    selection = ALL;
+    selection.last = 3.0;
+    assert_int_equal(read_text(&s, &selection, TWO), 0);
     assert_int_equal(s.n, 2);
     fl_series_free(&s);
-    ask.last = 0.5; /* no whole interval lies in the last half second */
-    assert_int_equal(read_text(&s, &ask, TWO), -1);
-    expect_told(FL_INPUT, 0, "no row lies between 3.5 s and 4 s, the record is from 0 s to 4 s");
+    selection.last = 0.5; /* no whole interval lies in the last half second */
+    assert_int_equal(read_text(&s, &selection, TWO), -1);
+    expect_message(FL_INPUT, 0, "no row lies between 3.5 s and 4 s, the record is from 0 s to 4 s");
 }
 
-/* A sample stands for the time nearer to it than to its neighbours. */
+/* A sample represents the time closer to it than to its neighbours. */
 static void samples_of_another_table(void **state)
 {
     const char *const column[] = {"kinetic"}, *const x[] = {"x"};
     fl_series s;
-    fl_record_selection ask = ALL;
+    fl_record_selection selection = ALL;
     (void)state;
-    assert_int_equal(read_text(&s, &ask, "#energy 1\nt[s] kinetic[J]\n0 1\n"), -1);
-    expect_told(FL_USAGE, 0, "a column of this energy table must be chosen, it is not loads");
-    ask.signal = column;
-    ask.signals = 1;
-    assert_int_equal(read_text(&s, &ask, "#energy 1\nt[s] kinetic[J]\n0 1\n2 5\n6 7\n"), 0);
+    assert_int_equal(read_text(&s, &selection, "#energy 1\nt[s] kinetic[J]\n0 1\n"), -1);
+    expect_message(FL_USAGE, 0, "a column of this energy table must be chosen, it is not loads");
+    selection.signal = column;
+    selection.signals = 1;
+    assert_int_equal(read_text(&s, &selection, "#energy 1\nt[s] kinetic[J]\n0 1\n2 5\n6 7\n"), 0);
     assert_int_equal(s.parts, 1);
     assert_string_equal(s.part[0], "-");
     assert_memory_equal(s.edge, ((double[]){-1, 1, 4, 8}), 4 * sizeof(double));
     fl_series_free(&s);
-    assert_int_equal(read_text(&s, &ask, "#energy 1\nt[s] kinetic[J]\n5 1\n"), 0);
+    assert_int_equal(read_text(&s, &selection, "#energy 1\nt[s] kinetic[J]\n5 1\n"), 0);
     assert_memory_equal(s.edge, ((double[]){4.5, 5.5}), 2 * sizeof(double));
     fl_series_free(&s);
-    ask.signal = x;
-    ask.part = "7";
-    assert_int_equal(read_text(&s, &ask, "#state 1\nt body x[m]\n0 6 1\n0 7 2\n1 6 3\n1 7 4\n"), 0);
+    selection.signal = x;
+    selection.part = "7";
+    assert_int_equal(read_text(&s, &selection, "#state 1\nt body x[m]\n0 6 1\n0 7 2\n1 6 3\n1 7 4\n"), 0);
     assert_int_equal(s.parts, 1);
     assert_memory_equal(s.x[0], ((double[]){2, 4}), 2 * sizeof(double));
     fl_series_free(&s);
@@ -153,61 +153,61 @@ static const char TOUCH[] = "#contacts 1\nt[s] i j fn[N] gap[m]\n0 1 2 10 -1\n0 
                             "1 5 2 7 0.5\n"
                             "3 1 2 1 -1\n3 2 4 2 -3\n3 4 -1 4 -2\n";
 
-/* Rows of one time become one, or some of them are chosen. */
-static void rows_of_one_time(void **state)
+/* Rows of one time are reduced to one, or selected by a filter. */
+static void rows_of_one_time_are_reduced(void **state)
 {
-    static const double want[FL_REDUCTIONS][3] = {{0},        {40, 7, 7}, {20, 7, 7.0 / 3.0},
-                                                  {10, 7, 1}, {30, 7, 4}, {2, 1, 3}};
+    static const double expected[FL_REDUCTIONS][3] = {{0},        {40, 7, 7}, {20, 7, 7.0 / 3.0},
+                                                      {10, 7, 1}, {30, 7, 4}, {2, 1, 3}};
     const char *const fn[] = {"fn"}, *const leg[] = {"j=-1"}, *const both[] = {"j=2", "i=1"},
                       *const none[] = {"i=9"}, *const wrong[] = {"i9"};
     fl_series s;
     (void)state;
-    fl_record_selection ask = {.signal = fn, .signals = 1, .from = -INFINITY, .to = INFINITY};
-    assert_int_equal(read_text(&s, &ask, TOUCH), -1);
-    expect_told(FL_INPUT, 4, "several rows at 0 s, and no column part or body tells them apart");
-    for (ask.reduction = FL_REDUCE_SUM; ask.reduction < FL_REDUCTIONS; ask.reduction++) {
-        assert_int_equal(read_text(&s, &ask, TOUCH), 0);
+    fl_record_selection selection = {.signal = fn, .signals = 1, .from = -INFINITY, .to = INFINITY};
+    assert_int_equal(read_text(&s, &selection, TOUCH), -1);
+    expect_message(FL_INPUT, 4, "several rows at 0 s, and no column part or body tells them apart");
+    for (selection.reduction = FL_REDUCE_SUM; selection.reduction < FL_REDUCTIONS; selection.reduction++) {
+        assert_int_equal(read_text(&s, &selection, TOUCH), 0);
         assert_int_equal(s.n, 3);
         assert_int_equal(s.parts, 1);
         assert_string_equal(s.part[0], "-");
-        assert_string_equal(s.unit[0], ask.reduction == FL_REDUCE_COUNT ? "" : "N");
+        assert_string_equal(s.unit[0], selection.reduction == FL_REDUCE_COUNT ? "" : "N");
         assert_memory_equal(s.t, ((double[]){0, 1, 3}), 3 * sizeof(double));
-        assert_memory_equal(s.x[0], want[ask.reduction], 3 * sizeof(double));
+        assert_memory_equal(s.x[0], expected[selection.reduction], 3 * sizeof(double));
         fl_series_free(&s);
     }
-    ask.reduction = FL_REDUCE_NONE;
-    ask.wheres = 1;
-    ask.where = leg;
-    assert_int_equal(read_text(&s, &ask, TOUCH), 0);
+    selection.reduction = FL_REDUCE_NONE;
+    selection.wheres = 1;
+    selection.where = leg;
+    assert_int_equal(read_text(&s, &selection, TOUCH), 0);
     assert_memory_equal(s.t, ((double[]){0, 3}), 2 * sizeof(double));
     assert_memory_equal(s.x[0], ((double[]){30, 4}), 2 * sizeof(double));
     fl_series_free(&s);
-    ask.wheres = 2;
-    ask.where = both;
-    assert_int_equal(read_text(&s, &ask, TOUCH), 0);
+    selection.wheres = 2;
+    selection.where = both;
+    assert_int_equal(read_text(&s, &selection, TOUCH), 0);
     assert_memory_equal(s.x[0], ((double[]){10, 1}), 2 * sizeof(double));
     fl_series_free(&s);
-    ask.wheres = 1;
-    ask.where = none;
-    assert_int_equal(read_text(&s, &ask, TOUCH), -1);
-    expect_told(FL_INPUT, 8, "the contacts table ends here without a row that meets the conditions");
-    ask.where = wrong;
-    assert_int_equal(read_text(&s, &ask, TOUCH), -1);
+    selection.wheres = 1;
+    selection.where = none;
+    assert_int_equal(read_text(&s, &selection, TOUCH), -1);
+    expect_message(FL_INPUT, 8, "the contacts table ends here without a row that meets the conditions");
+    selection.where = wrong;
+    assert_int_equal(read_text(&s, &selection, TOUCH), -1);
     assert_int_equal(err.code, FL_USAGE);
-    /* Of a loads table too: then there is no total beside it. */
-    ask = (fl_record_selection){.from = -INFINITY, .to = INFINITY, .reduction = FL_REDUCE_MAX};
-    assert_int_equal(read_text(&s, &ask, TWO), 0);
+    /* For a loads table too: then it has no total in addition. */
+    selection = (fl_record_selection){.from = -INFINITY, .to = INFINITY, .reduction = FL_REDUCE_MAX};
+    assert_int_equal(read_text(&s, &selection, TWO), 0);
     assert_int_equal(s.parts, 1);
     assert_memory_equal(s.x[0], ((double[]){3, 6, 1}), 3 * sizeof(double));
     fl_series_free(&s);
 }
 
-static void complaints(void **state)
+static void errors_are_reported(void **state)
 {
     static const struct {
         const char *data;
         int line;
-        const char *says;
+        const char *message;
     } bad[] = {
         {HEAD, 3, "the loads table ends here without a row"},
         {HEAD "0 a 1 1 1 1 1\n", 4, "time 0 s does not follow 0 s, where the record starts"},
@@ -221,7 +221,7 @@ static void complaints(void **state)
         {HEAD "1 a nan 1 1 1 1\n", 4, "fx is \"nan\", a finite number is expected"},
         {HEAD "1 a 1e101 1 1 1 1\n", 4, "fx is 1e+101, expected at most 1e+100"},
         {HEAD "inf a 1 1 1 1 1\n", 4, "t is \"inf\", a finite number is expected"},
-        {HEAD "1 a 1 1\n", 4, "4 fields, 7 are expected as there are columns"},
+        {HEAD "1 a 1 1\n", 4, "4 fields, expected 7, one for each column"},
         {HEAD "1 a 1 1 1 1 1\n1 total 1 1 1 1 1\n", 0,
          "a part is called total, the name of the sum over the parts"},
         {"#loads 1\nt part fx fz\n1 a 1 1\n", 2, "no column fy in this loads table, the nearest is fx"},
@@ -231,7 +231,7 @@ static void complaints(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         fl_series s;
         assert_int_equal(read_text(&s, &ALL, bad[k].data), -1);
-        expect_told(FL_INPUT, bad[k].line, bad[k].says);
+        expect_message(FL_INPUT, bad[k].line, bad[k].message);
         assert_null(s.x);
     }
 }
@@ -288,7 +288,7 @@ static void filtered_view(void **state)
     double t = 0.0;
     fl_series s;
     fl_signal_view raw, slow;
-    fl_record_selection ask = ALL;
+    fl_record_selection selection = ALL;
     fl_signal_view_settings how = {.filter = 2.0, .order = 4, .ratio = 0.5, .quantiles = 1, .p = p};
     (void)state;
     for (int k = 0; k < N; k++) {
@@ -296,9 +296,9 @@ static void filtered_view(void **state)
         t += dt;
         n += sprintf(data + n, "%.17g a %.17g\n", t, 10.0 + mean + (k % 2 ? 0.5 : -0.5));
     }
-    ask.signal = column;
-    ask.signals = 1;
-    assert_int_equal(read_text(&s, &ask, data), 0);
+    selection.signal = column;
+    selection.signals = 1;
+    assert_int_equal(read_text(&s, &selection, data), 0);
     free(data);
     assert_int_equal(fl_signal_view_make(&slow, &s, 0, 0, &how, &err), 0);
     how.filter = 0.0;
@@ -320,7 +320,7 @@ static void filtered_view(void **state)
     fl_series_free(&s);
 }
 
-static int clean(void **state)
+static int remove_files(void **state)
 {
     (void)state;
     unlink(test_path("series"));
@@ -329,14 +329,14 @@ static int clean(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(parts_and_total),
-                                       cmocka_unit_test(asking),
-                                       cmocka_unit_test(cuts),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(parts_add_up_to_the_total),
+                                       cmocka_unit_test(signals_are_selected),
+                                       cmocka_unit_test(selected_intervals),
                                        cmocka_unit_test(samples_of_another_table),
-                                       cmocka_unit_test(rows_of_one_time),
-                                       cmocka_unit_test(complaints),
+                                       cmocka_unit_test(rows_of_one_time_are_reduced),
+                                       cmocka_unit_test(errors_are_reported),
                                        cmocka_unit_test(one_part_called_total_is_the_total),
                                        cmocka_unit_test(resampling_keeps_the_impulse),
                                        cmocka_unit_test(filtered_view)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

@@ -10,8 +10,8 @@
 
 enum { N = 1000 };
 
-/* n areas have the asked mean, ascend, and are as near to the law as n of them can be told to be. */
-static void follows(const fl_sizes *s, double mean)
+/* n areas have the given mean, ascend, and are as close to the law as n of them can be. */
+static void expect_law(const fl_sizes *s, double mean)
 {
     static double a[N];
     for (int32_t n = 1; n <= N; n = n < 8 ? n + 1 : n * 5) {
@@ -30,12 +30,12 @@ static void areas_follow_the_law(void **state)
 {
     (void)state;
     static const double beta[] = {-1.0, 0.5, 1.0, 1.0 + 1e-14, 1.87, 2.0, 3.0, 3.0 - 1e-14, 4.5};
-    follows(&(fl_sizes){.kind = FL_SIZES_EQUAL}, 3.0);
+    expect_law(&(fl_sizes){.kind = FL_SIZES_EQUAL}, 3.0);
     for (double cv = 0.01; cv < 5.0; cv *= 3.0)
-        follows(&(fl_sizes){.kind = FL_SIZES_LOGNORMAL, .mean = 10.0, .cv = cv}, 7.0);
-    for (double k = 0.4; k < 20.0; k *= 2.0) follows(&(fl_sizes){.kind = FL_SIZES_WEIBULL, .k = k}, 1e-3);
+        expect_law(&(fl_sizes){.kind = FL_SIZES_LOGNORMAL, .mean = 10.0, .cv = cv}, 7.0);
+    for (double k = 0.4; k < 20.0; k *= 2.0) expect_law(&(fl_sizes){.kind = FL_SIZES_WEIBULL, .k = k}, 1e-3);
     for (size_t k = 0; k < sizeof beta / sizeof *beta; k++)
-        follows(&(fl_sizes){.kind = FL_SIZES_POWER, .beta = beta[k], .dmin = 0.5, .dmax = 50.0}, 20.0);
+        expect_law(&(fl_sizes){.kind = FL_SIZES_POWER, .beta = beta[k], .dmin = 0.5, .dmax = 50.0}, 20.0);
 }
 
 /* Closed forms: the mean area of n(D) ~ D^-3 on [1, 10] is (pi/4) ln 10 / (1/2 (1 - 1/100)); the exponential
@@ -55,7 +55,7 @@ static void known_values(void **state)
     assert_near(fl_sizes_cdf(&lognormal, 4.0, 4.0 * exp(-0.5)), 0.5, 1e-14);
 }
 
-static void distance_sees_what_is_off(void **state)
+static void the_distance_detects_deviations(void **state)
 {
     (void)state;
     const fl_sizes s = {.kind = FL_SIZES_WEIBULL, .k = 1.0};
@@ -69,7 +69,7 @@ static void distance_sees_what_is_off(void **state)
     assert_near(fl_sizes_ks_distance(&equal, 1.0, 4, a), 0.25, 1e-12);
 }
 
-static void lists_are_read(void **state)
+static void size_lists_are_read(void **state)
 {
     (void)state;
     static const char areas[] = "# of an image\n3\n1 # small\n\n2\n", d[] = "d[m]\n2\n";
@@ -82,14 +82,14 @@ static void lists_are_read(void **state)
     fl_sizes_areas(&s, 3, 4.0, a);
     assert_near(a[0], 2.0, 1e-15);
     assert_near(a[2], 6.0, 1e-15);
-    follows(&s, 5.0);
+    expect_law(&s, 5.0);
     fl_sizes_free(&s);
     assert_int_equal(fl_sizes_read(&s, test_file("d", d, strlen(d)), &err), 0);
     assert_near(s.area[0], PI, 1e-15);
     fl_sizes_free(&s);
 }
 
-static void bad_lists_are_told(void **state)
+static void bad_lists_are_reported(void **state)
 {
     (void)state;
     static const char *const bad[][2] = {
@@ -115,8 +115,8 @@ static void bad_lists_are_told(void **state)
     }
 }
 
-/* A table of sizes and counts is the list in which each size is repeated. */
-static void tables_are_lists(void **state)
+/* A table of sizes and counts equals the list with each size repeated. */
+static void tables_equal_lists(void **state)
 {
     (void)state;
     static const char table[] = "area[m2] count\n5 2\n1 3\n", list[] = "1\n1\n1\n5\n5\n";
@@ -134,13 +134,13 @@ static void tables_are_lists(void **state)
     }
     for (double x = 0.5; x < 6.0; x += 0.25)
         assert_near_of(fl_sizes_cdf(&t, 2.6, x), fl_sizes_cdf(&l, 2.6, x), 1e-15, 1.0);
-    follows(&t, 5.0);
+    expect_law(&t, 5.0);
     fl_sizes_free(&t);
     fl_sizes_free(&l);
 }
 
-/* The areas of polygons, either way round, closed or not, far from the origin. */
-static void polygons_are_sizes(void **state)
+/* The areas of polygons of either orientation, closed or not, far from the origin. */
+static void polygons_are_read_as_areas(void **state)
 {
     (void)state;
     static const char text[] = "x[m] y[m]\n0 0\n4 0\n4 3\n\n\n1e6 1e6\n1e6 1000002\n# a remark\n"
@@ -156,7 +156,7 @@ static void polygons_are_sizes(void **state)
 }
 
 /* Four names of one law: n(D) ~ D^-3.5. */
-static void exponents_are_named(void **state)
+static void laws_of_one_exponent_have_many_names(void **state)
 {
     (void)state;
     static const char *const same[] = {"power:3.5,2,50,number,density", "power:2.5,2,50",
@@ -182,7 +182,7 @@ static void exponents_are_named(void **state)
     assert_true(s.kind == FL_SIZES_LOGNORMAL && s.cv == 2.0);
 }
 
-static void bad_laws_are_told(void **state)
+static void bad_laws_are_reported(void **state)
 {
     (void)state;
     static const char *const bad[] = {"equal:1",
@@ -220,11 +220,15 @@ static void bad_laws_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(areas_follow_the_law),      cmocka_unit_test(known_values),
-        cmocka_unit_test(distance_sees_what_is_off), cmocka_unit_test(lists_are_read),
-        cmocka_unit_test(bad_lists_are_told),        cmocka_unit_test(tables_are_lists),
-        cmocka_unit_test(polygons_are_sizes),        cmocka_unit_test(exponents_are_named),
-        cmocka_unit_test(bad_laws_are_told),
+        cmocka_unit_test(areas_follow_the_law),
+        cmocka_unit_test(known_values),
+        cmocka_unit_test(the_distance_detects_deviations),
+        cmocka_unit_test(size_lists_are_read),
+        cmocka_unit_test(bad_lists_are_reported),
+        cmocka_unit_test(tables_equal_lists),
+        cmocka_unit_test(polygons_are_read_as_areas),
+        cmocka_unit_test(laws_of_one_exponent_have_many_names),
+        cmocka_unit_test(bad_laws_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

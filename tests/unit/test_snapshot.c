@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The layout of a state, and the number of the checkpoint that stands for it. */
+/* The layout of a state, and the checkpoint version that identifies it. */
 #include "support/near.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +9,10 @@
 #include "sim/snapshot.h"
 #include "support/scenes.h"
 
-/* Name and number of words of each kind of row.  A pair that remembers vertices has a count of them before
- * them, and one that touches has its forces as well, and what keeps a sphere from rolling: "pair" is one that
- * does none of it, in a space that repeats itself or not, or has the last; with surrogates one that touches
- * tells whether it has been looked at, and then of that.  A bond has its points once it is damaged. */
+/* Name and number of words of each kind of row. A pair with stored vertices has their count before them. A
+ * touching pair also has its forces, and the rolling springs of a sphere: "pair" is a pair with neither, in a
+ * periodic domain or not, or with the last. With surrogates a touching pair states whether it has been
+ * evaluated, and then its surrogate. A bond has its points once it is damaged. */
 static const char LAYOUT[] =
     "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|books 27|borne 15|budget 15|event "
     "15|known "
@@ -28,7 +28,7 @@ typedef struct {
 
 static int by_name(const void *a, const void *b) { return strcmp(a, b); }
 
-static void note(rows *all, const char *name, int words)
+static void note_row(rows *all, const char *name, int words)
 {
     char row[24];
     snprintf(row, sizeof row, "%.15s %d|", name, words);
@@ -38,7 +38,7 @@ static void note(rows *all, const char *name, int words)
     memcpy(all->row[all->n++], row, sizeof row);
 }
 
-static void rows_of(rows *all, char *text, size_t n, int wraps)
+static void collect_rows(rows *all, char *text, size_t n, int wraps)
 {
     enum { FORCES = 9 * 3 + 5, WORDS = 64 };
     fl_text in = {0};
@@ -54,14 +54,14 @@ static void rows_of(rows *all, char *text, size_t n, int wraps)
             words -= 2 * atoi(in.field[10 + images]);
             if (atoi(in.field[3 + images])) words -= FORCES;
         }
-        note(all, name, words);
+        note_row(all, name, words);
     }
     assert_int_equal(more, 0);
     fl_text_close(&in);
     free(text);
 }
 
-static void state_of(rows *all, lab *l, int wraps)
+static void collect_state(rows *all, lab *l, int wraps)
 {
     char *text = NULL;
     size_t n = 0;
@@ -70,18 +70,18 @@ static void state_of(rows *all, lab *l, int wraps)
     FILE *f = open_memstream(&text, &n);
     fl_snapshot_write(f, &l->w);
     fclose(f);
-    rows_of(all, text, n, wraps);
+    collect_rows(all, text, n, wraps);
     lab_free(l);
 }
 
-static void budget_of(rows *all)
+static void collect_budget(rows *all)
 {
-    fl_total_load borne[2] = {{.peak = 0.0}};
+    fl_total_load loads[2] = {{.peak = 0.0}};
     fl_error_budget g = {.trial = {.parts = 3},
                          .window_rows = 1,
                          .min_row_steps = 1,
                          .windows = 1,
-                         .companion = {.world = {.parts = 1}, .run_load = &borne[0], .own_load = &borne[1]}};
+                         .companion = {.world = {.parts = 1}, .run_load = &loads[0], .own_load = &loads[1]}};
     g.window[0] = (fl_error_window){.h = 1.0, .order = 1.0, .momentum_order = 1.0};
     double known[5] = {0};
     char *text = NULL;
@@ -90,10 +90,10 @@ static void budget_of(rows *all)
     FILE *f = open_memstream(&text, &n);
     fl_error_budget_write(f, &g);
     fclose(f);
-    rows_of(all, text, n, 0);
+    collect_rows(all, text, n, 0);
 }
 
-/* Where steps of a trial failed its error has no end, and comes back so. */
+/* Where steps of a trial failed its error is infinite, and is read back so. */
 static void a_budget_of_failed_trials_comes_back(void **state)
 {
     fl_error_budget g = {.trial = {.parts = 3}, .window_rows = 1, .min_row_steps = 1, .windows = 1},
@@ -117,23 +117,23 @@ static void a_budget_of_failed_trials_comes_back(void **state)
     free(text);
 }
 
-/* Whoever changes the layout raises FL_RESTART_VERSION, and writes both down here. */
-static void a_layout_has_its_number(void **state)
+/* A change of the layout raises FL_RESTART_VERSION, and both are recorded here. */
+static void each_layout_has_a_version_number(void **state)
 {
     static rows all;
     char found[KINDS * 24] = "";
     lab l;
     (void)state;
-    scene_of_everything(&l, 2, NULL), lab_set(&l, "run.sleep=1e-3"), state_of(&all, &l, 0);
-    scene_of_seas(&l, 2, NULL), state_of(&all, &l, 0);
-    scene_of_glances(&l, 2, NULL), state_of(&all, &l, 0);
-    scene_of_traffic(&l, 2, NULL), state_of(&all, &l, 0);
-    scene_of_wraps(&l, 3, NULL), state_of(&all, &l, 1);
-    scene_of_balls(&l, 3, NULL), state_of(&all, &l, 1);
-    scene_of_balls(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), state_of(&all, &l, 0);
-    scene_of_bonds(&l, 3, NULL), state_of(&all, &l, 1);
-    scene_of_surrogates(&l, 2, NULL), state_of(&all, &l, 0);
-    budget_of(&all);
+    scene_of_everything(&l, 2, NULL), lab_set(&l, "run.sleep=1e-3"), collect_state(&all, &l, 0);
+    scene_of_seas(&l, 2, NULL), collect_state(&all, &l, 0);
+    scene_of_sea_interval(&l, 2, NULL), collect_state(&all, &l, 0);
+    scene_of_inflow(&l, 2, NULL), collect_state(&all, &l, 0);
+    scene_of_periodic_cell(&l, 3, NULL), collect_state(&all, &l, 1);
+    scene_of_spheres(&l, 3, NULL), collect_state(&all, &l, 1);
+    scene_of_spheres(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), collect_state(&all, &l, 0);
+    scene_of_bonds(&l, 3, NULL), collect_state(&all, &l, 1);
+    scene_of_surrogates(&l, 2, NULL), collect_state(&all, &l, 0);
+    collect_budget(&all);
     qsort(all.row, (size_t)all.n, sizeof *all.row, by_name);
     for (int k = 0; k < all.n; k++) strcat(found, all.row[k]);
     assert_string_equal(found, LAYOUT);
@@ -142,7 +142,7 @@ static void a_layout_has_its_number(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_layout_has_its_number),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(each_layout_has_a_version_number),
                                        cmocka_unit_test(a_budget_of_failed_trials_comes_back)};
-    return cmocka_run_group_tests_name("state of a world", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("snapshot", tests, NULL, NULL);
 }

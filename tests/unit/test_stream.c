@@ -30,12 +30,13 @@ static int make_sample(void **state)
 }
 
 /* Read all of it in pieces of at most `piece`; returns the length, or -1. */
-static int64_t slurp(const char *path, unsigned char *to, int64_t room, int64_t piece, fl_err *err)
+static int64_t slurp(const char *path, unsigned char *to, int64_t capacity, int64_t piece, fl_err *err)
 {
     int64_t n = 0, k = 0;
     fl_in *in = fl_in_open(path, err);
     if (!in) return -1;
-    while (n < room && (k = fl_in_read(in, to + n, piece < room - n ? piece : room - n, err)) > 0) n += k;
+    while (n < capacity && (k = fl_in_read(in, to + n, piece < capacity - n ? piece : capacity - n, err)) > 0)
+        n += k;
     fl_in_close(in);
     return k < 0 ? -1 : n;
 }
@@ -141,7 +142,7 @@ static void damaged_gzip(void **state)
     assert_int_equal(err.code, 0);
 }
 
-static void what_cannot_be_read(void **state)
+static void unreadable_files_are_reported(void **state)
 {
     (void)state;
     expect_failure("/nonexistent/file", FL_INPUT, "/nonexistent/file: No such file or directory");
@@ -155,7 +156,7 @@ static void what_cannot_be_read(void **state)
     unlink(path);
 }
 
-/* Put the reading end of a pipe in place of standard input; a child writes data[n] into it, `piece` at a
+/* Replaces standard input by the reading end of a pipe; a child writes data[n] into it, `piece` bytes at a
  * time. */
 static pid_t feed_stdin(const void *data, size_t n, size_t piece)
 {
@@ -175,7 +176,7 @@ static pid_t feed_stdin(const void *data, size_t n, size_t piece)
     return child;
 }
 
-static void from_a_pipe(void **state)
+static void a_pipe_is_read(void **state)
 {
     static unsigned char got[SIZE + 1], raw[2 * SIZE];
     const int was = dup(STDIN_FILENO);
@@ -189,7 +190,7 @@ static void from_a_pipe(void **state)
         for (size_t piece = 1; piece <= 100000; piece = piece == 1 ? 999 : 100 * piece) {
             fl_err err = {0};
             int status = -1;
-            /* byte by byte is slow: the first few thousand show what there is to see */
+            /* byte by byte is slow: the first few thousand bytes suffice */
             const size_t some = gz ? n : piece == 1 ? 5000 : SIZE;
             if (gz && piece == 1) continue;
             const pid_t child = feed_stdin(gz ? raw : sample, some, piece);
@@ -198,7 +199,7 @@ static void from_a_pipe(void **state)
             waitpid(child, &status, 0);
             assert_int_equal(status, 0);
         }
-    /* a gzip whose two first bytes come one by one */
+    /* a gzip with its first two bytes in separate pieces */
     fl_err err = {0};
     const pid_t child = feed_stdin(raw, 2, 1);
     fl_in *in = fl_in_open("-", &err);
@@ -223,7 +224,7 @@ static const char *part_of(const char *path)
     return part;
 }
 
-static void final_name_comes_last(void **state)
+static void the_final_name_comes_last(void **state)
 {
     (void)state;
     for (int gz = 0; gz < 2; gz++) {
@@ -238,7 +239,7 @@ static void final_name_comes_last(void **state)
         assert_null(out.f);
         assert_false(exists(part_of(path)));
         expect_sample(path, 1);
-        /* an older file stays until the newer one is whole, and when that is dropped */
+        /* an older file stays until the newer one is complete, and when that is dropped */
         assert_int_equal(fl_out_open(&out, path, gz, &err), 0);
         fputs("half", out.f);
         expect_sample(path, 1);
@@ -257,7 +258,7 @@ static void final_name_comes_last(void **state)
     }
 }
 
-static void what_cannot_be_opened(void **state)
+static void unwritable_paths_are_reported(void **state)
 {
     fl_err err = {0};
     fl_out out;
@@ -275,7 +276,7 @@ static void what_cannot_be_opened(void **state)
 }
 
 /* The folder goes while the file is being written. */
-static void what_vanishes(void **state)
+static void a_folder_that_vanishes_is_reported(void **state)
 {
     fl_err err = {0};
     fl_out out;
@@ -294,7 +295,7 @@ static void what_vanishes(void **state)
     assert_false(exists(path));
 }
 
-static void full_disk(void **state)
+static void a_full_disk_is_reported(void **state)
 {
     (void)state;
     for (int gz = 0; gz < 2; gz++)
@@ -309,15 +310,15 @@ static void full_disk(void **state)
         }
 }
 
-/* What is kept stays under the other name up to its last whole line, and the sentence says where. */
-static void what_is_kept(void **state)
+/* Kept output stays under the other name up to its last complete line, and the message names that line. */
+static void unfinished_output_is_kept(void **state)
 {
     (void)state;
     for (int keep = 0; keep < 2; keep++) {
         fl_err err = {0};
         fl_out out;
         struct rlimit was, small;
-        char want[1500];
+        char expected[1500];
         const char *path = test_path("rows"), *part = part_of(path);
         int bad = 0;
         assert_int_equal(getrlimit(RLIMIT_FSIZE, &was), 0);
@@ -334,9 +335,10 @@ static void what_is_kept(void **state)
         assert_int_equal(fl_out_close(&out, &err), -1);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &was), 0);
         signal(SIGXFSZ, old);
-        snprintf(want, sizeof want, keep ? "%s: %s; what was written until then is kept in %s" : "%s: %s",
-                 path, "File too large", part);
-        assert_string_equal(err.text, want);
+        snprintf(expected, sizeof expected,
+                 keep ? "%s: %s; what was written until then is kept in %s" : "%s: %s", path,
+                 "File too large", part);
+        assert_string_equal(err.text, expected);
         assert_false(exists(path));
         assert_int_equal(exists(part), keep);
         if (!keep) continue;
@@ -373,8 +375,8 @@ static void devices_and_links_stay(void **state)
     unlink(target);
 }
 
-/* A pipe whose reader waits: a fifo is written to as it is. */
-static void into_a_fifo(void **state)
+/* A pipe with a waiting reader: a fifo is written directly. */
+static void a_fifo_is_written_directly(void **state)
 {
     fl_err err = {0};
     fl_out out;
@@ -400,7 +402,7 @@ static void into_a_fifo(void **state)
 }
 
 /* Standard output, plain and gzip, to a file and to a full disk; in a child, whose stdout it is. */
-static void to_standard_output(void **state)
+static void standard_output_is_written(void **state)
 {
     (void)state;
     for (int mode = 0; mode < 4; mode++) {
@@ -429,9 +431,9 @@ static void to_standard_output(void **state)
     }
 }
 
-/* Written in two runs, the first of which went on after its mark and then failed, ended or was killed. */
+/* Output of two runs; the first one continued after its mark and then failed, ended or was killed. */
 /* The mark of a program that was killed a little later. */
-static fl_file_mark written_and_killed(const char *path, int gz)
+static fl_file_mark write_and_kill(const char *path, int gz)
 {
     fl_file_mark mark = {0};
     int way[2];
@@ -454,7 +456,7 @@ static fl_file_mark written_and_killed(const char *path, int gz)
     return mark;
 }
 
-static void gone_on_with_at_a_mark(void **state)
+static void output_resumes_at_a_mark(void **state)
 {
     (void)state;
     for (int gz = 0; gz < 2; gz++) {
@@ -466,7 +468,7 @@ static void gone_on_with_at_a_mark(void **state)
             fl_file_mark mark;
             int fresh = 1;
             snprintf(part, sizeof part, "%s.part", path);
-            if (end == 2) mark = written_and_killed(path, gz);
+            if (end == 2) mark = write_and_kill(path, gz);
             else {
                 assert_int_equal(fl_out_open(&out, path, gz, &err), 0);
                 fwrite(sample, 1, 100000, out.f);
@@ -474,7 +476,7 @@ static void gone_on_with_at_a_mark(void **state)
                 fwrite("lost", 1, 4, out.f);
             }
             assert_true(gz ? mark.offset > 0 : mark.offset == 100000);
-            if (end == 0) fl_out_abort(&out); /* keeps PATH.part, as a mark speaks of it */
+            if (end == 0) fl_out_abort(&out); /* keeps PATH.part, to which a mark refers */
             if (end == 1) assert_int_equal(fl_out_close(&out, &err), 0);
             assert_int_equal(access(end == 1 ? path : part, F_OK), 0);
             assert_int_equal(fl_out_check_mark(path, &mark, &err), 0);
@@ -490,7 +492,7 @@ static void gone_on_with_at_a_mark(void **state)
     }
 }
 
-static void another_file_is_not_gone_on_with(void **state)
+static void output_does_not_resume_in_another_file(void **state)
 {
     const char *path = test_path("marked");
     fl_err err = {0};
@@ -517,7 +519,7 @@ static void another_file_is_not_gone_on_with(void **state)
         assert_int_equal(why.code, FL_INPUT);
         assert_null(out.f);
     }
-    /* a device has no places: it begins anew */
+    /* a device has no positions: output restarts */
     assert_int_equal(fl_out_open(&out, "/dev/null", 0, &err), 0);
     assert_int_equal(fl_out_mark(&out, &mark, &err), 0);
     assert_int_equal(mark.offset, -1);
@@ -528,8 +530,8 @@ static void another_file_is_not_gone_on_with(void **state)
     unlink(path);
 }
 
-/* The first n bytes of the sample, and no more. */
-static void holds(const char *path, int64_t n)
+/* Expects the first n bytes of the sample, and no more. */
+static void expect_contents(const char *path, int64_t n)
 {
     static unsigned char got[SIZE];
     fl_err err = {0};
@@ -537,7 +539,7 @@ static void holds(const char *path, int64_t n)
     assert_memory_equal(got, sample, (size_t)n);
 }
 
-/* The second writer of a file is told so, and the first does not notice; the next one has it. */
+/* The second writer of a file is refused, and the first is unaffected; the next one succeeds. */
 static void one_writer_at_a_time(void **state)
 {
     (void)state;
@@ -552,29 +554,29 @@ static void one_writer_at_a_time(void **state)
         assert_int_equal(fl_out_mark(&first, &mark, &none), 0);
         assert_int_equal(fl_out_open(&second, path, gz, &err), -1);
         assert_int_equal(err.code, FL_SYSTEM);
-        assert_non_null(strstr(err.text, "something else writes it already"));
+        assert_non_null(strstr(err.text, "it is already being written"));
         err = (fl_err){0};
         assert_int_equal(fl_out_resume(&second, path, gz, &mark, &fresh, &err), -1);
         assert_int_equal(err.code, FL_SYSTEM);
-        assert_non_null(strstr(err.text, "something else writes it already"));
+        assert_non_null(strstr(err.text, "it is already being written"));
         fwrite(sample + 5000, 1, 5000, first.f);
         assert_int_equal(fl_out_close(&first, &none), 0);
-        holds(path, 10000);
-        /* the finished one is taken up by one, and then by no other */
+        expect_contents(path, 10000);
+        /* the finished file is resumed by one writer, and then by no other */
         assert_int_equal(fl_out_resume(&second, path, gz, &mark, &fresh, &none), 0);
         err = (fl_err){0};
         assert_int_equal(fl_out_open(&third, path, gz, &err), -1);
-        assert_non_null(strstr(err.text, "something else writes it already"));
+        assert_non_null(strstr(err.text, "it is already being written"));
         fwrite(sample + 5000, 1, 50, second.f);
         assert_int_equal(fl_out_close(&second, &none), 0);
-        holds(path, 5050);
-        /* what was dropped leaves nothing locked */
+        expect_contents(path, 5050);
+        /* dropped output leaves no lock */
         assert_int_equal(fl_out_open(&first, path, gz, &none), 0);
         fl_out_abort(&first);
         assert_int_equal(fl_out_open(&second, path, gz, &none), 0);
         fwrite(sample, 1, 10, second.f);
         assert_int_equal(fl_out_close(&second, &none), 0);
-        holds(path, 10);
+        expect_contents(path, 10);
         unlink(path);
     }
 }
@@ -584,18 +586,18 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(plain_and_gzip),
                                        cmocka_unit_test(tiny_files),
                                        cmocka_unit_test(damaged_gzip),
-                                       cmocka_unit_test(what_cannot_be_read),
-                                       cmocka_unit_test(from_a_pipe),
-                                       cmocka_unit_test(final_name_comes_last),
-                                       cmocka_unit_test(what_cannot_be_opened),
-                                       cmocka_unit_test(what_vanishes),
-                                       cmocka_unit_test(full_disk),
-                                       cmocka_unit_test(what_is_kept),
+                                       cmocka_unit_test(unreadable_files_are_reported),
+                                       cmocka_unit_test(a_pipe_is_read),
+                                       cmocka_unit_test(the_final_name_comes_last),
+                                       cmocka_unit_test(unwritable_paths_are_reported),
+                                       cmocka_unit_test(a_folder_that_vanishes_is_reported),
+                                       cmocka_unit_test(a_full_disk_is_reported),
+                                       cmocka_unit_test(unfinished_output_is_kept),
                                        cmocka_unit_test(devices_and_links_stay),
-                                       cmocka_unit_test(into_a_fifo),
+                                       cmocka_unit_test(a_fifo_is_written_directly),
                                        cmocka_unit_test(one_writer_at_a_time),
-                                       cmocka_unit_test(gone_on_with_at_a_mark),
-                                       cmocka_unit_test(another_file_is_not_gone_on_with),
-                                       cmocka_unit_test(to_standard_output)};
+                                       cmocka_unit_test(output_resumes_at_a_mark),
+                                       cmocka_unit_test(output_does_not_resume_in_another_file),
+                                       cmocka_unit_test(standard_output_is_written)};
     return cmocka_run_group_tests_name("stream", tests, make_sample, NULL);
 }

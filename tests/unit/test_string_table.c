@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "base/string_table.h"
 
-static void words_are_numbered_as_they_appear(void **state)
+static void words_are_numbered_in_order_of_appearance(void **state)
 {
     (void)state;
     fl_string_table s = {0};
@@ -22,7 +22,7 @@ static void words_are_numbered_as_they_appear(void **state)
     assert_int_equal(s.n, 0);
 }
 
-static void many_words_keep_their_numbers(void **state)
+static void many_words_keep_their_indices(void **state)
 {
     (void)state;
     fl_string_table s = {0};
@@ -39,7 +39,7 @@ static void many_words_keep_their_numbers(void **state)
     fl_string_table_free(&s);
 }
 
-static void a_failed_add_leaves_the_set_whole(void **state)
+static void a_failed_add_keeps_the_table(void **state)
 {
     (void)state;
     for (long k = 0; k < 4; k++) {
@@ -59,8 +59,8 @@ static void a_failed_add_leaves_the_set_whole(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(words_are_numbered_as_they_appear),
-                                       cmocka_unit_test(many_words_keep_their_numbers),
-                                       cmocka_unit_test(a_failed_add_leaves_the_set_whole)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(words_are_numbered_in_order_of_appearance),
+                                       cmocka_unit_test(many_words_keep_their_indices),
+                                       cmocka_unit_test(a_failed_add_keeps_the_table)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

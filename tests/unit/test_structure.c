@@ -9,7 +9,7 @@
 #include "support/small_world.h"
 #include "support/shapes.h"
 
-static fl_structure build(const fl_surface *s)
+static fl_structure build_structure(const fl_surface *s)
 {
     fl_structure st = {0};
     fl_err err = {0};
@@ -25,13 +25,13 @@ static fl_part *new_part(fl_surface *s)
     return &s->part[k];
 }
 
-static void vertex(fl_part *p, double x, double y, double z)
+static void add_vertex(fl_part *p, double x, double y, double z)
 {
     fl_err err = {0};
     assert_int_equal(fl_surface_vertex(p, v3(x, y, z), &err), 0);
 }
 
-static void triangle(fl_part *p, int32_t a, int32_t b, int32_t c)
+static void add_triangle(fl_part *p, int32_t a, int32_t b, int32_t c)
 {
     fl_err err = {0};
     assert_int_equal(fl_surface_triangle(p, a, b, c, &err), 0);
@@ -45,14 +45,14 @@ static double volume(const fl_poly *p)
     return m.volume;
 }
 
-static void a_box_is_one_solid_however_fine(void **state)
+static void a_box_is_one_solid_for_any_mesh(void **state)
 {
     (void)state;
     for (int n = 1; n <= 64; n *= 4) {
         lab l;
         lab_start(&l);
         lab_wall(&l, v3(-1, 2, 3), v3(2, 4, 8), n);
-        fl_structure st = build(&l.surface);
+        fl_structure st = build_structure(&l.surface);
         assert_int_equal(l.surface.part[0].nt, 12 * n * n);
         assert_int_equal(st.n, 1);
         const fl_piece *q = &st.piece[0];
@@ -67,7 +67,7 @@ static void a_box_is_one_solid_however_fine(void **state)
     }
 }
 
-/* As a mesh file has it: turned, carried off, and every coordinate rounded to 32 bits. */
+/* As read from a mesh file: rotated, translated, and with every coordinate rounded to 32 bits. */
 static void through_floats(fl_surface *s, fl_quat q, fl_vec3 o)
 {
     for (int32_t v = 0; v < s->part[0].nv; v++) {
@@ -97,7 +97,7 @@ static void rounded_coordinates_give_the_same_solid(void **state)
             whole = 0.5 * n * sin(6.283185307179586 / n);
         }
         through_floats(&l.surface, shape_rotation(&g), v3_scale(fl_rng_in(&g, 0, 3), shape_direction(&g)));
-        fl_structure st = build(&l.surface);
+        fl_structure st = build_structure(&l.surface);
         assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
         assert_int_equal(st.piece[0].core.nf, faces);
         assert_int_equal(st.piece[0].core.nv, vertices);
@@ -107,8 +107,8 @@ static void rounded_coordinates_give_the_same_solid(void **state)
     }
 }
 
-/* The plane of one of 20 000 triangles, whose corners are rounded, leaves a wide wall by more than the
- * tolerance: the plane has to follow the wall. */
+/* The plane of one of 20 000 triangles with rounded corners departs from a wide wall by more than the
+ * tolerance: the fitted plane must follow the wall. */
 static void a_wide_wall_of_small_rounded_triangles_is_flat(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void a_wide_wall_of_small_rounded_triangles_is_flat(void **state)
         lab_start(&l);
         lab_wall(&l, v3(-3, -3, -1), v3(3, 3, 1), n);
         through_floats(&l.surface, q_of_vector(v3(0.3, 0.5, -0.2)), v3(0, 0, 0));
-        fl_structure st = build(&l.surface);
+        fl_structure st = build_structure(&l.surface);
         assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
         assert_int_equal(st.piece[0].core.nf, 6);
         assert_int_equal(st.piece[0].core.nv, 8);
@@ -127,7 +127,7 @@ static void a_wide_wall_of_small_rounded_triangles_is_flat(void **state)
     }
 }
 
-/* But it must not follow a gentle curve: 8000 sides bend by less than a flat face may. */
+/* A slightly curved surface is not one face: 8000 sides bend by less than a flat face may. */
 static void a_fine_cylinder_stays_round(void **state)
 {
     (void)state;
@@ -138,7 +138,7 @@ static void a_fine_cylinder_stays_round(void **state)
     for (int c = 0; c < SIDES; c++)
         xy[c] = v3(cos(6.283185307179586 * c / SIDES), sin(6.283185307179586 * c / SIDES), 0);
     lab_prism(&l, SIDES, xy, -1, 1);
-    fl_structure st = build(&l.surface);
+    fl_structure st = build_structure(&l.surface);
     assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
     assert_true(st.piece[0].core.nf > 500);
     assert_near(volume(&st.piece[0].core), 2 * PI, 1e-5);
@@ -146,8 +146,8 @@ static void a_fine_cylinder_stays_round(void **state)
     lab_free(&l);
 }
 
-/* Where five faces meet in a vertex that is rounded they no longer meet in one point: small edges may appear
- * there, but no face, and no volume. */
+/* Where five faces meet in a rounded vertex they no longer meet in one point. Small edges may appear there,
+ * but no face, and no volume. */
 static void a_rounded_icosahedron_keeps_its_faces(void **state)
 {
     (void)state;
@@ -157,11 +157,11 @@ static void a_rounded_icosahedron_keeps_its_faces(void **state)
         fl_poly p = {0};
         fl_part *part = new_part(&s);
         shape_regular(&p, 20, 2.0);
-        for (int32_t v = 0; v < p.nv; v++) vertex(part, p.v[v].x, p.v[v].y, p.v[v].z);
+        for (int32_t v = 0; v < p.nv; v++) add_vertex(part, p.v[v].x, p.v[v].y, p.v[v].z);
         for (int32_t f = 0; f < p.nf; f++)
-            triangle(part, p.loop[3 * f], p.loop[3 * f + 1], p.loop[3 * f + 2]);
+            add_triangle(part, p.loop[3 * f], p.loop[3 * f + 1], p.loop[3 * f + 2]);
         through_floats(&s, shape_rotation(&g), v3(1, 2, 3));
-        fl_structure st = build(&s);
+        fl_structure st = build_structure(&s);
         assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
         assert_int_equal(st.piece[0].core.nf, 20);
         assert_near(volume(&st.piece[0].core), volume(&p), 1e-6);
@@ -179,15 +179,15 @@ static void flat_open_parts_are_plates(void **state)
         fl_surface s = {0};
         fl_part *p = new_part(&s);
         for (int i = 0; i <= n; i++)
-            for (int j = 0; j <= n; j++) vertex(p, 3.0 * i / n, 0.1 * i / n, 2.0 * j / n);
+            for (int j = 0; j <= n; j++) add_vertex(p, 3.0 * i / n, 0.1 * i / n, 2.0 * j / n);
         for (int i = 0; i < n; i++) {
             for (int j = 0; j < n; j++) {
                 const int32_t a = i * (n + 1) + j, b = a + n + 1;
-                triangle(p, a, b, b + 1);
-                triangle(p, a, b + 1, a + 1);
+                add_triangle(p, a, b, b + 1);
+                add_triangle(p, a, b + 1, a + 1);
             }
         }
-        fl_structure st = build(&s);
+        fl_structure st = build_structure(&s);
         assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
         assert_int_equal(st.piece[0].core.nf, 2);
         assert_int_equal(st.piece[0].core.nv, 4);
@@ -200,9 +200,9 @@ static void flat_open_parts_are_plates(void **state)
     const double xy[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
     const int32_t loop[6] = {0, 1, 2, 3, 4, 5};
     fl_err err = {0};
-    for (int k = 0; k < 6; k++) vertex(p, xy[k][0], xy[k][1], 0.0);
+    for (int k = 0; k < 6; k++) add_vertex(p, xy[k][0], xy[k][1], 0.0);
     assert_int_equal(fl_facet_polygon(p, 6, loop, &err), 0);
-    fl_structure st = build(&s);
+    fl_structure st = build_structure(&s);
     assert_int_equal(st.piece[0].kind, FL_PIECE_MESH);
     assert_int_equal(st.piece[0].core.ne, 6);
     assert_int_equal(st.piece[0].mesh.corners, 6);
@@ -211,27 +211,28 @@ static void flat_open_parts_are_plates(void **state)
     fl_surface_free(&s);
 }
 
-/* A square with a vertex that hangs on the diagonal, with a triangle that comes twice, with its back, with a
- * triangle that has no area, one corner as two vertices; and one with a hole. */
-static void a_sheet_is_what_it_covers(void **state)
+/* A square with a vertex on the diagonal, with a duplicate triangle, with its back, with a triangle without
+ * area, with one corner as two vertices; and one with a hole. */
+static void a_sheet_is_defined_by_its_area(void **state)
 {
     (void)state;
     for (int what = 0; what < 7; what++) {
         fl_surface s = {0};
         fl_part *p = new_part(&s);
-        vertex(p, 0, 0, 1), vertex(p, 2, 0, 1), vertex(p, 2, 2, 1), vertex(p, 0, 2, 1), vertex(p, 1, 1, 1);
-        if (what == 5) vertex(p, 2, 2, 1);
-        triangle(p, 0, 1, 2);
-        if (what == 0) triangle(p, 0, 4, 3), triangle(p, 4, 2, 3);
-        else if (what == 5) triangle(p, 0, 5, 3);
-        else if (what < 6) triangle(p, 0, 2, 3);
-        else triangle(p, 4, 2, 3);
-        if (what == 1) triangle(p, 2, 3, 0);
-        if (what == 2) triangle(p, 1, 0, 2), triangle(p, 2, 0, 3);
-        if (what == 3) triangle(p, 0, 4, 2);
-        if (what == 4) triangle(p, 1, 0, 2);
-        fl_structure st = build(&s);
-        /* a back of one triangle is half a back, and a square without a quarter is none */
+        add_vertex(p, 0, 0, 1), add_vertex(p, 2, 0, 1), add_vertex(p, 2, 2, 1), add_vertex(p, 0, 2, 1),
+            add_vertex(p, 1, 1, 1);
+        if (what == 5) add_vertex(p, 2, 2, 1);
+        add_triangle(p, 0, 1, 2);
+        if (what == 0) add_triangle(p, 0, 4, 3), add_triangle(p, 4, 2, 3);
+        else if (what == 5) add_triangle(p, 0, 5, 3);
+        else if (what < 6) add_triangle(p, 0, 2, 3);
+        else add_triangle(p, 4, 2, 3);
+        if (what == 1) add_triangle(p, 2, 3, 0);
+        if (what == 2) add_triangle(p, 1, 0, 2), add_triangle(p, 2, 0, 3);
+        if (what == 3) add_triangle(p, 0, 4, 2);
+        if (what == 4) add_triangle(p, 1, 0, 2);
+        fl_structure st = build_structure(&s);
+        /* a back of one triangle is half a back, and a square without a quarter is not a plate */
         const int plate = what != 4 && what != 6;
         assert_int_equal(st.piece[0].kind, plate ? FL_PIECE_SOLID : FL_PIECE_MESH);
         assert_int_equal(st.piece[0].one_sided, !plate);
@@ -242,14 +243,14 @@ static void a_sheet_is_what_it_covers(void **state)
     }
 }
 
-static void what_is_not_convex_is_a_shell_without_seams(void **state)
+static void a_non_convex_body_is_a_shell_without_seams(void **state)
 {
     (void)state;
     lab l;
     const fl_vec3 xy[6] = {v3(0, 0, 0), v3(2, 0, 0), v3(2, 1, 0), v3(1, 1, 0), v3(1, 2, 0), v3(0, 2, 0)};
     lab_start(&l);
     lab_prism(&l, 6, xy, 0, 1);
-    fl_structure st = build(&l.surface);
+    fl_structure st = build_structure(&l.surface);
     const fl_piece *q = &st.piece[0];
     assert_int_equal(q->kind, FL_PIECE_MESH);
     assert_int_equal(q->core.nf, 6 + 2 * 2); /* the L in two */
@@ -259,8 +260,8 @@ static void what_is_not_convex_is_a_shell_without_seams(void **state)
     lab_free(&l);
 }
 
-/* A box that lacks its lid, one turned inside out, and two boxes in one part. */
-static void what_is_open_or_several_is_a_shell(void **state)
+/* A box without its lid, an inverted one, and two boxes in one part. */
+static void open_or_several_bodies_are_a_shell(void **state)
 {
     (void)state;
     for (int what = 0; what < 3; what++) {
@@ -281,7 +282,7 @@ static void what_is_open_or_several_is_a_shell(void **state)
             assert_int_equal(fl_facet_box(p, v3(3, 0, 0), v3(4, 1, 1), &err), 0);
             edges = 24, corners = 16, faces = 12;
         }
-        fl_structure st = build(&s);
+        fl_structure st = build_structure(&s);
         assert_int_equal(st.n, 1);
         assert_int_equal(st.piece[0].kind, FL_PIECE_MESH);
         assert_int_equal(st.piece[0].core.nf, faces);
@@ -292,15 +293,15 @@ static void what_is_open_or_several_is_a_shell(void **state)
     }
 }
 
-static void turn(fl_part *p, int32_t t)
+static void reverse_triangle(fl_part *p, int32_t t)
 {
     const int32_t a = p->t[t].v[0];
     p->t[t].v[0] = p->t[t].v[1], p->t[t].v[1] = a;
 }
 
-/* A box with and without its lid, and a square, of which one triangle is turned; one that comes twice at a
- * rim is no turned one. */
-static void triangles_that_face_different_ways_are_refused(void **state)
+/* A box with and without its lid, and a square, each with one reversed triangle; a duplicate at a border is
+ * not reversed. */
+static void inconsistent_orientation_is_refused(void **state)
 {
     (void)state;
     for (int what = 0; what < 4; what++) {
@@ -309,13 +310,13 @@ static void triangles_that_face_different_ways_are_refused(void **state)
         fl_err err = {0};
         fl_part *p = new_part(&s);
         if (what == 2) {
-            vertex(p, 0, 0, 0), vertex(p, 1, 0, 0), vertex(p, 1, 1, 0), vertex(p, 0, 1, 0);
-            triangle(p, 0, 1, 2), triangle(p, 0, 3, 2);
+            add_vertex(p, 0, 0, 0), add_vertex(p, 1, 0, 0), add_vertex(p, 1, 1, 0), add_vertex(p, 0, 1, 0);
+            add_triangle(p, 0, 1, 2), add_triangle(p, 0, 3, 2);
         } else {
             assert_int_equal(fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err), 0);
             if (what) p->nt -= 2;
-            if (what == 3) triangle(p, p->t[9].v[0], p->t[9].v[1], p->t[9].v[2]);
-            else turn(p, 5);
+            if (what == 3) add_triangle(p, p->t[9].v[0], p->t[9].v[1], p->t[9].v[2]);
+            else reverse_triangle(p, 5);
         }
         if (what == 1) p->line = 11, p->last_line = 20; /* one row behind the other */
         const int refused = what < 3;
@@ -329,8 +330,8 @@ static void triangles_that_face_different_ways_are_refused(void **state)
     }
 }
 
-/* What a closed part encloses tells where it looks, wherever it stands. */
-static void a_closed_part_that_looks_inward_is_told(void **state)
+/* The enclosed volume of a closed part shows its orientation, at any position. */
+static void an_inverted_closed_part_is_reported(void **state)
 {
     (void)state;
     for (int inward = 0; inward < 2; inward++) {
@@ -339,8 +340,8 @@ static void a_closed_part_that_looks_inward_is_told(void **state)
                                v3(3, 1001, 0), v3(3, 1002, 0), v3(2, 1002, 0)};
         lab_start(&l);
         lab_prism(&l, 6, xy, 0, 1);
-        for (int32_t t = 0; inward && t < l.surface.part[0].nt; t++) turn(&l.surface.part[0], t);
-        fl_structure st = build(&l.surface);
+        for (int32_t t = 0; inward && t < l.surface.part[0].nt; t++) reverse_triangle(&l.surface.part[0], t);
+        fl_structure st = build_structure(&l.surface);
         assert_int_equal(st.piece[0].kind, FL_PIECE_MESH);
         assert_int_equal(st.piece[0].inward_triangle, inward);
         fl_structure_free(&st);
@@ -348,8 +349,8 @@ static void a_closed_part_that_looks_inward_is_told(void **state)
     }
 }
 
-/* So is a body of several in a part, whatever the others enclose. */
-static void a_body_that_looks_inward_among_others_is_told(void **state)
+/* So does that of one of several bodies of a part, whatever the others enclose. */
+static void an_inverted_body_among_others_is_reported(void **state)
 {
     (void)state;
     for (int inward = 0; inward < 2; inward++) {
@@ -358,11 +359,12 @@ static void a_body_that_looks_inward_among_others_is_told(void **state)
         for (int32_t k = 0; k < 2; k++) {
             const double x = 10.0 * k, size = k ? 1.0 : 2.0;
             const int32_t o = 4 * k, b = k && inward ? 3 : 2, c = 5 - b;
-            vertex(p, x, 0, 0), vertex(p, x + size, 0, 0), vertex(p, x, size, 0), vertex(p, x, 0, size);
-            triangle(p, o, o + b, o + 1), triangle(p, o, o + 1, o + c);
-            triangle(p, o, o + c, o + b), triangle(p, o + 1, o + b, o + c);
+            add_vertex(p, x, 0, 0), add_vertex(p, x + size, 0, 0), add_vertex(p, x, size, 0),
+                add_vertex(p, x, 0, size);
+            add_triangle(p, o, o + b, o + 1), add_triangle(p, o, o + 1, o + c);
+            add_triangle(p, o, o + c, o + b), add_triangle(p, o + 1, o + b, o + c);
         }
-        fl_structure st = build(&s);
+        fl_structure st = build_structure(&s);
         assert_int_equal(st.piece[0].kind, FL_PIECE_MESH);
         assert_int_equal(st.piece[0].inward_triangle, inward ? 5 : 0); /* from its fifth triangle on */
         fl_structure_free(&st);
@@ -376,15 +378,16 @@ static void triangles_without_area_do_no_harm(void **state)
     fl_surface s = {0};
     fl_err err = {0};
     fl_part *p = new_part(&s);
-    /* a tetrahedron with a vertex in the middle of an edge, joined by a triangle that has no area */
-    vertex(p, 0, 0, 0), vertex(p, 1, 0, 0), vertex(p, 0, 1, 0), vertex(p, 0, 0, 1), vertex(p, 0.5, 0, 0);
-    triangle(p, 0, 2, 1);
-    triangle(p, 0, 4, 3);
-    triangle(p, 4, 1, 3);
-    triangle(p, 0, 1, 4);
-    triangle(p, 1, 2, 3);
-    triangle(p, 0, 3, 2);
-    fl_structure st = build(&s);
+    /* a tetrahedron with a vertex in the middle of an edge, connected by a triangle without area */
+    add_vertex(p, 0, 0, 0), add_vertex(p, 1, 0, 0), add_vertex(p, 0, 1, 0), add_vertex(p, 0, 0, 1),
+        add_vertex(p, 0.5, 0, 0);
+    add_triangle(p, 0, 2, 1);
+    add_triangle(p, 0, 4, 3);
+    add_triangle(p, 4, 1, 3);
+    add_triangle(p, 0, 1, 4);
+    add_triangle(p, 1, 2, 3);
+    add_triangle(p, 0, 3, 2);
+    fl_structure st = build_structure(&s);
     assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
     assert_int_equal(st.piece[0].core.nf, 4);
     assert_int_equal(st.piece[0].core.nv, 4);
@@ -393,9 +396,9 @@ static void triangles_without_area_do_no_harm(void **state)
     fl_surface_free(&s);
 
     p = new_part(&s);
-    vertex(p, 0, 0, 0), vertex(p, 1, 0, 0), vertex(p, 2, 0, 0);
-    triangle(p, 0, 1, 2);
-    triangle(p, 0, 0, 1);
+    add_vertex(p, 0, 0, 0), add_vertex(p, 1, 0, 0), add_vertex(p, 2, 0, 0);
+    add_triangle(p, 0, 1, 2);
+    add_triangle(p, 0, 0, 1);
     assert_int_equal(fl_structure_build(&st, &s, &err), -1);
     assert_int_equal(err.code, FL_INPUT);
     assert_string_equal(err.text, "part part: its triangles have no area");
@@ -413,7 +416,7 @@ static void cones_have_the_section_of_the_circle(void **state)
         fl_surface s = {0};
         fl_err err = {0};
         assert_int_equal(fl_surface_cone(new_part(&s), c[k], &err), 0);
-        fl_structure st = build(&s);
+        fl_structure st = build_structure(&s);
         const fl_piece *q = &st.piece[0];
         const double h = v3_norm(v3_sub(c[k].p1, c[k].p0)), r0 = c[k].r0, r1 = c[k].r1;
         assert_int_equal(st.n, 1);
@@ -438,7 +441,7 @@ static void a_part_may_mix_triangles_and_cones_or_be_empty(void **state)
     assert_int_equal(fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err), 0);
     for (int k = 0; k < 2; k++)
         assert_int_equal(fl_surface_cone(p, (fl_cone){v3(2, 0, 0), v3(2, 0, 1), 0.1, 0.1}, &err), 0);
-    fl_structure st = build(&s);
+    fl_structure st = build_structure(&s);
     assert_int_equal(st.n, 3);
     for (int k = 0; k < 3; k++) assert_int_equal(st.piece[k].part, 1);
     assert_int_equal(st.piece[0].kind, FL_PIECE_SOLID);
@@ -452,18 +455,18 @@ static void a_part_may_mix_triangles_and_cones_or_be_empty(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_is_one_solid_however_fine),
+        cmocka_unit_test(a_box_is_one_solid_for_any_mesh),
         cmocka_unit_test(rounded_coordinates_give_the_same_solid),
         cmocka_unit_test(a_wide_wall_of_small_rounded_triangles_is_flat),
         cmocka_unit_test(a_fine_cylinder_stays_round),
         cmocka_unit_test(a_rounded_icosahedron_keeps_its_faces),
         cmocka_unit_test(flat_open_parts_are_plates),
-        cmocka_unit_test(a_sheet_is_what_it_covers),
-        cmocka_unit_test(what_is_not_convex_is_a_shell_without_seams),
-        cmocka_unit_test(what_is_open_or_several_is_a_shell),
-        cmocka_unit_test(triangles_that_face_different_ways_are_refused),
-        cmocka_unit_test(a_closed_part_that_looks_inward_is_told),
-        cmocka_unit_test(a_body_that_looks_inward_among_others_is_told),
+        cmocka_unit_test(a_sheet_is_defined_by_its_area),
+        cmocka_unit_test(a_non_convex_body_is_a_shell_without_seams),
+        cmocka_unit_test(open_or_several_bodies_are_a_shell),
+        cmocka_unit_test(inconsistent_orientation_is_refused),
+        cmocka_unit_test(an_inverted_closed_part_is_reported),
+        cmocka_unit_test(an_inverted_body_among_others_is_reported),
         cmocka_unit_test(triangles_without_area_do_no_harm),
         cmocka_unit_test(cones_have_the_section_of_the_circle),
         cmocka_unit_test(a_part_may_mix_triangles_and_cones_or_be_empty),

@@ -13,28 +13,28 @@
 
 static fl_err err;
 
-static fl_part *part(fl_surface *s)
+static fl_part *add_part(fl_surface *s)
 {
     const int32_t i = fl_surface_add(s, "p", 1, &err);
     assert_true(i >= 0);
     return &s->part[i];
 }
 
-static fl_mesh_quality measured(const fl_part *p)
+static fl_mesh_quality measure_part(const fl_part *p)
 {
     fl_mesh_quality q;
     assert_int_equal(fl_part_measure(p, &q, &err), 0);
     return q;
 }
 
-static void assert_point(fl_vec3 x, fl_vec3 want, double tol, double scale)
+static void assert_point(fl_vec3 x, fl_vec3 expected, double tol, double scale)
 {
-    assert_near_of(x.x, want.x, tol, scale);
-    assert_near_of(x.y, want.y, tol, scale);
-    assert_near_of(x.z, want.z, tol, scale);
+    assert_near_of(x.x, expected.x, tol, scale);
+    assert_near_of(x.y, expected.y, tol, scale);
+    assert_near_of(x.z, expected.z, tol, scale);
 }
 
-static void turn(fl_part *p, int32_t t)
+static void reverse_triangle(fl_part *p, int32_t t)
 {
     const int32_t keep = p->t[t].v[1];
     p->t[t].v[1] = p->t[t].v[2];
@@ -70,10 +70,10 @@ static void box_is_exact_far_from_the_origin(void **state)
     for (int k = 0; k < 4; k++) {
         const double far = k ? pow(2.0, 10.0 * k) : 0.0; /* exact sums */
         fl_surface s = {0};
-        fl_part *p = part(&s);
+        fl_part *p = add_part(&s);
         fl_mesh_quality q;
         fl_facet_box(p, v3(far, -far, 3 * far), v3(far + 1, -far + 2, 3 * far + 3), &err);
-        q = measured(p);
+        q = measure_part(p);
         assert_near(q.volume, 6.0, 1e-15);
         assert_near(q.area, 22.0, 1e-15);
         assert_point(q.centroid, v3(far + 0.5, -far + 1, 3 * far + 1.5), 1e-15, 4 * far + 1);
@@ -91,12 +91,12 @@ static void tetrahedron_is_exact(void **state)
     static const double x[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const int32_t t[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     fl_mesh_quality q;
     (void)state;
     for (int k = 0; k < 4; k++) fl_surface_vertex(p, v3(x[k][0], x[k][1], x[k][2]), &err);
     for (int k = 0; k < 4; k++) fl_surface_triangle(p, t[k][0], t[k][1], t[k][2], &err);
-    q = measured(p);
+    q = measure_part(p);
     assert_near(q.volume, 1.0 / 6.0, 1e-14);
     assert_near(q.area, 1.5 + sqrt(3.0) / 2.0, 1e-14);
     assert_point(q.centroid, v3(0.25, 0.25, 0.25), 1e-14, 1.0);
@@ -116,10 +116,10 @@ static void facets_have_the_volume_of_their_prism(void **state)
             const double squares = r0 * r0 + r0 * r1 + r1 * r1;
             const double along = 0.25 * (r0 * r0 + 2 * r0 * r1 + 3 * r1 * r1) / squares;
             fl_surface s = {0};
-            fl_part *p = part(&s);
+            fl_part *p = add_part(&s);
             fl_mesh_quality q;
             assert_int_equal(fl_facet_cone(p, &c, corners[k], &err), 0);
-            q = measured(p);
+            q = measure_part(p);
             assert_near(q.volume, 0.5 * n * sin(2 * PI / n) * 13.0 * squares / 3.0, 1e-12);
             assert_point(q.centroid, v3_madd(c.p0, along, axis), 1e-12, 20.0);
             assert_int_equal(q.open + q.branched + q.incoherent + q.degenerate, 0);
@@ -129,17 +129,17 @@ static void facets_have_the_volume_of_their_prism(void **state)
     }
 }
 
-/* A cone by its closed form is what its facets come to. */
+/* A cone in closed form equals the limit of its facets. */
 static void cones_are_the_limit_of_their_facets(void **state)
 {
     const fl_cone c = {v3(1, 2, 3), v3(2, 4, 5), 0.75, 0.25};
     fl_surface s = {0};
     fl_mesh_quality round, flat, both;
     (void)state;
-    fl_surface_cone(part(&s), c, &err);
-    fl_facet_cone(part(&s), &c, 2000, &err);
-    round = measured(&s.part[0]);
-    flat = measured(&s.part[1]);
+    fl_surface_cone(add_part(&s), c, &err);
+    fl_facet_cone(add_part(&s), &c, 2000, &err);
+    round = measure_part(&s.part[0]);
+    flat = measure_part(&s.part[1]);
     assert_int_equal(round.closed, 1);
     assert_near(round.volume, flat.volume, 1e-5);
     assert_near(round.area, flat.area, 1e-5);
@@ -157,7 +157,7 @@ static void cones_are_the_limit_of_their_facets(void **state)
 static void check_polygon(int32_t n, const double (*xy)[2], double area, int32_t triangles)
 {
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     int32_t loop[16];
     fl_mesh_quality q;
     for (int32_t k = 0; k < n; k++) {
@@ -165,7 +165,7 @@ static void check_polygon(int32_t n, const double (*xy)[2], double area, int32_t
         loop[k] = k;
     }
     assert_int_equal(fl_facet_polygon(p, n, loop, &err), 0);
-    q = measured(p);
+    q = measure_part(p);
     assert_int_equal(q.triangles, triangles);
     assert_int_equal(q.incoherent, 0);
     assert_int_equal(q.open, n);
@@ -184,23 +184,24 @@ static void polygons_become_triangles(void **state)
     static const double arrow[][2] = {{0, 0}, {2, -2}, {1, 0}, {2, 2}};
     static const double comb[][2] = {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {4, 1},
                                      {4, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
-    static const double tee[][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}; /* a corner on a straight side */
+    static const double with_straight_corner[][2] = {
+        {0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}; /* a corner on a straight side */
     static const double hole[][2] = {
-        {0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, /* out, and by a cut to the hole */
+        {0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, /* out, and back in to the hole */
         {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
     (void)state;
     check_polygon(10, hole, 12.0, 8);
     check_polygon(6, ell, 6.0, 4);
     check_polygon(4, arrow, 2.0, 2);
     check_polygon(12, comb, 13.0, 10);
-    check_polygon(5, tee, 4.0, 3);
+    check_polygon(5, with_straight_corner, 4.0, 3);
 }
 
-static void split_of(const double (*x)[3], const int32_t first[3])
+static void expect_split(const double (*x)[3], const int32_t first[3])
 {
     static const int32_t loop[4] = {0, 1, 2, 3};
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     for (int k = 0; k < 4; k++) fl_surface_vertex(p, v3(x[k][0], x[k][1], x[k][2]), &err);
     assert_int_equal(fl_facet_polygon(p, 4, loop, &err), 0);
     assert_int_equal(p->nt, 2);
@@ -215,16 +216,16 @@ static void quadrilaterals_take_the_better_diagonal(void **state)
     static const double warped[][3] = {{0, 0, 0}, {4, 0, 0}, {4.5, 2.2, 0}, {0, 2, 1.5}};
     static const int32_t even[] = {0, 1, 2}, odd[] = {1, 2, 3};
     (void)state;
-    split_of(square, even); /* a tie: through the lowest index */
-    split_of(kite, odd);    /* flat: the shorter diagonal */
-    split_of(warped, odd);  /* warped: angles decide, 25.7 deg against 24.6 deg */
+    expect_split(square, even); /* a tie: through the lowest index */
+    expect_split(kite, odd);    /* flat: the shorter diagonal */
+    expect_split(warped, odd);  /* warped: angles decide, 25.7 deg against 24.6 deg */
 }
 
 static void polygons_skip_repeated_corners(void **state)
 {
     static const int32_t flat[] = {0, 0, 1, 1, 1}, good[] = {0, 1, 1, 2, 0};
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     (void)state;
     for (int k = 0; k < 3; k++) fl_surface_vertex(p, v3(k == 1, k == 2, 0), &err);
     assert_int_equal(fl_facet_polygon(p, 5, flat, &err), 0);
@@ -234,13 +235,13 @@ static void polygons_skip_repeated_corners(void **state)
     fl_surface_free(&s);
 }
 
-/* H40: inside out, and with any half of the triangles turned. */
-static void wrong_orientation_is_mended(void **state)
+/* H40: inverted, and with any half of the triangles reversed. */
+static void wrong_orientation_is_repaired(void **state)
 {
     (void)state;
     for (int mask = 0; mask < 4096; mask += 7) {
         fl_surface s = {0};
-        fl_part *p = part(&s);
+        fl_part *p = add_part(&s);
         fl_mesh_quality came;
         fl_orient_counts o;
         fl_mesh_quality q;
@@ -248,29 +249,29 @@ static void wrong_orientation_is_mended(void **state)
         fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
         for (int t = 0; t < 12; t++)
             if (mask >> t & 1) {
-                turn(p, t);
+                reverse_triangle(p, t);
                 turned++;
             }
-        q = measured(p);
+        q = measure_part(p);
         assert_int_equal(q.incoherent > 0, turned % 12 > 0);
         assert_int_equal(q.inverted, turned == 12);
         assert_int_equal(fl_part_orient(p, &came, &o, &err), 0);
-        assert_memory_equal(&came, &q, sizeof q); /* measured before it was turned */
+        assert_memory_equal(&came, &q, sizeof q); /* measured before it was reversed */
         assert_int_equal(o.triangles, turned < 12 - turned ? turned : 12 - turned);
         assert_int_equal(o.kept_side + o.one_sided, 0);
         if (turned != 6) assert_int_equal(o.patches, turned > 6);
-        q = measured(p);
+        q = measure_part(p);
         assert_near(q.volume, 1.0, 1e-15);
         assert_int_equal(q.incoherent + q.inverted, 0);
         fl_surface_free(&s);
     }
 }
 
-static void open_patches_keep_the_side_of_most_area(void **state)
+static void open_patches_keep_the_side_of_larger_area(void **state)
 {
     static const double x[6][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 0, 0}, {9, 1, 0}};
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     fl_mesh_quality came;
     fl_orient_counts o;
     fl_mesh_quality q;
@@ -285,7 +286,7 @@ static void open_patches_keep_the_side_of_most_area(void **state)
     assert_int_equal(o.kept_side, 1);
     assert_int_equal(o.patches, 0);
     assert_int_equal(p->t[2].v[1], 2);
-    q = measured(p);
+    q = measure_part(p);
     assert_int_equal(q.incoherent, 0);
     assert_int_equal(q.open, 6);
     assert_int_equal(q.closed, 0);
@@ -298,7 +299,7 @@ static void a_twisted_band_is_named(void **state)
 {
     enum { N = 9 };
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     fl_mesh_quality came;
     fl_orient_counts o;
     fl_mesh_quality q;
@@ -317,17 +318,17 @@ static void a_twisted_band_is_named(void **state)
     }
     assert_int_equal(fl_part_orient(p, &came, &o, &err), 0);
     assert_int_equal(o.one_sided, 1);
-    q = measured(p);
+    q = measure_part(p);
     assert_int_equal(q.patches, 1);
     assert_int_equal(q.incoherent > 0, 1);
     fl_surface_free(&s);
 }
 
-/* Two boxes that share an edge: four triangles there, two patches, and a volume all the same. */
+/* Two boxes that share an edge: four triangles there, two patches, and the right volume. */
 static void a_shared_edge_is_branched(void **state)
 {
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     fl_weld w;
     fl_mesh_quality q;
     (void)state;
@@ -335,7 +336,7 @@ static void a_shared_edge_is_branched(void **state)
     fl_facet_box(p, v3(1, 1, 0), v3(2, 2, 1), &err);
     assert_int_equal(fl_part_weld(p, 0.0, &w, &err), 0);
     assert_int_equal(w.merged, 2);
-    q = measured(p);
+    q = measure_part(p);
     assert_int_equal(q.branched, 1);
     assert_int_equal(q.patches, 2);
     assert_int_equal(q.open, 0);
@@ -345,7 +346,7 @@ static void a_shared_edge_is_branched(void **state)
 }
 
 /* Every triangle with its own vertices, each off by up to e. */
-static void explode(fl_part *to, const fl_part *from, double e)
+static void separate_triangles(fl_part *to, const fl_part *from, double e)
 {
     for (int32_t t = 0; t < from->nt; t++) {
         for (int k = 0; k < 3; k++) {
@@ -357,7 +358,7 @@ static void explode(fl_part *to, const fl_part *from, double e)
     }
 }
 
-static void welding_closes_a_soup(void **state)
+static void welding_closes_a_triangle_soup(void **state)
 {
     const fl_cone c = {v3(50, 60, -5), v3(50, 60, 5), 2, 2};
     (void)state;
@@ -367,37 +368,38 @@ static void welding_closes_a_soup(void **state)
         fl_part *whole, *soup;
         fl_weld w;
         fl_mesh_quality q;
-        part(&s);
-        part(&s);
+        add_part(&s);
+        add_part(&s);
         whole = &s.part[0];
         soup = &s.part[1];
         fl_facet_cone(whole, &c, 48, &err);
-        explode(soup, whole, e);
+        separate_triangles(soup, whole, e);
         assert_int_equal(fl_part_weld(soup, k == 2 ? 5e-3 : -1.0, &w, &err), 0);
         assert_int_equal(soup->nv, whole->nv);
         assert_int_equal(w.merged, 3 * whole->nt - whole->nv);
         assert_int_equal(w.collapsed, 0);
         assert_true(w.moved <= 2 * sqrt(3.0) * e && (e == 0.0 || w.moved > 0.1 * e));
-        q = measured(soup);
+        q = measure_part(soup);
         assert_int_equal(q.open + q.branched + q.incoherent, 0);
-        assert_near_of(q.volume, measured(whole).volume, e == 0.0 ? 1e-13 : 10 * e, measured(whole).volume);
+        assert_near_of(q.volume, measure_part(whole).volume, e == 0.0 ? 1e-13 : 10 * e,
+                       measure_part(whole).volume);
         fl_surface_free(&s);
     }
 }
 
-/* The numbering is that of the first use, so a permuted vertex list ends the same. */
+/* Numbers follow the order of first use, so a permuted vertex list gives the same result. */
 static void welding_numbers_by_first_use(void **state)
 {
     fl_surface s = {0};
     fl_part *p, *q;
     fl_weld w;
     (void)state;
-    part(&s);
-    part(&s);
+    add_part(&s);
+    add_part(&s);
     p = &s.part[0];
     q = &s.part[1];
     fl_facet_box(p, v3(-1, -2, -3), v3(1, 2, 3), &err);
-    fl_surface_vertex(q, v3(7, 7, 7), &err); /* of no triangle */
+    fl_surface_vertex(q, v3(7, 7, 7), &err); /* used by no triangle */
     for (int32_t v = p->nv; v-- > 0;) fl_surface_vertex(q, p->v[v], &err);
     for (int32_t t = 0; t < p->nt; t++) {
         const int32_t *v = p->t[t].v;
@@ -412,10 +414,10 @@ static void welding_numbers_by_first_use(void **state)
     fl_surface_free(&s);
 }
 
-static void welding_refuses_what_it_would_spoil(void **state)
+static void welding_refuses_destructive_tolerances(void **state)
 {
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     fl_weld w;
     fl_err e = {0};
     (void)state;
@@ -433,11 +435,11 @@ static void welding_refuses_what_it_would_spoil(void **state)
     fl_surface_free(&s);
 }
 
-/* The default steps below the shortest edge: a mesh with one short edge is not spoilt. */
-static void the_default_spares_short_edges(void **state)
+/* The default tolerance stays below the shortest edge: a mesh with one short edge is kept. */
+static void the_default_tolerance_keeps_short_edges(void **state)
 {
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     fl_weld w;
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(1000, 1, 1e-5), &err);
@@ -447,26 +449,26 @@ static void the_default_spares_short_edges(void **state)
     fl_surface_free(&s);
 }
 
-static void triangles_that_are_lines_are_dropped(void **state)
+static void degenerate_triangles_are_dropped(void **state)
 {
     fl_surface s = {0};
-    fl_part *p = part(&s);
+    fl_part *p = add_part(&s);
     fl_weld w;
     (void)state;
     fl_facet_box(p, v3(0, 0, 0), v3(1, 1, 1), &err);
     fl_surface_vertex(p, v3(0, 0, -0.0), &err);
     fl_surface_triangle(p, 0, 1, 8, &err);
     fl_surface_triangle(p, 0, 0, 1, &err);
-    assert_int_equal(measured(p).degenerate, 2);
+    assert_int_equal(measure_part(p).degenerate, 2);
     assert_int_equal(fl_part_weld(p, 0.0, &w, &err), 0);
     assert_int_equal(w.collapsed, 2);
     assert_int_equal(w.merged, 1);
-    assert_int_equal(measured(p).degenerate, 0);
-    assert_int_equal(measured(p).open, 0);
+    assert_int_equal(measure_part(p).degenerate, 0);
+    assert_int_equal(measure_part(p).open, 0);
     fl_surface_free(&s);
 }
 
-static void memory_may_run_out(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     const fl_cone c = {v3(0, 0, 0), v3(0, 0, 1), 1, 0.5};
     (void)state;
@@ -491,9 +493,9 @@ static void memory_may_run_out(void **state)
     }
 }
 
-/* Thousands of parts of one name, and of names of their own; one that left is nobody's, and one that took the
- * place of another is found there. */
-static void thousands_of_names_are_kept_apart(void **state)
+/* Thousands of parts of one name, and of different names. A removed name belongs to no part; a part that
+ * moved into another index is found there. */
+static void thousands_of_names_stay_distinct(void **state)
 {
     enum { N = 3000 };
     fl_surface s = {0};
@@ -509,7 +511,7 @@ static void thousands_of_names_are_kept_apart(void **state)
     assert_int_equal(s.part[2 * N - 1].id, 2 * N - 1);
     assert_int_equal(fl_surface_find(&s, "nut_2999", 8), 2 * N - 1);
     assert_int_equal(fl_surface_find(&s, "nut_3000", 8), -1);
-    fl_part_free(&s.part[5]); /* the last one takes its place */
+    fl_part_free(&s.part[5]); /* the last one moves to its index */
     s.part[5] = s.part[--s.n];
     assert_int_equal(fl_surface_find(&s, "nut 2999", 8), 5);
     assert_int_equal(fl_surface_find(&s, "nut 2", 5), -1);
@@ -522,7 +524,7 @@ static void thousands_of_names_are_kept_apart(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(thousands_of_names_are_kept_apart),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(thousands_of_names_stay_distinct),
                                        cmocka_unit_test(names_are_one_word_and_unique),
                                        cmocka_unit_test(box_is_exact_far_from_the_origin),
                                        cmocka_unit_test(tetrahedron_is_exact),
@@ -531,15 +533,15 @@ int main(void)
                                        cmocka_unit_test(polygons_become_triangles),
                                        cmocka_unit_test(quadrilaterals_take_the_better_diagonal),
                                        cmocka_unit_test(polygons_skip_repeated_corners),
-                                       cmocka_unit_test(wrong_orientation_is_mended),
-                                       cmocka_unit_test(open_patches_keep_the_side_of_most_area),
+                                       cmocka_unit_test(wrong_orientation_is_repaired),
+                                       cmocka_unit_test(open_patches_keep_the_side_of_larger_area),
                                        cmocka_unit_test(a_twisted_band_is_named),
                                        cmocka_unit_test(a_shared_edge_is_branched),
-                                       cmocka_unit_test(welding_closes_a_soup),
+                                       cmocka_unit_test(welding_closes_a_triangle_soup),
                                        cmocka_unit_test(welding_numbers_by_first_use),
-                                       cmocka_unit_test(welding_refuses_what_it_would_spoil),
-                                       cmocka_unit_test(the_default_spares_short_edges),
-                                       cmocka_unit_test(triangles_that_are_lines_are_dropped),
-                                       cmocka_unit_test(memory_may_run_out)};
+                                       cmocka_unit_test(welding_refuses_destructive_tolerances),
+                                       cmocka_unit_test(the_default_tolerance_keeps_short_edges),
+                                       cmocka_unit_test(degenerate_triangles_are_dropped),
+                                       cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a surrogate tells, against what a look finds. */
+/* Predictions of a surrogate against exact evaluations. */
 #include <math.h>
 #include "base/rng.h"
 #include "contact/pair_force.h"
@@ -12,13 +12,13 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* Ways in which one box lies on another. */
+/* Configurations of one box on another. */
 enum { FACE, SHIFTED, EDGE, CORNER, CROSSED, KINDS };
 
 #define DEPTH 2e-3 /* overlap [m] */
 
-/* Two boxes of which the upper one, as it is turned, has been lowered until they overlap. */
-static void two(lab *l, int kind)
+/* Two boxes; the upper one, rotated, has been lowered until they overlap. */
+static void make_two_boxes(lab *l, int kind)
 {
     static const struct {
         double x, y;
@@ -36,60 +36,61 @@ static void two(lab *l, int kind)
     lab_box(l, v3(HOW[kind].x, HOW[kind].y, 3), v3(0.5, 0.5, 0.5), 0.05, q_of_vector(HOW[kind].turn), ZERO,
             ZERO);
     lab_make(l, 1e-9);
-    double lo = 0.0, hi = 3.0; /* of the height: too deep, and not enough */
+    double lo = 0.0, hi = 3.0; /* of the height: too deep, and not deep enough */
     for (int k = 0; k < 60; k++) {
         l->w.b.x[1].z = 0.5 * (lo + hi);
-        if (lab_look(&l->w, 0, 1).overlap > DEPTH) lo = l->w.b.x[1].z;
+        if (lab_evaluate_pair(&l->w, 0, 1).overlap > DEPTH) lo = l->w.b.x[1].z;
         else hi = l->w.b.x[1].z;
     }
 }
 
-/* Two boxes, their pair, which has been looked at, and where the upper one was laid. */
+/* Two boxes, their pair, which has been evaluated, and the initial pose of the upper one. */
 typedef struct {
     lab l;
     fl_pair p;
     fl_vec3 x;
     fl_quat q;
-} laid;
+} placed_pair;
 
-/* A look, however near the last one was. */
-static void look(laid *a)
+/* An exact evaluation, however recent the last one is. */
+static void evaluate(placed_pair *a)
 {
     if (a->p.surrogate) a->p.surrogate->reach = 1e-9;
     fl_pair_evaluate(&a->l.w, &a->p, 0, 0.0, 0);
     assert_true(a->p.touching && a->p.surrogate && a->p.surrogate->valid);
 }
 
-static void lay(laid *a, int kind)
+static void place_boxes(placed_pair *a, int kind)
 {
-    two(&a->l, kind);
+    make_two_boxes(&a->l, kind);
     a->x = a->l.w.b.x[1];
     a->q = a->l.w.b.q[1];
     fl_pair_init(&a->l.w, &a->p, 0, 1);
-    look(a);
+    evaluate(a);
 }
 
-static void take_up(laid *a)
+static void free_boxes(placed_pair *a)
 {
     fl_pair_free(&a->p);
     lab_free(&a->l);
 }
 
-/* A way to go: of the upper box, and its turn times the length of the surrogate. */
+/* A direction of motion: of the upper box, and of its rotation times the length of the surrogate. */
 typedef struct {
     fl_vec3 u, w;
-} way;
+} direction;
 
-static way some(fl_rng *g)
+static direction random_path(fl_rng *g)
 {
-    const way a = {v3(fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g)),
-                   v3(fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g))};
+    const direction a = {v3(fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g)),
+                         v3(fl_rng_normal(g), fl_rng_normal(g), fl_rng_normal(g))};
     const double each = 1.0 / sqrt(v3_norm2(a.u) + v3_norm2(a.w));
-    return (way){v3_scale(each, a.u), v3_scale(each, a.w)};
+    return (direction){v3_scale(each, a.u), v3_scale(each, a.w)};
 }
 
-/* The upper box gone by h along a from x and q, turned about the point of the surrogate, which is A's. */
-static void go_from(laid *l, fl_vec3 x, fl_quat q, way a, double h)
+/* Moves the upper box by h along a from x and q, rotated about the reference point of the surrogate, which is
+ * A's. */
+static void move_from(placed_pair *l, fl_vec3 x, fl_quat q, direction a, double h)
 {
     const fl_surrogate *s = l->p.surrogate;
     const fl_quat turn = q_of_vector(v3_scale(h / s->length, a.w));
@@ -100,11 +101,11 @@ static void go_from(laid *l, fl_vec3 x, fl_quat q, way a, double h)
     fl_body_update_spin(b, 1);
 }
 
-/* The same from where it was laid. */
-static void go(laid *l, way a, double h) { go_from(l, l->x, l->q, a, h); }
+/* The same from the initial pose. */
+static void move_along(placed_pair *l, direction a, double h) { move_from(l, l->x, l->q, a, h); }
 
-/* How the lower box, A, stands to the upper one, B. */
-static fl_vec3 pose(const lab *l, fl_mat3 *M)
+/* Pose of the lower box, A, relative to the upper one, B. */
+static fl_vec3 relative_pose(const lab *l, fl_mat3 *M)
 {
     const fl_bodies *b = &l->w.b;
     for (int k = 0; k < 3; k++) {
@@ -114,13 +115,13 @@ static fl_vec3 pose(const lab *l, fl_mat3 *M)
     return m3_tmul(fl_body_axes(b, 1), v3_sub(b->x[0], b->x[1]));
 }
 
-/* What it tells for that, in the k-th lane, the others being of some other pose. */
-static fl_surrogate_value told_in(const laid *l, int lane)
+/* The surrogate's prediction for that pose in lane k, with other poses in the other lanes. */
+static fl_surrogate_value predict_in_lane(const placed_pair *l, int lane)
 {
     const fl_surrogate *all[FL_SURROGATE_BATCH];
     fl_surrogate_lanes b;
     fl_mat3 M;
-    const fl_vec3 o = pose(&l->l, &M);
+    const fl_vec3 o = relative_pose(&l->l, &M);
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         all[k] = l->p.surrogate;
         fl_lane3_set(b.o, k, v3_scale(k == lane ? 1.0 : 1.0 + 1e-3 * k, o));
@@ -131,14 +132,14 @@ static fl_surrogate_value told_in(const laid *l, int lane)
     return fl_surrogate_unpack(&b, lane);
 }
 
-static fl_surrogate_value told_of(const laid *l) { return told_in(l, 0); }
+static fl_surrogate_value predict(const placed_pair *l) { return predict_in_lane(l, 0); }
 
-/* By how much the force and the moment that are told are off, over the force. */
-static double off(laid *l)
+/* Error of the predicted force and moment, relative to the force. */
+static double prediction_error(placed_pair *l)
 {
     fl_world *w = &l->l.w;
-    const fl_surrogate_value t = told_of(l);
-    const fl_pair p = lab_look(w, 0, 1);
+    const fl_surrogate_value t = predict(l);
+    const fl_pair p = lab_evaluate_pair(w, 0, 1);
     const fl_mat3 R = fl_body_axes(&w->b, 1);
     const fl_vec3 f = m3_mul(R, t.gradient.f);
     const fl_vec3 at = v3_add(w->b.x[1], m3_mul(R, t.point)), arm = v3_sub(at, w->b.x[0]);
@@ -148,86 +149,86 @@ static double off(laid *l)
     return fmax(df, dm) / v3_norm(p.force);
 }
 
-static void what_is_told_is_a_potential(void **state)
+static void a_prediction_has_a_potential(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 0, 3);
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
-        laid l;
-        lay(&l, kind);
+        placed_pair l;
+        place_boxes(&l, kind);
         const fl_bodies *b = &l.l.w.b;
-        for (int k = 0; k < 2; k++) { /* looks, which teach */
-            go(&l, some(&g), 0.05 * DEPTH);
-            look(&l);
+        for (int k = 0; k < 2; k++) { /* exact evaluations, which add samples */
+            move_along(&l, random_path(&g), 0.05 * DEPTH);
+            evaluate(&l);
         }
         for (int k = 0; k < 12; k++) {
-            const way to = some(&g), along = some(&g);
+            const direction to = random_path(&g), along = random_path(&g);
             const double h = 1e-4 * DEPTH;
             fl_surrogate_value t[3];
-            for (int e = 0; e < 3; e++) { /* by h along a second way, both ways */
-                go(&l, to, 0.2 * DEPTH);
-                go_from(&l, b->x[1], b->q[1], along, e == 0 ? 0.0 : e == 1 ? -h : h);
-                t[e] = told_of(&l);
+            for (int e = 0; e < 3; e++) { /* by h along a second direction, both ways */
+                move_along(&l, to, 0.2 * DEPTH);
+                move_from(&l, b->x[1], b->q[1], along, e == 0 ? 0.0 : e == 1 ? -h : h);
+                t[e] = predict(&l);
             }
-            go(&l, to, 0.2 * DEPTH);
+            move_along(&l, to, 0.2 * DEPTH);
             const fl_mat3 R = fl_body_axes(b, 1);
             const double arm = l.p.surrogate->length;
             const fl_vec3 f = m3_mul(R, t[0].gradient.f), m = m3_mul(R, t[0].gradient.m);
-            /* what B goes, A goes the other way */
+            /* A moves opposite to B */
             const double work = -h * (v3_dot(f, along.u) + v3_dot(m, along.w) / arm);
             assert_near_of(t[2].energy - t[1].energy, -2.0 * work, 1e-7,
                            h * (v3_norm(t[0].gradient.f) + v3_norm(t[0].gradient.m) / arm));
         }
-        take_up(&l);
+        free_boxes(&l);
     }
 }
 
-/* What is told has the same bits in every lane. */
-static void lanes_are_alike(void **state)
+/* A prediction has the same bits in every lane. */
+static void lanes_have_the_same_bits(void **state)
 {
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
-        laid l;
-        lay(&l, kind);
-        go(&l, (way){v3(0.3, 0.5, 0.2), v3(0.4, -0.5, 0.4)}, 0.1 * DEPTH);
-        const fl_surrogate_value one = told_of(&l);
+        placed_pair l;
+        place_boxes(&l, kind);
+        move_along(&l, (direction){v3(0.3, 0.5, 0.2), v3(0.4, -0.5, 0.4)}, 0.1 * DEPTH);
+        const fl_surrogate_value one = predict(&l);
         for (int k = 1; k < FL_SURROGATE_BATCH; k++) {
-            const fl_surrogate_value other = told_in(&l, k);
+            const fl_surrogate_value other = predict_in_lane(&l, k);
             assert_memory_equal(&one, &other, sizeof one);
         }
-        take_up(&l);
+        free_boxes(&l);
     }
 }
 
-/* The slope that friction goes by follows the contact: a twentieth of the overlap away it is off by much less
- * than it has changed. */
-static void the_slope_is_told(void **state)
+/* The stiffness used by friction follows the contact: a twentieth of the overlap away its error is much
+ * smaller than its change. */
+static void the_stiffness_is_predicted(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 0, 5);
     double mean = 0.0;
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
-        double off = 0.0, changed = 0.0; /* sums */
-        laid l;
-        lay(&l, kind);
+        double deviation = 0.0, changed = 0.0; /* sums */
+        placed_pair l;
+        place_boxes(&l, kind);
         const double first = l.p.springs.k;
         assert_true(first > 0.0);
         for (int k = 0; k < 50; k++) {
-            go(&l, some(&g), 0.05 * DEPTH);
-            const fl_surrogate_value t = told_of(&l);
-            const double now = lab_look(&l.l.w, 0, 1).springs.k;
-            off += fabs(t.slope / l.p.surrogate->slope * first - now);
+            move_along(&l, random_path(&g), 0.05 * DEPTH);
+            const fl_surrogate_value t = predict(&l);
+            const double now = lab_evaluate_pair(&l.l.w, 0, 1).springs.k;
+            deviation += fabs(t.slope / l.p.surrogate->slope * first - now);
             changed += fabs(now - first);
         }
-        mean += off / changed / KINDS;
-        take_up(&l);
+        mean += deviation / changed / KINDS;
+        free_boxes(&l);
     }
     assert_true(mean < 0.5);
 }
 
-/* At the look it tells what was found; further along a way that it has been taught the error falls with the
- * square of what is left of the way. */
-static void a_look_teaches(void **state)
+/* At an evaluated pose the prediction equals the evaluation. Further along a sampled direction the error
+ * falls with the square of the remaining distance. */
+static void an_evaluation_adds_a_sample(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 0, 4);
     double log_ratio = 0.0, better = 0.0;
@@ -235,48 +236,48 @@ static void a_look_teaches(void **state)
     (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < 20; k++) {
-            laid l;
-            const way a = some(&g);
-            double e[3], untaught;
-            lay(&l, kind);
-            assert_true(off(&l) < 1e-9);
-            go(&l, a, 0.04 * DEPTH);
-            untaught = off(&l);
-            go(&l, a, -0.02 * DEPTH);
-            look(&l);
-            assert_true(off(&l) < 1e-9);
+            placed_pair l;
+            const direction a = random_path(&g);
+            double e[3], before_sampling;
+            place_boxes(&l, kind);
+            assert_true(prediction_error(&l) < 1e-9);
+            move_along(&l, a, 0.04 * DEPTH);
+            before_sampling = prediction_error(&l);
+            move_along(&l, a, -0.02 * DEPTH);
+            evaluate(&l);
+            assert_true(prediction_error(&l) < 1e-9);
             for (int c = 0; c < 3; c++) {
-                go(&l, a, (0.04 * (1 << c) - 0.02) * DEPTH);
-                e[c] = off(&l);
+                move_along(&l, a, (0.04 * (1 << c) - 0.02) * DEPTH);
+                e[c] = prediction_error(&l);
             }
-            go(&l, a, 0.0);
-            better += log2(untaught / fmax(off(&l), 1e-12)) / (20.0 * KINDS);
+            move_along(&l, a, 0.0);
+            better += log2(before_sampling / fmax(prediction_error(&l), 1e-12)) / (20.0 * KINDS);
             if (e[0] > 1e-7) log_ratio += log2(e[1] / e[0]), many++;
-            take_up(&l);
+            free_boxes(&l);
         }
     assert_true(many > 40);
     assert_true(log_ratio / many > 1.6 && better > 3.0);
 }
 
-/* How far off it is h after n looks along a, h from one another; the first is where they were laid. */
-static double off_after(int kind, way a, int n, double h)
+/* Error at distance h beyond n evaluations along a, spaced by h; the first is at the initial pose. */
+static double error_after(int kind, direction a, int n, double h)
 {
-    laid l;
-    lay(&l, kind);
+    placed_pair l;
+    place_boxes(&l, kind);
     for (int c = 1; c < n; c++) {
-        go(&l, a, c * h);
-        look(&l);
-        assert_true(off(&l) < 1e-9);
+        move_along(&l, a, c * h);
+        evaluate(&l);
+        assert_true(prediction_error(&l) < 1e-9);
     }
-    go(&l, a, n * h);
-    const double e = off(&l);
-    take_up(&l);
+    move_along(&l, a, n * h);
+    const double e = prediction_error(&l);
+    free_boxes(&l);
     return e;
 }
 
-/* What three looks on a line foretell is off as the third power of the way, what two of them do as the
- * second. */
-static void looks_on_a_line_teach_more(void **state)
+/* The prediction from three evaluations on a line has an error of the third power of the distance, that from
+ * two of the second. */
+static void evaluations_on_a_line_raise_the_order(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 0, 6);
     double order[2] = {0}, better = 0.0;
@@ -284,20 +285,21 @@ static void looks_on_a_line_teach_more(void **state)
     (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < 20; k++) {
-            const way a = some(&g);
-            const double h = 0.04 * DEPTH, two = off_after(kind, a, 2, h), three = off_after(kind, a, 3, h);
+            const direction a = random_path(&g);
+            const double h = 0.04 * DEPTH, two = error_after(kind, a, 2, h),
+                         three = error_after(kind, a, 3, h);
             better += log2(two / fmax(three, 1e-12)) / (20.0 * KINDS);
             if (!(three > 1e-6)) continue;
-            order[0] += log2(two / off_after(kind, a, 2, 0.5 * h));
-            order[1] += log2(three / off_after(kind, a, 3, 0.5 * h));
+            order[0] += log2(two / error_after(kind, a, 2, 0.5 * h));
+            order[1] += log2(three / error_after(kind, a, 3, 0.5 * h));
             many++;
         }
     assert_true(many > 20);
     assert_true(fabs(order[0] / many - 2.0) < 0.3 && fabs(order[1] / many - 3.0) < 0.4 && better > 3.0);
 }
 
-/* The upper box moves along a, so fast that damping asks for about as much as presses, or for more. */
-static void move(laid *l, way a, double times)
+/* Moves the upper box along a so fast that the damping force is about the elastic force, or larger. */
+static void set_velocity(placed_pair *l, direction a, double times)
 {
     fl_bodies *b = &l->l.w.b;
     const double speed = times * sqrt(2.0 * l->p.energy / b->m[1]);
@@ -305,65 +307,66 @@ static void move(laid *l, way a, double times)
     b->w[1] = v3_scale(speed / l->p.surrogate->length, a.w);
 }
 
-/* What damping does as it is told and as a look finds it, over the force without it. */
-static void damped(laid *l, fl_vec3 *told, fl_vec3 *looked)
+/* Damping force, predicted and evaluated, relative to the undamped force. */
+static void damping_force(placed_pair *l, fl_vec3 *predicted, fl_vec3 *evaluated)
 {
     l->p.surrogate->reach = FL_SURROGATE_MAX_REACH;
     fl_pair_evaluate(&l->l.w, &l->p, 0, 0.0, 0);
     assert_true(l->p.surrogate->used);
-    const fl_pair p = lab_look(&l->l.w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(&l->l.w, 0, 1);
     const double each = 1.0 / v3_norm(v3_sub(v3_sub(p.force, p.force_damping), p.force_friction));
-    *told = v3_scale(each, l->p.force_damping), *looked = v3_scale(each, p.force_damping);
+    *predicted = v3_scale(each, l->p.force_damping), *evaluated = v3_scale(each, p.force_damping);
 }
 
-/* Damping is told as it was found at the look, also where it would pull at a part of what presses; and
- * farther on it has turned with the force. */
-static void damping_is_told(void **state)
+/* Predicted damping equals the evaluated one at the evaluated pose, also where part of the pressure would
+ * become tensile. Farther on it has rotated with the force. */
+static void damping_is_predicted(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 0, 8);
-    double off[2][2] = {{0}}, changed[2] = {0}; /* [some of it held back][on the spot, farther on] */
+    double deviation[2][2] = {{0}}, changed[2] = {0}; /* [part of it limited][at the pose, farther on] */
     int many[2] = {0};
     (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < 60; k++) {
-            laid l;
-            fl_vec3 told[2], looked[2];
-            const way a = some(&g);
-            lay(&l, kind);
-            l.l.w.dt = 0.0; /* of no length: nothing is held back */
-            move(&l, a, k % 2 ? 0.02 : 0.3);
+            placed_pair l;
+            fl_vec3 predicted[2], evaluated[2];
+            const direction a = random_path(&g);
+            place_boxes(&l, kind);
+            l.l.w.dt = 0.0; /* of no length: nothing is limited */
+            set_velocity(&l, a, k % 2 ? 0.02 : 0.3);
             fl_pair_evaluate_exact(&l.l.w, &l.p, 0, NULL, 0.0, 0);
-            damped(&l, &told[0], &looked[0]);
+            damping_force(&l, &predicted[0], &evaluated[0]);
             const fl_surrogate *s = l.p.surrogate;
-            const int held = s->half_width != FL_UNIFORM_HALF_WIDTH;
-            go(&l, a, 0.01 * DEPTH);
-            damped(&l, &told[1], &looked[1]);
-            if (!held) assert_true(v3_norm(v3_sub(told[0], looked[0])) < 1e-9);
-            for (int c = 0; c < 2; c++) off[held][c] += v3_norm(v3_sub(told[c], looked[c]));
-            changed[held] += v3_norm(v3_sub(looked[1], looked[0]));
-            many[held]++;
-            take_up(&l);
+            const int limited = s->half_width != FL_UNIFORM_HALF_WIDTH;
+            move_along(&l, a, 0.01 * DEPTH);
+            damping_force(&l, &predicted[1], &evaluated[1]);
+            if (!limited) assert_true(v3_norm(v3_sub(predicted[0], evaluated[0])) < 1e-9);
+            for (int c = 0; c < 2; c++) deviation[limited][c] += v3_norm(v3_sub(predicted[c], evaluated[c]));
+            changed[limited] += v3_norm(v3_sub(evaluated[1], evaluated[0]));
+            many[limited]++;
+            free_boxes(&l);
         }
     assert_true(many[0] > 100 && many[1] > 20);
-    assert_true(off[1][0] < 1e-3 * changed[1]); /* their mean and one moment are right */
-    for (int held = 0; held < 2; held++) assert_true(off[held][1] < 2e-3 * changed[held]);
+    assert_true(deviation[1][0] < 1e-3 * changed[1]); /* their mean and one moment are right */
+    for (int limited = 0; limited < 2; limited++)
+        assert_true(deviation[limited][1] < 2e-3 * changed[limited]);
 }
 
-/* A contact that was told and is nearly over, further than what is told of it goes: what it owes is a
- * number. */
-static void what_is_owed_is_a_number(void **state)
+/* A contact predicted by the surrogate is nearly over, beyond the surrogate's range: its error estimate stays
+ * a finite number. */
+static void the_error_estimate_stays_finite(void **state)
 {
     fl_rng g = fl_rng_of(test_seed(), 0, 7);
     int past = 0;
     (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (int k = 0; k < 150; k++) {
-            const way a = some(&g);
+            const direction a = random_path(&g);
             for (int c = 8; c <= 14; c++) {
-                laid l;
-                lay(&l, kind);
-                go(&l, a, 0.1 * c * DEPTH);
-                const int over = told_of(&l).z <= 0.0;
+                placed_pair l;
+                place_boxes(&l, kind);
+                move_along(&l, a, 0.1 * c * DEPTH);
+                const int over = predict(&l).z <= 0.0;
                 l.p.surrogate->used = 1;
                 fl_pair_evaluate(&l.l.w, &l.p, 0, 0.0, 0);
                 const int touches = l.p.touching;
@@ -371,15 +374,15 @@ static void what_is_owed_is_a_number(void **state)
                     assert_true(isfinite(l.p.surrogate->energy_defect) &&
                                 isfinite(l.p.surrogate->defect_return));
                 past += touches && over;
-                take_up(&l);
+                free_boxes(&l);
             }
         }
     assert_true(past > 0);
 }
 
-/* A box comes down on the floor with an edge first and rocks there, sliding or not: where along the floor it
- * is changes nothing, neither what is told nor when there has to be a look. */
-static void a_floor_is_the_same_everywhere(void **state)
+/* A box falls on the floor edge first and rocks there, sliding or not. Its position along the floor changes
+ * neither predictions nor the times of evaluations. */
+static void the_position_on_a_floor_does_not_matter(void **state)
 {
     enum { STEPS = 3000 };
     lab l[2];
@@ -408,13 +411,13 @@ static void a_floor_is_the_same_everywhere(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_told_is_a_potential),
-                                       cmocka_unit_test(lanes_are_alike),
-                                       cmocka_unit_test(the_slope_is_told),
-                                       cmocka_unit_test(a_look_teaches),
-                                       cmocka_unit_test(looks_on_a_line_teach_more),
-                                       cmocka_unit_test(what_is_owed_is_a_number),
-                                       cmocka_unit_test(a_floor_is_the_same_everywhere),
-                                       cmocka_unit_test(damping_is_told)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_prediction_has_a_potential),
+                                       cmocka_unit_test(lanes_have_the_same_bits),
+                                       cmocka_unit_test(the_stiffness_is_predicted),
+                                       cmocka_unit_test(an_evaluation_adds_a_sample),
+                                       cmocka_unit_test(evaluations_on_a_line_raise_the_order),
+                                       cmocka_unit_test(the_error_estimate_stays_finite),
+                                       cmocka_unit_test(the_position_on_a_floor_does_not_matter),
+                                       cmocka_unit_test(damping_is_predicted)};
     return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
 }

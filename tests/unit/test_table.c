@@ -14,14 +14,14 @@ static int open_table(fl_table *t, const char *kind, const char *data)
     return fl_table_open(t, test_file("table", data, strlen(data)), kind, 1, &err);
 }
 
-/* err holds "<path>:LINE: SAYS"; LINE 0 stands for "<path>: SAYS". */
-static void expect_told(int line, const char *says)
+/* err is "<path>:LINE: SAYS"; LINE 0 means "<path>: SAYS". */
+static void expect_message(int line, const char *message)
 {
-    char want[1200];
-    if (line) snprintf(want, sizeof want, "%s:%d: %s", test_path("table"), line, says);
-    else snprintf(want, sizeof want, "%s: %s", test_path("table"), says);
+    char expected[1200];
+    if (line) snprintf(expected, sizeof expected, "%s:%d: %s", test_path("table"), line, message);
+    else snprintf(expected, sizeof expected, "%s: %s", test_path("table"), message);
     assert_int_equal(err.code, FL_INPUT);
-    assert_string_equal(err.text, want);
+    assert_string_equal(err.text, expected);
 }
 
 static void columns_and_rows(void **state)
@@ -55,20 +55,20 @@ static void columns_and_rows(void **state)
     assert_string_equal(fl_table_word(&t, 1), "tower");
     assert_int_equal(fl_table_f64(&t, 2, &x, &err), 0);
     assert_near(x, -1500.0, 0.0);
-    assert_string_equal(t.name[2], "mx"); /* the names outlive the row they came from */
+    assert_string_equal(t.name[2], "mx"); /* the names outlive the row that gave them */
     assert_int_equal(fl_table_row(&t, &err), 1);
     assert_int_equal(fl_table_f64(&t, 1, &x, &err), -1);
-    expect_told(9, "part is \"deck\", a finite number is expected");
+    expect_message(9, "part is \"deck\", a finite number is expected");
     err = (fl_err){0};
     assert_int_equal(fl_table_require(&t, "contact", &col, &err), -1);
-    expect_told(9, "no column contact in this loads table, the nearest is contacts");
+    expect_message(9, "no column contact in this loads table, the nearest is contacts");
     assert_int_equal(fl_table_row(&t, &err), 0);
     fl_table_close(&t);
     assert_null(t.name);
     fl_table_close(&t);
 }
 
-static void any_kind(void **state)
+static void tables_of_any_kind(void **state)
 {
     fl_table t;
     (void)state;
@@ -79,12 +79,12 @@ static void any_kind(void **state)
     fl_table_close(&t);
 }
 
-static void complaints(void **state)
+static void errors_are_reported(void **state)
 {
     static const struct {
         const char *data;
         int line;
-        const char *says;
+        const char *message;
     } bad[] = {
         {"", 0, "empty, a loads file is expected"},
         {"#state 1\nt\n", 1, "this is a state file, a loads file is expected"},
@@ -99,7 +99,7 @@ static void complaints(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         fl_table t;
         assert_int_equal(open_table(&t, "loads", bad[k].data), -1);
-        expect_told(bad[k].line, bad[k].says);
+        expect_message(bad[k].line, bad[k].message);
         assert_null(t.name);
     }
 }
@@ -111,11 +111,11 @@ static void fields_must_match_columns(void **state)
     assert_int_equal(open_table(&t, "loads", "#loads 1\nt part fx\n1 a 2\n2 a\n"), 0);
     assert_int_equal(fl_table_row(&t, &err), 1);
     assert_int_equal(fl_table_row(&t, &err), -1);
-    expect_told(4, "2 fields, 3 are expected as there are columns");
+    expect_message(4, "2 fields, 3 are expected as there are columns");
     fl_table_close(&t);
 }
 
-static void too_many_columns(void **state)
+static void too_many_columns_are_refused(void **state)
 {
     fl_table t;
     char *data = malloc(100000);
@@ -125,11 +125,11 @@ static void too_many_columns(void **state)
     n = sprintf(data, "#loads 1\n");
     for (int k = 0; k <= FL_TABLE_COLUMNS_MAX; k++) n += sprintf(data + n, "c%d ", k);
     assert_int_equal(open_table(&t, "loads", data), -1);
-    expect_told(2, "4097 columns, at most 4096 were expected");
+    expect_message(2, "4097 columns, at most 4096 were expected");
     free(data);
 }
 
-static int clean(void **state)
+static int remove_files(void **state)
 {
     (void)state;
     unlink(test_path("table"));
@@ -139,7 +139,8 @@ static int clean(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_and_rows), cmocka_unit_test(any_kind), cmocka_unit_test(complaints),
-        cmocka_unit_test(fields_must_match_columns), cmocka_unit_test(too_many_columns)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+        cmocka_unit_test(columns_and_rows), cmocka_unit_test(tables_of_any_kind),
+        cmocka_unit_test(errors_are_reported), cmocka_unit_test(fields_must_match_columns),
+        cmocka_unit_test(too_many_columns_are_refused)};
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

@@ -23,20 +23,20 @@ static void close_text(fl_text *t)
     fl_text_close(t);
     assert_null(t->line);
     assert_int_equal(t->line_number, 0);
-    fl_text_close(t); /* a zeroed one too */
+    fl_text_close(t); /* a zeroed text too */
 }
 
-/* err holds "<path>:LINE: SAYS"; LINE 0 stands for "<path>: SAYS". */
-static void expect_told(int line, const char *says)
+/* err is "<path>:LINE: SAYS"; LINE 0 means "<path>: SAYS". */
+static void expect_message(int line, const char *message)
 {
-    char want[1200];
-    if (line) snprintf(want, sizeof want, "%s:%d: %s", test_path("text"), line, says);
-    else snprintf(want, sizeof want, "%s: %s", test_path("text"), says);
+    char expected[1200];
+    if (line) snprintf(expected, sizeof expected, "%s:%d: %s", test_path("text"), line, message);
+    else snprintf(expected, sizeof expected, "%s: %s", test_path("text"), message);
     assert_int_equal(err.code, FL_INPUT);
-    assert_string_equal(err.text, want);
+    assert_string_equal(err.text, expected);
 }
 
-static void lines_with_any_end(void **state)
+static void lines_may_have_any_end(void **state)
 {
     static const char *const data[] = {"a\nb\n\nc\n", "a\nb\n\nc", "a\r\nb\r\n\r\nc\r\n", "a\r\nb\n\nc\r"};
     static const char *const line[] = {"a", "b", "", "c"};
@@ -68,11 +68,11 @@ static void an_empty_file(void **state)
     close_text(&t);
     open_text(&t, "");
     assert_int_equal(fl_text_magic(&t, "g-polys", 1, &err), -1);
-    expect_told(0, "empty, a g-polys file is expected");
+    expect_message(0, "empty, a g-polys file is expected");
     close_text(&t);
 }
 
-/* Lines of up to 1 MiB cross the chunks they are read in; one byte more is refused. */
+/* Lines of up to 1 MiB span the chunks of the reader; one byte more is refused. */
 static void long_lines(void **state)
 {
     fl_text t;
@@ -88,7 +88,7 @@ static void long_lines(void **state)
         assert_int_equal(fl_text_line(&t, &err), 1);
         if (over) {
             assert_int_equal(fl_text_line(&t, &err), -1);
-            expect_told(2, "line is longer than 1 MiB");
+            expect_message(2, "line is longer than 1 MiB");
         } else {
             assert_int_equal(fl_text_line(&t, &err), 1);
             assert_int_equal(t.len, FL_TEXT_LINE_MAX);
@@ -100,7 +100,7 @@ static void long_lines(void **state)
     free(data);
 }
 
-static void a_zero_byte(void **state)
+static void a_zero_byte_is_refused(void **state)
 {
     fl_text t;
     (void)state;
@@ -109,7 +109,7 @@ static void a_zero_byte(void **state)
     assert_int_equal(fl_text_open(&t, path, &err), 0);
     assert_int_equal(fl_text_line(&t, &err), 1);
     assert_int_equal(fl_text_line(&t, &err), -1);
-    expect_told(2, "a zero byte: this is not a text file");
+    expect_message(2, "a zero byte: this is not a text file");
     close_text(&t);
 }
 
@@ -129,7 +129,7 @@ static void kind_and_version(void **state)
         close_text(&t);
     }
     static const struct {
-        const char *data, *says;
+        const char *data, *message;
     } bad[] = {
         {"#loads 3\n", "loads version 3 is newer than this program, which reads up to 2"},
         {"#state 1\n", "this is a state file, a loads file is expected"},
@@ -147,7 +147,7 @@ static void kind_and_version(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         open_text(&t, bad[k].data);
         assert_int_equal(fl_text_magic(&t, "loads", 2, &err), -1);
-        expect_told(1, bad[k].says);
+        expect_message(1, bad[k].message);
         close_text(&t);
     }
 }
@@ -174,7 +174,7 @@ static void rows_and_history(void **state)
     close_text(&t);
 }
 
-static void fields_and_complaints(void **state)
+static void fields_and_their_errors(void **state)
 {
     fl_text t;
     const char *w = NULL;
@@ -194,30 +194,30 @@ static void fields_and_complaints(void **state)
     assert_int_equal(fl_text_row(&t, &err), 1);
     assert_int_equal(fl_text_word(&t, "record", &w, &err), 0);
     assert_int_equal(fl_text_f64(&t, "x", &x, &err), -1);
-    expect_told(2, "x is \"nan\", a finite number is expected");
+    expect_message(2, "x is \"nan\", a finite number is expected");
     assert_true(x == 1.5);
 
     err = (fl_err){0};
     assert_int_equal(fl_text_row(&t, &err), 1);
     t.next = 2;
     assert_int_equal(fl_text_f64(&t, "y", &x, &err), -1);
-    expect_told(3, "y is missing after 2 fields");
+    expect_message(3, "y is missing after 2 fields");
 
     err = (fl_err){0};
     assert_int_equal(fl_text_row(&t, &err), 1);
     t.next = 1;
     assert_int_equal(fl_text_i32(&t, "index", 0, 8, &i, &err), -1);
-    expect_told(4, "index is \"9\", a whole number from 0 to 8 is expected");
+    expect_message(4, "index is \"9\", a whole number from 0 to 8 is expected");
 
     err = (fl_err){0};
     assert_int_equal(fl_text_row(&t, &err), 1);
     t.next = 2;
     assert_int_equal(fl_text_no_more(&t, &err), -1);
-    expect_told(5, "\"2\" was not expected after 2 fields");
+    expect_message(5, "\"2\" was not expected after 2 fields");
     close_text(&t);
 }
 
-/* A row of 50000 fields: the list of fields grows, the words stay where they are. */
+/* A row of 50000 fields: the list of fields grows, the words stay in place. */
 static void many_fields(void **state)
 {
     fl_text t;
@@ -237,7 +237,7 @@ static void many_fields(void **state)
     free(data);
 }
 
-static void memory_runs_out(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     for (long k = 0;; k++) {
@@ -308,12 +308,16 @@ static void history_line(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_with_any_end), cmocka_unit_test(an_empty_file),
-        cmocka_unit_test(long_lines),         cmocka_unit_test(a_zero_byte),
-        cmocka_unit_test(kind_and_version),   cmocka_unit_test(rows_and_history),
-        cmocka_unit_test(many_fields),        cmocka_unit_test(fields_and_complaints),
-        cmocka_unit_test(memory_runs_out),    cmocka_unit_test(nearest_word),
-        cmocka_unit_test(history_line)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lines_may_have_any_end),
+                                       cmocka_unit_test(an_empty_file),
+                                       cmocka_unit_test(long_lines),
+                                       cmocka_unit_test(a_zero_byte_is_refused),
+                                       cmocka_unit_test(kind_and_version),
+                                       cmocka_unit_test(rows_and_history),
+                                       cmocka_unit_test(many_fields),
+                                       cmocka_unit_test(fields_and_their_errors),
+                                       cmocka_unit_test(allocation_failure_is_reported),
+                                       cmocka_unit_test(nearest_word),
+                                       cmocka_unit_test(history_line)};
     return cmocka_run_group_tests_name("text", tests, NULL, NULL);
 }

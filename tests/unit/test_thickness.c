@@ -13,20 +13,21 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double sample(const fl_thickness *t, uint64_t seed, double least, double *h, double *mean, double *cv)
+static double draw_sample(const fl_thickness *t, uint64_t seed, double min_thickness, double *h, double *mean,
+                          double *cv)
 {
     double sum = 0.0, square = 0.0;
     for (int32_t i = 0; i < N; i++) {
         int32_t again;
-        h[i] = fl_thickness_draw(t, seed, i, least, &again);
-        assert_true(h[i] > least);
+        h[i] = fl_thickness_draw(t, seed, i, min_thickness, &again);
+        assert_true(h[i] > min_thickness);
         sum += h[i];
         square += h[i] * h[i];
     }
     *mean = sum / N;
     *cv = sqrt(square / N - *mean * *mean) / *mean;
     qsort(h, N, sizeof *h, ascending);
-    return fl_thickness_ks_distance(t, least, N, h);
+    return fl_thickness_ks_distance(t, min_thickness, N, h);
 }
 
 /* Kolmogorov's distance of N numbers exceeds 1.95 / sqrt(N) once in a thousand times: 0.0138. */
@@ -38,27 +39,27 @@ static void numbers_follow_their_law(void **state)
     fl_thickness t = {0};
     fl_err err = {0};
     assert_int_equal(fl_thickness_parse(&t, "uniform:0.5,1.5", &err), 0);
-    assert_true(sample(&t, 1, 0.0, h, &mean, &cv) < 1.95 / sqrt(N));
+    assert_true(draw_sample(&t, 1, 0.0, h, &mean, &cv) < 1.95 / sqrt(N));
     assert_near(mean, 1.0, 0.01);
     assert_near(cv, 1.0 / sqrt(12.0), 0.02);
-    assert_true(sample(&t, 1, 0.9, h, &mean, &cv) < 1.95 / sqrt(N)); /* those above 0.9 */
+    assert_true(draw_sample(&t, 1, 0.9, h, &mean, &cv) < 1.95 / sqrt(N)); /* those above 0.9 */
     assert_near(mean, 1.2, 0.01);
     assert_int_equal(fl_thickness_parse(&t, "lognormal:0.7,0.5", &err), 0);
-    assert_true(sample(&t, 2, 0.0, h, &mean, &cv) < 1.95 / sqrt(N));
+    assert_true(draw_sample(&t, 2, 0.0, h, &mean, &cv) < 1.95 / sqrt(N));
     assert_near(mean, 0.7, 0.015);
     assert_near(cv, 0.5, 0.04);
-    assert_true(sample(&t, 2, 0.4, h, &mean, &cv) < 1.95 / sqrt(N));
+    assert_true(draw_sample(&t, 2, 0.4, h, &mean, &cv) < 1.95 / sqrt(N));
     assert_int_equal(fl_thickness_read(&t, test_file("h", "h[m] count\n0.8 3\n0.2 1\n0.8 1\n", 29), &err), 0);
     assert_int_equal(t.n, 2);
-    assert_true(sample(&t, 3, 0.0, h, &mean, &cv) < 1.95 / sqrt(N));
+    assert_true(draw_sample(&t, 3, 0.0, h, &mean, &cv) < 1.95 / sqrt(N));
     assert_near(mean, 0.68, 0.01);
     assert_true(fl_thickness_cdf(&t, 0.0, 0.2) == 0.2 && fl_thickness_cdf(&t, 0.0, 0.1999) == 0.0);
     assert_true(fl_thickness_cdf(&t, 0.2, 0.5) == 0.0 && fl_thickness_cdf(&t, 0.2, 0.8) == 1.0);
     fl_thickness_free(&t);
 }
 
-/* A number of a floe depends on the seed and the id alone; one that is too thin draws again. */
-static void numbers_are_those_of_the_floe(void **state)
+/* The number of a floe depends on the seed and the id alone; one below the minimum is drawn again. */
+static void numbers_depend_on_the_floe_alone(void **state)
 {
     (void)state;
     fl_thickness t = {0};
@@ -82,7 +83,7 @@ static void numbers_are_those_of_the_floe(void **state)
                 fl_thickness_draw(&t, 7, 1, 0.3, &again) == 0.0);
 }
 
-static void wrong_laws_are_told(void **state)
+static void invalid_laws_are_reported(void **state)
 {
     (void)state;
     static const char *const usage[] = {
@@ -108,7 +109,7 @@ static void wrong_laws_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_follow_their_law),
-                                       cmocka_unit_test(numbers_are_those_of_the_floe),
-                                       cmocka_unit_test(wrong_laws_are_told)};
+                                       cmocka_unit_test(numbers_depend_on_the_floe_alone),
+                                       cmocka_unit_test(invalid_laws_are_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

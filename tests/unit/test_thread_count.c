@@ -1,67 +1,70 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How many threads make a step where that is left open, told what a step takes by how many. */
+/* The automatic number of threads of a step, chosen by the measured times of steps. */
 #include "support/near.h"
 #include "base/thread_count.h"
 
-/* A second thread halves the time, up to what there is to do, and each costs something; busy: what it costs
- * to wait for one that has no processor. */
-static double each(int32_t n, double work, double busy) { return work / n + 0.02 * n + (n > 1 ? busy : 0.0); }
-
-static void windows(fl_thread_count *t, int many, double work, double busy)
+/* Time of a step: two threads halve it, down to the cost of each thread; busy: cost of waiting for a thread
+ * without a processor. */
+static double step_time(int32_t n, double work, double busy)
 {
-    while (many--) fl_thread_count_update(t, each(t->n, work, busy));
+    return work / n + 0.02 * n + (n > 1 ? busy : 0.0);
 }
 
-/* Whatever it is at the moment, beside trials. */
-static int32_t stays(fl_thread_count *t, double work, double busy)
+static void run_windows(fl_thread_count *t, int many, double work, double busy)
 {
-    for (int k = 0; k < 2000 && t->direction; k++) windows(t, 1, work, busy);
+    while (many--) fl_thread_count_update(t, step_time(t->n, work, busy));
+}
+
+/* The settled number, not that of a trial. */
+static int32_t settled_count(fl_thread_count *t, double work, double busy)
+{
+    for (int k = 0; k < 2000 && t->direction; k++) run_windows(t, 1, work, busy);
     return t->n;
 }
 
-static void the_fastest_is_found(void **state)
+static void the_fastest_count_is_found(void **state)
 {
     fl_thread_count t;
     (void)state;
     fl_thread_count_make(&t, 16, 1);
-    windows(&t, 40, 1.28, 0.0); /* 1.30, 0.68, 0.40, 0.32, 0.40 by 1 to 16 */
-    assert_int_equal(stays(&t, 1.28, 0.0), 8);
+    run_windows(&t, 40, 1.28, 0.0); /* 1.30, 0.68, 0.40, 0.32, 0.40 by 1 to 16 */
+    assert_int_equal(settled_count(&t, 1.28, 0.0), 8);
     fl_thread_count_make(&t, 2, 1);
-    windows(&t, 40, 0.01, 0.0);
-    assert_int_equal(stays(&t, 0.01, 0.0), 1);
-    windows(&t, 1000, 1.0, 0.0); /* there is more to do */
-    assert_int_equal(stays(&t, 1.0, 0.0), 2);
+    run_windows(&t, 40, 0.01, 0.0);
+    assert_int_equal(settled_count(&t, 0.01, 0.0), 1);
+    run_windows(&t, 1000, 1.0, 0.0); /* there is more work */
+    assert_int_equal(settled_count(&t, 1.0, 0.0), 2);
 }
 
-static void others_are_made_way_for(void **state)
+static void a_busy_processor_lowers_the_count(void **state)
 {
     fl_thread_count t;
     (void)state;
     fl_thread_count_make(&t, 2, 1);
-    windows(&t, 1000, 1.0, 0.0);
-    assert_int_equal(stays(&t, 1.0, 0.0), 2);
-    windows(&t, 3, 1.0, 10.0); /* a window is all it takes to see, and one more to try */
-    assert_int_equal(stays(&t, 1.0, 10.0), 1);
-    windows(&t, 2000, 1.0, 0.0);
-    assert_int_equal(stays(&t, 1.0, 0.0), 2);
+    run_windows(&t, 1000, 1.0, 0.0);
+    assert_int_equal(settled_count(&t, 1.0, 0.0), 2);
+    run_windows(&t, 3, 1.0, 10.0); /* one window detects it, and one more tries the next number */
+    assert_int_equal(settled_count(&t, 1.0, 10.0), 1);
+    run_windows(&t, 2000, 1.0, 0.0);
+    assert_int_equal(settled_count(&t, 1.0, 0.0), 2);
 }
 
-/* Trials grow rare where none wins: below one window in thirty. */
-static void trials_are_rare(void **state)
+/* Trials become rare where none is faster: less than one window in thirty. */
+static void trials_become_rare(void **state)
 {
     fl_thread_count t;
     int tried = 0;
     (void)state;
     fl_thread_count_make(&t, 4, 1);
-    windows(&t, 2000, 10.0, 0.0);
+    run_windows(&t, 2000, 10.0, 0.0);
     for (int k = 0; k < 1000; k++) {
-        windows(&t, 1, 10.0, 0.0);
+        run_windows(&t, 1, 10.0, 0.0);
         tried += t.direction != 0;
     }
     assert_true(tried > 0 && tried < 34);
 }
 
-static void what_is_asked_for_stays(void **state)
+static void a_given_count_stays(void **state)
 {
     fl_thread_count t;
     (void)state;
@@ -77,7 +80,7 @@ static void what_is_asked_for_stays(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_fastest_is_found), cmocka_unit_test(others_are_made_way_for),
-        cmocka_unit_test(trials_are_rare), cmocka_unit_test(what_is_asked_for_stays)};
-    return cmocka_run_group_tests_name("team", tests, NULL, NULL);
+        cmocka_unit_test(the_fastest_count_is_found), cmocka_unit_test(a_busy_processor_lowers_the_count),
+        cmocka_unit_test(trials_become_rare), cmocka_unit_test(a_given_count_stays)};
+    return cmocka_run_group_tests_name("thread_count", tests, NULL, NULL);
 }

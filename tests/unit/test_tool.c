@@ -8,8 +8,8 @@
 #include "base/tool.h"
 #include "support/near.h"
 
-/* The end of a program, in a child whose stdout is out: its status, and what it said on stderr. */
-static int end_of(const char *out, const char *text, int rc, fl_err err, char *said, size_t room)
+/* The end of a program, in a child with standard output to `out`: its status, and its text on stderr. */
+static int run_end(const char *out, const char *text, int rc, fl_err err, char *text_out, size_t capacity)
 {
     const char *path = test_path("said");
     int status = -1;
@@ -27,7 +27,7 @@ static int end_of(const char *out, const char *text, int rc, fl_err err, char *s
     assert_true(WIFEXITED(status));
     FILE *f = fopen(path, "r");
     assert_non_null(f);
-    said[fread(said, 1, room - 1, f)] = '\0';
+    text_out[fread(text_out, 1, capacity - 1, f)] = '\0';
     fclose(f);
     unlink(path);
     return WEXITSTATUS(status);
@@ -35,42 +35,43 @@ static int end_of(const char *out, const char *text, int rc, fl_err err, char *s
 
 static void status_is_the_code(void **state)
 {
-    char said[800];
+    char text_out[800];
     (void)state;
-    assert_int_equal(end_of("/dev/null", "text", 0, (fl_err){0}, said, sizeof said), FL_DONE);
-    assert_string_equal(said, "");
+    assert_int_equal(run_end("/dev/null", "text", 0, (fl_err){0}, text_out, sizeof text_out), FL_DONE);
+    assert_string_equal(text_out, "");
     for (int code = FL_NO; code <= FL_NUMERIC; code++) {
         fl_err err = {0};
         fl_fail(&err, code, "a.loads:%d: what was found", code);
-        char want[80];
-        snprintf(want, sizeof want, "loadstats: a.loads:%d: what was found\n", code);
-        assert_int_equal(end_of("/dev/null", "", -1, err, said, sizeof said), code);
-        assert_string_equal(said, want);
+        char expected[80];
+        snprintf(expected, sizeof expected, "loadstats: a.loads:%d: what was found\n", code);
+        assert_int_equal(run_end("/dev/null", "", -1, err, text_out, sizeof text_out), code);
+        assert_string_equal(text_out, expected);
     }
     /* an answer "no" that needs no sentence */
-    assert_int_equal(end_of("/dev/null", "", -1, (fl_err){.code = FL_NO}, said, sizeof said), FL_NO);
-    assert_string_equal(said, "");
-    /* failed, and nobody said why */
-    assert_int_equal(end_of("/dev/null", "", -1, (fl_err){0}, said, sizeof said), FL_SYSTEM);
+    assert_int_equal(run_end("/dev/null", "", -1, (fl_err){.code = FL_NO}, text_out, sizeof text_out), FL_NO);
+    assert_string_equal(text_out, "");
+    /* failed without a message */
+    assert_int_equal(run_end("/dev/null", "", -1, (fl_err){0}, text_out, sizeof text_out), FL_SYSTEM);
 }
 
-static void lost_output_is_a_failure(void **state)
+static void lost_output_is_an_error(void **state)
 {
-    char said[800];
+    char text_out[800];
     (void)state;
-    assert_int_equal(end_of("/dev/full", "text", 0, (fl_err){0}, said, sizeof said), FL_SYSTEM);
-    assert_string_equal(said, "loadstats: <stdout>: No space left on device\n");
+    assert_int_equal(run_end("/dev/full", "text", 0, (fl_err){0}, text_out, sizeof text_out), FL_SYSTEM);
+    assert_string_equal(text_out, "loadstats: <stdout>: No space left on device\n");
     /* nothing written, nothing lost */
-    assert_int_equal(end_of("/dev/full", "", 0, (fl_err){0}, said, sizeof said), FL_DONE);
-    /* the first failure is the one told */
+    assert_int_equal(run_end("/dev/full", "", 0, (fl_err){0}, text_out, sizeof text_out), FL_DONE);
+    /* the first failure is the one reported */
     fl_err err = {0};
     fl_fail(&err, FL_INPUT, "first");
-    assert_int_equal(end_of("/dev/full", "text", -1, err, said, sizeof said), FL_INPUT);
-    assert_string_equal(said, "loadstats: first\n");
+    assert_int_equal(run_end("/dev/full", "text", -1, err, text_out, sizeof text_out), FL_INPUT);
+    assert_string_equal(text_out, "loadstats: first\n");
 }
 
-/* In a child without some of its first three files: what opening another gives, and what they then answer. */
-static int begun_without(int closed)
+/* In a child without some of its first three files: the descriptor of a newly opened file, and the answers of
+ * the three. */
+static int start_without(int closed)
 {
     int status = -1;
     char byte = 'x';
@@ -92,16 +93,16 @@ static int begun_without(int closed)
     return WEXITSTATUS(status);
 }
 
-static void no_file_takes_a_closed_stream(void **state)
+static void no_file_replaces_a_closed_stream(void **state)
 {
     (void)state;
-    for (int closed = 0; closed < 8; closed++) assert_int_equal(begun_without(closed), 0);
+    for (int closed = 0; closed < 8; closed++) assert_int_equal(start_without(closed), 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(status_is_the_code),
-                                       cmocka_unit_test(lost_output_is_a_failure),
-                                       cmocka_unit_test(no_file_takes_a_closed_stream)};
+                                       cmocka_unit_test(lost_output_is_an_error),
+                                       cmocka_unit_test(no_file_replaces_a_closed_stream)};
     return cmocka_run_group_tests_name("tool", tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ static void prism(fl_poly *p, int n, double size)
     assert_int_equal(fl_poly_prism(p, n, xy, -size, size, &err), 0);
 }
 
-static void same(const fl_poly *p, const fl_poly *q)
+static void assert_same(const fl_poly *p, const fl_poly *q)
 {
     const size_t nv = (size_t)p->nv, nf = (size_t)p->nf, ne = (size_t)p->ne;
     assert_int_equal(p->nv, q->nv);
@@ -39,37 +39,37 @@ static void same(const fl_poly *p, const fl_poly *q)
 }
 
 /* Of 3 to 190 corners, each three times: more kinds than the table begins with. */
-static void like_ones_share_and_nothing_else_changes(void **state)
+static void equal_shapes_are_shared_unchanged(void **state)
 {
     (void)state;
     enum { KINDS = 188, TIMES = 3, N = KINDS * TIMES };
     static fl_poly p[N], q[N];
     fl_topologies t = {0};
     fl_err err = {0};
-    double apart = 0.0, together = 0.0;
+    double separate_bytes = 0.0, shared_bytes = 0.0;
     for (int k = 0; k < N; k++) {
         prism(&p[k], 3 + k % KINDS, 1.0 + k);
         assert_int_equal(fl_poly_copy(&q[k], &p[k], &err), 0);
-        apart += fl_poly_bytes(&q[k]);
+        separate_bytes += fl_poly_bytes(&q[k]);
         assert_int_equal(fl_topologies_share(&t, &q[k], FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &err), 0);
-        same(&p[k], &q[k]);
-        together += fl_poly_bytes(&q[k]);
+        assert_same(&p[k], &q[k]);
+        shared_bytes += fl_poly_bytes(&q[k]);
     }
     assert_int_equal(t.n, KINDS);
     for (int k = KINDS; k < N; k++) assert_ptr_equal(q[k].loop, q[k - KINDS].loop);
-    assert_true(together + fl_topologies_bytes(&t) < 0.75 * apart);
+    assert_true(shared_bytes + fl_topologies_bytes(&t) < 0.75 * separate_bytes);
     for (int k = 0; k < N; k++) {
         fl_poly r = {0};
-        same(&p[k], &q[k]); /* whatever came after */
+        assert_same(&p[k], &q[k]); /* independent of later additions */
         assert_int_equal(fl_poly_copy(&r, &q[k], &err), 0);
-        same(&p[k], &r);
+        assert_same(&p[k], &r);
         fl_poly_free(&p[k]), fl_poly_free(&q[k]), fl_poly_free(&r);
     }
     fl_topologies_free(&t);
 }
 
 /* Without angles: a copy has them again. */
-static void points_segments_and_outer_shapes(void **state)
+static void points_segments_and_outer_shapes_are_shared(void **state)
 {
     (void)state;
     const fl_vec3 v[2] = {{1, 2, 3}, {4, 5, 6}};
@@ -84,15 +84,15 @@ static void points_segments_and_outer_shapes(void **state)
         assert_null(q.bend);
         assert_null(q.defect);
         assert_int_equal(fl_poly_copy(&r, &q, &err), 0);
-        same(&p, &r);
+        assert_same(&p, &r);
         fl_poly_free(&p), fl_poly_free(&q), fl_poly_free(&r);
     }
     assert_int_equal(t.n, 3);
     fl_topologies_free(&t);
 }
 
-/* A prism all of whose angles are sharp, one of which four angles are not, and one that has too many. */
-static void few_angles_are_kept(void **state)
+/* A prism with sharp angles only, one with four others, and one that has too many. */
+static void only_some_angles_are_stored(void **state)
 {
     (void)state;
     const double turn[3] = {1.0, 0.3, 0.2};
@@ -100,7 +100,7 @@ static void few_angles_are_kept(void **state)
     fl_err err = {0};
     for (int way = 0; way < 4; way++) {
         fl_poly p = {0}, q = {0};
-        if (way < 3) { /* a kite: from one side of a corner to the other its edge turns so much */
+        if (way < 3) { /* a kite: its edge turns by this much across a corner */
             const double a = turn[way], b = (2.0 * PI - a) / 3.0;
             fl_vec3 xy[4] = {{0, 0, 0}, {1, 0, 0}};
             double at = 0.0;
@@ -118,22 +118,22 @@ static void few_angles_are_kept(void **state)
         assert_int_equal(blunt, way == 3 ? 40 : way == 2 ? 3 : way == 1 ? 2 : 0);
         assert_int_equal(q.kept_angles, way == 3 ? 0 : blunt);
         assert_true(!q.bend == (way < 3) && !q.defect == (way < 3));
-        same(&p, &q);
+        assert_same(&p, &q);
         fl_poly r = {0};
         assert_int_equal(fl_poly_copy(&r, &q, &err), 0);
-        same(&p, &r);
+        assert_same(&p, &r);
         fl_poly_free(&q), fl_poly_free(&r);
         assert_int_equal(fl_poly_copy(&q, &p, &err), 0);
         assert_int_equal(fl_topologies_share(&t, &q, FL_KEEP_ANGLES, &err), 0); /* and without offsets */
         assert_null(q.c);
         assert_int_equal(fl_poly_copy(&r, &q, &err), 0);
-        same(&p, &r);
+        assert_same(&p, &r);
         fl_poly_free(&p), fl_poly_free(&q), fl_poly_free(&r);
     }
     fl_topologies_free(&t);
 }
 
-static void without_memory_all_stays(void **state)
+static void allocation_failure_changes_nothing(void **state)
 {
     (void)state;
     fl_topologies t = {0};
@@ -146,7 +146,7 @@ static void without_memory_all_stays(void **state)
         fl_alloc_fail_after(k);
         const int rc = fl_topologies_share(&t, &q, FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &lost);
         fl_alloc_fail_after(-1);
-        same(&p, &q);
+        assert_same(&p, &q);
         if (rc == 0) break;
         assert_int_equal(lost.code, FL_SYSTEM);
         refused++;
@@ -154,16 +154,16 @@ static void without_memory_all_stays(void **state)
     assert_true(refused >= 2);
     assert_int_equal(q.shared, 1);
     assert_int_equal(fl_topologies_share(&t, &q, FL_KEEP_ANGLES | FL_KEEP_OFFSETS, &err), 0); /* again */
-    same(&p, &q);
+    assert_same(&p, &q);
     fl_poly_free(&p), fl_poly_free(&q);
     fl_topologies_free(&t);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(like_ones_share_and_nothing_else_changes),
-                                       cmocka_unit_test(points_segments_and_outer_shapes),
-                                       cmocka_unit_test(few_angles_are_kept),
-                                       cmocka_unit_test(without_memory_all_stays)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(equal_shapes_are_shared_unchanged),
+                                       cmocka_unit_test(points_segments_and_outer_shapes_are_shared),
+                                       cmocka_unit_test(only_some_angles_are_stored),
+                                       cmocka_unit_test(allocation_failure_changes_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,14 +14,14 @@ static fl_err err;
 static int read_text(fl_series *s, const char *data, double after)
 {
     static const char *const column[] = {"fx"};
-    const fl_record_selection ask = {
+    const fl_record_selection selection = {
         .signal = column, .signals = 1, .from = -INFINITY, .to = INFINITY, .after_first_load = after};
     err = (fl_err){0};
-    return fl_series_read(s, test_file("evenly", data, strlen(data)), &ask, &err);
+    return fl_series_read(s, test_file("evenly", data, strlen(data)), &selection, &err);
 }
 
-/* Rows of 1, 2 and 1 s with 3, 6 and -3 in steps of 1.5 s: 4 and 6, and then 1 s is left. */
-static void rows_by_hand(void **state)
+/* Rows of 1, 2 and 1 s with 3, 6 and -3 in steps of 1.5 s: 4 and 6, and then 1 s remains. */
+static void resampling_by_hand(void **state)
 {
     fl_series s;
     fl_resampling_loss loss[2];
@@ -37,7 +37,7 @@ static void rows_by_hand(void **state)
     assert_near(loss[0].largest, 2.0, 1e-15);
     assert_near(loss[0].rms, sqrt((1.0 * 1.0 + 0.5 * 4.0) / 3.0), 1e-15);
     fl_series_free(&s);
-    /* A sample stands for what is nearest to it, and its step for its middle. */
+    /* A sample represents the times closest to it, and a step its middle. */
     assert_int_equal(read_text(&s, "#energy 1\nt fx\n0 1\n1 3\n2 5\n", 0.0), 0);
     assert_int_equal(fl_resample_uniform(&s, 0.5, loss, &err), 0);
     assert_int_equal(s.n, 6);
@@ -48,7 +48,7 @@ static void rows_by_hand(void **state)
 }
 
 /* A sine loses A^2 / 2 (1 - (sin(a) / a)^2), a = pi f h, of its mean square, and no mean. */
-static void sine_loses_what_is_known(void **state)
+static void a_sine_has_the_known_loss(void **state)
 {
     enum { N = 24000 };
     char *data = malloc(N * 48);
@@ -63,7 +63,7 @@ static void sine_loses_what_is_known(void **state)
         fl_series s;
         fl_resampling_loss loss[2];
         double mean = 0.0, square = 0.0;
-        const double a = 0.5 * w * h, want = 0.5 * (1.0 - pow(sin(a) / a, 2.0));
+        const double a = 0.5 * w * h, expected = 0.5 * (1.0 - pow(sin(a) / a, 2.0));
         assert_int_equal(read_text(&s, data, 0.0), 0);
         double before = 0.0;
         for (int32_t k = 0; k < s.n; k++) before += s.x[0][k] * s.x[0][k] / s.n;
@@ -74,18 +74,18 @@ static void sine_loses_what_is_known(void **state)
             square += s.x[0][k] * s.x[0][k] / s.n;
         }
         assert_near(mean, 5.0, 1e-12);
-        assert_near_of(loss[0].rms * loss[0].rms, want, 1e-4, 0.5);
+        assert_near_of(loss[0].rms * loss[0].rms, expected, 1e-4, 0.5);
         assert_near_of(loss[0].rms * loss[0].rms, before - square, 1e-10, 25.0);
         fl_series_free(&s);
     }
     free(data);
 }
 
-static void front_has_passed(void **state)
+static void the_front_can_be_left_out(void **state)
 {
     static const char data[] = "#loads 1\nt part fx[N]\n1 a 0\n2 a 0\n3 a 5\n4 a 0\n5 a 1\n6 a 2\n";
     fl_series s;
-    char want[400];
+    char expected[400];
     (void)state;
     assert_int_equal(read_text(&s, data, 2.0), 0);
     assert_near(s.edge[0], 4.0, 0.0); /* the row from 2 to 3 s is the first with a load */
@@ -94,11 +94,11 @@ static void front_has_passed(void **state)
     assert_int_equal(read_text(&s, data, 4.5), -1);
     assert_int_equal(err.code, FL_INPUT);
     assert_int_equal(read_text(&s, "#loads 1\nt part fx[N]\n1 a 0\n2 a 0\n", 1.0), -1);
-    snprintf(want, sizeof want, "%s: every load is 0, there is no first load", test_path("evenly"));
-    assert_string_equal(err.text, want);
+    snprintf(expected, sizeof expected, "%s: every load is 0, there is no first load", test_path("evenly"));
+    assert_string_equal(err.text, expected);
 }
 
-static void limits_and_memory(void **state)
+static void limits_and_allocation_failure(void **state)
 {
     static const char data[] = "#loads 1\nt part fx[N]\n1 a 3\n2 a 4\n3 a 5\n";
     fl_series s;
@@ -115,14 +115,14 @@ static void limits_and_memory(void **state)
         fl_alloc_fail_after(-1);
         if (rc == 0) break;
         assert_int_equal(err.code, FL_SYSTEM);
-        assert_int_equal(s.n, 3); /* as it was */
+        assert_int_equal(s.n, 3); /* unchanged */
         assert_near(s.x[0][1], 4.0, 0.0);
     }
     assert_int_equal(s.n, 6);
     fl_series_free(&s);
 }
 
-static int clean(void **state)
+static int remove_files(void **state)
 {
     (void)state;
     unlink(test_path("evenly"));
@@ -132,7 +132,7 @@ static int clean(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_by_hand), cmocka_unit_test(sine_loses_what_is_known),
-        cmocka_unit_test(front_has_passed), cmocka_unit_test(limits_and_memory)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+        cmocka_unit_test(resampling_by_hand), cmocka_unit_test(a_sine_has_the_known_loss),
+        cmocka_unit_test(the_front_can_be_left_out), cmocka_unit_test(limits_and_allocation_failure)};
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

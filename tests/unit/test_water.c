@@ -11,7 +11,7 @@
 #include "water/drag.h"
 #include "water/facet_drag.h"
 
-static void floe(fl_poly *p, fl_hull *h, double x, double y, double z)
+static void make_floe(fl_poly *p, fl_hull *h, double x, double y, double z)
 {
     fl_err err = {0};
     assert_int_equal(fl_poly_box(p, v3(x / 2, y / 2, z / 2), &err), 0);
@@ -26,7 +26,7 @@ static void upright_box(void **state)
     fl_submerged w;
     fl_waterplane a;
     fl_vec3 f, m;
-    floe(&p, &h, 10, 6, 1);
+    make_floe(&p, &h, 10, 6, 1);
     assert_near(h.volume, 60.0, 1e-15);
     assert_near(h.surface_area, 152.0, 1e-15);
     fl_hull_submerged(&h, v3(0, 0, 1), 0.3, &w);
@@ -49,14 +49,14 @@ static void upright_box(void **state)
     fl_poly_free(&p);
 }
 
-/* Freeboard zero, keel dry, and all that is beyond: nothing is missing, nothing is twice (H23). */
+/* Freeboard zero, keel dry, and the limits beyond: nothing is missing or counted twice (H23). */
 static void plane_through_faces(void **state)
 {
     (void)state;
     fl_poly p;
     fl_hull h;
     fl_submerged w;
-    floe(&p, &h, 10, 10, 1);
+    make_floe(&p, &h, 10, 10, 1);
     for (int k = -20; k <= 20; k++) {
         const double off = k * 1e-10;
         fl_hull_submerged(&h, v3(0, 0, 1), 0.5 + off, &w);
@@ -77,8 +77,8 @@ static void plane_through_faces(void **state)
     fl_poly_free(&p);
 }
 
-/* A right prism over n points of an ellipse, turned and moved off the origin. */
-static void some_prism(fl_poly *p, fl_rng *g, int32_t n)
+/* A right prism over n points of an ellipse, rotated and moved off the origin. */
+static void random_prism(fl_poly *p, fl_rng *g, int32_t n)
 {
     fl_vec3 xy[16];
     fl_err err = {0};
@@ -92,9 +92,9 @@ static void some_prism(fl_poly *p, fl_rng *g, int32_t n)
     fl_poly_to_frame(p, v3(fl_rng_in(g, -1, 1), fl_rng_in(g, -1, 1), fl_rng_in(g, -1, 1)), q_matrix(q));
 }
 
-/* The closed formulae are those of the clipped solid, upright, tilted and turned over; where the water comes
- * to a cap they hand over, and nothing steps. */
-static void prisms_have_closed_formulae(void **state)
+/* The closed formulae equal those of the clipped solid: upright, tilted and turned over. Where the water
+ * reaches a cap the general formula takes over, continuously. */
+static void prism_buoyancy_has_closed_formulae(void **state)
 {
     (void)state;
     int32_t used = 0, left = 0;
@@ -104,7 +104,7 @@ static void prisms_have_closed_formulae(void **state)
         fl_hull h;
         fl_submerged w, clipped;
         fl_err err = {0};
-        some_prism(&p, &g, 3 + t % 14);
+        random_prism(&p, &g, 3 + t % 14);
         assert_int_equal(fl_hull_make(&h, &p, 0.0, &err), 0);
         assert_near(h.prism.area * (h.prism.z1 - h.prism.z0), h.volume, 1e-13);
         const fl_prism as = h.prism;
@@ -129,8 +129,8 @@ static void prisms_have_closed_formulae(void **state)
     assert_true(used > left / 4 && left > used / 4);
 }
 
-/* A hull that knows its corners from the core floats as the one that has them, however it lies. */
-static void a_hull_by_its_core(void **state)
+/* A hull that takes its corners from the core floats like one that stores them, in any orientation. */
+static void a_hull_may_use_the_corners_of_its_core(void **state)
 {
     (void)state;
     for (int t = 0; t < test_times(2000); t++) {
@@ -141,7 +141,7 @@ static void a_hull_by_its_core(void **state)
         fl_waterplane a, b;
         fl_err err = {0};
         const double r = t % 5 ? fl_rng_in(&g, 0.01, 0.3) : 0.0;
-        some_prism(&core, &g, 3 + t % 14);
+        random_prism(&core, &g, 3 + t % 14);
         assert_int_equal(r > 0.0 ? fl_poly_offset(&outer, &core, r, &err) : fl_poly_copy(&outer, &core, &err),
                          0);
         assert_int_equal(fl_hull_make(&h, &outer, 0.0, &err), 0);
@@ -167,8 +167,8 @@ static void a_hull_by_its_core(void **state)
     }
 }
 
-/* One with more corners than are looked at so, and one that is no prism, keep their own. */
-static void hulls_that_need_their_own(void **state)
+/* A hull with too many corners, and one that is no prism, store their own. */
+static void some_hulls_store_their_corners(void **state)
 {
     (void)state;
     fl_vec3 xy[33];
@@ -191,8 +191,8 @@ static void hulls_that_need_their_own(void **state)
     fl_hull_free(&h), fl_poly_free(&p);
 }
 
-/* A box is a prism three ways, and floats as the flattest; what is no right prism is not taken for one. */
-static void what_is_a_prism(void **state)
+/* A box is a prism in three ways, and floats as the flattest. Only right prisms are recognised. */
+static void prisms_are_recognised(void **state)
 {
     (void)state;
     fl_poly p;
@@ -201,10 +201,10 @@ static void what_is_a_prism(void **state)
     const fl_vec3 pyramid[5] = {v3(1, 1, 0), v3(-1, 1, 0), v3(-1, -1, 0), v3(1, -1, 0), v3(0, 0, 1)};
     const int32_t first[6] = {0, 4, 7, 10, 13, 16},
                   loop[16] = {3, 2, 1, 0, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
-    floe(&p, &h, 2, 0.5, 6);
+    make_floe(&p, &h, 2, 0.5, 6);
     assert_near(h.prism.area, 12.0, 1e-15);
     assert_near(fabs(h.prism.e.y), 1.0, 0.0);
-    for (int32_t v = 0; v < p.nv; v++) /* one cap aslant by a hair */
+    for (int32_t v = 0; v < p.nv; v++) /* one cap inclined by very little */
         if (p.v[v].y > 0.0 && p.v[v].x > 0.0) p.v[v].y += 1e-9;
     fl_prism_of(&h.prism, &p);
     assert_true(fabs(h.prism.e.y) < 0.5 || h.prism.area == 0.0);
@@ -238,7 +238,7 @@ static void plane_through_vertices(void **state)
     fl_hull h;
     fl_submerged w;
     const double third = 1.0 / sqrt(3.0);
-    floe(&p, &h, 1, 1, 1);
+    make_floe(&p, &h, 1, 1, 1);
     fl_hull_submerged(&h, v3(third, third, third), -0.5 * third, &w);
     assert_near(w.volume, 1.0 / 6, 1e-15);
     assert_near(w.waterplane_area, sqrt(3.0) / 2, 1e-15);
@@ -272,22 +272,22 @@ static void spheres_and_capsules(void **state)
     assert_near(w.volume, PI / 6, 1e-15);
     fl_hull_submerged(&hb, v3(0, 0.6, 0.8), -0.5, &w);
     assert_near(w.volume, 0.0, 0.0);
-    /* standing: half a ball and a piece of cylinder */
+    /* upright: half a sphere and a piece of cylinder */
     fl_hull_submerged(&hr, v3(0, 0, 1), 0.25, &w);
     assert_near(w.volume, PI / 12 + PI / 4 * 1.25, 1e-14);
     assert_near(w.waterplane_area, PI / 4, 1e-14);
     assert_near(w.wetted_area, PI / 2 + PI * 1.25, 1e-14);
     assert_near(w.volume * w.centre.z, PI / 12 * (-1 - 3.0 / 16) + PI / 4 * 1.25 * -0.375, 1e-14);
-    fl_hull_submerged(&hr, v3(0, 0, -1), 0.25, &w); /* and on its head */
+    fl_hull_submerged(&hr, v3(0, 0, -1), 0.25, &w); /* and upside down */
     assert_near(w.volume, PI / 12 + PI / 4 * 1.25, 1e-14);
-    /* lying half in: half of everything */
+    /* lying, half submerged: half of everything */
     fl_hull_submerged(&hr, v3(0.6, 0.8, 0), 0.0, &w);
     assert_near(w.volume, 0.5 * hr.volume, 1e-14);
     assert_near(w.waterplane_area, 2.0 + PI / 4, 1e-14);
     assert_near(w.volume * v3_dot(w.centre, v3(0.6, 0.8, 0)), -2.0 * 2.0 / 3 * 0.125 - PI / 4 * 0.0625,
                 1e-14);
     assert_near_of(w.centre.z, 0.0, 1e-15, 1.0);
-    /* a quarter of a turn between the two: nothing jumps */
+    /* a quarter turn between the two: continuous */
     double last = 0.0;
     for (int k = 0; k <= 100000; k++) {
         const double t = 0.5 * PI * k / 100000;
@@ -301,7 +301,7 @@ static void spheres_and_capsules(void **state)
     fl_poly_free(&rod);
 }
 
-static void what_cannot_float(void **state)
+static void bodies_that_cannot_float_are_refused(void **state)
 {
     (void)state;
     const fl_vec3 v[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -329,7 +329,7 @@ static void what_cannot_float(void **state)
     }
 }
 
-/* More vertices than heights are kept for: they are then computed where they are needed. */
+/* More vertices than stored heights: these are computed where needed. */
 static void many_vertices(void **state)
 {
     (void)state;
@@ -365,8 +365,8 @@ static void drag_laws(void **state)
     assert_near(fl_drag_moment_constant(&sea, 100.0, 2.0) * 4, 0.5 * 0.004 * 1025 * 100 * 8 * 4, 1e-15);
 }
 
-/* One long step, or many short ones: m du/dt = -c u^2 is followed exactly, and no step, however long, turns
- * the motion round (H38). */
+/* One long step, or many short ones: m du/dt = -c u^2 is followed exactly, and no step length reverses the
+ * motion (H38). */
 static void drag_never_reverses(void **state)
 {
     (void)state;
@@ -383,7 +383,7 @@ static void drag_never_reverses(void **state)
     assert_near(fl_drag_decay_factor(0.3, 1.0, 0.0, 1.0), 1.0, 0.0);
 }
 
-static double skin_area(const fl_facet_cut *s)
+static double wetted_and_dry_area(const fl_facet_cut *s)
 {
     double total = 0.0;
     int32_t row = 0;
@@ -393,9 +393,9 @@ static double skin_area(const fl_facet_cut *s)
     return total;
 }
 
-/* One step by all pieces one after another, in the axes of the body, solved by elimination. */
-static void drag_plainly(const fl_facet_cut *s, fl_facet_drag_law law, fl_vec3 mass, fl_vec3 inertia,
-                         double h, fl_vec3 *v, fl_vec3 *w)
+/* One step by all pieces one after another, in body axes, solved by elimination. */
+static void drag_by_pieces(const fl_facet_cut *s, fl_facet_drag_law law, fl_vec3 mass, fl_vec3 inertia,
+                           double h, fl_vec3 *v, fl_vec3 *w)
 {
     const double M[6] = {mass.x, mass.y, mass.z, inertia.x, inertia.y, inertia.z},
                  y[6] = {v->x, v->y, v->z, w->x, w->y, w->z};
@@ -436,9 +436,9 @@ static void drag_plainly(const fl_facet_cut *s, fl_facet_drag_law law, fl_vec3 m
     *w = v3(a[3][6] / a[3][3], a[4][6] / a[4][4], a[5][6] / a[5][5]);
 }
 
-/* A box of 2 x 3 x 4 m wholly under water: areas, and the exact decay along each axis whatever the step; and
- * never a gain, whatever the motion. */
-static void facets_drag_exactly_along_an_axis(void **state)
+/* A box of 2 x 3 x 4 m under water: areas, and the exact decay along each axis for any step; no motion gains
+ * energy. */
+static void facet_drag_along_an_axis_is_exact(void **state)
 {
     (void)state;
     fl_poly p;
@@ -456,7 +456,7 @@ static void facets_drag_exactly_along_an_axis(void **state)
     assert_int_equal(fl_facet_cut_make(&dry, &h, 1, 0, &err), 0);
     fl_facet_cut_update(&skin, &k, &h, v3(0, 0, 1), 10.0),
         fl_facet_cut_update(&dry, &k, &h, v3(0, 0, 1), 10.0);
-    assert_near(skin_area(&skin), 52.0, 1e-14);
+    assert_near(wetted_and_dry_area(&skin), 52.0, 1e-14);
     assert_int_equal(dry.groups, 0);
     for (int axis = 0; axis < 3; axis++) {
         for (int e = -6; e < 12; e++) {
@@ -479,11 +479,11 @@ static void facets_drag_exactly_along_an_axis(void **state)
         const double after = v3_dot(v, v3_mul(m, v)) + v3_dot(w, v3_mul(I, w));
         assert_true(after <= before * (1 + 1e-12));
     }
-    /* what is wet and what is dry add up, wherever the water stands */
+    /* wet and dry areas add up, for every water level */
     for (int c = -25; c <= 25; c++) {
         const fl_vec3 up = v3_unit(v3(0.1 * c, 0.3, 1));
         fl_facet_cut_update(&skin, &k, &h, up, 0.1 * c), fl_facet_cut_update(&dry, &k, &h, up, 0.1 * c);
-        assert_near(skin_area(&skin) + skin_area(&dry), 52.0, 1e-13);
+        assert_near(wetted_and_dry_area(&skin) + wetted_and_dry_area(&dry), 52.0, 1e-13);
     }
     fl_facet_cut_free(&skin), fl_facet_cut_free(&dry);
     fl_facets_free(&k);
@@ -491,10 +491,10 @@ static void facets_drag_exactly_along_an_axis(void **state)
     fl_poly_free(&p);
 }
 
-/* Prisms of 3 to 9 sides along each axis of the body, or turned out of it, wherever the water stands: the
- * drag of sides by closed formulae, of facets that are cut and of whole ones is that of all pieces one by
- * one; and how the surface was seen before is no matter. */
-static void facets_drag_as_their_pieces_do(void **state)
+/* Prisms of 3 to 9 sides along each body axis, or inclined to it, for every water level: the drag of sides by
+ * closed formulae, of clipped facets and of whole ones equals that of all pieces one by one. It does not
+ * depend on the previous state of the clipped surface. */
+static void facet_drag_equals_that_of_the_pieces(void **state)
 {
     (void)state;
     int32_t upright = 0, cut = 0;
@@ -538,7 +538,8 @@ static void facets_drag_as_their_pieces_do(void **state)
                 fl_facet_cut_update(&s, &k, &h, up, level);
                 upright += s.cap_axis >= 0, cut += s.state == FL_FACET_CUT_GENERAL;
                 fl_hull_submerged(&h, up, level, &wet);
-                assert_near_of(skin_area(&s), dry ? h.surface_area - wet.wetted_area : wet.wetted_area, 1e-13,
+                assert_near_of(wetted_and_dry_area(&s),
+                               dry ? h.surface_area - wet.wetted_area : wet.wetted_area, 1e-13,
                                h.surface_area);
                 if (!(t & 1)) {
                     assert_int_equal(fl_facet_cut_make(&fresh, &h, dry, 0, &err), 0);
@@ -550,7 +551,7 @@ static void facets_drag_as_their_pieces_do(void **state)
                     for (int c = 0; c < 3; c++)
                         s.flow[r / FL_SIMD_WIDTH].u[c][r % FL_SIMD_WIDTH] = fl_rng_normal(&g);
                 fl_facet_drag(&s, law, m, I, 0.3, &v, &w);
-                drag_plainly(&s, law, m, I, 0.3, &v2, &w2);
+                drag_by_pieces(&s, law, m, I, 0.3, &v2, &w2);
                 assert_near_of(v3_norm(v3_sub(v, v2)), 0.0, 1e-13, v3_norm(v2) + v3_norm(w2));
                 assert_near_of(v3_norm(v3_sub(w, w2)), 0.0, 1e-13, v3_norm(v2) + v3_norm(w2));
                 if (!(t & 1))
@@ -586,7 +587,7 @@ static void currents_follow_their_profile(void **state)
     assert_near(fl_current_max_speed(&c), sqrt(0.3125), 1e-15);
 }
 
-static void a_table_of_currents(void **state)
+static void currents_are_interpolated_from_a_table(void **state)
 {
     (void)state;
     static const char rising[] = "#current 1\n-20 0 0\n-5 0.4 0.1\n0.5 0.5 0\n",
@@ -615,20 +616,20 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(upright_box),
         cmocka_unit_test(plane_through_faces),
-        cmocka_unit_test(prisms_have_closed_formulae),
-        cmocka_unit_test(a_hull_by_its_core),
-        cmocka_unit_test(hulls_that_need_their_own),
-        cmocka_unit_test(what_is_a_prism),
+        cmocka_unit_test(prism_buoyancy_has_closed_formulae),
+        cmocka_unit_test(a_hull_may_use_the_corners_of_its_core),
+        cmocka_unit_test(some_hulls_store_their_corners),
+        cmocka_unit_test(prisms_are_recognised),
         cmocka_unit_test(plane_through_vertices),
         cmocka_unit_test(spheres_and_capsules),
-        cmocka_unit_test(what_cannot_float),
+        cmocka_unit_test(bodies_that_cannot_float_are_refused),
         cmocka_unit_test(many_vertices),
         cmocka_unit_test(drag_laws),
         cmocka_unit_test(drag_never_reverses),
-        cmocka_unit_test(facets_drag_exactly_along_an_axis),
-        cmocka_unit_test(facets_drag_as_their_pieces_do),
+        cmocka_unit_test(facet_drag_along_an_axis_is_exact),
+        cmocka_unit_test(facet_drag_equals_that_of_the_pieces),
         cmocka_unit_test(currents_follow_their_profile),
-        cmocka_unit_test(a_table_of_currents),
+        cmocka_unit_test(currents_are_interpolated_from_a_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

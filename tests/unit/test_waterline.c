@@ -8,7 +8,7 @@
 #include "stat/waterline.h"
 #include "support/near.h"
 
-static fl_waterline made(const char *text)
+static fl_waterline make_waterline(const char *text)
 {
     fl_waterline w;
     fl_err err = {0};
@@ -18,7 +18,7 @@ static fl_waterline made(const char *text)
 
 static void circle_runs_counter_clockwise(void **state)
 {
-    const fl_waterline w = made("circle:2,-1,3");
+    const fl_waterline w = make_waterline("circle:2,-1,3");
     double x, y;
     (void)state;
     assert_near(w.length, 6.0 * PI, 1e-15);
@@ -34,7 +34,7 @@ static void circle_runs_counter_clockwise(void **state)
 /* Two sides of a wall with a corner at (4, 0). */
 static void chain_takes_the_nearest_point(void **state)
 {
-    const fl_waterline w = made("0,0:4,0:4,3");
+    const fl_waterline w = make_waterline("0,0:4,0:4,3");
     double x, y;
     (void)state;
     assert_near(w.length, 7.0, 1e-15);
@@ -48,14 +48,14 @@ static void chain_takes_the_nearest_point(void **state)
     assert_near(y, 1.0, 1e-15);
 }
 
-/* A point of the line is where it is said to be. */
-static void there_and_back(void **state)
+/* A point of the line is found at its own position. */
+static void points_of_the_line_are_found_again(void **state)
 {
     static const char *const text[] = {"circle:-1e3,5,0.1", "0,0:1,0:1,1:0,1:0,0", "-5,2:7,3.5:8,-1"};
     (void)state;
     for (int trial = 0; trial < test_times(300); trial++) {
         fl_rng g = fl_rng_of(test_seed(), trial, FL_RNG_TEST);
-        const fl_waterline w = made(text[trial % 3]);
+        const fl_waterline w = make_waterline(text[trial % 3]);
         const double s = fl_rng_in(&g, 0.001, 0.999) * w.length;
         double x, y;
         fl_waterline_point(&w, s, &x, &y);
@@ -63,7 +63,7 @@ static void there_and_back(void **state)
     }
 }
 
-static void what_is_no_waterline(void **state)
+static void invalid_waterlines_are_refused(void **state)
 {
     static const char *const text[] = {
         "",         "circle:",  "circle:1,2", "circle:1,2,0", "circle:1,2,-3", "circle:1,2,3,4",
@@ -73,12 +73,12 @@ static void what_is_no_waterline(void **state)
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
         fl_waterline w;
         fl_err err = {0};
-        if (fl_waterline_make(&w, text[k], &err) == 0) print_error("taken: \"%s\"\n", text[k]);
+        if (fl_waterline_make(&w, text[k], &err) == 0) print_error("accepted: \"%s\"\n", text[k]);
         assert_int_equal(err.code, FL_USAGE);
     }
 }
 
-static void panels_are_read(void **state)
+static void panel_tables_are_read(void **state)
 {
     static const char text[] =
         "#panels 1\n#start 1\nt[s] panel x[m] y[m] z[m] area[m2] fx[N] fy[N] fz[N]\n"
@@ -137,9 +137,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(circle_runs_counter_clockwise),
                                        cmocka_unit_test(chain_takes_the_nearest_point),
-                                       cmocka_unit_test(there_and_back),
-                                       cmocka_unit_test(what_is_no_waterline),
-                                       cmocka_unit_test(panels_are_read),
+                                       cmocka_unit_test(points_of_the_line_are_found_again),
+                                       cmocka_unit_test(invalid_waterlines_are_refused),
+                                       cmocka_unit_test(panel_tables_are_read),
                                        cmocka_unit_test(bad_panels_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

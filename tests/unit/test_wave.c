@@ -8,7 +8,7 @@
 #include "support/shapes.h"
 #include "water/froude_krylov.h"
 
-static double head(const fl_waves *w, double s, double z, double t)
+static double pressure_head(const fl_waves *w, double s, double z, double t)
 {
     double P = 0.0;
     for (int32_t j = 0; j < w->n; j++) {
@@ -19,7 +19,8 @@ static double head(const fl_waves *w, double s, double z, double t)
     return P;
 }
 
-/* Bodies of any size, anywhere: the cells fit into the room that was told, and say what the sum says. */
+/* Bodies of any size and position: the number of cells is within the stated bound, and cells equal the
+ * sum. */
 static void cells_cover_a_body(void **state)
 {
     (void)state;
@@ -32,27 +33,27 @@ static void cells_cover_a_body(void **state)
         assert_int_equal(
             fl_waves_jonswap(&w, 1.0, fl_rng_in(&g, 2.5, 9.0), 3.3, 30, (uint64_t)k, 40, depth, 9.81, &err),
             0);
-        const int32_t room = fl_wave_field_cells(&w, reach + w.four_sigma);
-        fl_wave_expansion *cell = fl_alloc(room, sizeof *cell, &err);
+        const int32_t capacity = fl_wave_field_cells(&w, reach + w.four_sigma);
+        fl_wave_expansion *cell = fl_alloc(capacity, sizeof *cell, &err);
         assert_non_null(cell);
         const double s0 = fl_rng_in(&g, -300, 300), z0 = fl_rng_in(&g, -25, 1), t = fl_rng_in(&g, 0, 1e4);
         fl_wave_field_fill(&w, s0 - reach, s0 + reach, z0 - reach - w.four_sigma, z0 + reach + w.four_sigma,
                            t, cell, &a);
-        assert_true(a.columns * (1 + a.rows) <= room);
+        assert_true(a.columns * (1 + a.rows) <= capacity);
         for (int j = 0; j < 50; j++) {
             const double s = s0 + fl_rng_in(&g, -reach, reach);
             const double z = fmax(fmin(z0 + fl_rng_in(&g, -reach, reach), 0.0), -w.depth);
-            assert_near_of(fl_wave_field_elevation(&a, s, NULL), head(&w, s, 0.0, t), 1e-4, 1.0);
-            assert_near_of(fl_wave_pressure(fl_wave_field_cell(&a, s, z), s, z), head(&w, s, z, t), 1e-4,
-                           1.0);
+            assert_near_of(fl_wave_field_elevation(&a, s, NULL), pressure_head(&w, s, 0.0, t), 1e-4, 1.0);
+            assert_near_of(fl_wave_pressure(fl_wave_field_cell(&a, s, z), s, z), pressure_head(&w, s, z, t),
+                           1e-4, 1.0);
         }
         free(cell);
         fl_waves_free(&w);
     }
 }
 
-/* A box far under water feels the acceleration of the wave there, one over it nothing. */
-static void deep_and_dry(void **state)
+/* A box far under water feels the acceleration of the wave there, one above it nothing. */
+static void deep_and_dry_bodies(void **state)
 {
     (void)state;
     fl_waves w = {0};
@@ -60,7 +61,7 @@ static void deep_and_dry(void **state)
     fl_poly p;
     fl_hull h;
     fl_hull_panels tiles = {0};
-    fl_water_load push;
+    fl_water_load load;
     fl_wave_field a;
     assert_int_equal(fl_waves_airy(&w, 2.0, 6.0, 0.0, INFINITY, 9.81, &err), 0);
     fl_wave_expansion *cell = fl_alloc(fl_wave_field_cells(&w, 20.0), sizeof *cell, &err);
@@ -73,19 +74,19 @@ static void deep_and_dry(void **state)
         const fl_hull_pose at = {.up = v3(0, 0, 1), .along = v3(1, 0, 0), .s = s, .z = z};
         fl_wave_field_fill(&w, s - 0.3, s + 0.3, z - 0.2 - w.four_sigma, z + 0.2 + w.four_sigma, 7.0, cell,
                            &a);
-        fl_froude_krylov_solid(&tiles, &h, &w, &a, &at, 1000 * 9.81, &push);
+        fl_froude_krylov_solid(&tiles, &h, &w, &a, &at, 1000 * 9.81, &load);
         if (k >= 10) {
-            assert_true(push.volume == 0.0 && push.wetted == 0.0 && v3_norm(push.force) == 0.0);
+            assert_true(load.volume == 0.0 && load.wetted == 0.0 && v3_norm(load.force) == 0.0);
             continue;
         }
         const double eta = fl_wave_field_elevation(&a, s, NULL), zeta = z - eta;
         const double psi = kk * s - w.train[0].omega * 7.0, m = 1000 * h.volume;
-        assert_near(push.volume, h.volume, 1e-9);
-        assert_near(push.wetted, h.surface_area, 1e-12);
-        assert_near_of(push.centre.z, 0.0, 1e-9, 1.0);
-        /* the stretching makes the column under a crest longer: a share of the slope and of the height k a */
-        assert_near_of(push.force.x, m * 9.81 * kk * exp(kk * zeta) * sin(psi), 0.2, m * 9.81 * kk);
-        assert_near_of(push.force.z - m * 9.81, -m * 9.81 * kk * exp(kk * zeta) * cos(psi), 0.2,
+        assert_near(load.volume, h.volume, 1e-9);
+        assert_near(load.wetted, h.surface_area, 1e-12);
+        assert_near_of(load.centre.z, 0.0, 1e-9, 1.0);
+        /* stretching makes the column under a crest longer: a share of the slope and of the height k a */
+        assert_near_of(load.force.x, m * 9.81 * kk * exp(kk * zeta) * sin(psi), 0.2, m * 9.81 * kk);
+        assert_near_of(load.force.z - m * 9.81, -m * 9.81 * kk * exp(kk * zeta) * cos(psi), 0.2,
                        m * 9.81 * kk);
     }
     free(cell);
@@ -117,7 +118,7 @@ static void seas_are_made_from_their_seed(void **state)
     fl_waves_free(&a), fl_waves_free(&b), fl_waves_free(&c);
 }
 
-static void memory_may_run_out(void **state)
+static void allocation_failure_is_reported(void **state)
 {
     (void)state;
     for (long k = 0; k < 3; k++) {
@@ -134,8 +135,8 @@ static void memory_may_run_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cells_cover_a_body), cmocka_unit_test(deep_and_dry),
-                                       cmocka_unit_test(seas_are_made_from_their_seed),
-                                       cmocka_unit_test(memory_may_run_out)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cells_cover_a_body), cmocka_unit_test(deep_and_dry_bodies),
+        cmocka_unit_test(seas_are_made_from_their_seed), cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests_name("wave", tests, NULL, NULL);
 }

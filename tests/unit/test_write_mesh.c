@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each writer: what it writes is read back as the same triangles, in the same parts where the format has
+/* Every writer: its output is read back as the same triangles, in the same parts where the format has
  * parts. */
 #include <stdint.h>
 #include <stdio.h>
@@ -20,8 +20,8 @@
 static fl_err err;
 static char note[FL_MESH_NOTE];
 
-/* Parts of random shape, whose digits fill a double or only a float32. */
-static void model(fl_surface *s, int parts, int floats)
+/* Parts of random shape with the digits of a double or only of a float32. */
+static void make_model(fl_surface *s, int parts, int floats)
 {
     for (int i = 0; i < parts; i++) {
         fl_rng g = fl_rng_of(test_seed(), i, FL_RNG_TEST);
@@ -41,7 +41,7 @@ static void model(fl_surface *s, int parts, int floats)
     }
 }
 
-/* All parts as one, as a format without parts has them. */
+/* All parts as one, as in a format without parts. */
 static void merge(const fl_surface *s, fl_surface *out)
 {
     fl_part *p;
@@ -62,7 +62,7 @@ static void merge(const fl_surface *s, fl_surface *out)
 typedef void write_fn(FILE *f, const fl_surface *s);
 static void put_ply(FILE *f, const fl_surface *s) { assert_int_equal(fl_ply_write(f, s, &err), 0); }
 
-static void come_back(write_fn *put, const fl_surface *s, const fl_surface *want)
+static void round_trip(write_fn *put, const fl_surface *s, const fl_surface *expected)
 {
     char *text = NULL;
     size_t n = 0;
@@ -73,27 +73,27 @@ static void come_back(write_fn *put, const fl_surface *s, const fl_surface *want
     assert_int_equal(fclose(f), 0);
     if (fl_mesh_read(&back, test_file("all", text, n), NULL, note, &err)) fail_msg("%s", err.text);
     free(text);
-    assert_int_equal(back.n, want->n);
+    assert_int_equal(back.n, expected->n);
     for (int32_t i = 0; i < back.n; i++) {
         assert_int_equal(fl_part_weld(&back.part[i], 0.0, &w, &err), 0);
-        if (want->n == 1) { /* called by its file */
+        if (expected->n == 1) { /* named by its file */
             free(back.part[i].name);
             back.part[i].name = strdup("all");
         }
     }
-    assert_true(mesh_same(&back, want));
+    assert_true(mesh_same(&back, expected));
     fl_surface_free(&back);
 }
 
-static void all_digits_and_all_parts_come_back(void **state)
+static void all_digits_and_all_parts_are_read_back(void **state)
 {
     (void)state;
     for (int parts = 2; parts < 6; parts++) {
         fl_surface s = {0};
-        model(&s, parts, 0);
-        come_back(fl_stl_write_ascii, &s, &s);
-        come_back(fl_obj_write, &s, &s);
-        come_back(put_ply, &s, &s);
+        make_model(&s, parts, 0);
+        round_trip(fl_stl_write_ascii, &s, &s);
+        round_trip(fl_obj_write, &s, &s);
+        round_trip(put_ply, &s, &s);
         fl_surface_free(&s);
     }
 }
@@ -102,13 +102,13 @@ static void formats_without_parts_keep_the_triangles(void **state)
 {
     fl_surface s = {0}, one = {0}, all = {0};
     (void)state;
-    model(&s, 3, 0);
+    make_model(&s, 3, 0);
     merge(&s, &all);
-    come_back(fl_off_write, &s, &all);
+    round_trip(fl_off_write, &s, &all);
     fl_surface_free(&all);
-    model(&one, 3, 1);
+    make_model(&one, 3, 1);
     merge(&one, &all);
-    come_back(fl_stl_write_binary, &one, &all);
+    round_trip(fl_stl_write_binary, &one, &all);
     fl_surface_free(&all);
     fl_surface_free(&one);
     fl_surface_free(&s);
@@ -121,7 +121,7 @@ static uint64_t take_uint(const unsigned char **at, int n)
     return u;
 }
 
-/* The blocks behind the underscore: part of each triangle, points, corners, ends, each with its size. */
+/* The appended blocks: part of each triangle, points, corners, ends, each with its size. */
 static void a_vtp_file_holds_the_same(void **state)
 {
     fl_surface s = {0};
@@ -131,7 +131,7 @@ static void a_vtp_file_holds_the_same(void **state)
     const unsigned char *at;
     int32_t nv = 0, nt = 0, first = 0, k = 0;
     (void)state;
-    model(&s, 3, 0);
+    make_model(&s, 3, 0);
     for (int32_t i = 0; i < s.n; i++) {
         nv += s.part[i].nv;
         nt += s.part[i].nt;
@@ -146,12 +146,12 @@ static void a_vtp_file_holds_the_same(void **state)
     assert_int_equal(take_uint(&at, 8), 24 * nv);
     for (int32_t i = 0; i < s.n; i++)
         for (int32_t v = 0; v < s.part[i].nv; v++) {
-            const double want[3] = {s.part[i].v[v].x, s.part[i].v[v].y, s.part[i].v[v].z};
+            const double expected[3] = {s.part[i].v[v].x, s.part[i].v[v].y, s.part[i].v[v].z};
             for (int c = 0; c < 3; c++) {
                 const uint64_t bits = take_uint(&at, 8);
                 double x;
                 memcpy(&x, &bits, sizeof x);
-                assert_true(x == want[c]);
+                assert_true(x == expected[c]);
             }
         }
     assert_int_equal(take_uint(&at, 8), 12 * nt);
@@ -167,7 +167,7 @@ static void a_vtp_file_holds_the_same(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_digits_and_all_parts_come_back),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_digits_and_all_parts_are_read_back),
                                        cmocka_unit_test(formats_without_parts_keep_the_triangles),
                                        cmocka_unit_test(a_vtp_file_holds_the_same)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Faces frozen together: beams of blocks, strengths, energies (V61 to V66), a floating beam (V69). */
+/* Bonds of faces that are frozen together: beams of blocks, strengths, fracture energies (V61 to V66), a
+ * floating beam (V69). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,10 +15,10 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* --- a row of blocks along x ------------------------------------------------------------------- */
+/* --- a row of blocks along x -------------------------------------------------------------------------- */
 
-/* n blocks, frozen together, of a bar from x = 0 on; keys are to be set before. */
-static void bar(lab *l, int32_t n, double length, double width, double height, double radius)
+/* n bonded blocks of a bar that starts at x = 0.  Scene keys are set before. */
+static void make_bar(lab *l, int32_t n, double length, double width, double height, double radius)
 {
     const double d = length / n;
     fl_err err = {0};
@@ -29,7 +30,7 @@ static void bar(lab *l, int32_t n, double length, double width, double height, d
             exit(1);
 }
 
-static void start(lab *l)
+static void start_world(lab *l)
 {
     lab_start(l);
     lab_set(l, "material.ice.young=1 GPa");
@@ -38,9 +39,9 @@ static void start(lab *l)
     lab_set(l, "bond.on=true");
 }
 
-/* A force on body i at a point of the world, for half a step: before it and after it, so that at rest nothing
- * moves at its ends. */
-static void push(lab *l, int32_t i, fl_vec3 force, fl_vec3 at)
+/* Impulse of a force on body i at a point of the world, for half a step.  It is applied before and after
+ * the step, so that a body at rest stays at rest. */
+static void apply_half_impulse(lab *l, int32_t i, fl_vec3 force, fl_vec3 at)
 {
     fl_bodies *b = &l->w.b;
     b->v[i] = v3_madd(b->v[i], 0.5 * l->w.dt * b->invm[i], force);
@@ -48,8 +49,8 @@ static void push(lab *l, int32_t i, fl_vec3 force, fl_vec3 at)
     fl_body_update_spin(b, i);
 }
 
-/* All velocities fall by the rate [1/s] in the step to come. */
-static void calm(lab *l, double rate)
+/* Reduces all velocities at the rate [1/s] during the next step. */
+static void damp_velocities(lab *l, double rate)
 {
     fl_bodies *b = &l->w.b;
     for (int32_t i = 0; i < l->w.n; i++) {
@@ -59,26 +60,26 @@ static void calm(lab *l, double rate)
     }
 }
 
-static void step(lab *l)
+static void run_one_step(lab *l)
 {
     if (lab_run(l, 1)) exit(1);
 }
 
-/* The cantilever of V61 and V62: n blocks and a held one before them, whose face is half a block from the
- * first centre, so that its springs are those of half the length. */
+/* The cantilever of V61 and V62: n blocks behind a fixed one.  The face of the fixed block is half a block
+ * from the first centre, so that its springs are those of half the length. */
 static void cantilever(lab *l, int32_t n)
 {
-    start(l);
+    start_world(l);
     lab_set(l, "bond.normal_strength=none");
     lab_set(l, "bond.shear_strength=none");
-    bar(l, n + 1, 1.0 + 1.0 / n, 0.1, 0.1, 0.0);
+    make_bar(l, n + 1, 1.0 + 1.0 / n, 0.1, 0.1, 0.0);
     lab_make(l, 0);
     l->w.b.fixed_dof[0] = 63;
     l->w.bonds.bond[0].kn *= 2.0, l->w.bonds.bond[0].ks *= 2.0;
     fl_step_set_size(&l->w, 2.5 * l->w.dt, 0.0);
 }
 
-static double bent_by(int32_t n)
+static double tip_deflection(int32_t n)
 {
     lab l;
     cantilever(&l, n);
@@ -87,18 +88,18 @@ static double bent_by(int32_t n)
     fl_vec3 tip = v3(1.0 + d, 0, 0);
     const fl_vec3 arm = v3_sub(tip, l.w.b.x[n]);
     for (int64_t k = 0; k < steps; k++) {
-        push(&l, n, v3(0, 0, -P), tip);
-        step(&l);
+        apply_half_impulse(&l, n, v3(0, 0, -P), tip);
+        run_one_step(&l);
         tip = v3_add(l.w.b.x[n], m3_mul(fl_body_axes(&l.w.b, n), m3_tmul(q_matrix(l.w.q0[n]), arm)));
-        push(&l, n, v3(0, 0, -P), tip);
-        calm(&l, 2.0 * omega);
+        apply_half_impulse(&l, n, v3(0, 0, -P), tip);
+        damp_velocities(&l, 2.0 * omega);
     }
     tip = v3_add(l.w.b.x[n], m3_mul(fl_body_axes(&l.w.b, n), m3_tmul(q_matrix(l.w.q0[n]), arm)));
     lab_free(&l);
     return -tip.z;
 }
 
-static void deflection(void)
+static void cantilever_deflection(void)
 {
     const double E = 1e9, G = E / 2.6, A = 0.01, I = 0.1 * 0.1 * 0.1 * 0.1 / 12, P = 10.0,
                  beam = P / (3 * E * I);
@@ -106,7 +107,7 @@ static void deflection(void)
     double h[4], off[4];
     for (int k = 0; k < most; k++) {
         const int32_t n = 5 << k;
-        const double w = bent_by(n), shear = P / (G * A) * (1.0 - 0.5 / n), bent = w - shear;
+        const double w = tip_deflection(n), shear = P / (G * A) * (1.0 - 0.5 / n), bent = w - shear;
         char what[80];
         snprintf(what, sizeof what, "cantilever of %d blocks: bending over the beam's", n);
         verify_row("V61", what, bent / beam, 1.0 + 0.5 / n / n, 2e-5, VERIFY_REL);
@@ -117,12 +118,12 @@ static void deflection(void)
     verify_order("V61", "error of the chain", h, off, most, 2.0, 0.05);
 }
 
-static void frequency(void)
+static void bending_frequency(void)
 {
     lab l;
     const int32_t n = 20;
     cantilever(&l, n);
-    for (int32_t k = 1; k <= n; k++) { /* bent by its tip, nearly the first shape; its slope as well */
+    for (int32_t k = 1; k <= n; k++) { /* deflected at its tip, nearly the first mode; its slope as well */
         const double x = (k - 0.5) / n, s = 0.5 * x * x * (3 - x), turn = 1.5 * x * (2 - x);
         l.w.b.v[k].z = 1e-3 * s;
         fl_body_set_spin(&l.w.b, k, v3(0, -1e-3 * turn, 0));
@@ -131,7 +132,7 @@ static void frequency(void)
     int crossings = 0;
     while (crossings < (verify_quick() ? 5 : 11)) {
         const double before = l.w.b.x[n].z;
-        step(&l);
+        run_one_step(&l);
         const double now = l.w.b.x[n].z;
         if (l.w.step > 1 && before * now < 0.0) {
             t = fl_world_time(&l.w) - l.w.dt * now / (now - before);
@@ -145,23 +146,23 @@ static void frequency(void)
     lab_free(&l);
 }
 
-/* --- one face ---------------------------------------------------------------------------------- */
+/* --- one face ----------------------------------------------------------------------------------------- */
 
-/* Two blocks of 0.4 m with a face of 0.3 by 0.2 m; what a displacement u and a turn v of the second about the
- * centre of the face give: force, moment about it, and whether it is whole. */
+/* Two blocks of 0.4 m with a face of 0.3 by 0.2 m.  For a displacement u and a rotation v of the second
+ * block about the centre of the face: force, moment about that centre, and whether the bond is intact. */
 typedef struct {
     fl_vec3 f, m;
     int whole;
     fl_bond c;
-} answer;
+} response;
 
-static answer ask(const lab *l, const fl_bond *c, fl_vec3 u, fl_vec3 v)
+static response bond_response(const lab *l, const fl_bond *c, fl_vec3 u, fl_vec3 v)
 {
     fl_bodies *b = (fl_bodies *)&l->w.b;
     const double a = v3_norm(v);
     const fl_vec3 x0[2] = {b->x[0], b->x[1]}, face = v3(0.4, 0, 0);
     const fl_quat q0[2] = {b->q[0], b->q[1]};
-    answer out = {.c = *c};
+    response out = {.c = *c};
     for (int k = 0; k < 2; k++) {
         const double s = k ? 1.0 : -1.0;
         const fl_quat q = a > 0.0 ? (fl_quat){cos(0.25 * a), s * sin(0.25 * a) / a * v.x,
@@ -182,58 +183,58 @@ static answer ask(const lab *l, const fl_bond *c, fl_vec3 u, fl_vec3 v)
     return out;
 }
 
-/* The last answer before it breaks, as the motion grows. */
-static answer at_break(const lab *l, fl_vec3 u, fl_vec3 v)
+/* The last response before the bond breaks, as the motion grows. */
+static response response_before_break(const lab *l, fl_vec3 u, fl_vec3 v)
 {
     double lo = 0.0, hi = 1.0;
     const fl_bond c = l->w.bonds.bond[0];
     for (int k = 0; k < 60; k++) {
         const double mid = 0.5 * (lo + hi);
-        if (ask(l, &c, v3_scale(mid, u), v3_scale(mid, v)).whole) lo = mid;
+        if (bond_response(l, &c, v3_scale(mid, u), v3_scale(mid, v)).whole) lo = mid;
         else hi = mid;
     }
-    return ask(l, &c, v3_scale(lo, u), v3_scale(lo, v));
+    return bond_response(l, &c, v3_scale(lo, u), v3_scale(lo, v));
 }
 
 static void pair_of_blocks(lab *l)
 {
-    bar(l, 2, 0.8, 0.3, 0.2, 0.01);
+    make_bar(l, 2, 0.8, 0.3, 0.2, 0.01);
     lab_make(l, 0);
 }
 
-static void strength(void)
+static void face_strength(void)
 {
     const double b = 0.3, h = 0.2, A = b * h, I = b * h * h * h / 12, s = 0.7e6, c = 0.5e6;
     lab l;
-    start(&l);
-    lab_set(&l, "bond.young=10 GPa"); /* stiff: what turns little has no large turns */
+    start_world(&l);
+    lab_set(&l, "bond.young=10 GPa"); /* stiff, so that failure comes before large rotations */
     lab_set(&l, "bond.normal_strength=0.7 MPa");
     lab_set(&l, "bond.shear_strength=0.5 MPa");
     lab_set(&l, "bond.friction=0.4");
     pair_of_blocks(&l);
-    answer a = at_break(&l, v3(0.01, 0, 0), ZERO);
+    response a = response_before_break(&l, v3(0.01, 0, 0), ZERO);
     verify_row("V63", "tension: N/A over the strength", a.f.x / A / s, 1.0, 1e-6, VERIFY_REL);
-    a = at_break(&l, v3(0, 0, 0.01), ZERO);
+    a = response_before_break(&l, v3(0, 0, 0.01), ZERO);
     verify_row("V63", "shear: Q/A over the strength", a.f.z / A / c, 1.0, 1e-6, VERIFY_REL);
-    a = at_break(&l, v3(-1e-3, 0.01, 0), ZERO); /* tau = c + mu p, both growing */
+    a = response_before_break(&l, v3(-1e-3, 0.01, 0), ZERO); /* tau = c + mu p, both growing */
     verify_row("V63", "shear under pressure: Q/A over c + mu N/A", a.f.y / A / (c - 0.4 * a.f.x / A), 1.0,
                1e-6, VERIFY_REL);
-    a = at_break(&l, ZERO, v3(0, 0.01, 0));
+    a = response_before_break(&l, ZERO, v3(0, 0.01, 0));
     verify_row("V63", "moment: M h/2I over the strength", fabs(a.m.y) * h / (2 * I) / s, 1.0, 1e-6,
                VERIFY_REL);
-    a = at_break(&l, v3(2e-4, 0, 0), v3(0, 0.01, 0));
-    verify_row("V63", "both: (N/A + M h/2I) over the strength", (a.f.x / A + fabs(a.m.y) * h / (2 * I)) / s,
-               1.0, 1e-6, VERIFY_REL);
+    a = response_before_break(&l, v3(2e-4, 0, 0), v3(0, 0.01, 0));
+    verify_row("V63", "tension and moment: (N/A + M h/2I) over the strength",
+               (a.f.x / A + fabs(a.m.y) * h / (2 * I)) / s, 1.0, 1e-6, VERIFY_REL);
     lab_free(&l);
 }
 
-/* Opened by `steps` steps to u metres, the work done; F(u) of the last. */
+/* The face is opened in `steps` steps to u metres.  Returns the work done; *force is F(u) at the end. */
 static double open_to(const lab *l, fl_bond *c, double from, double to, int steps, double *force)
 {
     double work = 0.0;
     for (int k = 1; k <= steps; k++) {
         const double u = from + (to - from) * k / steps;
-        const answer a = ask(l, c, v3(u, 0, 0), ZERO);
+        const response a = bond_response(l, c, v3(u, 0, 0), ZERO);
         *c = a.c;
         work += 0.5 * (*force + a.f.x) * (to - from) / steps;
         *force = a.f.x;
@@ -241,12 +242,12 @@ static double open_to(const lab *l, fl_bond *c, double from, double to, int step
     return work;
 }
 
-static void cycle(void)
+static void softening_cycle(void)
 {
     const double A = 0.06, s = 0.7e6, E = 1e9, length = 0.4, G = 150.0;
     const double uc = s * length / E, uf = 2 * G / s, um = uc + 0.4 * (uf - uc);
     lab l;
-    start(&l);
+    start_world(&l);
     lab_set(&l, "bond.energy=150 J/m2");
     pair_of_blocks(&l);
     fl_bond c = l.w.bonds.bond[0];
@@ -257,29 +258,31 @@ static void cycle(void)
     verify_row("V66", "on the line: F over Fmax (uf - u)/(uf - uc)", top / (s * A * 0.6), 1.0, 1e-8,
                VERIFY_REL);
     work += open_to(&l, &c, um, 0.5 * um, 50, &F);
-    verify_row("V66", "half unloaded: F over the secant's", F / (0.5 * top), 1.0, 1e-8, VERIFY_REL);
+    verify_row("V66", "half unloaded: F over that of the secant", F / (0.5 * top), 1.0, 1e-8, VERIFY_REL);
     work += open_to(&l, &c, 0.5 * um, 0.0, 50, &F);
     verify_row("V66", "closed: F over Fmax", F / (s * A), 0.0, 1e-8, VERIFY_ABS);
     const double closed = open_to(&l, &c, 0.0, -uc, 20, &F);
     verify_row("V66", "pressed: F over k_n A u", F / (-E / length * A * uc), 1.0, 1e-8, VERIFY_REL);
     work += closed + open_to(&l, &c, -uc, 0.0, 20, &F) + open_to(&l, &c, 0.0, um, 100, &F);
-    verify_row("V66", "opened again: F over that before", F / top, 1.0, 1e-8, VERIFY_REL);
+    verify_row("V66", "reloaded: F over that before unloading", F / top, 1.0, 1e-8, VERIFY_REL);
     work += open_to(&l, &c, um, uf, 600, &F);
-    verify_row("V66", "area under it over Fmax uf/2", work / (0.5 * s * A * uf), 1.0, 1e-8, VERIFY_REL);
-    verify_row("V66", "booked as fracture over G A", c.dissipated / (G * A), 1.0, 1e-8, VERIFY_REL);
+    verify_row("V66", "work of the whole curve over Fmax uf/2", work / (0.5 * s * A * uf), 1.0, 1e-8,
+               VERIFY_REL);
+    verify_row("V66", "fracture energy in the ledger over G A", c.dissipated / (G * A), 1.0, 1e-8,
+               VERIFY_REL);
     verify_true("V66", "failed and open: ended", c.state == FL_BOND_ENDED);
     lab_free(&l);
 }
 
-/* --- the balance of energy ------------------------------------------------------------------------ */
+/* --- the balance of energy ---------------------------------------------------------------------------- */
 
-/* A plate of 4 x 4 boxes, thrown apart at 0.3 m/s each: faces soften, break, close, rub and are ended; or
- * break at once. */
+/* A plate of 4 x 4 boxes whose boxes fly apart at 0.3 m/s each: faces soften, break, close, slide and are
+ * removed; or they break at once. */
 static double thrown_apart(int brittle, double dt, int *ended)
 {
     lab l;
     fl_err err = {0};
-    start(&l);
+    start_world(&l);
     lab_set(&l, "material.ice.young=10 MPa");
     lab_set(&l, "bond.normal_strength=10 kPa");
     lab_set(&l, "bond.shear_strength=12 kPa");
@@ -305,13 +308,13 @@ static double thrown_apart(int brittle, double dt, int *ended)
     return off;
 }
 
-static void balance(void)
+static void energy_balance(void)
 {
     for (int brittle = 0; brittle < 2; brittle++) {
         double h[4], off[4];
         int ended = 0;
         for (int k = 0; k < 4; k++) off[k] = thrown_apart(brittle, h[k] = 4e-4 / (1 << k), &ended);
-        verify_true("V65", "a plate thrown apart: some faces have opened", ended > 2);
+        verify_true("V65", "a plate flies apart: some faces have opened", ended > 2);
         verify_order("V65",
                      brittle ? "residual over throughput, brittle" : "residual over throughput, softening", h,
                      off, 4, 2.0, 0.5);
@@ -319,20 +322,20 @@ static void balance(void)
     }
 }
 
-/* --- bars and beams that break ----------------------------------------------------------------- */
+/* --- bars and beams that break ------------------------------------------------------------------------ */
 
-/* Pulled apart at both ends, slowly against its waves.  The middle face is a thousandth weaker: where a
- * uniform bar breaks is for rounding to say. */
-static void tension(void)
+/* The bar is pulled at both ends, slowly against its elastic waves.  The middle face is a thousandth
+ * weaker, for the place where a uniform bar breaks depends on rounding. */
+static void pull_bar_apart(void)
 {
     const int32_t n = 10;
     const double A = 0.01, E = 1e9, s = 0.7e6, G = 60.0, speed = 2e-3;
     double peak = 0.0, store = 0.0;
     lab l;
-    start(&l);
+    start_world(&l);
     lab_set(&l, "bond.energy=60 J/m2");
     lab_set(&l, "bond.damping=0.05");
-    bar(&l, n, 1.0, 0.1, 0.1, 0.01);
+    make_bar(&l, n, 1.0, 0.1, 0.1, 0.01);
     lab_make(&l, 0);
     fl_step_set_size(&l.w, 2.0 * l.w.dt, 0.0);
     fl_bond *middle = &l.w.bonds.bond[n / 2 - 1];
@@ -344,13 +347,13 @@ static void tension(void)
     /* a uniform start, without a wave */
     for (int32_t k = 0; k < n; k++) l.w.b.v[k].x = speed * (2.0 * k / (n - 1) - 1.0);
     while (middle->state < FL_BOND_BROKEN && middle->state != FL_BOND_ENDED && fl_world_time(&l.w) < 1.0) {
-        step(&l);
+        run_one_step(&l);
         fl_energy_update(&l.w);
         if (l.w.bonds.bond[0].force.x > peak) peak = l.w.bonds.bond[0].force.x, store = l.w.ledger.bond;
     }
-    /* the springs of n blocks are those of n - 1 lengths of them */
+    /* the springs of n blocks are those of n - 1 lengths */
     verify_row("V65", "tension of a bar: strength over that of its ice", peak / A / s, 1.0, 1e-2, VERIFY_REL);
-    verify_row("V65", "energy in it at the peak over sigma^2 V/2E",
+    verify_row("V65", "elastic energy at the peak over sigma^2 V/2E",
                store / (0.5 * s * s / E * A * (n - 1.0) / n), 1.0, 1e-2, VERIFY_REL);
     fl_energy_update(&l.w);
     verify_row("V65", "fracture over G A", l.w.ledger.fracture / (G * A), 1.0, 1e-2, VERIFY_REL);
@@ -361,39 +364,39 @@ static void tension(void)
 static void three_loads(lab *l, int32_t n, double load)
 {
     const fl_vec3 up = v3(0, 0, 0.5 * load), middle = v3(0.5, 0, l->w.b.x[n / 2].z);
-    push(l, 0, up, v3(0, 0, 0));
-    push(l, n - 1, up, v3(1, 0, 0));
-    push(l, n / 2 - 1, v3_neg(up), middle);
-    push(l, n / 2, v3_neg(up), middle);
+    apply_half_impulse(l, 0, up, v3(0, 0, 0));
+    apply_half_impulse(l, n - 1, up, v3(1, 0, 0));
+    apply_half_impulse(l, n / 2 - 1, v3_neg(up), middle);
+    apply_half_impulse(l, n / 2, v3_neg(up), middle);
 }
 
-/* Three-point bending by loads that balance: P in the middle, P/2 at the ends, growing slowly. */
-static void bending(void)
+/* Three-point bending by loads in equilibrium: P in the middle, P/2 at each end, growing slowly. */
+static void three_point_bending(void)
 {
     const int32_t n = verify_quick() ? 10 : 40;
     const double s = 0.7e6, h = 0.1, P = 2 * s * 0.1 * h * h / 3.0, omega = 2 * PI * 48.0;
     double load = 0.0;
     lab l;
-    start(&l);
-    bar(&l, n, 1.0, 0.1, 0.1, 0.005);
+    start_world(&l);
+    make_bar(&l, n, 1.0, 0.1, 0.1, 0.005);
     lab_make(&l, 0);
     fl_step_set_size(&l.w, 2.5 * l.w.dt, 0.0);
     const double rate = 0.02 * P * omega;
     while (l.w.bonds.bond[n / 2 - 1].state == FL_BOND_INTACT && load < 2 * P) {
         load = rate * fl_world_time(&l.w);
         three_loads(&l, n, load);
-        step(&l);
+        run_one_step(&l);
         three_loads(&l, n, load);
-        calm(&l, 1.5 * omega);
+        damp_velocities(&l, 1.5 * omega);
     }
     verify_row("V64", "three-point bending: P over 2 sigma_t b h^2/3L", load / P, 1.0, 2e-2, VERIFY_REL);
     lab_free(&l);
 }
 
-/* A long floating beam of unit width, lifted at its end: l = (4 E I/rho g)^1/4, the largest moment is pi l/4
- * from the end, where it breaks at P = 0.68 sigma (rho g h^5/E)^1/4.  Ice of 0.1 GPa and 50 kPa, so that the
- * end stays in the water. */
-static void floating(void)
+/* A long floating beam of unit width, lifted at its end: l = (4 E I/rho g)^1/4.  The largest moment is pi
+ * l/4 from the end, where the beam breaks at P = 0.68 sigma (rho g h^5/E)^1/4.  The ice has 0.1 GPa and 50
+ * kPa, so that the end stays in the water. */
+static void floating_beam(void)
 {
     const double h = 0.23, E = 1e8, s = 5e4, rho = 1035, g = 9.81;
     const double l0 = pow(4 * E * h * h * h / 12 / (rho * g), 0.25), at = 0.25 * PI * l0,
@@ -403,22 +406,22 @@ static void floating(void)
     const double d = at / cells;
     double load = 0.0, where = 0.0;
     lab l;
-    start(&l);
+    start_world(&l);
     lab_set(&l, "material.ice.young=0.1 GPa");
     lab_set(&l, "bond.normal_strength=50 kPa");
     lab_set(&l, "run.gravity=9.81");
     lab_set(&l, "water.density=1035");
     lab_set(&l, "water.drag_force_coef=0");
     lab_setf(&l, "water.level=%.17g", h * 900 / rho - 0.5 * h);
-    bar(&l, n, n * d, 1.0, h, 0.01);
+    make_bar(&l, n, n * d, 1.0, h, 0.01);
     lab_make(&l, 0);
     fl_step_set_size(&l.w, 2.5 * l.w.dt, 0.0);
     while (where == 0.0 && load < 2 * P) {
         load = P * fl_world_time(&l.w) / 6.0;
-        push(&l, 0, v3(0, 0, load), v3(0, 0, 0));
-        step(&l);
-        push(&l, 0, v3(0, 0, load), v3(0, 0, 0));
-        calm(&l, 0.4 * heave);
+        apply_half_impulse(&l, 0, v3(0, 0, load), v3(0, 0, 0));
+        run_one_step(&l);
+        apply_half_impulse(&l, 0, v3(0, 0, load), v3(0, 0, 0));
+        damp_velocities(&l, 0.4 * heave);
         for (int32_t k = 0; k + 1 < n; k++)
             if (l.w.bonds.bond[k].state != FL_BOND_INTACT) where = (k + 1) * d;
     }
@@ -432,13 +435,13 @@ static void floating(void)
 int main(void)
 {
     verify_begin("bonds");
-    deflection();
-    frequency();
-    strength();
-    bending();
-    tension();
-    cycle();
-    balance();
-    floating();
+    cantilever_deflection();
+    bending_frequency();
+    face_strength();
+    three_point_bending();
+    pull_bar_apart();
+    softening_cycle();
+    energy_balance();
+    floating_beam();
     return verify_end();
 }

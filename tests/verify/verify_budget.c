@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step chosen from an error budget: twenty scenes, each against itself at a sixteenth of the step. */
+/* Time steps chosen from an error budget (run.error): twenty scenes, each compared with itself at a
+ * sixteenth of the step. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 #include "sim/step.h"
 #include "world/access.h"
 
-/* --- the scenes -------------------------------------------------------------------------------- */
+/* --- the scenes --------------------------------------------------------------------------------------- */
 
 static const fl_vec3 NONE = {0, 0, 0};
 
@@ -154,20 +155,20 @@ static const scene SCENE[] = {
     {"current, two legs", two_legs, 0.6},       {"current, nine floes, a post", field, 0.5}};
 enum { SCENES = sizeof SCENE / sizeof *SCENE, PARTS = 2 };
 
-/* --- a run ------------------------------------------------------------------------------------- */
+/* --- a run -------------------------------------------------------------------------------------------- */
 
 static const double EVERY = 0.02;
 
 typedef struct {
     fl_vec3 J[PARTS];
     double peak[PARTS];
-    double spent; /* steps of trials over those of the run */
+    double spent; /* trial steps over steps of the run */
     double shortest, estimate;
-    double whole, since; /* what the run beside it tells */
+    double whole, since; /* results of the companion run */
     int32_t least;
 } result;
 
-/* A row in the steps of the budget, and the run beside it. */
+/* One row of output in the steps of the budget, with the companion run. */
 static int row_of(lab *l, fl_error_budget *g, result *r)
 {
     fl_err err = {0};
@@ -185,7 +186,7 @@ static int row_of(lab *l, fl_error_budget *g, result *r)
     return 0;
 }
 
-/* With m steps a row, or, m = 0, those that the budget chooses. */
+/* With m steps per row; m = 0: with the steps that the budget chooses. */
 static result run(const scene *s, double goal, const char *of, int64_t m)
 {
     lab l;
@@ -199,7 +200,7 @@ static result run(const scene *s, double goal, const char *of, int64_t m)
     lab_setf(&l, "run.duration=%g", s->seconds);
     s->build(&l);
     if (m == 0) {
-        lab_set(&l, "structure.file=lab"); /* as lab_make() will */
+        lab_set(&l, "structure.file=lab"); /* the same options as lab_make() sets */
         if (fl_scene_check(&l.scene, &err) ||
             fl_error_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, &err))
             exit(1);
@@ -237,14 +238,15 @@ static double error_of(const char *of, const result *a, const result *truth)
     return off / size;
 }
 
-/* One scene: 1 bit within the budget, 2 bit the step is long enough, 4 bit the run beside it doubts that. */
-static int try(const scene *s, double goal, const char *of)
+/* One scene.  Returns bits: 1 the error is within the budget, 2 the step is long enough, 4 the companion
+ * run doubts the result. */
+static int verify_scene(const scene *s, double goal, const char *of)
 {
     const result chosen = run(s, goal, of, 0);
     const int64_t m = lround(EVERY / chosen.shortest);
     const result truth = run(s, goal, of, 16 * m);
     const double e = error_of(of, &chosen, &truth);
-    /* The largest step that would have done: from the finest upwards, the last before one that fails. */
+    /* The largest sufficient step: from the finest upwards, the last one before one that fails. */
     int64_t best = 4 * m;
     for (double k = 4.0 * (double)m; k > 0.999 * chosen.least; k /= sqrt(sqrt(2.0))) {
         const int64_t mk = lround(k);
@@ -253,16 +255,16 @@ static int try(const scene *s, double goal, const char *of)
         best = mk;
     }
     const double share = (double)best / (double)m;
-    verify_note("%-30s step %8.3g s  estimate %7.2g  as a whole %7.2g  true %7.2g  over the largest %5.2f  "
+    verify_note("%-30s step %8.3g s  estimate %7.2g  whole run %7.2g  true %7.2g  over the largest %5.2f  "
                 "cost %5.2f %s%s%s",
                 s->name, chosen.shortest, chosen.estimate, chosen.whole, e, share, chosen.spent,
                 e <= goal ? "" : " OVER", share >= 0.5 ? "" : " SHORT", m == chosen.least ? " (cap)" : "");
     return (e <= goal) | (share >= 0.5) << 1 | (chosen.since >= 0.0) << 2;
 }
 
-/* Floes that crowd between two walls about a post: what a step is off by grows from hit to hit, which windows
- * do not see. */
-static void crowd(void)
+/* Floes crowd between two walls about a post.  The error grows from collision to collision, which the
+ * windows of the step search do not see. */
+static void crowded_floes(void)
 {
     const scene s = {"a crowd", field, verify_quick() ? 4.0 : 8.0};
     const double goal = 1e-3;
@@ -270,27 +272,27 @@ static void crowd(void)
     const int64_t m = lround(EVERY / chosen.shortest);
     const result truth = run(&s, goal, "impulse", 8 * m), half = run(&s, goal, "impulse", 4 * m);
     const double e = error_of("impulse", &chosen, &truth);
-    verify_note("nine floes for %g s: estimate %7.2g  as a whole %7.2g from %.3g s on  true %7.2g; 4 and 8 "
+    verify_note("nine floes for %g s: estimate %7.2g  whole run %7.2g from %.3g s on  true %7.2g; 4 and 8 "
                 "times as many steps are %7.2g apart",
                 s.seconds, chosen.estimate, chosen.whole, chosen.since, e,
                 error_of("impulse", &half, &truth));
-    verify_row("E12", "error as a whole, of a crowd, over what is told, log2", log2(e / chosen.whole), 0.0,
-               3.0, VERIFY_ABS);
-    verify_true("E12", "it is told to be more than was asked for", chosen.since >= 0.0);
+    verify_row("E12", "error of the whole run, crowded, over the reported one, log2", log2(e / chosen.whole),
+               0.0, 3.0, VERIFY_ABS);
+    verify_true("E12", "the report says that it exceeds the budget", chosen.since >= 0.0);
 }
 
-/* --- the order ----------------------------------------------------------------------------------- */
+/* --- the order ---------------------------------------------------------------------------------------- */
 
-static int compare(const void *a, const void *b)
+static int by_value(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-/* Impulses with 48 and with 192 steps a row against 12288: damping and friction, sticking and sliding, in
- * contacts that begin and end, at steps for which they are not hidden yet by when in a step contacts begin.
- * What falls flat is off by rounding. */
-static void orders(void)
+/* Impulses with 48 and with 192 steps per row against 12288: damping and friction, sticking and sliding, in
+ * contacts that begin and end.  At these steps the order is not yet hidden by the moment within a step at
+ * which contacts begin.  A face that lands flat has errors of rounding only and is left out. */
+static void order_of_impulse(void)
 {
     double order[SCENES];
     double all = 0.0, all_then = 0.0;
@@ -303,21 +305,21 @@ static void orders(void)
         if (!(at > 1e-10)) continue;
         order[n++] = 0.5 * log2(at / then);
         all += at, all_then += then;
-        verify_note("%-30s off by %7.1e, and %7.1e with a quarter of the step: order %.2f", SCENE[k].name, at,
+        verify_note("%-30s error %7.1e, and %7.1e with a quarter of the step: order %.2f", SCENE[k].name, at,
                     then, order[n - 1]);
     }
-    qsort(order, (size_t)n, sizeof *order, compare);
+    qsort(order, (size_t)n, sizeof *order, by_value);
     verify_row("E10", "order of the impulse in the step, median of the scenes", order[n / 2], 2.0, 0.25,
                VERIFY_ABS);
-    verify_row("E10", "order of the sum of all", 0.5 * log2(all / all_then), 2.0, 0.4, VERIFY_ABS);
+    verify_row("E10", "order of the sum over all scenes", 0.5 * log2(all / all_then), 2.0, 0.4, VERIFY_ABS);
 }
 
-/* --- without a budget -------------------------------------------------------------------------- */
+/* --- without a budget --------------------------------------------------------------------------------- */
 
-/* What is told of the automatic step, which costs nothing, against steps of a sixteenth: 1 bit the peak is no
- * worse than 1.6 times it, 2 bit the impulse is within its bound; share: of the peak's error in what is told.
- */
-static int told(const scene *s, double *share)
+/* The error that the report gives for the automatic step, at no cost, against steps of a sixteenth.
+ * Returns bits: 1 the peak error is at most 1.6 times the reported one, 2 the impulse is within its bound.
+ * share: true peak error over the reported one. */
+static int verify_reported_error(const scene *s, double *share)
 {
     result r[2] = {0};
     double peak = 0.0, impulse = 0.0;
@@ -337,15 +339,15 @@ static int told(const scene *s, double *share)
         lab_free(&l);
     }
     const double is = error_of("peak", &r[0], &r[1]), was = error_of("impulse", &r[0], &r[1]);
-    verify_note("%-30s peak: told %7.2g  true %7.2g   impulse: told %7.2g  true %7.2g", s->name, peak, is,
-                impulse, was);
+    verify_note("%-30s peak: reported %7.2g  true %7.2g   impulse: reported %7.2g  true %7.2g", s->name, peak,
+                is, impulse, was);
     *share = is / peak;
     return (is <= 1.6 * peak) | (was <= impulse) << 1;
 }
 
-/* n by n floes or balls, a half wide, frozen together, that run into what stands at x = 0.  No bond ends: by
- * the size of a step nobody can say when, and what comes of that. */
-static void sheet(lab *l, int n, double half, int round)
+/* n by n bonded floes or spheres of half width `half` that run into the structure at x = 0.  No bond
+ * breaks: the moment of breaking, and all that follows, depends on the step. */
+static void bonded_sheet(lab *l, int n, double half, int round)
 {
     fl_err err = {0};
     lab_set(l, "bond.on=true");
@@ -365,17 +367,20 @@ static void sheet(lab *l, int n, double half, int round)
             exit(1);
     }
 }
-static void sheet_at_post(lab *l) { dry(l, 0.3, 0.3), post(l, 0, 0.1, 0.8), sheet(l, 4, 0.5, 0); }
+static void sheet_at_post(lab *l) { dry(l, 0.3, 0.3), post(l, 0, 0.1, 0.8), bonded_sheet(l, 4, 0.5, 0); }
 static void sheet_at_post_damped(lab *l) { sheet_at_post(l), lab_set(l, "bond.damping=0.3"); }
-static void sheet_at_post_elastic(lab *l) { dry(l, 0, 1), post(l, 0, 0.1, 0.8), sheet(l, 4, 0.5, 0); }
+static void sheet_at_post_elastic(lab *l) { dry(l, 0, 1), post(l, 0, 0.1, 0.8), bonded_sheet(l, 4, 0.5, 0); }
 static void sheet_at_post_soft(lab *l) { sheet_at_post(l), lab_set(l, "bond.young=10 MPa"); }
-static void balls_at_post(lab *l) { dry(l, 0.3, 0.3), post(l, 0, 0.1, 0.8), sheet(l, 6, 0.3, 1); }
-static void balls_at_post_dead(lab *l) { dry(l, 0.3, 0.05), post(l, 0, 0.1, 0.8), sheet(l, 6, 0.3, 1); }
+static void balls_at_post(lab *l) { dry(l, 0.3, 0.3), post(l, 0, 0.1, 0.8), bonded_sheet(l, 6, 0.3, 1); }
+static void balls_at_post_dead(lab *l)
+{
+    dry(l, 0.3, 0.05), post(l, 0, 0.1, 0.8), bonded_sheet(l, 6, 0.3, 1);
+}
 static void balls_at_post_damped(lab *l) { balls_at_post(l), lab_set(l, "bond.damping=0.1"); }
-static void balls_at_slope(lab *l) { dry(l, 0.1, 0.5), slope(l, 0.8, 0.1), sheet(l, 6, 0.3, 1); }
+static void balls_at_slope(lab *l) { dry(l, 0.1, 0.5), slope(l, 0.8, 0.1), bonded_sheet(l, 6, 0.3, 1); }
 static void balls_by_core(lab *l) { balls_at_post(l), lab_set(l, "contact.law=core"); }
 enum { SHEETS = 9 };
-static const scene FROZEN[SHEETS] = {
+static const scene BONDED[SHEETS] = {
     {"a sheet hits a post", sheet_at_post, 0.8},
     {"with damped bonds", sheet_at_post_damped, 0.8},
     {"without damping", sheet_at_post_elastic, 0.8},
@@ -387,39 +392,39 @@ static const scene FROZEN[SHEETS] = {
     {"under core", balls_by_core, 0.8},
 };
 
-/* As without(), where bonds are much stiffer than contacts, and set the step. */
-static void without_bonds_ending(void)
+/* As report_of_automatic_step(), where bonds are much stiffer than contacts and set the step. */
+static void report_with_bonds(void)
 {
     double share[SHEETS];
     int n = 0, worse = 0, over = 0;
     for (size_t k = 0; k < SHEETS; k += verify_quick() ? 2 : 1, n++) {
-        const int ok = told(&FROZEN[k], &share[n]);
+        const int ok = verify_reported_error(&BONDED[k], &share[n]);
         worse += !(ok & 1), over += !(ok & 2);
     }
-    qsort(share, (size_t)n, sizeof *share, compare);
-    verify_row("E05", "frozen together: peaks off by more than 1.6 of what is told", worse, 0, 0, VERIFY_ABS);
-    verify_below("E05", "what is told over what peaks are off by, median", 1.0 / share[n / 2], 20.0);
-    verify_row("E05", "impulses off by more than what is told", over, 0, 0, VERIFY_ABS);
+    qsort(share, (size_t)n, sizeof *share, by_value);
+    verify_row("E05", "bonded: peak errors above 1.6 times the reported one", worse, 0, 0, VERIFY_ABS);
+    verify_below("E05", "reported over true peak error, median", 1.0 / share[n / 2], 20.0);
+    verify_row("E05", "impulse errors above the reported one", over, 0, 0, VERIFY_ABS);
 }
 
-static void without(void)
+static void report_of_automatic_step(void)
 {
     double share[SCENES];
     int n = 0, worse = 0, over = 0;
-    verify_note("what the report tells of the automatic step");
+    verify_note("reported error of the automatic step");
     for (size_t k = 0; k < SCENES; k += verify_quick() ? 4 : 1, n++) {
-        const int ok = told(&SCENE[k], &share[n]);
+        const int ok = verify_reported_error(&SCENE[k], &share[n]);
         worse += !(ok & 1), over += !(ok & 2);
     }
-    qsort(share, (size_t)n, sizeof *share, compare);
-    verify_row("E05", "peaks off by more than 1.6 of what is told", worse, 0, 0, VERIFY_ABS);
-    verify_below("E05", "what is told over what peaks are off by, median", 1.0 / share[n / 2], 20.0);
-    verify_row("E05", "impulses off by more than what is told", over, 0, 0, VERIFY_ABS);
+    qsort(share, (size_t)n, sizeof *share, by_value);
+    verify_row("E05", "peak errors above 1.6 times the reported one", worse, 0, 0, VERIFY_ABS);
+    verify_below("E05", "reported over true peak error, median", 1.0 / share[n / 2], 20.0);
+    verify_row("E05", "impulse errors above the reported one", over, 0, 0, VERIFY_ABS);
 }
 
-/* --- how far ahead a state tells anything ------------------------------------------------------ */
+/* --- horizon of prediction ---------------------------------------------------------------------------- */
 
-/* Square floes that fly about a post between walls, elastic: what is near parts. */
+/* Elastic square floes that collide about a post between walls: neighbouring trajectories diverge. */
 static void billiards(lab *l)
 {
     dry(l, 0, 1), post(l, 0, 0, 0.7);
@@ -430,7 +435,7 @@ static void billiards(lab *l)
                  v3(2.0 - 0.7 * (k % 4), 1.5 - 0.9 * (k % 3), 0));
 }
 
-static void billiards_made(lab *l, int neighbour, double seconds, double error)
+static void make_billiards(lab *l, int neighbour, double seconds, double error)
 {
     lab_start(l);
     lab_setf(l, "contact.stiffness_factor=%g", 0.01 * (1.0 + 0.02 * neighbour));
@@ -440,11 +445,11 @@ static void billiards_made(lab *l, int neighbour, double seconds, double error)
     billiards(l);
 }
 
-/* --- touches that hardly matter, and looks broken off ------------------------------------------ */
+/* --- contacts of little effect, and interrupted searches ---------------------------------------------- */
 
-/* Two floes that graze one another at 0.1 mm/s, beside one that tumbles through the water; a world and what
- * looks after its step, at t = 0. */
-static void grazed_made(lab *l, fl_error_budget *g)
+/* Two floes that graze one another at 0.1 mm/s, beside one that tumbles through the water: a world at t = 0
+ * and its error budget. */
+static void make_grazing_floes(lab *l, fl_error_budget *g)
 {
     fl_err err = {0};
     lab_start(l);
@@ -463,27 +468,28 @@ static void grazed_made(lab *l, fl_error_budget *g)
     lab_make(l, fl_error_budget_first_step(g));
 }
 
-/* What the tumbling one is off by is no error of the touch: the step was 100 times shorter for it. */
-static void grazed(void)
+/* The error of the tumbling floe must not be taken for that of the grazing contact; it made the step 100
+ * times shorter. */
+static void error_of_grazing_contact(void)
 {
     lab l;
     fl_error_budget g = {0};
     fl_err err = {0};
-    grazed_made(&l, &g);
+    make_grazing_floes(&l, &g);
     for (int64_t row = 0; row < 20; row++) {
         if (fl_error_budget_update(&g, &l.w, row, &err)) exit(1);
         if (lab_run(&l, lround(0.1 / l.w.dt))) exit(1);
     }
     verify_true("E08", "the floes touch", l.w.impulse_sum > 0.0);
-    verify_below("E08", "steps of trials over those of a run with the largest step, floes that graze",
+    verify_below("E08", "trial steps over steps of a run at the largest step, grazing floes",
                  (double)g.trial_steps / (2.0 / fl_error_budget_first_step(&g)), 20.0);
-    verify_row("E08", "shortest step over the largest there may be",
-               g.min_dt / fl_error_budget_first_step(&g), 1.0, 0.5, VERIFY_ABS);
+    verify_row("E08", "shortest step over the largest allowed one", g.min_dt / fl_error_budget_first_step(&g),
+               1.0, 0.5, VERIFY_ABS);
     fl_error_budget_free(&g), lab_free(&l);
 }
 
-/* What a budget remembers and the step that is taken: to be freed. */
-static char *all_of(const fl_error_budget *g, const fl_world *w)
+/* The state of the budget and the current step, as text that the caller frees. */
+static char *full_state(const fl_error_budget *g, const fl_world *w)
 {
     char *text = NULL;
     size_t n;
@@ -495,9 +501,9 @@ static char *all_of(const fl_error_budget *g, const fl_world *w)
     return text;
 }
 
-/* Looks that are broken off and made again, and looks that are not.  The first is broken off in its second
- * trial, when it has begun a window, the others at once. */
-static void broken_off(void)
+/* Step searches that are interrupted and repeated, against searches that are not.  The first is interrupted
+ * in its second trial, after it has begun a window, the others at once. */
+static void interrupted_searches(void)
 {
     volatile sig_atomic_t stop = 1;
     lab l[2];
@@ -505,33 +511,33 @@ static void broken_off(void)
     fl_err err = {0};
     char *text[2];
     int kept = 1;
-    for (int k = 0; k < 2; k++) grazed_made(&l[k], &g[k]);
+    for (int k = 0; k < 2; k++) make_grazing_floes(&l[k], &g[k]);
     for (int64_t row = 0; row < 20; row++) {
         for (int k = 0; k < 2; k++) {
             stop = 1;
             if (k) {
                 g[k].stop = row ? &stop : &g[k].windows;
-                char *before = all_of(&g[k], &l[k].w);
+                char *before = full_state(&g[k], &l[k].w);
                 if (fl_error_budget_update(&g[k], &l[k].w, row, &err)) exit(1);
-                char *after = all_of(&g[k], &l[k].w);
+                char *after = full_state(&g[k], &l[k].w);
                 kept &= strcmp(before, after) == 0;
                 free(before), free(after);
             }
             stop = 0;
             g[k].stop = &stop;
             if (fl_error_budget_update(&g[k], &l[k].w, row, &err)) exit(1);
-            text[k] = all_of(&g[k], &l[k].w);
+            text[k] = full_state(&g[k], &l[k].w);
             if (lab_run(&l[k], lround(0.1 / l[k].w.dt))) exit(1);
         }
         kept &= strcmp(text[0], text[1]) == 0;
         free(text[0]), free(text[1]);
     }
-    verify_true("E09", "trials were made, or nothing could be broken off", g[0].trial_steps > 0);
-    verify_true("E09", "looks that are broken off leave nothing behind, and can be made again", kept);
+    verify_true("E09", "there were trials to interrupt", g[0].trial_steps > 0);
+    verify_true("E09", "interrupted searches leave the state as it was", kept);
     for (int k = 0; k < 2; k++) fl_error_budget_free(&g[k]), lab_free(&l[k]);
 }
 
-/* Root of the mean square distance of the floes of two worlds. */
+/* Root mean square distance of the floes of two worlds. */
 static double distance(const fl_world *a, const fl_world *b)
 {
     double sum = 0.0;
@@ -539,12 +545,12 @@ static double distance(const fl_world *a, const fl_world *b)
     return sqrt(sum / a->n);
 }
 
-/* How long two runs that are a bit apart at `from` take until they are `far` from one another. */
-static double parted(int neighbour, double from, double seconds, double dt, double far)
+/* Time until two runs that differ slightly at `from` are `far` apart. */
+static double separation_time(int neighbour, double from, double seconds, double dt, double far)
 {
     lab a, b;
     double t = 0.0;
-    billiards_made(&a, neighbour, seconds, 0.0), billiards_made(&b, neighbour, seconds, 0.0);
+    make_billiards(&a, neighbour, seconds, 0.0), make_billiards(&b, neighbour, seconds, 0.0);
     lab_make(&a, dt), lab_make(&b, dt);
     if (lab_run(&a, (int64_t)(from / dt)) || lab_run(&b, (int64_t)(from / dt))) exit(1);
     for (int32_t i = 0; i < b.w.n; i++) b.w.b.x[i].x = nextafter(b.w.b.x[i].x, INFINITY);
@@ -556,12 +562,12 @@ static double parted(int neighbour, double from, double seconds, double dt, doub
     return t;
 }
 
-/* What a run tells of itself, which stays in g. */
-static double told_horizon(fl_error_budget *g, int neighbour, double seconds, double goal)
+/* The horizon that a run reports; its budget stays in g. */
+static double reported_horizon(fl_error_budget *g, int neighbour, double seconds, double goal)
 {
     lab l;
     fl_err err = {0};
-    billiards_made(&l, neighbour, seconds, goal);
+    make_billiards(&l, neighbour, seconds, goal);
     lab_set(&l, "structure.file=lab");
     if (fl_scene_check(&l.scene, &err) ||
         fl_error_budget_make(g, &l.scene, &l.field, &l.field, &l.surface, &err))
@@ -571,14 +577,14 @@ static double told_horizon(fl_error_budget *g, int neighbour, double seconds, do
         if (fl_error_budget_update(g, &l.w, row, &err)) exit(1);
         if (lab_run(&l, (int64_t)lround(EVERY / l.w.dt))) break;
     }
-    verify_note("elastic floes about a post: states part at %.3g /s, horizon %.3g s, windows of %.3g s",
+    verify_note("elastic floes about a post: divergence rate %.3g /s, horizon %.3g s, windows of %.3g s",
                 g->divergence_rate, fl_error_budget_horizon(g), g->row_interval * g->window_rows);
     lab_free(&l);
     return fl_error_budget_horizon(g);
 }
 
-/* One run is one sample of how states part: so the mean of several that are hardly different. */
-static void parting(void)
+/* One run is one sample of the divergence, so the mean over several neighbouring runs is taken. */
+static void horizon_of_prediction(void)
 {
     const double goal = 0.01, seconds = verify_quick() ? 12.0 : 60.0;
     fl_error_budget g = {0};
@@ -587,20 +593,20 @@ static void parting(void)
     for (int k = 0; k < many; k++) {
         double found = 0.0;
         fl_error_budget_free(&g);
-        const double one = told_horizon(&g, k, seconds, goal);
+        const double one = reported_horizon(&g, k, seconds, goal);
         horizon += one / many;
         for (int start = 0; start < 2 && !verify_quick(); start++)
-            found += 0.5 * parted(k, 0.5 * start * seconds, seconds,
-                                  2.0 * fl_error_budget_first_step(&g) / 3.0, goal);
+            found += 0.5 * separation_time(k, 0.5 * start * seconds, seconds,
+                                           2.0 * fl_error_budget_first_step(&g) / 3.0, goal);
         if (verify_quick()) continue;
-        verify_note("two runs a bit apart are %g m apart %.3g s later in the mean", goal, found);
+        verify_note("two runs that differ in the last bit are %g m apart after %.3g s in the mean", goal,
+                    found);
         off += log2(one / found) / many;
     }
     if (!verify_quick())
-        verify_row("E04", "log2 of the horizon over that of two runs a bit apart, mean of five", off, 0.0,
-                   1.0, VERIFY_ABS);
-    verify_true("E04", "runs as a whole are told to be undetermined", horizon < 60.0);
-    verify_below("E04", "length of windows times the rate",
+        verify_row("E04", "log2 of reported over measured horizon, mean of five", off, 0.0, 1.0, VERIFY_ABS);
+    verify_true("E04", "whole runs are reported as undetermined", horizon < 60.0);
+    verify_below("E04", "length of windows times the divergence rate",
                  g.divergence_rate * g.row_interval * g.window_rows, 1.0);
     fl_error_budget_free(&g);
 }
@@ -610,8 +616,8 @@ int main(void)
     static const struct {
         const char *id, *of;
         double goal;
-        double over;     /* scenes that may be over their budget */
-        double short_of; /* steps that may be less than half of the largest that would do */
+        double over;     /* scenes that may exceed their budget */
+        double short_of; /* steps that may be shorter than half of the largest sufficient one */
     } TABLE[] = {{"E01", "impulse", 0.01, 1, 1},
                  {"E02", "impulse", 0.003, 1, 1},
                  {"E03", "peak", 0.01, 1, 1},
@@ -621,10 +627,9 @@ int main(void)
     verify_begin("a step from an error budget");
     for (size_t t = 0; t < sizeof TABLE / sizeof *TABLE; t++) {
         int within = 0, longest = 0, n = 0;
-        verify_note("run.error = %g of the %s; (cap): no longer step is known to be stable beforehand",
-                    TABLE[t].goal, TABLE[t].of);
+        verify_note("run.error = %g of the %s; (cap): limited by stability", TABLE[t].goal, TABLE[t].of);
         for (size_t k = 0; k < SCENES; k += verify_quick() ? 4 : 1) {
-            const int ok = try(&SCENE[k], TABLE[t].goal, TABLE[t].of);
+            const int ok = verify_scene(&SCENE[k], TABLE[t].goal, TABLE[t].of);
             within += ok & 1;
             longest += ok >> 1 & 1;
             vain += (ok & 5) == 5;
@@ -632,20 +637,19 @@ int main(void)
             n++;
         }
         verify_row(TABLE[t].id, "scenes within the budget, of all", within, n, TABLE[t].over, VERIFY_ABS);
-        verify_row(TABLE[t].id, "steps at least half the largest that would do", longest, n,
+        verify_row(TABLE[t].id, "steps of at least half the largest sufficient one", longest, n,
                    TABLE[t].short_of, VERIFY_ABS);
         if (verify_quick()) break;
     }
-    verify_note("%d scenes of %d were within the budget, and the run beside them said otherwise", vain,
-                tried);
-    verify_row("E11", "of 100 scenes, those doubted without need", 100.0 * vain / tried, 0.0, 5.0,
+    verify_note("%d scenes of %d were within the budget, and the companion run doubted them", vain, tried);
+    verify_row("E11", "percentage of scenes doubted without need", 100.0 * vain / tried, 0.0, 5.0,
                VERIFY_ABS);
-    crowd();
-    orders();
-    grazed();
-    broken_off();
-    without();
-    without_bonds_ending();
-    parting();
+    crowded_floes();
+    order_of_impulse();
+    error_of_grazing_contact();
+    interrupted_searches();
+    report_of_automatic_step();
+    report_with_bonds();
+    horizon_of_prediction();
     return verify_end();
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cones and cylinders at any angle, a hull of many triangles that moves, and floes in another order. */
+/* Cones and cylinders at any angle, a hull of many triangles that moves, and floes in a different order. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* A sphere of 0.1 m at x in the frame of the cone; the frame lies anywhere. */
+/* A sphere of 0.1 m at x in the frame of the cone; the frame has any orientation. */
 static void sphere_at(const char *id, const char *what, double r0, double r1, double h, fl_vec3 x,
                       double overlap, fl_vec3 n)
 {
@@ -23,7 +23,7 @@ static void sphere_at(const char *id, const char *what, double r0, double r1, do
     lab_cone(&l, (fl_cone){o, v3_add(o, q_rotate(q, v3(0, 0, h))), r0, r1});
     lab_make(&l, 1e-9);
     lab_pose(&l.w, 0, v3_add(o, q_rotate(q, x)), q_one());
-    const fl_pair p = lab_look(&l.w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
     verify_row(id, what, p.overlap, overlap, 1e-14, VERIFY_ABS);
     if (overlap > 0.0 && v3_norm(n) > 0.0)
         verify_row(id, "  direction", v3_norm(v3_sub(v3_unit(p.force), q_rotate(q, v3_unit(n)))), 0.0, 1e-13,
@@ -33,7 +33,7 @@ static void sphere_at(const char *id, const char *what, double r0, double r1, do
 
 static void any_angle(void)
 {
-    const double c = cos(atan2(0.6, 2.0)), s = sin(atan2(0.6, 2.0)); /* slant of the cone 1 -> 0.4 over 2 m */
+    const double c = cos(atan2(0.6, 2.0)), s = sin(atan2(0.6, 2.0)); /* side of the cone 1 -> 0.4 over 2 m */
     verify_note("V30 with the axis anywhere: sphere of 0.1 m, cylinder of 0.5 m and 2 m [m]");
     sphere_at("V30", "side", 0.5, 0.5, 2, v3(0.55, 0, 1), 0.05, v3(1, 0, 0));
     sphere_at("V30", "end", 0.5, 0.5, 2, v3(0.2, 0, 2.05), 0.05, v3(0, 0, 1));
@@ -42,21 +42,23 @@ static void any_angle(void)
     verify_note("a cone of 1 m that ends with 0.4 m after 2 m, and one with a point");
     sphere_at("H30", "slant side, 0.04 m off", 1, 0.4, 2, v3(0.7 + 0.04 * c, 0, 1 + 0.04 * s), 0.06,
               v3(c, 0, s));
-    sphere_at("H30", "slant side, on the other side of the axis", 1, 0.4, 2,
+    sphere_at("H30", "conical side, on the other side of the axis", 1, 0.4, 2,
               v3(0, -0.7 - 0.04 * c, 1 + 0.04 * s), 0.06, v3(0, -c, s));
     sphere_at("H30", "upper rim", 1, 0.4, 2, v3(0.4 + 0.03, 0, 2.04), 0.05, v3(3, 0, 4));
     sphere_at("H30", "lower rim", 1, 0.4, 2, v3(1.04, 0, -0.03), 0.05, v3(4, 0, -3));
-    sphere_at("H30", "inside, out by the slant side", 1, 0.4, 2, v3(0.7 - 0.2 * c, 0, 1 - 0.2 * s), 0.3,
-              v3(c, 0, s));
-    sphere_at("H30", "inside, out by the lower end", 1, 0.4, 2, v3(0.1, 0.1, 0.25), 0.35, v3(0, 0, -1));
-    sphere_at("H30", "on the axis, out by the upper end", 1, 0.4, 2, v3(0, 0, 1.9), 0.2, v3(0, 0, 1));
+    sphere_at("H30", "inside, nearest exit by the conical side", 1, 0.4, 2, v3(0.7 - 0.2 * c, 0, 1 - 0.2 * s),
+              0.3, v3(c, 0, s));
+    sphere_at("H30", "inside, nearest exit by the lower end", 1, 0.4, 2, v3(0.1, 0.1, 0.25), 0.35,
+              v3(0, 0, -1));
+    sphere_at("H30", "on the axis, nearest exit by the upper end", 1, 0.4, 2, v3(0, 0, 1.9), 0.2,
+              v3(0, 0, 1));
     sphere_at("H30", "over a point", 1, 0, 2, v3(0, 0, 2.03), 0.07, v3(0, 0, 1));
     sphere_at("H30", "beside a point", 1, 0, 2, v3(0.03, 0, 2.04), 0.05, v3(3, 0, 4));
     sphere_at("H30", "in the point itself", 1, 0, 2, v3(0, 0, 2), 0.1, ZERO);
 }
 
-/* A floe of 1 m on a cone that stands far beyond it both ways. */
-static void on_cone(lab *l, double r0, double r1, double half)
+/* A floe of 1 m on a cone that is much longer than the floe. */
+static void make_floe_on_cone(lab *l, double r0, double r1, double half)
 {
     lab_start(l);
     lab_box(l, v3(50, 0, 0), v3(0.5, 0.4, 0.3), 0.05, q_one(), ZERO, ZERO);
@@ -64,15 +66,15 @@ static void on_cone(lab *l, double r0, double r1, double half)
     lab_make(l, 1e-9);
 }
 
-/* All round a cylinder the same force, along the radius, with the overlap of the circle. */
-static void round_it(void)
+/* All round a cylinder the force is the same, along the radius, with the overlap of the circle. */
+static void all_round_cylinder(void)
 {
     const double R = 2.0;
     const int many = verify_quick() ? 25 : 241;
     const double reach[2] = {0.5 - 0.01, hypot(0.45, 0.35) + 0.05 - 0.01};
     const char *const ON[2] = {"face", "edge"};
     lab l;
-    on_cone(&l, R, R, 4.0);
+    make_floe_on_cone(&l, R, R, 4.0);
     for (int edge = 0; edge < 2; edge++) {
         double off = 0.0, turn = 0.0, low = INFINITY, high = 0.0;
         char what[96];
@@ -81,7 +83,7 @@ static void round_it(void)
             const fl_vec3 out = v3(cos(a), sin(a), 0);
             lab_pose(&l.w, 0, v3_scale(R + reach[edge], out),
                      q_about_axis(2, a + (edge ? PI - atan2(0.35, 0.45) : 0.0)));
-            const fl_pair p = lab_look(&l.w, 0, 1);
+            const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
             off = fmax(off, fabs(p.overlap - 0.01));
             turn = fmax(turn, v3_norm(v3_cross(v3_unit(p.force), out)));
             low = fmin(low, v3_dot(p.force, out)), high = fmax(high, v3_dot(p.force, out));
@@ -89,7 +91,7 @@ static void round_it(void)
         snprintf(what, sizeof what, "%s of a floe all round a cylinder: change of the force", ON[edge]);
         verify_below("cone", what, (high - low) / high, 1e-9);
         verify_below("cone", "  largest sine of its angle with the radius", turn, edge ? 1e-2 : 1e-9);
-        /* told at points of the rule, of which the deepest lies beside the deepest of all */
+        /* given at quadrature points, the deepest of which lies beside the point of deepest overlap */
         verify_below("cone", "  error of the overlap over 10 mm", off / 0.01, 1e-2);
     }
     lab_free(&l);
@@ -98,12 +100,12 @@ static void round_it(void)
 static double energy_at(lab *l, fl_vec3 x, fl_quat q)
 {
     lab_pose(&l->w, 0, x, q);
-    return lab_look(&l->w, 0, 1).energy;
+    return lab_evaluate_pair(&l->w, 0, 1).energy;
 }
 
-/* Force and torque against differences of the energy, on cylinders and cones, where their ends begin to count
- * and where they do not. */
-static void gradient(void)
+/* Force and torque against differences of the energy, on cylinders and cones, with and without the
+ * influence of their ends. */
+static void energy_gradient(void)
 {
     const double shape[4][3] = {{2.0, 2.0, 4.0}, {2.0, 2.0, 0.75}, {3.0, 1.5, 5.0}, {0.4, 0.4, 4.0}};
     const char *const NAME[4] = {"a cylinder", "a short cylinder, partly its polygon", "a cone", "a pole"};
@@ -111,7 +113,7 @@ static void gradient(void)
         double worst = 0.0;
         char what[96];
         lab l;
-        on_cone(&l, shape[c][0], shape[c][1], shape[c][2]);
+        make_floe_on_cone(&l, shape[c][0], shape[c][1], shape[c][2]);
         for (int k = 0; k < (verify_quick() ? 6 : 60); k++) {
             fl_rng g = fl_rng_of(5, 100 * c + k, FL_RNG_TEST);
             const double z = fl_rng_in(&g, -0.2, 0.2), a = fl_rng_in(&g, 0, 6.28);
@@ -122,11 +124,11 @@ static void gradient(void)
                       q_of_vector(v3(fl_rng_in(&g, -0.05, 0.05), -0.5 * slope + fl_rng_in(&g, -0.05, 0.05),
                                      fl_rng_in(&g, -0.6, 0.6))));
             double far = r + 1.0;
-            for (double e = 0.0; far > r && !(e > 0.0); far -= 0.01) /* nearer until it touches well */
+            for (double e = 0.0; far > r && !(e > 0.0); far -= 0.01) /* approach until the overlap is clear */
                 e = energy_at(&l, v3((far - 0.01) * cos(a), (far - 0.01) * sin(a), z), q);
             const fl_vec3 x = v3(far * cos(a), far * sin(a), z);
             lab_pose(&l.w, 0, x, q);
-            const fl_pair p = lab_look(&l.w, 0, 1);
+            const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
             if (!(p.overlap > 0.002)) continue;
             const double h = 1e-7;
             fl_vec3 f, t;
@@ -149,8 +151,8 @@ static void gradient(void)
     }
 }
 
-/* A cylinder of 1000 km is a wall. */
-static void limits(void)
+/* A cylinder of 1000 km radius is a plane wall. */
+static void cylinder_as_wall(void)
 {
     double f[2];
     const fl_quat q = q_of_vector(v3(0.002, -0.003, 0.01));
@@ -162,19 +164,19 @@ static void limits(void)
             lab_set(&l, "boundary.min=0 none none");
             lab_make(&l, 1e-9);
         } else {
-            on_cone(&l, 1e6, 1e6, 4.0);
+            make_floe_on_cone(&l, 1e6, 1e6, 4.0);
         }
         lab_pose(&l.w, 0, v3(k ? 0.495 : 1e6 + 0.495, 0.01, 0.02), q);
-        const fl_pair p = lab_look(&l.w, 0, 1);
-        f[k] = v3_norm(p.force) / p.k; /* the stiffness of a wall is not that of a structure */
+        const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
+        f[k] = v3_norm(p.force) / p.k; /* a wall has another stiffness than a structure */
         lab_free(&l);
     }
     verify_row("cone", "force of a floe on a cylinder of 1000 km over that on a wall, at one stiffness",
                f[0] / f[1], 1.0, 1e-4, VERIFY_ABS);
 }
 
-/* Thrown at a cylinder and at a cone: the energy after over before, and the books. */
-static void thrown(void)
+/* A floe is thrown at a cylinder and at a cone: the energy ratio, and the momentum balance. */
+static void throw_at_cone(void)
 {
     for (int c = 0; c < 3; c++) {
         char what[96];
@@ -190,7 +192,7 @@ static void thrown(void)
         const fl_vec3 v0 = l.w.b.v[0];
         lab_run(&l, (int64_t)(0.8 / l.w.dt));
         const double hit = v3_norm(v3_sub(l.w.b.v[0], v0));
-        snprintf(what, sizeof what, "thrown at %s: |energy ratio - 1|",
+        snprintf(what, sizeof what, "floe thrown at %s: |energy ratio - 1|",
                  c == 0   ? "a cylinder"
                  : c == 1 ? "a short one"
                           : "a cone");
@@ -202,9 +204,9 @@ static void thrown(void)
     }
 }
 
-/* 49 151 triangles that do not close, so that they are a shell, with a floe at the side.  Moved and turned
- * with the floe, they give the same force; the tree is the one that was built. */
-static void hull(void)
+/* 49 151 triangles that do not close, and so form a shell, with a floe at the side.  Moved and turned
+ * together with the floe, they give the same force, and the search tree is not rebuilt. */
+static void moving_hull(void)
 {
     const int n = verify_quick() ? 16 : 64;
     lab l;
@@ -221,27 +223,27 @@ static void hull(void)
     const fl_aabb box = node[0].box;
     const fl_vec3 x = v3(2.49, 0.3, 0.1);
     lab_pose(&l.w, 0, x, l.w.q0[0]);
-    const fl_pair before = lab_look(&l.w, 0, 1);
+    const fl_pair before = lab_evaluate_pair(&l.w, 0, 1);
     lab_pose(&l.w, 0, v3(60, 0, 0), q_one());
     lab_run(&l, 1000);
     const fl_bodies *m = &l.w.moving.movers.b;
     const fl_vec3 from = v3_sub(x, v3(0.2, 0.1, 0));
     lab_pose(&l.w, 0, v3_add(m->x[0], m3_mul(fl_body_axes(m, 0), from)), q_mul(m->q[0], l.w.q0[0]));
-    const fl_pair after = lab_look(&l.w, 0, 1);
+    const fl_pair after = lab_evaluate_pair(&l.w, 0, 1);
     char what[96];
-    snprintf(what, sizeof what, "a hull of %d triangles, after 1 s of way and turn: force", shell->tree.n);
+    snprintf(what, sizeof what, "a hull of %d triangles, moved and turned for 1 s: force", shell->tree.n);
     verify_row("hull", what,
                v3_norm(v3_sub(m3_tmul(fl_body_axes(m, 0), after.force), before.force)) /
                    v3_norm(before.force),
                0.0, 1e-9, VERIFY_ABS);
-    verify_true("hull", "  its tree is the one that was built",
+    verify_true("hull", "  its search tree is the one that was built",
                 node == shell->tree.node && memcmp(&box, &node[0].box, sizeof box) == 0 &&
                     l.w.structure.piece[0].x.x == 0.0);
     lab_free(&l);
 }
 
-/* Two floes, one behind the other, run into a vertical cylinder; and the same with their numbers swapped. */
-static double swapped(double lift)
+/* Two floes, one behind the other, run into a vertical cylinder; then the same with their numbers swapped. */
+static double impulse_with_order(double lift)
 {
     lab l[2];
     for (int s = 0; s < 2; s++) {
@@ -264,23 +266,24 @@ static double swapped(double lift)
     return off / all;
 }
 
-static void order(void)
+static void order_of_floes(void)
 {
     verify_note(
         "two floes against a vertical cylinder, their numbers swapped: change of the impulse on it, 4 s");
-    verify_below("order", "one lies 0.1 mm higher than the other", swapped(1e-4), 1e-12);
-    verify_below("order", "both exactly level, where rounding tells what lies over what", swapped(0.0), 1e-5);
+    verify_below("order", "one lies 0.1 mm higher than the other", impulse_with_order(1e-4), 1e-12);
+    verify_below("order", "both exactly level, where rounding decides which lies above",
+                 impulse_with_order(0.0), 1e-5);
 }
 
 int main(void)
 {
     verify_begin("cones at any angle, hulls that move");
     any_angle();
-    round_it();
-    gradient();
-    limits();
-    thrown();
-    hull();
-    order();
+    all_round_cylinder();
+    energy_gradient();
+    cylinder_as_wall();
+    throw_at_cone();
+    moving_hull();
+    order_of_floes();
     return verify_end();
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contact of two bodies: continuity, energy, rest, and the hard cases. */
+/* The contact of two bodies: continuity, energy, rest, and hard cases. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,8 +15,7 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* --- continuity -------------------------------------------------------------------------------------------
- */
+/* --- continuity --------------------------------------------------------------------------------------- */
 
 typedef struct {
     double s, f, w, t; /* parameter, size of the force, energy, torque about y */
@@ -33,7 +32,7 @@ static double by_force(const sample *a, const sample *b)
 }
 static double by_torque(const sample *a, const sample *b) { return fabs(b->t - a->t) / fmax(a->f, b->f); }
 
-/* What sweep_largest() is to follow. */
+/* The quantity that sweep_largest() evaluates. */
 typedef struct {
     lab *l;
     sampler at;
@@ -54,48 +53,48 @@ static double largest_jump(lab *l, sampler at, double from, double to, double fi
     return sweep_largest(change_on, &p, from, to, fine);
 }
 
-static sample look(lab *l, double s)
+static sample sample_contact(lab *l, double s)
 {
-    const fl_pair p = lab_look(&l->w, 0, 1);
+    const fl_pair p = lab_evaluate_pair(&l->w, 0, 1);
     const double f = v3_norm(p.force);
     return (sample){s, f, p.energy, p.torque_i.y, v3_scale(1.0 / f, p.force), p.force, p.mode};
 }
 
-/* A path at a fixed distance from the box |x|, |y| <= 1, |z| <= 1: over the face to the edge, round it, down
- * the side towards the corner, round that.  s is length along the path. */
-static const double GAP = 0.09; /* of the tip from the core box; R = 0.1 */
+/* A path at a fixed distance from the box |x|, |y|, |z| <= 1: over the top face to the edge, round the
+ * edge, down the side towards the corner, round the corner.  s is the length along the path. */
+static const double GAP = 0.09; /* distance of the tip from the core box; R = 0.1 */
 static fl_vec3 tip_at(double s)
 {
     const double a = 0.9, b = 1.2; /* core half side; length on the face */
     const double arc = 0.5 * PI * GAP;
     if (s < b) return v3(a - b + s, 0.3, a + GAP); /* over the top face, to the edge x = a, z = a */
     s -= b;
-    if (s < 0.5 * arc) return v3(a + GAP * sin(s / GAP), 0.3, a + GAP * cos(s / GAP)); /* half round it */
+    if (s < 0.5 * arc) return v3(a + GAP * sin(s / GAP), 0.3, a + GAP * cos(s / GAP)); /* half way round it */
     s -= 0.5 * arc;
     const double r = GAP * sqrt(0.5);
     if (s < a - 0.3) return v3(a + r, 0.3 + s, a + r); /* along the edge to the corner */
     s -= a - 0.3;
-    /* round the corner, on the ball about it, towards y */
+    /* round the corner on its sphere, towards y */
     const double t = s / GAP;
     return v3(a + r * cos(t), a + GAP * sin(t), a + r * cos(t));
 }
 #define TIP_PATH (1.2 + 0.25 * PI * 0.09 + 0.6 + 0.9 * 0.5 * PI * 0.09)
 
-static sample ball_on_path(lab *l, double s)
+static sample sphere_on_path(lab *l, double s)
 {
     l->w.b.x[0] = tip_at(s);
-    return look(l, s);
+    return sample_contact(l, s);
 }
 
-/* The lowest vertex of a pyramid on the same path; its frame is set when it is made. */
+/* The lowest vertex of a pyramid on the same path; the offset is set when the pyramid is made. */
 static fl_vec3 tip_offset;
 static sample pyramid_on_path(lab *l, double s)
 {
     l->w.b.x[0] = v3_sub(tip_at(s), tip_offset);
-    return look(l, s);
+    return sample_contact(l, s);
 }
 
-static void transit(const char *law)
+static void pass_over_edges(const char *law)
 {
     for (int pyramid = 0; pyramid < 2; pyramid++) {
         lab l;
@@ -106,7 +105,7 @@ static void transit(const char *law)
         if (pyramid) {
             fl_err err = {0};
             fl_poly p = {0};
-            /* tip down and inward, towards the corner (1, 1, 1) of the box; turned so that no edges are
+            /* tip down and inward, towards the corner (1, 1, 1) of the box; rotated so that no edges are
              * parallel */
             const fl_vec3 d = v3_unit(v3(1, 1, 1)), e = v3_unit(v3(1, -0.7, -0.3)), f = v3_cross(d, e);
             const fl_vec3 v[4] = {ZERO, v3_add(d, v3_scale(0.5, e)),
@@ -121,12 +120,12 @@ static void transit(const char *law)
         lab_box(&l, ZERO, v3(0.95, 0.95, 0.95), 0.05, q_one(), ZERO, ZERO);
         lab_make(&l, 1e-9);
         if (pyramid) tip_offset = v3_neg(l.w.b.x[0]);
-        const sampler at = pyramid ? pyramid_on_path : ball_on_path;
+        const sampler at = pyramid ? pyramid_on_path : sphere_on_path;
         const double h = 1e-9, overlap = 0.1 - GAP, whole = TIP_PATH;
         snprintf(what, sizeof what, "%s, %s: size, change over 1e-9 m", law, pyramid ? "pyramid" : "ball");
         const double jump = largest_jump(&l, at, 0.0, whole, h, by_size);
-        /* A pyramid rides on its edges too: their distances change by up to h as the tip keeps its own, so up
-         * to the share h/overlap of the force. */
+        /* The edges of the pyramid touch as well.  Their distances change by up to h while that of the tip
+         * stays, so the force changes by up to the share h/overlap. */
         const int edges = pyramid && law[0] == 'p';
         verify_below("V38", what, jump, edges ? 1e-9 + h / overlap : 1e-9);
         snprintf(what, sizeof what, "%s, %s: direction, beyond 1e-9 m / d", law,
@@ -137,12 +136,12 @@ static void transit(const char *law)
     }
 }
 
-/* A box of 2 x 1 x 1 tilted about y by s, its centre at a fixed height over a block. */
+/* A box of 2 x 1 x 1, tilted about y by s, with its centre at a fixed height over a block. */
 static double tilt_height;
 static sample tilted(lab *l, double s)
 {
     lab_pose(&l->w, 0, v3(0, 0, tilt_height), q_of_vector(v3(0, s, 0)));
-    return look(l, s);
+    return sample_contact(l, s);
 }
 
 static void two_boxes(lab *l, const char *law, fl_vec3 lower)
@@ -154,13 +153,13 @@ static void two_boxes(lab *l, const char *law, fl_vec3 lower)
     lab_box(l, v3(0, 0, 3), v3(1, 0.5, 0.5), 0.1, q_one(), ZERO, ZERO);
     lab_box(l, v3(0, 0, -0.5), lower, 0.1, q_one(), ZERO, ZERO);
     lab_make(l, 1e-9);
-    /* principal axes may have come in another order: the poses of the tests are those of the file */
+    /* principal axes may be in another order; the poses here are those of the file */
     for (int i = 0; i < 2; i++)
         fl_poly_to_frame(&l->w.b.core[i], ZERO, q_matrix(q_conj(l->w.b.q[i]))),
             lab_pose(&l->w, i, l->w.b.x[i], q_one());
 }
 
-static void tilting(const char *law, int pass)
+static void tilt_on_box(const char *law, int pass)
 {
     const fl_vec3 lower[2] = {{3, 3, 0.5}, {1, 0.5, 0.5}};
     const char *on[2] = {"larger", "equal"};
@@ -169,7 +168,7 @@ static void tilting(const char *law, int pass)
         char what[80];
         double off = 0.0, worst = 0.0;
         two_boxes(&l, law, lower[k]);
-        tilt_height = 0.5 - 0.02; /* overlap 20 mm, more than the tilt takes away */
+        tilt_height = 0.5 - 0.02; /* overlap 20 mm, more than the tilt removes */
         for (int m = 0; m <= 200; m++) {
             const double s = -1e-2 + 1e-4 * m, h = 1e-7;
             const sample a = tilted(&l, s - h), b = tilted(&l, s + h), c = tilted(&l, s);
@@ -181,26 +180,25 @@ static void tilting(const char *law, int pass)
         if (pass) {
             snprintf(what, sizeof what, "%s on a box, %s: torque + dW/dtheta over F 1 m", law, on[k]);
             verify_below("V39", what, worst, 1e-6);
-            /* 1e-9 rad moves a corner by 1e-9 m against an overlap of 1e-2 m; the fade of edges turns over
-             * 0.03 rad */
+            /* 1e-9 rad moves a corner by 1e-9 m against an overlap of 1e-2 m; edges fade over 0.03 rad */
             snprintf(what, sizeof what, "%s on a box, %s: torque, change over 1e-9 rad", law, on[k]);
             verify_below("V39", what, jump, 1e-6);
             snprintf(what, sizeof what, "%s on a box, %s: force, change over 1e-9 rad", law, on[k]);
             verify_below("V39", what, step, 1e-6);
         } else {
-            verify_note("V39 %s, %s: torque off the gradient by %.3g F m; jumps over 1e-9 rad: torque %.3g F "
-                        "m, force %.3g F",
-                        law, on[k], worst, jump, step);
+            verify_note(
+                "V39 %s, %s: torque off the gradient by %.3g F m; changes over 1e-9 rad: torque %.3g F "
+                "m, force %.3g F",
+                law, on[k], worst, jump, step);
         }
         lab_free(&l);
     }
 }
 
-/* --- energy -----------------------------------------------------------------------------------------------
- */
+/* --- energy ------------------------------------------------------------------------------------------- */
 
-/* Drop the box of V40 with the given tilts on a block; energy after over energy before. */
-static double bounce(const char *law, double tx, double ty, double fraction)
+/* Drops the box of V40 with the given tilts on a block.  Returns energy after over energy before. */
+static double drop_box(const char *law, double tx, double ty, double fraction)
 {
     lab l;
     char set[64];
@@ -220,14 +218,14 @@ static double bounce(const char *law, double tx, double ty, double fraction)
         int now = 0;
         for (int32_t c = 0; c < l.w.n_pair; c++) now |= l.w.pair[c].touching > 0;
         touched |= now;
-        done = touched && !now && l.w.b.v[0].z > 0.0 ? done + 1 : 0; /* off, and not coming back soon */
+        done = touched && !now && l.w.b.v[0].z > 0.0 ? done + 1 : 0; /* separated, and not coming back soon */
     }
     const double after = lab_energy(&l);
     lab_free(&l);
     return after / before;
 }
 
-static void dropping(void)
+static void energy_of_drops(void)
 {
     static const char *const LAW[4] = {"patch", "core", "manual-si", "manual"};
     for (int k = 0; k < 4; k++) {
@@ -236,7 +234,7 @@ static void dropping(void)
         for (int i = 0; i <= 8; i++) {
             for (int j = 0; j < 2; j++, n++) {
                 const double t = -0.02 + 0.005 * i;
-                const double r = bounce(LAW[k], j ? 0.5 * t : 0.0, t, 0.1);
+                const double r = drop_box(LAW[k], j ? 0.5 * t : 0.0, t, 0.1);
                 low = fmin(low, r);
                 high = fmax(high, r);
                 mean += r;
@@ -255,16 +253,15 @@ static void dropping(void)
         h[k] = 0.4 / (1 << k);
         off[k] = 0.0;
         for (int i = 0; i < 16; i++)
-            off[k] += fabs(bounce("patch", 0.0015 * i, 0.02 - 0.002 * i, h[k]) - 1.0) / 16;
+            off[k] += fabs(drop_box("patch", 0.0015 * i, 0.02 - 0.002 * i, h[k]) - 1.0) / 16;
     }
-    /* Between touch and release the step conserves an energy of its own.  What is left is made in the steps
-     * that begin and end a contact, of a vertex first: there W ~ s^(5/2) and s ~ h, and h^3 W''' ~ h^(5/2).
-     */
+    /* Between first touch and release the step conserves a modified energy.  The remaining error is made in
+     * the steps in which contacts begin and end, of a vertex first: there W ~ s^(5/2) and s ~ h, so h^3
+     * W''' ~ h^(5/2). */
     verify_order("V40", "patch: mean |ratio - 1| against dt over the automatic", h, off, 4, 2.5, 0.3);
 }
 
-/* --- the hard cases ---------------------------------------------------------------------------------------
- */
+/* --- the hard cases ----------------------------------------------------------------------------------- */
 
 static void nearly_parallel(void)
 {
@@ -301,7 +298,7 @@ static void nearly_parallel(void)
                VERIFY_ABS);
 }
 
-static void equal_boxes(void)
+static void stacked_equal_boxes(void)
 {
     const int64_t steps = verify_quick() ? 50000 : 1000000;
     lab l;
@@ -324,21 +321,21 @@ static void equal_boxes(void)
     lab_free(&l);
 }
 
-/* Without friction the same is an unstable equilibrium of rounded boxes.  Moved aside by e, the lower core's
- * left rim loses some of the upper face, and two vertices and one edge of each stand beyond the other, at a
- * distance larger by e^2/2h, h = R - s.  With U of patch_points.h, e'' = -g U_ee/U_s e:
+/* Without friction two aligned boxes are an unstable equilibrium.  Displaced by e, one rim of the lower
+ * core loses a part of the upper face.  Two vertices and one edge of each box then stand beyond the other
+ * one, at a distance larger by e^2/2h, h = R - s.  With U of patch_points.h, e'' = -g U_ee/U_s e:
  *
  *     U    = A s^4 + 4 (Ex + Ey) + 8 V,
  *     U_ee = -(Ly s^4/w + 9 Ey/(s h) + 20 V/(s h)),
  *
- * where w = R/10 is the width of the rim, A = Lx Ly - w (Lx + Ly) + 4/3 w^2 what its fade leaves of the face,
- * E and V the terms of one edge and of one vertex. */
+ * where w = R/10 is the width of the rim, A = Lx Ly - w (Lx + Ly) + 4/3 w^2 the area of the face less its
+ * fade, E and V the terms of one edge and of one vertex. */
 static double parting_rate(double c, double weight)
 {
     const double R = 0.2, rho = 0.1, w = FL_PATCH_RIM_WIDTH * R, Lx = 1.8, Ly = 0.8;
     const double A = Lx * Ly - w * (Lx + Ly) + 4.0 / 3.0 * w * w;
     double s = 1e-6, rate = 0.0;
-    for (int k = 0; k < 50; k++) { /* the force grows with s but for powers of s/R */
+    for (int k = 0; k < 50; k++) { /* the force grows with s, up to powers of s/R */
         const double line = FL_PATCH_ROUND_FACTOR * 256.0 / 315.0 * sqrt(2.0 * rho) * pow(s, 4.5),
                      Ex = line * Lx, Ey = line * Ly, V = FL_PATCH_ROUND_FACTOR * 0.4 * PI * rho * pow(s, 5.0),
                      s4 = s * s * s * s;
@@ -366,13 +363,13 @@ static void frictionless_boxes(void)
     l.w.b.v[1].x = 0.0;
     const int64_t steps = (int64_t)((verify_quick() ? 1.0 : 5.0) / l.w.dt);
     lab_run(&l, steps);
-    verify_row("H02", "without friction aligned boxes part, rate [1/s]",
+    verify_row("H02", "without friction: growth rate of the offset [1/s]",
                acosh(l.w.b.x[1].x / start) / ((double)steps * l.w.dt),
                parting_rate(l.w.pair[0].contact->k, l.w.b.m[1] * G), 1e-3, VERIFY_REL);
     lab_free(&l);
 }
 
-/* Signed distance of the cores of bodies 0 and 1 as the contact of the probe has it. */
+/* Signed distance of the cores of bodies 0 and 1 in the record of the contact. */
 static double signed_distance(lab *l)
 {
     fl_contact c;
@@ -381,7 +378,7 @@ static double signed_distance(lab *l)
     return c.d;
 }
 
-static void interpenetrating(void)
+static void overlapping_cores(void)
 {
     double most_energy = 0.0, most_speed = 0.0, jump = 0.0, automatic = 0.0;
     int apart = 1;
@@ -397,7 +394,7 @@ static void interpenetrating(void)
             const double W = lab_energy(&l), M = 0.5 * l.w.b.m[0];
             for (int s = 0; s < 4000 && signed_distance(&l) < 0.2; s++)
                 if (lab_run(&l, 1)) break;
-            if (!(signed_distance(&l) > 0.1)) apart = 0; /* R = 0.1: nothing stored any more */
+            if (!(signed_distance(&l) > 0.1)) apart = 0; /* R = 0.1: no energy is stored any more */
             fl_energy_update(&l.w);
             const double out = l.w.ledger.kinetic / W;
             if (what & 2) {
@@ -409,7 +406,7 @@ static void interpenetrating(void)
             lab_free(&l);
         }
     }
-    for (int what = 0; what < 2; what++) { /* through each other from below to above */
+    for (int what = 0; what < 2; what++) { /* through one another, from below to above */
         const double h = 1e-3;
         lab l;
         lab_start(&l);
@@ -430,13 +427,13 @@ static void interpenetrating(void)
     verify_true("H10", "they come apart", apart);
     verify_below("H10", "kinetic energy over the energy W of the start", most_energy, 1.01);
     verify_below("H10", "exit speed over sqrt(2 W / M)", most_speed, 1.005);
-    verify_below("H10", "signed distance: change beyond the way moved over it", jump, 1e-9);
+    verify_below("H10", "signed distance: change beyond the displacement, over it", jump, 1e-9);
     verify_note("steps a twentieth of the automatic, which is made for overlaps below the radii: with it, "
                 "energy up to %.2f W",
                 automatic);
 }
 
-static void coincident(void)
+static void coincident_boxes(void)
 {
     fl_vec3 f[2];
     int finite = 1;
@@ -460,7 +457,7 @@ static void coincident(void)
     verify_note("force on the first (%g, %g, %g) N", f[0].x, f[0].y, f[0].z);
 }
 
-/* Two capsules whose axes cross in one point, to the last bit, let go: what is stored comes back. */
+/* Two capsules whose axes cross exactly in one point are released: the stored energy comes back. */
 static void crossing_axes(void)
 {
     double left[2];
@@ -477,19 +474,18 @@ static void crossing_axes(void)
         const double p = v3_norm(v3_madd(v3_scale(b->m[0], b->v[0]), b->m[1], b->v[1]));
         left[k] = fabs(lab_energy(&l) / before - 1.0);
         if (k) {
-            verify_true("H11", "axes of two capsules that cross in a point: all finite", !bad && isfinite(p));
+            verify_true("H11", "capsules whose axes cross in a point: all finite", !bad && isfinite(p));
             verify_true("H11", "  and they come apart", signed_distance(&l) > 1.0);
             verify_below("H11", "  sum of their momenta over the one of the first",
                          p / (b->m[0] * v3_norm(b->v[0])), 1e-12);
         }
         lab_free(&l);
     }
-    verify_below("H11", "  energy lost or made, of that stored, at a 20th of the automatic step", left[1],
-                 0.01);
+    verify_below("H11", "  relative energy error at a 20th of the automatic step", left[1], 0.01);
     verify_below("H11", "  over that at a fifth", left[1] / left[0], 0.5);
 }
 
-/* A box whose radius is 1e-9 of its size, dropped flat on a block: the force is that of the sharp faces. */
+/* A box whose radius is 1e-9 of its size, dropped flat on a block: the force is that of sharp faces. */
 static void nearly_sharp(void)
 {
     lab l;
@@ -497,7 +493,7 @@ static void nearly_sharp(void)
     lab_box(&l, v3(0, 0, 0.501), v3(1, 0.5, 0.5), 2e-9, q_one(), v3(0, 0, -0.01), ZERO);
     lab_wall(&l, v3(-5, -5, -1), v3(5, 5, 0), 1);
     lab_make(&l, 0.0);
-    l.w.dt *= 0.1; /* all of the face sets in at once, an error of h^2: 3e-4 at the automatic step */
+    l.w.dt *= 0.1; /* the whole face touches at once, with an error of h^2: 3e-4 at the automatic step */
     const double before = lab_energy(&l);
     const int bad = lab_run(&l, (int64_t)(0.3 / l.w.dt));
     verify_true("H12", "radius 1e-9 of the size: all numbers finite", !bad);
@@ -507,7 +503,7 @@ static void nearly_sharp(void)
     lab_free(&l);
 }
 
-/* A tip that is pressed on the edge of a block and drawn along it. */
+/* A tip is pressed on the edge of a block and drawn along it. */
 static void sliding_on_an_edge(void)
 {
     const int64_t steps = verify_quick() ? 20000 : 100000;
@@ -551,15 +547,15 @@ static void sliding_on_an_edge(void)
     lab_free(&l);
 }
 
-/* Two square rods lying with an edge up and an edge down, the edges 0.19 m apart (R = 0.2); s is their angle.
- */
-static sample crossed(lab *l, double s)
+/* Two square rods, one with an edge up and one with an edge down, their edges 0.19 m apart (R = 0.2); s is
+ * the angle between them. */
+static sample crossed_rods(lab *l, double s)
 {
     const double diagonal = 0.2 * sqrt(2.0);
     lab_pose(&l->w, 0, v3(0.1, 0, 2 * diagonal + 0.19),
              q_mul(q_of_vector(v3(0, 0, s)), q_of_vector(v3(0.25 * PI, 0, 0))));
     lab_pose(&l->w, 1, ZERO, q_of_vector(v3(0.25 * PI, 0, 0)));
-    return look(l, s);
+    return sample_contact(l, s);
 }
 
 static void crossing_edges(void)
@@ -573,15 +569,15 @@ static void crossing_edges(void)
     for (int i = 0; i < 2; i++)
         fl_poly_to_frame(&l.w.b.core[i], ZERO, q_matrix(q_conj(l.w.b.q[i]))),
             lab_pose(&l.w, i, l.w.b.x[i], q_one());
-    const double f0 = crossed(&l, 0.0).f;
-    for (int k = -12; k <= -3; k++) most = fmax(most, crossed(&l, pow(10.0, k)).f / f0);
+    const double f0 = crossed_rods(&l, 0.0).f;
+    for (int k = -12; k <= -3; k++) most = fmax(most, crossed_rods(&l, pow(10.0, k)).f / f0);
     verify_below("H15", "force of near-parallel edges over that of parallel ones", most, 1.0 + 1e-9);
     verify_below("H15", "its change over 1e-9 rad, angles to 0.1",
-                 largest_jump(&l, crossed, 0.0, 0.1, 1e-9, by_force), 1e-6);
+                 largest_jump(&l, crossed_rods, 0.0, 0.1, 1e-9, by_force), 1e-6);
     lab_free(&l);
 }
 
-static void slope(void)
+static void box_on_slope(void)
 {
     const int64_t steps = verify_quick() ? 100000 : 10000000;
     const double angle = 20 * PI / 180, mu = 0.5;
@@ -596,7 +592,7 @@ static void slope(void)
     lab_run(&l, 20000);
     const double settled = l.w.b.x[0].x;
     lab_run(&l, steps);
-    /* k_t is tangential times the normal stiffness of what carries: at least that of the face, 2 c sqrt(A) */
+    /* k_t is tangential_ratio times the normal stiffness: at least that of the face, 2 c sqrt(A) */
     const fl_pair *p = l.w.pair[0].contact;
     const double kt = 2.0 * p->k * sqrt(1.8 * 0.8) * p->law->tangential_ratio,
                  bound = mu * 900 * 2 * G * cos(angle) / kt + 1e-6;
@@ -607,23 +603,23 @@ static void slope(void)
     lab_free(&l);
 }
 
-/* The overlap at which body i carries a load on the one beneath it, j [m]. */
-static double sinking(lab *l, int32_t i, int32_t j, double load)
+/* The overlap at which body i carries a load on body j beneath it [m]. */
+static double equilibrium_overlap(lab *l, int32_t i, int32_t j, double load)
 {
     const double z = l->w.b.x[i].z;
     double s = 1e-3;
     for (int k = 0; k < 30; k++) {
         l->w.b.x[i].z = z - s;
-        s *= load / v3_norm(lab_look(&l->w, i < j ? i : j, i < j ? j : i).force);
+        s *= load / v3_norm(lab_evaluate_pair(&l->w, i < j ? i : j, i < j ? j : i).force);
     }
     l->w.b.x[i].z = z;
     return s;
 }
 
-/* n blocks of 1 m.  A joint resists turning with some K a^2, K the stiffness of a face and a = 0.45 m, so the
- * stack is a column of bending stiffness 1 m K a^2 that buckles under its own weight from a height of (7.84 K
- * a^2 / m g)^(1/3) m: 28 m at 100 MPa, 220 m at 50 GPa. */
-static void stack(int n, const char *young)
+/* n blocks of 1 m.  A joint resists rotation with some K a^2, where K is the stiffness of a face and a =
+ * 0.45 m.  So the stack is a column of bending stiffness 1 m K a^2.  It buckles under its own weight from a
+ * height of (7.84 K a^2 / m g)^(1/3) m: 28 m at 100 MPa, 220 m at 50 GPa. */
+static void stack_of_blocks(int n, const char *young)
 {
     lab l;
     char what[80];
@@ -635,47 +631,48 @@ static void stack(int n, const char *young)
     for (int k = 0; k < n; k++) lab_box(&l, v3(0, 0, 0.5 + k), v3(0.5, 0.5, 0.5), 0.05, q_one(), ZERO, ZERO);
     lab_wall(&l, v3(-5, -5, -1), v3(5, 5, 0), 1);
     lab_make(&l, 0.0);
-    /* Released 1 % above where it will come to rest.  The period of the lowest wave grows as n, and what it
-     * loses in one falls as 1/n: it dies out in some n^2 steps, times 40. */
+    /* Released 1 % above equilibrium.  The period of the lowest mode grows as n, and the loss per period
+     * falls as 1/n: it decays within some n^2 steps, times 40. */
     const double m = l.w.b.m[0];
     double sum = 0.0, kinetic = 0.0;
     double *down = calloc((size_t)n, sizeof *down);
     if (!down) exit(1);
-    for (int k = 0; k < n; k++) down[k] = sum += sinking(&l, k, k ? k - 1 : n, (n - k) * m * G);
+    for (int k = 0; k < n; k++) down[k] = sum += equilibrium_overlap(&l, k, k ? k - 1 : n, (n - k) * m * G);
     for (int k = 0; k < n; k++) l.w.b.x[k].z -= 0.99 * down[k];
     free(down);
     lab_run(&l, n < 20 ? 20000 : 400000);
     fl_energy_update(&l.w);
     kinetic = l.w.ledger.kinetic / (n * m * G * sum);
     const double sunk = n - 0.5 - l.w.b.x[n - 1].z;
-    snprintf(what, sizeof what, "stack of %d: the top has sunk by [m]", n);
+    snprintf(what, sizeof what, "stack of %d: settlement of the top [m]", n);
     verify_row("H17", what, sunk, sum, 1e-3, VERIFY_REL);
-    verify_below("H17", "  kinetic energy over weight times sinking", kinetic, 1e-9);
-    verify_below("H17", "  the top has gone aside by [m]", hypot(l.w.b.x[n - 1].x, l.w.b.x[n - 1].y), 1e-9);
+    verify_below("H17", "  kinetic energy over weight times settlement", kinetic, 1e-9);
+    verify_below("H17", "  sideways displacement of the top [m]", hypot(l.w.b.x[n - 1].x, l.w.b.x[n - 1].y),
+                 1e-9);
     lab_free(&l);
 }
 
 int main(void)
 {
     verify_begin("contact");
-    transit("patch");
-    transit("core");
-    tilting("patch", 1);
-    tilting("core", 0);
-    tilting("manual-si", 0);
-    tilting("manual", 0);
-    dropping();
+    pass_over_edges("patch");
+    pass_over_edges("core");
+    tilt_on_box("patch", 1);
+    tilt_on_box("core", 0);
+    tilt_on_box("manual-si", 0);
+    tilt_on_box("manual", 0);
+    energy_of_drops();
     nearly_parallel();
-    equal_boxes();
+    stacked_equal_boxes();
     frictionless_boxes();
-    interpenetrating();
-    coincident();
+    overlapping_cores();
+    coincident_boxes();
     crossing_axes();
     nearly_sharp();
     sliding_on_an_edge();
     crossing_edges();
-    slope();
-    stack(10, "material.ice.young=100 MPa");
-    if (!verify_quick()) stack(100, "material.ice.young=50 GPa");
+    box_on_slope();
+    stack_of_blocks(10, "material.ice.young=100 MPa");
+    if (!verify_quick()) stack_of_blocks(100, "material.ice.young=50 GPa");
     return verify_end();
 }

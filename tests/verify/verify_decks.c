@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* verify_decks.c -- a body of solid elements through decks of Abaqus and Nastran: volume, centroid and
- * inertia of the surface that is read against sums over the elements, area against the sides of its cells. */
+/* verify_decks.c -- a body of solid elements in input decks of Abaqus and Nastran.  Volume, centroid and
+ * inertia of the surface that is read are compared with sums over the elements, its area with the sides of
+ * the cells. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,17 +17,17 @@ enum { N = 8, NODES = (N + 1) * (N + 1) * (N + 1) };
 static fl_err err;
 static fl_vec3 x[NODES];
 
-static int node(int i, int j, int k) { return 1 + i + (N + 1) * (j + (N + 1) * k); }
+static int node_number(int i, int j, int k) { return 1 + i + (N + 1) * (j + (N + 1) * k); }
 
-/* A box with a hole through it, from front to back, and a room in one corner. */
-static int solid(int i, int j, int k)
+/* A box with a hole through it from front to back, and a cavity in one corner. */
+static int is_solid(int i, int j, int k)
 {
     if (i < 0 || j < 0 || k < 0 || i >= N || j >= N || k >= N) return 0;
     return !(i >= 3 && i < 5 && k >= 3 && k < 6) && !(i == 1 && j == 1 && k == 1);
 }
 
-/* Sheared by a map with halves and quarters; of tetrahedra, each node then moved by up to a fifth of a cell.
- */
+/* Sheared by a map with halves and quarters.  For tetrahedra each node is then moved by up to a fifth of a
+ * cell. */
 static void place_nodes(int tets)
 {
     fl_rng g = fl_rng_of(7, 1, FL_RNG_TEST);
@@ -36,30 +37,29 @@ static void place_nodes(int tets)
                 fl_vec3 p = v3(i + 0.25 * j, j + 0.5 * k, 1.5 * k + 0.25 * i);
                 if (tets)
                     p = v3_add(p, v3(fl_rng_in(&g, -.2, .2), fl_rng_in(&g, -.2, .2), fl_rng_in(&g, -.2, .2)));
-                x[node(i, j, k) - 1] = v3_add(p, v3(40, -60, -10));
+                x[node_number(i, j, k) - 1] = v3_add(p, v3(40, -60, -10));
             }
 }
 
-/* The six tetrahedra of a cell along its diagonal, one for each order of the three directions; and its
- * corners. */
+/* The six tetrahedra of a cell along its diagonal, one for each order of the three directions. */
 static void tet_of(int way, int i, int j, int k, int n[4])
 {
     static const int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     int c[3] = {i, j, k};
-    n[0] = node(i, j, k);
+    n[0] = node_number(i, j, k);
     for (int s = 0; s < 3; s++) {
         c[order[way][s]]++;
-        n[s + 1] = node(c[0], c[1], c[2]);
+        n[s + 1] = node_number(c[0], c[1], c[2]);
     }
 }
 
 static void hex_of(int i, int j, int k, int n[8])
 {
     static const int d[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    for (int c = 0; c < 8; c++) n[c] = node(i + d[c % 4][0], j + d[c % 4][1], k + c / 4);
+    for (int c = 0; c < 8; c++) n[c] = node_number(i + d[c % 4][0], j + d[c % 4][1], k + c / 4);
 }
 
-static void put(FILE *f, int tets, int nastran)
+static void write_deck(FILE *f, int tets, int nastran)
 {
     int id = 0, n[8];
     fputs(nastran ? "BEGIN BULK\n" : "*NODE\n", f);
@@ -70,7 +70,7 @@ static void put(FILE *f, int tets, int nastran)
     if (!nastran) fprintf(f, "*ELEMENT, TYPE=%s, ELSET=BODY\n", tets ? "C3D4" : "C3D8");
     for (int c = 0; c < N * N * N; c++) {
         const int i = c % N, j = c / N % N, k = c / N / N, corners = tets ? 4 : 8;
-        for (int way = 0; solid(i, j, k) && way < (tets ? 6 : 1); way++) {
+        for (int way = 0; is_solid(i, j, k) && way < (tets ? 6 : 1); way++) {
             if (tets) tet_of(way, i, j, k, n);
             else hex_of(i, j, k, n);
             if (nastran) fprintf(f, tets ? "CTETRA,%d,1" : "CHEXA,%d,1", ++id);
@@ -83,13 +83,13 @@ static void put(FILE *f, int tets, int nastran)
 
 /* Sums over tetrahedra: V = D/6, int x dV = V (sum of corners)/4,
  * int x x^T dV = V/20 (sum of x x^T + (sum of x)(sum of x)^T), about the point o. */
-static fl_moments source(void)
+static fl_moments moments_of_elements(void)
 {
     const fl_vec3 o = v3(40, -60, -10);
     fl_moments m = {0};
     double second[3][3] = {{0}}, first[3] = {0};
     for (int c = 0; c < N * N * N; c++)
-        for (int way = 0; solid(c % N, c / N % N, c / N / N) && way < 6; way++) {
+        for (int way = 0; is_solid(c % N, c / N % N, c / N / N) && way < 6; way++) {
             int n[4];
             double p[4][3], sum[3] = {0}, volume;
             tet_of(way, c % N, c / N % N, c / N / N, n);
@@ -120,21 +120,21 @@ static fl_moments source(void)
     return m;
 }
 
-/* Of sheared cells: parallelograms towards cells that are not there. */
-static double sides(void)
+/* Area of the sides of sheared cells: parallelograms next to cells that are empty. */
+static double area_of_cells(void)
 {
     const fl_vec3 e[3] = {{1, 0, 0.25}, {0.25, 1, 0}, {0, 0.5, 1.5}};
     double area = 0.0;
     for (int c = 0; c < N * N * N; c++)
         for (int d = 0; d < 6; d++) {
             const int i = c % N, j = c / N % N, k = c / N / N, s = d < 3 ? 1 : -1, a = d % 3;
-            if (solid(i, j, k) && !solid(i + s * (a == 0), j + s * (a == 1), k + s * (a == 2)))
+            if (is_solid(i, j, k) && !is_solid(i + s * (a == 0), j + s * (a == 1), k + s * (a == 2)))
                 area += v3_norm(v3_cross(e[(a + 1) % 3], e[(a + 2) % 3]));
         }
     return area;
 }
 
-static void deck(int tets, int nastran, const char *id)
+static void verify_deck(int tets, int nastran, const char *id)
 {
     const char *dir = getenv("TMPDIR"), *what = nastran ? tets ? "Nastran, CTETRA" : "Nastran, CHEXA"
                                                 : tets  ? "Abaqus, C3D4"
@@ -145,14 +145,14 @@ static void deck(int tets, int nastran, const char *id)
     double off = 0.0, size = 0.0;
     FILE *f;
     place_nodes(tets);
-    truth = source();
+    truth = moments_of_elements();
     snprintf(path, sizeof path, "%s/floe-decks-%ld", dir ? dir : "/tmp", (long)getpid());
     f = fopen(path, "wb");
     if (!f) {
         perror(path);
         exit(1);
     }
-    put(f, tets, nastran);
+    write_deck(f, tets, nastran);
     if (fclose(f) != 0 || fl_mesh_read(&s, path, NULL, note, &err)) {
         fprintf(stderr, "verify_decks: %s\n", err.text);
         exit(1);
@@ -166,23 +166,23 @@ static void deck(int tets, int nastran, const char *id)
         }
     snprintf(text, sizeof text, "%s: volume [m3]", what);
     verify_row(id, text, m.volume, truth.volume, 1e-12, VERIFY_REL);
-    snprintf(text, sizeof text, "%s: centroid, of the side", what);
+    snprintf(text, sizeof text, "%s: centroid error over the side", what);
     verify_row(id, text, v3_norm(v3_sub(m.centroid, truth.centroid)) / N, 0.0, 1e-12, VERIFY_ABS);
-    snprintf(text, sizeof text, "%s: inertia, of its largest", what);
+    snprintf(text, sizeof text, "%s: inertia error over its largest", what);
     verify_row(id, text, off / size, 0.0, 1e-12, VERIFY_ABS);
     if (!tets) {
         snprintf(text, sizeof text, "%s: area [m2]", what);
-        verify_row(id, text, m.area, sides(), 1e-12, VERIFY_REL);
+        verify_row(id, text, m.area, area_of_cells(), 1e-12, VERIFY_REL);
     }
     fl_surface_free(&s);
 }
 
 int main(void)
 {
-    verify_begin("solid elements through decks");
-    deck(0, 0, "D01");
-    deck(1, 0, "D02");
-    deck(0, 1, "D03");
-    deck(1, 1, "D04");
+    verify_begin("solid elements in input decks");
+    verify_deck(0, 0, "D01");
+    verify_deck(1, 0, "D02");
+    verify_deck(0, 1, "D03");
+    verify_deck(1, 1, "D04");
     return verify_end();
 }

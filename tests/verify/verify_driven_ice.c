@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ice that is pushed: an edge row that is driven, and the hard cases of floes that raft, jam and are pinched.
- */
+/* Ice that is pushed: a driven edge row, and the hard cases of rafting, jamming and floes between two
+ * cylinders. */
 #include <math.h>
 #include <stdio.h>
 #include "base/pi.h"
@@ -13,10 +13,10 @@
 #define G 9.81
 static const fl_vec3 ZERO = {0, 0, 0};
 
-/* --- the driven row ---------------------------------------------------------------------------- */
+/* --- the driven row ----------------------------------------------------------------------------------- */
 
-/* A driven floe that is free to heave hangs on its spring, a free one beside it on nothing. */
-static void heave(void)
+/* A driven floe that is free to heave is held by its spring; a free floe beside it is not. */
+static void heave_of_driven_floe(void)
 {
     const double half = 1.0, high = 0.5, bed = 1e4;
     const double side = 2.0 * half - 0.1, face = side * side, mass = 900.0 * 4.0 * half * half * high;
@@ -49,18 +49,20 @@ static void heave(void)
     const double t = fl_world_time(&l.w);
     verify_row("B05", "driven floe, spring and foundation: heave period [s]", (last - first) / (n - 1),
                period, 1e-5, VERIFY_REL);
-    verify_row("B05", "way along x over speed and time", l.w.b.x[0].x / (0.4 * t), 1.0, 1e-12, VERIFY_REL);
-    verify_row("B05", "way along y over speed and time", l.w.b.x[0].y / (0.1 * t), 1.0, 1e-12, VERIFY_REL);
-    verify_row("B05", "the floe that is not in the row falls [m]", l.w.b.x[1].z, -0.5 * G * t * t, 1e-9,
+    verify_row("B05", "displacement along x over speed and time", l.w.b.x[0].x / (0.4 * t), 1.0, 1e-12,
                VERIFY_REL);
-    /* The trapezoidal rule for work holds the energy to (omega h)^2 / 8 of what swings. */
-    verify_below("B05", "residual over the energy that swings", most / (0.5 * k * sag * sag), 1e-5);
+    verify_row("B05", "displacement along y over speed and time", l.w.b.x[0].y / (0.1 * t), 1.0, 1e-12,
+               VERIFY_REL);
+    verify_row("B05", "fall of the floe outside the row [m]", l.w.b.x[1].z, -0.5 * G * t * t, 1e-9,
+               VERIFY_REL);
+    /* Trapezoidal work keeps the energy to (omega h)^2 / 8 of the oscillating energy. */
+    verify_below("B05", "residual over the oscillating energy", most / (0.5 * k * sag * sag), 1e-5);
     lab_free(&l);
 }
 
-/* A driven floe pushes a chain of free ones through still water: what it puts in is what the water takes and
- * what moves. */
-static void push_chain(void)
+/* A driven floe pushes a chain of free floes through still water.  The work of the drive is the loss to the
+ * water and the kinetic energy. */
+static void drive_chain(void)
 {
     lab l;
     double held = 0.0;
@@ -81,20 +83,20 @@ static void push_chain(void)
     fl_energy_update(&l.w);
     for (int32_t i = 0; i < l.w.n; i++) held += l.w.b.work_of_constraints[i];
     const fl_ledger *g = &l.w.ledger;
-    verify_row("B05", "a driven row against a chain: drive over what moves, is stored and lost",
+    verify_row("B05", "drive over kinetic, stored and lost energy",
                g->drive_now / (g->kinetic - 0.0 + g->drag + g->damping_now + g->friction_now +
                                (g->gravity + g->hydrostatic + g->elastic - g->start)),
                1.0, 5e-4, VERIFY_REL);
-    verify_row("B05", "drive and the work of what holds [J]", g->drive_now, held, 1e-12, VERIFY_REL);
-    verify_true("B05", "the last of the chain moves as fast", l.w.b.v[4].x > 0.4);
+    verify_row("B05", "work of the drive and of the constraints [J]", g->drive_now, held, 1e-12, VERIFY_REL);
+    verify_true("B05", "speed of the last floe of the chain", l.w.b.v[4].x > 0.4);
     lab_free(&l);
 }
 
-/* --- H26 ---------------------------------------------------------------------------------------- */
+/* --- H26 ---------------------------------------------------------------------------------------------- */
 
-/* One floe is driven against a fixed one whose edge lies lower by half of the thickness: it rides over it, or
- * under. */
-static void rafting(double tilt)
+/* One floe is driven against a fixed one whose edge lies lower by half of the thickness: it slides over or
+ * under it. */
+static void raft_over_floe(double tilt)
 {
     lab l;
     double most = 0.0, deepest = 0.0, force = 0.0;
@@ -123,7 +125,7 @@ static void rafting(double tilt)
             force = fmax(force, v3_norm(l.w.pair[c].contact->force));
         }
     }
-    /* the middle of the nose, below, against the faces of the other, 0.25 m from its middle */
+    /* the middle of the lower nose, against the faces of the other floe, 0.25 m from its middle */
     const fl_vec3 nose = v3_add(
         l.w.b.x[0], q_rotate(l.w.b.q[0], q_rotate(q_conj(l.w.q0[0]),
                                                   q_rotate(q_of_vector(v3(0, -tilt, 0)), v3(3, 0, -0.25)))));
@@ -137,16 +139,15 @@ static void rafting(double tilt)
     verify_below("H26", what, most / l.w.ledger.throughput, 1e-3);
     snprintf(what, sizeof what, "rafting, nose up by %g: overlap over the radii", tilt);
     verify_below("H26", what, deepest, 0.3);
-    snprintf(what, sizeof what,
-             "rafting, nose up by %g: one lies over the other or under it, neither inside nor through", tilt);
+    snprintf(what, sizeof what, "rafting, nose up by %g: over or under the other floe, not inside it", tilt);
     verify_true("H26", what, 6.0 - (l.w.b.x[1].x - l.w.b.x[0].x) > 0.5 && clear);
     lab_free(&l);
 }
 
-/* --- H27 ---------------------------------------------------------------------------------------- */
+/* --- H27 ---------------------------------------------------------------------------------------------- */
 
 /* A loose field between walls is compacted by a driven row until it jams. */
-static void jamming(void)
+static void jam_field(void)
 {
     enum { COLUMNS = 9, ROWS = 6 };
     const double pitch = 2.2;
@@ -191,17 +192,17 @@ static void jamming(void)
     verify_true("H27", "the field jams: the force on the far wall rises to 0.5 MN",
                 jammed >= 5e5 && loose < 1e5);
     verify_below("H27", "ice over water at the jam", covered / (length * ROWS * pitch), 1.0);
-    verify_below("H27", "0.65 over it: it was compacted before it bore",
+    verify_below("H27", "0.65 over it: compacted before it carries load",
                  0.65 / (covered / (length * ROWS * pitch)), 1.0);
     verify_below("H27", "overlap over the radii", deepest, 0.3);
     verify_below("H27", "residual over the throughput", residual, 1e-3);
     lab_free(&l);
 }
 
-/* A blow runs through a row of floes that touch: masses m on springs k carry no wave faster than sqrt(k/m)
- * floes a second, and its front comes near to that.  Taken between the middle and the end of the row, where
- * half of the largest speed of a floe arrives. */
-static void stress_wave(void)
+/* An impulse runs through a row of touching floes.  Masses m on springs k carry no wave faster than
+ * sqrt(k/m) floes per second, and its front comes near to that.  The speed is measured between the middle
+ * and the end of the row, at half of the largest speed of a floe. */
+static void wave_through_row(void)
 {
     enum { N = 40 };
     lab l;
@@ -223,19 +224,19 @@ static void stress_wave(void)
         }
         if (pass == 0) lab_free(&l);
     }
-    /* the faces that meet are those of 1.9 x 1.8 m of the core; patch has k sqrt(a/A) between faces a of A */
+    /* faces in contact: 1.9 x 1.8 m of the core; patch has k sqrt(a/A) between faces a of A */
     const double k = k_face * sqrt(1.9 * 1.8 / (1.9 * 1.9)), fastest = sqrt(k / l.w.b.m[0]);
     const double speed = (N - 2 - N / 2) / (arrived[N - 2] - arrived[N / 2]);
-    verify_row("H27", "stress wave through a row: floes a second", speed, fastest, 0.05, VERIFY_REL);
+    verify_row("H27", "stress wave through a row: floes per second", speed, fastest, 0.05, VERIFY_REL);
     lab_free(&l);
 }
 
-/* --- H28 ---------------------------------------------------------------------------------------- */
+/* --- H28 ---------------------------------------------------------------------------------------------- */
 
-/* A floe is pressed between two cylinders, by its weight along x or by a current; a mirror of it all is the
- * same.  In water it rolls as it hits, and friction takes up the rounding of that: to 1e-7 m, which is told.
- */
-static void pinched(double off, int wet)
+/* A floe is pressed between two cylinders, by its weight along x or by a current; the mirrored scene moves
+ * alike.  In water it rolls when it hits, and friction keeps the rounding of that: up to 1e-7 m, which is
+ * printed. */
+static void press_between_cylinders(double off, int wet)
 {
     lab l;
     double lean = 0.0, turned = 0.0, speed = 0.0;
@@ -264,16 +265,16 @@ static void pinched(double off, int wet)
              wet ? " by a current" : "", off);
     verify_true("H28", what, rc == 0 && isfinite(l.w.b.x[0].x) && l.w.b.x[0].x < 1.2 && speed < 0.2);
     if (off == 0.0 && !wet) {
-        verify_below("H28", "symmetric: way aside in 1e4 steps [m]", lean, 1e-9);
-        verify_below("H28", "symmetric: turn in 1e4 steps [rad]", 2.0 * turned, 1e-9);
+        verify_below("H28", "symmetric: sideways displacement in 1e4 steps [m]", lean, 1e-9);
+        verify_below("H28", "symmetric: rotation in 1e4 steps [rad]", 2.0 * turned, 1e-9);
     }
     lab_free(&l);
 }
 
-/* --- H31 ---------------------------------------------------------------------------------------- */
+/* --- H31 ---------------------------------------------------------------------------------------------- */
 
-/* Laws at their ends: nothing gains energy. */
-static void ends_of_laws(void)
+/* Laws with extreme parameters: energy never grows. */
+static void extreme_laws(void)
 {
     static const char *const KEY[] = {"contact.friction=0",    "contact.friction=1e6",
                                       "contact.restitution=0", "contact.restitution=1",
@@ -309,14 +310,14 @@ static void ends_of_laws(void)
 int main(void)
 {
     verify_begin("ice that is pushed");
-    heave();
-    push_chain();
-    rafting(0.08);
-    jamming();
-    stress_wave();
-    pinched(0.0, 0);
-    pinched(0.0, 1);
-    pinched(0.03, 1);
-    ends_of_laws();
+    heave_of_driven_floe();
+    drive_chain();
+    raft_over_floe(0.08);
+    jam_field();
+    wave_through_row();
+    press_between_cylinders(0.0, 0);
+    press_between_cylinders(0.0, 1);
+    press_between_cylinders(0.03, 1);
+    extreme_laws();
     return verify_end();
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Floating bodies through the solver, against closed forms. */
+/* Floating bodies in the solver against closed forms. */
 #include <math.h>
 #include <stdio.h>
 #include "base/pi.h"
@@ -14,8 +14,8 @@
 #define WETTED (100 + 40 * DRAFT) /* [m2]                    */
 #define REST (0.5 - DRAFT)        /* its centre at rest [m]  */
 
-/* The floe of V48: 10 x 10 x 1 m, ice 900 in water of 1025 kg/m3; no drag unless asked for. */
-static void floe(lab *l, double z, fl_quat q, fl_vec3 v, fl_vec3 spin)
+/* The floe of V48: 10 x 10 x 1 m, ice of 900 in water of 1025 kg/m3; no drag unless a key sets it. */
+static void make_floe(lab *l, double z, fl_quat q, fl_vec3 v, fl_vec3 spin)
 {
     lab_start(l);
     lab_set(l, "run.gravity=9.81");
@@ -25,9 +25,9 @@ static void floe(lab *l, double z, fl_quat q, fl_vec3 v, fl_vec3 spin)
     lab_box(l, v3(0, 0, z), v3(5, 5, 0.5), 0.05, q, v, spin);
 }
 
-/* Mean period of y about 0 over `cycles` cycles: times of upward crossings, by the straight line between
+/* Mean period of y about 0 over `cycles` cycles: times of upward crossings, interpolated linearly between
  * steps. */
-static double period(lab *l, int cycles, double (*y)(const fl_world *))
+static double mean_period(lab *l, int cycles, double (*y)(const fl_world *))
 {
     double first = NAN, before = y(&l->w);
     for (int seen = -1;;) {
@@ -46,12 +46,12 @@ static double heave(const fl_world *w) { return w->b.x[0].z - REST; }
 static double pitch(const fl_world *w) { return fl_body_axes(&w->b, 0).m[0][2]; }
 static double roll(const fl_world *w) { return fl_body_axes(&w->b, 0).m[2][1]; }
 
-static void draft(void)
+static void equilibrium_draft(void)
 {
     const fl_vec3 o = v3(0, 0, 0);
     const double omega = sqrt(G / DRAFT), dt = 2.0 * sin(PI / 1000) / omega;
     lab l;
-    floe(&l, REST, q_one(), o, o);
+    make_floe(&l, REST, q_one(), o, o);
     lab_make(&l, 1e-3);
     lab_run(&l, 10000);
     verify_row("V48", "draft after 1e4 steps, started at it [m]", 0.5 - l.w.b.x[0].z, DRAFT, 1e-9,
@@ -63,7 +63,7 @@ static void draft(void)
     verify_note("released 1 mm and 0.1 m above: with this step the period of Verlet's method is 1000 steps");
     for (int k = 0; k < 2; k++) {
         double sum = 0.0;
-        floe(&l, REST + (k ? 0.1 : 1e-3), q_one(), o, o);
+        make_floe(&l, REST + (k ? 0.1 : 1e-3), q_one(), o, o);
         lab_make(&l, dt);
         for (int s = 0; s < 3000; s++) {
             lab_run(&l, 1);
@@ -74,24 +74,24 @@ static void draft(void)
     }
 }
 
-static void heaving(void)
+static void heave_period(void)
 {
     const fl_vec3 o = v3(0, 0, 0);
     const double T = 2 * PI * sqrt(DRAFT / G);
     double h[4], late[4], energy[4];
     lab l;
-    floe(&l, REST + 0.05, q_one(), o, o);
+    make_floe(&l, REST + 0.05, q_one(), o, o);
     lab_make(&l, T / 200);
-    verify_row("V49", "period of heave, no added mass [s]", period(&l, 10, heave), T, 1e-3, VERIFY_REL);
+    verify_row("V49", "period of heave, no added mass [s]", mean_period(&l, 10, heave), T, 1e-3, VERIFY_REL);
     lab_free(&l);
     for (int k = 0; k < 4; k++) {
         const int steps = 20 << k;
         h[k] = T / steps;
-        floe(&l, REST + 0.05, q_one(), o, o);
+        make_floe(&l, REST + 0.05, q_one(), o, o);
         lab_make(&l, h[k]);
         const double start = lab_energy(&l);
         energy[k] = 0.0;
-        for (int s = 0; s < 3 * steps; s++) { /* to a time when it moves fastest */
+        for (int s = 0; s < 3 * steps; s++) { /* to a time of largest speed */
             lab_run(&l, 1);
             energy[k] = fmax(energy[k], fabs(lab_energy(&l) - start));
         }
@@ -101,33 +101,33 @@ static void heaving(void)
         lab_free(&l);
     }
     verify_order("V49", "heave after 3.25 periods over the amplitude", h, late, 4, 2.0, 0.1);
-    verify_order("V29", "energy, largest error over the energy put in", h, energy, 4, 2.0, 0.1);
+    verify_order("V29", "energy, largest error over the initial energy", h, energy, 4, 2.0, 0.1);
 }
 
-static void heavier(void)
+static void added_mass(void)
 {
     static const double Ca[2] = {0.5, 1.0}, listed[2] = {2.302239, 2.658396};
     for (int k = 0; k < 2; k++) {
         lab l;
         const double T = 2 * PI * sqrt(DRAFT * (1 + Ca[k]) / G);
-        floe(&l, REST + 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        make_floe(&l, REST + 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_setf(&l, "water.added_mass=0 0 %g", Ca[k]);
         lab_make(&l, T / 400);
-        const double lift = l.w.sea.buoyancy[0], got = period(&l, 10, heave);
+        const double lift = l.w.sea.buoyancy[0], got = mean_period(&l, 10, heave);
         verify_row("V49", k ? "added mass 1: period of heave [s]" : "added mass 0.5: period of heave [s]",
                    got, T, 1e-4, VERIFY_REL);
         verify_row("V49", "  as listed", got, listed[k], 1e-3, VERIFY_REL);
-        verify_row("V49", "  weight and lift are as without", lift + l.w.b.m[0] * -G,
+        verify_row("V49", "  weight and buoyancy are unchanged", lift + l.w.b.m[0] * -G,
                    1025 * G * 100 * (DRAFT - 0.05) - 90000 * G, 1e-12 * lift, VERIFY_ABS);
         lab_free(&l);
     }
     lab l;
-    floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    make_floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
     lab_set(&l, "water.added_mass=auto");
     lab_set(&l, "water.added_inertia=auto");
     lab_make(&l, 0.01);
     const double a = 10 / sqrt(PI);
-    verify_row("V49", "auto: heave, over the displaced, 4/3pi a/d", l.w.b.added_mass[0].z / 90000,
+    verify_row("V49", "auto: heave over the displaced mass, 4/3pi a/d", l.w.b.added_mass[0].z / 90000,
                4 / (3 * PI) * a / DRAFT, 1e-12, VERIFY_REL);
     verify_row("V49", "auto: surge", l.w.b.added_mass[0].x / 90000, 0.1, 1e-12, VERIFY_REL);
     verify_row("V50", "auto: roll, 8/45 rho a^5 [kg m2]", l.w.b.I[0].x - 90000 * 101 / 12.0,
@@ -135,8 +135,8 @@ static void heavier(void)
     lab_free(&l);
 }
 
-/* A block higher than it is wide: across is up, and no direction along the water is another. */
-static void stands_up(void)
+/* A block that is higher than it is wide: no horizontal direction is preferred. */
+static void added_mass_of_upright_block(void)
 {
     double along = 0.0, up = 0.0, roll = 0.0;
     for (int k = 0; k < 4; k++) {
@@ -162,8 +162,8 @@ static void stands_up(void)
     verify_below("V50", "  roll, 8/45 rho a^5, about any axis along the water", roll, 1e-12);
 }
 
-/* A box far from everything, that moves water with it. */
-static void free_body(lab *l, fl_quat q, fl_vec3 v, fl_vec3 spin, const char *current)
+/* A box far from all others, with added mass. */
+static void make_free_body(lab *l, fl_quat q, fl_vec3 v, fl_vec3 spin, const char *current)
 {
     lab_start(l);
     lab_set(l, "water.drag_force_coef=0");
@@ -173,17 +173,17 @@ static void free_body(lab *l, fl_quat q, fl_vec3 v, fl_vec3 spin, const char *cu
     lab_box(l, v3(0, 0, -50), v3(5, 3, 0.5), 0.05, q, v, spin);
 }
 
-/* Kirchhoff's equations: the free motion of a body whose mass is not the same in all directions. */
-static void kirchhoff(void)
+/* Kirchhoff's equations: free motion of a body whose mass differs by direction. */
+static void kirchhoff_motion(void)
 {
     const fl_quat q = q_of_vector(v3(0.3, -0.5, 0.2));
     const fl_vec3 v = v3(1, 0.4, -0.6), spin = v3(0.02, 0.05, -0.04);
     double h[4], off[4], energy[4], worst_P = 0.0, worst_J = 0.0;
     fl_vec3 at[5];
-    for (int k = 4; k >= 0; k--) { /* the finest first: what the others are held against */
+    for (int k = 4; k >= 0; k--) { /* the finest step first: the reference for the others */
         lab l;
         const double dt = k < 4 ? 0.1 / (1 << k) : 0.1 / 128;
-        free_body(&l, q, v, spin, "0 0 0");
+        make_free_body(&l, q, v, spin, "0 0 0");
         lab_make(&l, dt);
         const fl_bodies *b = &l.w.b;
         const fl_vec3 P = fl_body_momentum(b, 0, b->v[0]), J = v3_add(b->L[0], v3_cross(b->x[0], P));
@@ -206,33 +206,33 @@ static void kirchhoff(void)
     }
     verify_note(
         "a free box with added mass 0.1, 0.3, 1.5 of the displaced, 40 s: it tumbles (Munk's moment)");
-    /* a rounding a step: 2^-52 of it at most */
+    /* one rounding per step: 2^-52 of it at most */
     const double rounding = 2.2e-16 * 40 / (0.1 / 128);
     verify_below("K01", "momentum of body and water, largest change", worst_P, rounding);
     verify_below("K01", "angular momentum about the origin", worst_J, rounding);
     verify_order("K01", "energy, largest change", h, energy, 4, 2.0, 0.2);
-    verify_order("K01", "where it is after 40 s [m]", h, off, 4, 2.0, 0.2);
+    verify_order("K01", "position after 40 s [m]", h, off, 4, 2.0, 0.2);
 
-    verify_note("going broadside it swings: w^2 = P^2 (1/M_a - 1/M_b) / I about the direction of P");
+    verify_note("moving broadside it oscillates: w^2 = P^2 (1/M_a - 1/M_b) / I about the direction of P");
     lab l;
-    free_body(&l, q_one(), v3(0, 0, 2), v3(0, 1e-5, 0), "0 0 0");
+    make_free_body(&l, q_one(), v3(0, 0, 2), v3(0, 1e-5, 0), "0 0 0");
     lab_make(&l, 0.01);
     const double m = 900 * 60.0, P = (m + 1.5 * m) * 2, I = l.w.b.I[0].y;
     const double swing = sqrt(P * P * (1 / (m + 0.1 * m) - 1 / (m + 1.5 * m)) / I);
-    verify_row("K02", "period of the swing [s]", period(&l, 5, pitch), 2 * PI / swing, 1e-5, VERIFY_REL);
+    verify_row("K02", "period of the swing [s]", mean_period(&l, 5, pitch), 2 * PI / swing, 1e-5, VERIFY_REL);
     lab_free(&l);
 
-    verify_note("in a steady current it does what it does in water at rest, seen from a boat that drifts");
+    verify_note("in a steady current the motion is that in still water, in the frame of the current");
     lab still, moving;
-    free_body(&still, q, v, spin, "0 0 0");
-    free_body(&moving, q, v3_add(v, v3(0.7, -0.3, 0)), spin, "0.7 -0.3 0");
+    make_free_body(&still, q, v, spin, "0 0 0");
+    make_free_body(&moving, q, v3_add(v, v3(0.7, -0.3, 0)), spin, "0.7 -0.3 0");
     lab_make(&still, 0.02);
     lab_make(&moving, 0.02);
     lab_run(&still, 2000);
     lab_run(&moving, 2000);
-    const fl_vec3 drift = v3_scale(40, v3(0.7, -0.3, 0));
+    const fl_vec3 skin_and_form_drag = v3_scale(40, v3(0.7, -0.3, 0));
     verify_below("K03", "apart after 40 s [m]",
-                 v3_norm(v3_sub(v3_sub(moving.w.b.x[0], drift), still.w.b.x[0])), 1e-9);
+                 v3_norm(v3_sub(v3_sub(moving.w.b.x[0], skin_and_form_drag), still.w.b.x[0])), 1e-9);
     fl_energy_update(&moving.w);
     fl_energy_update(&still.w);
     verify_row("K03", "energy residual [J]", moving.w.ledger.residual, still.w.ledger.residual,
@@ -241,29 +241,29 @@ static void kirchhoff(void)
     lab_free(&moving);
 }
 
-static void rolling(void)
+static void roll_period(void)
 {
     const double tilt = 1e-3, T = 1.895243, GM = 9.429765;
     lab l;
-    floe(&l, REST, q_of_vector(v3(1e-6, 0, 0)), v3(0, 0, 0), v3(0, 0, 0));
+    make_floe(&l, REST, q_of_vector(v3(1e-6, 0, 0)), v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, 1e-3);
     verify_row("V50", "GM from the moment at 1e-6 rad [m]", -l.w.b.t[0].x / (90000 * G * 1e-6), GM, 1e-6,
                VERIFY_REL);
     lab_free(&l);
-    floe(&l, REST, q_of_vector(v3(tilt, 0, 0)), v3(0, 0, 0), v3(0, 0, 0));
+    make_floe(&l, REST, q_of_vector(v3(tilt, 0, 0)), v3(0, 0, 0), v3(0, 0, 0));
     lab_make(&l, T / 200);
-    verify_row("V50", "period of roll, no added inertia [s]", period(&l, 10, roll), T, 2e-3, VERIFY_REL);
+    verify_row("V50", "period of roll, no added inertia [s]", mean_period(&l, 10, roll), T, 2e-3, VERIFY_REL);
     lab_free(&l);
 }
 
-/* Heave and roll together, large: the books must close better with every smaller step. */
-static void tumbling(void)
+/* Large heave and roll together: the residual must fall with the step. */
+static void energy_of_tumbling(void)
 {
     double h[4], residual[4];
     for (int k = 0; k < 4; k++) {
         lab l;
         h[k] = 0.04 / (1 << k);
-        floe(&l, REST + 0.3, q_of_vector(v3(0.3, 0.2, 0)), v3(0, 0, 0), v3(0.2, 0, 0.1));
+        make_floe(&l, REST + 0.3, q_of_vector(v3(0.3, 0.2, 0)), v3(0, 0, 0), v3(0.2, 0, 0.1));
         lab_make(&l, h[k]);
         residual[k] = 0.0;
         for (int s = 0; s < 500 << k; s++) {
@@ -277,7 +277,7 @@ static void tumbling(void)
     verify_order("V29", "tumbling 20 s undamped: residual over throughput", h, residual, 4, 2.0, 0.3);
 }
 
-static void drift(void)
+static void skin_and_form_drag(void)
 {
     const double U = 0.5;
     const struct {
@@ -294,11 +294,11 @@ static void drift(void)
         /* (b) has form drag, C = 1, on the side of 8.7805 m2; equation (8) has one area, the wetted one */
         snprintf(coef, sizeof coef, "water.drag_force_coef=%.17g", 10 * DRAFT / WETTED);
         const double C = k ? 10 * DRAFT / WETTED : 0.005, kappa = 0.5 * C * 1025 * WETTED / 90000;
-        floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        make_floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_set(&l, cases[k].coef ? cases[k].coef : coef);
         lab_set(&l, "water.current=0.5 0 0");
         lab_make(&l, t / 10000);
-        double half = NAN, before = 0.0; /* half: when half the speed is reached */
+        double half = NAN, before = 0.0; /* half: time when half the speed is reached */
         for (int s = 0; s < 10000; s++) {
             lab_run(&l, 1);
             const double v = l.w.b.v[0].x;
@@ -311,7 +311,7 @@ static void drift(void)
         verify_row("V54", cases[k].x_of, l.w.b.x[0].x, U * t - log(1 + kappa * U * t) / kappa, 1e-6,
                    VERIFY_REL);
         verify_row("V54", cases[k].half_of, half, 1 / (kappa * U), 1e-6, VERIFY_REL);
-        verify_row("V54", "  as PHYSICS lists it, to its digits", half, cases[k].half, 1e-5, VERIFY_REL);
+        verify_row("V54", "  to the digits of the reference table", half, cases[k].half, 1e-5, VERIFY_REL);
         verify_row("V54", "  v as listed", l.w.b.v[0].x, cases[k].v, 1e-5, VERIFY_ABS);
         if (isfinite(cases[k].x))
             verify_row("V54", "  x as listed", l.w.b.x[0].x, cases[k].x, 1e-3, VERIFY_ABS);
@@ -320,7 +320,7 @@ static void drift(void)
 }
 
 /* Skin and form drag of each facet against closed forms. */
-static void facets(void)
+static void facet_drag(void)
 {
     static const struct {
         const char *what, *skin, *form;
@@ -332,12 +332,11 @@ static void facets(void)
         {"both: v(100 s) [m/s]", "0.005", "1", 0.5 * 1025 * (0.005 * (100 + 20 * DRAFT) + 10 * DRAFT) / 90000,
          100},
     };
-    verify_note(
-        "drag = facet, on what is ahead and what is along; it acts below the centre, and tilts the floe");
+    verify_note("drag = facet, form and skin; it acts below the centre, and tilts the floe");
     for (int k = 0; k < 3; k++) {
         lab l;
         const double U = 0.5, t = cases[k].t, kappa = cases[k].kappa;
-        floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        make_floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_set(&l, "water.drag=facet");
         lab_setf(&l, "water.skin_coef=%s", cases[k].skin);
         lab_setf(&l, "water.form_coef=%s", cases[k].form);
@@ -354,7 +353,7 @@ static void facets(void)
                  A = 0.5 * 1.293 * (0.0015 * (100 + 20 * (1 - DRAFT)) + 0.5 * 10 * (1 - DRAFT)),
                  r = sqrt(A / S);
     lab l;
-    floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    make_floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
     lab_set(&l, "water.drag=facet");
     lab_set(&l, "water.skin_coef=0.0055");
     lab_set(&l, "wind.drag=facet");
@@ -364,8 +363,8 @@ static void facets(void)
     verify_row("V55", "facets: drift in wind [m/s]", l.w.b.v[0].x, 20 * r / (1 + r), 1e-3, VERIFY_REL);
     lab_free(&l);
 
-    /* Spin of a disc of 64 sides, radius 5, 0.5 thick, half in the water: skin of the bottom
-     * 1/2 C rho pi R^2 (2/5) R^3 and of the rim 1/2 C rho 2 pi R d R^3. */
+    /* Spin of a disc of 64 sides, radius 5, 0.5 thick, half in the water: skin drag of the bottom, 1/2 C
+     * rho pi R^2 (2/5) R^3, and of the rim, 1/2 C rho 2 pi R d R^3. */
     enum { SIDES = 64 };
     fl_vec3 xy[SIDES];
     fl_poly p = {0};
@@ -389,13 +388,13 @@ static void facets(void)
                0.02, VERIFY_REL);
     lab_free(&l);
 
-    /* askew through the water, with added mass: order, and the energy seen from the water never rises */
+    /* obliquely through the water, with added mass: order; the energy relative to the water never rises */
     double h[4], off[4];
     fl_vec3 at[5];
     int falls = 1;
     for (int k = 4; k >= 0; k--) {
         const double dt = k < 4 ? 0.05 / (1 << k) : 0.05 / 64;
-        floe(&l, REST, q_one(), v3(2, 1, 0), v3(0, 0, 0.3));
+        make_floe(&l, REST, q_one(), v3(2, 1, 0), v3(0, 0, 0.3));
         lab_set(&l, "run.gravity=0");
         lab_set(&l, "water.drag=facet");
         lab_set(&l, "water.skin_coef=0.05");
@@ -415,12 +414,12 @@ static void facets(void)
         }
         lab_free(&l);
     }
-    verify_true("V54", "a floe that goes askew and turns only loses energy", falls);
-    verify_order("V54", "  where it is after 10 s [m]", h, off, 4, 1.0, 0.2);
+    verify_true("V54", "a floe in oblique motion with spin only loses energy", falls);
+    verify_order("V54", "  position after 10 s [m]", h, off, 4, 1.0, 0.2);
 }
 
-/* A current that changes with depth carries a floe as fast as at its submerged centre. */
-static void sheared(void)
+/* A current that varies with depth carries a floe at its speed at the submerged centre. */
+static void sheared_current(void)
 {
     static const char *const SET[3][3] = {
         {"water.profile=power", "water.depth=10", "water.current=0.5 0 0"},
@@ -433,7 +432,7 @@ static void sheared(void)
     const char *file = test_file("rows", "#current 1\n0 0.5 0\n-5 0 0\n", 26);
     for (int k = 0; k < 3; k++) {
         lab l;
-        floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        make_floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         for (int j = 0; j < 3; j++)
             if (SET[k][j]) lab_set(&l, SET[k][j]);
         if (k == 2) lab_setf(&l, "water.profile_file=%s", file);
@@ -445,12 +444,12 @@ static void sheared(void)
     }
 }
 
-/* Speed of a floe of that density after t in the wind; `strong` multiplies the coefficients of drag. */
-static double blown(double density, double strong, double t, double dt)
+/* Speed of a floe of that density after t in the wind; `strong` multiplies the drag coefficients. */
+static double wind_speed_of_floe(double density, double strong, double t, double dt)
 {
     lab l;
     char set[64];
-    floe(&l, 0.5 - density / 1025, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    make_floe(&l, 0.5 - density / 1025, q_one(), v3(0, 0, 0), v3(0, 0, 0));
     snprintf(set, sizeof set, "material.ice.density=%.17g", density);
     lab_set(&l, set);
     snprintf(set, sizeof set, "water.drag_force_coef=%.17g", 0.0055 * strong);
@@ -466,25 +465,25 @@ static double blown(double density, double strong, double t, double dt)
     return v;
 }
 
-static void wind(void)
+static void wind_drift(void)
 {
     const double ratio = sqrt(1.293 * 1.5e-3 / (1025 * 5.5e-3));
-    verify_note("ice of 512.5 kg/m3 floats half out: as much area in the wind as in the water");
-    verify_row("V55", "free drift in wind, equal areas [m/s]", blown(512.5, 1, 6000, 0.1), 0.364208, 1e-4,
-               VERIFY_REL);
+    verify_note("ice of 512.5 kg/m3 floats half out: equal areas in wind and water");
+    verify_row("V55", "free drift in wind, equal areas [m/s]", wind_speed_of_floe(512.5, 1, 6000, 0.1),
+               0.364208, 1e-4, VERIFY_REL);
     const double r = ratio * sqrt((240 - WETTED) / WETTED);
-    verify_row("V55", "ice of 900 kg/m3, its own areas [m/s]", blown(900, 1, 6000, 0.1), 20 * r / (1 + r),
-               1e-4, VERIFY_REL);
+    verify_row("V55", "ice of 900 kg/m3, its own areas [m/s]", wind_speed_of_floe(900, 1, 6000, 0.1),
+               20 * r / (1 + r), 1e-4, VERIFY_REL);
     const double h[3] = {0.4, 0.2, 0.1};
     double off[3];
-    for (int k = 0; k < 3; k++) off[k] = fabs(blown(900, 100, 400, h[k]) - 20 * r / (1 + r));
+    for (int k = 0; k < 3; k++) off[k] = fabs(wind_speed_of_floe(900, 100, 400, h[k]) - 20 * r / (1 + r));
     verify_order("V55", "error of the drift, coefficients 100 times larger", h, off, 3, 2.0, 0.2);
 }
 
-static void spinning(void)
+static void spin_decay(void)
 {
     lab l;
-    floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0.1));
+    make_floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0.1));
     lab_set(&l, "water.drag_moment_coef=0.005");
     lab_make(&l, 0.05);
     lab_run(&l, 2000);
@@ -493,12 +492,12 @@ static void spinning(void)
     lab_free(&l);
 }
 
-static void resting(void)
+static void resting_floe(void)
 {
     const int64_t steps = verify_quick() ? 100000 : 1000000;
     for (int k = 0; k < 2; k++) {
         lab l;
-        floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+        make_floe(&l, REST, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         if (k) {
             lab_set(&l, "water.drag_force_coef=0.005");
             lab_set(&l, "water.drag_moment_coef=0.005");
@@ -513,15 +512,15 @@ static void resting(void)
     }
 }
 
-/* Whatever the coefficient and the step, drag takes speed away and never turns it round. */
-static void drowning(int facet)
+/* For any coefficient and step, drag reduces the velocity and never reverses it. */
+static void extreme_drag(int facet)
 {
     int monotone = 1;
     double last = 0.0;
     for (int k = 0; k < 40; k++) {
         lab l;
         char set[64];
-        floe(&l, REST, q_one(), v3(10, 0, 0), v3(0, 0, 3));
+        make_floe(&l, REST, q_one(), v3(10, 0, 0), v3(0, 0, 3));
         snprintf(set, sizeof set, "water.drag_force_coef=%g", pow(10, k - 20));
         lab_set(&l, set);
         snprintf(set, sizeof set, "water.drag_moment_coef=%g", pow(10, k - 20));
@@ -535,7 +534,7 @@ static void drowning(int facet)
         for (int s = 0; s < 100; s++) {
             const double v = l.w.b.v[0].x, w = l.w.b.w[0].z;
             lab_run(&l, 1);
-            /* but for the rounding of the other forces */
+            /* apart from rounding of the other forces */
             const double eps = 1e-15 * 3;
             if (!(l.w.b.v[0].x >= -eps && l.w.b.v[0].x <= v + eps && l.w.b.w[0].z >= -eps &&
                   l.w.b.w[0].z <= w + eps))
@@ -546,14 +545,14 @@ static void drowning(int facet)
     }
     verify_true("H38",
                 facet ? "facets, skin 1e-20 .. 1e19, form 1e19 .. 1e-20: the same"
-                      : "C = 1e-20 .. 1e19: speed and spin fall and never turn round",
+                      : "C = 1e-20 .. 1e19: speed and spin fall, never reverse",
                 monotone);
     verify_below("H38", "  speed left with C = 1e19 [m/s]", last, 1e-15);
 }
 
-/* A square prism of half the water's density floats on its side by no means: GM = -1/12 m, I = m/6, so a tilt
- * grows as cosh(t sqrt(g/2)). */
-static void falling(void)
+/* A square prism of half the density of water is unstable upright: GM = -1/12 m, I = m/6, so a tilt grows
+ * as cosh(t sqrt(g/2)). */
+static void unstable_prism(void)
 {
     const double rate = sqrt(G / 2);
     for (int k = 0; k < 2; k++) {
@@ -585,21 +584,21 @@ static void falling(void)
 int main(void)
 {
     verify_begin("floating bodies");
-    draft();
-    heaving();
-    heavier();
-    stands_up();
-    kirchhoff();
-    rolling();
-    tumbling();
-    drift();
-    sheared();
-    facets();
-    wind();
-    spinning();
-    resting();
-    drowning(0);
-    drowning(1);
-    falling();
+    equilibrium_draft();
+    heave_period();
+    added_mass();
+    added_mass_of_upright_block();
+    kirchhoff_motion();
+    roll_period();
+    energy_of_tumbling();
+    skin_and_form_drag();
+    sheared_current();
+    facet_drag();
+    wind_drift();
+    spin_decay();
+    resting_floe();
+    extreme_drag(0);
+    extreme_drag(1);
+    unstable_prism();
     return verify_end();
 }

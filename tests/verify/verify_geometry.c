@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Volumes, moments and floating bodies against closed forms: cases V33 to V37, V48, V51, V52, H23, H24, and
- * what V50, V54 and V56 take from hydrostatics. */
+ * the hydrostatic parts of V50, V54 and V56. */
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/pi.h"
@@ -14,7 +14,7 @@
 
 static const double DEGREE = PI / 180;
 
-static void must(int rc, const char *what)
+static void check_result(int rc, const char *what)
 {
     if (rc == 0) return;
     verify_true("", what, 0);
@@ -24,24 +24,26 @@ static void must(int rc, const char *what)
 static void box(fl_poly *p, double x, double y, double z)
 {
     fl_err err = {0};
-    must(fl_poly_box(p, v3(x / 2, y / 2, z / 2), &err), "a box can be made");
+    check_result(fl_poly_box(p, v3(x / 2, y / 2, z / 2), &err), "a box can be made");
 }
 
-static void cuts_of_a_cube(void)
+static void cut_cube(void)
 {
     fl_err err = {0};
     fl_poly p;
     fl_mass m;
     const double s3 = 1 / sqrt(3.0), s14 = 1 / sqrt(14.0);
     box(&p, 1, 1, 1);
-    must(fl_poly_cut(&p, v3(s3, s3, s3), 0.0, &err) || fl_mass_of(&m, &p, 0.0, &err), "a cube can be cut");
+    check_result(fl_poly_cut(&p, v3(s3, s3, s3), 0.0, &err) || fl_mass_of(&m, &p, 0.0, &err),
+                 "a cube can be cut");
     verify_row("V33", "half a cube, cut across (1,1,1): V [m3]", m.volume, 0.5, 1e-13, VERIFY_ABS);
     verify_row("V33", "its section, a hexagon [m2]", v3_norm(fl_poly_face_area_vector(&p, p.nf - 1)),
                0.75 * sqrt(3.0), 1e-13, VERIFY_ABS);
     verify_row("V33", "its centroid, x [m]", m.centre.x, -13.0 / 96, 1e-13, VERIFY_ABS);
     verify_row("V33", "its centroid, z [m]", m.centre.z, -13.0 / 96, 1e-13, VERIFY_ABS);
     fl_poly_free(&p);
-    /* Closed form of the cut of a cube with n > 0: sum over corners below of +-(c - n.x)^3 / (6 n1 n2 n3). */
+    /* Closed form of the cut of a cube with n > 0: sum over the corners below the plane of +-(c - n.x)^3 /
+     * (6 n1 n2 n3). */
     const double off[4] = {-0.5, -0.2, 0.1, 0.4}, n[3] = {s14, 2 * s14, 3 * s14};
     for (int k = 0; k < 4; k++) {
         double want = 0.0;
@@ -55,22 +57,22 @@ static void cuts_of_a_cube(void)
             if (s > 0) want += (odd ? -1 : 1) * s * s * s / (6 * n[0] * n[1] * n[2]);
         }
         box(&p, 1, 1, 1);
-        must(fl_poly_cut(&p, v3(n[0], n[1], n[2]), off[k], &err) || fl_mass_of(&m, &p, 0.0, &err),
-             "a cube can be cut");
+        check_result(fl_poly_cut(&p, v3(n[0], n[1], n[2]), off[k], &err) || fl_mass_of(&m, &p, 0.0, &err),
+                     "a cube can be cut");
         verify_row("V34", "cube cut across (1,2,3): V [m3]", m.volume, want, 1e-12, VERIFY_ABS);
         fl_poly_free(&p);
     }
 }
 
-static void tetrahedron(void)
+static void right_tetrahedron(void)
 {
     const fl_vec3 v[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const int32_t first[5] = {0, 3, 6, 9, 12}, loop[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
     fl_err err = {0};
     fl_poly p;
     fl_mass m;
-    must(fl_poly_make(&p, 4, v, 4, first, loop, &err) || fl_mass_of(&m, &p, 0.0, &err),
-         "a tetrahedron can be made");
+    check_result(fl_poly_make(&p, 4, v, 4, first, loop, &err) || fl_mass_of(&m, &p, 0.0, &err),
+                 "a tetrahedron can be made");
     verify_row("V35", "right tetrahedron: V [m3]", m.volume, 1.0 / 6, 1e-14, VERIFY_ABS);
     verify_row("V35", "centroid [m]", m.centre.x, 0.25, 1e-14, VERIFY_ABS);
     verify_row("V35", "int x^2 dV [m5]", m.second.m[0][0] + m.volume * m.centre.x * m.centre.x, 1.0 / 60,
@@ -80,31 +82,33 @@ static void tetrahedron(void)
     fl_poly_free(&p);
 }
 
-static void dilated(void)
+static void dilated_bodies(void)
 {
     fl_err err = {0};
     fl_poly p, q;
     fl_mass m;
     box(&p, 1, 1, 1);
-    must(fl_mass_of(&m, &p, 0.1, &err), "a rounded cube has a mass");
+    check_result(fl_mass_of(&m, &p, 0.1, &err), "a rounded cube has a mass");
     verify_row("V36", "unit cube swept by 0.1: V [m3]", m.volume, 1.0 + 0.6 + 0.03 * PI + 0.004 / 3 * PI,
                1e-14, VERIFY_REL);
     verify_row("V36", "its moment of inertia over density [m5]", m.inertia.x, 0.3993914, 1e-7, VERIFY_ABS);
     verify_row("V36", "Steiner's formula [m3]", fl_dilate_volume(&p, 0.1), m.volume, 1e-14, VERIFY_REL);
-    must(fl_poly_offset(&q, &p, 0.1, &err) || fl_mass_of(&m, &q, 0.0, &err), "faces of a cube can be moved");
+    check_result(fl_poly_offset(&q, &p, 0.1, &err) || fl_mass_of(&m, &q, 0.0, &err),
+                 "faces of a cube can be moved");
     verify_row("V36", "its outer sharp shape [m3]", m.volume, 1.728, 1e-14, VERIFY_REL);
     fl_poly_free(&p);
     fl_poly_free(&q);
     box(&p, 10, 10, 0.4);
-    must(fl_mass_of(&m, &p, 0.05, &err), "a rounded floe has a mass");
+    check_result(fl_mass_of(&m, &p, 0.05, &err), "a rounded floe has a mass");
     verify_row("V37", "floe 10 x 10 x 0.4 swept by 0.05 [m3]", m.volume, 50.960745, 1e-8, VERIFY_REL);
-    must(fl_poly_offset(&q, &p, 0.05, &err) || fl_mass_of(&m, &q, 0.0, &err), "faces of a floe can be moved");
+    check_result(fl_poly_offset(&q, &p, 0.05, &err) || fl_mass_of(&m, &q, 0.0, &err),
+                 "faces of a floe can be moved");
     verify_row("V37", "its outer sharp shape [m3]", m.volume, 51.005, 1e-14, VERIFY_REL);
     fl_poly_free(&p);
     fl_poly_free(&q);
 }
 
-/* Level of the water over the body's origin at which it displaces the volume v. */
+/* Water level over the origin of the body at which the body displaces the volume v. */
 static double float_level(const fl_hull *h, fl_vec3 up, double v)
 {
     double lo = -2 * h->shape->size, hi = 2 * h->shape->size;
@@ -118,8 +122,8 @@ static double float_level(const fl_hull *h, fl_vec3 up, double v)
     return 0.5 * (lo + hi);
 }
 
-/* Righting arm at a heel of a radians about the x axis: how far the centre of buoyancy moves to the low side,
- * which is where across points away from. */
+/* Righting arm at a heel of a radians about the x axis: the shift of the centre of buoyancy to the low
+ * side.  `across` points away from that side. */
 static double righting_arm(const fl_hull *h, double a, double v)
 {
     const fl_vec3 up = v3(0, sin(a), cos(a)), across = v3(0, cos(a), -sin(a));
@@ -137,7 +141,7 @@ static void floating_box(void)
     fl_submerged w;
     fl_waterplane plane;
     box(&p, 10, 10, 1);
-    must(fl_hull_make(&h, &p, 0.0, &err), "a box floats");
+    check_result(fl_hull_make(&h, &p, 0.0, &err), "a box floats");
     const double level = float_level(&h, v3(0, 0, 1), ratio * h.volume);
     verify_row("V48", "draft of a 10 x 10 x 1 box, 900/1025 [m]", level + 0.5, 0.8780488, 5e-8, VERIFY_ABS);
     verify_row("V48", "draft over density ratio", (level + 0.5) / ratio, 1.0, 1e-13, VERIFY_ABS);
@@ -159,7 +163,7 @@ static void floating_box(void)
     fl_poly_free(&p);
 
     box(&p, 3, 4, 1); /* GZ depends on the section only */
-    must(fl_hull_make(&h, &p, 0.0, &err), "a box floats");
+    check_result(fl_hull_make(&h, &p, 0.0, &err), "a box floats");
     const double heel[6] = {1, 2, 5, 10, 20, 45};
     const double arm[6] = {0.02544167, 0.05089983, 0.11783579, 0.15758834, 0.17548414, 0.14731391};
     for (int k = 0; k < 6; k++) {
@@ -204,7 +208,7 @@ static void square_prism(void)
     fl_hull h;
     fl_err err = {0};
     box(&p, 2, 1, 1);
-    must(fl_hull_make(&h, &p, 0.0, &err), "a prism floats");
+    check_result(fl_hull_make(&h, &p, 0.0, &err), "a prism floats");
     verify_row("V52", "square prism, s = 0.25: heel [deg]", resting_heel(&h, 0.25, 5, 44), atan(0.5) / DEGREE,
                1e-9, VERIFY_ABS);
     verify_row("V52", "s = 0.75", resting_heel(&h, 0.75, 5, 44), atan(0.5) / DEGREE, 1e-9, VERIFY_ABS);
@@ -225,9 +229,9 @@ static void square_prism(void)
     fl_poly_free(&p);
 }
 
-/* The water goes by in steps of 1e-10 m where it meets a face, an edge or a vertex of the cube: the volume
- * follows the water plane, and jumps by no more than rounding. */
-static void continuity(void)
+/* The water level passes a face, an edge or a vertex of the cube in steps of 1e-10 m.  The volume follows
+ * the water plane and jumps by no more than rounding. */
+static void volume_continuity(void)
 {
     const fl_vec3 up[3] = {{0, 0, 1},
                            {0, 0.7071067811865476, 0.7071067811865476},
@@ -238,14 +242,14 @@ static void continuity(void)
     fl_hull h;
     fl_err err = {0};
     box(&p, 1, 1, 1);
-    must(fl_hull_make(&h, &p, 0.0, &err), "a cube floats");
+    check_result(fl_hull_make(&h, &p, 0.0, &err), "a cube floats");
     for (int k = 0; k < 3; k++) {
         double worst = 0.0;
         for (int i = -10; i < 10; i++) {
             fl_submerged a, b;
             fl_hull_submerged(&h, up[k], at[k] + i * 1e-10, &a);
             fl_hull_submerged(&h, up[k], at[k] + (i + 1) * 1e-10, &b);
-            /* the deck is at 0: below it the water plane is 1 m2, above it there is none */
+            /* the deck is at 0: the water plane is 1 m2 below it, and empty above it */
             const double slope = k ? 0.5 * (a.waterplane_area + b.waterplane_area) : i < 0 ? 1.0 : 0.0;
             worst = fmax(worst, fabs(b.volume - a.volume - slope * 1e-10));
         }
@@ -258,11 +262,11 @@ static void continuity(void)
 int main(void)
 {
     verify_begin("volumes, moments and floating bodies");
-    cuts_of_a_cube();
-    tetrahedron();
-    dilated();
+    cut_cube();
+    right_tetrahedron();
+    dilated_bodies();
     floating_box();
     square_prism();
-    continuity();
+    volume_continuity();
     return verify_end();
 }

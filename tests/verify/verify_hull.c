@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A hull afloat: what its shape tells of its springs, and how it heaves, rolls and pitches on them. */
+/* A floating hull: hydrostatic stiffness from its shape, and its heave, roll and pitch on that stiffness. */
 #include <math.h>
 #include <stdio.h>
 #include "base/pi.h"
@@ -10,15 +10,15 @@
 
 static const fl_vec3 ZERO = {0, 0, 0};
 
-static void start(lab *l)
+static void start_world(lab *l)
 {
     lab_start(l);
-    lab_sphere(l, v3(1e3, 0, 0), 0.1, ZERO, ZERO); /* a world has ice */
+    lab_sphere(l, v3(1e3, 0, 0), 0.1, ZERO, ZERO); /* a world needs ice */
     lab_cone(l, (fl_cone){v3(0, 0, -1), v3(0, 0, 1), 0.5, 0.5});
 }
 
-/* Heave, roll and pitch of a closed box, afloat without ice, against 2 pi sqrt(m/C33), ... */
-static void hull(void)
+/* Heave, roll and pitch of a closed box, afloat without ice, against 2 pi sqrt(m/C33) and the like. */
+static void box_modes(void)
 {
     const double L = 20, B = 8, T = 2, D = 5, rho = 1025, g = 9.81, kg = 0.3, m = rho * L * B * T;
     const fl_vec3 G = v3(3, -2, kg);
@@ -27,7 +27,7 @@ static void hull(void)
     const double I[3] = {m, m * 9.0, m * 40.0};
     static const char *const WHAT[3] = {"heave", "roll", "pitch"};
     lab l;
-    start(&l);
+    start_world(&l);
     fl_part *none = &l.surface.part[0];
     none->nc = 0;
     lab_wall(&l, v3(3 - L / 2, -2 - B / 2, -T), v3(3 + L / 2, -2 + B / 2, D - T), 3);
@@ -48,7 +48,7 @@ static void hull(void)
         snprintf(what, sizeof what, "C%d%d of the box", 3 + k, 3 + k);
         verify_row("hull", what, l.w.moving.movers.motion[0].K[2 + k][2 + k], C[k], 1e-12, VERIFY_REL);
     }
-    for (int k = 0; k < 3; k++) { /* a small push, then the second zero crossing */
+    for (int k = 0; k < 3; k++) { /* a small impulse, then the second zero crossing */
         fl_bodies *b = &l.w.moving.movers.b;
         char what[64];
         double before = 1.0, last = 0.0, first = 0.0;
@@ -74,8 +74,9 @@ static void hull(void)
     lab_free(&l);
 }
 
-/* Wigley's hull, y = B/2 (1 - (2x/L)^2) (1 - (z/T)^2) below the water, wall-sided to the deck above it, as a
- * mesh of n by n quadrangles a side: V = 4/9 L B T, KB = 5/8 T, BM = 3 B^2/(35 T), int x^2 dA = L^3 B/30. */
+/* Wigley's hull, y = B/2 (1 - (2x/L)^2) (1 - (z/T)^2) below the water, wall-sided above it up to the deck,
+ * as a mesh of n by n quadrangles per side.  V = 4/9 L B T, KB = 5/8 T, BM = 3 B^2/(35 T), int x^2 dA = L^3
+ * B/30. */
 static double wigley_y(double u, double v) { return (1 - u * u) * (v < 0 ? 1 - v * v : 1); }
 
 static void wigley(int n, double L, double B, double T, fl_hydrostatics *f)
@@ -100,7 +101,7 @@ static void wigley(int n, double L, double B, double T, fl_hydrostatics *f)
             fl_surface_triangle(p, all + a, all + b + 1, all + b, &err);
             fl_surface_triangle(p, all + a, all + a + 1, all + b + 1, &err);
         }
-    for (int i = 0; i < n; i++) { /* keel and deck; stem and stern, where both sides have the same points */
+    for (int i = 0; i < n; i++) { /* keel and deck; stem and stern, where both sides share points */
         const int32_t a = i * (rows + 1), b = a + rows + 1;
         fl_surface_triangle(p, a, all + a, all + b, &err), fl_surface_triangle(p, a, all + b, b, &err);
         fl_surface_triangle(p, a + rows, b + rows, all + b + rows, &err);
@@ -118,7 +119,7 @@ static void wigley(int n, double L, double B, double T, fl_hydrostatics *f)
     fl_surface_free(&surface);
 }
 
-static void wigleys(void)
+static void wigley_meshes(void)
 {
     const double L = 30, B = 6, T = 2.5, V = 4.0 / 9 * L * B * T;
     const double exact[4] = {V, -3.0 / 8 * T, 3 * B * B / (35 * T), L * L * L * B / 30};
@@ -132,8 +133,9 @@ static void wigleys(void)
         got[0] = f.volume, got[1] = f.buoyancy_centre.z, got[2] = f.yy / f.volume, got[3] = f.xx;
         for (int c = 0; c < 4; c++) e[c][k] = fabs(got[c] / exact[c] - 1.0);
     }
-    verify_note("Wigley's hull of 30 m, meshes of 20, 40 and 80 quadrangles a side each way: their exact "
-                "hydrostatics");
+    verify_note(
+        "Wigley's hull of 30 m, meshes of 20, 40 and 80 quadrangles per side and direction: their exact "
+        "hydrostatics");
     for (int c = 0; c < 4; c++) {
         char what[64];
         verify_row("hull", WHAT[c], got[c], exact[c], 1e-3, VERIFY_REL);
@@ -142,9 +144,8 @@ static void wigleys(void)
     }
 }
 
-/* Heave and pitch that are coupled: the two modes of  K x = w^2 M x, and that a start in a mode stays in
- * it. */
-static void coupled(void)
+/* Coupled heave and pitch: the two modes of K x = w^2 M x; a motion that starts in a mode stays in it. */
+static void coupled_modes(void)
 {
     const double m = 1000, I = 3000, C33 = 4e4, C55 = 1.5e5, C35 = -3e4;
     const double a = C33 / m, b = C55 / I, c2 = C35 * C35 / (m * I);
@@ -155,7 +156,7 @@ static void coupled(void)
         double worst = 0.0;
         char what[64];
         lab l;
-        start(&l);
+        start_world(&l);
         lab_set(&l, "structure.free=z ry");
         lab_setf(&l, "structure.mass=%g", m);
         lab_setf(&l, "structure.inertia=0 %g 0", I);
@@ -172,20 +173,20 @@ static void coupled(void)
             worst = fmax(worst, fabs(s->x[0].z - x) / small);
             worst = fmax(worst, fabs(2.0 * s->q[0].y - shape * x) / (small * fmax(1.0, fabs(shape))));
         }
-        snprintf(what, sizeof what, "heave and pitch coupled, mode of %.4g rad/s: off by", w);
+        snprintf(what, sizeof what, "heave and pitch coupled, mode of %.4g rad/s: error", w);
         verify_below("hull", what, worst, 1e-3);
         lab_free(&l);
     }
 }
 
-/* Roll that a dashpot damps: logarithmic decrement 2 pi D/sqrt(1 - D^2). */
-static void rolling(void)
+/* Roll with a dashpot: logarithmic decrement 2 pi D/sqrt(1 - D^2). */
+static void roll_decrement(void)
 {
     const double I = 2000, k = 8e4, D = 0.05, dt = 1e-3;
     double top[2] = {0}, before = 0.0, before2 = 0.0;
     int found = 0;
     lab l;
-    start(&l);
+    start_world(&l);
     lab_set(&l, "structure.free=rx");
     lab_setf(&l, "structure.inertia=%g 0 0", I);
     lab_setf(&l, "structure.turn_stiffness=%g 0 0", k);
@@ -204,11 +205,11 @@ static void rolling(void)
     lab_free(&l);
 }
 
-/* Turned by a radian and more against springs of its own, all directions free: the energy of it. */
-static double tumbled(double dt, double *turn)
+/* Rotations of a radian and more on its own springs, all directions free: the energy. */
+static double energy_change(double dt, double *turn)
 {
     lab l;
-    start(&l);
+    start_world(&l);
     lab_set(&l, "structure.free=x y z rx ry rz");
     lab_set(&l, "structure.mass=1000");
     lab_set(&l, "structure.inertia=900 2000 1500");
@@ -233,12 +234,12 @@ static double tumbled(double dt, double *turn)
     return worst;
 }
 
-static void tumbling(void)
+static void large_rotations(void)
 {
     double h[3], e[3], turn;
     for (int k = 0; k < 3; k++) {
         h[k] = 0.02 / (1 << k);
-        e[k] = tumbled(h[k], &turn);
+        e[k] = energy_change(h[k], &turn);
     }
     verify_note("six degrees of freedom on coupled springs, turns of up to %.2g rad, 10 s", turn);
     verify_order("hull", "largest change of its energy", h, e, 3, 2.0, 0.3);
@@ -247,10 +248,10 @@ static void tumbling(void)
 int main(void)
 {
     verify_begin("hulls");
-    hull();
-    wigleys();
-    coupled();
-    rolling();
-    tumbling();
+    box_modes();
+    wigley_meshes();
+    coupled_modes();
+    roll_decrement();
+    large_rotations();
     return verify_end();
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields of ice as the solver sees them.  Each is written to a file, read from it as dem-solve reads it, and
- * the bodies are measured by what weighs and floats bodies there, which shares no code with what made them:
- * the core's faces moved out by the dilation radius, volume and moments by the divergence theorem, and what
- * of that lies below the still water.  Against it stands what was asked for: concentration times area,
- * thickness and density; and the draft of a prism, thickness times density over that of water, at which every
- * floe displaces what it weighs.  H05: cells that are slivers. */
+/* Ice fields as the solver sees them.  Each field is written to a file and read by the reader of dem-solve.
+ * Its bodies are measured by the mass and buoyancy code of the solver, which shares no code with the
+ * generator: core faces moved out by the dilation radius, volume and moments by the divergence theorem, and
+ * the part below still water.  They are compared with the specification: concentration times area,
+ * thickness and density; and with the draft of a prism, thickness times density over that of water, at
+ * which a floe displaces its weight.  H05: cells that are slivers. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,15 +25,15 @@
 #define ICE 900.0
 #define WATER 1025.0
 
-struct seen {
+struct measured {
     double mass;   /* of all [kg]                                              */
     double worst;  /* largest relative error of the mass of one                */
-    double afloat; /* largest difference of weight and buoyancy over the weight */
+    double afloat; /* largest difference of weight and buoyancy over weight */
     double least;  /* smallest ratio of a floe's principal moments of inertia  */
     int32_t bodies;
 };
 
-static int add(fl_ice_field *out, const fl_floes *a, int32_t i, double radius, fl_err *err)
+static int add_floe(fl_ice_field *out, const fl_floes *a, int32_t i, double radius, fl_err *err)
 {
     const double draft = THICKNESS * (ICE / WATER);
     const int32_t n = a->first[i + 1] - a->first[i];
@@ -50,8 +50,8 @@ static int add(fl_ice_field *out, const fl_floes *a, int32_t i, double radius, f
     return rc;
 }
 
-/* To a file and back. */
-static int by_file(fl_ice_field *field, fl_err *err)
+/* Writes a field to a file and reads it back. */
+static int write_and_read(fl_ice_field *field, fl_err *err)
 {
     char path[300];
     const char *tmp = getenv("TMPDIR");
@@ -72,9 +72,9 @@ static int by_file(fl_ice_field *field, fl_err *err)
     return 0;
 }
 
-static int weigh(const fl_ice_field *field, const fl_floes *a, struct seen *s, fl_err *err)
+static int measure_bodies(const fl_ice_field *field, const fl_floes *a, struct measured *s, fl_err *err)
 {
-    *s = (struct seen){.least = INFINITY, .bodies = field->n};
+    *s = (struct measured){.least = INFINITY, .bodies = field->n};
     for (int32_t i = 0; i < field->n; i++) {
         const double area = fl_polygon_area(a->first[i + 1] - a->first[i], a->outer + a->first[i]);
         fl_poly outer = {0};
@@ -93,15 +93,15 @@ static int weigh(const fl_ice_field *field, const fl_floes *a, struct seen *s, f
     return 0;
 }
 
-static int field_of(const char *what, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, int smooth,
-                    double concentration, double radius, const char *id)
+static int verify_field(const char *what, int32_t n, const fl_vec2 *site, fl_vec2 lo, fl_vec2 hi, int smooth,
+                        double concentration, double radius, const char *id)
 {
     fl_vec2 *x = NULL;
     fl_power_cells c = {0};
     fl_floes a = {0};
     fl_ice_field field = {0};
     fl_certificate t;
-    struct seen s;
+    struct measured s;
     fl_err err = {0};
     char text[120];
     int rc = -1;
@@ -118,8 +118,8 @@ static int field_of(const char *what, int32_t n, const fl_vec2 *site, fl_vec2 lo
         fl_certificate_make(&t, &a, &err))
         goto done;
     for (int32_t i = 0; i < n; i++)
-        if (add(&field, &a, i, radius, &err)) goto done;
-    if (by_file(&field, &err) || weigh(&field, &a, &s, &err)) goto done;
+        if (add_floe(&field, &a, i, radius, &err)) goto done;
+    if (write_and_read(&field, &err) || measure_bodies(&field, &a, &s, &err)) goto done;
     verify_note("%s: %d floes, %d sides of cells dropped, %d moved in farther, %d corners cut off", what, n,
                 a.dropped_sides, a.shifted_sides, a.blunted_corners);
     snprintf(text, sizeof text, "mass of all [kg]");
@@ -153,15 +153,15 @@ static void random_fields(void)
     fl_random_sites(n, 7, lo, hi, site);
     for (int k = 0; k < 5; k++) {
         snprintf(what, sizeof what, "smoothed cells, concentration %g, radius 0.02 m", concentration[k]);
-        field_of(what, n, site, lo, hi, 2, concentration[k], 0.02, "mass");
+        verify_field(what, n, site, lo, hi, 2, concentration[k], 0.02, "mass");
         snprintf(what, sizeof what, "cells of random points, concentration %g, sharp", concentration[k]);
-        field_of(what, n, site, lo, hi, 0, concentration[k], 0.0, "mass");
+        verify_field(what, n, site, lo, hi, 0, concentration[k], 0.0, "mass");
     }
 }
 
-/* Sites in rows far apart, close together in each and out of place by `off` of their distance: cells that are
+/* Sites in distant rows, close together in each row and displaced by `off` of their distance: the cells are
  * long and come to sharp points. */
-static void needles(void)
+static void needle_cells(void)
 {
     enum { ACROSS = 60, ROWS = 4, N = ACROSS * ROWS };
     static const double off[] = {0.1, 0.3, 0.45};
@@ -173,14 +173,15 @@ static void needles(void)
             site[i].x = i % ACROSS + 0.5 + fl_rng_in(&g, -off[k], off[k]);
             site[i].y = 40.0 * (i / ACROSS + 0.5) + 10.0 * fl_rng_in(&g, -off[k], off[k]);
         }
-        snprintf(what, sizeof what, "needles, out of place by up to %g of their width", off[k]);
-        field_of(what, N, site, (fl_vec2){0, 0}, (fl_vec2){ACROSS, 40 * ROWS}, 0, 0.7, k ? 0.0 : 0.005,
-                 "H05");
+        snprintf(what, sizeof what, "needles, displaced by up to %g of their width", off[k]);
+        verify_field(what, N, site, (fl_vec2){0, 0}, (fl_vec2){ACROSS, 40 * ROWS}, 0, 0.7, k ? 0.0 : 0.005,
+                     "H05");
     }
 }
 
-/* Squares whose sites are a little out of place have sides as short as that where four of them meet. */
-static void slivers(void)
+/* Squares whose sites are slightly displaced have sides as short as the displacement where four of them
+ * meet. */
+static void sliver_cells(void)
 {
     enum { SIDE = 12, N = SIDE * SIDE };
     static const double off[] = {0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3};
@@ -192,25 +193,25 @@ static void slivers(void)
             site[i].x = i % SIDE + 0.5 + fl_rng_in(&g, -off[k], off[k]);
             site[i].y = i / SIDE + 0.5 + fl_rng_in(&g, -off[k], off[k]);
         }
-        snprintf(what, sizeof what, "a lattice of sites out of place by up to %.0e", off[k]);
-        field_of(what, N, site, (fl_vec2){0, 0}, (fl_vec2){SIDE, SIDE}, 0, 0.9, 0.02, "H05");
+        snprintf(what, sizeof what, "a lattice of sites displaced by up to %.0e", off[k]);
+        verify_field(what, N, site, (fl_vec2){0, 0}, (fl_vec2){SIDE, SIDE}, 0, 0.9, 0.02, "H05");
     }
-    /* a cell of 1e-12 the area of the others, between six that come to a point there */
+    /* a cell of 1e-12 the area of the others, between six cells that meet in a point */
     for (int i = 0; i < N; i++) site[i] = (fl_vec2){i % SIDE + 0.4, i / SIDE + 0.7};
     for (int k = 0; k < 7; k++) {
         const double t = k * PI / 3.0, r = k < 6 ? 1e-6 : 0.0;
         site[60 + k] = (fl_vec2){5.3 + r * cos(t), 5.1 + r * sin(t)};
     }
-    field_of("a cell of area 1e-12", N, site, (fl_vec2){0, 0}, (fl_vec2){SIDE, SIDE}, 0, 0.9, 0.0, "H05");
+    verify_field("a cell of area 1e-12", N, site, (fl_vec2){0, 0}, (fl_vec2){SIDE, SIDE}, 0, 0.9, 0.0, "H05");
 }
 
 int main(int argc, char **argv)
 {
     (void)argc;
     fl_parallel_limit_spin(argv);
-    verify_begin("Fields of ice as the solver sees them");
+    verify_begin("Ice fields as the solver sees them");
     random_fields();
-    slivers();
-    needles();
+    sliver_cells();
+    needle_cells();
     return verify_end();
 }

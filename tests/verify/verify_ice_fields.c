@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields in every kind of water, and ice of every kind, against what must hold for them whatever the numbers:
- * areas and lengths that add up, counts that lattices have, parts that are filled. */
+/* Ice fields in water domains of every kind, and ice of every kind, against identities that hold for any
+ * numbers: sums of areas and lengths, counts of lattices, filled parts. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,8 +40,8 @@ done:
     return rc;
 }
 
-/* Level ice: every side is shared or lies on the outline, and of n regions in the plane at most 3 n - 6 pairs
- * have a side in common (Euler). */
+/* Level ice: each side is shared or lies on the outline, and of n regions in the plane at most 3 n - 6
+ * pairs share a side (Euler). */
 static int level_ice(int32_t n, fl_err *err)
 {
     const int none[2] = {0, 0};
@@ -59,7 +59,7 @@ static int level_ice(int32_t n, fl_err *err)
     verify_row("-", "area of all floes [m2]", area, SIDES_X * SIDES_Y, 1e-9, VERIFY_REL);
     verify_row("-", "outlines less shared sides, twice [m]", f.perimeter - 2.0 * f.total_length,
                2.0 * (SIDES_X + SIDES_Y), 1e-3, VERIFY_REL);
-    verify_below("-", "deepest overlap over what counts as together", f.max_overlap, f.tolerance);
+    verify_below("-", "deepest overlap over the tolerance of a shared side", f.max_overlap, f.tolerance);
     verify_true("-", "faces of a plane graph: at most 3 n - 6", f.n <= 3 * n - 6);
     rc = 0;
 done:
@@ -69,7 +69,8 @@ done:
     return rc;
 }
 
-/* Two by two copies of a periodic field: four times the area, no overlap, and no gap narrower than within. */
+/* Two by two copies of a periodic field: four times the area, no overlap, and no gap narrower than inside
+ * it. */
 static int periodic_field(int32_t n, fl_err *err)
 {
     const int both[2] = {1, 1};
@@ -103,7 +104,7 @@ static int periodic_field(int32_t n, fl_err *err)
     verify_row("-", "area of the copies over that of one", four.total_area / one.total_area, 4.0, 1e-12,
                VERIFY_REL);
     verify_row("-", "overlaps", (double)four.overlaps, 0.0, 0.0, VERIFY_ABS);
-    /* corners of floes stay inside their cells by half of the inset, on both sides of a seam */
+    /* corners of floes stay inside their cells by half of the inset, also across a periodic border */
     verify_below("-", "inset over the narrowest gap of the copies", a.inset / four.min_gap, 1.0);
     rc = 0;
 done:
@@ -113,7 +114,7 @@ done:
     return rc;
 }
 
-/* A star-shaped lake with an island: areas by the shoelace formula. */
+/* A star-shaped lake with an island; areas by the shoelace formula. */
 static int lake(int32_t n, fl_err *err)
 {
     enum { SHORE = 24 };
@@ -155,8 +156,8 @@ done:
     return rc;
 }
 
-/* Counts of published sheets; pairs of n rows of m in hexagonal layers follow from the lattice:
- * n (m - 1) + (n - 1)(2 m - 1) in each layer. */
+/* Counts of published sheets.  The pairs of n rows of m in hexagonal layers follow from the lattice: n (m -
+ * 1) + (n - 1)(2 m - 1) per layer. */
 static int sheets(fl_err *err)
 {
     fl_sphere_packing a = {0};
@@ -222,8 +223,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The mean of n numbers is off by cv / sqrt(n), four of which are next to never exceeded; Kolmogorov's
- * distance of 1.95 / sqrt(n) once in a thousand times. */
+/* The mean of n numbers has the error cv / sqrt(n), four of which are hardly ever exceeded; Kolmogorov's
+ * distance exceeds 1.95 / sqrt(n) once in a thousand times. */
 static int thicknesses(int32_t n, fl_err *err)
 {
     fl_thickness t = {0};
@@ -248,7 +249,7 @@ int main(void)
 {
     const int q = verify_quick();
     fl_err err = {0};
-    verify_begin("ice in every water");
+    verify_begin("ice fields in water domains of every kind");
     if (level_ice(q ? 500 : 20000, &err) || periodic_field(q ? 300 : 5000, &err) ||
         lake(q ? 150 : 3000, &err) || sheets(&err) || round_floes(q ? 300 : 5000, &err) ||
         piles(q ? 60 : 1000, &err) || thicknesses(q ? 5000 : 200000, &err))

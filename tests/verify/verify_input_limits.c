@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hard cases of what is given: shapes, files, meshes, waves.  No step is made. */
+/* Hard cases of the input: shapes, files, meshes, waves.  No step is made. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,8 @@
 #include "support/verify.h"
 #include "water/wave.h"
 
-/* Four corners within 1e-12 of one plane are no solid; a plate of no thickness is a core, swept by a ball. */
+/* Four corners within 1e-12 of one plane are no solid; a plate of no thickness is a core with a dilation
+ * radius. */
 static void cores_without_volume(void)
 {
     const double h = 1e-12, r = 0.3;
@@ -35,8 +36,8 @@ static void cores_without_volume(void)
     fl_poly_free(&p);
 }
 
-/* A file of bodies with one thing wrong. */
-static int read_with(const char *numbers)
+/* A file of bodies with one error. */
+static int read_body(const char *numbers)
 {
     char text[400];
     fl_ice_field f = {0};
@@ -47,8 +48,8 @@ static int read_with(const char *numbers)
     return rc == 0 ? 0 : err.code == FL_INPUT && strstr(err.text, "bad.dat:") ? 1 : -1000;
 }
 
-/* A cube with a corner written twice, and one more in the middle of an edge. */
-static void corners_too_many(void)
+/* A cube with a duplicate corner, and one in the middle of an edge. */
+static void redundant_corners(void)
 {
     static const char CLEAN[] = "#g-polys 1\npoly 1 0.05 8 6\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n"
                                 "v 1 0 1\nv 1 1 1\nv 0 1 1\nf 4 0 3 2 1\nf 4 4 5 6 7\nf 4 0 1 5 4\n"
@@ -67,8 +68,8 @@ static void corners_too_many(void)
             exit(1);
         }
     }
-    verify_row("H07", "a corner twice and one on an edge: volume with the ball", m[1].volume, m[0].volume,
-               1e-15, VERIFY_REL);
+    verify_row("H07", "duplicate corner, corner on an edge: dilated volume", m[1].volume, m[0].volume, 1e-15,
+               VERIFY_REL);
     verify_row("H07", "and moment of inertia", m[1].inertia.x, m[0].inertia.x, 1e-15, VERIFY_REL);
     verify_row("H07", "corners left", f[1].core[0].nv, 9, 0, VERIFY_ABS);
     for (int k = 0; k < 2; k++) fl_ice_field_free(&f[k]);
@@ -79,15 +80,13 @@ static void bad_numbers(void)
     static const char *const BAD[] = {"v 0 0 nan", "v 0 inf 0", "v 0,5 0 0",
                                       "v 0 0",     "v 0 0 0 0", "v 0 0 1e999"};
     int refused = 0;
-    for (int k = 0; k < 6; k++) refused += read_with(BAD[k]);
+    for (int k = 0; k < 6; k++) refused += read_body(BAD[k]);
     verify_row("H37", "nan, inf, comma, too few, too many, 1e999: refused with file and line", refused, 6, 0,
                VERIFY_ABS);
-    verify_row("H37", "and lines that end in carriage return and line feed are not", read_with("v 0 0 0\r"),
-               0, 0, VERIFY_ABS);
+    verify_row("H37", "lines that end in CR LF are accepted", read_body("v 0 0 0\r"), 0, 0, VERIFY_ABS);
 }
 
-/* A wave a tenth below the height at which it breaks, and one a tenth above: in deep water, and where the
- * ground is near. */
+/* A wave a tenth below the breaking height, and one a tenth above it: in deep water and in shallow water. */
 static void breaking_waves(void)
 {
     const double depth[2] = {(double)INFINITY, 2.0};
@@ -99,16 +98,16 @@ static void breaking_waves(void)
         const double above = fl_wave_steepness(1.1 * limit / one, 3.0, depth[k], 9.81, &limit);
         first[k] = limit;
         verify_true("H39",
-                    k ? "2 m of water: a tenth steeper than what breaks is, a tenth less is not"
-                      : "deep water: a tenth steeper than what breaks is, a tenth less is not",
+                    k ? "2 m of water: refused a tenth above breaking, accepted a tenth below"
+                      : "deep water: refused a tenth above breaking, accepted a tenth below",
                     below < limit && above > limit);
     }
-    verify_row("H39", "steepness that breaks in deep water", first[0], 0.14, 0.02, VERIFY_REL);
+    verify_row("H39", "breaking steepness in deep water", first[0], 0.14, 0.02, VERIFY_REL);
     verify_below("H39", "and in 2 m over that", first[1] / first[0], 0.99);
 }
 
-/* A box with any of its triangles turned inside out. */
-static void turned_triangles(void)
+/* A box with any of its triangles inverted. */
+static void inverted_triangles(void)
 {
     double worst = 0.0;
     int left = 0, unequal = 0;
@@ -135,19 +134,18 @@ static void turned_triangles(void)
         unequal += o.triangles != (turned < p->nt - turned ? turned : p->nt - turned);
         fl_surface_free(&s);
     }
-    verify_below("H40", "a box, any of its triangles turned: error of the volume", worst, 1e-15);
-    verify_row("H40", "edges and boxes still the wrong way round", left, 0, 0, VERIFY_ABS);
-    verify_row("H40", "and turned back were as many as had been turned, or the rest", unequal, 0, 0,
-               VERIFY_ABS);
+    verify_below("H40", "a box, any of its triangles inverted: error of the volume", worst, 1e-15);
+    verify_row("H40", "edges and boxes still inverted", left, 0, 0, VERIFY_ABS);
+    verify_row("H40", "as many triangles turned as were inverted, or the rest", unequal, 0, 0, VERIFY_ABS);
 }
 
 int main(void)
 {
-    verify_begin("hard cases of what is given");
+    verify_begin("hard cases of the input");
     cores_without_volume();
-    corners_too_many();
+    redundant_corners();
     bad_numbers();
     breaking_waves();
-    turned_triangles();
+    inverted_triangles();
     return verify_end();
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ledger of a field of 200 floes that drift against a cylinder: what it does not close by. */
+/* The energy ledger of a field of 200 floes that drift against a cylinder: its residual. */
 #include <math.h>
 #include "base/rng.h"
 #include "sim/energy_balance.h"
@@ -9,9 +9,9 @@
 
 enum { ROWS = 15, FLOES = 200 };
 
-/* 200 floes of 2.4 m in water, with speeds of their own, about a cylinder.  With a pitch of 3 m nothing
- * touches at first, at 2.8 m some floes begin in each other. */
-static void field(lab *l, double safety, int elastic, double pitch, double sleep)
+/* 200 floes of 2.4 m in water, with random velocities, about a cylinder.  With a pitch of 3 m nothing
+ * touches at first; at 2.8 m some floes overlap at the start. */
+static void make_field(lab *l, double safety, int elastic, double pitch, double sleep)
 {
     int32_t n = 0;
     lab_start(l);
@@ -35,9 +35,10 @@ static void field(lab *l, double safety, int elastic, double pitch, double sleep
     lab_make(l, 0);
 }
 
-/* dt^2 sum (m a^2 + e.I e)/12 now [J]: kick, drift, kick that begins within contacts has begun with a speed
- * that is off by dt^2 x'''/6, and its energy is by dt^2 (m a^2/24 + m v.x'''/12), the latter no more. */
-static double off_at_start(const fl_world *w)
+/* dt^2 sum (m a^2 + e.I e)/12 now [J].  A step (kick, drift, kick) that begins inside a contact starts with
+ * a velocity error of dt^2 x'''/6.  Its energy error is dt^2 (m a^2/24 + m v.x'''/12), the second term at
+ * most as large as the first. */
+static double start_error(const fl_world *w)
 {
     double sum = 0.0;
     for (int32_t i = 0; i < w->n; i++) {
@@ -50,16 +51,16 @@ static double off_at_start(const fl_world *w)
 
 typedef struct {
     double step, residual, lost, off; /* [s]; the others over the throughput */
-    double asleep;                    /* part of all steps of floes */
+    double asleep;                    /* share of all floe-steps */
 } result;
 
-/* Largest residual of a run, what was lost in contacts, what the start is off by. */
-static result follow(double safety, int elastic, double pitch, double sleep, double seconds)
+/* Largest residual of a run, energy lost in contacts, error of the start. */
+static result run_field(double safety, int elastic, double pitch, double sleep, double seconds)
 {
     lab l;
     result r = {0};
-    field(&l, safety, elastic, pitch, sleep);
-    r.off = off_at_start(&l.w);
+    make_field(&l, safety, elastic, pitch, sleep);
+    r.off = start_error(&l.w);
     const int64_t steps = (int64_t)ceil(seconds / l.w.dt);
     r.step = l.w.dt;
     for (int64_t k = 0; k < steps; k += 20) {
@@ -78,8 +79,8 @@ static result follow(double safety, int elastic, double pitch, double sleep, dou
     return r;
 }
 
-/* A sphere comes down on a wall askew, is damped and rubbed, and leaves: residual over what it lost. */
-static double hit(double dt)
+/* A sphere hits a wall obliquely, with damping and friction, and leaves: residual over the energy lost. */
+static double sphere_on_wall(double dt)
 {
     lab l;
     lab_start(&l);
@@ -104,34 +105,33 @@ int main(void)
     const double seconds = verify_quick() ? 0.45 : 1.5;
     verify_begin("the ledger of 200 floes");
     for (int k = 0; k < 3; k++) {
-        const result all = follow(safety[k], 0, apart, 0.0, seconds);
+        const result all = run_field(safety[k], 0, apart, 0.0, seconds);
         h[k] = all.step;
         r[k] = all.residual;
         verify_note("run.safety %g: residual %.3g of the throughput, %.3g of it lost in contacts", safety[k],
                     all.residual, all.lost);
     }
     verify_order("L01", "largest residual over the throughput against the step [s]", h, r, 3, 2.0, 0.5);
-    /* Works are of order 4 from the begin of a contact to its end: what is left is of contacts under way, and
-     * of the bend of the force within the step in which faces meet, of either sign. */
+    /* Work is of order 4 from the begin of a contact to its end.  What remains is from contacts in
+     * progress, and from the kink of the force within the step in which faces meet, of either sign. */
     verify_below("L01", "at the default step", r[1], 1e-6);
-    verify_below("L02", "the same without friction and damping", follow(0.1, 1, apart, 0.0, seconds).residual,
-                 1e-6);
-    const result begun = follow(0.1, 0, pressed, 0.0, seconds);
-    verify_note("some begin in each other: %.3g, where such a start is off by up to %.3g", begun.residual,
-                begun.off);
-    verify_below("L03", "the same when some begin in each other, over what such a start is off by, and 1e-6",
+    verify_below("L02", "the same without friction and damping",
+                 run_field(0.1, 1, apart, 0.0, seconds).residual, 1e-6);
+    const result begun = run_field(0.1, 0, pressed, 0.0, seconds);
+    verify_note("some overlap at the start: %.3g, where the error of such a start is up to %.3g",
+                begun.residual, begun.off);
+    verify_below("L03", "overlap at the start: residual over the error of such a start + 1e-6",
                  begun.residual / (begun.off + 1e-6), 1.0);
-    const result sleepy = follow(0.1, 0, apart, 1e-5, seconds);
-    verify_note("run.sleep 1e-5: %.3g of all steps of floes are taken many at once", sleepy.asleep);
-    /* they heave by 16 cm, and the energy of a heave of omega comes and goes by (omega s)^2/12 in steps of s
-     */
+    const result sleepy = run_field(0.1, 0, apart, 1e-5, seconds);
+    verify_note("run.sleep 1e-5: %.3g of all floe-steps are skipped", sleepy.asleep);
+    /* they heave by 16 cm; the energy of a heave of omega varies by (omega s)^2/12 in steps of s */
     verify_below("L05", "the same with run.sleep = 1e-5", sleepy.residual, 1e-4);
     for (int k = 0; k < 3; k++) {
         h[k] = 4e-4 / (1 << k);
-        r[k] = hit(h[k]);
+        r[k] = sphere_on_wall(h[k]);
     }
-    /* its force begins with the power 3/2 of the overlap, so the sums are of order 5/2 */
-    verify_order("L04", "one hit of a sphere: residual over what is lost", h, r, 3, 2.5, 0.5);
+    /* its force starts as the power 3/2 of the overlap, so the sums are of order 5/2 */
+    verify_order("L04", "one impact of a sphere: residual over lost energy", h, r, 3, 2.5, 0.5);
     verify_below("L04", "at the smallest", r[2], 1e-5);
     return verify_end();
 }

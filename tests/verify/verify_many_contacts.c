@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Many contacts on one body, and bodies that touch and move as time begins: what damping makes of an impact
- * does not hang on how many others there are, and neither it nor friction makes energy. */
+/* Many contacts on one body, and bodies that touch and move at the start.  The restitution of an impact
+ * does not depend on the number of other contacts, and neither damping nor friction gains energy. */
 #include <math.h>
 #include <stdlib.h>
 #include "base/rng.h"
@@ -10,9 +10,9 @@
 
 static const fl_vec3 Z = {0, 0, 0};
 
-/* What a base is that many small ones hit. */
+/* The base that many small bodies hit. */
 enum base { HELD, HEAVY, MOORED, BASES };
-static const char *const BASE[] = {"a held body", "a body 1e5 times as heavy", "a structure that yields"};
+static const char *const BASE[] = {"a held body", "a body 1e5 times as heavy", "a structure on springs"};
 
 static void add_base(lab *l, enum base base, int balls)
 {
@@ -32,9 +32,9 @@ static void add_base(lab *l, enum base base, int balls)
     if (base == HELD) lab_set(l, "group.base.fixed=x y z rx ry rz");
 }
 
-/* The mean speed against it at which n x n of them leave a base that they hit at 1 m/s together, boxes flat;
- * *made: by what the stores have risen since they were lowest, over all at the start. */
-static double come_off(int n, double e, enum base base, int balls, double *made)
+/* n x n bodies hit a base together at 1 m/s, boxes flat.  Returns the mean speed at which they leave it.
+ * *made: largest rise of the stored energy above its minimum, over that of the start. */
+static double rebound_from_base(int n, double e, enum base base, int balls, double *made)
 {
     lab l;
     int64_t over = 0;
@@ -65,7 +65,7 @@ static double come_off(int n, double e, enum base base, int balls, double *made)
     return sum / (n * n);
 }
 
-static void small_on_one(void)
+static void small_bodies_on_base(void)
 {
     static const double ASKED[] = {0.01, 0.1, 0.3};
     const int n = verify_quick() ? 4 : 8;
@@ -74,18 +74,19 @@ static void small_on_one(void)
             double worst = 0.0, most = 0.0;
             for (size_t k = 0; k < sizeof ASKED / sizeof *ASKED; k++) {
                 double made;
-                worst = fmax(worst, fabs(come_off(n, ASKED[k], (enum base)base, balls, &made) - ASKED[k]));
+                worst = fmax(worst,
+                             fabs(rebound_from_base(n, ASKED[k], (enum base)base, balls, &made) - ASKED[k]));
                 most = fmax(most, made);
             }
             verify_note("%d %s hit %s at once, restitution 0.01 to 0.3", n * n, balls ? "balls" : "boxes",
                         BASE[base]);
-            verify_below("S29", "worst restitution is off by", worst, 1e-4);
+            verify_below("S29", "largest error of the restitution", worst, 1e-4);
             verify_below("S29", "energy made, of all", most, 1e-6);
         }
 }
 
-/* A plate falls flat on n x n posts of the structure at 1 m/s: its speed after. */
-static double on_posts(int n, double e, double safety)
+/* A plate falls flat on n x n posts of the structure at 1 m/s.  Returns its speed afterwards. */
+static double drop_plate_on_posts(int n, double e, double safety)
 {
     lab l;
     const double half = 0.2 + 0.15 * n;
@@ -107,19 +108,21 @@ static double on_posts(int n, double e, double safety)
     return v;
 }
 
-static void posts(void)
+static void plate_on_posts(void)
 {
     const int n = verify_quick() ? 4 : 8;
     verify_note("a plate falls flat on %d posts", n * n);
-    verify_row("S30", "restitution, 0.3 asked for", on_posts(n, 0.3, 0.2), 0.3, 3e-3, VERIFY_ABS);
-    verify_row("S30", "0.1", on_posts(n, 0.1, 0.2), 0.1, 7e-3, VERIFY_ABS);
-    verify_row("S30", "0.01", on_posts(n, 0.01, 0.2), 0.01, 7e-3, VERIFY_ABS);
-    verify_row("S30", "0.01 in a quarter of the step", on_posts(n, 0.01, 0.05), 0.01, 1e-3, VERIFY_ABS);
+    verify_row("S30", "restitution for the key 0.3", drop_plate_on_posts(n, 0.3, 0.2), 0.3, 3e-3, VERIFY_ABS);
+    verify_row("S30", "0.1", drop_plate_on_posts(n, 0.1, 0.2), 0.1, 7e-3, VERIFY_ABS);
+    verify_row("S30", "0.01", drop_plate_on_posts(n, 0.01, 0.2), 0.01, 7e-3, VERIFY_ABS);
+    verify_row("S30", "0.01 in a quarter of the step", drop_plate_on_posts(n, 0.01, 0.05), 0.01, 1e-3,
+               VERIFY_ABS);
 }
 
-/* side^3 bodies that stand in each other and move every way as time begins: by how much their stores ever
- * rise, over what moves; *given: what friction or damping ever gives back, likewise. */
-static double stirred(int side, int boxes, double e, double mu, double *given)
+/* side^3 bodies that overlap and move in all directions at the start.  Returns the largest rise of the
+ * stored energy over the kinetic energy.  *given: the largest energy that friction or damping returns, over
+ * the same. */
+static double gain_of_overlapping_start(int side, int boxes, double e, double mu, double *given)
 {
     lab l;
     fl_rng g = fl_rng_of(7, 3, FL_RNG_TEST);
@@ -152,22 +155,22 @@ static double stirred(int side, int boxes, double e, double mu, double *given)
     return rise / moves;
 }
 
-static void begun_in_touch(void)
+static void overlapping_starts(void)
 {
     static const double ROWS[][3] = {{0, 0, 2}, {0, 0.05, 1}, {1, 0, 0.4}, {1, 0.2, 2}};
     for (size_t k = 0; k < sizeof ROWS / sizeof *ROWS; k++) {
         const int boxes = ROWS[k][0] > 0.0, side = boxes ? 3 : 4;
         double given;
-        const double made = stirred(side, boxes, ROWS[k][1], ROWS[k][2], &given);
-        verify_note("%d %s touch and move as time begins, restitution %g, friction %g", side * side * side,
+        const double made = gain_of_overlapping_start(side, boxes, ROWS[k][1], ROWS[k][2], &given);
+        verify_note("%d %s overlap and move at the start, restitution %g, friction %g", side * side * side,
                     boxes ? "cubes" : "balls", ROWS[k][1], ROWS[k][2]);
-        verify_below("S31", "energy made, of what moves", made, 1e-6);
-        verify_below("S31", "friction or damping gives back", given, 0.1);
+        verify_below("S31", "energy gained over the kinetic energy", made, 1e-6);
+        verify_below("S31", "energy returned by friction or damping, the same", given, 0.1);
     }
 }
 
-/* Three boxes hit a post that can do nothing but turn, and has no mass, together. */
-static void about_an_axis(void)
+/* Three boxes together hit a post without mass that can only rotate. */
+static void impact_on_rotating_post(void)
 {
     lab l;
     lab_start(&l);
@@ -179,19 +182,19 @@ static void about_an_axis(void)
         lab_box(&l, v3(1.5, 1.2 * (k - 1), 0.507), v3(0.45, 0.45, 0.5), 0.05, q_one(), v3(0, 0, -1), Z);
     lab_make(&l, 0);
     const int rc = lab_run(&l, (int64_t)(0.1 / l.w.dt));
-    verify_note("3 boxes hit a structure that turns alone");
+    verify_note("3 boxes hit a structure that can only rotate");
     verify_true("S29", "it runs to its end", rc == 0);
     for (int k = 0; k < 3; k++)
-        verify_row("S29", "speed of one after [m/s]", l.w.b.v[k].z, 0.3, 2e-3, VERIFY_ABS);
+        verify_row("S29", "speed of one box afterwards [m/s]", l.w.b.v[k].z, 0.3, 2e-3, VERIFY_ABS);
     lab_free(&l);
 }
 
 int main(void)
 {
-    verify_begin("many contacts on one body, and touch as time begins");
-    small_on_one();
-    about_an_axis();
-    posts();
-    begun_in_touch();
+    verify_begin("many contacts on one body, and overlap at the start");
+    small_bodies_on_base();
+    impact_on_rotating_post();
+    plate_on_posts();
+    overlapping_starts();
     return verify_end();
 }

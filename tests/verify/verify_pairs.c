@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Distance, direction and depth of pairs of cores against brute force in long double, by how far they are
- * apart; and libccd on the same pairs, as a second opinion whose own failures are counted. */
+/* Distance, direction and penetration depth of pairs of convex cores against brute force in long double, by
+ * distance; and libccd on the same pairs, whose own failures are counted. */
 #include <ccd/ccd.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,21 +13,21 @@
 
 enum { DECADES = 13, SUPPORTS_MAX = 4000 };
 
-/* The signed distance of two cores is clear of zero by this part of their size: then they meet or they do
- * not, and either answer is wrong. */
+/* Beyond this part of the size the sign of the distance is certain, and a wrong answer about meeting is an
+ * error. */
 #define CLEAR 1e-12
-/* A depth is wrong by more than this part of it. */
+/* A depth counts as wrong beyond this relative error. */
 #define WRONG 0.05
 
 typedef struct {
     long n, meet, astray;
     double d, normal;                    /* worst errors, of the size (or distance) and in rad */
-    double of_d[DECADES], of_n[DECADES]; /* the same by distance over size, 1e-9 .. 1e4 */
+    double of_d[DECADES], of_n[DECADES]; /* the same, by distance over size: 1e-9 .. 1e4 */
     double depth;                        /* worst, of the size */
     long ccd_meet, mpr_none, mpr_wrong, epa_none, epa_wrong, capped;
 } tally;
 
-/* ---- libccd -------------------------------------------------------------------------------------------- */
+/* --- libccd ------------------------------------------------------------------------------------------- */
 
 typedef struct {
     fl_core c;
@@ -40,7 +40,8 @@ static void ccd_support(const void *obj, const ccd_vec3_t *dir, ccd_vec3_t *out)
 {
     const ccd_body *s = obj;
     double low;
-    if (--*s->left < 0) { /* its loops have no bound of their own; the origin ends each of them */
+    if (--*s->left <
+        0) { /* its loops have no bound of their own; a support at the origin ends each of them */
         ccdVec3Set(out, 0, 0, 0);
         return;
     }
@@ -57,8 +58,8 @@ static void ccd_centre(const void *obj, ccd_vec3_t *out)
     ccdVec3Set(out, p.x, p.y, p.z);
 }
 
-/* As it is best used: about an origin nearby, at unit size. */
-static void second_opinion(const pair_case *q, const oracle_gap *o, tally *t)
+/* Used at its best: about a nearby origin, at unit size. */
+static void compare_libccd(const pair_case *q, const oracle_gap *o, tally *t)
 {
     int left = SUPPORTS_MAX;
     const fl_core a = fl_solid_core(&q->a), b = fl_solid_core(&q->b);
@@ -79,23 +80,23 @@ static void second_opinion(const pair_case *q, const oracle_gap *o, tally *t)
         ccdVec3Set(&dir, 0, 0, 0);
         const int rc = epa ? ccdGJKPenetration(&x, &y, &ccd, &depth, &dir, &at)
                            : ccdMPRPenetration(&x, &y, &ccd, &depth, &dir, &at);
-        const double off = fabs((double)depth * q->size + (double)o->d);
+        const double angle_to_oracle = fabs((double)depth * q->size + (double)o->d);
         t->capped += left < 0;
         *(epa ? &t->epa_none : &t->mpr_none) += rc != 0;
-        *(epa ? &t->epa_wrong : &t->mpr_wrong) += rc == 0 && !(off <= WRONG * (double)-o->d);
+        *(epa ? &t->epa_wrong : &t->mpr_wrong) += rc == 0 && !(angle_to_oracle <= WRONG * (double)-o->d);
     }
 }
 
-/* ---- ours ---------------------------------------------------------------------------------------------- */
+/* --- lib/narrow --------------------------------------------------------------------------------------- */
 
-static double off(const oracle_gap *o, fl_vec3 n)
+static double angle_to_oracle(const oracle_gap *o, fl_vec3 n)
 {
     const real m[3] = {o->n[1] * (real)n.z - o->n[2] * (real)n.y, o->n[2] * (real)n.x - o->n[0] * (real)n.z,
                        o->n[0] * (real)n.y - o->n[1] * (real)n.x};
     return (double)sqrtl(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
 }
 
-static void look(const pair_case *q, tally *t)
+static void compare_pair(const pair_case *q, tally *t)
 {
     oracle_gap o;
     fl_gap g;
@@ -106,7 +107,7 @@ static void look(const pair_case *q, tally *t)
     if (fabsl(o.d) > (real)CLEAR * (real)q->size) {
         t->astray += g.overlap != (o.d < 0.0L);
         t->meet += o.d < 0.0L;
-        second_opinion(q, &o, t);
+        compare_libccd(q, &o, t);
     }
     if (g.overlap) {
         fl_penetration deep;
@@ -119,8 +120,8 @@ static void look(const pair_case *q, tally *t)
     int k = (int)floor(log10(g.d / q->size)) + 9;
     if (k < 0) return;
     if (k >= DECADES) k = DECADES - 1;
-    double n = off(&o, g.n);
-    /* Distances that long doubles cannot tell apart leave the oracle's own choice of features open. */
+    double n = angle_to_oracle(&o, g.n);
+    /* For distances that long doubles cannot tell apart, the features are the oracle's own choice. */
     if (n > 1e-14) n = fmin(n, (double)oracle_off(&q->a, &q->b, &o, g.n));
     t->of_d[k] = fmax(t->of_d[k], d);
     t->of_n[k] = fmax(t->of_n[k], n);
@@ -137,7 +138,7 @@ static void table(const char *name, enum pair_kind kind, long n)
             verify_true("G1", "a pair can be made", 0);
             return;
         }
-        look(&q, &t);
+        compare_pair(&q, &t);
         pair_free(&q);
     }
     snprintf(what, sizeof what, "%s: pairs wrong about meeting", name);
@@ -162,7 +163,7 @@ static void table(const char *name, enum pair_kind kind, long n)
 int main(void)
 {
     const long n = verify_quick() ? 2000 : 20000;
-    verify_begin("pairs of cores: distance, direction, depth; libccd as a second opinion");
+    verify_begin("pairs of cores: distance, direction, depth; libccd for comparison");
     table("ordinary", PAIR_ORDINARY, n);
     table("hostile", PAIR_HOSTILE, n);
     table("deep", PAIR_DEEP, n / 2);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Loading events against a pulse known in closed form, and local pressure against a pressure that is the same
- * everywhere. */
+/* Loading events of a pulse in closed form, and local pressure under a uniform pressure. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,10 +10,10 @@
 
 enum { PULSES = 3, LEVELS = 4 };
 
-/* Pulses A sin(w t), 0 < t < pi/w, with as long a rest after each, as means over intervals of h: from 0.1
- * to 0.9 of the height it takes (asin 0.9 - asin 0.1) / w, above one half it is for 2 pi / (3 w), and its
- * impulse is 2 A / w. */
-static void pulses(void)
+/* Pulses A sin(w t), 0 < t < pi/w, each followed by a pause of the same length, as means over intervals of
+ * h.  The rise from 0.1 to 0.9 of the peak takes (asin 0.9 - asin 0.1) / w, the time above one half is 2 pi
+ * / (3 w), and the impulse is 2 A / w. */
+static void loading_events(void)
 {
     const double A = 5e4, w = 2.0;
     double h[LEVELS], rise[LEVELS], duration[LEVELS], impulse = 0.0;
@@ -44,10 +43,10 @@ static void pulses(void)
     verify_row("pulse", "impulse of one pulse [N s]", impulse, 2.0 * A / w, 1e-12, VERIFY_REL);
 }
 
-/* Contacts on a square grid of a wall, each with the force of its cell: on every window the pressure is p,
- * but for the cells that its rim cuts, some 2 pi r / a of them, of each of which the best window has at most
- * half a cell more. */
-static void wall(void)
+/* Contacts on a square grid of a wall, each with the force of its cell.  The pressure on every window is p,
+ * up to the cells that its rim cuts.  There are some 2 pi r / a of them; the best window gains at most half
+ * a cell of each. */
+static void local_pressure(void)
 {
     enum { SIDE = 40 };
     const double pressure = 1.5e6, a = 0.05;
@@ -70,7 +69,7 @@ static void wall(void)
         snprintf(what, sizeof what, "... no less than p [MPa]");
         verify_below("wall", what, -1e-6 * b.force / area, -1.5 * (1.0 - 1e-9));
     }
-    /* Smaller than a contact: the window has its share, and so the pressure of the contact. */
+    /* A window smaller than a contact has its share of the force, and so the pressure of the contact. */
     fl_window b;
     if (fl_largest_load_window(1, hit, -1, 0.3 * a * a, &b, &work, &err)) abort();
     verify_row("wall", "window of 0.3 contacts [MPa]", 1e-6 * b.force / (0.3 * a * a), 1.5, 1e-14,
@@ -81,7 +80,7 @@ static void wall(void)
 int main(void)
 {
     verify_begin("loading events and local pressure");
-    pulses();
-    wall();
+    loading_events();
+    local_pressure();
     return verify_end();
 }

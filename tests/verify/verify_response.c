@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The response of an oscillator by Newmark's steps against closed forms. */
+/* The response of an oscillator by Newmark's method against closed forms. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "stat/oscillator.h"
 #include "support/verify.h"
 
-/* The period grows by (w h / 2) / atan(w h / 2), the amplitude not at all. */
+/* The period grows by (w h / 2) / atan(w h / 2); the amplitude does not change. */
 static void free_vibration(void)
 {
     static const double part[] = {0.01, 0.02, 0.05, 0.1, 0.2},
@@ -33,8 +33,8 @@ static void free_vibration(void)
     }
 }
 
-/* A constant load at once: overshoot 1 + exp(-z pi / sqrt(1 - z^2)), 1.854468 for 5 %. */
-static void sudden(void)
+/* A load that is suddenly constant: overshoot 1 + exp(-z pi / sqrt(1 - z^2)), 1.854468 for 5 %. */
+static void sudden_load(void)
 {
     enum { LEVELS = 5 };
     const fl_oscillator o = {0.4, 0.05};
@@ -52,11 +52,11 @@ static void sudden(void)
     const int failed = fl_oscillator_solve(&o, 2, edge, x, &r, NULL, &err);
     verify_row("R11", "overshoot, steps halved until it stands", failed ? (double)NAN : r.largest, 1.854468,
                FL_OSCILLATOR_TOLERANCE, VERIFY_REL);
-    verify_row("R11", "the error that is told", r.error, fabs(r.largest - want) / want, 1e-5, VERIFY_ABS);
+    verify_row("R11", "the reported error", r.error, fabs(r.largest - want) / want, 1e-5, VERIFY_ABS);
 }
 
 /* A rectangular pulse of length d on an undamped oscillator: 2 sin(pi d / T) below T/2, 2 above. */
-static void pulse(void)
+static void rectangular_pulse(void)
 {
     static const double d[] = {0.02, 0.1, 0.25, 0.4, 0.6, 1.5};
     const fl_oscillator o = {1.0, 0.0};
@@ -73,9 +73,9 @@ static void pulse(void)
     }
 }
 
-/* sin(2 pi f t), as means over rows of T / 64 to T / 512 of the load, in the steady state:
- * 1 / sqrt((1 - q^2)^2 + (2 z q)^2), q = f / fn. */
-static void harmonic(void)
+/* The load sin(2 pi f t), as means over rows of T / 64 to T / 512, in the steady state:
+ *     1 / sqrt((1 - q^2)^2 + (2 z q)^2), q = f / fn. */
+static void harmonic_load(void)
 {
     enum { LEVELS = 4, CYCLES = 120 };
     static const double ratio[] = {0.5, 0.95, 1.0, 2.0};
@@ -114,8 +114,8 @@ static void harmonic(void)
             free(x);
             free(at);
         }
-        /* At resonance the amplitude hardly depends on the natural frequency, and what the steps do to the
-         * period shows as its square. */
+        /* At resonance the amplitude hardly depends on the natural frequency, so the period error of the
+         * method appears as its square. */
         verify_order("R31", "its error against the length of a row", h, error, LEVELS, q == 1.0 ? 4.0 : 2.0,
                      0.15);
     }
@@ -123,7 +123,7 @@ static void harmonic(void)
 
 /* White noise of the one-sided density S: variance pi fn S / (4 z), with F constant over rows of h so that
  * S = 2 h var F far below 1 / h. */
-static void noise(void)
+static void white_noise(void)
 {
     const int32_t n = verify_quick() ? 200000 : 2000000;
     const double step = 0.02;
@@ -150,9 +150,9 @@ int main(void)
 {
     verify_begin("response of an oscillator");
     free_vibration();
-    sudden();
-    pulse();
-    harmonic();
-    noise();
+    sudden_load();
+    rectangular_pulse();
+    harmonic_load();
+    white_noise();
     return verify_end();
 }

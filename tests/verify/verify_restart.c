@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs of the program itself that are killed and gone on with: what they leave in the end is what an unbroken
- * run leaves, byte for byte. */
+/* Runs of dem-solve that are killed and resumed: their files are those of an uninterrupted run, byte for
+ * byte. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,19 +13,19 @@
 #include "support/near.h"
 #include "support/verify.h"
 
-static const char *const LEFT[] = {"loads.tsv", "state.tsv", "energy.tsv", "contacts.tsv", "frames.0",
-                                   "frames.1",  "frames.2",  "run.ckpt",   "hash.tsv"};
-enum { FILES = sizeof LEFT / sizeof *LEFT };
+static const char *const OUTPUT[] = {"loads.tsv", "state.tsv", "energy.tsv", "contacts.tsv", "frames.0",
+                                     "frames.1",  "frames.2",  "run.ckpt",   "hash.tsv"};
+enum { FILES = sizeof OUTPUT / sizeof *OUTPUT };
 
-static const char SCENE[] =
-    "[run]\nduration = 0.6 s\n"
-    "[output]\nloads_every = 10 ms\nstate = state.tsv\nstate_every = 50 ms\n"
-    "energy = energy.tsv\nenergy_every = 20 ms\ncontacts = contacts.tsv\n"
-    "contacts_every = 0.1 s\nframes = frames\nframes_every = 50 ms\nfiles = 3\n"
-    "hash = hash.tsv\ncheckpoint = run.ckpt\ncheckpoint_every = 20 ms\n"
-    "[material ice]\nyoung = 5 MPa\n"
-    "[contact]\nstiffness_factor = 0.2\n[ice]\nfile = ice.dat\n[structure]\nfile = post.dat\nvelocity = 0.1 0 0\n"
-    "[boundary]\nmin = -6 -5 none\nmax = 6 5 none\n[water]\ncurrent = 0.5 0 0\n";
+static const char SCENE[] = "[run]\nduration = 0.6 s\n"
+                            "[output]\nloads_every = 10 ms\nstate = state.tsv\nstate_every = 50 ms\n"
+                            "energy = energy.tsv\nenergy_every = 20 ms\ncontacts = contacts.tsv\n"
+                            "contacts_every = 0.1 s\nframes = frames\nframes_every = 50 ms\nfiles = 3\n"
+                            "hash = hash.tsv\ncheckpoint = run.ckpt\ncheckpoint_every = 20 ms\n"
+                            "[material ice]\nyoung = 5 MPa\n"
+                            "[contact]\nstiffness_factor = 0.2\n[ice]\nfile = ice.dat\n[structure]\nfile = "
+                            "post.dat\nvelocity = 0.1 0 0\n"
+                            "[boundary]\nmin = -6 -5 none\nmax = 6 5 none\n[water]\ncurrent = 0.5 0 0\n";
 
 static char bin[600]; /* folder of the programs */
 
@@ -35,7 +35,7 @@ static void die(const char *what)
     exit(1);
 }
 
-/* Start the program in a folder; argument after argument, ended by NULL. */
+/* Starts the program in a folder; arguments end with NULL. */
 static pid_t start(const char *folder, const char *program, char *const *args)
 {
     char path[700];
@@ -55,16 +55,16 @@ static pid_t start(const char *folder, const char *program, char *const *args)
     return child;
 }
 
-static int end_of(pid_t child)
+static int exit_status(pid_t child)
 {
     int status = 0;
     if (waitpid(child, &status, 0) != child) die("lost a child");
     return status;
 }
 
-static void must(const char *folder, const char *program, char *const *args)
+static void run_program(const char *folder, const char *program, char *const *args)
 {
-    if (end_of(start(folder, program, args)) != 0) die(program);
+    if (exit_status(start(folder, program, args)) != 0) die(program);
 }
 
 static void save_text(const char *folder, const char *name, const char *text)
@@ -75,7 +75,7 @@ static void save_text(const char *folder, const char *name, const char *text)
     if (!f || fputs(text, f) < 0 || fclose(f)) die(path);
 }
 
-static char *load(const char *folder, const char *name, size_t *n)
+static char *read_file(const char *folder, const char *name, size_t *n)
 {
     char path[700];
     snprintf(path, sizeof path, "%s/%s", folder, name);
@@ -89,7 +89,7 @@ static char *load(const char *folder, const char *name, size_t *n)
     return data;
 }
 
-static int there(const char *folder, const char *name)
+static int file_exists(const char *folder, const char *name)
 {
     char path[700];
     struct stat st;
@@ -97,15 +97,15 @@ static int there(const char *folder, const char *name)
     return stat(path, &st) == 0;
 }
 
-/* How many of the files are the same in both folders. */
+/* Number of files that are the same in both folders. */
 static int same_files(const char *a, const char *b)
 {
     int same = 0;
     for (int k = 0; k < FILES; k++) {
         size_t na, nb;
-        char *da = load(a, LEFT[k], &na), *db = load(b, LEFT[k], &nb);
+        char *da = read_file(a, OUTPUT[k], &na), *db = read_file(b, OUTPUT[k], &nb);
         const int equal = da && db && na == nb && memcmp(da, db, na) == 0;
-        if (!equal) printf("   %s: %zu and %zu bytes\n", LEFT[k], na, nb);
+        if (!equal) printf("   %s: %zu and %zu bytes\n", OUTPUT[k], na, nb);
         same += equal;
         free(da);
         free(db);
@@ -113,18 +113,18 @@ static int same_files(const char *a, const char *b)
     return same;
 }
 
-static void clear(const char *folder)
+static void clear_folder(const char *folder)
 {
     for (int k = 0; k < FILES; k++) {
         char path[700];
-        snprintf(path, sizeof path, "%s/%s", folder, LEFT[k]);
+        snprintf(path, sizeof path, "%s/%s", folder, OUTPUT[k]);
         unlink(path);
-        snprintf(path, sizeof path, "%s/%s.part", folder, LEFT[k]);
+        snprintf(path, sizeof path, "%s/%s.part", folder, OUTPUT[k]);
         unlink(path);
     }
 }
 
-static double now(void)
+static double wall_time(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -138,36 +138,36 @@ static void wait_for(double seconds)
     nanosleep(&t, NULL);
 }
 
-/* Start, or go on with, the run of a folder: with the checkpoint where there is one. */
-static pid_t go_on(const char *folder, const char *threads)
+/* Starts the run of a folder, or resumes it if there is a checkpoint. */
+static pid_t start_or_resume(const char *folder, const char *threads)
 {
     char *const fresh[] = {(char *)"-q", (char *)"-j",        (char *)threads,
                            (char *)"-o", (char *)"loads.tsv", (char *)"a.scene",
                            NULL};
     char *const again[] = {(char *)"-q",       (char *)"-j",       (char *)threads,
                            (char *)"--resume", (char *)"run.ckpt", NULL};
-    return start(folder, "dem-solve", there(folder, "run.ckpt") ? again : fresh);
+    return start(folder, "dem-solve", file_exists(folder, "run.ckpt") ? again : fresh);
 }
 
-/* Runs in `b` are ended by `signal` after a random share of the time the whole takes, and gone on with, until
- * one comes to its end; over and over, until there were `kills`.  Returns how many runs were refused; *ended
- * counts the endings, *same those whose files are all those of `a`. */
-static int broken_runs(const char *a, const char *b, int signal, int kills, double whole, int *ended,
-                       int *same)
+/* Runs in folder `b` are ended by `signal` after a random share of the total time and resumed, until one
+ * completes; repeated until there were `kills` of them.  Returns how many runs were refused.  *ended counts
+ * the completed runs, *same those whose files are all those of `a`. */
+static int interrupted_runs(const char *a, const char *b, int signal, int kills, double whole, int *ended,
+                            int *same)
 {
-    int refused = 0, killed = 0;
+    int refused = 0, kill_runs = 0;
     *ended = *same = 0;
-    while (killed < kills) {
-        clear(b);
+    while (kill_runs < kills) {
+        clear_folder(b);
         for (int done = 0; !done;) {
-            fl_rng g = fl_rng_of(test_seed(), killed, FL_RNG_TEST);
-            const pid_t child = go_on(b, killed % 2 ? "2" : "1");
-            if (killed < kills) {
+            fl_rng g = fl_rng_of(test_seed(), kill_runs, FL_RNG_TEST);
+            const pid_t child = start_or_resume(b, kill_runs % 2 ? "2" : "1");
+            if (kill_runs < kills) {
                 wait_for(fl_rng_in(&g, 0.0, 0.6 * whole));
                 kill(child, signal);
-                killed++;
+                kill_runs++;
             }
-            const int status = end_of(child);
+            const int status = exit_status(child);
             done = WIFEXITED(status);
             if (done && WEXITSTATUS(status) != 0) {
                 refused++;
@@ -180,7 +180,7 @@ static int broken_runs(const char *a, const char *b, int signal, int kills, doub
     return refused;
 }
 
-static void killed(const char *a, const char *b, double whole)
+static void kill_runs(const char *a, const char *b, double whole)
 {
     const struct {
         int signal;
@@ -191,33 +191,33 @@ static void killed(const char *a, const char *b, double whole)
     for (int k = 0; k < 2; k++) {
         int ended, same;
         char what[100];
-        const int refused = broken_runs(a, b, way[k].signal, way[k].kills, whole, &ended, &same);
-        verify_note("%s: %d times at random moments, in %d runs that came to their end", way[k].name,
-                    way[k].kills, ended);
+        const int refused = interrupted_runs(a, b, way[k].signal, way[k].kills, whole, &ended, &same);
+        verify_note("%s: %d times at random moments, in %d runs that completed", way[k].name, way[k].kills,
+                    ended);
         snprintf(what, sizeof what, "%s: resumes that were refused", way[k].name);
         verify_row(way[k].id, what, refused, 0, 0, VERIFY_ABS);
-        snprintf(what, sizeof what, "%s: runs with other bytes than an unbroken one", way[k].name);
+        snprintf(what, sizeof what, "%s: runs whose files differ from the uninterrupted run", way[k].name);
         verify_row(way[k].id, what, ended - same, 0, 0, VERIFY_ABS);
     }
 }
 
-/* Asked for checkpoints beside its own, a run goes on as if nothing had been. */
-static void asked(const char *a, const char *b)
+/* Checkpoints on request (SIGUSR1) do not change the run. */
+static void signal_checkpoint(const char *a, const char *b)
 {
     int asks = 0, sent = 0;
-    clear(b);
-    const pid_t child = go_on(b, "1");
-    for (; asks < 2000 && !there(b, "run.ckpt"); asks++)
-        wait_for(0.005); /* until then it may not listen yet */
+    clear_folder(b);
+    const pid_t child = start_or_resume(b, "1");
+    for (; asks < 2000 && !file_exists(b, "run.ckpt"); asks++)
+        wait_for(0.005); /* before that it may not handle the signal yet */
     for (int k = 0; k < 3; k++) {
         fl_rng g = fl_rng_of(test_seed(), 1000 + k, FL_RNG_TEST);
         sent += kill(child, SIGUSR1) == 0;
         wait_for(fl_rng_in(&g, 0.0, 0.05));
     }
-    const int status = end_of(child);
+    const int status = exit_status(child);
     verify_note("SIGUSR1: sent %d times", sent);
     verify_row("R03", "SIGUSR1: status of the run", status, 0, 0, VERIFY_ABS);
-    verify_row("R03", "SIGUSR1: files with other bytes", FILES - same_files(a, b), 0, 0, VERIFY_ABS);
+    verify_row("R03", "SIGUSR1: files that differ", FILES - same_files(a, b), 0, 0, VERIFY_ABS);
 }
 
 int main(void)
@@ -243,13 +243,13 @@ int main(void)
         if (mkdir(folder[f], 0777)) die(folder[f]);
         save_text(folder[f], "a.scene", SCENE);
         save_text(folder[f], "post.dat", "#g_struct 1\npart 0 post\ncone 0 0 -2 1.2 0 0 2 1.2\n");
-        must(folder[f], "voronoi-ice", field);
+        run_program(folder[f], "voronoi-ice", field);
     }
-    verify_begin("runs that are killed and gone on with");
-    const double begun = now();
-    if (end_of(go_on(a, "1")) != 0) die("dem-solve");
-    killed(a, b, now() - begun);
-    asked(a, b);
+    verify_begin("runs that are killed and resumed");
+    const double begun = wall_time();
+    if (exit_status(start_or_resume(a, "1")) != 0) die("dem-solve");
+    kill_runs(a, b, wall_time() - begun);
+    signal_checkpoint(a, b);
     char line[500];
     snprintf(line, sizeof line, "rm -rf '%s'", root);
     if (system(line) != 0) printf("%s stays\n", root);

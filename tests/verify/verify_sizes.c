@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Floes of asked sizes, diameters of 1:100: how near the distribution of their areas comes to the law.  The
- * distance is that of Kolmogorov and Smirnov between the floes as they are written, outer polygons, and the
- * law, in closed form; what is asked is 0.03 at 1000 floes and 0.01 at 10 000. The laws are widened until the
- * largest floe has a hundred times the diameter of the smallest, a ratio that the floes must have too. */
+/* Floes of prescribed sizes, diameters of 1:100: distance of their area distribution from the law.  It is
+ * the Kolmogorov-Smirnov distance between the floes as written (outer polygons) and the law in closed form;
+ * the requirement is 0.03 at 1000 floes and 0.01 at 10 000.  The laws are widened until the largest floe
+ * has a hundred times the diameter of the smallest, a ratio that the floes must have too. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double ratio(const fl_sizes *s, int32_t n, double *area)
+static double diameter_ratio(const fl_sizes *s, int32_t n, double *area)
 {
     fl_sizes_areas(s, n, 1.0, area);
     return sqrt(area[n - 1] / area[0]);
@@ -32,12 +32,12 @@ static void widen(fl_sizes *s, double *x, double lo, double hi, int32_t n, doubl
 {
     for (int k = 0; k < 60; k++) {
         *x = sqrt(lo * hi);
-        if (ratio(s, n, area) < RATIO) lo = *x;
+        if (diameter_ratio(s, n, area) < RATIO) lo = *x;
         else hi = *x;
     }
 }
 
-static int field(const char *name, const fl_sizes *s, int32_t n, double *area, double bound)
+static int verify_field(const char *name, const fl_sizes *s, int32_t n, double *area, double bound)
 {
     const double side = sqrt(n), mean = CONCENTRATION;
     const fl_outline in = {.lo = {-0.5 * side, -0.5 * side}, .hi = {0.5 * side, 0.5 * side}};
@@ -47,7 +47,7 @@ static int field(const char *name, const fl_sizes *s, int32_t n, double *area, d
     double off, total = 0.0;
     char what[80];
     fl_sizes_areas(s, n, mean, area);
-    for (int32_t i = 0; i < n; i++) { /* an order that is none of the sizes */
+    for (int32_t i = 0; i < n; i++) { /* an order that is unrelated to the sizes */
         const int32_t j = (int32_t)((int64_t)i * 7919 % (i + 1));
         const double x = area[i];
         area[i] = area[j];
@@ -84,7 +84,7 @@ int main(int argc, char **argv)
     double *area = fl_alloc(10000, sizeof *area, &err);
     (void)argc;
     fl_parallel_limit_spin(argv);
-    verify_begin("Floes of asked sizes");
+    verify_begin("floes of prescribed sizes");
     for (int k = 0; area && k < (verify_quick() ? 1 : 2); k++) {
         const int32_t n = size[k].n;
         fl_sizes lognormal = {.kind = FL_SIZES_LOGNORMAL, .mean = 1.0}, weibull = {.kind = FL_SIZES_WEIBULL};
@@ -92,17 +92,17 @@ int main(int argc, char **argv)
         double shape = 1.0;
         widen(&lognormal, &lognormal.cv, 0.1, 10.0, n, area);
         widen(&power, &power.dmax, 50.0, 5000.0, n, area);
-        for (double lo = 0.2, hi = 5.0, m = 0; m < 60; m++) { /* narrower as its shape grows */
+        for (double lo = 0.2, hi = 5.0, m = 0; m < 60; m++) { /* narrower as its shape parameter grows */
             weibull.k = shape = sqrt(lo * hi);
-            if (ratio(&weibull, n, area) > RATIO) lo = shape;
+            if (diameter_ratio(&weibull, n, area) > RATIO) lo = shape;
             else hi = shape;
         }
         verify_note("log-normal of cv %.3f, Weibull of shape %.3f, N(> D) ~ D^-1.87 up to %.0f times the "
                     "smallest",
                     lognormal.cv, shape, power.dmax);
-        if (field("log-normal", &lognormal, n, area, size[k].bound) ||
-            field("Weibull", &weibull, n, area, size[k].bound) ||
-            field("power law", &power, n, area, size[k].bound))
+        if (verify_field("log-normal", &lognormal, n, area, size[k].bound) ||
+            verify_field("Weibull", &weibull, n, area, size[k].bound) ||
+            verify_field("power law", &power, n, area, size[k].bound))
             verify_true("S6", "the field can be made", 0);
     }
     if (!area) verify_true("S6", "there is memory", 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene leaves out costs nothing: instructions of the time step of the dem-solve that was built beside
- * this program, counted by callgrind.  Without valgrind there is nothing to count, and one row. */
+/* Options that a scene does not use cost nothing.  Counts the instructions of the time step of the
+ * dem-solve built beside this program, by callgrind.  Without valgrind there is one row and no count. */
 #define _GNU_SOURCE
 #include <math.h>
 #include <stdio.h>
@@ -13,12 +13,12 @@
 enum { STEPS = 40 };
 
 typedef struct {
-    double total; /* instructions of a step */
-    int water;    /* files of lib/water that a step ran in */
+    double total; /* instructions per step */
+    int water;    /* source files of lib/water that a step executed */
 } cost;
 
-/* The folder of the programs: this one is BUILD/tests/verify/verify_stage_cost. */
-static char *solver(void)
+/* Path of the solver: this program is BUILD/tests/verify/verify_stage_cost. */
+static char *solver_path(void)
 {
     static char path[4096];
     const ssize_t n = readlink("/proc/self/exe", path, sizeof path - 40);
@@ -34,7 +34,8 @@ static char *solver(void)
     return access(path, X_OK) == 0 ? path : NULL;
 }
 
-static int count(const char *program, const char *scene, const char *ice, const char *set, cost *c)
+static int count_instructions(const char *program, const char *scene, const char *ice, const char *set,
+                              cost *c)
 {
     const char *out = test_path("callgrind.out");
     char command[8192], line[4096];
@@ -74,8 +75,8 @@ int main(void)
     /* Nine floes apart, at their draft; the tenth far above, the eleventh far below. */
     char ice[4096] = "#g-polys 1\n", path_ice[256], path_scene[256];
     cost c[5] = {{0}}, far;
-    verify_begin("stages: what a scene leaves out costs nothing");
-    char *program = solver();
+    verify_begin("stages: unused options cost nothing");
+    char *program = solver_path();
     if (!program || system("valgrind --version >/dev/null 2>&1") != 0) {
         verify_note("no valgrind, or no dem-solve beside the tests: nothing was counted");
         verify_true("-", "nothing to count with", 1);
@@ -95,24 +96,24 @@ int main(void)
     snprintf(path_scene, sizeof path_scene, "%s", test_file("stages.scene", SCENE, strlen(SCENE)));
     for (int k = 0; k < 5; k++) {
         char what[120];
-        if (verify_quick() && (k == 2 || k == 4)) continue; /* each takes a second or two */
-        const int bad = count(program, path_scene, path_ice, AT[k].set, &c[k]);
+        if (verify_quick() && (k == 2 || k == 4)) continue; /* each run takes a second or two */
+        const int bad = count_instructions(program, path_scene, path_ice, AT[k].set, &c[k]);
         verify_true("-", AT[k].name, !bad);
         if (bad) return verify_end();
-        snprintf(what, sizeof what, "  instructions of a step, 9 floes");
+        snprintf(what, sizeof what, "  instructions per step, 9 floes");
         verify_below("-", what, c[k].total, k < 1 ? 2e4 : k < 2 ? 1e5 : 1.5e6);
     }
-    verify_row("-", "files of the water floor that a dry step runs in", c[0].water, 0, 0, VERIFY_ABS);
+    verify_row("-", "files of lib/water that a dry step executes", c[0].water, 0, 0, VERIFY_ABS);
     verify_true("-", "a calm one runs in some", c[1].water > 0);
     verify_true("-", "each stage costs: dry < calm < facets, wave < sea",
                 c[0].total < c[1].total && c[1].total < c[3].total &&
                     (verify_quick() || (c[1].total < c[2].total && c[3].total < c[4].total)));
     for (int k = 0; k < (verify_quick() ? 1 : 2); k++) {
-        const int bad =
-            count(program, path_scene, path_ice, k ? "--set water.level=50" : "--set water.level=-50", &far);
+        const int bad = count_instructions(program, path_scene, path_ice,
+                                           k ? "--set water.level=50" : "--set water.level=-50", &far);
         verify_below("-",
-                     k ? "far under it, over dry: of what calm adds"
-                       : "far over the water, over dry: of what calm adds",
+                     k ? "deep body over dry: share of the cost of calm water"
+                       : "body in the air over dry: share of the cost of calm water",
                      bad ? INFINITY : (far.total - c[0].total) / (c[1].total - c[0].total), k ? 0.8 : 0.5);
     }
     remove(path_ice);

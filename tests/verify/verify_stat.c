@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Load statistics against numbers of scipy 1.10 and closed forms. */
+/* Load statistics against scipy 1.10 and closed forms. */
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
@@ -13,7 +13,7 @@
 #include "stat/resample.h"
 #include "support/verify.h"
 
-static void sample(void)
+static void describe_sample(void)
 {
     static const double x[] = {52.1, 60.3, 47.8, 71.5, 66.2, 58.4,  83.7, 49.9, 55.0, 91.2,
                                62.6, 77.3, 68.8, 45.2, 59.7, 102.4, 73.1, 64.5, 53.6, 80.9};
@@ -27,7 +27,7 @@ static void sample(void)
                VERIFY_REL);
 }
 
-static void filter(void)
+static void butterworth_filter(void)
 {
     static const double want_a[] = {1.0, -3.18063855, 3.86119435, -2.11215536, 0.43826514};
     static const double want_b[] = {1.0, 4.0, 6.0, 4.0, 1.0};
@@ -50,7 +50,7 @@ static void filter(void)
                    VERIFY_ABS);
 }
 
-/* The response to a sine, measured, against the square of the gain of one pass; and its phase. */
+/* Measured response to a sine against the square of the gain of one pass; and its phase. */
 static void zero_phase(void)
 {
     enum { N = 4000 };
@@ -110,8 +110,8 @@ static void other_filters(void)
     }
 }
 
-/* Quantiles, significant value and separation where the answer is known. */
-static void laws(void)
+/* Quantiles, significant value and peak separation where the answer is known. */
+static void exponential_sample(void)
 {
     const int32_t n = verify_quick() ? 20000 : 400000;
     fl_err err = {0};
@@ -147,7 +147,7 @@ static void laws(void)
 }
 
 /* 100 s of |sin(2 pi t / T)| has one separate peak per half period. */
-static void separation(void)
+static void separate_peaks(void)
 {
     enum { N = 10000 };
     static double x[N];
@@ -161,8 +161,8 @@ static void separation(void)
     fl_peaks_free(&p);
 }
 
-/* Whatever the intervals, the impulse stays. */
-static void resampling(void)
+/* Resampling keeps the impulse for any intervals. */
+static void impulse_of_resampling(void)
 {
     enum { N = 900, M = 331 };
     static double edge[N + 1], x[N], even[M + 1], y[M];
@@ -180,12 +180,12 @@ static void resampling(void)
 int main(void)
 {
     verify_begin("load statistics");
-    sample();
-    filter();
+    describe_sample();
+    butterworth_filter();
     zero_phase();
     other_filters();
-    laws();
-    separation();
-    resampling();
+    exponential_sample();
+    separate_peaks();
+    impulse_of_resampling();
     return verify_end();
 }

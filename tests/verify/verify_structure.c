@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What ice meets: cylinders, walls of any number of triangles, plates and shells. */
+/* Structures that ice meets: cylinders, walls of any number of triangles, plates and shells. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,8 +33,8 @@ static void sphere_and_cylinder(void)
         {"beside, exactly level with the end", {0.55, 0, 2.0}, 0.05, {1, 0, 0}},
         {"inside, out by the side", {0.45, 0, 1}, 0.15, {1, 0, 0}},
         {"inside, out by the end", {0.2, 0, 1.9}, 0.2, {0, 0, 1}},
-        {"on the axis, out by the side", {0, 0, 1}, 0.6, {NAN, NAN, 0}},
-        {"on the axis, out by the end", {0, 0, 0.25}, 0.35, {0, 0, -1}},
+        {"on the axis, nearest exit by the side", {0, 0, 1}, 0.6, {NAN, NAN, 0}},
+        {"on the axis, nearest exit by the end", {0, 0, 0.25}, 0.35, {0, 0, -1}},
         {"over the axis", {0, 0, 2.05}, 0.05, {0, 0, 1}},
     };
     lab l;
@@ -45,7 +45,7 @@ static void sphere_and_cylinder(void)
     verify_note("overlap of a sphere of 0.1 m and the cylinder of 0.5 m between z = 0 and 2 [m]");
     for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
         lab_pose(&l.w, 0, at[k].x, q_one());
-        const fl_pair p = lab_look(&l.w, 0, 1);
+        const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
         verify_row("V30", at[k].what, p.overlap, at[k].overlap, 1e-14, VERIFY_ABS);
         if (at[k].overlap == 0.0) continue;
         const fl_vec3 n = v3_scale(1.0 / v3_norm(p.force), p.force);
@@ -73,13 +73,12 @@ static void crossed_cylinders(void)
     }
 }
 
-/* --- a flat wall is a flat wall
- * ------------------------------------------------------------------------------ */
+/* --- flat walls --------------------------------------------------------------------------------------- */
 
 enum face { WALL, OPEN, PLATE };
 static const char *const FACE[3] = {"block", "block without a side", "plate"};
 
-/* A floe or a sphere on a face of 2 n^2 triangles, in the order of the file or against it. */
+/* A floe or a sphere on a face of 2 n^2 triangles, in the order of the file or reversed. */
 static void on_face(lab *l, enum face kind, int n, int backward, int sphere)
 {
     lab_start(l);
@@ -110,7 +109,7 @@ static fl_vec3 start_of_slide;
 static fl_vec3 force_at(lab *l, double s)
 {
     l->w.b.x[0] = v3_add(start_of_slide, v3(s, 0.37 * s, 0));
-    return lab_look(&l->w, 0, 1).force;
+    return lab_evaluate_pair(&l->w, 0, 1).force;
 }
 
 static double force_change(void *what, double s, double t)
@@ -119,7 +118,7 @@ static double force_change(void *what, double s, double t)
     return v3_norm(v3_sub(b, a)) / fmax(v3_norm(a), v3_norm(b));
 }
 
-static void triangles(void)
+static void wall_by_triangles(void)
 {
     const int most = verify_quick() ? 30 : 100;
     const int ns[3] = {1, 10, most};
@@ -131,7 +130,7 @@ static void triangles(void)
             for (int k = 0; k < 6; k++) {
                 lab l;
                 on_face(&l, (enum face)kind, ns[k / 2], k % 2, sphere);
-                const fl_pair p = lab_look(&l.w, 0, 1);
+                const fl_pair p = lab_evaluate_pair(&l.w, 0, 1);
                 if (k == 0) f0 = p.force, t0 = p.torque_i;
                 off = fmax(off,
                            fmax(v3_norm(v3_sub(p.force, f0)), v3_norm(v3_sub(p.torque_i, t0))) / v3_norm(f0));
@@ -148,8 +147,8 @@ static void triangles(void)
     }
 }
 
-/* Coordinates as STL has them. */
-static void rounded(void)
+/* Coordinates in single precision, as in STL. */
+static void rounded_coordinates(void)
 {
     fl_vec3 f[2];
     for (int k = 0; k < 2; k++) {
@@ -171,27 +170,27 @@ static void rounded(void)
             verify_row("H29", "  faces", piece->core.nf, 6, 0, VERIFY_ABS);
             verify_row("H29", "  vertices", piece->core.nv, 8, 0, VERIFY_ABS);
         }
-        f[k] = lab_look(&l.w, 0, 1).force;
+        f[k] = lab_evaluate_pair(&l.w, 0, 1).force;
         lab_free(&l);
     }
-    /* a plane through rounded corners is off by 1e-7 m against an overlap of 0.01 m */
+    /* a plane through rounded corners has an error of 1e-7 m, against an overlap of 0.01 m */
     verify_row("H29", "  force of a sphere over that of the exact box", v3_norm(f[1]) / v3_norm(f[0]), 1.0,
                3e-5, VERIFY_ABS);
 }
 
 /* --- shells */
 
-/* An L of three squares of 1 m, upright: the inner corner at the origin, the outer ones at (1, 0), (0, 1),
+/* An upright L of three squares of 1 m: the inner corner at the origin, the outer ones at (1, 0), (0, 1),
  * ... */
-static void ell(lab *l)
+static void make_ell(lab *l)
 {
     const fl_vec3 xy[6] = {v3(-1, -1, 0), v3(1, -1, 0), v3(1, 0, 0), v3(0, 0, 0), v3(0, 1, 0), v3(-1, 1, 0)};
     lab_prism(l, 6, xy, -1, 1);
 }
 
-static const double GAP = 0.09; /* of the leading vertex from the shell; R = 0.1 */
+static const double GAP = 0.09; /* distance of the leading vertex from the shell; R = 0.1 */
 
-/* Along the wall y = 0 to the outer corner (1, 0), round it, and down the side x = 1. */
+/* Along the wall y = 0 to the outer corner (1, 0), round it, and along the side x = 1. */
 static fl_vec3 round_outer(double s)
 {
     const double arc = 0.5 * PI * GAP;
@@ -218,15 +217,15 @@ static double walk_change(void *what, double s, double t)
 {
     const walk *w = what;
     w->l->w.b.x[0] = v3_sub(w->path(s), w->tip);
-    const fl_pair a = lab_look(&w->l->w, 0, 1);
+    const fl_pair a = lab_evaluate_pair(&w->l->w, 0, 1);
     w->l->w.b.x[0] = v3_sub(w->path(t), w->tip);
-    const fl_pair b = lab_look(&w->l->w, 0, 1);
+    const fl_pair b = lab_evaluate_pair(&w->l->w, 0, 1);
     if (w->energy) return fabs(b.energy - a.energy) / fmax(a.energy, b.energy);
     return v3_norm(v3_sub(b.force, a.force)) / fmax(v3_norm(a.force), v3_norm(b.force));
 }
 
 /* A needle of 1 m whose tip points towards -x - y: it fits into the inner corner. */
-static void needle(lab *l)
+static void make_needle(lab *l)
 {
     static const fl_vec3 v[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     static const int32_t loop[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
@@ -242,7 +241,7 @@ static void needle(lab *l)
     lab_poly(l, &p, 0.1, ZERO, ZERO);
 }
 
-static void corners(void)
+static void walk_round_corners(void)
 {
     static const char *const NAME[] = {"sphere", "floe", "needle"};
     for (int what = 0; what < 3; what++) {
@@ -253,8 +252,8 @@ static void corners(void)
         if (what == 0) lab_sphere(&l, v3(3, 3, 0), 0.1, ZERO, ZERO);
         if (what == 1)
             lab_box(&l, v3(3, 3, 0), v3(0.5, 0.4, 0.3), 0.1, q_of_vector(v3(0.3, -0.4, 0.85)), ZERO, ZERO);
-        if (what == 2) needle(&l);
-        ell(&l);
+        if (what == 2) make_needle(&l);
+        make_ell(&l);
         lab_make(&l, 1e-9);
         walk w = {&l, round_outer, ZERO, 0};
         if (what > 0) { /* its vertex that is farthest towards -x - y */
@@ -264,11 +263,11 @@ static void corners(void)
                 if (x.x + x.y < low) low = x.x + x.y, w.tip = x;
             }
         }
-        /* at a fixed overlap of 10 mm a move of 1e-9 m turns the direction by 1e-9 / 0.09, and changes
-         * overlaps of other places by up to 1e-9 / 0.01 of the force */
+        /* at a fixed overlap of 10 mm a displacement of 1e-9 m turns the direction by 1e-9 / 0.09 and
+         * changes the overlap at other points by up to 1e-9 / 0.01 of the force */
         const double slope = 1e-9 / (what ? 0.01 : GAP) + 1e-9;
         snprintf(text, sizeof text, "%s round the outer corner: force, change over 1e-9 m", name);
-        /* before 0.46 an edge of the floe behind its vertex would still stand in the corner */
+        /* before 0.46 an edge of the floe behind its vertex would still touch in the corner */
         verify_below("H29", text, sweep_largest(walk_change, &w, what ? 0.46 : 0.0, 1.0, 1e-9), slope);
         if (what == 1) {
             lab_free(&l);
@@ -280,16 +279,16 @@ static void corners(void)
         verify_below("H29", text, sweep_largest(walk_change, &w, 0.0, 1.0, 1e-9), 2.0 * 1e-9 / 0.01);
         w.energy = 0;
         snprintf(text, sizeof text, "%s round the inner corner: force, change over 1e-9 m", name);
-        verify_below("H29", text, sweep_largest(walk_change, &w, 0.0, 1.0, 1e-9),
-                     2.0 *
-                         (what ? slope : 1e-9 / 0.01)); /* a sphere that moves along one wall into another */
+        verify_below(
+            "H29", text, sweep_largest(walk_change, &w, 0.0, 1.0, 1e-9),
+            2.0 * (what ? slope : 1e-9 / 0.01)); /* a sphere that moves along one wall into the other */
         lab_free(&l);
     }
 }
 
-/* Throw a floe at the L, where: 0 a face, 1 the outer corner, 2 the inner corner.  Energy after over before;
- * *books: impulse of the part against the momentum of the floe. */
-static double thrown(int where, double fraction, double *books)
+/* Throws a floe at the L: 0 a face, 1 the outer corner, 2 the inner corner.  Returns energy after over
+ * before; *books: impulse of the part against the momentum of the floe. */
+static double throw_at_shell(int where, double fraction, double *books)
 {
     const fl_vec3 aim[3] = {v3(0.5, 0, 0), v3(1, 0, 0), v3(0, 0, 0)};
     const fl_vec3 from[3] = {v3(0.03, 1, 0.02), v3(0.8, 0.9, 0.05), v3(1, 0.83, 0.04)};
@@ -298,7 +297,7 @@ static double thrown(int where, double fraction, double *books)
     const fl_vec3 dir = v3_unit(from[where]);
     lab_box(&l, v3_add(aim[where], v3_scale(0.95, dir)), v3(0.5, 0.4, 0.3), 0.1,
             q_of_vector(v3(0.3, -0.4, 0.85)), v3_scale(-1.0, dir), v3(0.1, 0.2, -0.3));
-    ell(&l);
+    make_ell(&l);
     lab_make(&l, 0.0);
     l.w.dt *= fraction;
     const double before = lab_energy(&l), m = l.w.b.m[0];
@@ -308,7 +307,7 @@ static double thrown(int where, double fraction, double *books)
     const fl_vec3 dp = v3_scale(m, v3_sub(l.w.b.v[0], v0));
     const fl_vec3 dL = v3_sub(v3_add(l.w.b.L[0], v3_scale(m, v3_cross(l.w.b.x[0], l.w.b.v[0]))), L0);
     const double size = v3_norm(dp);
-    /* against rounding: in free flight each step adds the same dt v to x and rounds it the same way */
+    /* over the rounding: in free flight each step adds the same dt v to x, with the same rounding */
     *books = fmax(v3_norm(v3_add(dp, l.w.part_impulse[0])), v3_norm(v3_add(dL, l.w.part_moment[0]))) / size /
              (0x1p-52 * (double)l.w.step);
     if (!(size > 0.1 * m) || l.w.n_pair < 0) *books = NAN; /* it missed */
@@ -316,7 +315,7 @@ static double thrown(int where, double fraction, double *books)
     return after / before;
 }
 
-static void impacts(void)
+static void impacts_on_shell(void)
 {
     static const char *const WHERE[3] = {"a face", "the outer corner", "the inner corner"};
     for (int where = 0; where < 3; where++) {
@@ -325,7 +324,7 @@ static void impacts(void)
         double books, h[3], off[3];
         for (int k = 0; k < runs; k++) {
             h[k] = 0.4 / (1 << (2 * k));
-            off[k] = fabs(thrown(where, h[k], &books) - 1.0);
+            off[k] = fabs(throw_at_shell(where, h[k], &books) - 1.0);
         }
         snprintf(what, sizeof what, "floe thrown at %s of a shell: |energy ratio - 1|", WHERE[where]);
         verify_below("H29", what, off[runs - 1], 1e-4);
@@ -335,21 +334,21 @@ static void impacts(void)
     }
 }
 
-/* --- balls in grooves (structure/persistence_contact.h) */
+/* --- spheres in concave edges (structure/persistence_contact.h) */
 
 /* An L of one part, or of two boxes side by side. */
-static void walls(lab *l, int parts)
+static void make_corner(lab *l, int parts)
 {
     if (parts == 1) {
-        ell(l);
+        make_ell(l);
         return;
     }
     lab_wall(l, v3(-1, -1, -1), v3(1, 0, 1), 1);
     lab_wall(l, v3(-1, -1, -1), v3(0, 1, 1), 1);
 }
 
-/* A ball in the inner corner, which its weight presses into both walls: F = m g / sqrt(2) on each. */
-static void cradle(void)
+/* A sphere in the inner corner, which its weight presses onto both walls: F = m g / sqrt(2) on each. */
+static void sphere_at_rest_in_groove(void)
 {
     double depth[2], want = 0.0;
     for (int parts = 1; parts <= 2; parts++) {
@@ -358,7 +357,7 @@ static void cradle(void)
         lab_set(&l, "run.gravity=-6.9367175234400319 -6.9367175234400319 0");
         lab_set(&l, "contact.restitution=0.1");
         lab_sphere(&l, v3(0.0999, 0.0998, 0), 0.1, ZERO, ZERO);
-        walls(&l, parts);
+        make_corner(&l, parts);
         lab_make(&l, 0.0);
         lab_run(&l, (int64_t)(1.0 / l.w.dt));
         const fl_pair p = lab_pair(&l, 0);
@@ -366,13 +365,13 @@ static void cradle(void)
         want = pow(l.w.b.m[0] * 6.9367175234400319 / p.k, 2.0 / 3.0);
         lab_free(&l);
     }
-    verify_row("SH12", "ball at rest in a groove: overlap, by m g/sqrt(2) on each wall [m]", depth[0], want,
-               1e-6, VERIFY_REL);
+    verify_row("SH12", "sphere at rest in a concave edge: overlap for m g/sqrt(2) on each wall [m]", depth[0],
+               want, 1e-6, VERIFY_REL);
     verify_row("SH12", "  the same between two parts [m]", depth[1], want, 1e-6, VERIFY_REL);
 }
 
-/* A groove whose walls rise by `bend`, along y, and a ball over it. */
-static void groove(lab *l, double bend, fl_vec3 x, fl_vec3 v, fl_vec3 spin)
+/* A concave edge along y, whose walls rise by `bend`, and a sphere over it. */
+static void make_groove(lab *l, double bend, fl_vec3 x, fl_vec3 v, fl_vec3 spin)
 {
     fl_err err = {0};
     lab_sphere(l, x, 0.1, v, spin);
@@ -387,12 +386,12 @@ static void groove(lab *l, double bend, fl_vec3 x, fl_vec3 v, fl_vec3 spin)
             exit(1);
 }
 
-/* A ball thrown into it: energy after over before. */
-static double groove_throw(double bend, double fraction)
+/* A sphere thrown into it: energy after over before. */
+static double throw_into_groove(double bend, double fraction)
 {
     lab l;
     lab_start(&l);
-    groove(&l, bend, v3(0.02, 0, 0.25), v3(-0.1, 0.3, -1), v3(3, 1, 2));
+    make_groove(&l, bend, v3(0.02, 0, 0.25), v3(-0.1, 0.3, -1), v3(3, 1, 2));
     lab_make(&l, 0.0);
     l.w.dt *= fraction;
     const double before = lab_energy(&l);
@@ -403,8 +402,8 @@ static double groove_throw(double bend, double fraction)
     return after / before;
 }
 
-/* A ball that falls straight into it comes out with the restitution, and one that slides along it is held by
- * the friction of both walls, each pressed by half of m g/cos. */
+/* A sphere that falls straight into the edge leaves with the restitution.  One that slides along it has the
+ * friction of both walls, each loaded with half of m g/cos. */
 static void groove_losses(void)
 {
     static const double BEND[] = {0.2, 0.8, 1.3};
@@ -414,12 +413,13 @@ static void groove_losses(void)
         const double deep = 0.1 / cos(BEND[k]);
         lab_start(&l);
         lab_set(&l, "contact.restitution=0.5");
-        groove(&l, BEND[k], v3(0, 0, deep + 0.005), v3(0, 0, -1), ZERO);
+        make_groove(&l, BEND[k], v3(0, 0, deep + 0.005), v3(0, 0, -1), ZERO);
         lab_make(&l, 0.0);
         l.w.dt *= 0.1;
         for (double t = 0.0; t < 0.5 && !(l.w.b.v[0].z > 0.0 && l.w.b.x[0].z > deep); t += l.w.dt)
             lab_run(&l, 1);
-        snprintf(what, sizeof what, "ball straight into a groove of %g rad: restitution", 2.0 * BEND[k]);
+        snprintf(what, sizeof what, "sphere straight into a concave edge of %g rad: restitution",
+                 2.0 * BEND[k]);
         verify_row("SH12", what, l.w.b.v[0].z, 0.5, 1e-3, VERIFY_ABS);
         lab_free(&l);
 
@@ -427,36 +427,38 @@ static void groove_losses(void)
         lab_set(&l, "run.gravity=9.81");
         lab_set(&l, "contact.friction=0.1");
         lab_set(&l, "contact.restitution=0.1");
-        groove(&l, BEND[k], v3(0, -0.5, deep), v3(0, 4, 0), ZERO);
+        make_groove(&l, BEND[k], v3(0, -0.5, deep), v3(0, 4, 0), ZERO);
         lab_make(&l, 0.0);
         lab_run(&l, (int64_t)(0.1 / l.w.dt));
         const double v0 = l.w.b.v[0].y, t0 = fl_world_time(&l.w);
         lab_run(&l, (int64_t)(0.05 / l.w.dt));
         const double slow = (v0 - l.w.b.v[0].y) / (fl_world_time(&l.w) - t0);
-        snprintf(what, sizeof what, "  along it: what slows it down over mu g/cos");
+        snprintf(what, sizeof what, "  along it: deceleration over mu g/cos");
         verify_row("SH12", what, slow / (0.1 * 9.81 / cos(BEND[k])), 1.0, 0.02, VERIFY_ABS);
         lab_free(&l);
     }
 }
 
-static void grooves(void)
+static void spheres_in_grooves(void)
 {
     static const double BEND[] = {0.01, 0.1, 0.5, 1.0};
     for (size_t k = 0; k < sizeof BEND / sizeof *BEND; k++) {
         char what[96];
         double off[3];
         const int runs = verify_quick() ? 2 : 3;
-        for (int r = 0; r < runs; r++) off[r] = fabs(groove_throw(BEND[k], 0.4 / (1 << (2 * r))) - 1.0);
-        snprintf(what, sizeof what, "ball thrown into a groove of %g rad: |energy ratio - 1|", 2.0 * BEND[k]);
+        for (int r = 0; r < runs; r++) off[r] = fabs(throw_into_groove(BEND[k], 0.4 / (1 << (2 * r))) - 1.0);
+        snprintf(what, sizeof what, "sphere thrown into a concave edge of %g rad: |energy ratio - 1|",
+                 2.0 * BEND[k]);
         verify_below("SH12", what, off[runs - 1], 1e-4);
         for (int r = 0; r < runs; r++)
             verify_note("with %g of the automatic step %.2e", 0.4 / (1 << (2 * r)), off[r]);
     }
 }
 
-/* A box or a capsule tumbles in a groove of two walls, leaning on one as it comes into the other: the largest
- * residual over the throughput, with `surrogate`.  worst: most by which a look found a told force off. */
-static double tumble(int32_t run, double surrogate, double *worst)
+/* A box or a capsule tumbles in a concave edge of two walls, leaning on one as it meets the other: largest
+ * residual over the throughput, with `surrogate`.  worst: largest error of a surrogate force found by an
+ * evaluation. */
+static double tumble_in_groove(int32_t run, double surrogate, double *worst)
 {
     static const fl_vec3 V[6] = {{-3, -3, 2}, {0, -3, 0}, {0, 3, 0}, {-3, 3, 2}, {3, -3, 2}, {3, 3, 2}};
     static const int32_t T[4][3] = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
@@ -496,23 +498,23 @@ static double tumble(int32_t run, double surrogate, double *worst)
     return most;
 }
 
-/* What is told of a contact does not know the wall that it comes into. */
-static void told_in_grooves(void)
+/* The surrogate of a contact does not include a wall that is yet to touch. */
+static void surrogate_in_grooves(void)
 {
     double most[2] = {0}, worst = 0.0;
     for (int32_t run = 0; run < (verify_quick() ? 4 : 12); run++)
-        for (int way = 0; way < 2; way++) most[way] = fmax(most[way], tumble(run, way ? 1e-3 : 0.0, &worst));
-    verify_below("SH14",
-                 "floes in a groove of one part, restitution 0.3, friction 0.4: residual, looks alone",
-                 most[0], 1e-5);
+        for (int way = 0; way < 2; way++)
+            most[way] = fmax(most[way], tumble_in_groove(run, way ? 1e-3 : 0.0, &worst));
+    verify_below("SH14", "floes in a concave edge, restitution 0.3, friction 0.4: residual, exact", most[0],
+                 1e-5);
     verify_below("SH14", "  by surrogates of 1e-3: the same", most[1], 1e-3);
-    verify_below("SH14", "  and the most by which a look found the told force off", worst, 0.1);
+    verify_below("SH14", "  largest error of a surrogate force", worst, 0.1);
 }
 
 /* --- a hull */
 
-/* A sheet that looks along z and bends away by 1/8 and 1/5 of 1/m, of 2 n^2 triangles on 3 m by 3 m. */
-static void sheet(lab *l, int n)
+/* A sheet with normal z and curvatures 1/8 and 1/5 of 1/m, of 2 n^2 triangles on 3 m by 3 m. */
+static void make_sheet(lab *l, int n)
 {
     fl_err err = {0};
     if (fl_surface_add(&l->surface, "hull", 4, &err) < 0) exit(1);
@@ -531,21 +533,21 @@ static void sheet(lab *l, int n)
     }
 }
 
-/* Half the change of the energy where the floe moves by +- d and turns by +- turn. */
-static double rises(lab *l, fl_vec3 x, fl_quat q, fl_vec3 d, fl_vec3 turn)
+/* Half the change of the energy when the floe moves by +- d and rotates by +- turn. */
+static double energy_difference(lab *l, fl_vec3 x, fl_quat q, fl_vec3 d, fl_vec3 turn)
 {
     double e[2];
     for (int k = 0; k < 2; k++) {
         const double way = k ? -1.0 : 1.0;
         lab_pose(&l->w, 0, v3_madd(x, way, d), q_mul(q_of_vector(v3_scale(way, turn)), q));
-        e[k] = lab_look(&l->w, 0, 1).energy;
+        e[k] = lab_evaluate_pair(&l->w, 0, 1).energy;
     }
     lab_pose(&l->w, 0, x, q);
     return 0.5 * (e[0] - e[1]);
 }
 
-/* Force and moment against the gradient of the energy: with a side on it, an edge, a corner. */
-static void hull(void)
+/* Force and moment against the gradient of the energy: on a side of the floe, an edge, a corner. */
+static void gradient_on_hull(void)
 {
     static const struct {
         const char *what;
@@ -555,28 +557,27 @@ static void hull(void)
                  {"a side, aslant,", {0.06, 0.02, 0.1}, 1},
                  {"an edge", {0.5, 0.005, 0.0}, 0},
                  {"a corner", {0.5, 0.45, 0.2}, 0}};
-    static const double h =
-        1e-7; /* what is left of strips as narrow as that over edges is 1e-6 of the force */
+    static const double h = 1e-7; /* the strips of such narrow triangles at edges carry 1e-6 of the force */
     for (int k = 0; k < 4; k++) {
         lab l;
         char what[96];
         const fl_quat q = q_of_vector(POSE[k].turn);
         const fl_mat3 M = q_matrix(q);
-        /* of a side that bears with its middle, or of the lowest corner */
+        /* of a side that touches with its middle, or of the lowest corner */
         const double low =
             POSE[k].middle ? 0.35 : 0.35 * (fabs(M.m[2][0]) + fabs(M.m[2][1]) + fabs(M.m[2][2]));
         double df = 0.0, dm = 0.0;
         lab_start(&l);
         lab_box(&l, v3(0, 0, 5), v3(0.4, 0.4, 0.4), 0.05, q_one(), ZERO, ZERO);
-        sheet(&l, 120);
+        make_sheet(&l, 120);
         lab_make(&l, 1e-9);
         const fl_vec3 x = v3(0.013, 0.007, low + 0.044), axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         lab_pose(&l.w, 0, x, q);
-        const fl_pair now = lab_look(&l.w, 0, 1);
+        const fl_pair now = lab_evaluate_pair(&l.w, 0, 1);
         for (int c = 0; c < 3; c++) {
             const fl_vec3 d = v3_scale(h, axis[c]);
-            df = fmax(df, fabs(v3_dot(now.force, axis[c]) + rises(&l, x, q, d, ZERO) / h));
-            dm = fmax(dm, fabs(v3_dot(now.torque_i, axis[c]) + rises(&l, x, q, ZERO, d) / h));
+            df = fmax(df, fabs(v3_dot(now.force, axis[c]) + energy_difference(&l, x, q, d, ZERO) / h));
+            dm = fmax(dm, fabs(v3_dot(now.torque_i, axis[c]) + energy_difference(&l, x, q, ZERO, d) / h));
         }
         const double size = v3_norm(now.force);
         if (!(size > 1e3)) df = NAN; /* it does not touch */
@@ -592,14 +593,14 @@ int main(void)
     verify_begin("structures");
     sphere_and_cylinder();
     crossed_cylinders();
-    triangles();
-    rounded();
-    corners();
-    impacts();
-    cradle();
-    grooves();
-    told_in_grooves();
+    wall_by_triangles();
+    rounded_coordinates();
+    walk_round_corners();
+    impacts_on_shell();
+    sphere_at_rest_in_groove();
+    spheres_in_grooves();
+    surrogate_in_grooves();
     groove_losses();
-    hull();
+    gradient_on_hull();
     return verify_end();
 }

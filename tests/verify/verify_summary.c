@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* verify_summary.c -- sums without rounding on data that are known to be hard, quantiles from classes against
- * those of the values, and how often the interval of an ensemble holds the truth. NIST: Statistical Reference
- * Datasets, univariate summary statistics, NumAcc1 to NumAcc4, whose certified values are for the decimal
- * numbers; doubles are off by half a unit in their last place, which bounds what can be had. */
+/* verify_summary.c -- exact sums on data that are known to be hard, quantiles from histogram classes
+ * against those of the values, and the coverage of the confidence interval of an ensemble.  NIST:
+ * Statistical Reference Datasets, univariate summary statistics, NumAcc1 to NumAcc4.  Their certified
+ * values hold for the decimal numbers; doubles differ by half a unit in the last place, which bounds the
+ * attainable error. */
 #include <float.h>
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -26,8 +27,8 @@ static void moments_of(int32_t n, const double *x, const double *w, double out[4
     for (int k = 0; k < 5; k++) fl_exact_free(&s[k]);
 }
 
-/* The deviation with n - 1 from running sums of x and x^2 in doubles: how it must not be done. */
-static double naive(int32_t n, const double *x)
+/* The deviation with n - 1 from running sums of x and x^2 in doubles, as a counter-example. */
+static double naive_deviation(int32_t n, const double *x)
 {
     double sum = 0.0, squares = 0.0;
     for (int32_t k = 0; k < n; k++) {
@@ -38,7 +39,7 @@ static double naive(int32_t n, const double *x)
     return v > 0.0 ? sqrt(v) : 0.0;
 }
 
-static void nist(void)
+static void nist_data(void)
 {
     static const double base[] = {1.2, 1000000.2, 10000000.2};
     static const char *const name[][2] = {
@@ -52,16 +53,16 @@ static void nist(void)
         x[0] = base[k];
         for (int i = 1; i < NIST; i++) x[i] = base[k] + (i % 2 ? -0.1 : 0.1);
         moments_of(NIST, x, NULL, out);
-        /* Each value is off by at most half a unit of the largest. */
+        /* Each value has an error of at most half a unit of the largest. */
         const double off = base[k] * DBL_EPSILON;
         verify_row("NIST", name[k][0], out[0], base[k], off, VERIFY_ABS);
         verify_row("NIST", name[k][1], out[1] * sqrt((double)NIST / (NIST - 1)), 0.1, 2.0 * off + DBL_EPSILON,
                    VERIFY_ABS);
-        verify_note("      running sums in doubles: std %.10g", naive(NIST, x));
+        verify_note("      running sums in doubles: std %.10g", naive_deviation(NIST, x));
     }
 }
 
-/* A mean 10^k times the deviation: two passes in doubles lose digits, the exact sums none. */
+/* A mean of 10^k times the deviation: two passes in doubles lose digits, exact sums none. */
 static void large_mean(void)
 {
     enum { N = 1000 };
@@ -69,7 +70,7 @@ static void large_mean(void)
     for (int e = 0; e <= 12; e += 4) {
         for (int i = 0; i < N; i++) {
             fl_rng g = fl_rng_of(3, i, FL_RNG_TEST);
-            /* Multiples of 2^-10, so that the shifted values are the same ones, exactly. */
+            /* Multiples of 2^-10, so that the shifted values are exactly the same ones. */
             x[i] = floor(1024.0 * (exp(fl_rng_normal(&g)))) / 1024.0;
             w[i] = 0.01;
         }
@@ -82,15 +83,16 @@ static void large_mean(void)
         two_pass = fmax(two_pass, fabs(d.std / near[1] - 1.0));
     }
     verify_below("shift", "std, skew, kurtosis of values + 10^12 [rel]", worst, 4.0 * DBL_EPSILON);
-    verify_note("      std by two passes in doubles is off by %.1e", two_pass);
+    verify_note("      std by two passes in doubles: error %.1e", two_pass);
 }
 
 static double value_of(fl_rng *g, int law)
 {
     if (law == 0) return fl_rng_normal(g) + 1.0;
-    if (law == 1) return -log(1.0 - fl_rng_unit(g));                                /* Weibull, k = 1 */
-    if (law == 2) return exp(2.0 * fl_rng_normal(g));                               /* log-normal */
-    return fl_rng_unit(g) < 0.6 ? 0.0 : 1e3 * pow(-log(1.0 - fl_rng_unit(g)), 2.0); /* mostly no contact */
+    if (law == 1) return -log(1.0 - fl_rng_unit(g));  /* Weibull, k = 1 */
+    if (law == 2) return exp(2.0 * fl_rng_normal(g)); /* log-normal */
+    return fl_rng_unit(g) < 0.6 ? 0.0
+                                : 1e3 * pow(-log(1.0 - fl_rng_unit(g)), 2.0); /* mostly without contact */
 }
 
 static void quantiles(void)
@@ -126,8 +128,8 @@ static void quantiles(void)
     verify_note("      %d values a law, p = 0.05 to 0.999; a class is 1/128 wide", n);
 }
 
-/* A load of a run, less the mean of its law, from laws that lean more and more. */
-static double run_value(fl_rng *g, int law)
+/* A load of a run, less the mean of its law, from laws of growing skewness. */
+static double load_of_run(fl_rng *g, int law)
 {
     double sum = 0.0;
     switch (law) {
@@ -141,17 +143,18 @@ static double run_value(fl_rng *g, int law)
     }
 }
 
-/* Shares of ensembles of n runs whose interval holds the mean, and whose interval by Student's law does. */
-static void coverage(int n, int law, int many, double *held, double *student)
+/* Shares of ensembles of n runs whose interval contains the mean, and of those whose interval by Student's
+ * law does. */
+static void coverage(int n, int law, int many, double *in_interval, double *student)
 {
     const double t = gsl_cdf_tdist_Qinv(0.025, n - 1);
     double x[64];
-    *held = *student = 0.0;
+    *in_interval = *student = 0.0;
     for (int k = 0; k < many; k++) {
         fl_rng g = fl_rng_of(11 + (uint64_t)(16 * n + law), k, FL_RNG_TEST);
-        for (int i = 0; i < n; i++) x[i] = run_value(&g, law);
+        for (int i = 0; i < n; i++) x[i] = load_of_run(&g, law);
         const fl_mean_interval e = fl_mean_interval_of(n, x);
-        *held += (e.low <= 0.0 && e.high >= 0.0) / (double)many;
+        *in_interval += (e.low <= 0.0 && e.high >= 0.0) / (double)many;
         *student += (fabs(e.mean) <= t * e.std / sqrt(n)) / (double)many;
     }
 }
@@ -161,20 +164,20 @@ static void intervals(void)
     static const char *const law[] = {"normal", "Gumbel", "gamma", "exponential", "log-normal"};
     static const int runs[] = {3, 5, 10, 20, 50};
     const int many = verify_quick() ? 10000 : 100000;
-    double held, student;
+    double in_interval, student;
     char what[80];
-    coverage(2, 0, many, &held, &student);
-    /* A share of many trials has the deviation sqrt(0.05 0.95 / many); four of them are the tolerance. */
-    verify_row("cover", "95 % interval of 2 normal runs", held, 0.95, 4.0 * sqrt(0.05 * 0.95 / many),
+    coverage(2, 0, many, &in_interval, &student);
+    /* A share of many trials has the deviation sqrt(0.05 0.95 / many); the tolerance is four of them. */
+    verify_row("cover", "95 % interval of 2 normal runs", in_interval, 0.95, 4.0 * sqrt(0.05 * 0.95 / many),
                VERIFY_ABS);
     for (int k = 0; k < 5; k++) {
         for (int j = 0; j < 5; j++) {
-            coverage(runs[j], k, many, &held, &student);
+            coverage(runs[j], k, many, &in_interval, &student);
             snprintf(what, sizeof what, "95 %% interval of %d %s runs", runs[j], law[k]);
-            /* Of three values no skewness is known: only that the interval is wider than Student's. */
-            if (runs[j] > 3) verify_row("cover", what, held, 0.95, 0.02, VERIFY_ABS);
-            else verify_below("cover", what, student - held, 0.0);
-            verify_note("      held %.4f, by Student's law %.4f", held, student);
+            /* Three values have no known skewness: only that the interval is wider than Student's. */
+            if (runs[j] > 3) verify_row("cover", what, in_interval, 0.95, 0.02, VERIFY_ABS);
+            else verify_below("cover", what, student - in_interval, 0.0);
+            verify_note("      held %.4f, by Student's law %.4f", in_interval, student);
         }
     }
 }
@@ -182,7 +185,7 @@ static void intervals(void)
 int main(void)
 {
     verify_begin("summaries and ensembles");
-    nist();
+    nist_data();
     large_mean();
     quantiles();
     intervals();

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells of random sites against what is known of them.  A wall would change the cells along it, so the square
- * is periodic here: the sites are repeated round it, and only the cells of the sites themselves count. V41:
- * Brakke, Random Voronoi (1986, 2005); Ferenc & Neda, Physica A 385 (2007) 518. V43: a Monte Carlo of
- * unstated, small size.  Smoothing spreads the differences between samples: over ten fields of 2000 cells,
- * four of this program and six of a brute-force one that shares no code with it, the deviation of the figure
- * after 20 steps is 6 % of its mean (0.125), that of the figure before the first step 2 % (0.527). Hence 5 %
- * for up to five steps, as stated there, and 10 % beyond. */
+/* Cells of random sites against published results.  A wall would change the cells along it, so the square
+ * is periodic: the sites are repeated round it, and only the cells of the original sites count.  V41:
+ * Brakke, Random Voronoi (1986, 2005); Ferenc & Neda, Physica A 385 (2007) 518.  V43: a Monte Carlo study
+ * of unstated, small size.  Smoothing increases the scatter between samples.  Over ten fields of 2000
+ * cells, four of this program and six of a brute-force program without common code, the deviation of the
+ * value after 20 steps is 6 % of its mean (0.125); that of the value before the first step is 2 % (0.527).
+ * Hence 5 % for up to five steps, as stated there, and 10 % beyond. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "base/array.h"
 #include "ice/power_cells.h"
 
-/* At one site to the unit of area no cell of a million reaches farther than 3 for its corners, and so 6 for
+/* At one site per unit of area no cell of a million reaches farther than 3 for its corners, and so 6 for
  * its neighbours: an empty circle of radius 3 has probability exp(-9 pi). */
 #define MARGIN 6.0
 
@@ -21,8 +21,9 @@ struct stats {
     double sides, sides_var, outline, area_var, share[20];
 };
 
-/* Cells of site[n] in the periodic square 0 .. side; image has room. */
-static int build(int32_t n, const fl_vec2 *site, double side, fl_vec2 *image, int32_t room, fl_power_cells *c)
+/* Cells of site[n] in the periodic square 0 .. side; `image` has the given capacity. */
+static int periodic_cells(int32_t n, const fl_vec2 *site, double side, fl_vec2 *image, int32_t capacity,
+                          fl_power_cells *c)
 {
     fl_err err = {0};
     int32_t m = n;
@@ -32,7 +33,7 @@ static int build(int32_t n, const fl_vec2 *site, double side, fl_vec2 *image, in
             const fl_vec2 p = {site[i].x + side * (k % 3 - 1), site[i].y + side * (k / 3 - 1)};
             if (k == 4 || p.x < -MARGIN || p.x > side + MARGIN || p.y < -MARGIN || p.y > side + MARGIN)
                 continue;
-            if (m == room) return -1;
+            if (m == capacity) return -1;
             image[m++] = p;
         }
     }
@@ -40,7 +41,7 @@ static int build(int32_t n, const fl_vec2 *site, double side, fl_vec2 *image, in
                                 (fl_vec2){side + MARGIN, side + MARGIN}, &err);
 }
 
-static struct stats describe(int32_t n, const fl_power_cells *c)
+static struct stats describe_cells(int32_t n, const fl_power_cells *c)
 {
     struct stats s = {0};
     for (int32_t i = 0; i < n; i++) {
@@ -59,7 +60,7 @@ static struct stats describe(int32_t n, const fl_power_cells *c)
     return s;
 }
 
-static int poisson(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
+static int random_cells(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t capacity)
 {
     static const double share[10] = {0, 0, 0, 0.011, 0.107, 0.260, 0.294, 0.199, 0.090, 0.029};
     const double side = sqrt(n), tol = verify_quick() ? 0.04 : 0.01;
@@ -67,10 +68,10 @@ static int poisson(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
     struct stats s;
     char what[60];
     fl_random_sites(n, 41, (fl_vec2){0, 0}, (fl_vec2){side, side}, site);
-    if (build(n, site, side, image, room, &c)) return -1;
-    s = describe(n, &c);
+    if (periodic_cells(n, site, side, image, capacity, &c)) return -1;
+    s = describe_cells(n, &c);
     fl_power_cells_free(&c);
-    verify_note("%d cells of random sites, periodic, one to the unit of area", n);
+    verify_note("%d cells of random sites, periodic, one per unit of area", n);
     verify_row("V41", "sides, mean", s.sides, 6.0, 1e-12, VERIFY_ABS);
     verify_row("V41", "sides, variance", s.sides_var, 1.7808, tol, VERIFY_REL);
     verify_row("V41", "area, variance", s.area_var, 0.2802, tol, VERIFY_REL);
@@ -82,7 +83,7 @@ static int poisson(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
     return 0;
 }
 
-static int lloyd(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
+static int smoothed_cells(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t capacity)
 {
     static const int step[] = {0, 1, 2, 5, 10, 20};
     static const double cv[] = {0.538, 0.386, 0.303, 0.227, 0.181, 0.121};
@@ -94,13 +95,13 @@ static int lloyd(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
         fl_power_cells c = {0};
         for (; done <= step[k]; done++) {
             fl_power_cells_free(&c);
-            if (build(n, site, side, image, room, &c)) return -1;
+            if (periodic_cells(n, site, side, image, capacity, &c)) return -1;
             if (done == step[k]) {
                 snprintf(what, sizeof what, "area, deviation over mean, %d steps", step[k]);
-                verify_row("V43", what, sqrt(describe(n, &c).area_var), cv[k], step[k] > 5 ? 0.10 : 0.05,
-                           VERIFY_REL);
+                verify_row("V43", what, sqrt(describe_cells(n, &c).area_var), cv[k],
+                           step[k] > 5 ? 0.10 : 0.05, VERIFY_REL);
             }
-            for (int32_t i = 0; i < n; i++) { /* back into the square, so that images are found again */
+            for (int32_t i = 0; i < n; i++) { /* back into the square, so that the images are valid again */
                 const int32_t first = c.first[i];
                 site[i] = fl_polygon_centroid(c.first[i + 1] - first, c.v + first);
                 site[i].x -= side * floor(site[i].x / side);
@@ -114,12 +115,13 @@ static int lloyd(int32_t n, fl_vec2 *site, fl_vec2 *image, int32_t room)
 
 int main(void)
 {
-    const int32_t n = verify_quick() ? 20000 : 400000, room = n + 100 + (int32_t)(30.0 * MARGIN * sqrt(n));
+    const int32_t n = verify_quick() ? 20000 : 400000,
+                  capacity = n + 100 + (int32_t)(30.0 * MARGIN * sqrt(n));
     fl_err err = {0};
-    fl_vec2 *site = fl_alloc(n, sizeof *site, &err), *image = fl_alloc(room, sizeof *image, &err);
+    fl_vec2 *site = fl_alloc(n, sizeof *site, &err), *image = fl_alloc(capacity, sizeof *image, &err);
     verify_begin("Voronoi cells");
-    if (!site || !image || poisson(n, site, image, room) ||
-        lloyd(verify_quick() ? 20000 : 100000, site, image, room))
+    if (!site || !image || random_cells(n, site, image, capacity) ||
+        smoothed_cells(verify_quick() ? 20000 : 100000, site, image, capacity))
         verify_true("V41", "the cells can be built", 0);
     free(site);
     free(image);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Waves: dispersion, kinematics, spectra, and floes in them, against closed forms. */
+/* Waves: dispersion, kinematics, spectra, and floating floes, against closed forms. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,7 +33,7 @@ static void dispersion(void)
         const double w = pow(10, c / 20.0), k = fl_wave_number(w, 1.0, G);
         worst = fmax(worst, fabs(G * k * tanh(k) / (w * w) - 1));
     }
-    verify_below("V58", "omega^2 = g k tanh kd, omega^2 d/g of 1e-7 .. 1e5: off by", worst, 1e-14);
+    verify_below("V58", "omega^2 = g k tanh kd, omega^2 d/g of 1e-7 .. 1e5: error", worst, 1e-14);
     verify_row("V58", "length at T = 8 s, d = 20 m [m]", 2 * PI / fl_wave_number(2 * PI / 8, 20, G), 88.793,
                1e-5, VERIFY_REL);
     fl_waves w;
@@ -50,8 +50,8 @@ static void dispersion(void)
     fl_waves_free(&w);
 }
 
-/* The series around a body against the sum over the trains. */
-static void series(void)
+/* The power series around a body against the sum over the wave trains. */
+static void power_series(void)
 {
     static const double DEPTH[3] = {INFINITY, 20, 8};
     for (int c = 0; c < 3; c++) {
@@ -88,15 +88,15 @@ static void series(void)
             off[3] = fmax(off[3], hypot(b[0] - a[0], b[1] - a[1]));
         }
         verify_note("a sea of 100 trains, Hs 2 m, depth %g m: power series against the sum", w.depth);
-        verify_below("V58", "pressure head off by [m]", off[0], 1e-5);
+        verify_below("V58", "error of the pressure head [m]", off[0], 1e-5);
         verify_below("V58", "elevation off by [m]", off[1], 1e-5);
         verify_below("V58", "velocity off by [m/s]", off[2], 2e-5);
-        verify_below("V58", "acceleration off by [m/s2]", off[3], 2e-4);
+        verify_below("V58", "error of the acceleration [m/s2]", off[3], 2e-4);
         fl_waves_free(&w);
     }
 }
 
-static void spectrum(void)
+static void jonswap_spectrum(void)
 {
     double m[3] = {0}, e = 0, m7 = 0, up = 0;
     const double df = 1e-5;
@@ -143,8 +143,9 @@ static void spectrum(void)
                 want += fl_jonswap_spectrum(f, 2, 8, 3.3) * df;
             worst = fmax(worst, fabs(got - want));
         }
-        /* a line that a band cuts spreads over 3 df of it, and a hundredth of the energy is in a train */
-        verify_below("V58", "energy of five bands of frequency: off by, of all", worst / 0.25, 0.05);
+        /* a line on the border of a band spreads over 3 df of it, and a wave train has a hundredth of the
+         * energy */
+        verify_below("V58", "energy in five bands: error over the total", worst / 0.25, 0.05);
         for (int k = 1; k < N; k++) up += (x[k - 1] < mean && x[k] >= mean) / 3.0;
         fl_power_spectrum_free(&welch);
         fl_waves_free(&w);
@@ -153,7 +154,7 @@ static void spectrum(void)
                VERIFY_REL);
 }
 
-static void floe(lab *l, const char *keys[], int n)
+static void make_floe(lab *l, const char *keys[], int n)
 {
     lab_start(l);
     lab_set(l, "run.gravity=9.81");
@@ -163,15 +164,15 @@ static void floe(lab *l, const char *keys[], int n)
     for (int k = 0; k < n; k++) lab_set(l, keys[k]);
 }
 
-/* A wave that is not there: what pressure panels say and what exact clipping says. */
-static void flat(void)
+/* A wave of negligible height: pressure panels against exact clipping. */
+static void flat_wave(void)
 {
     const char *wavy[] = {"water.wave=airy", "water.height=1e-15", "water.period=4", "water.direction=20"};
     double force = 0, moment = 0, volume = 0, centre = 0, wetted = 0;
-    const double d = 20; /* a current of (1 + z/d) m/s tells how deep the submerged centre is */
+    const double d = 20; /* a current of (1 + z/d) m/s measures the depth of the submerged centre */
     lab a, b;
-    floe(&a, NULL, 0);
-    floe(&b, wavy, 4);
+    make_floe(&a, NULL, 0);
+    make_floe(&b, wavy, 4);
     for (int j = 0; j < 2; j++) {
         lab_set(j ? &b : &a, "water.current=1 0 0");
         lab_set(j ? &b : &a, "water.profile=linear");
@@ -194,7 +195,7 @@ static void flat(void)
                                   (a.w.sea.buoyancy[k] > 0));
         wetted = fmax(wetted, fabs(a.w.sea.wetted_area[k] - b.w.sea.wetted_area[k]) / 232);
     }
-    verify_note("60 boxes askew in a wave of 1e-15 m: against exact clipping");
+    verify_note("60 tilted boxes in a wave of 1e-15 m: against exact clipping");
     verify_below("V48", "force, of the largest", force, 1e-13);
     verify_below("V48", "moment", moment, 1e-13);
     verify_below("V48", "volume", volume, 1e-13);
@@ -204,10 +205,10 @@ static void flat(void)
     lab_free(&b);
 }
 
-/* Forces on a box of length L at its draft in a sea of small waves, against the sum over its trains,
+/* Forces on a box of length L at its draft in a sea of small waves, against the sum over its trains:
  *     F_z = rho g B sum a e^(-kd) (2/k) sin(kL/2) cos psi,
  *     F_x = rho g B sum a (1 - e^(-kd))/k 2 sin(kL/2) sin psi. */
-static void panels(void)
+static void pressure_on_panels(void)
 {
     static const struct {
         const char *what;
@@ -246,14 +247,14 @@ static void panels(void)
                 mean[d] += F[d] * F[d];
             }
         }
-        snprintf(what, sizeof what, "%s: lift off by, of its mean", cases[c].what);
+        snprintf(what, sizeof what, "%s: relative error of the lift", cases[c].what);
         verify_below("D8", what, sqrt(off[0] / mean[0]), cases[c].tolerance);
         verify_below("D8", "  push off by", sqrt(off[1] / mean[1]), cases[c].tolerance);
         lab_free(&l);
     }
 }
 
-/* Amplitude of y(t) at omega, beside a free swing at omega_0: least squares of five functions. */
+/* Amplitude of y(t) at omega, with a free oscillation at omega_0: least squares with five functions. */
 static double amplitude(int n, const double *t, const double *y, double omega, double omega0)
 {
     double a[5][6] = {{0}};
@@ -273,14 +274,14 @@ static double amplitude(int n, const double *t, const double *y, double omega, d
 }
 
 /* Heave of the floe of V48 in a long wave: (sin x / x) e^(-kd) / (1 - omega^2 d/g), x = kL/2. */
-static void follower(void)
+static void heave_in_long_wave(void)
 {
     enum { N = 24000 };
     static double t[N], z[N], x[N];
     static const double LENGTH[4] = {100, 400, 50, 30};
     for (int c = 0; c < 4; c++) {
         const double k = 2 * PI / LENGTH[c], omega = sqrt(G * k), a = 2e-6 / k;
-        const int n = LENGTH[c] > 200 ? N : N / 4; /* 6 periods; the free heave takes small steps */
+        const int n = LENGTH[c] > 200 ? N : N / 4; /* 6 periods; the free heave needs small steps */
         const double dt = 2 * PI / omega * 6 / n;
         const double half = 0.5 * k * 10, sinc = sin(half) / half;
         const double heave = sinc * exp(-k * DRAFT) / (1 - omega * omega * DRAFT / G);
@@ -288,13 +289,13 @@ static void follower(void)
         const double surge = sinc * (1 - exp(-k * DRAFT)) / (k * DRAFT);
         lab l;
         char what[80];
-        floe(&l, NULL, 0);
+        make_floe(&l, NULL, 0);
         lab_box(&l, v3(0, 0, REST), v3(5, 5, 0.5), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_set(&l, "water.wave=airy");
         lab_setf(&l, "water.height=%.17g", 2 * a);
         lab_setf(&l, "water.period=%.17g", 2 * PI / omega);
         lab_make(&l, dt);
-        /* as fast as it will be when it follows the wave, so that it does not drift away */
+        /* its speed when it follows the wave, so that it does not drift away */
         l.w.b.v[0].x = a * omega * surge;
         for (int s = 0; s < n; s++) {
             lab_run(&l, 1);
@@ -313,8 +314,8 @@ static void follower(void)
     }
 }
 
-/* A floe of any size in waves of its own length: panels that are cut finer change nothing. */
-static void books(void)
+/* A floe of any size in waves of its own length: finer panels change nothing. */
+static void energy_in_waves(void)
 {
     const char *KEYS[] = {"water.wave=jonswap",    "water.height=1",   "water.period=4",
                           "water.added_mass=auto", "water.drag=facet", "water.current=0.3 0 0"};
@@ -322,7 +323,7 @@ static void books(void)
     for (int c = 0; c < 4; c++) {
         lab l;
         h[c] = 0.04 / (1 << c);
-        floe(&l, KEYS, 6);
+        make_floe(&l, KEYS, 6);
         lab_box(&l, v3(0, 0, REST), v3(5, 5, 0.5), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_make(&l, h[c]);
         residual[c] = 0.0;
@@ -337,9 +338,9 @@ static void books(void)
     verify_order("V29", "a floe in a sea, 10 s: residual over throughput", h, residual, 4, 2.0, 0.5);
 }
 
-/* A floe that is thrown askew into a sea which is not looked at in each step: against the run that looks at
- * it always, with the same steps. */
-static void looks(void)
+/* A floe is thrown obliquely into a sea that is not evaluated in each step: against the run that evaluates
+ * it in each step, with the same steps. */
+static void interval_of_evaluations(void)
 {
     enum { MOST = 400, STEPS = 8000 };
     const char *KEYS[] = {"water.current=0.3 0 0", "water.wave=jonswap", "water.height=0.5", "water.period=5",
@@ -350,7 +351,7 @@ static void looks(void)
         const int every = c < 0 ? 1 : MOST >> (c + 1);
         lab l;
         double still = 0.0;
-        floe(&l, KEYS, 5);
+        make_floe(&l, KEYS, 5);
         lab_set(&l, "water.drag_force_coef=0.005");
         lab_set(&l, "water.drag_moment_coef=0.002");
         lab_setf(&l, "water.every=%d", every);
@@ -366,16 +367,16 @@ static void looks(void)
             else off[c] = fmax(off[c], v3_norm(v3_sub(l.w.b.x[0], path[s])));
         }
         if (c >= 0) opened[c] = still;
-        else verify_note("residual over throughput when each step is a look: %.2g", still);
+        else verify_note("residual over throughput with an evaluation in each step: %.2g", still);
         lab_free(&l);
     }
-    verify_order("V29", "seldom looks at a sea: way [m]", h, off, 4, 2.0, 0.3);
+    verify_order("V29", "water.every > 1: position [m]", h, off, 4, 2.0, 0.3);
     verify_below("V29", "  residual over throughput, the largest", fmax(opened[0], opened[3]), 5e-6);
 }
 
-/* The same without drag for five minutes, 160 periods of heave, in swell that hardly moves it: how far it
- * swings in the last tenth over the first, where the water is looked at 20 times in a period. */
-static void lasts(void)
+/* The same without drag for five minutes, 160 periods of heave, in swell of small effect: amplitude in the
+ * last tenth over that in the first, with 20 evaluations of the water per period. */
+static void long_interval_run(void)
 {
     enum { TENTH = 10000 };
     const char *KEYS[] = {"water.wave=jonswap", "water.height=0.001", "water.period=8",
@@ -383,7 +384,7 @@ static void lasts(void)
     double swing[2][2] = {{0}};
     for (int seldom = 0; seldom < 2; seldom++) {
         lab l;
-        floe(&l, KEYS, 4);
+        make_floe(&l, KEYS, 4);
         lab_setf(&l, "water.every=%d", seldom ? 20 : 1);
         lab_box(&l, v3(0, 0, REST + 0.03), v3(2, 1.5, 0.5), 0.05, q_of_vector(v3(0.02, 0.04, 0)), v3(0, 0, 0),
                 v3(0, 0, 0));
@@ -395,14 +396,15 @@ static void lasts(void)
         }
         lab_free(&l);
     }
-    verify_note("swing at last over at first when each step is a look: %.4f", swing[0][1] / swing[0][0]);
-    verify_row("V29", "seldom looks at a sea: swing at last over at first", swing[1][1] / swing[1][0],
+    verify_note("amplitude, last over first, with an evaluation in each step: %.4f",
+                swing[0][1] / swing[0][0]);
+    verify_row("V29", "water.every > 1: amplitude, last over first", swing[1][1] / swing[1][0],
                swing[0][1] / swing[0][0], 0.01, VERIFY_REL);
 }
 
-/* A raft of 0.14 m that the sea throws up: as it leaves the water the volume in it goes to nothing while some
- * of its skin is wet, and the centre of that volume is anywhere. */
-static void thrown(void)
+/* The sea throws up a raft of 0.14 m.  When it leaves the water, the submerged volume goes to zero while
+ * some of its skin is wet, and the centre of that volume is undefined. */
+static void raft_leaves_water(void)
 {
     static const fl_vec3 CORNER[4] = {{3.3980215619269085, 3.5631228938112924, -0.17425077513220655},
                                       {3.1060886499210527, 3.8550558058171482, -0.17425077513220655},
@@ -440,14 +442,14 @@ int main(void)
 {
     verify_begin("waves");
     dispersion();
-    series();
-    spectrum();
-    flat();
-    panels();
-    follower();
-    thrown();
-    books();
-    looks();
-    lasts();
+    power_series();
+    jonswap_spectrum();
+    flat_wave();
+    pressure_on_panels();
+    heave_in_long_wave();
+    raft_leaves_water();
+    energy_in_waves();
+    interval_of_evaluations();
+    long_interval_run();
     return verify_end();
 }

@@ -134,7 +134,7 @@ static int parse_sn_word(void *options, const char *word, fl_err *err)
     case 2:
         sn->m2 = INFINITY;
         if (strcmp(word, "inf") == 0) return 0;
-        return fl_option_number("sn", word, 1e-3, 100.0, "the exponent below the knee, or inf,", &sn->m2, err);
+        return fl_option_number("sn", word, 1e-3, 100.0, "an exponent below the knee or inf", &sn->m2, err);
     case 3: return fl_option_number("sn", word, TINY, HUGE_NUMBER, "the stress at the knee", &sn->knee, err);
     default: return fl_fail(err, FL_USAGE, "--sn has more than M,A,M2,KNEE");
     }
@@ -166,8 +166,8 @@ static int parse_oscillator_word(void *options, const char *word, fl_err *err)
     double k;
     switch (o->oscillator_words++) {
     case 0:
-        return fl_option_number("oscillator", word, tiny, huge, "a natural frequency above 0", &a->o.frequency,
-                            err);
+        return fl_option_number("oscillator", word, tiny, huge, "a natural frequency above 0",
+                                &a->o.frequency, err);
     case 1:
         return fl_option_number("oscillator", word, 0.0, 100.0, "a damping ratio from 0 on", &a->o.damping,
                                 err);

@@ -250,7 +250,8 @@ static int unite_bodies(fl_part *p, fl_part *whole, struct cleanup *m, fl_err *e
     return untangle_part(p, 1, m, err);
 }
 
-/* Repair, simplify and remesh a part that is welded and oriented.  whole: the part before walls were dropped */
+/* Repair, simplify and remesh a part that is welded and oriented.  whole: the part before walls were dropped.
+ */
 static int repair_and_refine(fl_part *p, fl_part *whole, const struct options *o, struct cleanup *m,
                              double accuracy, fl_err *err)
 {

@@ -66,7 +66,7 @@ static int round_solid(const char *option, const char *text, struct item *it, fl
     return 0;
 }
 
-static int box(const char *text, struct item *it, fl_err *err)
+static int parse_box(const char *text, struct item *it, fl_err *err)
 {
     double x[6] = {0};
     if (numbers("box", text, 6, 6, x, err) < 0) return -1;
@@ -75,7 +75,7 @@ static int box(const char *text, struct item *it, fl_err *err)
     return fl_fail(err, FL_USAGE, "--box is \"%.60s\", expected X0 < X1, Y0 < Y1 and Z0 < Z1", text);
 }
 
-static int unit(void *options, const char *text, fl_err *err)
+static int set_unit(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
     for (size_t k = 0; k < sizeof UNIT / sizeof UNIT[0]; k++)
@@ -96,7 +96,7 @@ static int pattern(void *options, const char *text, fl_err *err)
     return 0;
 }
 
-/* OLD=NEW, divided at the last "=": names in decks contain any character, new names are chosen by the user. */
+/* OLD=NEW, divided at the last "=": names in decks may contain one, new names need not. */
 static int rename_as(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
@@ -173,7 +173,7 @@ static int add_cone(void *options, const char *text, fl_err *err)
 static int add_box(void *options, const char *text, fl_err *err)
 {
     struct item it = {0};
-    return box(text, &it, err) || add_item(options, it, err) ? -1 : 0;
+    return parse_box(text, &it, err) || add_item(options, it, err) ? -1 : 0;
 }
 
 static int set_name(void *options, const char *text, fl_err *err)
@@ -274,7 +274,7 @@ static const fl_option OPTION[] = {
      .argument = "UNIT",
      .help = "length unit of the files: mm, cm, m, in or ft (m)",
      .kind = FL_OPTION_CALL,
-     .call = unit},
+     .call = set_unit},
     {.word = "scale",
      .letter = 's',
      .argument = "S",

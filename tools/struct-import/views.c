@@ -242,7 +242,7 @@ static int run_gnuplot(const fl_surface *s, const char *tmp, int svg, fl_err *er
     signal(SIGPIPE, before);
     if (rc) return -1;
     if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 127)
-        return fl_fail(err, FL_SYSTEM, "gnuplot was not found, it draws what --plot asks for");
+        return fl_fail(err, FL_SYSTEM, "gnuplot was not found: --plot needs it");
     return status == 0 ? 0 : fl_fail(err, FL_SYSTEM, "gnuplot failed on the picture");
 }
 

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# check.awk -- a run against what is known without computing. Status 1 when something does not hold.
+# check.awk -- checks a run against balances and closed forms. Status 1 if a check fails.
 #     dem-solve --echo SCENE | awk -f check.awk - report.txt g-polys.dat state.dat loads.tsv
 #
-# Momentum along x: what the ice has lost and what the current has put in went into the structure, for the
-# walls are without friction. Mass and wetted area of a floe follow from its corners, for floes are upright
+# Momentum along x: the loss of the ice plus the input of the current equals the impulse on the structure, since the
+# walls have no friction. Mass and wetted area of a floe follow from its corners, since floes are upright
 # prisms here:
 #     A = A_core + P_core r + r^2 sum tan(turn/2),   m = rho A h,
 #     P = P_core + 2 r sum tan(turn/2),              W = A + P draft
-# and the drag of all floes, sum 1/2 C rho_w W |u - v| (u - v), is added up over the rows of the state table.
+# and the drag of all floes, sum 1/2 C rho_w W |u - v| (u - v), is summed over the rows of the state table.
 FNR == 1 { kind = /^#/ ? substr($1, 2) : "report" }
 kind == "scene" && /^\[/ { section = $0 }
 kind == "scene" && $2 == "=" { of[section " " $1] = $3 }
@@ -23,7 +23,7 @@ kind != "g-polys" && nv { floe(); nv = 0 }
     else { ix += $3 * ($1 - before); iy += $4 * ($1 - before); before = $1; rows++ }
 }
 
-# Mass and wetted area of the floe whose corners have been read, bottom first, then top.
+# Mass and wetted area of the floe read last; its corners are those of the bottom, then of the top.
 function floe(    n, k, a, b, c, area, rim, turn, dx, dy, ex, ey) {
     if (!nv) return
     n = nv / 2
@@ -61,8 +61,8 @@ function block() {
     force_before = force
     t_before = t
 }
-function row(what, value, wanted, ok) {
-    printf "%-44s %12s   %-22s %s\n", what, value, wanted, ok ? "ok" : "FAIL"
+function row(what, value, expected, ok) {
+    printf "%-44s %12s   %-22s %s\n", what, value, expected, ok ? "ok" : "FAIL"
     if (!ok) failed++
 }
 function kilo(a) { return sprintf("%.5g", a / 1000) }
@@ -74,7 +74,7 @@ END {
     }
     still = of["[water] drag_force_coef"] * of["[water] density"] / 2 * total_wet
     still *= of["[water] current"] ^ 2 * t
-    print "what is known without computing                     found   wanted"
+    print "check                                               found   expected"
     row("floes at the end", n_row, floes, n_row == floes)
     row("farthest centre from the water line [m]", sprintf("%.2g", highest), "< " thick ", the thickness",
         highest < thick)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# matrix.awk -- the cases of the matrix, a row each. Status 1 when a mean side load is not 0 within its
-# confidence, or a run is not to be trusted.
+# matrix.awk -- one row for each case of the matrix. Status 1 if a mean side load differs from 0 by more than its
+# confidence interval, or if energy or overlap of a run are out of bounds.
 #     awk -f matrix.awk 0.5-0.4.report 0.5-0.4.means 0.5-0.4.stats ...
 #
-# Means over blocks of drift much longer than a floe are nearly independent, so that their mean is known to
-# t s / sqrt(n), t of Student's law: 95 % for the rows; for the verdict on n cases together 99.9 %.
+# Means over blocks of drift much longer than a floe are nearly independent, so the error of their mean is
+# t s / sqrt(n), t of Student's law: 95 % for the rows, 99.9 % for the test of all cases together.
 FNR == 1 {
     what = FILENAME
     sub(/.*\//, "", what)
@@ -14,8 +14,8 @@ FNR == 1 {
 }
 kind == "report" && /^energy residual/ { energy[cases] = $3 }
 kind == "report" && /^largest overlap/ { overlap[cases] = $3 }
-kind == "report" && /^floes in/ { came[cases] = $3 }
-kind == "report" && /^floes in/ && /never/ { lost[cases] = 1 }
+kind == "report" && /^floes in +[0-9]/ { came[cases] = $3 }
+kind == "report" && /^floes in +[0-9]/ && /dropped/ { lost[cases] = 1 }
 kind != "report" && !/^#/ {
     if (!heading) { heading = 1; for (k = 1; k <= NF; k++) column[$k] = k; next }
     key = cases " " $column["signal"]

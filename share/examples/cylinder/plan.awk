@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# plan.awk -- ANIMATION_3D.DAT to outlines seen from above, one frame of it.
+# plan.awk -- outlines in plan view of one frame of ANIMATION_3D.DAT.
 #     awk -v frame=first -f plan.awk ANIMATION_3D.DAT >plan-start.dat        (or frame=last)
 # First block (index 0 of gnuplot): the floes, each the hull of its vertices in their pose, grown by its
 # dilation radius. Second block: the structure, its triangles and cones one by one.
@@ -19,7 +19,7 @@ $1 == "v" { k = nv[in_part]++; px[in_part, k] = $2; py[in_part, k] = $3; pz[in_p
 $1 == "t" { k = ++triangles; of[k] = in_part; t1[k] = $2; t2[k] = $3; t3[k] = $4; next }
 $1 == "cone" { k = ++cones; cone[k] = $0; cone_of[k] = in_part; next }
 $1 == "frame" { if (++frames > 1 && frame == "first") exit; t = $2; fresh = 1; next }
-$1 == "body" { # a frame tells all that are there, or none: then those of the frame before stand
+$1 == "body" { # a frame lists all bodies present, or none: then those of the last frame remain
     if (fresh) bodies = fresh = 0
     pose[$2] = $0
     body[++bodies] = $2
@@ -28,7 +28,7 @@ $1 == "body" { # a frame tells all that are there, or none: then those of the fr
 $1 == "structure" { gone_x = $2; gone_y = $3; next }
 $1 == "moved" { moved[part[$2]] = $0; next }
 
-# Where x, y, z is in the pose p, split: the first two rows of the rotation matrix. Leaves at_x and at_y.
+# Plan position of x, y, z in the pose p, by the first two rows of the rotation matrix. Sets at_x and at_y.
 function turn(x, y, z,    w, a, b, c) {
     w = p[6]; a = p[7]; b = p[8]; c = p[9]
     at_x = p[3] + (1 - 2 * (b * b + c * c)) * x + 2 * (a * b - w * c) * y + 2 * (a * c + w * b) * z
@@ -54,7 +54,7 @@ function sort(m,    a, b, x, y) {
     }
 }
 function left(a, b, k) { return (ox[b] - ox[a]) * (hy[k] - oy[a]) - (oy[b] - oy[a]) * (hx[k] - ox[a]) }
-# Hull of the m corners, counter-clockwise (monotone chain); returns how many are left, in ox, oy.
+# Hull of the m corners, counter-clockwise (monotone chain); returns the number of corners in ox, oy.
 function hull(m,    k, h, low) {
     sort(m)
     h = 0
@@ -76,7 +76,7 @@ function ring(x, y, r,    k, a) {
     }
     print ""
 }
-# The hull with each side moved outward by r; corners are cut straight between the moved ends.
+# The hull with each side moved outward by r; corners are straight between the moved ends.
 function grown(h, r,    a, b, nx, ny, l, x0, y0) {
     for (a = 0; a < h; a++) {
         b = (a + 1) % h

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# plan.gp -- the floes from above at the start and at the end, by gnuplot, from what plan.awk leaves:
+# plan.gp -- the floes from above at the start and at the end, by gnuplot, from the output of plan.awk:
 #     gnuplot -e "out='plan.svg'" plan.gp            (or plan.png; wide=600 makes it smaller)
 if (!exists("out")) out = 'plan.svg'
 if (!exists("wall")) wall = 25    # side walls at y = -wall and wall, as in cylinder.scene
@@ -15,7 +15,7 @@ x1 = ceil(max(A_max_x, B_max_x)) + 1
 y0 = min(-wall, floor(min(A_min_y, B_min_y))) - 1.5
 y1 = max(wall, ceil(max(A_max_y, B_max_y))) + 1.5
 
-# Two frames one over the other, to one scale: the height follows from the width.
+# Two frames above each other to one scale; the height follows from the width.
 if (!exists("wide")) wide = 900.0
 left = 70.0; right = 20.0; above = 34.0; below = 62.0
 high = (wide - left - right) * (y1 - y0) / (x1 - x0)

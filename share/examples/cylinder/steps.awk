@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# steps.awk -- the same field at other stiffness factors and steps: the table of README.md, a row a case.
+# steps.awk -- the same field at other stiffness factors and steps: the table of README.md, one row for each case.
 #     awk -v from=13 -v filter=2 -f steps.awk 0.025-0.5.report 0.025-0.5.stats 0.025-0.5.loads ...
 #
 # The impulse is that of the whole record, the sum of force times interval; mean and largest load are those of

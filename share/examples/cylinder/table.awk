@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# table.awk -- the stats table of loadstats for the eye: forces in kN, five digits, aligned.
+# table.awk -- the stats table of loadstats, aligned, forces in kN, five digits.
 BEGIN { FS = "\t" }
 /^#/ { next }
 !columns { columns = NF; for (k = 1; k <= NF; k++) name[k] = $k; next }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# ensemble.gp -- mean and largest load with their 95 % intervals against the number of runs, and how wide these are:
+# ensemble.gp -- mean and largest load with their 95 % intervals against the number of runs, and the width of these:
 #     gnuplot -e "table='out/ensemble.tsv'; out='ensemble.svg'" ensemble.gp        (or ensemble.png)
 if (!exists("table")) table = 'out/ensemble.tsv'
 if (!exists("out")) out = 'ensemble.svg'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# levels.awk -- the table levels of loadstats for the eye: return levels in kN, periods in minutes.
+# levels.awk -- the table levels of loadstats, aligned: return levels in kN, periods in minutes.
 BEGIN { FS = "\t" }
 /^#/ || $1 == "part" { next }
 !n++ { printf "%-10s %6s %-10s %8s %9s %21s\n", "", "runs", "law", "period", "level", "95 % interval" }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# parallel.sh [RUNS] -- the runs by GNU parallel, as many at a time as there are processors; then `make` finds them
-# made and adds them up.
+# parallel.sh [RUNS] -- makes the runs by GNU parallel, one per processor at a time; `make` then uses them and
+# adds them up.
 set -eu
 cd "$(dirname "$0")"
 export OUT="${OUT:-out}"

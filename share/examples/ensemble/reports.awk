@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# reports.awk -- are all runs sound?  What dem-solve reported of each; status 1 when one is not.
+# reports.awk -- checks the reports of all runs; status 1 if one is out of bounds.
 FNR == 1 { runs++ }
 /^energy residual/ && $3 > energy { energy = $3 }
 /^momentum residual/ && $3 > momentum { momentum = $3 }

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# slope.awk -- does the interval shrink as 1/sqrt(n)?  Status 1 when it does not.
+# slope.awk -- checks that the interval decreases as 1/sqrt(n).  Status 1 if it does not.
 #
 # The half-width by Student's law over his factor is s_n / sqrt(n), and s_n, the deviation between the first
-# n runs, settles down. A line through log(half-width / factor) against log(n), n >= 5, so has the slope -1/2, but
+# n runs, converges. A line through log(half-width / factor) against log(n), n >= 5, therefore has the slope -1/2, but
 # for the scatter of s_n: its relative error is 1/sqrt(2 (n - 1)), 0.35 at n = 5, 0.1 at n = 50, for loads that are
-# normal between runs, more for skew ones. The same scatter moves the slope; what it may do to the line from 5 to 50
-# is about twice (0.35 + 0.1) / log(50/5) = 0.4, the bound of the check. With few runs the line says nothing.
+# normal between runs, more for skew ones. The same scatter changes the slope; for the line from 5 to 50 the
+# change is about twice (0.35 + 0.1) / log(50/5) = 0.4, the bound of the check. With few runs the line has no meaning.
 BEGIN { FS = "\t"; FIRST = 5; ENOUGH = 20; BOUND = 0.4 }
 /^#/ || $1 == "part" { next }
 $4 < FIRST { next }

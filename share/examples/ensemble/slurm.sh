@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # slurm.sh -- the runs as an array of jobs on a cluster, from this folder:
 #     make out/leg.dat && sbatch slurm.sh
-# When all are done, `make` finds them made and adds them up.
+# When all are done, `make` adds them up.
 #SBATCH --job-name=ensemble
 #SBATCH --array=1-50
 #SBATCH --ntasks=1

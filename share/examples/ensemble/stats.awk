@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# stats.awk -- of all runs together: rows of the table stats, forces in kN.
+# stats.awk -- rows of the table stats for all runs together, forces in kN.
 BEGIN { FS = "\t" }
 /^#/ { next }
 $1 == "part" { for (k = 1; k <= NF; k++) col[$k] = k; next }

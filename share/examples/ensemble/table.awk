@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# table.awk -- the table ensemble of loadstats for the eye: some numbers of runs, forces in kN.
+# table.awk -- the table ensemble of loadstats, aligned: some numbers of runs, forces in kN.
 BEGIN { FS = "\t" }
 /^#/ || $1 == "part" { next }
 { line[++n] = $0; last[$1 " " $2] = $4 }

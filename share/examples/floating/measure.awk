@@ -2,9 +2,9 @@
 # measure.awk -- a number from a state table: awk -v what=period -v column=5 -v about=0.1 -f measure.awk state.dat
 #   period     mean time between upward crossings of the level `about` by a column [s]
 #   last       its last value;  mean  its mean
-#   heel       about x, from a start of so many degrees, the smaller of the two that a square has [deg]: a mean whose
-#              weight falls off towards both ends, from and until
-#   amplitude  at the angular frequency omega, beside a free swing at omega0: least squares of five functions
+#   heel       about x, for a start at the given degrees, the smaller of the two angles of a square [deg]: a mean with
+#              weights that decrease towards both ends, from and until
+#   amplitude  at the angular frequency omega, with a free oscillation at omega0: least squares of five functions
 BEGIN { FS = "\t"; PI = atan2(0, -1) }
 /^#/ || /^t/ { next }
 {

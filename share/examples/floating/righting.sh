@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # righting.sh OUT -- the righting arm GZ of a floe of 10 x 4 x 1 m against its heel, as a table on standard output.
-# Held at its heel the floe heaves about the height at which it floats: a mean whose weight falls off to both ends
-# of the record, five times over, finds it.
-# Let go there, it takes the spin alpha t in the first instants, and GZ = I alpha / (m g).
+# With fixed heel the floe heaves about its floating height.  A mean with weights that decrease towards both ends of the
+# record, repeated five times, gives that height.
+# Released there, the floe has the spin alpha t at first, and GZ = I alpha / (m g).
 out=$1
 hold="group.floe.fixed=x y rx ry rz"
 mean()

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# table.awk -- what was measured beside what is known in closed form; with check=1 status 1 when one is off.
+# table.awk -- measured values beside closed forms; with check=1 status 1 if one is out of tolerance.
 BEGIN {
     FS = "\t"
     PI = atan2(0, -1); g = 9.81; d = 900 / 1025
     printf "%-44s %12s %12s %9s\n", "", "measured", "closed form", "off"
 }
 { of[$1] = $2 }
-# An error is relative, of an angle in degrees absolute.
+# Errors are relative; those of angles in degrees are absolute.
 function row(name, what, want, tolerance, absolute,    off) {
     off = of[name] - want
     if (off < 0) off = -off

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Is every field what was asked?  Status 1 when one is not.
+# Checks that every field is as requested.  Status 1 if one is not.
 function claim(ok, what)
 {
     if (!ok) bad++

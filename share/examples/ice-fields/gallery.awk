@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# One page: for each certificate the command that made the field, its pictures, and what was asked and achieved.
+# One page: for each certificate the command that made the field, its pictures, requested and achieved values.
 function plain(s)
 {
     gsub(/&/, "\\&amp;", s)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# One line a certificate: what the field is, and how far it is from what was asked.
+# One line for each certificate: the field and its difference from the request.
 function flush()
 {
     if (name == "") return

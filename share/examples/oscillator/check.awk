@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# check.awk -- is the sway what the load makes of it?  Status 1 when it is not.
-# moving.tsv (loads), motion.tsv (what loadstats makes of that load), moving.txt (the report) in this order.
+# check.awk -- checks the sway against the load.  Status 1 if a check fails.
+# moving.tsv (loads), motion.tsv (the response to that load by loadstats), moving.txt (the report) in this order.
 #   - The momentum: m v + c u + k int u dt is the impulse of the ice, at the end, along x and y.
-#   - loadstats solves the oscillator by another method from the load table alone: the same way, but for what a mean
-#     over 10 ms hides.
-#   - The ledger closes.
+#   - loadstats solves the oscillator by another method from the load table alone: the same displacement, but for the
+#     averaging over 10 ms.
+#   - The energy ledger closes.
 BEGIN {
     FS = "\t"
     split(sway, s, ",")
@@ -28,7 +28,7 @@ file == 1 && $1 != "t[s]" {
 }
 file == 2 && $1 != "part" { d = $10 - ux[$7]; dd += d * d; uu += ux[$7] * ux[$7]; n++ }
 file == 3 && /^energy residual/ { split($0, word, " "); residual = word[3] }
-function told(what, off, bound) {
+function check_row(what, off, bound) {
     printf "%-64s %.2g, at most %g  %s\n", what, off, bound, off <= bound ? "ok" : "FAIL"
     if (!(off <= bound)) failed = 1
 }
@@ -36,9 +36,9 @@ END {
     name[1] = "x"; name[2] = "y"
     for (i = 1; i <= 2; i++) {
         off = m * v0[i] + c * x0[i] + k * S[i] - F[i]
-        told("impulse of the ice along " name[i] " less momentum, over all of it", (off < 0 ? -off : off) / size[i], 1e-3)
+        check_row("impulse of the ice along " name[i] " less momentum, over all of it", (off < 0 ? -off : off) / size[i], 1e-3)
     }
-    told("sway along x less that of the load by loadstats, over it", n == rows ? sqrt(dd / uu) : 1, 0.01)
-    told("residual of the ledger over the throughput", residual, 1e-3)
+    check_row("sway along x less that of the load by loadstats, over it", n == rows ? sqrt(dd / uu) : 1, 0.01)
+    check_row("residual of the ledger over the throughput", residual, 1e-3)
     exit failed
 }

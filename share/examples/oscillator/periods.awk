@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# periods.awk -- a row of the target periods: stats of ux, and the response to the load at rest.
+# periods.awk -- one row of the target periods: stats of ux, and the response to the load at rest.
 BEGIN { FS = "\t" }
 FNR == 1 { file++ }
 /^#/ { next }

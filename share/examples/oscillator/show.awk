@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# show.awk -- stats.tsv, response.tsv (of the moving cylinder, then of the one at rest) and frequency.tsv as a page.
+# show.awk -- stats.tsv, response.tsv (of the moving cylinder, then of the one at rest) and frequency.tsv as a summary.
 BEGIN { FS = "\t" }
 FNR == 1 { file++ }
 /^#/ { next }

@@ -15,7 +15,7 @@ set key above right samplen 2 maxrows 1
 set autoscale xfix
 set ytics autofreq
 set ylabel 'load along x [kN]'
-plot 'sway.dat' using 1:($2/1e3) with lines lc rgb '#3465a4' title 'on the cylinder that sways'
+plot 'sway.dat' using 1:($2/1e3) with lines lc rgb '#3465a4' title 'on the moving cylinder'
 set xlabel 'time [s]'
 set ylabel 'displacement [mm]'
 set ytics 10

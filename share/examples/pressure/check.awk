@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# check.awk -- is what presses on the panels what presses on the leg?  Status 1 when it is not.
+# check.awk -- checks that the force on the panels equals that on the leg.  Status 1 if it does not.
 # contacts.dat, map.tsv and pressure-area.tsv in this order.  All contacts of the leg lie between the heights, so
-# the panels together have all of its push; a window of 10 m2 holds the side of the leg that faces the ice.
+# the panels together have its whole force; a window of 10 m2 covers the side that faces the ice.
 BEGIN { FS = "\t"; PART = -1; ROUNDING = 1e-9 }
 FNR == 1 { file++ }
 /^#/ { next }
@@ -11,14 +11,14 @@ file == 1 && $1 != "t[s]" {
 }
 file == 2 && $1 != "panel" { push += $9 * $10; if ($13 > 0) loaded++ }
 file == 3 && $1 != "part" { window = $5 > window ? $5 : window }
-function told(what, x, y,    off) {
+function check_row(what, x, y,    off) {
     off = (x > y ? x - y : y - x) / y
     printf "%s %.6g N, %.6g N from the contacts: off by %.1e %s\n", what, x, y, off, off < ROUNDING ? "ok" : "FAIL"
     if (!(off < ROUNDING)) failed = 1
 }
 END {
     step = 0.02
-    told("mean on the panels    ", push, sum / int((now - first) / step + 1.5))
-    told("largest on the window ", window, most)
+    check_row("mean on the panels    ", push, sum / int((now - first) / step + 1.5))
+    check_row("largest on the window ", window, most)
     exit failed
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# show.awk -- the tables pressure-area and line-load in kPa and kN/m, what is loaded at all.
+# show.awk -- the tables pressure-area and line-load in kPa and kN/m, loaded rows only.
 BEGIN { FS = "\t" }
 /^#/ { next }
 $1 == "part" { printf "%10s %12s %12s %10s %12s\n", "area [m2]", "max [kPa]", "mean [kPa]", "at [s]", "fit [kPa]"; next }

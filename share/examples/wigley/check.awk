@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# check.awk -- the runs in ice, against what is known without computing. Status 1 when something does not hold.
+# check.awk -- checks the runs in ice against balances and symmetry. Status 1 if a check fails.
 #     awk -f check.awk fixed.txt towed.txt free.txt fixed.tsv towed.tsv free.tsv        (reports, then loads)
 #
-# Fixed in a drift and towed through ice at rest are one case, seen from the ship and from the shore (Galileo): the
-# loads agree but for rounding, which a crowd of floes doubles at every hit, so they are compared up to SAME.
-# The free hull: what ice, moorings and dashpots gave to it is its momentum,
+# Fixed in a drift and towed through ice at rest are one case in two frames (Galileo): the loads agree but for
+# rounding, which collisions amplify, so they are compared up to SAME.
+# The free hull: the impulses of ice, moorings and dashpots equal its momentum,
 #     sum F dt - int (k u + c v) dt = m v        along x and y, from rest.
 BEGIN {
     SAME = 3
@@ -33,8 +33,8 @@ file == 6 {
     ux = of("ux[m]"); uy = of("uy[m]"); vx = of("vx[m/s]"); vy = of("vy[m/s]")
     throughput += sqrt(of("fx[N]") ^ 2 + of("fy[N]") ^ 2) * h
 }
-function row(what, value, wanted, ok) {
-    printf "%-50s %10s   %-20s %s\n", what, value, wanted, ok ? "ok" : "FAIL"
+function row(what, value, expected, ok) {
+    printf "%-50s %10s   %-20s %s\n", what, value, expected, ok ? "ok" : "FAIL"
     if (!ok) failed = 1
 }
 function worst(a,    i, w) { for (i = 1; i <= 3; i++) if (a[i] + 0 > w) w = a[i] + 0; return w }
@@ -44,7 +44,7 @@ END {
             >"/dev/stderr"
         exit 3
     }
-    print "in the ice                                              found   wanted"
+    print "in the ice                                              found   expected"
     row("fixed and towed: largest difference over load", sprintf("%.1e", apart / most), "< 1e-6, first " SAME " s",
         apart < 1e-6 * most)
     row("the ice pushes astern: impulse, fixed [kN s]", sprintf("%.4g", impulse[4] / 1e3), "< 0", impulse[4] < 0)

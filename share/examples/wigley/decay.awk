@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# decay.awk -- periods and decrements of a hull left to itself, against closed forms. Status 1 when one is missed.
+# decay.awk -- periods and decrements of a free hull against closed forms. Status 1 if one is missed.
 #     awk -v L=30 -v B=5 -v T=2 -v KG=1.8 -f decay.awk decay-12.tsv decay-24.tsv decay-48.tsv   (finer and finer)
 #
 # m = rho V,  V = 4/9 L B T,  w = rho g; C33 = w A, C44 = w V GM, C55 = w V GML with GM = KB + BM - KG;
 #     period 2 pi sqrt(M/C) / sqrt(1 - D^2),   decrement 2 pi D / sqrt(1 - D^2),   D = c / (2 sqrt(M C))
-# Between two crossings of zero lies half a period. The largest way between them falls by the decrement a period.
+# Between two crossings of zero lies half a period. The largest displacement between them decreases by the decrement in a period.
 FNR == 1 { if (runs) close_run(); runs++; for (q = 1; q <= 3; q++) crossed[q] = swings[q] = 0 }
 /^#/ { next }
 $1 == "t[s]" { for (c = 1; c <= NF; c++) column[$c] = c; next }

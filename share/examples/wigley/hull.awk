@@ -2,8 +2,8 @@
 # hull.awk -- a Wigley hull as an OFF file: y = (B/2) (1 - (2x/L)^2) (1 - (z/T)^2) below the water, z from -T to 0,
 # straight sides from there up to a flat deck at F.
 #     awk -v L=30 -v B=5 -v T=2 -v F=1 -v NX=24 -v NZ=8 -f hull.awk
-# NX stations and NZ water lines; bow at +L/2. The corners lie on the hull, so all that the flat triangles between
-# them miss is of second order.
+# NX stations and NZ water lines; bow at +L/2. The corners lie on the hull, so errors of the flat triangles are
+# of second order.
 function half(i, j,    x, z) {
     x = 2 * i / NX - 1
     z = j < NZ ? j / NZ - 1 : 0
@@ -21,7 +21,7 @@ function corner(i, j, side,    key) {
     return number[key]
 }
 function face(a, b, c, side) { row[faces++] = side > 0 ? "3 " a " " b " " c : "3 " a " " c " " b }
-# The diagonal leaves the corner of the hull where keel and stem meet, or both its sides would lie on each other.
+# The diagonal leaves the corner of the hull where keel and stem meet, since both its sides would coincide otherwise.
 function quad(i, j, side,    a, b, c, d) {
     a = corner(i, j, side); b = corner(i + 1, j, side); c = corner(i + 1, j + 1, side); d = corner(i, j + 1, side)
     if (i < NX / 2) { face(a, c, b, side); face(a, d, c, side) }

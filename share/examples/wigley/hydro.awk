@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# hydro.awk -- what floats of a mesh, against the closed forms of the hull. Status 1 when one is missed.
+# hydro.awk -- hydrostatics of a mesh against the closed forms of the hull. Status 1 if one is missed.
 #     awk -v L=30 -v B=5 -v T=2 -f hydro.awk hull-12.dat hull-24.dat hull-48.dat      (finer and finer)
 #
-# The theorem of the divergence takes all integrals over the wet body to its skin, z <= 0 at still water, of which no
+# The divergence theorem turns integrals over the wet body into integrals over its surface, z <= 0 at still water; no
 # triangle crosses the water line:
 #     V = int z nz,   V zB = int z^2/2 nz,   A = -int nz,   Ix = -int y^2 nz,   Iy = -int x^2 nz
 # and on a flat triangle the mean of a product is  (sum a_i b_i + sum a_i sum b_i) / 12  over its three corners.
@@ -20,7 +20,7 @@ $1 == "t" && z[$2] <= 0 && z[$3] <= 0 && z[$4] <= 0 {
     along[mesh] -= nz * mean2(x[i], x[j], x[k])
 }
 # Each mesh has sides half as long as the one before, so errors of second order are a quarter.
-function told(what, exact, tol,    m, off, before, order, ok) {
+function check_row(what, exact, tol,    m, off, before, order, ok) {
     printf "%-34s %10.5g ", what, exact
     for (m = 1; m <= mesh; m++) {
         before = off
@@ -41,14 +41,14 @@ END {
     for (m = 1; m <= mesh; m++) printf " %9s", "mesh " m
     print "  order"
     for (m = 1; m <= mesh; m++) value[m] = volume[m]
-    told("displaced volume 4/9 L B T [m3]", 4 / 9 * L * B * T, 5e-3)
+    check_row("displaced volume 4/9 L B T [m3]", 4 / 9 * L * B * T, 5e-3)
     for (m = 1; m <= mesh; m++) value[m] = T + moment[m] / volume[m]
-    told("centre of buoyancy KB 5/8 T [m]", 5 / 8 * T, 5e-3)
+    check_row("centre of buoyancy KB 5/8 T [m]", 5 / 8 * T, 5e-3)
     for (m = 1; m <= mesh; m++) value[m] = plane[m]
-    told("water plane 2/3 L B [m2]", 2 / 3 * L * B, 5e-3)
+    check_row("water plane 2/3 L B [m2]", 2 / 3 * L * B, 5e-3)
     for (m = 1; m <= mesh; m++) value[m] = across[m] / volume[m]
-    told("metacentric BM 3/35 B^2/T [m]", 3 / 35 * B * B / T, 5e-3)
+    check_row("metacentric BM 3/35 B^2/T [m]", 3 / 35 * B * B / T, 5e-3)
     for (m = 1; m <= mesh; m++) value[m] = along[m] / volume[m]
-    told("metacentric, along 3/40 L^2/T [m]", 3 / 40 * L * L / T, 5e-3)
+    check_row("metacentric, along 3/40 L^2/T [m]", 3 / 40 * L * L / T, 5e-3)
     exit failed
 }

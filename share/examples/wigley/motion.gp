@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# motion.gp -- how a hull moves, from its table of loads:  gnuplot -e "from='free.tsv'; out='motion.svg'" motion.gp
+# motion.gp -- motion of a hull, from its table of loads:  gnuplot -e "from='free.tsv'; out='motion.svg'" motion.gp
 set terminal svg size 900, 560 dynamic font 'sans,13' background '#ffffff'
 set output out
 set datafile separator '\t'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# plan.gp -- the ice from above at the end of the three runs, by gnuplot, from what plan.awk leaves.
+# plan.gp -- the ice from above at the end of the three runs, by gnuplot, from the output of plan.awk.
 wall = 12          # side walls at y = -wall and wall, as in wigley.scene
 x0 = -45; x1 = 45
 wide = 900.0; left = 60.0; right = 15.0; above = 36.0; below = 50.0

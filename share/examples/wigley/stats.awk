@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# stats.awk -- one line a run, from its loads: awk -f stats.awk fixed.tsv towed.tsv free.tsv
+# stats.awk -- one line for each run, from its loads: awk -f stats.awk fixed.tsv towed.tsv free.tsv
 function close_run() {
     if (rows) printf "%-8s %9.2f %9.2f %9.1f %9.1f %9.3f %9.3f %8.2f %8.2f\n", run, ix / t / 1e3, iy / t / 1e3, peak / 1e3,
                      most / 1e3, surge, sway, roll, yaw
 }
 function size(x) { return x < 0 ? -x : x }
 BEGIN {
-    print "         mean of the load   largest load     largest way, and turn from where it lay"
+    print "         mean of the load   largest load     largest displacement and rotation"
     print "run        fx[kN]    fy[kN]  20ms[kN] step[kN]  surge[m]   sway[m] roll[deg] yaw[deg]"
 }
 FNR == 1 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The same body by every format that knows finite elements: the same triangles in the same parts. */
+/* The same body through every finite element format: the same triangles in the same parts. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@ typedef void put_fn(FILE *f, const model *m, int variant);
 
 /* --- ANSYS ---------------------------------------------------------------------------------------------- */
 
-/* Solids that are no bricks are collapsed ones in this format: nodes of a brick (edges in the middle of a
+/* Solids other than bricks are collapsed bricks in this format: nodes of a brick (edges in the middle of a
  * collapsed one are its corner). */
 static int ansys_nodes(const model_element *e, int64_t node[20])
 {
@@ -91,15 +91,15 @@ static int gmsh_type(enum fl_shape shape)
     return type[shape];
 }
 
-/* Edges whose middle nodes stand behind the corners, in Gmsh's order and in that of mesh/elements.h. */
+/* Edges of which the middle nodes follow the corners, in Gmsh's order and in that of mesh/elements.h. */
 static void gmsh_nodes(const model_element *e, int64_t node[20])
 {
-    static const char *const theirs[FL_SHAPES] = {
+    static const char *const gmsh_edges[FL_SHAPES] = {
         [FL_TET10] = "011220032313",
         [FL_HEX20] = "010304121523263745475667",
         [FL_WEDGE15] = "010203121425343545",
     };
-    static const char *const ours[FL_SHAPES] = {
+    static const char *const own_edges[FL_SHAPES] = {
         [FL_TET10] = "011220031323",
         [FL_HEX20] = "011223304556677404152637",
         [FL_WEDGE15] = "011220344553031425",
@@ -107,15 +107,15 @@ static void gmsh_nodes(const model_element *e, int64_t node[20])
     const int c = fl_shape_corners(e->shape);
     memcpy(node, e->node, sizeof e->node);
     for (int i = c; i < fl_shape_nodes(e->shape); i++) {
-        const char *a = theirs[e->shape] + 2 * (i - c);
+        const char *a = gmsh_edges[e->shape] + 2 * (i - c);
         for (int j = c; j < fl_shape_nodes(e->shape); j++) {
-            const char *b = ours[e->shape] + 2 * (j - c);
+            const char *b = own_edges[e->shape] + 2 * (j - c);
             if ((a[0] == b[0] && a[1] == b[1]) || (a[0] == b[1] && a[1] == b[0])) node[i] = e->node[j];
         }
     }
 }
 
-/* A number as text or as bytes; in bytes the lowest comes first unless it is big. */
+/* A number as text or as bytes; in bytes the lowest comes first unless `big` is set. */
 typedef struct {
     FILE *f;
     int binary, big;
@@ -136,7 +136,7 @@ static void put_real(sink *k, double x)
     else fprintf(k->f, "%.17g ", x);
 }
 
-static void put_end(sink *k)
+static void put_line_end(sink *k)
 {
     if (!k->binary) fputc('\n', k->f);
 }
@@ -166,7 +166,7 @@ static void put_msh2(FILE *f, const model *m, int variant)
         put_real(&k, m->x[n].x);
         put_real(&k, m->x[n].y);
         put_real(&k, m->x[n].z);
-        put_end(&k);
+        put_line_end(&k);
     }
     fprintf(f, "%s$EndNodes\n$Elements\n%d\n", k.binary ? "\n" : "", m->elements);
     for (int32_t i = 0; i < m->elements; i++) {
@@ -181,7 +181,7 @@ static void put_msh2(FILE *f, const model *m, int variant)
         put_int(&k, 40 + e->part, 4);
         put_int(&k, 3, 4);
         for (int c = 0; c < fl_shape_nodes(e->shape); c++) put_int(&k, node[c], 4);
-        put_end(&k);
+        put_line_end(&k);
     }
     fprintf(f, "%s$EndElements\n", k.binary ? "\n" : "");
 }
@@ -193,11 +193,11 @@ static void put_msh4(FILE *f, const model *m, int variant)
     const int dim = fl_shape_faces(m->e[0].shape) ? 3 : 2;
     fprintf(f, "$Entities\n");
     for (int d = 0; d < 4; d++) put_int(&k, d == dim ? MODEL_PARTS : d == 0, 8);
-    put_end(&k);
+    put_line_end(&k);
     put_int(&k, 1, 4); /* a point */
     for (int c = 0; c < 3; c++) put_real(&k, 0.0);
     put_int(&k, 0, 8);
-    put_end(&k);
+    put_line_end(&k);
     for (int p = 0; p < MODEL_PARTS; p++) {
         put_int(&k, 5 + p, 4);
         for (int c = 0; c < 6; c++) put_real(&k, 0.0);
@@ -206,11 +206,11 @@ static void put_msh4(FILE *f, const model *m, int variant)
         put_int(&k, 2, 8);
         put_int(&k, 1, 4);
         put_int(&k, -2, 4);
-        put_end(&k);
+        put_line_end(&k);
     }
     fprintf(f, "%s$EndEntities\n$Nodes\n", end);
     for (int c = 0; c < 4; c++) put_int(&k, c == 0 ? 2 : m->nodes, 8);
-    put_end(&k);
+    put_line_end(&k);
     /* the first three nodes lie on an entity with parameters */
     for (int block = 0; block < 2; block++) {
         const int32_t from = block ? 3 : 0, to = block ? m->nodes : 3;
@@ -218,20 +218,20 @@ static void put_msh4(FILE *f, const model *m, int variant)
         put_int(&k, 1, 4);
         put_int(&k, !block, 4);
         put_int(&k, to - from, 8);
-        put_end(&k);
+        put_line_end(&k);
         for (int32_t n = from; n < to; n++) put_int(&k, m->id[n], 8);
-        put_end(&k);
+        put_line_end(&k);
         for (int32_t n = from; n < to; n++) {
             put_real(&k, m->x[n].x);
             put_real(&k, m->x[n].y);
             put_real(&k, m->x[n].z);
             for (int c = 0; c < 2 && !block; c++) put_real(&k, 0.5);
-            put_end(&k);
+            put_line_end(&k);
         }
     }
     fprintf(f, "%s$EndNodes\n$Periodic\n0 $\n$EndPeriodic\n$Elements\n", end);
     for (int c = 0; c < 4; c++) put_int(&k, c == 0 ? MODEL_PARTS : m->elements, 8);
-    put_end(&k);
+    put_line_end(&k);
     for (int p = 0; p < MODEL_PARTS; p++) {
         int32_t count = 0;
         for (int32_t i = 0; i < m->elements; i++) count += m->e[i].part == p;
@@ -239,14 +239,14 @@ static void put_msh4(FILE *f, const model *m, int variant)
         put_int(&k, 5 + p, 4);
         put_int(&k, gmsh_type(m->e[0].shape), 4);
         put_int(&k, count, 8);
-        put_end(&k);
+        put_line_end(&k);
         for (int32_t i = 0; i < m->elements; i++) {
             int64_t node[20];
             if (m->e[i].part != p) continue;
             gmsh_nodes(&m->e[i], node);
             put_int(&k, m->e[i].id, 8);
             for (int c = 0; c < fl_shape_nodes(m->e[i].shape); c++) put_int(&k, node[c], 8);
-            put_end(&k);
+            put_line_end(&k);
         }
     }
     fprintf(f, "%s$EndElements\n", end);
@@ -269,8 +269,8 @@ static const char *abaqus_type(enum fl_shape shape)
     }
 }
 
-/* Flat, a block of elements for each part; or as an assembly of one part placed and turned a full turn,
-     * with the sets behind the elements. */
+/* Flat, with a block of elements for each part; or as an assembly of one part, placed and rotated by a full
+ * turn, with the sets behind the elements. */
 static void put_inp(FILE *f, const model *m, int assembly)
 {
     const char *type = abaqus_type(m->e[0].shape);
@@ -327,7 +327,7 @@ static void put_entry(FILE *f, int kind, const char *name, int n, char field[][2
     fputc('\n', f);
 }
 
-/* In small, large or free field, or (3) each in its turn. */
+/* In small, large or free field, or (3) each in turn. */
 static void put_bdf(FILE *f, const model *m, int variant)
 {
     char field[24][20];
@@ -348,7 +348,7 @@ static void put_bdf(FILE *f, const model *m, int variant)
                   turned = e->shape == FL_HEX20 || e->shape == FL_WEDGE15;
         snprintf(field[0], 20, "%lld", (long long)e->id);
         snprintf(field[1], 20, "%d", 7 + e->part);
-        for (int k = 0; k < n; k++) { /* the mids of the top stand last */
+        for (int k = 0; k < n; k++) { /* the mid-side nodes of the top come last */
             const int from = turned && k >= c + 2 * ring ? k - ring : turned && k >= c + ring ? k + ring : k;
             snprintf(field[2 + k], 20, "%lld", (long long)e->node[from]);
         }
@@ -388,7 +388,7 @@ static void put_vtk_cells(sink *k, const model *m, const char *word, int counted
     for (int32_t i = 0; i < m->elements; i++) {
         if (counted) put_int(k, nodes, 4);
         for (int c = 0; c < nodes; c++) put_int(k, index_of(m, m->e[i].node[c]), counted ? 4 : 8);
-        put_end(k);
+        put_line_end(k);
     }
     fputc('\n', k->f);
 }
@@ -407,14 +407,14 @@ static void put_vtk(FILE *f, const model *m, int variant)
         put_real(&k, m->x[n].x);
         put_real(&k, m->x[n].y);
         put_real(&k, m->x[n].z);
-        put_end(&k);
+        put_line_end(&k);
     }
     fprintf(f, "\nMETADATA\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0 1\n\n");
     put_vtk_cells(&k, m, grid ? "CELLS" : "POLYGONS", old);
     if (grid) fprintf(f, "CELL_TYPES %d\n", m->elements);
     for (int32_t i = 0; grid && i < m->elements; i++) {
         put_int(&k, vtk_type(m->e[i].shape), 4);
-        put_end(&k);
+        put_line_end(&k);
     }
     fprintf(f, "\nPOINT_DATA %d\nVECTORS motion double\n", m->nodes);
     for (int32_t n = 0; n < 3 * m->nodes; n++) put_real(&k, 0.25);
@@ -435,14 +435,14 @@ static void put_base64(FILE *f, const unsigned char *p, size_t n)
     }
 }
 
-/* variant 0 ascii, 1 base64 with the highest byte first, 2 appended, 3 appended in base64 and packed. */
+/* variant: 0 ascii, 1 base64 with the highest byte first, 2 appended, 3 appended in base64 and compressed. */
 typedef struct {
-    FILE *f, *data; /* the file, and what is appended to it */
+    FILE *f, *data; /* the file, and its appended data */
     int variant;
 } xml;
 
-/* Two blocks of packed data behind a header that is encoded by itself. */
-static void put_packed(FILE *f, const unsigned char *p, size_t n)
+/* Two compressed blocks behind a header that is encoded separately. */
+static void put_compressed(FILE *f, const unsigned char *p, size_t n)
 {
     const size_t half = (n + 1) / 2;
     static unsigned char out[80000], head[40];
@@ -455,7 +455,7 @@ static void put_packed(FILE *f, const unsigned char *p, size_t n)
     put_base64(f, out, size[0] + size[1]);
 }
 
-/* An array: whole numbers of 4 bytes, or doubles. */
+/* An array: 4-byte integers, or doubles. */
 static void put_array(xml *x, const char *name, const double *v, int n, int is_real)
 {
     static const char *const format[] = {"ascii", "binary", "appended", "appended"};
@@ -478,11 +478,11 @@ static void put_array(xml *x, const char *name, const double *v, int n, int is_r
     if (x->variant == 1) put_base64(x->f, (unsigned char *)text, len);
     if (x->variant < 2) fprintf(x->f, "\n</DataArray>\n");
     if (x->variant == 2) fwrite(text, 1, len, x->data);
-    if (x->variant == 3) put_packed(x->data, (unsigned char *)text, len);
+    if (x->variant == 3) put_compressed(x->data, (unsigned char *)text, len);
     free(text);
 }
 
-static void put_vtx(FILE *f, const model *m, int variant)
+static void put_vtk_xml(FILE *f, const model *m, int variant)
 {
     static double v[MODEL_ELEMENTS * 20 + 3 * MODEL_NODES];
     const int solid = fl_shape_faces(m->e[0].shape) > 0, nodes = fl_shape_nodes(m->e[0].shape);
@@ -531,9 +531,9 @@ static void put_vtx(FILE *f, const model *m, int variant)
     fprintf(f, "</VTKFile>\n");
     free(text);
 }
-/* --- the test ------------------------------------------------------------------------------------------- */
+/* --- tests ---------------------------------------------------------------------------------------------- */
 
-static const char *written(put_fn *put, const model *m, int variant)
+static const char *write_model(put_fn *put, const model *m, int variant)
 {
     const char *path = test_path("model");
     FILE *f = fopen(path, "wb");
@@ -543,7 +543,7 @@ static const char *written(put_fn *put, const model *m, int variant)
     return path;
 }
 
-static void check(put_fn *put, const char *format, int variant)
+static void check_format(put_fn *put, const char *format, int variant)
 {
     static model m;
     for (size_t k = 0; k < sizeof SHAPES / sizeof SHAPES[0]; k++) {
@@ -552,7 +552,7 @@ static void check(put_fn *put, const char *format, int variant)
         char note[FL_MESH_NOTE];
         model_make(&m, SHAPES[k]);
         model_surface(&m, &truth);
-        if (fl_mesh_read(&got, written(put, &m, variant), NULL, note, &err))
+        if (fl_mesh_read(&got, write_model(put, &m, variant), NULL, note, &err))
             fail_msg("%s %d of shape %d: %s", format, variant, (int)SHAPES[k], err.text);
         for (int32_t i = 0; i < got.n;
              i++) /* an assembly puts the name of the instance before that of the part */
@@ -560,7 +560,7 @@ static void check(put_fn *put, const char *format, int variant)
                 memmove(got.part[i].name, got.part[i].name + 4, strlen(got.part[i].name) - 3);
         for (int32_t i = 0; i < got.n; i++)
             if (strncmp(got.part[i].name, "part_", 5) == 0)
-                strcpy(got.part[i].name, got.part[i].name[5] == '0' ? "leg" : "deck"); /* both fit */
+                strcpy(got.part[i].name, got.part[i].name[5] == '0' ? "leg" : "deck"); /* both rules apply */
         if (!mesh_sound(&got) || !model_same(&got, &truth))
             fail_msg("%s %d of shape %d: other triangles\n%s", format, variant, (int)SHAPES[k], note);
         fl_surface_free(&truth);
@@ -568,41 +568,41 @@ static void check(put_fn *put, const char *format, int variant)
     }
 }
 
-static void ansys_gives_the_same(void **state)
+static void ansys_gives_the_same_surface(void **state)
 {
     (void)state;
-    check(put_cdb, "cdb", 0);
-    check(put_cdb, "cdb", 1);
+    check_format(put_cdb, "cdb", 0);
+    check_format(put_cdb, "cdb", 1);
 }
 
-static void gmsh_gives_the_same(void **state)
+static void gmsh_gives_the_same_surface(void **state)
 {
     (void)state;
     for (int variant = 0; variant < 3; variant++) {
-        check(put_msh2, "msh 2.2", variant);
-        check(put_msh4, "msh 4.1", variant);
+        check_format(put_msh2, "msh 2.2", variant);
+        check_format(put_msh4, "msh 4.1", variant);
     }
 }
 
-static void abaqus_gives_the_same(void **state)
+static void abaqus_gives_the_same_surface(void **state)
 {
     (void)state;
-    check(put_inp, "inp", 0);
-    check(put_inp, "inp", 1);
+    check_format(put_inp, "inp", 0);
+    check_format(put_inp, "inp", 1);
 }
 
-/* Numbers of parts have no names: they are part_0 and part_1. */
-static void vtk_gives_the_same(void **state)
+/* Part numbers have no names: they become part_0 and part_1. */
+static void vtk_gives_the_same_surface(void **state)
 {
     (void)state;
-    for (int variant = 0; variant < 8; variant++) check(put_vtk, "vtk", variant);
-    for (int variant = 0; variant < 4; variant++) check(put_vtx, "vtx", variant);
+    for (int variant = 0; variant < 8; variant++) check_format(put_vtk, "vtk", variant);
+    for (int variant = 0; variant < 4; variant++) check_format(put_vtk_xml, "vtx", variant);
 }
 
-static void nastran_gives_the_same(void **state)
+static void nastran_gives_the_same_surface(void **state)
 {
     (void)state;
-    for (int variant = 0; variant < 4; variant++) check(put_bdf, "bdf", variant);
+    for (int variant = 0; variant < 4; variant++) check_format(put_bdf, "bdf", variant);
 }
 
 static void put_surface_as_ply(FILE *f, const model *m, int variant)
@@ -610,26 +610,29 @@ static void put_surface_as_ply(FILE *f, const model *m, int variant)
     fl_surface body = {0};
     fl_err err = {0};
     model_surface(m, &body);
-    body.part[0].id = 12 - variant; /* the order of the numbers need not be that of the parts */
+    body.part[0].id = 12 - variant; /* the order of the numbers may differ from that of the parts */
     body.part[1].id = 11;
     assert_int_equal(fl_ply_write(f, &body, &err), 0);
     fl_surface_free(&body);
 }
 
-/* What --to ply writes comes back with its parts. */
+/* The file that --to ply writes is read back with its parts. */
 static void ply_keeps_parts(void **state)
 {
     (void)state;
-    check(put_surface_as_ply, "ply", 0);
-    check(put_surface_as_ply, "ply", 2);
+    check_format(put_surface_as_ply, "ply", 0);
+    check_format(put_surface_as_ply, "ply", 2);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ply_keeps_parts),       cmocka_unit_test(ansys_gives_the_same),
-        cmocka_unit_test(gmsh_gives_the_same),   cmocka_unit_test(vtk_gives_the_same),
-        cmocka_unit_test(abaqus_gives_the_same), cmocka_unit_test(nastran_gives_the_same),
+        cmocka_unit_test(ply_keeps_parts),
+        cmocka_unit_test(ansys_gives_the_same_surface),
+        cmocka_unit_test(gmsh_gives_the_same_surface),
+        cmocka_unit_test(vtk_gives_the_same_surface),
+        cmocka_unit_test(abaqus_gives_the_same_surface),
+        cmocka_unit_test(nastran_gives_the_same_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What groups of floes tell of their ways is what all floes tell: a step searches when it has to. */
+/* The travel of bodies reported by groups of floes equals that of all floes: the neighbour search runs when
+ * needed. */
 #include <string.h>
 #include "base/array.h"
 #include "base/rng.h"
@@ -13,8 +14,8 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* The sum of the two longest ways since odometers showed found[total]. */
-static double longest(const fl_world *w, const double *found)
+/* The sum of the two longest travels since the travel counters were found[total]. */
+static double longest_travels(const fl_world *w, const double *found)
 {
     fl_err err = {0};
     double *way = fl_alloc(w->b.total, sizeof *way, &err);
@@ -26,8 +27,8 @@ static double longest(const fl_world *w, const double *found)
     return sum;
 }
 
-/* n floes on their ways, some as fast as one another and in one group. */
-static void fly(lab *l, int n, int threads)
+/* n moving floes, some with equal speeds and in one group. */
+static void move_bodies(lab *l, int n, int threads)
 {
     lab_start(l);
     lab_setf(l, "run.threads=%d", threads);
@@ -40,13 +41,13 @@ static void fly(lab *l, int n, int threads)
     lab_make(l, 2e-4);
 }
 
-static void check(int n, int threads)
+static void check_travels(int n, int threads)
 {
     lab l;
     fl_err err = {0};
-    fly(&l, n, threads);
+    move_bodies(&l, n, threads);
     const fl_world *w = &l.w;
-    const double room = w->skin * (1.0 - 1e-6);
+    const double allowed = w->skin * (1.0 - 1e-6);
     double *found = fl_alloc(w->b.total, sizeof *found, &err);
     assert_non_null(found);
     const int64_t searches = w->searches;
@@ -54,29 +55,29 @@ static void check(int n, int threads)
         const int64_t before = w->searches;
         memcpy(found, w->odometer_at_search, (size_t)w->b.total * sizeof *found);
         assert_int_equal(lab_run(&l, 1), 0);
-        assert_int_equal(w->searches - before, longest(w, found) >= room);
+        assert_int_equal(w->searches - before, longest_travels(w, found) >= allowed);
     }
     assert_true(w->searches > searches + 3);
     free(found);
     lab_free(&l);
 }
 
-static void when_it_has_to(void **state)
+static void the_search_runs_in_time(void **state)
 {
     (void)state;
-    check(2, 1);
-    check(31, 1); /* one group, not whole */
-    check(33, 1); /* the last of one floe */
-    check(100, 3);
+    check_travels(2, 1);
+    check_travels(31, 1); /* one group, not complete */
+    check_travels(33, 1); /* the last group, of one floe */
+    check_travels(100, 3);
 }
 
-/* A search that nobody told of the ways comes to the same. */
-static void told_or_not(void **state)
+/* A search without the reported travels gives the same. */
+static void group_travels_do_not_change_the_search(void **state)
 {
     (void)state;
     lab l;
     fl_err err = {0};
-    fly(&l, 70, 1);
+    move_bodies(&l, 70, 1);
     for (int k = 0; k < 200; k++) {
         assert_int_equal(lab_run(&l, 1), 0);
         const int64_t before = l.w.searches;
@@ -88,6 +89,7 @@ static void told_or_not(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(when_it_has_to), cmocka_unit_test(told_or_not)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_search_runs_in_time),
+                                       cmocka_unit_test(group_travels_do_not_change_the_search)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

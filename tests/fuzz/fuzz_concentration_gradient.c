@@ -15,4 +15,4 @@ static int fuzz_one(const unsigned char *data, size_t n)
     return fuzz_verdict(rc, &err);
 }
 
-int main(int argc, char **argv) { return fuzz_main(argc, argv, "grade", fuzz_one); }
+int main(int argc, char **argv) { return fuzz_main(argc, argv, "concentration_gradient", fuzz_one); }

@@ -1,24 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The header is plain C; no C++ name and no exception leaves this file. */
+/* Repair of surfaces, and intersecting bodies.  One file, since both instantiate the filling of holes.  The
+ * headers are plain C; no C++ name and no exception leaves this file. */
 #define CGAL_PMP_REMOVE_SELF_INTERSECTION_NO_POLYHEDRAL_ENVELOPE_CHECK
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <unordered_map>
 #include "shim/cgal_mesh.hpp"
 #include <CGAL/boost/graph/copy_face_graph.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
+#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 extern "C" {
+#include "shim/cgal_crossing.h"
 #include "shim/cgal_untangle.h"
 }
 
@@ -28,9 +35,90 @@ namespace
 {
 using namespace shim;
 
-/* What work() says; false where CGAL would not have it. */
+/* --- repair ---------------------------------------------------------------------------------------- */
+
+/* Diagonal of the box of a boundary cycle, and its number of edges. */
+double cycle_size(const Mesh &mesh, Mesh::Halfedge_index cycle, std::size_t &edges)
+{
+    CGAL::Bbox_3 box;
+    edges = 0;
+    for (const auto h : CGAL::halfedges_around_face(cycle, mesh)) {
+        box += mesh.point(mesh.target(h)).bbox();
+        edges++;
+    }
+    return std::sqrt(CGAL::squared_distance(Point(box.xmin(), box.ymin(), box.zmin()),
+                                            Point(box.xmax(), box.ymax(), box.zmax())));
+}
+
+void close_holes(Mesh &mesh, std::size_t most, double size, fl_repair &did)
+{
+    std::vector<Mesh::Halfedge_index> cycles;
+    PMP::extract_boundary_cycles(mesh, std::back_inserter(cycles));
+    for (const auto cycle : cycles) {
+        std::size_t edges;
+        std::vector<Mesh::Face_index> made;
+        if (!(cycle_size(mesh, cycle, edges) <= size) && edges > most) continue;
+        PMP::triangulate_hole(mesh, cycle, std::back_inserter(made));
+        did.holes += !made.empty();
+        did.patched += static_cast<int32_t>(made.size());
+    }
+}
+
+int32_t count_degenerate(const Mesh &mesh)
+{
+    int32_t n = 0;
+    for (const auto f : mesh.faces()) n += PMP::is_degenerate_triangle_face(f, mesh);
+    return n;
+}
+
+/* Each face is removed by a flip or a collapse, so the number of faces does not tell how many. */
+void remove_degenerate(Mesh &mesh, fl_repair &did)
+{
+    const int32_t found = count_degenerate(mesh);
+    if (found == 0) return;
+    PMP::remove_degenerate_faces(mesh);
+    did.stuck = count_degenerate(mesh);
+    did.degenerate = found - did.stuck;
+}
+
+/* Where the surface was cut along a branched edge, two of its vertices coincide, and no reliable test tells
+ * which piece lies inside the other. */
+bool has_branched_cut(const Mesh &mesh)
+{
+    std::vector<Point> place;
+    place.reserve(mesh.number_of_vertices());
+    for (const auto v : mesh.vertices()) place.push_back(mesh.point(v));
+    std::sort(place.begin(), place.end());
+    return std::adjacent_find(place.begin(), place.end()) != place.end();
+}
+
+int repair(fl_soup *s, int32_t holes, double size, fl_repair *did, fl_err *err)
+{
+    std::vector<Point> points;
+    std::vector<Corners> triangles;
+    Mesh mesh;
+    fl_crossing crossing = {0, 0};
+    to_vectors(s, points, triangles);
+    did->duplicates = static_cast<int32_t>(PMP::merge_duplicate_polygons_in_polygon_soup(points, triangles));
+    if (to_mesh(points, triangles, mesh, err)) return -1;
+    did->stitched = static_cast<int32_t>(PMP::stitch_borders(mesh));
+    remove_degenerate(mesh, *did);
+    if (holes > 0 || size > 0.0) close_holes(mesh, static_cast<std::size_t>(holes), size, *did);
+    const bool closed = mesh.number_of_faces() > 0 && CGAL::is_closed(mesh);
+    if (write_back(s, mesh, err)) return -1;
+    if (did->stuck || !closed) return 0; /* without a plane there is no exact answer */
+    if (fl_cgal_crossings(s, &crossing, err)) return -1;
+    if (crossing.crossings || crossing.touching || has_branched_cut(mesh)) return 0;
+    PMP::orient_to_bound_a_volume(mesh);
+    did->bounding = 1;
+    return write_back(s, mesh, err);
+}
+
+/* --- intersecting bodies --------------------------------------------------------------------------- */
+
+/* Result of work(); false if CGAL throws. */
 template <class Work>
-bool done(Work work)
+bool succeeds(Work work)
 {
     try {
         return work();
@@ -41,14 +129,14 @@ bool done(Work work)
     }
 }
 
-/* A closed patch without a volume, as a plate of two sides, looks nowhere, and CGAL counts on some. */
-bool outward(const Mesh &m)
+/* A closed patch without volume, as a two-sided plate, has no orientation, but CGAL requires one. */
+bool is_outward(const Mesh &m)
 {
-    return done([&] { return PMP::is_outward_oriented(m); });
+    return succeeds([&] { return PMP::is_outward_oriented(m); });
 }
 
-/* Of the area, and of the volume where both have one. */
-double change(const Mesh &from, const Mesh &to)
+/* Largest relative change of the area, and of the volume if both have one. */
+double relative_change(const Mesh &from, const Mesh &to)
 {
     const double area = PMP::area(from), most = std::fabs(PMP::area(to) - area) / area;
     if (!CGAL::is_closed(from) || !CGAL::is_closed(to)) return most;
@@ -56,32 +144,32 @@ double change(const Mesh &from, const Mesh &to)
     return std::max(most, std::fabs((PMP::volume(to) - volume) / volume));
 }
 
-/* Cut out what passes through itself, and close it again: keeping the genus where that can be done. */
+/* Removes self-intersections and fills the holes; preserves the genus where possible. */
 bool rebuild(Mesh &m, fl_untangle *did)
 {
     for (const bool genus : {true, false}) {
         Mesh trial = m;
-        if (!done([&] {
+        if (!succeeds([&] {
                 return PMP::experimental::remove_self_intersections(trial,
                                                                     CGAL::parameters::preserve_genus(genus));
             }))
             continue;
-        did->changed = std::max(did->changed, change(m, trial));
+        did->changed = std::max(did->changed, relative_change(m, trial));
         m = trial;
         return true;
     }
     return false;
 }
 
-/* Where surfaces nearly touch, a union has triangles that rounding turns over: edges shorter than tol are
- * taken out, and corners nearer than that to an edge. */
-void tidy(Mesh &m, double tol)
+/* Where surfaces nearly touch, a union has triangles that rounding inverts.  Removes edges shorter than tol,
+ * and corners closer than tol to an edge. */
+void remove_short_edges(Mesh &m, double tol)
 {
     constexpr double STRAIGHT = -1.0 + 1e-12,
-                     NEEDLE = 1e6; /* cosine, and length over width, of what is bad */
+                     NEEDLE = 1e6; /* cosine, and length over width, of a bad triangle */
     Mesh trial = m;
     const auto within = CGAL::parameters::flip_triangle_height_threshold(tol);
-    if (done([&] {
+    if (succeeds([&] {
             PMP::experimental::remove_almost_degenerate_faces(trial, STRAIGHT, NEEDLE, tol, within);
             return CGAL::is_closed(trial) && !PMP::does_self_intersect(trial);
         }))
@@ -95,7 +183,7 @@ std::array<Point, 3> corners_of(const Mesh &m, Mesh::Face_index f)
     return {m.point(m.source(h)), m.point(m.target(h)), m.point(m.target(m.next(h)))};
 }
 
-/* The height of each triangle is a number that double precision still tells from nothing. */
+/* True if the height of each triangle is significant in double precision. */
 bool has_areas(const Mesh &m)
 {
     for (const auto f : m.faces()) {
@@ -107,21 +195,21 @@ bool has_areas(const Mesh &m)
     return true;
 }
 
-/* A number from -1 to 1 without rhythm; the same in every run. */
-double spread(uint32_t &state)
+/* Pseudo-random number from -1 to 1; the same in every run. */
+double next_random(uint32_t &state)
 {
     state = state * 1664525u + 1013904223u;
     return static_cast<double>(state >> 8) / 8388608.0 - 1.0;
 }
 
-/* Swell a body by about eps about its middle, and turn it by less.  Where its corners came to lie in one
- * place with others', or nearly, they then do not, and what lay side by side overlaps. */
-void loosen(Mesh &m, double eps, uint32_t &state)
+/* Enlarges a body by about eps about its centre and rotates it by less.  Corners that coincided with others,
+ * or nearly, then do not, and bodies that lay side by side overlap. */
+void swell(Mesh &m, double eps, uint32_t &state)
 {
     const CGAL::Bbox_3 box = PMP::bbox(m);
     double c[3], w[3];
-    const double grown = 1.0 + eps * (1.5 + 0.5 * spread(state));
-    for (int k = 0; k < 3; k++) c[k] = 0.5 * (box.min(k) + box.max(k)), w[k] = 0.2 * eps * spread(state);
+    const double grown = 1.0 + eps * (1.5 + 0.5 * next_random(state));
+    for (int k = 0; k < 3; k++) c[k] = 0.5 * (box.min(k) + box.max(k)), w[k] = 0.2 * eps * next_random(state);
     for (const auto v : m.vertices()) {
         const Point &p = m.point(v);
         const double x = p.x() - c[0], y = p.y() - c[1], z = p.z() - c[2];
@@ -130,10 +218,10 @@ void loosen(Mesh &m, double eps, uint32_t &state)
     }
 }
 
-/* Its halfedges are linked as those of closed triangles are, told without following links, which need not
- * end: a union that is no manifold may come out torn. */
+/* True if the halfedges are linked as those of closed triangles.  No links are followed in loops, which need
+ * not end: a non-manifold union may have inconsistent links. */
 template <class Any>
-bool linked(const Any &m)
+bool has_valid_links(const Any &m)
 {
     for (const auto h : m.halfedges()) {
         const auto n = m.next(h);
@@ -148,8 +236,8 @@ bool linked(const Any &m)
     return !m.is_empty();
 }
 
-/* The union of a and b, found exactly and then rounded and tidied; false where that is not sound. */
-bool union_of(const Mesh &a, const Mesh &b, double tol, Mesh &out)
+/* The union of a and b, computed exactly, then rounded and cleaned.  False if the result is not valid. */
+bool compute_union(const Mesh &a, const Mesh &b, double tol, Mesh &out)
 {
     using Exact = CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>;
     Exact left, right, both;
@@ -158,23 +246,23 @@ bool union_of(const Mesh &a, const Mesh &b, double tol, Mesh &out)
     if (!PMP::corefine_and_compute_union(left, right, both,
                                          CGAL::parameters::throw_on_self_intersection(true)))
         return false;
-    if (!linked(both)) return false;
+    if (!has_valid_links(both)) return false;
     CGAL::copy_face_graph(both, out);
-    tidy(out, tol);
+    remove_short_edges(out, tol);
     return !PMP::does_self_intersect(out) && has_areas(out);
 }
 
-/* A corner of q lies in the plane of p. */
-bool one_in_plane(const std::array<Point, 3> &p, const std::array<Point, 3> &q)
+/* True if a corner of q lies in the plane of p. */
+bool has_corner_in_plane(const std::array<Point, 3> &p, const std::array<Point, 3> &q)
 {
     return std::any_of(q.begin(), q.end(), [&](const Point &x) {
         return CGAL::orientation(p[0], p[1], p[2], x) == CGAL::COPLANAR;
     });
 }
 
-/* A corner of one lies on the other, or faces lie on one another: then a union may be no manifold, and the
- * search for it without end. */
-bool touch(const Mesh &a, const Mesh &b)
+/* True if a corner of one lies on the other or faces coincide: the union may be non-manifold, and its
+ * computation may not end. */
+bool has_coplanar_contact(const Mesh &a, const Mesh &b)
 {
     using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Mesh::Face_index>;
     std::vector<Box> of[2];
@@ -188,29 +276,31 @@ bool touch(const Mesh &a, const Mesh &b)
     CGAL::box_intersection_d(of[0].begin(), of[0].end(), of[1].begin(), of[1].end(),
                              [&](const Box &x, const Box &y) {
                                  const auto p = corners_of(a, x.info()), q = corners_of(b, y.info());
-                                 if (found || !(one_in_plane(p, q) || one_in_plane(q, p))) return;
+                                 if (found || !(has_corner_in_plane(p, q) || has_corner_in_plane(q, p)))
+                                     return;
                                  found = CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]),
                                                             Kernel::Triangle_3(q[0], q[1], q[2]));
                              });
     return found;
 }
 
-/* b becomes part of a, loosened as little as it takes; false, and a as it was, where that will not do. */
+/* Unites b with a, enlarging b as little as necessary.  False, and a unchanged, if all attempts fail. */
 bool unite(Mesh &a, const Mesh &b, double tol, uint32_t &state)
 {
-    const bool close = touch(a, b);
+    const bool close = has_coplanar_contact(a, b);
     for (const double eps : {0.0, 1e-8, 1e-7, FL_UNTANGLE_SWELL}) {
         Mesh other = b, both;
         if (eps == 0.0 && close) continue;
-        if (eps > 0.0) loosen(other, eps, state);
-        if (!done([&] { return union_of(a, other, tol, both); })) continue;
+        if (eps > 0.0) swell(other, eps, state);
+        if (!succeeds([&] { return compute_union(a, other, tol, both); })) continue;
         a = both;
         return true;
     }
     return false;
 }
 
-/* A patch of the soup: the shell it is of, and the group of patches that meet, directly or through others. */
+/* A patch of the soup, the shell that it belongs to, and its group: the patches that intersect, directly or
+ * through others. */
 struct Patch {
     Mesh mesh;
     CGAL::Bbox_3 box;
@@ -219,16 +309,16 @@ struct Patch {
     explicit Patch(const Mesh &m, int32_t of) : mesh(m), box(PMP::bbox(m)), shell(of) {}
 };
 
-bool meet(const Patch &a, const Patch &b)
+bool bodies_intersect(const Patch &a, const Patch &b)
 {
     return !a.mesh.is_empty() && !b.mesh.is_empty() && CGAL::do_overlap(a.box, b.box) &&
            PMP::do_intersect(a.mesh, b.mesh);
 }
 
-/* Closed, looking outward, and not through itself: what a union can be made of. */
-bool solid(const Mesh &m)
+/* True if m is closed, oriented outward and free of self-intersections: a valid operand of a union. */
+bool is_solid(const Mesh &m)
 {
-    return !m.is_empty() && CGAL::is_closed(m) && outward(m) && !PMP::does_self_intersect(m);
+    return !m.is_empty() && CGAL::is_closed(m) && is_outward(m) && !PMP::does_self_intersect(m);
 }
 
 std::size_t root_of(const std::vector<Patch> &patch, std::size_t i)
@@ -243,46 +333,62 @@ void join_groups(std::vector<Patch> &patch, std::size_t i, std::size_t j)
     patch[std::max(a, b)].group = std::min(a, b);
 }
 
-/* Which patches meet, as they come; those of one shell belong together. */
+/* Finds the groups of the patches as given.  Patches of one shell are in one group. */
 void find_groups(std::vector<Patch> &patch)
 {
     for (std::size_t i = 0; i < patch.size(); i++) patch[i].group = i;
     for (std::size_t i = 0; i < patch.size(); i++)
         for (std::size_t j = i + 1; j < patch.size(); j++)
             if (patch[i].shell == patch[j].shell ||
-                (root_of(patch, i) != root_of(patch, j) && meet(patch[i], patch[j])))
+                (root_of(patch, i) != root_of(patch, j) && bodies_intersect(patch[i], patch[j])))
                 join_groups(patch, i, j);
     for (std::size_t i = 0; i < patch.size(); i++) patch[i].group = root_of(patch, i);
 }
 
-/* Solids of a group have passed through others of it, so that they are no cavities: what now lies inside the
- * union of others is part of it. */
-bool swallow(Patch &a, Patch &b)
+/* Winding number of a closed mesh about x, which is not on it, by solid angles: van Oosterom and Strackee,
+ * IEEE Trans. Biomed. Eng. 30 (1983) 125. */
+double winding_number(const Mesh &m, const Point &x)
 {
-    if (!CGAL::do_overlap(a.box, b.box)) return false;
-    const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(a.mesh);
-    const bool inside = side(b.mesh.point(*b.mesh.vertices().begin())) == CGAL::ON_BOUNDED_SIDE;
-    if (inside) b.mesh.clear();
-    return inside;
+    double sum = 0.0;
+    for (const auto f : m.faces()) {
+        const auto c = corners_of(m, f);
+        const Kernel::Vector_3 u(x, c[0]), v(x, c[1]), w(x, c[2]);
+        const double lu = std::sqrt(u * u), lv = std::sqrt(v * v), lw = std::sqrt(w * w);
+        sum += std::atan2(u * CGAL::cross_product(v, w),
+                          lu * lv * lw + (u * v) * lw + (v * w) * lu + (w * u) * lv);
+    }
+    return sum / 6.283185307179586;
 }
 
-/* The solids become as many as there are when no two of them that can be united meet. */
+/* Solids of a group intersected others of it, so they are not cavities: one that now lies inside the union of
+ * others is dropped.  True if b was inside a. */
+bool swallow(const Patch &a, Patch &b)
+{
+    if (!CGAL::do_overlap(a.box, b.box) ||
+        std::fabs(winding_number(a.mesh, b.mesh.point(*b.mesh.vertices().begin()))) < 0.5)
+        return false;
+    b.mesh.clear();
+    return true;
+}
+
+/* Unites solids until no two that can be united intersect. */
 void unite_all(std::vector<Patch> &patch, double tol, fl_untangle *did)
 {
     uint32_t state = 1;
     std::vector<bool> can;
-    for (const Patch &p : patch) can.push_back(solid(p.mesh));
+    for (const Patch &p : patch) can.push_back(is_solid(p.mesh));
     for (std::size_t i = 0; i < patch.size(); i++) {
-        std::vector<bool> tried(patch.size(), false); /* as it is now */
+        std::vector<bool> tried(patch.size(), false); /* for the present patch[i] */
         for (std::size_t j = i + 1; j < patch.size() && can[i]; j++) {
-            if (!can[j] || tried[j] || patch[i].group != patch[j].group || !meet(patch[i], patch[j]))
+            if (!can[j] || tried[j] || patch[i].group != patch[j].group ||
+                !bodies_intersect(patch[i], patch[j]))
                 continue;
             tried[j] = true;
             if (!unite(patch[i].mesh, patch[j].mesh, tol, state)) continue;
             patch[i].box = PMP::bbox(patch[i].mesh);
             patch[j].mesh.clear();
             did->joined++;
-            tried.assign(patch.size(), false); /* a union reaches farther than what it was */
+            tried.assign(patch.size(), false); /* a union extends farther than its operands */
             j = i;
         }
     }
@@ -291,12 +397,13 @@ void unite_all(std::vector<Patch> &patch, double tol, fl_untangle *did)
             if (i == j || patch[i].group != patch[j].group || patch[i].mesh.is_empty() ||
                 patch[j].mesh.is_empty())
                 continue;
-            if (meet(patch[i], patch[j])) did->failed += i < j;
+            if (bodies_intersect(patch[i], patch[j])) did->failed += i < j;
             else if (can[i] && can[j]) did->joined += swallow(patch[i], patch[j]);
         }
 }
 
-/* Each shell by itself, so that none is cut where others share its edges; what is closed looks outward. */
+/* Converts each shell separately, so that none is cut where others share its edges.  Closed patches are
+ * oriented outward. */
 int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Patch> &patch, double &diagonal,
                fl_err *err)
 {
@@ -320,7 +427,7 @@ int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Patch> &patch
         if (to_mesh(corners, one.second, m, err)) return -1;
         PMP::split_connected_components(m, pieces);
         for (Mesh &p : pieces) {
-            if (CGAL::is_closed(p) && !outward(p)) PMP::reverse_face_orientations(p);
+            if (CGAL::is_closed(p) && !is_outward(p)) PMP::reverse_face_orientations(p);
             patch.emplace_back(p, one.first);
         }
     }
@@ -349,9 +456,23 @@ int untangle(fl_soup *s, const int32_t *shell, int32_t *group, fl_untangle *did,
 }
 } // namespace
 
+extern "C" int fl_cgal_repair(fl_soup *s, int32_t holes, double size, fl_repair *did, fl_err *err)
+{
+    *did = fl_repair{};
+    return run_guarded("repair", s->nt, err, [&] { return repair(s, holes, size, did, err); });
+}
+
+extern "C" void fl_soup_free(fl_soup *s)
+{
+    free(s->x);
+    free(s->t);
+    *s = fl_soup{0, 0, nullptr, nullptr};
+}
+
 extern "C" int fl_cgal_untangle(fl_soup *s, const int32_t *shell, int32_t *group, fl_untangle *did,
                                 fl_err *err)
 {
     *did = fl_untangle{0, 0, 0, 0.0};
-    return guarded("repair of crossings", s->nt, err, [&] { return untangle(s, shell, group, did, err); });
+    return run_guarded("repair of crossings", s->nt, err,
+                       [&] { return untangle(s, shell, group, did, err); });
 }

@@ -11,4 +11,4 @@ static int fuzz_one(const unsigned char *data, size_t n)
     return fuzz_verdict(rc, &err);
 }
 
-int main(int argc, char **argv) { return fuzz_main(argc, argv, "field", fuzz_one); }
+int main(int argc, char **argv) { return fuzz_main(argc, argv, "ice_field", fuzz_one); }

@@ -4,8 +4,8 @@
 #include "stat/pressure.h"
 #include "support/fuzz.h"
 
-/* Of what was read a window carries no more than there is, and no contact more than a window. */
-static int windows(const fl_contact_events *h, fl_window_work *w, fl_err *err)
+/* A window has no larger load than the total, and no contact a larger one than its window. */
+static int check_windows(const fl_contact_events *h, fl_window_work *w, fl_err *err)
 {
     const double area[] = {1e-6, 1.0, 1e6};
     for (int32_t i = 0; i < h->n; i++) {
@@ -31,7 +31,7 @@ static int fuzz_one(const unsigned char *data, size_t n)
     double step;
     int more = 1, rc = fl_contact_events_open(&h, fuzz_file(data, n), &ask, &err);
     while (rc == 0 && (more = fl_contact_events_next(&h, &err)) > 0)
-        if (h.n <= 50) rc = windows(&h, &w, &err);
+        if (h.n <= 50) rc = check_windows(&h, &w, &err);
     if (rc == 0 && more < 0) rc = -1;
     if (rc == 0) rc = fl_contact_events_span(&h, &times, &step, &err);
     if (rc == 0 && (times < 1 || !(step >= 0.0))) rc = FUZZ_BROKEN;
@@ -40,4 +40,4 @@ static int fuzz_one(const unsigned char *data, size_t n)
     return rc == FUZZ_BROKEN ? FUZZ_BROKEN : fuzz_verdict(rc, &err);
 }
 
-int main(int argc, char **argv) { return fuzz_main(argc, argv, "hits", fuzz_one); }
+int main(int argc, char **argv) { return fuzz_main(argc, argv, "contact_events", fuzz_one); }
