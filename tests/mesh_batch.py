@@ -8,6 +8,8 @@ itself; other formats are read by meshio (Debian: python3-meshio) where it is in
 without a comparison.  Volumes are compared where the surface is closed.  share/doc/mesh-batch.md tells how to read
 the table.  Status 1 if a file differs, crashes the program or runs out of time."""
 import argparse
+import contextlib
+import io
 import math
 import os
 import struct
@@ -93,7 +95,8 @@ def read_off(path):
 
 
 def read_meshio(path):
-    mesh = meshio.read(path)
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        mesh = meshio.read(path)
     points = [tuple(float(c) for c in list(p) + [0.0] * (3 - len(p))) for p in mesh.points]
     faces, once = [], {}
     for block in mesh.cells:
