@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stdlib.h>
+#include "base/array.h"
 #include "base/union_find.h"
+#include "geom/enclosed_volume.h"
 #include "geom/outer_skin.h"
 #include "geom/inner_walls.h"
 #include "geom/weld.h"
@@ -70,6 +73,65 @@ static int find_double_walls(const fl_part *p, const fl_edges *e, uint8_t *wall,
     return mark_twins(p, e, 0, RIM_BELOW_FOUR, wall, err);
 }
 
+/* Marks, of triangles on the same corners with the same orientation, all but the first. */
+static int find_copies(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
+{
+    (void)err;
+    for (int32_t v = 0; v < p->nv; v++)
+        for (int64_t from = e->first[v], to; from < e->first[v + 1]; from = to) {
+            const fl_half_edge *s = e->side;
+            to = fl_edge_end(e, v, from);
+            for (int64_t i = from; i < to; i++)
+                for (int64_t j = i + 1; j < to && !wall[s[i].t]; j++)
+                    wall[s[j].t] |= s[i].up == s[j].up && apex_of(p, &s[i]) == apex_of(p, &s[j]);
+        }
+    return 0;
+}
+
+/* Marks sheets without a rim that lie inside the triangles without twins: a cavity that a body fills. */
+static int mark_filled(const fl_part *p, const int32_t *twin, int32_t *set, const uint8_t *is, uint8_t *wall,
+                       fl_err *err)
+{
+    fl_part rest = {.nv = p->nv, .v = p->v};
+    int8_t *inside = fl_alloc(p->nt, 1, err); /* of a set, at its lowest triangle: 1 outside, 2 inside */
+    rest.t = inside ? fl_alloc(p->nt, sizeof *rest.t, err) : NULL;
+    for (int32_t t = 0; rest.t && t < p->nt; t++)
+        if (twin[t] < 0) rest.t[rest.nt++] = p->t[t];
+    for (int32_t t = 0; rest.t && t < p->nt; t++) {
+        const int32_t root = fl_union_find_root(set, t);
+        if (twin[t] < 0 || is[root]) continue;
+        if (!inside[root]) inside[root] = fabs(fl_part_winding(&rest, p->v[p->t[t].v[0]])) > 0.5 ? 2 : 1;
+        wall[t] = inside[root] == 2;
+    }
+    const int rc = rest.t ? 0 : -1;
+    free(inside);
+    free(rest.t);
+    return rc;
+}
+
+static int find_contact_walls(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
+{
+    int32_t *twin = fl_alloc(p->nt, sizeof *twin, err), *set = twin ? fl_union_find_make(p->nt, err) : NULL;
+    uint8_t *is = set ? fl_alloc(p->nt, 1, err) : NULL;
+    int rc = -1;
+    if (is) {
+        find_twins(p, e, twin);
+        find_sheets(p, e, twin, set, is);
+        for (int32_t t = 0; t < p->nt; t++)
+            wall[t] = twin[t] >= 0 && is[fl_union_find_root(set, t)] == HAS_UNPAIRED;
+        rc = mark_filled(p, twin, set, is, wall, err);
+    }
+    free(twin);
+    free(set);
+    free(is);
+    return rc;
+}
+
+static int find_lone_sheets(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
+{
+    return mark_twins(p, e, RIM_BELOW_FOUR | HAS_FREE_RIM, HAS_UNPAIRED, wall, err);
+}
+
 static int find_fins(const fl_part *p, const fl_edges *e, uint8_t *wall, fl_err *err)
 {
     return mark_twins(p, e, HAS_FREE_RIM | HAS_UNPAIRED, 0, wall, err);
@@ -112,5 +174,21 @@ int fl_part_drop_fins(fl_part *p, int32_t *removed, fl_err *err)
     fl_weld w;
     *removed = 0;
     if (drop_marked(p, find_fins, removed, err)) return -1;
+    return *removed ? fl_part_weld(p, 0.0, &w, err) : 0;
+}
+
+int fl_part_drop_contact_walls(fl_part *p, int32_t *removed, int32_t *same, fl_err *err)
+{
+    fl_weld w;
+    *removed = *same = 0;
+    if (drop_marked(p, find_copies, same, err) || drop_marked(p, find_contact_walls, removed, err)) return -1;
+    return *removed + *same ? fl_part_weld(p, 0.0, &w, err) : 0;
+}
+
+int fl_part_drop_sheets(fl_part *p, int32_t *removed, fl_err *err)
+{
+    fl_weld w;
+    *removed = 0;
+    if (drop_marked(p, find_lone_sheets, removed, err)) return -1;
     return *removed ? fl_part_weld(p, 0.0, &w, err) : 0;
 }

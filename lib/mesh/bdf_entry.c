@@ -79,7 +79,12 @@ static int follow_include(fl_bdf_entry *r, fl_err *err)
         line = r->deck.line + strspn(r->deck.line, " \t");
     }
     *end = '\0';
-    return fl_deck_include(&r->deck, fl_deck_trim(r->text), err);
+    if (fl_deck_include(&r->deck, fl_deck_trim(r->text), err) == 0) return 0;
+    if (r->bulk || err->code != FL_INPUT) return -1;
+    /* before BEGIN BULK it holds commands; whether that comes is not known yet */
+    if (r->missing++ == 0) r->first_missing = *err;
+    *err = (fl_err){0};
+    return 0;
 }
 
 /* --- fields --------------------------------------------------------------------------------------------- */
@@ -154,7 +159,15 @@ static int split_line(fl_bdf_entry *r, fl_err *err)
 static int is_used(const char *name)
 {
     return *name == 'C' || *name == 'G' || strncmp(name, "PB", 2) == 0 || strncmp(name, "PTUBE", 5) == 0 ||
-           strncmp(name, "PROD", 4) == 0;
+           strncmp(name, "PROD", 4) == 0 || strncmp(name, "PSOLID", 6) == 0;
+}
+
+/* Without BEGIN BULK the deck is all bulk data, and so was what could not be included. */
+static int end_of_deck(const fl_bdf_entry *r, fl_err *err)
+{
+    if (r->bulk || !r->missing) return 0;
+    *err = r->first_missing;
+    return -1;
 }
 
 int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
@@ -169,7 +182,7 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
             if (follow_include(r, err)) return -1;
             continue;
         }
-        if ((*start | 32) == 'e' && strncasecmp(start, "ENDDATA", 7) == 0) return 0;
+        if ((*start | 32) == 'e' && strncasecmp(start, "ENDDATA", 7) == 0) return end_of_deck(r, err);
         if (is_continuation(line)) continue; /* continues an entry that was skipped */
         while (line[n] && !fl_bytes_blank(line[n]) && line[n] != ',' && line[n] != '*' &&
                n < FL_BDF_NAME - 1) {
@@ -178,6 +191,7 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
         }
         r->name[n] = '\0';
         r->fields = r->text_len = 0;
+        if (strcmp(r->name, "BEGIN") == 0) r->bulk = 1;
         if (!is_used(r->name)) return 1;
         if (split_line(r, err)) return -1;
         while ((more = next_line(r, err)) > 0 && is_continuation(r->deck.line))
@@ -186,7 +200,7 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
         if (more) fl_deck_unread(&r->deck);
         return 1;
     }
-    return more;
+    return more < 0 ? -1 : end_of_deck(r, err);
 }
 
 const char *fl_bdf_field(const fl_bdf_entry *r, int k) { return k < r->fields ? r->text + r->at[k] : ""; }

@@ -18,13 +18,17 @@ typedef struct {
     char *text;             /* of the fields, each ended by a zero byte */
     int32_t text_len, text_cap;
     int32_t at[FL_BDF_FIELDS]; /* offsets into text */
+    int bulk;                  /* BEGIN BULK has been read */
+    int missing;               /* files that could not be included before BEGIN BULK */
+    fl_err first_missing;      /* why, of the first */
     /* called with the text behind $ of each comment line; may be NULL */
     int (*comment)(void *context, const char *text, fl_err *err);
     void *context;
 } fl_bdf_entry;
 
-/* Advance to the next entry.  INCLUDE is followed, ENDDATA ends the deck.  Returns 1, 0 at the end, or -1
- * with FL_INPUT or FL_SYSTEM. */
+/* Advance to the next entry.  INCLUDE is followed, ENDDATA ends the deck.  Files that cannot be included are
+ * counted before BEGIN BULK, where they hold commands, and an error behind it, or where it never comes.
+ * Returns 1, 0 at the end, or -1 with FL_INPUT or FL_SYSTEM. */
 int fl_bdf_next(fl_bdf_entry *r, fl_err *err);
 
 /* Field k, counted from 0 behind the name, without surrounding blanks; "" if there is none. */

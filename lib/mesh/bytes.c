@@ -137,7 +137,7 @@ static int32_t find_mark(const fl_bytes *b, const char *mark, int32_t len, int *
         if (end - p <= len && !b->ended) return (int32_t)(p - b->data);
         /* a zero byte before it is a line end that was overwritten */
         *found = end - p >= len && memcmp(p, mark, (size_t)len) == 0 && strchr(" \t\r\n", p[len]) &&
-                 (p == b->data ? b->offset == 0 : strchr("\r\n", p[-1]) != NULL);
+                 (b->line == 0 || (p == b->data ? b->offset == 0 : strchr("\r\n", p[-1]) != NULL));
         if (*found) return (int32_t)(p - b->data);
         p++;
     }

@@ -56,8 +56,9 @@ int32_t fl_bytes_peek(fl_bytes *b, int32_t n, const char **p, fl_err *err);
 int fl_bytes_skip(fl_bytes *b, int64_t n, fl_err *err);
 
 /* Skip to the next line that begins with mark, followed by a blank, a line end or the end of the file.  In
- * binary data a line begins behind a line end.  Lines are counted where b->line is not 0.  Returns 1, 0 if
- * there is none, -1. */
+ * binary data, where b->line is 0, the mark may stand anywhere: some writers leave out the line end behind
+ * numbers.
+ * Elsewhere lines are counted.  Returns 1, 0 if there is none, -1. */
 int fl_bytes_seek(fl_bytes *b, const char *mark, fl_err *err);
 
 /* Read the next line: *start points to it, a zero byte replaces its end (\n, \r\n or \r), *len is its length.

@@ -106,7 +106,7 @@ int fl_cdb_add_element(fl_cdb *c, int64_t id, int64_t type, int64_t section, int
         snprintf(name, sizeof name, "routine %d", t->routine);
         return fl_elements_skip(&c->e, name, err);
     }
-    shape = fl_cdb_shape_of(t->family, n);
+    shape = fl_cdb_shape_of(t->family, n, c->node);
     if (shape < 0)
         return fl_deck_fail(&c->d, err, "element %lld of routine %d has %d nodes, more are expected",
                             (long long)id, t->routine, n);
@@ -294,6 +294,16 @@ int fl_cdb_rlblock(fl_cdb *c, fl_err *err)
     return more;
 }
 
+/* A component of key points, lines, areas or volumes: the format line and rows of numbers. */
+static int skip_component(fl_cdb *c, fl_err *err)
+{
+    int more = fl_deck_line(&c->d, err);
+    c->other_sets++;
+    if (more > 0 && c->d.line[strspn(c->d.line, " \t")] != '(') fl_deck_unread(&c->d);
+    while (more > 0) more = open_row(c, err);
+    return more;
+}
+
 int fl_cdb_cmblock(fl_cdb *c, fl_err *err)
 {
     const int elements = strncasecmp(c->word[2], "ELEM", 4) == 0;
@@ -302,9 +312,7 @@ int fl_cdb_cmblock(fl_cdb *c, fl_err *err)
     int32_t set = -1;
     fl_columns f;
     int more;
-    if (!elements && strncasecmp(c->word[2], "NODE", 4) != 0)
-        return fl_deck_fail(&c->d, err, "a component of \"%.40s\" was found, ELEM or NODE is expected",
-                            c->word[2]);
+    if (!elements && strncasecmp(c->word[2], "NODE", 4) != 0) return skip_component(c, err);
     if (*name == '\0') return fl_deck_fail(&c->d, err, "the component has no name");
     c->node_sets += !elements;
     if (elements && (set = fl_string_table_add(&c->e.sets, name, err)) < 0) return -1;

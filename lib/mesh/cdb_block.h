@@ -30,7 +30,7 @@ typedef struct {
     int32_t nodes;              /* their number */
     fl_cdb_sections sections;
     fl_cdb_components components;
-    int32_t node_sets, type_cap;
+    int32_t node_sets, other_sets, type_cap; /* components skipped: of nodes, of the solid model */
 } fl_cdb;
 
 /* Assign a routine to an element type.  -1 with FL_SYSTEM. */
@@ -49,7 +49,8 @@ int fl_cdb_add_element(fl_cdb *c, int64_t id, int64_t type, int64_t section, int
  *               material, system, nodes
  *     etblock   element types: slot, routine, first key
  *     rlblock   real constants, of which the first is used; a second format line describes continuation rows
- *     cmblock   a component: numbers; a negative one ends the range begun by the number before it
+ *     cmblock   a component: numbers; a negative one ends the range begun by the number before it.  Those of
+ *               nodes, key points, lines, areas and volumes are counted and skipped
  *
  * 0, or -1 with FL_INPUT or FL_SYSTEM. */
 int fl_cdb_nblock(fl_cdb *c, fl_err *err);

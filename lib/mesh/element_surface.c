@@ -28,7 +28,7 @@ static void report_counts(const fl_elements *e, fl_bytes *b)
     int32_t count[FL_SHAPES] = {0}, nodes = 0;
     count_list in = {{0}, 0}, out = {{0}, 0};
     for (int32_t k = 0; k < e->node_id.n; k++) nodes += !isnan(e->x[k].x);
-    for (int32_t k = 0; k < e->element_id.n; k++) count[e->element[k].shape]++;
+    for (int32_t k = 0; k < e->element_id.n; k++) count[e->element[k].shape] += e->element[k].part >= 0;
     for (int k = 0; k < FL_SHAPES; k++)
         if (count[k]) add_count(&in, fl_shape_name((enum fl_shape)k), count[k]);
     for (int32_t k = 0; k < e->skipped.n; k++) add_count(&out, e->skipped.name[k], e->skip_count[k]);
@@ -64,7 +64,7 @@ static int choose_targets(fl_elements *e, fl_skin *k, fl_import_options *opt, fl
         is_selected[t] = (char)(selected && (t < parts || fl_import_by_name(opt)));
     }
     for (int32_t i = 0; i < e->element_id.n; i++)
-        k->target[i] = is_selected[e->element[i].part] ? e->element[i].part : -1;
+        k->target[i] = e->element[i].part >= 0 && is_selected[e->element[i].part] ? e->element[i].part : -1;
     for (int32_t i = 0; i < e->picks; i++) {
         const fl_pick *p = &e->pick[i];
         const int32_t t = parts + p->set, solid = fl_shape_faces((enum fl_shape)e->element[p->element].shape);

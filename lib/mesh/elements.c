@@ -100,6 +100,14 @@ int32_t fl_elements_add_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 
     return k;
 }
 
+/* A mid-side node that repeats a corner stands for an omitted one, as archives write it. */
+static void drop_repeated_mids(enum fl_shape shape, int32_t *node)
+{
+    for (int i = SHAPE[shape].corners; i < SHAPE[shape].nodes; i++)
+        for (int c = 0; c < SHAPE[shape].corners; c++)
+            if (node[i] == node[c]) node[i] = -1;
+}
+
 int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape shape, int32_t part,
                         const int64_t *node, fl_err *err)
 {
@@ -119,6 +127,7 @@ int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape
         if (k < 0 && node[i] >= 1) return -1;
         e->connectivity[first + i] = k;
     }
+    drop_repeated_mids(shape, e->connectivity + first);
     /* an element without a number gets one that no file can refer to */
     k = id < 0 ? fl_id_map_add(&e->element_id, -1, e->element_id.n, err)
                : fl_id_map_add(&e->element_id, scope, id, err);

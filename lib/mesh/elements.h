@@ -42,7 +42,7 @@ enum fl_shape {
 
 typedef struct {
     int32_t first;   /* its nodes are connectivity[first .. first + fl_shape_nodes(shape)) */
-    int32_t part;    /* index in parts */
+    int32_t part;    /* index in parts; -1: not structure, counted in skipped */
     int32_t section; /* index in section, -1 for none; lines only */
     int32_t line;    /* of its definition, for messages; 0 in binary data */
     int32_t file;    /* index in files */
@@ -110,7 +110,8 @@ int32_t fl_elements_add_node(fl_elements *e, int32_t scope, int64_t id, fl_vec3 
  * defined later.
  *   id     its number, or -1 if nothing refers to it by number
  *   part   index in e->parts: fl_string_table_add(&e->parts, "name", err)
- *   node   [fl_shape_nodes(shape)] numbers of nodes in that scope, >= 1; < 1 omits a mid-side node
+ *   node   [fl_shape_nodes(shape)] numbers of nodes in that scope, >= 1; < 1, or the
+ *          number of a corner, omits a mid-side node
  * Returns its index, or -1 with FL_INPUT (a corner below 1) or FL_SYSTEM. */
 int32_t fl_elements_add(fl_elements *e, int32_t scope, int64_t id, enum fl_shape shape, int32_t part,
                         const int64_t *node, fl_err *err);

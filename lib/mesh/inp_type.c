@@ -6,19 +6,19 @@
 
 enum { SOLID, FACE, LINE, MID_LINE };
 
-/* The longest matching family counts: "STRI" before "S".  Line types are listed in full. */
+/* The longest matching family counts: "STRI" before "S".  Line types are listed in full.  Media that are not
+ * structure have none: acoustic (AC), flow (FC, DCC), Eulerian (EC), as in the other decks. */
 static const struct {
     const char *family;
     int kind;
 } FAMILY[] = {
-    {"C3D", SOLID},       {"AC3D", SOLID},      {"DC3D", SOLID},   {"DCC3D", SOLID},  {"EC3D", SOLID},
-    {"Q3D", SOLID},       {"SC", SOLID},        {"S", FACE},       {"STRI", FACE},    {"R3D", FACE},
-    {"M3D", FACE},        {"SFM3D", FACE},      {"DS", FACE},      {"CPS", FACE},     {"CPE", FACE},
-    {"CPEG", FACE},       {"DC2D", FACE},       {"AC2D", FACE},    {"T3D2", LINE},    {"T3D3", MID_LINE},
-    {"T2D2", LINE},       {"T2D3", MID_LINE},   {"B21", LINE},     {"B22", MID_LINE}, {"B23", LINE},
-    {"B31", LINE},        {"B32", MID_LINE},    {"B33", LINE},     {"PIPE21", LINE},  {"PIPE31", LINE},
-    {"PIPE22", MID_LINE}, {"PIPE32", MID_LINE}, {"ELBOW31", LINE}, {"FRAME2D", LINE}, {"ELBOW32", MID_LINE},
-    {"FRAME3D", LINE},    {"RB3D2", LINE}};
+    {"C3D", SOLID},        {"DC3D", SOLID},      {"Q3D", SOLID},       {"SC", SOLID},     {"S", FACE},
+    {"STRI", FACE},        {"R3D", FACE},        {"M3D", FACE},        {"SFM3D", FACE},   {"DS", FACE},
+    {"CPS", FACE},         {"CPE", FACE},        {"CPEG", FACE},       {"DC2D", FACE},    {"T3D2", LINE},
+    {"T3D3", MID_LINE},    {"T2D2", LINE},       {"T2D3", MID_LINE},   {"B21", LINE},     {"B22", MID_LINE},
+    {"B23", LINE},         {"B31", LINE},        {"B32", MID_LINE},    {"B33", LINE},     {"PIPE21", LINE},
+    {"PIPE31", LINE},      {"PIPE22", MID_LINE}, {"PIPE32", MID_LINE}, {"ELBOW31", LINE}, {"FRAME2D", LINE},
+    {"ELBOW32", MID_LINE}, {"FRAME3D", LINE},    {"RB3D2", LINE}};
 
 /* By kind and the digits behind the family; STRI65 counts its six nodes and five degrees of freedom. */
 static const struct {

@@ -45,7 +45,8 @@ typedef struct {
     fl_id_map pids; /* numbers of properties; until the end, the part of an element is an index in these */
     char **name;    /* [pids] names from comments, NULL for none */
     double (*radius)[2]; /* [pids] nan for none */
-    int32_t frame_cap, grid_cap, name_cap, radius_cap;
+    char *is_fluid;      /* [pids] 1: an acoustic fluid */
+    int32_t frame_cap, grid_cap, name_cap, radius_cap, fluid_cap;
 } bdf_reader;
 
 enum { OPEN = -1, DEFAULT = 0, BASIC = 1, FIRST = 2 };
@@ -80,11 +81,13 @@ static int32_t property_index(bdf_reader *r, int64_t pid, fl_err *err)
     const int32_t had = r->pids.n, k = fl_id_map_add(&r->pids, 0, pid, err);
     if (k < had) return k;
     if (fl_grow(&r->name, &r->name_cap, (int64_t)k + 1, sizeof *r->name, err) ||
-        fl_grow(&r->radius, &r->radius_cap, (int64_t)k + 1, sizeof *r->radius, err)) {
+        fl_grow(&r->radius, &r->radius_cap, (int64_t)k + 1, sizeof *r->radius, err) ||
+        fl_grow(&r->is_fluid, &r->fluid_cap, (int64_t)k + 1, 1, err)) {
         r->pids.n = had; /* no name to free */
         return -1;
     }
     r->name[k] = NULL;
+    r->is_fluid[k] = 0;
     r->radius[k][0] = r->radius[k][1] = NAN;
     return k;
 }
@@ -165,6 +168,19 @@ static int read_section(bdf_reader *r, fl_err *err)
     } else {
         r->radius[k][0] = r->radius[k][1] = listed ? x[0] : sqrt(x[0] / PI);
     }
+    return 0;
+}
+
+/* PSOLID PID MID CORDM IN STRESS ISOP FCTN: PFLUID and FFLUID are fluids, which are not structure. */
+static int read_solid_property(bdf_reader *r, fl_err *err)
+{
+    int64_t pid;
+    int32_t k;
+    if (fl_bdf_id(&r->at, 0, &pid, err)) return -1;
+    k = property_index(r, pid, err);
+    if (k < 0) return -1;
+    r->is_fluid[k] = strcasecmp(fl_bdf_field(&r->at, 6), "PFLUID") == 0 ||
+                     strcasecmp(fl_bdf_field(&r->at, 6), "FFLUID") == 0;
     return 0;
 }
 
@@ -386,12 +402,31 @@ static int has_no_surface(const char *name)
     return 0;
 }
 
+/* True for a model of its own behind BEGIN: [BULK] SUPER=1, AUXMODEL=1, ARBMODEL=1, MODULE=1.  SUPER=0 is the
+ * residual structure itself. */
+static int begins_other_model(const char *line, const char **what)
+{
+    static const char *const model[] = {"SUPER", "AUXMODEL", "ARBMODEL", "MODULE"};
+    const char *p = line + strspn(line, " \t") + 5;
+    p += strspn(p, " \t,");
+    if (strncasecmp(p, "BULK", 4) == 0) p += 4 + strspn(p + 4, " \t,");
+    for (size_t k = 0; k < sizeof model / sizeof *model; k++) {
+        const size_t n = strlen(model[k]);
+        const char *number = p + n;
+        if (strncasecmp(p, model[k], n) != 0 || isalpha((unsigned char)p[n])) continue;
+        *what = model[k];
+        number += strspn(number, " \t=");
+        return strspn(number, "0") == 0 || isdigit((unsigned char)number[strspn(number, "0")]);
+    }
+    return 0;
+}
+
 /* --- the deck ------------------------------------------------------------------------------------------- */
 
 static int read_entry(bdf_reader *r, fl_err *err)
 {
     const fl_bdf_entry *a = &r->at;
-    const char *name = a->name;
+    const char *name = a->name, *what;
     int64_t cp;
     if (strcmp(name, "GRID") == 0) return read_grid(r, err);
     for (size_t k = 0; k < sizeof ELEMENT / sizeof *ELEMENT; k++)
@@ -410,9 +445,10 @@ static int read_entry(bdf_reader *r, fl_err *err)
         return read_section(r, err);
     if (name[0] == '=')
         return fl_bdf_fail(a, err, "replication (=) is not read: export all grids and elements written out");
-    if (strcmp(name, "BEGIN") == 0 &&
-        strncasecmp(a->deck.line + 5 + strspn(a->deck.line + 5, " \t"), "SUPER", 5) == 0)
-        return fl_bdf_fail(a, err, "BEGIN SUPER is not read: export the model without superelements");
+    if (strcmp(name, "BEGIN") == 0 && begins_other_model(a->deck.line, &what))
+        return fl_bdf_fail(a, err, "BEGIN %s is not read: export one model, without superelements or others",
+                           what);
+    if (strcmp(name, "PSOLID") == 0) return read_solid_property(r, err);
     if (has_no_surface(name)) return fl_elements_skip(&r->e, name, err);
     return 0;
 }
@@ -438,6 +474,11 @@ static int name_parts(bdf_reader *r, fl_err *err)
     for (int32_t i = 0; i < r->e.element_id.n; i++) {
         fl_element *el = &r->e.element[i];
         const int32_t k = el->part;
+        if (r->is_fluid[k]) {
+            el->part = -1;
+            if (fl_elements_skip(&r->e, "solids of PFLUID", err)) goto done;
+            continue;
+        }
         if (part[k] < 0) {
             const long long pid = r->pids.id[k];
             char name[NAME_MAX + 40];
@@ -471,6 +512,7 @@ static void free_reader(bdf_reader *r)
     free(r->grid);
     free(r->name);
     free(r->radius);
+    free(r->is_fluid);
 }
 
 int fl_bdf_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
@@ -484,6 +526,8 @@ int fl_bdf_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     while ((more = fl_bdf_next(&r.at, err)) > 0)
         if (read_entry(&r, err)) goto done;
     if (more < 0) goto done;
+    if (r.at.missing)
+        fl_bytes_note(b, "%d INCLUDE before BEGIN BULK could not be read and were skipped", r.at.missing);
     fl_bdf_entry_free(&r.at); /* saves the memory of a second copy of a large deck */
     free(b->data);
     b->data = NULL;

@@ -21,10 +21,12 @@ int fl_bdf_is(const fl_bytes *b);
  *     CBAR CBEAM CROD CTUBE CONROD      with the radius of PTUBE, PBARL and PBEAML (ROD, TUBE, TUBE2), or
  *                                       that of a circle of the area of PROD and CONROD.  PBAR, PBEAM and
  *                                       other sections give none: skipped with a remark
- *     INCLUDE, BEGIN BULK, ENDDATA      BEGIN BULK may be absent; nothing behind ENDDATA is read
+ *     INCLUDE, BEGIN BULK, ENDDATA      BEGIN BULK may be absent; nothing behind ENDDATA is read.  Before
+ *                                       BEGIN BULK a file that cannot be included is skipped, with a remark
  *
- * Other elements are counted, other entries ignored.  BEGIN SUPER, replication (=) and undefined references
- * are rejected.  Each property is a part, called "property_7" or by the name that HyperMesh ($HMNAME PROP),
+ * Other elements are counted, and so are fluids (PSOLID with PFLUID); other entries are ignored.  Models of
+ * their own (BEGIN [BULK] SUPER, AUXMODEL, ARBMODEL, MODULE), replication (=) and undefined references are
+ * rejected.  Each property is a part, called "property_7" or by the name that HyperMesh ($HMNAME PROP),
  * ANSA ($ANSA_NAME_COMMENT) or Femap ($ Femap Property) leaves in a comment; CONROD elements are the part
  * "conrod".
  *   name   not used: every element has a property or is a CONROD

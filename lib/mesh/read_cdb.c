@@ -28,9 +28,10 @@ static int command_at(const char *p, const char *word)
 int fl_cdb_is(const fl_bytes *b)
 {
     for (const char *p = b->data; *p;) {
-        if (command_at(p, "NBLOCK") || command_at(p, "EBLOCK")) return 1;
+        const int block = command_at(p, "NBLOCK") || command_at(p, "EBLOCK");
         p += strcspn(p, "\r\n");
         p += strspn(p, "\r\n");
+        if (block && strchr("(0123456789", p[strspn(p, " \t")])) return 1; /* or the end of the file */
     }
     return 0;
 }
@@ -125,13 +126,16 @@ static int reject_unblocked(cdb_reader *c, fl_err *err)
                         c->k.word[0], c->k.word[1]);
 }
 
+/* N,R5.3,LOC,-1 and EN,R5.5,ATTR,-1 end the block before them in archives of some releases. */
+static int is_end_mark(const cdb_reader *c) { return strcmp(c->k.word[3], "-1") == 0; }
+
 static int read_n(cdb_reader *c, fl_err *err)
 {
     int64_t id;
     fl_vec3 x = {0};
     double *const at[3] = {&x.x, &x.y, &x.z};
     if (strncasecmp(c->k.word[1], "R5", 2) == 0) {
-        if (strcmp(c->k.word[3], "-1") == 0) return 0; /* end of the preceding NBLOCK */
+        if (is_end_mark(c)) return 0;
         return reject_unblocked(c, err);
     }
     if (parse_number(c, c->k.word[1], &id) || id < 1) {
@@ -166,7 +170,8 @@ static int read_e(cdb_reader *c, int numbered, fl_err *err)
 {
     const int from = numbered ? 2 : 1;
     int64_t id = -1;
-    if (numbered && strncasecmp(c->k.word[1], "R5", 2) == 0) return reject_unblocked(c, err);
+    if (numbered && strncasecmp(c->k.word[1], "R5", 2) == 0)
+        return is_end_mark(c) ? 0 : reject_unblocked(c, err);
     if (numbered && (parse_number(c, c->k.word[1], &id) || id < 1)) {
         c->unread++;
         return 0;
@@ -286,6 +291,8 @@ int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     if (k->part < 0 || read_commands(&c, err) || fl_cdb_section_apply(&k->sections, &k->e, err) ||
         fl_cdb_component_assign(&k->components, &k->e, fl_import_by_name(opt), err))
         goto done;
+    if (k->other_sets)
+        fl_bytes_note(b, "%d components of key points, lines, areas or volumes were skipped", k->other_sets);
     if (k->node_sets) fl_bytes_note(b, "%d components of nodes were skipped", k->node_sets);
     if (c.unread) fl_bytes_note(b, "%d commands with parameters that are not numbers were skipped", c.unread);
     rc = fl_elements_surface(&k->e, s, b, opt, err);

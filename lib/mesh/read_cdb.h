@@ -7,7 +7,8 @@
 #include "mesh/bytes.h"
 #include "mesh/import_options.h"
 
-/* True if a line of b is an NBLOCK or EBLOCK command. */
+/* True if a line of b is an NBLOCK or EBLOCK command and the next one a format like (3i9,6e21.13) or
+ * numbers. */
 int fl_cdb_is(const fl_bytes *b);
 
 /* Add the surface of the archive to s.  Read are
@@ -16,9 +17,9 @@ int fl_cdb_is(const fl_bytes *b);
  *      SOLID or without (a row is then: element, type, real, material, system, nodes)
  *   ET, KEYOPT, R, SECTYPE, SECDATA, TYPE, REAL, SECNUM, N, E, EN, EMORE, *SET and NAME=number
  * and all else is ignored.  The routine of its type gives the shape of an element.  An element whose routine
- * is unknown or has no surface (contact, surface effect, spring, mass) is counted in a remark.  Solids and
- * shells with repeated nodes collapse to simpler shapes.  A line has the outer radius of its section (PIPE,
- * BEAM of subtype CTUBE or CSOLID) or, for PIPE16, 20 and 59, of its real constants.
+ * is unknown or has no surface (contact, surface effect, spring, mass, fluid) is counted in a remark.  Solids
+ * and shells with repeated nodes collapse to simpler shapes.  A line has the outer radius of its section
+ * (PIPE, BEAM of subtype CTUBE or CSOLID) or, for PIPE16, 20 and 59, of its real constants.
  * An element belongs to the part of the smallest component that holds it, or to the part `name` if none does.
  * Each component of elements can be selected as a set.
  *   b     its lines are split in place

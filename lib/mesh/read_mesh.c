@@ -17,6 +17,7 @@
 #include "mesh/read_stl.h"
 #include "mesh/read_vtk.h"
 #include "mesh/read_vtk_xml.h"
+#include "mesh/single_precision.h"
 
 enum { NAME_MAX = 128 };
 
@@ -162,6 +163,20 @@ static int append_surface(fl_surface *to, fl_surface *from, fl_err *err)
     return 0;
 }
 
+/* Add a remark if the coordinates are of single precision, which is coarse beside the size of the box. */
+static void check_precision(const fl_surface *s, fl_bytes *b)
+{
+    static const double COARSE = 1e-5; /* of the diagonal */
+    const fl_aabb box = fl_surface_aabb(s);
+    const double size = s->n ? v3_norm(v3_sub(box.hi, box.lo)) : 0.0, spacing = fl_single_spacing(box);
+    if (!(spacing > COARSE * size) || !fl_single_is_all(s)) return;
+    fl_bytes_note(
+        b,
+        "coordinates are of single precision, which are %.3g apart so far from the origin, and the box "
+        "is %.4g across, in the unit of the file: write it with more digits, or nearer to the origin",
+        spacing, size);
+}
+
 int fl_mesh_read(fl_surface *s, const char *path, fl_import_options *opt, char *note, fl_err *err)
 {
     fl_bytes b = {0};
@@ -172,6 +187,7 @@ int fl_mesh_read(fl_surface *s, const char *path, fl_import_options *opt, char *
     base_name(path, name);
     if (fl_bytes_open(&b, path, err) || read_any(&got, &b, name, opt, err)) goto done;
     drop_empty_parts(&got, &b);
+    check_precision(&got, &b);
     memcpy(note, b.note, FL_MESH_NOTE);
     if (got.n == 0 && !fl_import_by_name(opt)) {
         fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);

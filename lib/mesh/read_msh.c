@@ -83,11 +83,24 @@ typedef struct {
 
 static const char *skip_space(const fl_bytes *b) { return b->data + strspn(b->data, " \t\r\n"); }
 
+/* The first line that is not blank behind the line at p. */
+static const char *second_line(const char *p)
+{
+    p += strcspn(p, "\r\n");
+    return p + strspn(p, " \t\r\n");
+}
+
+/* "$NODES" may also be a comment of a Nastran deck: the word alone on its line and what follows it decide. */
 int fl_msh_is(const fl_bytes *b)
 {
-    static const char *const section[] = {"$MeshFormat", "$Comments", "$NOD", "$PhysicalNames"};
+    static const char *const section[] = {"$MeshFormat", "$NOD", "$PhysicalNames"};
+    const char *p = skip_space(b), *next = second_line(p);
+    const size_t n = strcspn(p, " \t\r\n"), end = n + strspn(p + n, " \t");
+    if (p[end] != '\0' && p[end] != '\r' && p[end] != '\n') return 0;
+    if (n == 9 && strncmp(p, "$Comments", n) == 0) return strstr(next, "$EndComments") != NULL;
     for (size_t k = 0; k < sizeof section / sizeof section[0]; k++)
-        if (strncmp(skip_space(b), section[k], strlen(section[k])) == 0) return 1;
+        if (n == strlen(section[k]) && strncmp(p, section[k], n) == 0)
+            return *next == '\0' || (*next >= '0' && *next <= '9');
     return 0;
 }
 
@@ -339,6 +352,24 @@ static int read_node_block(msh_reader *m, fl_err *err)
     return 0;
 }
 
+/* $ParametricNodes of version 2: number, x y z, dimension and tag of the entity, and its parameters: one on a
+ * curve, two on a surface. */
+static int read_parametric_nodes(msh_reader *m, fl_err *err)
+{
+    int64_t tag, dim, entity;
+    if (m->version != 2) return fail_at_position(m, err, "$ParametricNodes belongs to version 2");
+    for (int64_t i = 0; i < m->tag[0]; i++) {
+        if (read_int(m, "the number of a node", &tag, err) || read_node(m, tag, err) ||
+            read_int(m, "a dimension", &dim, err) || read_int(m, "an entity", &entity, err))
+            return -1;
+        if (dim < 0 || dim >= DIMS)
+            return fail_at_position(m, err, "node %lld lies on an entity of dimension %lld", (long long)tag,
+                                    (long long)dim);
+        if (skip_numbers(m, 1, dim < 3 ? dim : 0, err)) return -1;
+    }
+    return 0;
+}
+
 static int read_nodes(msh_reader *m, fl_err *err)
 {
     int64_t blocks, n, x, tag;
@@ -363,6 +394,9 @@ static int check_type(const msh_reader *m, int64_t type, fl_err *err)
                             (long long)type);
 }
 
+/* Number of a node of an element; 0 for an omitted one. */
+static int64_t number_of(const msh_reader *m, int32_t node) { return node < 0 ? 0 : m->e.node_id.id[node]; }
+
 /* True if the element repeats the last one.  In version 2 an element in several groups is listed once for
  * each, consecutively, each time with another number. */
 static int repeats_last(const msh_reader *m, int type, const int64_t *node)
@@ -371,7 +405,8 @@ static int repeats_last(const msh_reader *m, int type, const int64_t *node)
     const int n = fl_shape_nodes((enum fl_shape)TYPE[type].shape);
     if (m->version != 2 || k < 0 || m->e.element[k].shape != TYPE[type].shape) return 0;
     for (int i = 0; i < n; i++)
-        if (m->e.node_id.id[m->e.connectivity[m->e.element[k].first + i]] != node[i]) return 0;
+        if (number_of(m, m->e.connectivity[m->e.element[k].first + i]) != (node[i] < 1 ? 0 : node[i]))
+            return 0;
     return 1;
 }
 
@@ -397,7 +432,7 @@ static int read_element(msh_reader *m, int type, int64_t id, int32_t of, fl_err 
     if (type == 15) return fl_elements_skip(&m->e, "point", err);
     for (int i = 0; i < fl_shape_nodes((enum fl_shape)TYPE[type].shape); i++) {
         mine[i] = node[TYPE[type].at ? TYPE[type].at[i] : i];
-        if (mine[i] < 1)
+        if (mine[i] < 1 && i < fl_shape_corners((enum fl_shape)TYPE[type].shape))
             return fail_at_position(m, err, "element %lld has node %lld, a tag of 1 or more is expected",
                                     (long long)id, (long long)mine[i]);
     }
@@ -569,6 +604,9 @@ static int read_section(msh_reader *m, const char *section, fl_err *err)
         return read_entities(m, 1, err) || read_section_end(m, section, err) ? -1 : 0;
     if (strcmp(section, "$Nodes") == 0)
         return read_count(m, err) || read_nodes(m, err) || read_section_end(m, section, err) ? -1 : 0;
+    if (strcmp(section, "$ParametricNodes") == 0)
+        return read_count(m, err) || read_parametric_nodes(m, err) || read_section_end(m, section, err) ? -1
+                                                                                                        : 0;
     if (strcmp(section, "$Elements") == 0)
         return read_count(m, err) || read_elements(m, err) || read_section_end(m, section, err) ? -1 : 0;
     return skip_section(m, section, err);

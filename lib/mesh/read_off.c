@@ -51,34 +51,49 @@ static int read_count(fl_bytes *b, const char *what, int32_t *n, fl_err *err)
     return 0;
 }
 
-static int read_vertex(fl_bytes *b, fl_part *p, int homogeneous, fl_err *err)
+/* Read the next word of vertex or face number k of n, which may stand on several lines. */
+static int read_item(fl_bytes *b, const char *what, int32_t k, int32_t n, const char **word, fl_err *err)
 {
-    fl_vec3 x = {0};
-    double w = 1.0;
-    if (fl_bytes_f64_at(b, 0, "x", &x.x, err) || fl_bytes_f64_at(b, 1, "y", &x.y, err) ||
-        fl_bytes_f64_at(b, 2, "z", &x.z, err) || (homogeneous && fl_bytes_f64_at(b, 3, "w", &w, err)))
-        return -1;
-    x = v3(x.x / w, x.y / w, x.z / w);
-    if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(x.z))
-        return fl_bytes_fail(b, err, "the vertex lies at infinity (w is %g)", w);
-    return fl_surface_vertex(p, x, err);
+    const int more = fl_bytes_word(b, word, err);
+    if (more == 0) fl_bytes_fail(b, err, "the file ends after %d of %d %s", k, n, what);
+    return more > 0 ? 0 : -1;
 }
 
-static int read_face(fl_bytes *b, fl_part *p, int32_t **loop, int32_t *cap, fl_err *err)
+static int read_vertex(fl_bytes *b, fl_part *p, int32_t v, int32_t n, int homogeneous, fl_err *err)
 {
+    static const char *const name[] = {"x", "y", "z", "w"};
+    double x[4] = {0.0, 0.0, 0.0, 1.0};
+    const char *word = "";
+    for (int k = 0; k < 3 + homogeneous; k++) {
+        if (read_item(b, "vertices", v, n, &word, err)) return -1;
+        if (fl_number_f64(word, &x[k]))
+            return fl_bytes_fail(b, err, "%s is \"%.40s\", a finite number is expected", name[k], word);
+    }
+    const fl_vec3 at = v3(x[0] / x[3], x[1] / x[3], x[2] / x[3]);
+    if (!isfinite(at.x) || !isfinite(at.y) || !isfinite(at.z))
+        return fl_bytes_fail(b, err, "the vertex lies at infinity (w is %g)", x[3]);
+    return fl_surface_vertex(p, at, err);
+}
+
+static int read_face(fl_bytes *b, fl_part *p, int32_t f, int32_t faces, int32_t **loop, int32_t *cap,
+                     fl_err *err)
+{
+    const char *word = "";
     int32_t n = 0;
-    if (fl_number_i32(b->field[0], 0, INT32_MAX, &n))
+    if (read_item(b, "faces", f, faces, &word, err)) return -1;
+    if (fl_number_i32(word, 0, INT32_MAX, &n))
         return fl_bytes_fail(b, err, "the number of corners is \"%.40s\", a whole number >= 0 is expected",
-                             b->field[0]);
+                             word);
     if (n > FL_FACET_CORNERS)
         return fl_bytes_fail(b, err, "a face of %d corners, at most %d are expected", n, FL_FACET_CORNERS);
-    if (n > b->words - 1) return fl_bytes_fail(b, err, "the face has %d of its %d corners", b->words - 1, n);
     if (n < 3) return 0; /* a point or an edge */
     if (fl_grow(loop, cap, n, sizeof **loop, err)) return -1;
-    for (int32_t k = 0; k < n; k++)
-        if (fl_number_i32(b->field[k + 1], 0, p->nv - 1, &(*loop)[k]))
-            return fl_bytes_fail(b, err, "vertex index \"%.40s\" was found, 0 to %d is expected",
-                                 b->field[k + 1], p->nv - 1);
+    for (int32_t k = 0; k < n; k++) {
+        if (read_item(b, "faces", f, faces, &word, err)) return -1;
+        if (fl_number_i32(word, 0, p->nv - 1, &(*loop)[k]))
+            return fl_bytes_fail(b, err, "vertex index \"%.40s\" was found, 0 to %d is expected", word,
+                                 p->nv - 1);
+    }
     return fl_facet_polygon(p, n, *loop, err);
 }
 
@@ -101,14 +116,8 @@ static int read_head(fl_bytes *b, int *homogeneous, int32_t n[2], fl_err *err)
     return read_count(b, "vertices", &n[0], err) || read_count(b, "faces", &n[1], err) ? -1 : 0;
 }
 
-/* Read the next row: `what` number k of n. */
-static int read_required_row(fl_bytes *b, const char *what, int32_t k, int32_t n, fl_err *err)
-{
-    const int more = fl_bytes_row(b, err);
-    if (more > 0) return 0;
-    if (more == 0) fl_bytes_fail(b, err, "the file ends after %d of %d %s", k, n, what);
-    return -1;
-}
+/* Ignore the rest of the row: colours and normals. */
+static void skip_rest(fl_bytes *b) { b->next = b->words; }
 
 int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err)
 {
@@ -119,12 +128,11 @@ int fl_off_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     if (read_head(b, &homogeneous, n, err)) return -1;
     i = fl_surface_add(s, name, strlen(name), err);
     if (i < 0) return -1;
-    for (int32_t v = 0; v < n[0]; v++)
-        if (read_required_row(b, "vertices", v, n[0], err) || read_vertex(b, &s->part[i], homogeneous, err))
-            goto done;
-    for (int32_t f = 0; f < n[1]; f++)
-        if (read_required_row(b, "faces", f, n[1], err) || read_face(b, &s->part[i], &loop, &cap, err))
-            goto done;
+    skip_rest(b); /* the number of edges */
+    for (int32_t v = 0; v < n[0]; v++, skip_rest(b))
+        if (read_vertex(b, &s->part[i], v, n[0], homogeneous, err)) goto done;
+    for (int32_t f = 0; f < n[1]; f++, skip_rest(b))
+        if (read_face(b, &s->part[i], f, n[1], &loop, &cap, err)) goto done;
     rc = fl_bytes_row(b, err); /* rows left over by a wrong count must not be lost silently */
     if (rc > 0) rc = fl_bytes_fail(b, err, "a row follows the last of %d faces", n[1]);
 done:

@@ -34,6 +34,8 @@ void fl_skin_free(fl_skin *k)
     free(k->pick);
     free(k->owner);
     free(k->local);
+    fl_id_map_free(&k->edge);
+    free(k->edge_mid);
     fl_part_free(&k->pool);
     *k = (fl_skin){0};
 }
@@ -103,6 +105,47 @@ static int32_t mid_node(const fl_elements *e, const fl_element *el, int a, int b
         if ((p[0] - '0' == a && p[1] - '0' == b) || (p[0] - '0' == b && p[1] - '0' == a))
             return e->connectivity[el->first + k];
     return -1;
+}
+
+/* The edge between two nodes as a key of k->edge. */
+static int64_t edge_key(int32_t a, int32_t b) { return a < b ? b : a; }
+
+/* Record the mid-side node of each edge, if some elements omit theirs: a face whose element omits it gets
+ * that of its neighbour, or the surface would gape along the edge. */
+static int record_mids(fl_skin *k, fl_err *err)
+{
+    const fl_elements *e = k->e;
+    int omitted = 0;
+    for (int32_t i = 0; i < e->connectivity_n; i++) omitted |= e->connectivity[i] < 0;
+    if (!k->subdivide || !omitted) return 0;
+    for (int32_t i = 0; i < e->element_id.n; i++) {
+        const fl_element *el = &e->element[i];
+        const int32_t *node = e->connectivity + el->first;
+        const char *p = mid_edges((enum fl_shape)el->shape);
+        for (int m = fl_shape_corners((enum fl_shape)el->shape); *p; p += 2, m++) {
+            const int32_t a = node[p[0] - '0'], b = node[p[1] - '0'], had = k->edge.n;
+            int32_t at;
+            if (node[m] < 0 || a == b) continue;
+            at = fl_id_map_add(&k->edge, a < b ? a : b, edge_key(a, b), err);
+            if (at < 0 || fl_grow(&k->edge_mid, &k->edge_cap, k->edge.n, sizeof *k->edge_mid, err)) return -1;
+            if (at >= had) k->edge_mid[at] = node[m];
+        }
+    }
+    return 0;
+}
+
+/* Complete the ring by the mid-side nodes of neighbours.  A node in the middle of two edges is in none. */
+static void complete_mids(const fl_skin *k, face_ring *r)
+{
+    for (int i = 0; i < r->n; i++) {
+        const int32_t a = r->corner[i], b = r->corner[(i + 1) % r->n];
+        const int32_t at =
+            r->mid[i] < 0 && k->edge.n ? fl_id_map_find(&k->edge, a < b ? a : b, edge_key(a, b)) : -1;
+        if (at >= 0) r->mid[i] = k->edge_mid[at];
+    }
+    for (int i = 1; i < r->n; i++)
+        for (int j = 0; j < i; j++)
+            if (r->mid[i] >= 0 && r->mid[i] == r->mid[j]) r->mid[i] = r->mid[j] = -1;
 }
 
 /* The boundary of a face of a solid, or of a shell (face < 0), in the order of the element.  Repeated corners
@@ -230,6 +273,7 @@ static int add_face(fl_skin *k, fl_part *p, int32_t target, int32_t element, int
     face_ring r = ring_of(e, el, face);
     int mids = 0;
     if (r.n < 3) return 0;
+    complete_mids(k, &r);
     if (turn) reverse_ring(&r);
     for (int i = 0; i < r.n; i++) {
         if (check_defined(e, el, r.corner[i], err) || check_defined(e, el, r.mid[i], err)) return -1;
@@ -355,7 +399,8 @@ int fl_skin_emit(fl_skin *k, fl_surface *s, fl_err *err)
     const int32_t targets = e->parts.n + e->sets.n;
     int32_t *first = NULL, *list = NULL, *pick_first = NULL, *pick_list = NULL;
     int rc = -1;
-    if (fl_group_by_target(e->element_id.n, targets, k->target, 1, &first, &list, err) ||
+    if (record_mids(k, err) ||
+        fl_group_by_target(e->element_id.n, targets, k->target, 1, &first, &list, err) ||
         fl_group_by_target(k->picks, targets, k->picks ? &k->pick[0].target : NULL,
                            (int)(sizeof *k->pick / sizeof(int32_t)), &pick_first, &pick_list, err))
         goto done;

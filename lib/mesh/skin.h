@@ -25,9 +25,11 @@ typedef struct {
     int32_t *dropped_of;      /* [targets] elements dropped as duplicates of those of the target */
     fl_skin_face *pick;       /* [picks] */
     int32_t picks, pick_cap;
-    int subdivide, by_name;           /* by_name: parts are selected by name */
-    int mixed;                        /* shells may lie on solids, or on shells of another part */
-    int32_t *owner, *local;           /* [nodes] last target that used the node, plus one; its vertex there */
+    int subdivide, by_name; /* by_name: parts are selected by name */
+    int mixed;              /* shells may lie on solids, or on shells of another part */
+    int32_t *owner, *local; /* [nodes] last target that used the node, plus one; its vertex there */
+    fl_id_map edge;         /* edges by their lower and higher node, if some mid-side nodes are omitted */
+    int32_t *edge_mid, edge_cap;      /* [edge.n] their mid-side nodes */
     fl_part pool;                     /* corners of the current face */
     int32_t lines_without_radius;     /* or without a length */
     int32_t curved;                   /* quadratic faces whose mid-side nodes were dropped */

@@ -299,10 +299,20 @@ bool unite(Mesh &a, const Mesh &b, double tol, uint32_t &state)
     return false;
 }
 
-bool bodies_intersect(const Mesh &a, const Mesh &b)
+/* A patch of the soup, the shell that it belongs to, and its group: the patches that intersect, directly or
+ * through others. */
+struct Patch {
+    Mesh mesh;
+    CGAL::Bbox_3 box;
+    int32_t shell = 0;
+    std::size_t group = 0;
+    explicit Patch(const Mesh &m, int32_t of) : mesh(m), box(PMP::bbox(m)), shell(of) {}
+};
+
+bool bodies_intersect(const Patch &a, const Patch &b)
 {
-    return !a.is_empty() && !b.is_empty() && CGAL::do_overlap(PMP::bbox(a), PMP::bbox(b)) &&
-           PMP::do_intersect(a, b);
+    return !a.mesh.is_empty() && !b.mesh.is_empty() && CGAL::do_overlap(a.box, b.box) &&
+           PMP::do_intersect(a.mesh, b.mesh);
 }
 
 /* True if m is closed, oriented outward and free of self-intersections: a valid operand of a union. */
@@ -311,32 +321,90 @@ bool is_solid(const Mesh &m)
     return !m.is_empty() && CGAL::is_closed(m) && is_outward(m) && !PMP::does_self_intersect(m);
 }
 
+std::size_t root_of(const std::vector<Patch> &patch, std::size_t i)
+{
+    while (patch[i].group != i) i = patch[i].group;
+    return i;
+}
+
+void join_groups(std::vector<Patch> &patch, std::size_t i, std::size_t j)
+{
+    const std::size_t a = root_of(patch, i), b = root_of(patch, j);
+    patch[std::max(a, b)].group = std::min(a, b);
+}
+
+/* Finds the groups of the patches as given.  Patches of one shell are in one group. */
+void find_groups(std::vector<Patch> &patch)
+{
+    for (std::size_t i = 0; i < patch.size(); i++) patch[i].group = i;
+    for (std::size_t i = 0; i < patch.size(); i++)
+        for (std::size_t j = i + 1; j < patch.size(); j++)
+            if (patch[i].shell == patch[j].shell ||
+                (root_of(patch, i) != root_of(patch, j) && bodies_intersect(patch[i], patch[j])))
+                join_groups(patch, i, j);
+    for (std::size_t i = 0; i < patch.size(); i++) patch[i].group = root_of(patch, i);
+}
+
+/* Winding number of a closed mesh about x, which is not on it, by solid angles: van Oosterom and Strackee,
+ * IEEE Trans. Biomed. Eng. 30 (1983) 125. */
+double winding_number(const Mesh &m, const Point &x)
+{
+    double sum = 0.0;
+    for (const auto f : m.faces()) {
+        const auto c = corners_of(m, f);
+        const Kernel::Vector_3 u(x, c[0]), v(x, c[1]), w(x, c[2]);
+        const double lu = std::sqrt(u * u), lv = std::sqrt(v * v), lw = std::sqrt(w * w);
+        sum += std::atan2(u * CGAL::cross_product(v, w),
+                          lu * lv * lw + (u * v) * lw + (v * w) * lu + (w * u) * lv);
+    }
+    return sum / 6.283185307179586;
+}
+
+/* Solids of a group intersected others of it, so they are not cavities: one that now lies inside the union of
+ * others is dropped.  True if b was inside a. */
+bool swallow(const Patch &a, Patch &b)
+{
+    if (!CGAL::do_overlap(a.box, b.box) ||
+        std::fabs(winding_number(a.mesh, b.mesh.point(*b.mesh.vertices().begin()))) < 0.5)
+        return false;
+    b.mesh.clear();
+    return true;
+}
+
 /* Unites solids until no two that can be united intersect. */
-void unite_all(std::vector<Mesh> &patch, double tol, fl_untangle *did)
+void unite_all(std::vector<Patch> &patch, double tol, fl_untangle *did)
 {
     uint32_t state = 1;
     std::vector<bool> can;
-    for (const Mesh &m : patch) can.push_back(is_solid(m));
+    for (const Patch &p : patch) can.push_back(is_solid(p.mesh));
     for (std::size_t i = 0; i < patch.size(); i++) {
         std::vector<bool> tried(patch.size(), false); /* for the present patch[i] */
         for (std::size_t j = i + 1; j < patch.size() && can[i]; j++) {
-            if (!can[j] || tried[j] || !bodies_intersect(patch[i], patch[j])) continue;
+            if (!can[j] || tried[j] || patch[i].group != patch[j].group ||
+                !bodies_intersect(patch[i], patch[j]))
+                continue;
             tried[j] = true;
-            if (!unite(patch[i], patch[j], tol, state)) continue;
-            patch[j].clear();
+            if (!unite(patch[i].mesh, patch[j].mesh, tol, state)) continue;
+            patch[i].box = PMP::bbox(patch[i].mesh);
+            patch[j].mesh.clear();
             did->joined++;
             tried.assign(patch.size(), false); /* a union extends farther than its operands */
             j = i;
         }
     }
     for (std::size_t i = 0; i < patch.size(); i++)
-        for (std::size_t j = i + 1; j < patch.size(); j++)
-            did->failed += bodies_intersect(patch[i], patch[j]);
+        for (std::size_t j = 0; j < patch.size(); j++) {
+            if (i == j || patch[i].group != patch[j].group || patch[i].mesh.is_empty() ||
+                patch[j].mesh.is_empty())
+                continue;
+            if (bodies_intersect(patch[i], patch[j])) did->failed += i < j;
+            else if (can[i] && can[j]) did->joined += swallow(patch[i], patch[j]);
+        }
 }
 
 /* Converts each shell separately, so that none is cut where others share its edges.  Closed patches are
  * oriented outward. */
-int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Mesh> &patch, double &diagonal,
+int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Patch> &patch, double &diagonal,
                fl_err *err)
 {
     std::vector<Point> points;
@@ -360,26 +428,30 @@ int to_patches(const fl_soup *s, const int32_t *shell, std::vector<Mesh> &patch,
         PMP::split_connected_components(m, pieces);
         for (Mesh &p : pieces) {
             if (CGAL::is_closed(p) && !is_outward(p)) PMP::reverse_face_orientations(p);
-            patch.push_back(p);
+            patch.emplace_back(p, one.first);
         }
     }
     return 0;
 }
 
-int untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
+int untangle(fl_soup *s, const int32_t *shell, int32_t *group, fl_untangle *did, fl_err *err)
 {
     Mesh result;
-    std::vector<Mesh> patch;
+    std::vector<Patch> patch;
+    std::map<int32_t, int32_t> group_of;
     double diagonal;
     if (to_patches(s, shell, patch, diagonal, err)) return -1;
-    for (Mesh &m : patch) {
-        if (!PMP::does_self_intersect(m)) continue;
-        if (rebuild(m, did)) did->rebuilt++;
+    find_groups(patch);
+    for (const Patch &p : patch) group_of[p.shell] = patch[p.group].shell;
+    for (int32_t t = 0; t < s->nt; t++) group[t] = group_of.count(shell[t]) ? group_of[shell[t]] : shell[t];
+    for (Patch &p : patch) {
+        if (!PMP::does_self_intersect(p.mesh)) continue;
+        if (rebuild(p.mesh, did)) did->rebuilt++;
         else did->failed++;
     }
     unite_all(patch, FL_UNTANGLE_SHORT_EDGE * diagonal, did);
     if (did->joined + did->rebuilt == 0) return 0;
-    for (const Mesh &m : patch) result.join(m);
+    for (const Patch &p : patch) result.join(p.mesh);
     return write_back(s, result, err);
 }
 } // namespace
@@ -397,8 +469,10 @@ extern "C" void fl_soup_free(fl_soup *s)
     *s = fl_soup{0, 0, nullptr, nullptr};
 }
 
-extern "C" int fl_cgal_untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err)
+extern "C" int fl_cgal_untangle(fl_soup *s, const int32_t *shell, int32_t *group, fl_untangle *did,
+                                fl_err *err)
 {
     *did = fl_untangle{0, 0, 0, 0.0};
-    return run_guarded("repair of crossings", s->nt, err, [&] { return untangle(s, shell, did, err); });
+    return run_guarded("repair of crossings", s->nt, err,
+                       [&] { return untangle(s, shell, group, did, err); });
 }

@@ -22,10 +22,13 @@ typedef struct {
  * edges and checked.  If the result is not valid, one of the bodies is enlarged slightly first
  * (FL_UNTANGLE_SHORT_EDGE, FL_UNTANGLE_SWELL).  A self-intersecting patch loses the triangles concerned and
  * some around them, and the hole is filled.  Open patches that intersect others are not changed.
+ * A body that intersects another one is solid: one that lies in the union of others is dropped, whatever the
+ * order of the bodies.  A body that intersects none may be a cavity and stays.
  *   s      x and t from malloc() or fl_alloc(); replaced if something was done
  *   shell  [s->nt] number of the body of each triangle: a body is not cut where others share its edges
+ *   group  [s->nt as given] out: one shell of those that intersect, directly or through others
  * Returns 0, or -1 with FL_NUMERIC or FL_SYSTEM, and s unchanged.
  * Source: Loriot et al., CGAL 5.5, corefinement and repair of self-intersections. */
-int fl_cgal_untangle(fl_soup *s, const int32_t *shell, fl_untangle *did, fl_err *err);
+int fl_cgal_untangle(fl_soup *s, const int32_t *shell, int32_t *group, fl_untangle *did, fl_err *err);
 
 #endif

@@ -6,6 +6,7 @@
 #include "base/array.h"
 #include "base/pi.h"
 #include "base/rng.h"
+#include "geom/enclosed_volume.h"
 #include "geom/facet.h"
 #include "geom/mesh_patch.h"
 #include "geom/connected_parts.h"
@@ -44,10 +45,12 @@ static void set_part(fl_part *p, fl_soup *s)
 static int untangle(fl_soup *s, fl_untangle *did, fl_err *why)
 {
     const fl_part p = {.nv = s->nv, .nt = s->nt, .v = (fl_vec3 *)s->x, .t = (fl_tri *)s->t};
-    int32_t *shell = fl_alloc(p.nt, sizeof *shell, why);
+    int32_t *shell = fl_alloc(p.nt, sizeof *shell, why), *group = fl_alloc(p.nt, sizeof *group, why);
     int32_t odd_edges;
-    const int rc = fl_part_connected(&p, shell, &odd_edges, why) || fl_cgal_untangle(s, shell, did, why);
+    const int rc =
+        fl_part_connected(&p, shell, &odd_edges, why) || fl_cgal_untangle(s, shell, group, did, why);
     free(shell);
+    free(group);
     return rc ? -1 : 0;
 }
 
@@ -393,6 +396,92 @@ static void no_triangle_soup_crashes(void **state)
     }
 }
 
+/* Whether the surfaces of two boxes have a point in common. */
+static int surfaces_meet(const fl_aabb *a, const fl_aabb *b)
+{
+    const double x[2][6] = {{a->lo.x, a->lo.y, a->lo.z, a->hi.x, a->hi.y, a->hi.z},
+                            {b->lo.x, b->lo.y, b->lo.z, b->hi.x, b->hi.y, b->hi.z}};
+    int inside[2] = {1, 1};
+    for (int k = 0; k < 3; k++) {
+        if (x[0][k] > x[1][k + 3] || x[1][k] > x[0][k + 3]) return 0;
+        for (int i = 0; i < 2; i++) inside[i] &= x[1 - i][k] < x[i][k] && x[i][k + 3] < x[1 - i][k + 3];
+    }
+    return !inside[0] && !inside[1];
+}
+
+enum { BOXES = 3, GRID = 5 };
+
+/* Volume of the boxes on the grid: those that meet are solid together, others may be cavities. */
+static double volume_of_boxes(const fl_aabb *b)
+{
+    int group[BOXES];
+    double sum = 0.0;
+    for (int i = 0; i < BOXES; i++) group[i] = i;
+    for (int pass = 0; pass < BOXES; pass++)
+        for (int i = 0; i < BOXES; i++)
+            for (int j = 0; j < BOXES; j++)
+                if (surfaces_meet(&b[i], &b[j]) && group[j] < group[i]) group[i] = group[j];
+    for (int c = 0; c < GRID * GRID * GRID; c++) {
+        const fl_vec3 x = v3(c % GRID + 0.5, c / GRID % GRID + 0.5, c / GRID / GRID + 0.5);
+        int in[BOXES] = {0}, groups = 0;
+        for (int i = 0; i < BOXES; i++)
+            in[group[i]] |= x.x > b[i].lo.x && x.x < b[i].hi.x && x.y > b[i].lo.y && x.y < b[i].hi.y &&
+                            x.z > b[i].lo.z && x.z < b[i].hi.z;
+        for (int i = 0; i < BOXES; i++) groups += in[i];
+        sum += groups % 2;
+    }
+    return sum;
+}
+
+/* The boxes in this order become their union, of the volume `want`, and the sum along lines says the same. */
+static void unite_boxes(const fl_aabb *b, const int *order, double want)
+{
+    int32_t shell[12 * BOXES], group[12 * BOXES];
+    fl_part p = {0}, source;
+    fl_untangle did;
+    fl_repair mended;
+    fl_volume_check c;
+    fl_soup s;
+    for (int i = 0; i < BOXES; i++) {
+        fl_facet_box(&p, b[order[i]].lo, b[order[i]].hi, &err);
+        for (int t = 0; t < 12; t++) shell[12 * i + t] = i;
+    }
+    source = p;
+    s = soup_of(&p);
+    if (fl_cgal_untangle(&s, shell, group, &did, &err) || fl_cgal_repair(&s, 0, 0.0, &mended, &err))
+        fail_msg("%s", err.text);
+    p = (fl_part){0};
+    set_part(&p, &s);
+    assert_int_equal(did.failed, 0);
+    assert_near(measure_part(&p).volume, want, 1e-4);
+    assert_int_equal(fl_check_volume(&source, shell, group, &p, &c, &err), 0);
+    assert_int_equal(c.bodies, 0);
+    assert_near(c.result, c.source, 1e-3);
+    fl_part_free(&source);
+    fl_part_free(&p);
+}
+
+/* Boxes that cross, touch, coincide in part and lie in each other. */
+static void unions_do_not_depend_on_the_order(void **state)
+{
+    static const int order[6][BOXES] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    (void)state;
+    for (int trial = 0; trial < 6; trial++) {
+        fl_rng g = fl_rng_of(11, (uint64_t)trial, FL_RNG_TEST);
+        fl_aabb b[BOXES];
+        for (int i = 0; i < BOXES; i++) {
+            double lo[3], hi[3];
+            for (int k = 0; k < 3; k++) {
+                const int from = (int)fl_rng_in(&g, 0.0, GRID) % GRID;
+                lo[k] = from;
+                hi[k] = from + 1 + (int)fl_rng_in(&g, 0.0, GRID - from) % (GRID - from);
+            }
+            b[i] = (fl_aabb){v3(lo[0], lo[1], lo[2]), v3(hi[0], hi[1], hi[2])};
+        }
+        for (int k = 0; k < 6; k++) unite_boxes(b, order[k], volume_of_boxes(b));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_kind_of_intersection_is_classified),
@@ -403,6 +492,7 @@ int main(void)
                                        cmocka_unit_test(distances_have_lower_and_upper_bounds),
                                        cmocka_unit_test(simplification_stays_within_the_distance),
                                        cmocka_unit_test(remeshing_evens_edges_and_keeps_the_surface),
+                                       cmocka_unit_test(unions_do_not_depend_on_the_order),
                                        cmocka_unit_test(no_triangle_soup_crashes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,7 +90,22 @@ static void elements_of_every_kind(void **state)
         "CSET1,3\nCMETHOD,1\n");
     says("skipped: CELAS2 2, CONM2 1, CBUSH 1, RBE2 1, PLOTEL 1, CTRIAX6 1");
     refuses(CUBE HEX "=,*1,=,*1.,==\n", "deck:11: replication (=) is not read");
-    refuses("BEGIN SUPER=1\n" CUBE HEX, "BEGIN SUPER is not read");
+    static const char *const model[] = {
+        "BEGIN SUPER=1",         "begin bulk super = 12", "BEGIN BULK SUPER 1", "BEGIN AUXMODEL=1",
+        "BEGIN BULK,AUXMODEL=1", "BEGIN BULK ARBMODEL=2", "BEGIN BULK MODULE=1"};
+    for (size_t k = 0; k < sizeof model / sizeof *model; k++) {
+        char deck[1000];
+        snprintf(deck, sizeof deck, "BEGIN BULK\n" CUBE HEX "%s\n" CUBE HEX, model[k]);
+        refuses(deck, "is not read: export one model");
+    }
+    assert_near(reads("BEGIN BULK SUPER=0\n" CUBE HEX).volume, 1.0, 0.0); /* the residual structure */
+    assert_near(reads("BEGIN BULK\n" CUBE HEX "PSOLID,1,1\n").volume, 1.0, 0.0);
+    /* acoustic fluids are not structure, wherever their property stands */
+    assert_near(reads("PSOLID,2,1,,,,,PFLUID\n" CUBE HEX "CHEXA,2,2,1,2,3,4,5,6,+\n+,7,8\n").volume, 1.0,
+                0.0);
+    says("elements: hex8 1");
+    says("skipped: solids of PFLUID 1");
+    refuses(CUBE HEX "PSOLID,1,1,,,,,FFLUID\n", "no triangles");
 }
 
 static void line_elements_have_radii(void **state)
@@ -228,6 +243,11 @@ static void included_files_are_read(void **state)
     snprintf(deck, sizeof deck, "BEGIN BULK\n" HEX "  INCLUDE %s\n", name);
     assert_near(reads(deck).volume, 1.0, 0.0); /* ... but it is read */
     refuses("INCLUDE 'none.bdf'\n", "deck:1: the file included here cannot be read: ");
+    /* before BEGIN BULK it holds commands */
+    assert_near(reads("SOL 101\nINCLUDE 'none.inc'\nCEND\nBEGIN BULK\n" CUBE HEX).volume, 1.0, 0.0);
+    says("1 INCLUDE before BEGIN BULK could not be read");
+    refuses("BEGIN BULK\n" CUBE HEX "INCLUDE 'none.inc'\n", "deck:12: the file included here cannot be read");
+    refuses(CUBE HEX "INCLUDE 'none.inc'\nENDDATA\n", "deck:11: the file included here cannot be read");
     refuses("INCLUDE 'none.bdf\n", "deck:1: the name of the file to include has no closing quote");
     refuses("BEGIN BULK\nINCLUDE '\n'\n", "a file to include is expected");
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include "geom/moments.h"
 #include "support/decks.h"
 
 static fl_aabb bounding_box(void) { return fl_surface_aabb(&s); }
@@ -167,6 +168,113 @@ static void commands_may_be_abbreviated(void **state)
     assert_near(s.part[0].cone[0].r0, 0.5, 0.0);
 }
 
+static void what_is_no_mesh_is_passed_over(void **state)
+{
+    static const char *const kind[] = {"KP", "LINE", "AREA", "VOLU", "SOMETHING"};
+    char deck[2000];
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        snprintf(deck, sizeof deck, "ET,1,185\n" NODES "CMBLOCK,A,%s,2\n(8i10)\n         1       -12\n" HEX,
+                 kind[k]);
+        reads(deck);
+        assert_int_equal(s.part[0].nt, 12);
+    }
+    reads("ET,1,185\n" NODES "EBLOCK,19,SOLID\n(19i4)\n"
+          "   1   1   1   1   0   0   0   0   8   0   9   1   2   3   4   5   6   7   8\n"
+          "EN,R5.5,ATTR,       -1,\nFINISH\n");
+    assert_int_equal(s.part[0].nt, 12);
+}
+
+/* Read an element of n nodes of a right tetrahedron of legs 2 with its mid-side nodes. */
+static void read_element(int routine, int key, int n, const char *nodes)
+{
+    char deck[2000];
+    snprintf(deck, sizeof deck,
+             "ET,1,%d\nKEYOPT,1,1,%d\nNBLOCK,3\n(1i4,3e5.0)\n   1   0.   0.   0.\n   2   2.   0.   0.\n"
+             "   3   0.   2.   0.\n   4   0.   0.   2.\n   5   1.   0.   0.\n   6   1.   1.   0.\n"
+             "   7   0.   1.   0.\n   8   0.   0.   1.\n   9   1.   0.   1.\n  10   0.   1.   1.\n"
+             "  11   2.   2.   0.\n  12   2.   0.   2.\n  13   0.   2.   2.\n  14   2.   2.   2.\n  -1\n"
+             "EBLOCK,19,SOLID\n(19i4)\n   1   1   1   1   0   0   0   0%4d   0   9%s\n  -1\n",
+             routine, key, n, nodes);
+    reads(deck);
+    assert_int_equal(s.n, 1);
+}
+
+/* The routine decides the shape.  Mid-side nodes may be missing at the end, be 0, or repeat a corner. */
+static void routine_decides_the_shape(void **state)
+{
+    static const int tet[] = {72, 87, 92, 98, 123, 127, 168, 187, 217, 227, 232, 237, 240, 285, 291};
+    static const int brick[] = {45, 90, 95, 185, 186, 226, 279};
+    static const char *const mids[] = {"",
+                                       "   5",
+                                       "   5   6",
+                                       "   5   6   7",
+                                       "   5   6   7   8",
+                                       "   5   6   7   8   9",
+                                       "   5   6   7   8   9  10",
+                                       "   0   6   0   8   9  10",
+                                       "   1   2   3   4   4   3"};
+    static const int count[] = {4, 5, 6, 7, 8, 9, 10, 10, 10};
+    char nodes[200];
+    (void)state;
+    for (int k = 0; k < 9; k++) {
+        snprintf(nodes, sizeof nodes, "   1   2   3   4%s", mids[k]);
+        if (strlen(nodes) > 32) memmove(nodes + 33, nodes + 32, strlen(nodes) - 31), nodes[32] = '\n';
+        for (size_t i = 0; i < sizeof tet / sizeof *tet; i++) {
+            read_element(tet[i], 0, count[k], nodes);
+            assert_int_equal(s.part[0].nt, 4);
+            assert_near(fl_moments_of(s.part, 1).volume, 4.0 / 3.0, 1e-12);
+        }
+    }
+    /* a brick of 8 corners and 2, or 5, of its mids; one that is folded to a tetrahedron; a wedge */
+    for (size_t i = 0; i < sizeof brick / sizeof *brick; i++) {
+        read_element(brick[i], 0, 10, "   1   2  11   3   4  12  14  13\n   5   0");
+        assert_near(fl_moments_of(s.part, 1).volume, 8.0, 1e-12);
+        read_element(brick[i], 0, 13, "   1   2  11   3   4  12  14  13\n   5   0   0   7   0");
+        assert_near(fl_moments_of(s.part, 1).volume, 8.0, 1e-12);
+        read_element(brick[i], 0, 9, "   1   2   3   3   4   4   4   4\n   5");
+        assert_near(fl_moments_of(s.part, 1).volume, 4.0 / 3.0, 1e-12);
+        read_element(brick[i], 0, 11, "   1   2   3   3   4  12  13  13\n   5   6   3");
+        assert_near(fl_moments_of(s.part, 1).volume, 4.0, 1e-12);
+        assert_int_equal(s.part[0].nt, 8);
+    }
+    read_element(187, 0, 8, "   1   2   3   3   4   4   4   4");
+    assert_near(fl_moments_of(s.part, 1).volume, 4.0 / 3.0, 1e-12);
+    /* quadrilaterals of 6 and 8 nodes, and triangles of as many */
+    read_element(281, 0, 6, "   1   2  11   3   5   0");
+    assert_near(fl_moments_of(s.part, 1).area, 4.0, 1e-12);
+    read_element(93, 0, 8, "   1   2   3   3   5   6   3   7");
+    assert_near(fl_moments_of(s.part, 1).area, 2.0, 1e-12);
+    read_element(183, 0, 6, "   1   2  11   3   5   0");
+    assert_near(fl_moments_of(s.part, 1).area, 4.0, 1e-12);
+    read_element(183, 1, 6, "   1   2   3   5   6   7");
+    assert_near(fl_moments_of(s.part, 1).area, 2.0, 1e-12);
+    read_element(200, 5, 4, "   1   2   3   5");
+    assert_near(fl_moments_of(s.part, 1).area, 2.0, 1e-12);
+    read_element(200, 9, 8, "   1   2   3   4   5   6   7   8");
+    assert_near(fl_moments_of(s.part, 1).volume, 4.0 / 3.0, 1e-12);
+}
+
+/* Split through its mid-side nodes, an edge that one of its elements leaves straight is split as well. */
+static void edges_are_divided_on_both_sides(void **state)
+{
+    fl_import_options opt = {.subdivide = 1};
+    fl_mesh_quality q;
+    (void)state;
+    assert_int_equal(
+        read_some("ET,1,187\nNBLOCK,3\n(1i4,3e5.0)\n   1   0.   0.   0.\n   2   2.   0.   0.\n"
+                  "   3   0.   2.   0.\n   4   0.   0.   2.\n   5   1.   0.   0.\n   6   1.   1.   0.\n"
+                  "   7   0.   1.   0.\n   8   0.   0.   1.\n   9   1.   0. 1.25\n  10   0.   1.   1.\n"
+                  "  11   2.   2.   2.\n  -1\nEBLOCK,19,SOLID\n(19i4)\n"
+                  "   1   1   1   1   0   0   0   0  10   0   1   1   2   3   4   5   6   7   8\n   9  10\n"
+                  "   1   1   1   1   0   0   0   0   7   0   2   2  11   3   4   0   0   6\n  -1\n",
+                  &opt),
+        0);
+    assert_int_equal(fl_surface_measure(&s, &q, &err), 0);
+    assert_int_equal(q.open, 0);
+    assert_true(q.closed);
+}
+
 static void bad_decks_are_reported_with_their_line(void **state)
 {
     (void)state;
@@ -193,7 +301,6 @@ static void bad_decks_are_reported_with_their_line(void **state)
             "   1   1   1   1   0   0   0   0  20   0   9   1   2   3   4   5   6   7   8\n",
             "ends after 8 of its 20 nodes");
     refuses("ET,1,185\n" NODES HEX "CMBLOCK,A,ELEM,1\n(8i10)\n        -9\n", "-9 was found after 0");
-    refuses("ET,1,185\n" NODES HEX "CMBLOCK,A,LINE,1\n(8i10)\n         9\n", "ELEM or NODE is expected");
     refuses("ET,1,185\nNBLOCK,3\n(i8,3e20.13)\n  -1\nEN,R5.5,ATTR,8,1\n", "CDWRITE");
     refuses("ET,1,185\n" NODES "/INPUT,rest,dat\n", "/INPUT is not followed");
     refuses("ET,1,185\n" NODES "CSYS,12\nN,12,1,2,3\n", "coordinate system 12");
@@ -214,6 +321,9 @@ int main(void)
         cmocka_unit_test(components_are_parts),
         cmocka_unit_test(types_may_come_as_a_block),
         cmocka_unit_test(counts_are_only_hints),
+        cmocka_unit_test(routine_decides_the_shape),
+        cmocka_unit_test(edges_are_divided_on_both_sides),
+        cmocka_unit_test(what_is_no_mesh_is_passed_over),
         cmocka_unit_test(lines_have_the_radius_of_their_section),
         cmocka_unit_test(single_commands_mix_with_blocks),
         cmocka_unit_test(commands_may_be_abbreviated),

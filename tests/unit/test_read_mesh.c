@@ -318,7 +318,7 @@ static void each_fault_has_its_message(void **state)
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: the file ends after 2 of 3 vertices"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
          ":6: vertex index \"3\" was found, 0 to 2 is expected"},
-        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n", ":6: the face has 3 of its 4 corners"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n", ":6: the file ends after 0 of 1 faces"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", ":7: a row follows the last of 1 faces"},
         {"OFF\n3 many 0\n", ":2: the number of faces is \"many\", a whole number >= 0 is expected"},
         {"OFF BINARY\n", ":1: a binary OFF file, an ASCII one is expected"},

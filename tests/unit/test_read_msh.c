@@ -104,6 +104,48 @@ static void partitioned_elements_keep_their_groups(void **state)
     assert_string_equal(s.part[0].name, "surface_3");
 }
 
+/* Nodes with parameters: none at a point and in a volume, one on a curve, two on a surface. */
+static void nodes_may_have_parameters(void **state)
+{
+    static const char text[] =
+        HEAD2 "$ParametricNodes\n4\n1 0 0 0 0 1\n2 1 0 0 1 7 0.5\n3 0 1 0 2 9 0.25 0.75\n4 0 0 1 3 1\n"
+              "$EndParametricNodes\n$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n";
+    static const int32_t dim[4] = {0, 1, 2, 3};
+    unsigned char data[600];
+    size_t n = 0;
+    (void)state;
+    expect_read(text);
+    assert_int_equal(s.part[0].nt, 4);
+    expect_refusal(HEAD2 "$ParametricNodes\n1\n1 0 0 0 4 1\n$EndParametricNodes\n",
+                   "on an entity of dimension 4");
+    expect_refusal(HEAD4 "$ParametricNodes\n1\n1 0 0 0 1 1\n$EndParametricNodes\n", "belongs to version 2");
+    /* binary, and no line ends behind the data */
+    n += (size_t)sprintf((char *)data + n, "$MeshFormat\n2.2 1 8\n");
+    memcpy(data + n, &(int32_t){1}, 4), n += 4;
+    n += (size_t)sprintf((char *)data + n, "\n$EndMeshFormat\n$ParametricNodes\n4\n");
+    for (int k = 0; k < 4; k++) {
+        const int32_t tag = k + 1;
+        const double x[3] = {k == 1, k == 2, k == 3}, u[2] = {0.5, 0.25};
+        memcpy(data + n, &tag, 4), n += 4;
+        memcpy(data + n, x, sizeof x), n += sizeof x;
+        memcpy(data + n, &dim[k], 4), n += 4;
+        memcpy(data + n, &tag, 4), n += 4;
+        if (dim[k] % 3) memcpy(data + n, u, 8 * (size_t)dim[k]), n += 8 * (size_t)dim[k];
+    }
+    n += (size_t)sprintf((char *)data + n, "$EndParametricNodes\n$NodeData\n1\n\"f\"\n0\n3\n0\n1\n1\n");
+    memcpy(data + n, &(int32_t){1}, 4), n += 4;
+    memcpy(data + n, &(double){0.5}, 8), n += 8;
+    n += (size_t)sprintf((char *)data + n, "$EndNodeData\n$Elements\n1\n");
+    {
+        const int32_t head[3] = {4, 1, 0}, element[5] = {1, 1, 2, 3, 4};
+        memcpy(data + n, head, sizeof head), n += sizeof head;
+        memcpy(data + n, element, sizeof element), n += sizeof element;
+    }
+    n += (size_t)sprintf((char *)data + n, "$EndElements\n");
+    if (read_bytes((const char *)data, n, NULL)) fail_msg("%s", err.text);
+    assert_int_equal(s.part[0].nt, 4);
+}
+
 static void high_orders_are_read_by_their_corners(void **state)
 {
     (void)state;
@@ -156,6 +198,7 @@ int main(void)
         cmocka_unit_test(an_element_of_two_groups_is_read_once),
         cmocka_unit_test(entities_name_groups),
         cmocka_unit_test(partitioned_elements_keep_their_groups),
+        cmocka_unit_test(nodes_may_have_parameters),
         cmocka_unit_test(high_orders_are_read_by_their_corners),
         cmocka_unit_test(bad_files_are_reported_with_their_line),
         cmocka_unit_test(free_all),

@@ -11,7 +11,29 @@
 #include "shim/cgal_simplify.h"
 
 static const double DISTANCE_ACCURACY = 1e-9; /* share of the diagonal: accuracy of measured distances */
+/* The lines of fl_check_volume() tell volumes apart to this share. */
+static const double VOLUME_TOLERANCE = 1e-3;
 enum { MAX_TRIALS = 5 };
+
+static int copy_part(fl_part *to, const fl_part *p, fl_err *err)
+{
+    *to = (fl_part){0};
+    for (int32_t v = 0; v < p->nv; v++)
+        if (fl_surface_vertex(to, p->v[v], err)) return -1;
+    for (int32_t t = 0; t < p->nt; t++)
+        if (fl_surface_triangle(to, p->t[t].v[0], p->t[t].v[1], p->t[t].v[2], err)) return -1;
+    return 0;
+}
+
+/* Exchange the triangles of two parts. */
+static void swap_triangles(fl_part *p, fl_part *q)
+{
+    const fl_part keep = *p;
+    p->v = q->v, p->nv = q->nv, p->v_cap = q->v_cap;
+    p->t = q->t, p->nt = q->nt, p->t_cap = q->t_cap;
+    q->v = keep.v, q->nv = keep.nv, q->v_cap = keep.v_cap;
+    q->t = keep.t, q->nt = keep.nt, q->t_cap = keep.t_cap;
+}
 
 static int to_soup(const fl_part *p, fl_soup *s, fl_err *err)
 {
@@ -87,25 +109,40 @@ static int repair_part(fl_part *p, int32_t holes, double size, fl_repair *done_s
     return rc;
 }
 
+/* Compare the volume of the part with that of the bodies it was made of. */
+static int check_volume(const fl_part *p, const fl_part *source, const int32_t *body, const int32_t *group,
+                        struct cleanup *m, fl_err *err)
+{
+    if (fl_check_volume(source, body, group, p, &m->volume, err)) return -1;
+    m->lost = m->volume.bodies > 0 ||
+              fabs(m->volume.result - m->volume.source) > VOLUME_TOLERANCE * m->volume.source;
+    return 0;
+}
+
 /* Resolve bodies and patches that cross.  With closed, only if all bodies are closed. */
 static int untangle_part(fl_part *p, int closed, struct cleanup *m, fl_err *err)
 {
     fl_soup s = {0};
+    fl_part source = {0};
     fl_untangle done_steps = {0};
     int32_t *shell = fl_alloc(p->nt, sizeof *shell, err), odd;
+    int32_t *group = shell ? fl_alloc(p->nt, sizeof *group, err) : NULL;
     int rc = -1;
-    if (!shell || fl_part_connected(p, shell, &odd, err)) goto done;
-    rc = closed && odd ? 0 : to_soup(p, &s, err) || fl_cgal_untangle(&s, shell, &done_steps, err);
+    if (!group || copy_part(&source, p, err) || fl_part_connected(p, shell, &odd, err)) goto done;
+    rc = closed && odd ? 0 : to_soup(p, &s, err) || fl_cgal_untangle(&s, shell, group, &done_steps, err);
     /* new corners are rounded, which may leave degenerate triangles */
     if (rc == 0 && done_steps.joined + done_steps.rebuilt > 0)
         rc = from_soup(p, &s, err) || repair_part(p, 0, 0.0, &m->repair, err) ||
-             fl_part_crossings(p, &m->crossing, err) || fl_part_measure(p, &m->quality, err);
+             fl_part_crossings(p, &m->crossing, err) || fl_part_measure(p, &m->quality, err) ||
+             (odd == 0 && check_volume(p, &source, shell, group, m, err));
     m->untangle.joined += done_steps.joined;
     m->untangle.rebuilt += done_steps.rebuilt;
     m->untangle.changed = fmax(m->untangle.changed, done_steps.changed);
     m->untangle.failed = done_steps.failed;
 done:
     free(shell);
+    free(group);
+    fl_part_free(&source);
     fl_soup_free(&s);
     return rc ? -1 : 0;
 }
@@ -165,13 +202,62 @@ done:
     return rc;
 }
 
-/* Repair, simplify and remesh a part that is welded and oriented. */
-static int repair_and_refine(fl_part *p, const struct options *o, struct cleanup *m, double accuracy,
-                             fl_err *err)
+/* Drop walls between closed bodies that touch, and two-sided plates apart from them, unless the part would be
+ * open or empty without them. */
+static int drop_pairs(fl_part *p, struct cleanup *m, fl_err *err)
+{
+    fl_part whole = {0};
+    fl_mesh_quality q;
+    int32_t same = 0, walls = 0, plates = 0;
+    int rc = -1;
+    if (!m->quality.closed || (!m->quality.branched && m->quality.patches < 2)) return 0;
+    if (copy_part(&whole, p, err) || fl_part_drop_contact_walls(p, &walls, &same, err) ||
+        fl_part_drop_sheets(p, &plates, err))
+        goto done;
+    rc = walls + plates == 0 && same == 0 ? 0 : fl_part_measure(p, &q, err);
+    if (rc == 0 && walls + plates > 0 && p->nt > 0 && q.closed && q.volume != 0.0) {
+        m->quality = q;
+        m->contact_walls = walls;
+        m->sheets = plates;
+        m->repair.duplicates += same;
+    } else if (rc == 0) {
+        swap_triangles(p, &whole);
+    }
+done:
+    fl_part_free(&whole);
+    return rc;
+}
+
+/* Bodies that touch with other meshes on a part of their walls, or that cross elsewhere, are united whole:
+ * without the walls that they have in common they could not be told apart. */
+static int unite_bodies(fl_part *p, fl_part *whole, struct cleanup *m, fl_err *err)
+{
+    fl_mesh_quality q;
+    if (fl_part_crossings(p, &m->crossing, err)) return -1;
+    if (m->crossing.crossings == 0) return 0;
+    if (whole->nt && m->walls + m->contact_walls) {
+        int32_t *shell = fl_alloc(whole->nt, sizeof *shell, err), odd = 1;
+        const int rc = shell ? fl_part_connected(whole, shell, &odd, err) : -1;
+        free(shell);
+        if (rc) return -1;
+        if (odd == 0) {
+            if (fl_part_measure(whole, &q, err)) return -1;
+            swap_triangles(p, whole);
+            m->quality = q;
+            m->walls = m->contact_walls = 0;
+        }
+    }
+    return untangle_part(p, 1, m, err);
+}
+
+/* Repair, simplify and remesh a part that is welded and oriented.  whole: the part before walls were dropped.
+ */
+static int repair_and_refine(fl_part *p, fl_part *whole, const struct options *o, struct cleanup *m,
+                             double accuracy, fl_err *err)
 {
     /* before triangles that two bodies share are dropped as duplicates */
-    if (o->repair && m->quality.branched && !m->quality.open && !m->quality.degenerate &&
-        (fl_part_crossings(p, &m->crossing, err) || (m->crossing.crossings && untangle_part(p, 1, m, err))))
+    if (o->repair && (m->quality.branched || whole->nt) && !m->quality.open && !m->quality.degenerate &&
+        unite_bodies(p, whole, m, err))
         return -1;
     if (needs_repair(&m->quality, o) && repair_part(p, o->fill_holes, o->fill, &m->repair, err)) return -1;
     if (fl_part_crossings(p, &m->crossing, err)) return -1;
@@ -207,6 +293,7 @@ static int clean_triangles(fl_part *p, const struct options *o, struct cleanup *
     const fl_aabb box = fl_part_aabb(p);
     const double accuracy = DISTANCE_ACCURACY * v3_norm(v3_sub(box.hi, box.lo));
     fl_soup source = {0};
+    fl_part whole = {0};
     int rc = -1;
     if (fl_part_weld(p, o->weld, &m->weld, err)) return -1;
     if (p->nt == 0 && p->nc == 0)
@@ -221,12 +308,15 @@ static int clean_triangles(fl_part *p, const struct options *o, struct cleanup *
     if (m->orient.triangles + m->orient.patches > 0 && fl_part_measure(p, &m->quality, err)) return -1;
     if (m->quality.branched && drop_fins(p, m, err)) return -1;
     *same = *same && !m->fins;
+    if (o->repair && m->quality.branched && m->quality.closed && copy_part(&whole, p, err)) goto done;
+    if (drop_pairs(p, m, err)) goto done;
+    *same = *same && !m->contact_walls && !m->sheets;
     if (o->repair && m->quality.branched &&
         (fl_part_drop_inner_walls(p, &m->walls, err) || fl_part_measure(p, &m->quality, err)))
-        return -1;
-    if (may_move(&m->quality, o) && to_soup(p, &source, err)) return -1;
+        goto done;
+    if (may_move(&m->quality, o) && to_soup(p, &source, err)) goto done;
     *same = *same && !source.nt;
-    if (repair_and_refine(p, o, m, accuracy, err)) goto done;
+    if (repair_and_refine(p, &whole, o, m, accuracy, err)) goto done;
     if (p->nt == 0 && p->nc == 0) {
         fl_fail(err, FL_INPUT, "part \"%.60s\": nothing is left after repair", p->name);
         goto done;
@@ -239,6 +329,7 @@ static int clean_triangles(fl_part *p, const struct options *o, struct cleanup *
     }
     rc = source.nt ? fl_part_measure(p, &m->quality, err) : 0;
 done:
+    fl_part_free(&whole);
     fl_soup_free(&source);
     return rc;
 }

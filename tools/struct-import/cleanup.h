@@ -2,6 +2,7 @@
 /* cleanup.h -- cleanup of an imported part: weld, orient, repair, simplify, remesh, measure. */
 #ifndef STRUCT_IMPORT_CLEANUP_H
 #define STRUCT_IMPORT_CLEANUP_H
+#include "geom/enclosed_volume.h"
 #include "geom/moments.h"
 #include "geom/mesh_patch.h"
 #include "geom/weld.h"
@@ -19,13 +20,17 @@ struct cleanup {
     fl_orient_counts orient;
     fl_repair repair;
     fl_untangle untangle;
-    int32_t fins;         /* triangles dropped from two-sided plates that stand on other triangles */
-    int32_t walls;        /* inner triangles dropped */
-    int32_t simplified;   /* decrease of the number of triangles */
-    fl_crossing crossing; /* in the result */
+    int32_t fins;                  /* triangles dropped from two-sided plates that stand on other triangles */
+    int32_t walls;                 /* inner triangles dropped */
+    int32_t contact_walls, sheets; /* triangles between bodies that touch; of two-sided plates apart */
+    fl_volume_check volume;        /* of bodies that were united or rebuilt, 0 0 where there were none */
+    int lost;                      /* the repaired surface encloses another volume than the bodies */
+    int32_t simplified;            /* decrease of the number of triangles */
+    fl_crossing crossing;          /* in the result */
     fl_mesh_quality quality;
     int closes_jointly; /* its open edges match those of other parts, and together these parts are closed */
     double deviation;   /* [m] largest distance of the result from the source */
+    double rounding;    /* [m] by which the numbers of the output format move a vertex, included in both */
     double source_deviation; /* [m] largest distance of the source from the result */
 };
 

@@ -9,6 +9,7 @@
 #include "geom/facet.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
+#include "mesh/single_precision.h"
 #include "mesh/write_obj.h"
 #include "mesh/write_off.h"
 #include "mesh/write_ply.h"
@@ -154,11 +155,43 @@ static int check_strict(const fl_surface *s, const struct cleanup *m, fl_err *er
     return 0;
 }
 
+/* A repair that changes what bodies enclose is told by the status. */
+static int check_repair(const fl_surface *s, const struct cleanup *m, fl_err *err)
+{
+    for (int32_t i = 0; i < s->n; i++)
+        if (m[i].lost)
+            return fl_fail(err, FL_NO, "part \"%.60s\": repair made %.6g m3 of bodies of %.6g m3",
+                           s->part[i].name, m[i].volume.result, m[i].volume.source);
+    return 0;
+}
+
 static int check_output(const struct options *o, fl_err *err)
 {
     const fl_named_path out = {"--output", o->out};
     for (int32_t k = 0; k < o->items; k++)
         if (fl_output_guard_check(&out, 1, &(fl_named_path){.path = o->item[k].path}, 1, err)) return -1;
+    return 0;
+}
+
+/* Coordinates far from the origin do not fit in single precision: up to ROUGH of the size of a part they are
+ * rounded with a warning (quality_report.c), beyond it the output is refused. */
+static int round_coordinates(const struct options *o, const fl_surface *s, struct cleanup *m, fl_err *err)
+{
+    static const double ROUGH = 1e-3;
+    for (int32_t i = 0; o->to == TO_STL_BINARY && i < s->n; i++) {
+        const fl_aabb box = fl_part_aabb(&s->part[i]);
+        const double size = v3_norm(v3_sub(box.hi, box.lo));
+        m[i].rounding = fl_single_rounding(&s->part[i]);
+        m[i].deviation += m[i].rounding;
+        m[i].source_deviation += m[i].rounding;
+        if (m[i].rounding > ROUGH * size)
+            return fl_fail(
+                err, FL_INPUT,
+                "part \"%.60s\" is %.4g m across, and the single precision of stl-binary moves its "
+                "vertices by up to %.3g m so far from the origin: another --to, or --translate, is "
+                "expected",
+                s->part[i].name, size, m[i].rounding);
+    }
     return 0;
 }
 
@@ -175,9 +208,10 @@ static int run(const struct options *o, fl_err *err)
     for (int32_t i = 0; i < s.n; i++)
         if (clean_part(&s.part[i], o, &m[i], err)) goto done;
     if (!o->raw && close_jointly(&s, m, err)) goto done;
+    if (round_coordinates(o, &s, m, err)) goto done;
     if (print_report(o, &s, m, err) || write_out(o, &s, err)) goto done;
     if (o->plot && draw_views(&s, o->plot, err)) goto done;
-    rc = o->strict ? check_strict(&s, m, err) : 0;
+    rc = check_repair(&s, m, err) || (o->strict && check_strict(&s, m, err)) ? -1 : 0;
 done:
     free(m);
     fl_surface_free(&s);

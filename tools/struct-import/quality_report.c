@@ -5,7 +5,8 @@
 
 static const double LARGEST = 1000.0, SMALLEST = 0.01; /* [m] sizes of a box that suggest a wrong unit */
 static const double LARGE_CHANGE = 0.01; /* relative change of area or volume of a rebuilt patch */
-static const double ROUNDING = 1e-12;    /* of the diagonal: thousands of roundings of 1e-16 */
+static const double COARSE = 1e-5;    /* of the diagonal: rounding of coordinates that is worth a warning */
+static const double ROUNDING = 1e-12; /* of the diagonal: thousands of roundings of 1e-16 */
 
 /* A coordinate of the centroid; rounding errors of a symmetric body are set to 0. */
 static double without_rounding(double x, const fl_aabb *b)
@@ -13,14 +14,26 @@ static double without_rounding(double x, const fl_aabb *b)
     return fabs(x) > ROUNDING * v3_norm(v3_sub(b->hi, b->lo)) ? x : 0.0;
 }
 
+/* Digits of coordinates: six of the size of the box, and those that its distance from the origin takes. */
+static int digits_of(const fl_aabb *b)
+{
+    const fl_vec3 side = v3_sub(b->hi, b->lo);
+    const double size = fmax(side.x, fmax(side.y, side.z));
+    const double far = fmax(fmax(fmax(fabs(b->lo.x), fabs(b->hi.x)), fmax(fabs(b->lo.y), fabs(b->hi.y))),
+                            fmax(fabs(b->lo.z), fabs(b->hi.z)));
+    if (!(size > 0.0) || !(far > 100.0 * size)) return 6;
+    return (int)fmin(15.0, 6.0 + ceil(log10(far / size)));
+}
+
 static void print_shape(const char *name, int width, const fl_mesh_quality *q)
 {
+    const int n = digits_of(&q->box);
     char volume[40] = "-";
     if (q->closed) snprintf(volume, sizeof volume, "%.9g", q->volume);
-    fprintf(stderr, "%-*s %9d %5d %13s %13.9g   %.6g %.6g %.6g   %.6g %.6g %.6g .. %.6g %.6g %.6g\n", width,
-            name, q->triangles, q->cones, volume, q->area, without_rounding(q->centroid.x, &q->box),
-            without_rounding(q->centroid.y, &q->box), without_rounding(q->centroid.z, &q->box), q->box.lo.x,
-            q->box.lo.y, q->box.lo.z, q->box.hi.x, q->box.hi.y, q->box.hi.z);
+    fprintf(stderr, "%-*s %9d %5d %13s %13.9g   %.*g %.*g %.*g   %.*g %.*g %.*g .. %.*g %.*g %.*g\n", width,
+            name, q->triangles, q->cones, volume, q->area, n, without_rounding(q->centroid.x, &q->box), n,
+            without_rounding(q->centroid.y, &q->box), n, without_rounding(q->centroid.z, &q->box), n,
+            q->box.lo.x, n, q->box.lo.y, n, q->box.lo.z, n, q->box.hi.x, n, q->box.hi.y, n, q->box.hi.z);
 }
 
 static void print_mesh(const char *name, int width, const struct cleanup *m)
@@ -111,6 +124,29 @@ static void print_warnings(const char *name, const struct cleanup *m)
                 "struct-import: warning: %s: %d triangles of two-sided plates that stand on others were "
                 "skipped: ice meets such a plate only as a part of its own\n",
                 name, m->fins);
+    if (m->contact_walls)
+        fprintf(
+            stderr,
+            "struct-import: %s: %d triangles between bodies that stand against each other were dropped: the "
+            "bodies count as one\n",
+            name, m->contact_walls);
+    if (m->sheets)
+        fprintf(
+            stderr,
+            "struct-import: warning: %s: %d triangles of two-sided plates beside closed bodies were skipped: "
+            "ice meets such a plate only as a part of its own\n",
+            name, m->sheets);
+    if (m->lost)
+        fprintf(stderr,
+                "struct-import: warning: %s: the repaired surface encloses %.6g m3, the bodies that it came "
+                "from %.6g m3 (overlaps counted once); %d bodies differ\n",
+                name, m->volume.result, m->volume.source, m->volume.bodies);
+    if (m->rounding > COARSE * v3_norm(v3_sub(m->quality.box.hi, m->quality.box.lo)))
+        fprintf(
+            stderr,
+            "struct-import: warning: %s: coordinates are rounded to single precision, which moves them by up "
+            "to %.3g m\n",
+            name, m->rounding);
     if (m->untangle.failed)
         fprintf(stderr, "struct-import: warning: %s: %d patches or pairs of them still cross\n", name,
                 m->untangle.failed);

@@ -14,8 +14,8 @@ static const char USAGE[] =
     "Lengths are in metres; the certificate goes to standard error.\n"
     "\n";
 
-/* Largest coordinate of a shape, as FL_ICE_FIELD_MAX_COORD; longest field, where an ulp is a tenth of a
- * nanometre; shortest length [m]. */
+/* Largest coordinate of a shape, as FL_ICE_FIELD_MAX_COORD, which holds projected ones (UTM); longest field,
+ * where an ulp is a tenth of a nanometre; shortest length [m]. */
 #define FAR 1e9
 #define LONGEST 1e6
 #define SHORTEST 1e-6
@@ -92,10 +92,11 @@ static int parse_outline(void *options, const char *text, fl_err *err)
     o->outline = NULL;
     o->disc[0] = o->disc[1] = o->disc[2] = 0.0;
     if (strncmp(text, "disc:", 5) != 0) return fl_option_file("outline", text, &o->outline, err);
-    if (parse_numbers("outline", text + 5, ',', centred ? 1 : 3, -LONGEST, LONGEST, o->disc, expected, err))
+    if (parse_numbers("outline", text + 5, ',', centred ? 1 : 3, -FAR, FAR, o->disc, expected, err))
         return -1;
-    if (o->disc[0] >= SHORTEST) return 0;
-    return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", expected R of %g at least", text, SHORTEST);
+    if (o->disc[0] >= SHORTEST && o->disc[0] <= LONGEST) return 0;
+    return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", expected R from %g to %g", text, SHORTEST,
+                   LONGEST);
 }
 
 static int parse_lead(void *options, const char *text, fl_err *err)
@@ -183,9 +184,9 @@ static int parse_ridge(void *options, const char *text, fl_err *err)
     double *x = o->ridge[o->ridges];
     if (o->ridges == RIDGE_MAX)
         return fl_fail(err, FL_USAGE, "--ridge is given more than %d times", RIDGE_MAX);
-    if (parse_numbers("ridge", text, ',', 9, -LONGEST, LONGEST, x, expected, err)) return -1;
+    if (parse_numbers("ridge", text, ',', 9, -FAR, FAR, x, expected, err)) return -1;
     for (int k = 4; k < 8; k++)
-        if (!(x[k] >= SHORTEST))
+        if (!(x[k] >= SHORTEST && x[k] <= LONGEST))
             return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", expected heights and widths above 0", text);
     if (!(fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST) || !(x[8] >= 0.0 && x[8] <= x[7]))
         return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", expected a length and a WB from 0 to WK", text);
@@ -203,8 +204,8 @@ static int set_size(void *options, const char *text, fl_err *err)
 
 static int set_origin(void *options, const char *text, fl_err *err)
 {
-    return parse_pair("origin", text, ',', -LONGEST, LONGEST, &((struct recipe *)options)->origin,
-                      "X,Y in metres", err);
+    return parse_pair("origin", text, ',', -FAR, FAR, &((struct recipe *)options)->origin,
+                      "X,Y in metres, each up to 1e9", err);
 }
 
 static int set_velocity(void *options, const char *text, fl_err *err)
