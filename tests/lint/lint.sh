@@ -40,6 +40,7 @@ floors()
 architecture()
 {
     wrong=0
+    # shellcheck disable=SC2013 # names without blanks
     for f in $(grep -oE '[A-Za-z0-9_./-]+\.(c|h|cpp|awk|sh|txt|md)\b' ARCHITECTURE.md CONTRIBUTING.md tests/README.md -h | sort -u); do
         case $f in
         name.* | *NAME* | *MODULE*) continue ;; # to be filled in
