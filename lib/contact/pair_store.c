@@ -15,7 +15,7 @@ void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
     const fl_pair_spring s = fl_pair_stiffness(w, i, j);
     p->k = s.k;
     p->exponent = s.exponent;
-    p->points = fl_pair_points(w, i, j, s);
+    p->points = (int32_t)fl_pair_points(w, i, j, s);
     p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
 }
 

@@ -467,7 +467,7 @@ static void unions_do_not_depend_on_the_order(void **state)
     static const int order[6][BOXES] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
     (void)state;
     for (int trial = 0; trial < 6; trial++) {
-        fl_rng g = fl_rng_of(11, (uint64_t)trial, FL_RNG_TEST);
+        fl_rng g = fl_rng_of(11, trial, FL_RNG_TEST);
         fl_aabb b[BOXES];
         for (int i = 0; i < BOXES; i++) {
             double lo[3], hi[3];

@@ -79,7 +79,7 @@ static void volumes_are_those_of_cells(void **state)
 {
     (void)state;
     for (int trial = 0; trial < 20; trial++) {
-        fl_rng g = fl_rng_of(7, (uint64_t)trial, FL_RNG_TEST);
+        fl_rng g = fl_rng_of(7, trial, FL_RNG_TEST);
         const fl_vec3 far = v3(500012.25, 6000020.75, 0);
         fl_part p = {0};
         fl_volume_check c;

@@ -67,11 +67,11 @@ static void mechanisms_are_told_from_spins(void **state)
         "#members 1\nnode a 0 0 0\nnode b 1 0 0\nnode c 2 0 0\nsection s bar 1 1\nmember 1 a b s 1\nmember 2 "
         "b c s 1\nfix a "
         "pinned\nfix c pinned\n",
-        "#members 1\nnode a 0 0 0\nnode b 1 0 0\nnode c 0 1 0\nnode d 0.3 0.4 0\nsection s bar 1 1\nmember 1 "
-        "a d s 1\n"
-        "member 2 b d s 1\nmember 3 c d s 1\nfix a pinned\nfix b pinned\nfix c pinned\n",
-        "#members 1\nnode a 0 0 0\nnode b 1 0 0\nnode c 2 0 0 \nsection s 1 1 1 1\nmember 1 a b s 3 hinge-j\n"
-        "member 2 b c s 3\nfix a pinned\nfix c pinned\n",
+        ("#members 1\nnode a 0 0 0\nnode b 1 0 0\nnode c 0 1 0\nnode d 0.3 0.4 0\nsection s bar 1 1\n"
+         "member 1 a d s 1\nmember 2 b d s 1\nmember 3 c d s 1\nfix a pinned\nfix b pinned\nfix c pinned\n"),
+        ("#members 1\nnode a 0 0 0\nnode b 1 0 0\nnode c 2 0 0 \nsection s 1 1 1 1\nmember 1 a b s 3 "
+         "hinge-j\n"
+         "member 2 b c s 3\nfix a pinned\nfix c pinned\n"),
         "#members 1\nnode a 0 0 0\nnode b 1 0 0\nsection s 1 1 1 1\nmember 1 a b s 3\n"};
     for (size_t k = 0; k < sizeof good / sizeof *good; k++) assert_int_equal(is_mechanism(good[k]), 0);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) assert_int_equal(is_mechanism(bad[k]), 1);

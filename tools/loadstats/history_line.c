@@ -81,7 +81,7 @@ static void add_filter(const struct options *o, fl_history_line *by)
 /* Extreme-value analysis. */
 static void add_sample(const struct options *o, unsigned uses, fl_history_line *by)
 {
-    if (o->sample) fl_history_line_add(by, "--sample %s", sample_name(o->sample));
+    if (o->sample) fl_history_line_add(by, "--sample %s", sample_name((enum sample)o->sample));
     if (o->sample == SAMPLE_POT && o->gap > 0.0) add_number(by, "gap", o->gap);
     if (o->block > 0.0) add_number(by, "block", o->block);
     for (int32_t k = 0; (uses & USES_RETURNS) && k < o->returns; k++) add_number(by, "return", o->period[k]);

@@ -113,7 +113,7 @@ static int write_fits(FILE *f, const struct record_views *r, const struct option
             const double likelihood = ok ? fl_fit_log_likelihood(&d, c->n, c->x) : NAN;
             const int best = ok && method == FL_FIT_LIKELIHOOD;
             write_labels(f, r, p, s, w);
-            fprintf(f, "\t%s\t%d\t%s\t%s", sample_name(o->sample), c->n, fl_dist_name(kind),
+            fprintf(f, "\t%s\t%d\t%s\t%s", sample_name((enum sample)o->sample), c->n, fl_dist_name(kind),
                     fl_fit_method_name(method));
             write_cell(f, ok && kind != FL_WEIBULL && kind != FL_LOGNORMAL ? d.location : NAN);
             write_cell(f, ok ? d.scale : NAN);
@@ -142,7 +142,7 @@ static void write_levels(FILE *f, const struct record_views *r, const struct opt
             const fl_return_level none = {NAN, NAN, {NAN, NAN}, {NAN, NAN}},
                                   *v = known ? &l[kind].r[j++] : &none;
             write_labels(f, r, p, s, w);
-            fprintf(f, "\t%s\t%d\t%s", sample_name(o->sample), c->n, fl_dist_name(kind));
+            fprintf(f, "\t%s\t%d\t%s", sample_name((enum sample)o->sample), c->n, fl_dist_name(kind));
             write_cell(f, o->period[k]);
             write_cell(f, v->level);
             write_cell(f, v->profile[0]);
