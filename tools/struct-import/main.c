@@ -131,7 +131,7 @@ static int write_out(const struct options *o, const fl_surface *s, fl_err *err)
     int rc = -1;
     options_by(o, &by);
     if (fl_out_open(&out, o->out, o->gzip, err)) goto done;
-    if (write_format(o->to, out.f, s, &by, err)) goto done;
+    if (write_format((enum format)o->to, out.f, s, &by, err)) goto done;
     rc = fl_out_close(&out, err);
 done:
     fl_out_abort(&out);
