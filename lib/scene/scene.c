@@ -36,11 +36,6 @@ int32_t fl_scene_find_group(const fl_scene *scene, const char *name)
     return fl_section_named(scene, FL_SEC_GROUP, name, "");
 }
 
-int32_t fl_scene_find_part(const fl_scene *scene, const char *name)
-{
-    return fl_section_named(scene, FL_SEC_PART, name, "");
-}
-
 /* Copy the keys that [contact A B] gives, but those given as "auto", to out. */
 static void apply_contact_section(fl_scene_contact *out, const fl_scene *scene, const char *a, const char *b)
 {

@@ -22,10 +22,9 @@ void fl_scene_init(fl_scene *scene);
 /* Accepts a zeroed scene and leaves a zeroed one. */
 void fl_scene_free(fl_scene *scene);
 
-/* Index of the material, the group or the part of that name, -1 when there is none. */
+/* Index of the material or the group of that name, -1 when there is none. */
 int32_t fl_scene_find_material(const fl_scene *scene, const char *name);
 int32_t fl_scene_find_group(const fl_scene *scene, const char *name);
-int32_t fl_scene_find_part(const fl_scene *scene, const char *name);
 
 /* Contact parameters of a body of material a (an index) with b: a material, the structure or the boundary.
  * A member takes the first of these values that was given:
