@@ -20,7 +20,7 @@ enum { BALANCE_STEPS = 60 };
 static double contact_omega2(const fl_member_contact *e, const fl_member_section *s)
 {
     const double l = e->length, half = 0.5 * s->mass * l,
-                 inertia = half * (l * l / 12.0 + (s->eiy + s->eiz) / s->ea);
+                 inertia = half * (l * l / 12.0 + 0.5 * (s->eiy + s->eiz) / s->ea);
     double most = 2.0 * e->axial / half;
     const double bend = fmax(e->shear[0], e->shear[1]);
     if (e->kind == FL_MEMBER_BEAM) {

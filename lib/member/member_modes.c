@@ -24,7 +24,7 @@ int fl_member_masses(const fl_member_chain *c, const fl_member_model *m, double 
         const fl_member *b = &m->member[e->member];
         const fl_member_section *s = &m->section[b->section];
         const double half = 0.5 * s->mass * e->length, l2 = e->length * e->length / 12.0,
-                     r2 = (s->eiy + s->eiz) / s->ea;
+                     r2 = 0.5 * (s->eiy + s->eiz) / s->ea;
         if (!(s->mass > 0.0))
             return fl_fail(err, FL_INPUT,
                            "%s:%lld: member %s has no mass: its section %s needs a density, or a mass per length",

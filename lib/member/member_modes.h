@@ -2,9 +2,10 @@
 /* member_modes.h -- masses of a chain of balls, and its lowest modes about the unstrained state.
  *
  * Mass. Half a piece of length L and mass per length mu is at each of its ends:
- *     m += mu L/2,    I += mu L/2 [L2/12 + (EIy + EIz)/EA]
- * where L2/12 is that of a rod of length L/2 about its end, and the rest that of the section about its axis,
- * taken for all axes. A mass of a node is added to m alone.
+ *     m += mu L/2,    I += mu L/2 [L2/12 + (EIy + EIz)/2EA]
+ * where L2/12 is that of a rod of length L/2 about its end, and the rest the mean of the section about its two
+ * axes. I is taken for all axes: torsional modes of a single member are too high by up to the root of 2. A mass
+ * of a node is added to m alone.
  *
  * Modes solve K s = omega2 M s (member_stiffness.h), s.M s = 1, by subspace iteration: of p vectors X the next
  * are K^-1 M X, turned to the eigenvectors of K and M within their space, until the frequencies stand still.
