@@ -44,7 +44,8 @@ static int set_masses(fl_member_dynamics *d, const fl_member_model *m, fl_err *e
         a->over_i = a->over_i > 0.0 ? 1.0 / d->inertia[b] : 0.0;
     }
     for (int32_t k = 0; k < c->contacts; k++)
-        most = fmax(most, contact_omega2(&c->contact[k], &m->section[m->member[c->contact[k].member].section]));
+        most =
+            fmax(most, contact_omega2(&c->contact[k], &m->section[m->member[c->contact[k].member].section]));
     d->largest_omega = sqrt(most);
     return 0;
 }
@@ -68,7 +69,8 @@ static int balance(fl_member_dynamics *d, const fl_member_stiffness *s, const ch
     double *x = fl_alloc(s->n, sizeof *x, err), residual = 0.0;
     double stiffest = 0.0;
     int rc = x ? 1 : -1;
-    for (int32_t k = 0; k < c->contacts; k++) stiffest = fmax(stiffest, c->contact[k].axial * c->contact[k].length);
+    for (int32_t k = 0; k < c->contacts; k++)
+        stiffest = fmax(stiffest, c->contact[k].axial * c->contact[k].length);
     const double small = BALANCED * c->load_norm + ROUNDING * stiffest * sqrt(c->balls);
     for (int step = 0; step < BALANCE_STEPS && rc > 0; step++) {
         fl_member_chain_forces(c);
@@ -124,10 +126,11 @@ int fl_member_dynamics_make(fl_member_dynamics *d, const fl_member_model *m, dou
                  ? -1
                  : 0;
     for (int32_t k = 0; k < d->chain.moves && rc == 0; k++)
-        rc = fl_fail(err, FL_INPUT,
-                     "%s:%lld: node %s has an imposed displacement, which is for arc-path; expected a support",
-                     m->file, (long long)m->node[d->chain.move[k].ball].line,
-                     m->node_name.name[d->chain.move[k].ball]);
+        rc =
+            fl_fail(err, FL_INPUT,
+                    "%s:%lld: node %s has an imposed displacement, which is for arc-path; expected a support",
+                    m->file, (long long)m->node[d->chain.move[k].ball].line,
+                    m->node_name.name[d->chain.move[k].ball]);
     if (rc == 0) rc = balance(d, &s, m->file, err);
     if (rc == 0 && ratio > 0.0)
         rc = fl_member_modes_find(&d->modes, &s, d->chain.balls, d->mass, d->inertia, FL_MEMBER_DAMPED_MODES,

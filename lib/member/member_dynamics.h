@@ -9,10 +9,10 @@
  * so that the n lowest modes have this ratio, and higher ones zeta omega_n/omega.
  *
  * A step dt is symmetric: damping dt/2, kick dt/2 by F, substeps of the chain under its own forces, kick dt/2
- * by the new F, damping dt/2. Damping is exact: v loses 1 - exp(-c dt/2) of what it has along each mode. Each of
- * N substeps is one of Stoermer and Verlet; N keeps them below SUBSTEP_SHARE of the stable step, 2/omega with
- * the largest omega of a single contact with its share of the masses (Rayleigh). F acts once a step, so that
- * the step of the ice, not of the steel, decides what a run costs.
+ * by the new F, damping dt/2. Damping is exact: v loses 1 - exp(-c dt/2) of what it has along each mode.
+ * Each of N substeps is one of Stoermer and Verlet; N keeps them below SUBSTEP_SHARE of the stable step,
+ * 2/omega with the largest omega of a single contact with its share of the masses (Rayleigh). F acts once a
+ * step, so that the step of the ice, not of the steel, decides what a run costs.
  * Source: Tuckerman, Berne & Martyna, J. Chem. Phys. 97 (1992) 1990 (impulses of slow forces). */
 #ifndef FL_MEMBER_MEMBER_DYNAMICS_H
 #define FL_MEMBER_MEMBER_DYNAMICS_H
@@ -21,19 +21,19 @@
 enum { FL_MEMBER_DAMPED_MODES = 24 };
 
 typedef struct {
-    fl_member_chain chain;    /* over_m, over_i of the real masses */
-    double *mass, *inertia;   /* [balls] */
-    fl_vec3 *force, *moment;  /* [balls] F */
-    fl_vec3 *equilibrium;     /* [balls] displacement at the start */
-    fl_member_modes modes;    /* n = 0 without damping */
-    double *decay;            /* [modes + 1] exp(-c dt/2) - 1; the last is of the rest */
-    double ratio;             /* zeta */
-    double largest_omega;     /* bound, of the chain [1/s] */
-    double dt;                /* [s] */
-    int substeps;             /* in dt */
-    double energy_at_start;   /* of strain and loads in equilibrium */
-    double damped;            /* energy that damping has removed */
-    int too_far;              /* a piece is turned by more than FL_MEMBER_ROTATION_MAX */
+    fl_member_chain chain;   /* over_m, over_i of the real masses */
+    double *mass, *inertia;  /* [balls] */
+    fl_vec3 *force, *moment; /* [balls] F */
+    fl_vec3 *equilibrium;    /* [balls] displacement at the start */
+    fl_member_modes modes;   /* n = 0 without damping */
+    double *decay;           /* [modes + 1] exp(-c dt/2) - 1; the last is of the rest */
+    double ratio;            /* zeta */
+    double largest_omega;    /* bound, of the chain [1/s] */
+    double dt;               /* [s] */
+    int substeps;            /* in dt */
+    double energy_at_start;  /* of strain and loads in equilibrium */
+    double damped;           /* energy that damping has removed */
+    int too_far;             /* a piece is turned by more than FL_MEMBER_ROTATION_MAX */
 } fl_member_dynamics;
 
 /* Makes the chain of a model, at rest in equilibrium under its loads. -1 with FL_INPUT: a mechanism, no mass,

@@ -34,9 +34,9 @@ typedef struct {
     int32_t end[2], section, pieces, part;
     int released[2]; /* the end transmits no moment */
     int has_ref;
-    fl_vec3 ref;  /* lies in the plane of e1 and e3 */
-    double bow;   /* amplitude of a half sine wave without stress */
-    int bow_axis; /* 1: along e2, 2: along e3 */
+    fl_vec3 ref;       /* lies in the plane of e1 and e3 */
+    double bow;        /* amplitude of a half sine wave without stress */
+    int bow_axis;      /* 1: along e2, 2: along e3 */
     int32_t cylinders; /* that ice meets, each rigid and of equal length; 0: one */
     int64_t line;
 } fl_member;

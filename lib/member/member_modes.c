@@ -26,10 +26,11 @@ int fl_member_masses(const fl_member_chain *c, const fl_member_model *m, double 
         const double half = 0.5 * s->mass * e->length, l2 = e->length * e->length / 12.0,
                      r2 = 0.5 * (s->eiy + s->eiz) / s->ea;
         if (!(s->mass > 0.0))
-            return fl_fail(err, FL_INPUT,
-                           "%s:%lld: member %s has no mass: its section %s needs a density, or a mass per length",
-                           m->file, (long long)b->line, m->member_name.name[e->member],
-                           m->section_name.name[b->section]);
+            return fl_fail(
+                err, FL_INPUT,
+                "%s:%lld: member %s has no mass: its section %s needs a density, or a mass per length",
+                m->file, (long long)b->line, m->member_name.name[e->member],
+                m->section_name.name[b->section]);
         mass[e->i] += half;
         mass[e->j] += half;
         inertia[e->i] += half * (l2 + r2);
@@ -126,8 +127,8 @@ static int make_subspace(subspace *u, int32_t modes, const double *mass, const d
     return 0;
 }
 
-/* Rayleigh and Ritz: with y = K^-1 M x the matrices are y.K y = y.M x and y.M y. Mass first, m2 = V d V^T, then
- * d^-1/2 V^T k2 V d^-1/2 = W omega2 W^T; the combinations are V d^-1/2 W. */
+/* Rayleigh and Ritz: with y = K^-1 M x the matrices are y.K y = y.M x and y.M y. Mass first, m2 = V d V^T,
+ * then d^-1/2 V^T k2 V d^-1/2 = W omega2 W^T; the combinations are V d^-1/2 W. */
 static int turn_to_modes(subspace *u, fl_err *err)
 {
     const int p = u->p;
@@ -147,7 +148,8 @@ static int turn_to_modes(subspace *u, fl_err *err)
     eigen_symmetric(p, u->m2, u->v, u->d);
     for (int c = 0; c < p; c++) {
         if (!(u->d[c] > 0.0))
-            return fl_fail(err, FL_NUMERIC, "modes: the masses of the structure are too unequal for %d of them", p);
+            return fl_fail(err, FL_NUMERIC,
+                           "modes: the masses of the structure are too unequal for %d of them", p);
         for (int r = 0; r < p; r++) u->v[r * p + c] /= sqrt(u->d[c]);
     }
     for (int r = 0; r < p; r++)
@@ -284,8 +286,7 @@ void fl_member_modes_write(FILE *f, const fl_member_modes *m, const fl_member_mo
         put_number(f, fl_member_modes_mass(m, k, nodes));
         put_number(f, ratio);
         for (int32_t b = 0; b < nodes; b++)
-            for (int d = 0; d < 3; d++)
-                put_number(f, m->shape[6 * ((int64_t)m->balls * k + b) + d] / most);
+            for (int d = 0; d < 3; d++) put_number(f, m->shape[6 * ((int64_t)m->balls * k + b) + d] / most);
         putc('\n', f);
     }
 }

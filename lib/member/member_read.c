@@ -262,8 +262,9 @@ static int read_part(fl_member_model *m, fl_text *in, fl_err *err)
 static const struct {
     const char *word;
     int (*read)(fl_member_model *m, fl_text *in, fl_err *err);
-} RECORD[] = {{"part", read_part}, {"node", read_node}, {"section", read_section}, {"member", read_member},
-              {"fix", read_fix},   {"load", read_load}, {"move", read_move},       {"offset", read_offset},   {"mass", read_mass}};
+} RECORD[] = {{"part", read_part},     {"node", read_node},     {"section", read_section},
+              {"member", read_member}, {"fix", read_fix},       {"load", read_load},
+              {"move", read_move},     {"offset", read_offset}, {"mass", read_mass}};
 enum { RECORDS = sizeof RECORD / sizeof *RECORD };
 
 static int read_record(fl_member_model *m, fl_text *in, fl_err *err)

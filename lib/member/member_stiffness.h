@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* member_stiffness.h -- linear stiffness of a chain of balls about its unstrained state.
  *
- * K is the second derivative of the energy of the contacts (member_contact.h) by displacements u and rotations
- * r of the balls. With e1 e2 e3 the axes of a contact, D = u_j - u_i and S = r_i + r_j its forms are
+ * K is the second derivative of the energy of the contacts (member_contact.h) by displacements u and
+ * rotations r of the balls. With e1 e2 e3 the axes of a contact, D = u_j - u_i and S = r_i + r_j its forms
+ * are
  *     beam    D.e1,   D.e2 - L/2 S.e3,   D.e3 + L/2 S.e2   and   (r_j - r_i).e1, e2, e3
  *     hinged  D.e1,   D.e2/L - r_b.e3,   D.e3/L + r_b.e2
  *     bar     D.e1

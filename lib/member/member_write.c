@@ -82,8 +82,7 @@ void fl_member_model_write(FILE *f, const fl_member_model *m, const fl_history_l
         put_vector(f, m->node[k].x);
         fputs(m->node[k].hinge ? " hinge\n" : "\n", f);
     }
-    for (int32_t k = 0; k < m->section_name.n; k++)
-        write_section(f, m->section_name.name[k], &m->section[k]);
+    for (int32_t k = 0; k < m->section_name.n; k++) write_section(f, m->section_name.name[k], &m->section[k]);
     /* Members are in the order of their parts, as they were read. */
     for (int32_t p = 0, k = 0; p < m->part_name.n; p++) {
         fprintf(f, "part %s\n", m->part_name.name[p]);

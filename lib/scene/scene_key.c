@@ -625,8 +625,9 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(structure, file),
      .default_text = "none",
      .special = "none",
-     .meaning = "structure, a g_struct file; \"-\" is standard input; it or `members` is required, here or by "
-                "--structure",
+     .meaning =
+         "structure, a g_struct file; \"-\" is standard input; it or `members` is required, here or by "
+         "--structure",
      .source = "g_struct(5)"},
     {.section = FL_SEC_STRUCTURE,
      .key = "members",

@@ -70,8 +70,7 @@ typedef struct {
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
         hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        members[FL_SCENE_PATH],
-        checkpoint[FL_SCENE_PATH]; /* "": none */
+        members[FL_SCENE_PATH], checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
 typedef struct {
@@ -133,7 +132,7 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    char file[FL_SCENE_PATH]; /* g_struct; "" not given */
+    char file[FL_SCENE_PATH];    /* g_struct; "" not given */
     char members[FL_SCENE_PATH]; /* members; "" not given */
     double member_damping;       /* ratio of the lowest modes */
     char material[FL_SCENE_NAME];

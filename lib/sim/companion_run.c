@@ -9,8 +9,8 @@
 #include "world/access.h"
 
 int fl_companion_make(fl_companion *s, const fl_scene *scene, const fl_ice_field *field,
-                      const fl_ice_field *feed, const fl_surface *surface,
-                      const fl_member_model *members, fl_err *err)
+                      const fl_ice_field *feed, const fl_surface *surface, const fl_member_model *members,
+                      fl_err *err)
 {
     *s = (fl_companion){.exceeded_since = -1.0};
     if (fl_world_make_with_inflow(&s->world, scene, field, feed, surface, members, err)) return -1;

@@ -294,8 +294,7 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
             }
             const double slope = tangent_stiffness(w, i, j, fl_pair_stiffness(w, i, j), hit);
             stiffest = fmax(stiffest, stiffer * slope);
-            if (fl_piece_moves(w, j))
-                mover_slope = fmax(mover_slope, places * slope);
+            if (fl_piece_moves(w, j)) mover_slope = fmax(mover_slope, places * slope);
             const int in_concave_edge = round && w->structure.piece[j - w->n].kind == FL_PIECE_MESH;
             lower_shares(w, shares, law, in_concave_edge || fl_piece_is_free(w, j), times, few,
                          contacts_per_motion(w, round, times));

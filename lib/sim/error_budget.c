@@ -583,8 +583,8 @@ double fl_error_budget_run_error(const fl_error_budget *g, double *difference)
 /* --- set-up and checkpoint ----------------------------------------------------------------------- */
 
 int fl_error_budget_make(fl_error_budget *g, const fl_scene *scene, const fl_ice_field *field,
-                         const fl_ice_field *feed, const fl_surface *surface,
-                      const fl_member_model *members, fl_err *err)
+                         const fl_ice_field *feed, const fl_surface *surface, const fl_member_model *members,
+                         fl_err *err)
 {
     int32_t body;
     *g = (fl_error_budget){.goal = scene->run.error,

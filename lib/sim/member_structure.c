@@ -79,8 +79,8 @@ static double reach_of(const fl_world *w, int32_t i, fl_vec3 c, fl_vec3 e, doubl
     return fmax(fabs(least), fabs(most));
 }
 
-/* Distance along cylinder k at which contact p pushes it, from the middle of its piece: that of its elastic force,
- * or, where that is small, the largest at which the two can touch. */
+/* Distance along cylinder k at which contact p pushes it, from the middle of its piece: that of its elastic
+ * force, or, where that is small, the largest at which the two can touch. */
 static double arm_of(const fl_world *w, const fl_pair *p, int32_t k)
 {
     const fl_vec3 c = fl_member_motion_middle(&w->moving.members, k), end = w->b.x[p->j];
@@ -158,7 +158,8 @@ int fl_member_structure_check(const fl_world *w, fl_err *err)
     const fl_member_motion *v = &w->moving.members;
     const fl_member_dynamics *d = &v->dynamics;
     for (int32_t b = 0; b < d->chain.balls; b++)
-        if (!v3_finite(d->chain.ball[b].d) || !v3_finite(d->chain.ball[b].v) || !v3_finite(d->chain.ball[b].w))
+        if (!v3_finite(d->chain.ball[b].d) || !v3_finite(d->chain.ball[b].v) ||
+            !v3_finite(d->chain.ball[b].w))
             return fl_fail(err, FL_NUMERIC, "%s: not a finite number in step %lld (t = %g s)", v->model->file,
                            (long long)w->step, fl_world_time(w));
     if (d->too_far)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* member_structure.h -- a structure of members in a run: its pieces follow the chain, and the chain feels their
- * contacts.  structure/member_motion.h has the equations; sim/moving_structure.h calls this. */
+/* member_structure.h -- a structure of members in a run: its pieces follow the chain, and the chain feels
+ * their contacts.  structure/member_motion.h has the equations; sim/moving_structure.h calls this. */
 #ifndef FL_SIM_MEMBER_STRUCTURE_H
 #define FL_SIM_MEMBER_STRUCTURE_H
 #include "out/tables.h"

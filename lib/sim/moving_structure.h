@@ -9,9 +9,9 @@
 #include "out/tables.h"
 #include "world/access.h"
 
-/* Build w->moving from the scene and from the model of members, NULL: none, after the pieces have been placed, and move the pieces to the pose of t
- * = 0. Sets w->part_reference too.  -1 with FL_INPUT (a part that does not exist, a track that cannot be
- * read, a mesh that does not float) or FL_SYSTEM. */
+/* Build w->moving from the scene and from the model of members, NULL: none, after the pieces have been
+ * placed, and move the pieces to the pose of t = 0. Sets w->part_reference too.  -1 with FL_INPUT (a part
+ * that does not exist, a track that cannot be read, a mesh that does not float) or FL_SYSTEM. */
 int fl_moving_structure_make(fl_world *w, const fl_surface *surface, const fl_member_model *members,
                              fl_err *err);
 void fl_moving_structure_free(fl_moving_structure *r);

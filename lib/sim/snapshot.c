@@ -360,7 +360,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     fl_state_io_real(t, &w->skin);
     fl_state_io_real(t, &w->dt_critical);
     fl_state_io_real(t, &w->dt_critical_contacts);
-    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1 + fl_structure_has_members(w), &w->critical_body);
+    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1 + fl_structure_has_members(w),
+                    &w->critical_body);
     fl_state_io_real(t, &w->dt_safe);
     fl_state_io_int(t, w->parts, w->parts, &parts);
     fl_state_io_int(t, w->b.total, w->b.total, &total);

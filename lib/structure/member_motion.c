@@ -23,7 +23,8 @@ static int32_t cylinders_of(const fl_member_model *m, int32_t k)
     return b->cylinders < 1 ? 1 : b->cylinders < b->pieces ? b->cylinders : b->pieces;
 }
 
-/* Of the pieces [from, to) of a straight member the one nearest to height z, or at the middle of the range. */
+/* Of the pieces [from, to) of a straight member the one nearest to height z, or at the middle of the range.
+ * */
 static int32_t carrying_piece(fl_vec3 a, fl_vec3 b, int32_t pieces, int32_t from, int32_t to, double z)
 {
     const int32_t middle = (from + to - 1) / 2;
@@ -57,10 +58,11 @@ static int list_cylinders(const fl_member_model *m, double z, fl_member_cylinder
     *n = 0;
     for (int32_t k = 0; k < m->member_name.n; k++) *n += add_cylinders(m, k, z, NULL);
     if (*n == 0)
-        return fl_fail(err, FL_INPUT,
-                       "%s: no section has a radius, so that ice cannot touch its members; expected pipe, rect "
-                       "or bar, or a general section with its radius",
-                       m->file);
+        return fl_fail(
+            err, FL_INPUT,
+            "%s: no section has a radius, so that ice cannot touch its members; expected pipe, rect "
+            "or bar, or a general section with its radius",
+            m->file);
     *list = fl_alloc(*n, sizeof **list, err);
     if (!*list) return -1;
     for (int32_t k = 0, at = 0; k < m->member_name.n; k++) at += add_cylinders(m, k, z, *list + at);
@@ -98,7 +100,8 @@ int fl_member_motion_frames_surface(fl_surface *s, const fl_member_model *m, fl_
         const int32_t p = fl_surface_add(s, name, strlen(name), err);
         if (p < 0) rc = -1;
         else if (radius > 0.0)
-            rc = fl_surface_cone(&s->part[p], (fl_cone){c.ball[e->i].x0, c.ball[e->j].x0, radius, radius}, err);
+            rc = fl_surface_cone(&s->part[p], (fl_cone){c.ball[e->i].x0, c.ball[e->j].x0, radius, radius},
+                                 err);
     }
     fl_member_chain_free(&c);
     return rc;
@@ -231,7 +234,8 @@ void fl_member_motion_push(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_v
     for (int s = 0; s < 2; s++) {
         const int32_t b = s ? e->j : e->i;
         const fl_member_ball *ball = &d->chain.ball[b];
-        by[s] = v3_scale(ball->over_m, fl_member_free_part(d->force[b], ball->fixed & FL_MEMBER_TRANSLATIONS));
+        by[s] =
+            v3_scale(ball->over_m, fl_member_free_part(d->force[b], ball->fixed & FL_MEMBER_TRANSLATIONS));
         turns[s] = v3_scale(ball->over_i, fl_member_free_part(d->moment[b], ball->fixed >> 3));
     }
     combine(&f, e, by[0], by[1], turns[0], turns[1], x, a, turn);

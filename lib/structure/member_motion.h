@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* member_motion.h -- the cylinders of a structure of members, which ice meets, and the chain that carries them.
+/* member_motion.h -- the cylinders of a structure of members, which ice meets, and the chain that carries
+ * them.
  *
- * A member whose section has a radius has one cylinder from end to end, or as many of equal length as its word
- * `cylinders` says. A cylinder is rigid: it rides on one piece of the chain, that of its range which is nearest
- * to the surface of the water, or at its middle where no piece reaches it. With balls i and j of that piece,
+ * A member whose section has a radius has one cylinder from end to end, or as many of equal length as its
+ * word `cylinders` says. A cylinder is rigid: it rides on one piece of the chain, that of its range which
+ * is nearest to the surface of the water, or at its middle where no piece reaches it. With balls i and j of
+ * that piece,
  *     c = (x_i + x_j)/2,    e = (x_j - x_i)/l,
  * the cylinder keeps its place in the axes of the piece, turned so that the first is along e. A force F and a
  * torque T about c go to the balls as what moves c and e does,
  *     on i: F/2 + e x T/l,    on j: F/2 - e x T/l,
- * and the torque along e as moments, half to each ball that transmits moments; a bar takes none. Velocities are
- * v = (v_i + v_j)/2 and w = e x (v_j - v_i)/l + e (e.w_ball), so that the work of ice on cylinder and chain is
- * the same. Limits: a cylinder stays straight, and ice far from its piece bends the chain as a couple would;
- * nodes at the edges of the ice belt, or more cylinders, bring it nearer. */
+ * and the torque along e as moments, half to each ball that transmits moments; a bar takes none. Velocities
+ * are v = (v_i + v_j)/2 and w = e x (v_j - v_i)/l + e (e.w_ball), so that the work of ice on cylinder and
+ * chain is the same. Limits: a cylinder stays straight, and ice far from its piece bends the chain as a
+ * couple would; nodes at the edges of the ice belt, or more cylinders, bring it nearer. */
 #ifndef FL_STRUCTURE_MEMBER_MOTION_H
 #define FL_STRUCTURE_MEMBER_MOTION_H
 #include "geom/surface.h"
@@ -53,7 +55,8 @@ void fl_member_motion_pose(const fl_member_motion *v, int32_t k, fl_vec3 *x, fl_
 void fl_member_motion_piece_pose(const fl_member_motion *v, int32_t contact, fl_vec3 *x, fl_quat *q);
 
 /* Velocity of point x of cylinder k, and angular velocity, from velocities of the balls. */
-void fl_member_motion_velocity(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *speed, fl_vec3 *spin);
+void fl_member_motion_velocity(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *speed,
+                               fl_vec3 *spin);
 
 /* Acceleration of the same by the forces on the balls alone. */
 void fl_member_motion_push(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *a, fl_vec3 *turn);

@@ -99,8 +99,7 @@ static inline int fl_piece_is_free(const fl_world *w, int32_t j)
  * written. */
 static inline int fl_thing_is_still(const fl_world *w, int32_t j)
 {
-    return j >= w->n && !fl_piece_moves(w, j) &&
-           !(w->panel_load.panels && j < w->n + w->pieces);
+    return j >= w->n && !fl_piece_moves(w, j) && !(w->panel_load.panels && j < w->n + w->pieces);
 }
 
 /* 1 if near pair p is not evaluated: the two touch and both rest, or one rests and the other stands still. */

@@ -21,8 +21,8 @@ static void read_model(fl_member_model *m, const char *text)
 }
 
 /* A pipe of 10 m, clamped at its foot: EI = 2.4e8 N m2 or so. */
-#define PIPE(pieces, more)                                                                                    \
-    "#members 1\nnode foot 0 0 0\nnode head 0 0 10\nsection s pipe 0.6 0.02 2e11 8e10 7850\n"                 \
+#define PIPE(pieces, more)                                                                                   \
+    "#members 1\nnode foot 0 0 0\nnode head 0 0 10\nsection s pipe 0.6 0.02 2e11 8e10 7850\n"                \
     "member leg foot head s " pieces "\nfix foot clamped\n" more
 
 static double relative(double x, double is) { return fabs(x - is) / fabs(is); }
@@ -94,8 +94,8 @@ static void it_swings_and_is_damped_by_its_ratio(void **state)
             fl_member_dynamics_drift(&d);
             fl_member_dynamics_damp(&d);
         }
-        const double left = v3_dot(along, d.chain.ball[1].v) / top, energy =
-            fl_member_dynamics_energy(&d) + fl_member_dynamics_kinetic(&d) + d.damped;
+        const double left = v3_dot(along, d.chain.ball[1].v) / top,
+                     energy = fl_member_dynamics_energy(&d) + fl_member_dynamics_kinetic(&d) + d.damped;
         assert_true(relative(left, exp(-10.0 * PI * 0.03)) < 0.02);
         assert_true(relative(energy, start) < 1e-3 * 1600.0 / (steps * steps) + 1e-4);
         assert_true(d.substeps > 1 || steps > 40);
@@ -136,9 +136,10 @@ static void forces_and_work_go_to_the_balls(void **state)
             for (int32_t b = 0; b < c->balls; b++) {
                 const fl_vec3 place = v3_add(c->ball[b].x0, c->ball[b].d);
                 sum = v3_add(sum, v.dynamics.force[b]);
-                turn = v3_add(turn, v3_add(v3_cross(v3_sub(place, at), v.dynamics.force[b]),
-                                           v.dynamics.moment[b]));
-                work += v3_dot(v.dynamics.force[b], c->ball[b].v) + v3_dot(v.dynamics.moment[b], c->ball[b].w);
+                turn = v3_add(turn,
+                              v3_add(v3_cross(v3_sub(place, at), v.dynamics.force[b]), v.dynamics.moment[b]));
+                work +=
+                    v3_dot(v.dynamics.force[b], c->ball[b].v) + v3_dot(v.dynamics.moment[b], c->ball[b].w);
             }
             assert_true(v3_norm(v3_sub(sum, f)) < 1e-12);
             assert_true(fabs(work - v3_dot(f, speed) - v3_dot(torque, spin)) < 1e-11 * (1.0 + fabs(work)));
@@ -147,7 +148,8 @@ static void forces_and_work_go_to_the_balls(void **state)
             /* A bar takes no torque about its axis. */
             const fl_vec3 lost = v3_sub(torque, turn);
             assert_true(v3_norm(v3_cross(lost, along)) < 1e-11 * 40.0);
-            if (c->contact[v.cylinder[k].contact].kind != FL_MEMBER_BAR) assert_true(v3_norm(lost) < 1e-11 * 40.0);
+            if (c->contact[v.cylinder[k].contact].kind != FL_MEMBER_BAR)
+                assert_true(v3_norm(lost) < 1e-11 * 40.0);
         }
         fl_member_motion_free(&v);
         fl_member_model_free(&m);
@@ -217,8 +219,9 @@ static void what_cannot_be_is_one_sentence(void **state)
     fails_with("#members 1\nnode a 0 0 0\nnode b 0 0 1\nsection s pipe 1 .1 1 1\nmember 1 a b s 1\nfix a "
                "clamped\n",
                "model:5: member 1 has no mass");
-    fails_with("#members 1\nnode a 0 0 0\nnode b 0 0 1\nsection s 1 1 1 1 1\nmember 1 a b s 1\nfix a clamped\n",
-               "no section has a radius");
+    fails_with(
+        "#members 1\nnode a 0 0 0\nnode b 0 0 1\nsection s 1 1 1 1 1\nmember 1 a b s 1\nfix a clamped\n",
+        "no section has a radius");
     fails_with(PIPE("2", "move head 1 0 0\n"), "imposed displacement");
     fails_with(PIPE("2", "load head 1e4 0 -1e8\n"), "no equilibrium");
 }
@@ -231,10 +234,12 @@ static void a_model_reads_back_as_it_was_written(void **state)
     fl_err err = {0};
     char *text = NULL, *second = NULL;
     size_t n = 0, n2 = 0;
-    read_model(&m, "#members 1\n#by x\nnode a 0 0 0\nnode b 0 0 1\nnode c 0.1 0 2 hinge\nsection s pipe 1 .1 3 2 7\n"
-                   "section g 1 2 3 4 5 6\nsection r rect .1 .3 7 9 11\nsection k bar .5 7 8\npart P\nmember 1 a b s 3 "
-                   "cylinders 2\nmember 2 a c g 1 hinge-i ref 1 2 3\npart Q\nmember 3 b c r 2 bow .01 z\nmember 4 a c k "
-                   "1\nfix a clamped\nfix c x rz\nmass b 12.5\nload b 1 2 3 4 5 6\nmove c 0 .1 0\noffset b .01 0 0\n");
+    read_model(
+        &m,
+        "#members 1\n#by x\nnode a 0 0 0\nnode b 0 0 1\nnode c 0.1 0 2 hinge\nsection s pipe 1 .1 3 2 7\n"
+        "section g 1 2 3 4 5 6\nsection r rect .1 .3 7 9 11\nsection k bar .5 7 8\npart P\nmember 1 a b s 3 "
+        "cylinders 2\nmember 2 a c g 1 hinge-i ref 1 2 3\npart Q\nmember 3 b c r 2 bow .01 z\nmember 4 a c k "
+        "1\nfix a clamped\nfix c x rz\nmass b 12.5\nload b 1 2 3 4 5 6\nmove c 0 .1 0\noffset b .01 0 0\n");
     FILE *f = open_memstream(&text, &n);
     fl_member_model_write(f, &m, NULL);
     fclose(f);
@@ -245,7 +250,8 @@ static void a_model_reads_back_as_it_was_written(void **state)
     fl_member_model_write(f, &again, NULL);
     fclose(f);
     assert_string_equal(text, second);
-    assert_true(strstr(text, "fix c x rz\n") && strstr(text, "mass b 12.5\n") && strstr(text, "cylinders 2\n"));
+    assert_true(strstr(text, "fix c x rz\n") && strstr(text, "mass b 12.5\n") &&
+                strstr(text, "cylinders 2\n"));
     for (int32_t k = 0; k < m.section_name.n; k++)
         assert_memory_equal(&m.section[k], &again.section[k], sizeof m.section[k]);
     free(text), free(second);

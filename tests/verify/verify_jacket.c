@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A jacket of pipes as a structure of members: statics and modes against a frame of beam elements with consistent
- * masses that is written here, and its motion in time against both (T12). */
+/* A jacket of pipes as a structure of members: statics and modes against a frame of beam elements with
+ * consistent masses that is written here, and its motion in time against both (T12). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -53,7 +53,8 @@ static void write_jacket(int pieces, double fx, double fy)
         model_line("node n%d %g %g %g\n", k, x.x, x.y, x.z);
     }
     for (int k = 0; k < n; k++)
-        model_line("member m%d n%d n%d %s %d\n", k, p[k].i, p[k].j, p[k].diameter > 1.0 ? "leg" : "brace", pieces);
+        model_line("member m%d n%d n%d %s %d\n", k, p[k].i, p[k].j, p[k].diameter > 1.0 ? "leg" : "brace",
+                   pieces);
     for (int k = 0; k < 4; k++)
         model_line("fix n%d clamped\nmass n%d %g\nload n%d %g %g 0\n", k, 8 + k, DECK, 8 + k, fx, fy);
 }
@@ -66,7 +67,8 @@ static double frame_k[FREE][FREE], frame_m[FREE][FREE];
 
 static int unknown_of(int node, int d) { return node < 4 ? -1 : 6 * (node - 4) + d; }
 
-/* Element matrices in local axes (Przemieniecki, Theory of Matrix Structural Analysis (1968), 5.6 and 11.3). */
+/* Element matrices in local axes (Przemieniecki, Theory of Matrix Structural Analysis (1968), 5.6 and
+ * 11.3). */
 static void element_matrices(const pipe *p, double l, double k[12][12], double m[12][12])
 {
     const double in = p->diameter - 2.0 * p->wall, area = PI / 4.0 * (p->diameter * p->diameter - in * in),
@@ -206,7 +208,8 @@ static void frame_modes(double *omega, int n)
 
 /* --- the claims -------------------------------------------------------------------------------- */
 
-static void make_members(fl_member_model *m, fl_member_dynamics *d, int pieces, double fx, double fy, double ratio)
+static void make_members(fl_member_model *m, fl_member_dynamics *d, int pieces, double fx, double fy,
+                         double ratio)
 {
     fl_member_chain unused = {0};
     fl_err err = {0};
@@ -230,7 +233,8 @@ static void verify_statics(void)
         for (int k = 8; k < 12; k++) {
             char what[100], name[20];
             snprintf(name, sizeof name, "n%d", k);
-            snprintf(what, sizeof what, "250 kN a corner along %c: corner %d [mm], beam elements", 'x' + way, k - 7);
+            snprintf(what, sizeof what, "250 kN a corner along %c: corner %d [mm], beam elements", 'x' + way,
+                     k - 7);
             verify_row("T12", what, 1e6 * v3_at(d.chain.ball[curve_node(&m, name)].d, way),
                        1e6 * x[unknown_of(k, way)], 2e-5, VERIFY_REL);
         }
@@ -257,8 +261,8 @@ static void verify_modes(const double *beam)
     fl_member_model_free(&m);
 }
 
-/* Released from its deflection along x, the deck swings at the frequency of its third mode, the sway along x, and
- * what damping takes is what is missing. */
+/* Released from its deflection along x, the deck swings at the frequency of its third mode, the sway along
+ * x, and what damping takes is what is missing. */
 static void verify_release(const double *beam)
 {
     const double ratio = 0.02;
@@ -267,7 +271,8 @@ static void verify_release(const double *beam)
     make_members(&m, &d, 4, 250e3, 0.0, ratio);
     const int32_t node = curve_node(&m, "n8"), swings = verify_quick() ? 4 : 10;
     double crossing[40], before = 1.0, top = d.chain.ball[node].d.x;
-    const double work = 0.5 * 250e3 * (2.0 * d.chain.ball[node].d.x + 2.0 * d.chain.ball[curve_node(&m, "n9")].d.x);
+    const double work =
+        0.5 * 250e3 * (2.0 * d.chain.ball[node].d.x + 2.0 * d.chain.ball[curve_node(&m, "n9")].d.x);
     for (int32_t k = 0; k < d.chain.loads; k++) d.chain.load[k].force = v3(0, 0, 0);
     fl_member_dynamics_refresh(&d);
     /* Energies count from the unstrained state now. */
@@ -292,11 +297,12 @@ static void verify_release(const double *beam)
     verify_row("T12", "frequency of the deck released from 250 kN a corner along x [Hz]", f,
                beam[2] / (2.0 * PI) * sqrt(1.0 - ratio * ratio), 5e-3, VERIFY_REL);
     const double all = fl_member_dynamics_energy(&d) + fl_member_dynamics_kinetic(&d);
-    verify_row("T12", "energy left and taken by damping over that of the start", (all + d.damped) / stored, 1.0,
-               2e-4, VERIFY_REL);
+    verify_row("T12", "energy left and taken by damping over that of the start", (all + d.damped) / stored,
+               1.0, 2e-4, VERIFY_REL);
     verify_row("T12", "logarithm of the energy left, over that of the damping ratio",
                log(all / stored) / (-2.0 * ratio * beam[2] * (crossing[n - 1])), 1.0, 0.05, VERIFY_REL);
-    verify_note("deck from %.4f m in substeps of %.2e s, %d a step of 1 ms", top, dt / d.substeps, d.substeps);
+    verify_note("deck from %.4f m in substeps of %.2e s, %d a step of 1 ms", top, dt / d.substeps,
+                d.substeps);
     fl_member_dynamics_free(&d);
     fl_member_model_free(&m);
 }

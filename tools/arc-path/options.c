@@ -315,8 +315,9 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->ratio > 0.0 && !o->modes)
         return fl_fail(err, FL_USAGE, "--ratio needs --modes, of whose table it is a column");
     if (o->modes && (o->plot || o->checkpoint || o->resume || o->watches || o->untils))
-        return fl_fail(err, FL_USAGE,
-                       "--modes follows no path: --plot, --checkpoint, --resume, --watch and --until are not for it");
+        return fl_fail(
+            err, FL_USAGE,
+            "--modes follows no path: --plot, --checkpoint, --resume, --watch and --until are not for it");
     if (o->reference && !o->plot)
         return fl_fail(err, FL_USAGE, "--reference needs --plot, the folder of the picture");
     if (o->shapes && !o->plot)

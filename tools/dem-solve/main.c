@@ -99,7 +99,7 @@ static int run_or_print(struct run *r, fl_err *err)
 /* The inputs of a run. */
 struct inputs {
     fl_scene scene;
-    fl_ice_field field, feed; /* feed: the field of inflow_file */
+    fl_ice_field field, feed;           /* feed: the field of inflow_file */
     fl_surface surface, frames_surface; /* frames_surface: of members alone */
     fl_member_model members;            /* file is NULL where there are none */
     fl_restart saved;
@@ -184,8 +184,8 @@ static int make_input_texts(struct inputs *in, const fl_surface *surface, fl_err
     static const char *const NAME[INPUT_TEXTS] = {"ice", "structure", "inflow"};
     if (!in->scene.output.checkpoint[0]) return 0;
     if (!in->saved.data) {
-        const int rc = save_inputs_as_text(in->input_text, &in->field, surface, in->members.file ? &in->members : NULL,
-                                           &in->feed, &in->by, err);
+        const int rc = save_inputs_as_text(in->input_text, &in->field, surface,
+                                           in->members.file ? &in->members : NULL, &in->feed, &in->by, err);
         for (int k = 0; k < INPUT_TEXTS; k++)
             memcpy(&in->text[k], &in->input_text[k].text, sizeof in->text[k]);
         return rc;
