@@ -246,20 +246,20 @@ void fl_member_modes_free(fl_member_modes *m)
     *m = (fl_member_modes){0};
 }
 
-/* Largest displacement of a node. */
-static double largest_of(const fl_member_modes *m, int32_t k, int32_t nodes)
+/* Largest displacement of a ball. */
+static double largest_of(const fl_member_modes *m, int32_t k)
 {
     double most2 = 0.0;
-    for (int32_t b = 0; b < nodes; b++) {
+    for (int32_t b = 0; b < m->balls; b++) {
         const double *u = m->shape + 6 * ((int64_t)m->balls * k + b);
         most2 = fmax(most2, u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
     }
     return sqrt(most2);
 }
 
-double fl_member_modes_mass(const fl_member_modes *m, int32_t k, int32_t nodes)
+double fl_member_modes_mass(const fl_member_modes *m, int32_t k)
 {
-    const double most = largest_of(m, k, nodes);
+    const double most = largest_of(m, k);
     return 1.0 / (most * most);
 }
 
@@ -280,10 +280,10 @@ void fl_member_modes_write(FILE *f, const fl_member_modes *m, const fl_member_mo
         for (int d = 0; d < 3; d++) fprintf(f, "\t%s.%c", model->node_name.name[b], 'x' + d);
     putc('\n', f);
     for (int32_t k = 0; k < m->n; k++) {
-        const double most = largest_of(m, k, nodes);
+        const double most = largest_of(m, k);
         fprintf(f, "%d", (int)k + 1);
         put_number(f, m->omega[k] / (2.0 * PI));
-        put_number(f, fl_member_modes_mass(m, k, nodes));
+        put_number(f, fl_member_modes_mass(m, k));
         put_number(f, ratio);
         for (int32_t b = 0; b < nodes; b++)
             for (int d = 0; d < 3; d++) put_number(f, m->shape[6 * ((int64_t)m->balls * k + b) + d] / most);

@@ -35,11 +35,11 @@ int fl_member_modes_find(fl_member_modes *out, const fl_member_stiffness *s, int
                          const double *mass, const double *inertia, int32_t n, fl_err *err);
 void fl_member_modes_free(fl_member_modes *m); /* accepts a zeroed struct, leaves one */
 
-/* Mass that moves with mode k where the largest displacement of a node is 1. */
-double fl_member_modes_mass(const fl_member_modes *m, int32_t k, int32_t nodes);
+/* Mass that moves with mode k where the largest displacement is 1. */
+double fl_member_modes_mass(const fl_member_modes *m, int32_t k);
 
 /* Writes the table of kind `modes`: mode, f, mass, ratio, and the displacements of the nodes where the
- * largest of them is 1. */
+ * largest displacement is 1. */
 void fl_member_modes_write(FILE *f, const fl_member_modes *m, const fl_member_model *model, double ratio,
                            const fl_history_line *by);
 

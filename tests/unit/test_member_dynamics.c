@@ -43,7 +43,7 @@ static void modes_are_those_of_a_cantilever(void **state)
         const double omega = root[k / 2] * root[k / 2] / 100.0 * sqrt(s.eiy / s.mass);
         assert_true(relative(d.modes.omega[k], omega) < (k < 2 ? 2e-3 : 2e-2));
     }
-    assert_true(relative(fl_member_modes_mass(&d.modes, 0, 2), 0.25 * s.mass * 10.0) < 3e-3);
+    assert_true(relative(fl_member_modes_mass(&d.modes, 0), 0.25 * s.mass * 10.0) < 3e-3);
     fl_member_dynamics_free(&d);
     fl_member_model_free(&m);
 }
