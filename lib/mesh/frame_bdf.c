@@ -174,7 +174,7 @@ static int freedoms_of(const char *digits)
     return bits;
 }
 
-static int hold(fl_frame_model *f, int64_t grid, int bits, fl_err *err)
+static int hold_grid(fl_frame_model *f, int64_t grid, int bits, fl_err *err)
 {
     const int32_t k = grid > 0 ? fl_frame_node_of(f, 0, grid, err) : -1;
     if (k < 0) return grid > 0 ? -1 : 0;
@@ -200,7 +200,7 @@ static int read_supports(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
         for (int k = 1; k < 7 && !is_blank(a, k); k += 3) {
             double moved = 0.0;
             if (fl_bdf_integer(a, k, 0, &g, err) || fl_bdf_real(a, k + 2, &moved, err) ||
-                hold(f, g, freedoms_of(fl_bdf_field(a, k + 1)), err))
+                hold_grid(f, g, freedoms_of(fl_bdf_field(a, k + 1)), err))
                 return -1;
             if (moved != 0.0 && fl_frame_leave(f, "SPC: enforced displacements; the freedom is held"))
                 return -1;
@@ -214,12 +214,12 @@ static int read_supports(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
             if (fl_bdf_id(a, k + 1, &g, err)) return -1;
             if (g - last > 1000000) return fl_bdf_fail(a, err, "SPC1 holds more than a million grids");
             for (int64_t i = last + 1; i <= g; i++) /* only grids that are there */
-                if (fl_id_map_find(&f->node_id, 0, i) >= 0 && hold(f, i, bits, err)) return -1;
+                if (fl_id_map_find(&f->node_id, 0, i) >= 0 && hold_grid(f, i, bits, err)) return -1;
             k++;
             last = g;
             continue;
         }
-        if (fl_bdf_id(a, k, &last, err) || hold(f, last, bits, err)) return -1;
+        if (fl_bdf_id(a, k, &last, err) || hold_grid(f, last, bits, err)) return -1;
     }
     return 0;
 }
