@@ -231,7 +231,7 @@ static void exchange_members(fl_state_io *t, fl_world *w)
     fl_state_io_close(t);
     for (int32_t k = 0; k < d->chain.balls && !t->err->code; k++) {
         fl_member_ball *a = &d->chain.ball[k];
-        fl_state_io_open(t, "ball");
+        fl_state_io_open(t, "chain");
         fl_state_io_vec3(t, &a->d);
         fl_state_io_vec3(t, &a->v);
         fl_state_io_quat(t, &a->q);
