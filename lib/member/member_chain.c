@@ -175,6 +175,43 @@ static void sum_scales(fl_member_chain *c)
     c->load_norm = sqrt(load2);
 }
 
+/* Fibres of the pieces whose section yields. */
+static int make_fibres(fl_member_chain *c, const fl_member_model *m, fl_err *err)
+{
+    int64_t numbers = 0;
+    for (int32_t k = 0; k < c->contacts; k++) {
+        const fl_member_contact *e = &c->contact[k];
+        c->yielding += (e->kind == FL_MEMBER_BEAM || e->kind == FL_MEMBER_BAR) &&
+                       m->section[m->member[e->member].section].yield > 0.0;
+    }
+    if (c->yielding == 0) return 0;
+    c->sections = m->section_name.n;
+    c->fibre_section = fl_alloc(c->sections, sizeof *c->fibre_section, err);
+    c->fibres = fl_alloc(c->yielding, sizeof *c->fibres, err);
+    if (err->code) return -1;
+    for (int32_t s = 0; s < c->sections; s++)
+        if (m->section[s].yield > 0.0 &&
+            fl_member_fibre_section_make(&c->fibre_section[s], &m->section[s], err))
+            return -1;
+    c->yielding = 0;
+    for (int32_t k = 0; k < c->contacts; k++) {
+        fl_member_contact *e = &c->contact[k];
+        const fl_member_fibre_section *s = &c->fibre_section[m->member[e->member].section];
+        if (s->n == 0 || (e->kind != FL_MEMBER_BEAM && e->kind != FL_MEMBER_BAR)) continue;
+        c->fibres[c->yielding] = (fl_member_fibres){.section = s, .contact = k};
+        e->fibres = &c->fibres[c->yielding++];
+        numbers += 2 * s->n;
+    }
+    double *at = c->fibre_strains = fl_alloc(numbers, sizeof *c->fibre_strains, err);
+    if (!at) return -1;
+    for (int32_t k = 0; k < c->yielding; k++) {
+        c->fibres[k].plastic = at;
+        c->fibres[k].trial = at + c->fibres[k].section->n;
+        at += 2 * c->fibres[k].section->n;
+    }
+    return 0;
+}
+
 int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt, fl_err *err)
 {
     int32_t ball = m->node_name.n, contact = 0;
@@ -184,6 +221,7 @@ int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt
     for (int32_t k = 0; k < m->member_name.n; k++)
         if (make_member(c, m, k, &ball, &contact, err)) goto failed;
     link_contacts(c);
+    if (make_fibres(c, m, err)) goto failed;
     fl_member_chain_masses(c, 0.0);
     sum_scales(c);
     return 0;
@@ -221,6 +259,11 @@ void fl_member_chain_free(fl_member_chain *c)
     free(c->load);
     free(c->move);
     free(c->part);
+    for (int32_t s = 0; s < c->sections && c->fibre_section; s++)
+        fl_member_fibre_section_free(&c->fibre_section[s]);
+    free(c->fibre_section);
+    free(c->fibres);
+    free(c->fibre_strains);
     *c = (fl_member_chain){0};
 }
 
@@ -287,6 +330,27 @@ double fl_member_chain_energy(fl_member_chain *c)
         if (r2 > largest) largest = r2;
     }
     c->largest_rotation2 = largest;
+    return sum;
+}
+
+int32_t fl_member_chain_commit(fl_member_chain *c)
+{
+    int32_t parted = 0;
+    for (int32_t k = 0; k < c->yielding; k++) {
+        fl_member_fibres *f = &c->fibres[k];
+        double energy = 0.0;
+        fl_member_force force;
+        if (f->strain > f->section->limit && !f->parted) evaluate(c, f->contact, &force, &energy);
+        parted += fl_member_fibres_commit(f, energy);
+    }
+    return parted;
+}
+
+double fl_member_chain_plastic(const fl_member_chain *c)
+{
+    double sum = 0.0;
+    for (int32_t k = 0; k < c->yielding; k++)
+        sum += c->fibres[k].spent + (c->fibres[k].parted ? 0.0 : c->fibres[k].flow);
     return sum;
 }
 

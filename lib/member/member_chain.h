@@ -63,6 +63,11 @@ typedef struct {
     double dt, length, load_norm; /* mean length of a piece; |P0|, moments over length */
     double largest_rotation2;     /* of a piece at the last evaluation [rad2] */
     int threads;                  /* that share a step */
+    int32_t yielding;             /* pieces of sections that yield */
+    fl_member_fibres *fibres;     /* [yielding] */
+    double *fibre_strains;        /* of all of them, plastic and trial */
+    fl_member_fibre_section *fibre_section; /* [sections of the model] n = 0: elastic */
+    int32_t sections;
 } fl_member_chain;
 
 /* The parts of a vector along freedoms that are free; held: x y z in the lowest three bits. */
@@ -98,6 +103,13 @@ void fl_member_chain_forces(fl_member_chain *c);
 
 /* Elastic energy of the present state, and the square of the largest rotation of a piece. */
 double fl_member_chain_energy(fl_member_chain *c);
+
+/* Plastic strains become those of the last evaluation, and pieces beyond their limit of strain part: their
+ * number. 0 at once where no section yields. */
+int32_t fl_member_chain_commit(fl_member_chain *c);
+
+/* Work of yielding and parting so far, of the present state. */
+double fl_member_chain_plastic(const fl_member_chain *c);
 
 /* Positions and rotations of balls with imposed displacements at that load factor. */
 void fl_member_chain_impose(fl_member_chain *c, double lambda);

@@ -20,6 +20,9 @@
  *               on h: N e + T,    on b: -(N e + T) and the moment e x g
  *   bar     neither does: N = EA/L (l - L)
  *
+ * Pieces of a section that yields have the plastic stretch and curvatures of member_fibres.h subtracted;
+ * energy is then what is stored.
+ *
  * A straight chain of beam contacts is the Euler-Bernoulli element exactly, where displacements are small;
  * the error of large ones, and of buckling loads, is of second order in the length of a piece.
  * Source: Ye & Xu, Engineering Mechanics 41(3), 2024, in total form and with the couples that they leave out.
@@ -29,6 +32,7 @@
 #include <math.h>
 #include <stdint.h>
 #include "geom/quat.h"
+#include "member/member_fibres.h"
 
 #define FL_MEMBER_ROTATION_MAX 1.0              /* rad */
 #define FL_MEMBER_SINE2_MAX 0.70807341827357118 /* sin(1)^2, of a hinged piece */
@@ -43,12 +47,13 @@ enum fl_member_contact_kind {
 typedef struct {
     int32_t i, j;
     int32_t kind;
-    int32_t member;  /* that it is a piece of */
-    fl_quat e0;      /* E0 */
-    double length;   /* L */
-    double axial;    /* EA/L */
-    double shear[2]; /* beam: 12 EIz/L3 along e2, 12 EIy/L3 along e3; hinged: 3 EIz/L, 3 EIy/L */
-    double turn[3];  /* beam: GJ/L, EIy/L, EIz/L */
+    int32_t member;           /* that it is a piece of */
+    fl_quat e0;               /* E0 */
+    double length;            /* L */
+    double axial;             /* EA/L */
+    double shear[2];          /* beam: 12 EIz/L3 along e2, 12 EIy/L3 along e3; hinged: 3 EIz/L, 3 EIy/L */
+    double turn[3];           /* beam: GJ/L, EIy/L, EIz/L */
+    fl_member_fibres *fibres; /* of a section that yields, borrowed; NULL: elastic */
 } fl_member_contact;
 
 /* Force on i, which is minus that on j, and the moments on both. */
@@ -101,9 +106,18 @@ static inline fl_member_force fl_member_beam(const fl_member_contact *c, fl_vec3
     const double k = fl_member_arcsine(s2), g = 1.0 + k * s2;
     const fl_vec3 mid = v3(w + v.x * v.x * over, v.y * v.x * over, v.z * v.x * over);
     const fl_vec3 d = v3_madd(m3_tmul(e, dx), -c->length, mid);
-    const fl_vec3 f = v3(c->axial * d.x, c->shear[0] * d.y, c->shear[1] * d.z);
-    const fl_vec3 big =
-        v3(2.0 * g * c->turn[0] * v.x, 2.0 * g * c->turn[1] * v.y, 2.0 * g * c->turn[2] * v.z);
+    fl_vec3 f = v3(c->axial * d.x, c->shear[0] * d.y, c->shear[1] * d.z);
+    fl_vec3 big = v3(2.0 * g * c->turn[0] * v.x, 2.0 * g * c->turn[1] * v.y, 2.0 * g * c->turn[2] * v.z);
+    if (energy) *energy = 0.5 * v3_dot(f, d) + g * v3_dot(big, v);
+    if (c->fibres) {
+        fl_member_fibres *const yields = c->fibres;
+        fl_member_fibres_update(yields, c->length, d.x, 2.0 * g * v.y, 2.0 * g * v.z);
+        if (energy) /* of shear and torsion, and of the fibres */
+            *energy = 0.5 * (f.y * d.y + f.z * d.z) + g * big.x * v.x + yields->stored;
+        f.x -= c->axial * c->length * yields->deform[0];
+        big.y -= c->turn[1] * c->length * yields->deform[1];
+        big.z -= c->turn[2] * c->length * yields->deform[2];
+    }
     const fl_vec3 m = v3_madd(v3_scale(g, big), -k * v3_dot(v, big), v);
     const fl_vec3 bend = v3(0.0, v.z, -v.y); /* v x e1 */
     const fl_vec3 couple = v3_scale(0.5, v3_cross(d, f)), twist = v3_scale(over, v3_cross(v, couple));
@@ -111,15 +125,20 @@ static inline fl_member_force fl_member_beam(const fl_member_contact *c, fl_vec3
         v3_sub(v3_add(v3_add(v3_scale(half, v3_cross(v3_sub(mid, bend), f)), m), couple), twist);
     const fl_vec3 mj =
         v3_add(v3_add(v3_sub(v3_scale(half, v3_cross(v3_add(mid, bend), f)), m), couple), twist);
-    if (energy) *energy = 0.5 * v3_dot(f, d) + g * v3_dot(big, v);
     *rotation2 = 4.0 * g * g * s2;
     return (fl_member_force){m3_mul(e, f), m3_mul(e, mi), m3_mul(e, mj)};
 }
 
 static inline fl_member_force fl_member_bar(const fl_member_contact *c, fl_vec3 dx, double *energy)
 {
-    const double l = v3_norm(dx), n = c->axial * (l - c->length);
+    const double l = v3_norm(dx);
+    double n = c->axial * (l - c->length);
     if (energy) *energy = 0.5 * n * (l - c->length);
+    if (c->fibres) {
+        fl_member_fibres_update(c->fibres, c->length, l - c->length, 0.0, 0.0);
+        if (energy) *energy = c->fibres->stored;
+        n -= c->axial * c->length * c->fibres->deform[0];
+    }
     return (fl_member_force){v3_scale(n / l, dx), v3(0, 0, 0), v3(0, 0, 0)};
 }
 
@@ -148,6 +167,10 @@ static inline fl_member_force fl_member_contact_force(const fl_member_contact *c
                                                       fl_quat qj, double *energy, double *rotation2)
 {
     *rotation2 = 0.0;
+    if (c->fibres && c->fibres->parted) {
+        if (energy) *energy = 0.0;
+        return (fl_member_force){v3(0, 0, 0), v3(0, 0, 0), v3(0, 0, 0)};
+    }
     if (c->kind == FL_MEMBER_BEAM) return fl_member_beam(c, dx, qi, qj, energy, rotation2);
     if (c->kind == FL_MEMBER_BAR) return fl_member_bar(c, dx, energy);
     return fl_member_hinged(c, dx, c->kind == FL_MEMBER_HINGE_I ? qj : qi, c->kind == FL_MEMBER_HINGE_I,

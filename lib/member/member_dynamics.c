@@ -140,7 +140,9 @@ int fl_member_dynamics_make(fl_member_dynamics *d, const fl_member_model *m, dou
         fl_member_dynamics_free(d);
         return -1;
     }
+    d->parted = fl_member_chain_commit(&d->chain);
     for (int32_t b = 0; b < d->chain.balls; b++) d->equilibrium[b] = d->chain.ball[b].d;
+    d->plastic_at_start = fl_member_chain_plastic(&d->chain);
     d->energy_at_start = fl_member_dynamics_energy(d);
     return 0;
 }
@@ -248,6 +250,7 @@ void fl_member_dynamics_drift(fl_member_dynamics *d)
         own_kick(c, 1);
         fl_member_chain_forces(c);
         own_kick(c, 0);
+        if (c->yielding) d->parted += fl_member_chain_commit(c);
         if (!(c->largest_rotation2 <= FL_MEMBER_ROTATION_MAX * FL_MEMBER_ROTATION_MAX)) d->too_far = 1;
     }
 }
@@ -274,7 +277,14 @@ double fl_member_dynamics_energy(const fl_member_dynamics *d)
     return sum;
 }
 
-void fl_member_dynamics_refresh(fl_member_dynamics *d) { fl_member_chain_forces(&d->chain); }
+/* Rounding would let fibres that are about to yield do so a little. */
+void fl_member_dynamics_refresh(fl_member_dynamics *d)
+{
+    fl_member_chain *c = &d->chain;
+    for (int32_t k = 0; k < c->yielding; k++) c->fibres[k].frozen = 1;
+    fl_member_chain_forces(c);
+    for (int32_t k = 0; k < c->yielding; k++) c->fibres[k].frozen = c->fibres[k].changed = 0;
+}
 
 fl_vec3 fl_member_dynamics_acceleration(const fl_member_dynamics *d, int32_t ball)
 {

@@ -33,6 +33,8 @@ typedef struct {
     int substeps;            /* in dt */
     double energy_at_start;  /* of strain and loads in equilibrium */
     double damped;           /* energy that damping has removed */
+    double plastic_at_start; /* spent in the equilibrium of the start */
+    int32_t parted;          /* pieces that have parted */
     int too_far;             /* a piece is turned by more than FL_MEMBER_ROTATION_MAX */
 } fl_member_dynamics;
 

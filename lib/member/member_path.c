@@ -350,6 +350,8 @@ static int accept_point(fl_path *p, const relaxation_run *r, fl_err *err)
                          .along = c->load_norm > 0.0 ? w / c->load_norm : 0.0,
                          .residual = r->residual,
                          .energy = fl_member_chain_energy(c)};
+    t->energy += fl_member_chain_plastic(c);
+    fl_member_chain_commit(c);
     push_history(p, arc, r->lambda, w);
     const int n = p->known;
     t->work = work + (n < 3 ? 0.5 * (p->lambda[n - 1] + p->lambda[n - 2]) * (p->w[n - 1] - p->w[n - 2])

@@ -243,6 +243,36 @@ static int read_offset(fl_member_model *m, fl_text *in, fl_err *err)
     return 0;
 }
 
+/* yield SECTION STRESS [hardening H] [limit STRAIN] */
+static int read_yield(fl_member_model *m, fl_text *in, fl_err *err)
+{
+    int32_t k;
+    const char *word;
+    double stress;
+    if (read_known_name(&m->section_name, in, "section", &k, err) ||
+        read_positive(in, "yield stress", &stress, err))
+        return -1;
+    fl_member_section *s = &m->section[k];
+    if (s->form == FL_MEMBER_GENERAL)
+        return fl_text_fail(in, err, "section %s is general and has no fibres: expected pipe, rect or bar",
+                            m->section_name.name[k]);
+    s->yield = stress;
+    while (in->next < in->n) {
+        if (fl_text_word(in, "word", &word, err)) return -1;
+        const int hardening = strcmp(word, "hardening") == 0;
+        if (!hardening && strcmp(word, "limit") != 0)
+            return fl_text_fail(in, err, "\"%s\" found, expected hardening or limit", word);
+        if (read_positive(in, word, hardening ? &s->hardening : &s->limit, err)) return -1;
+    }
+    const double e = s->given[s->form == FL_MEMBER_BAR_FORM ? 1 : 2];
+    if (!(s->hardening < e))
+        return fl_text_fail(in, err, "hardening %g is not below E, which is %g", s->hardening, e);
+    if (s->limit > 0.0 && !(s->limit * e > stress))
+        return fl_text_fail(in, err, "the limit of strain %g is reached before the yield stress, at %g",
+                            s->limit, stress / e);
+    return 0;
+}
+
 static int read_mass(fl_member_model *m, fl_text *in, fl_err *err)
 {
     int32_t k;
@@ -262,9 +292,9 @@ static int read_part(fl_member_model *m, fl_text *in, fl_err *err)
 static const struct {
     const char *word;
     int (*read)(fl_member_model *m, fl_text *in, fl_err *err);
-} RECORD[] = {{"part", read_part},     {"node", read_node},     {"section", read_section},
-              {"member", read_member}, {"fix", read_fix},       {"load", read_load},
-              {"move", read_move},     {"offset", read_offset}, {"mass", read_mass}};
+} RECORD[] = {{"part", read_part}, {"node", read_node},  {"section", read_section}, {"member", read_member},
+              {"fix", read_fix},   {"load", read_load},  {"move", read_move},       {"offset", read_offset},
+              {"mass", read_mass}, {"yield", read_yield}};
 enum { RECORDS = sizeof RECORD / sizeof *RECORD };
 
 static int read_record(fl_member_model *m, fl_text *in, fl_err *err)

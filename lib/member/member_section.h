@@ -18,8 +18,11 @@ typedef struct {
     double mass;     /* per length, 0: none was given */
     double radius;   /* of the circle round the section, 0: not known */
     int bar;         /* transmits axial force alone */
-    int form;        /* enum fl_member_form */
-    double given[5]; /* of pipe D T E G rho, rectangle B H E G rho, bar A E rho */
+    double yield;    /* stress, 0: elastic */
+    double hardening; /* tangent modulus beyond it, below E; 0: perfectly plastic */
+    double limit;     /* strain at which a piece parts, 0: never */
+    int form;         /* enum fl_member_form */
+    double given[5];  /* of pipe D T E G rho, rectangle B H E G rho, bar A E rho */
 } fl_member_section;
 
 fl_member_section fl_member_section_pipe(double d, double t, double e, double g, double rho);

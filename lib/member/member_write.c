@@ -37,6 +37,12 @@ static void write_section(FILE *f, const char *name, const fl_member_section *s)
     }
     for (int k = 0; k < numbers[s->form]; k++) put_number(f, s->given[k]);
     putc('\n', f);
+    if (!(s->yield > 0.0)) return;
+    fprintf(f, "yield %s", name);
+    put_number(f, s->yield);
+    if (s->hardening > 0.0) fputs(" hardening", f), put_number(f, s->hardening);
+    if (s->limit > 0.0) fputs(" limit", f), put_number(f, s->limit);
+    putc('\n', f);
 }
 
 static void write_member(FILE *f, const fl_member_model *m, int32_t k)

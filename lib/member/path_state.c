@@ -35,6 +35,10 @@ uint64_t fl_path_hash(const fl_path *p)
         h = fl_hash(h, &e->axial, sizeof e->axial);
         h = fl_hash(h, e->shear, sizeof e->shear);
         h = fl_hash(h, e->turn, sizeof e->turn);
+        if (!e->fibres) continue;
+        const double yields[] = {e->fibres->section->yield, e->fibres->section->back,
+                                 e->fibres->section->limit};
+        h = fl_hash(h, yields, sizeof yields);
     }
     for (int32_t k = 0; k < c->loads; k++)
         h = hash_vector(hash_vector(h, c->load[k].force), c->load[k].moment);
@@ -61,6 +65,17 @@ static void put_state(FILE *f, const fl_path_state *s, const fl_member_chain *c)
     for (int32_t k = 0; k < c->loads; k++) put_numbers(f, "turned", &s->turned[k].x, 3);
 }
 
+/* Pieces that yield: what they have spent, whether they have parted, and their plastic strains. */
+static void put_fibres(FILE *f, const fl_member_chain *c)
+{
+    for (int32_t k = 0; k < c->yielding; k++) {
+        const fl_member_fibres *s = &c->fibres[k];
+        const double numbers[] = {s->spent, s->parted, s->yielded};
+        put_numbers(f, "piece", numbers, 3);
+        if (s->yielded) put_numbers(f, "fibres", s->plastic, s->section->n);
+    }
+}
+
 int fl_path_state_write(const fl_path *p, const fl_path_table *t, const char *path, fl_err *err)
 {
     fl_out out = {0};
@@ -80,6 +95,7 @@ int fl_path_state_write(const fl_path *p, const fl_path_table *t, const char *pa
     for (int k = 0; k < t->known; k++) put_numbers(out.f, "value", t->value[k], t->watches);
     put_state(out.f, &p->before, p->chain);
     put_state(out.f, &p->last, p->chain);
+    put_fibres(out.f, p->chain);
     fprintf(out.f, "rows %" PRId64 "\n", t->len);
     fwrite(t->text, 1, (size_t)t->len, out.f);
     return fl_out_close(&out, err);
@@ -128,6 +144,20 @@ static int get_state(fl_text *in, fl_path_state *s, const fl_member_chain *c, fl
     for (int32_t k = 0; k < c->loads; k++) {
         if (get_numbers(in, "turned", x, 3, err)) return -1;
         s->turned[k] = v3(x[0], x[1], x[2]);
+    }
+    return 0;
+}
+
+static int get_fibres(fl_text *in, fl_member_chain *c, fl_err *err)
+{
+    for (int32_t k = 0; k < c->yielding; k++) {
+        fl_member_fibres *s = &c->fibres[k];
+        double x[3];
+        if (get_numbers(in, "piece", x, 3, err)) return -1;
+        s->spent = x[0];
+        s->parted = x[1] != 0.0;
+        s->yielded = x[2] != 0.0;
+        if (s->yielded && get_numbers(in, "fibres", s->plastic, s->section->n, err)) return -1;
     }
     return 0;
 }
@@ -211,7 +241,7 @@ static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
     for (int k = 0; k < t->known; k++)
         if (get_numbers(in, "value", t->value[k], t->watches, err)) return -1;
     return get_state(in, &p->before, p->chain, err) || get_state(in, &p->last, p->chain, err) ||
-                   get_rows(in, t, err)
+                   get_fibres(in, p->chain, err) || get_rows(in, t, err)
                ? -1
                : 0;
 }

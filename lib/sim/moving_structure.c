@@ -324,6 +324,7 @@ fl_moving_energy fl_moving_structure_energy(const fl_world *w)
         all.kinetic = fl_member_dynamics_kinetic(d);
         all.spring = fl_member_dynamics_energy(d);
         all.damper_work = d->damped;
+        all.plastic_work = fl_member_chain_plastic(&d->chain) - d->plastic_at_start;
         return all;
     }
     for (int32_t m = 0; m < v->n; m++) {

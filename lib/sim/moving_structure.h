@@ -37,7 +37,7 @@ double fl_mover_omega2(const fl_world *w, int32_t k, double stiffest);
 
 /* Energies of all movers [J].  drive_work: work of the prescribed motions of movers with free directions. */
 typedef struct {
-    double kinetic, spring, damper_work, drive_work;
+    double kinetic, spring, damper_work, drive_work, plastic_work;
 } fl_moving_energy;
 fl_moving_energy fl_moving_structure_energy(const fl_world *w);
 

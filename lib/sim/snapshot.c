@@ -228,6 +228,7 @@ static void exchange_members(fl_state_io *t, fl_world *w)
     fl_state_io_open(t, "members");
     fl_state_io_int(t, balls, balls, &balls);
     fl_state_io_real(t, &d->damped);
+    fl_state_io_int(t, 0, INT32_MAX, &d->parted);
     fl_state_io_close(t);
     for (int32_t k = 0; k < d->chain.balls && !t->err->code; k++) {
         fl_member_ball *a = &d->chain.ball[k];
@@ -236,6 +237,17 @@ static void exchange_members(fl_state_io *t, fl_world *w)
         fl_state_io_vec3(t, &a->v);
         fl_state_io_quat(t, &a->q);
         fl_state_io_vec3(t, &a->w);
+        fl_state_io_close(t);
+    }
+    for (int32_t k = 0; k < d->chain.yielding && !t->err->code; k++) {
+        fl_member_fibres *f = &d->chain.fibres[k];
+        fl_state_io_open(t, "yields");
+        fl_state_io_real(t, &f->spent);
+        fl_state_io_real(t, &f->strain);
+        fl_state_io_int(t, 0, 1, &f->parted);
+        fl_state_io_int(t, 0, 1, &f->yielded);
+        for (int e = 0; e < f->section->n && f->yielded && !t->err->code; e++)
+            fl_state_io_real(t, &f->plastic[e]);
         fl_state_io_close(t);
     }
     if (t->in && !t->err->code) fl_member_structure_refresh(w);

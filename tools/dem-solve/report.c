@@ -64,6 +64,25 @@ static void report_bonds(const fl_world *w, FILE *f)
             w->ledger.fracture);
 }
 
+/* Members whose sections have yielded or parted. */
+static void report_members(const fl_world *w, FILE *f)
+{
+    const fl_member_dynamics *d = &w->moving.members.dynamics;
+    const fl_member_chain *c = &d->chain;
+    int32_t yielded = 0;
+    const fl_member_fibres *first = NULL;
+    for (int32_t k = 0; k < c->yielding; k++) {
+        yielded += c->fibres[k].yielded;
+        if (!first && c->fibres[k].parted) first = &c->fibres[k];
+    }
+    fprintf(f, "members            %d of %d pieces yielded, %d parted: %.4g J", yielded, c->yielding,
+            d->parted, w->ledger.plastic);
+    if (first)
+        fprintf(f, "; of member %s first",
+                w->moving.members.model->member_name.name[c->contact[first->contact].member]);
+    putc('\n', f);
+}
+
 void note_long_bonds(const fl_world *w, FILE *f)
 {
     const fl_bond_counts n = fl_bond_list_counts(w);
@@ -218,6 +237,7 @@ void write_report(const struct run *r, FILE *f)
     report_energy(w, f);
     report_momentum(w, f);
     if (w->bonds.n) report_bonds(w, f);
+    if (w->moving.members.dynamics.chain.yielding) report_members(w, f);
     if (w->inflow.absent) report_inflow(w, f);
     report_overlaps(w, f);
     fprintf(f, "state hash         %016" PRIx64 "\n", fl_state_hash(w));
