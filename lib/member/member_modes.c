@@ -81,19 +81,18 @@ static void eigen_symmetric(int n, double *a, double *v, double *d)
 
 typedef struct {
     const fl_member_stiffness *s;
-    int32_t n;       /* unknowns */
-    int p;           /* vectors */
-    double *m;       /* [n] masses of the unknowns */
-    double *x, *y;   /* [p][n] */
-    double *k2, *m2; /* [p][p] */
-    double *v, *d, *omega2, *mixed;
+    int32_t n;      /* unknowns */
+    int p;          /* vectors */
+    double *m;      /* [n] masses of the unknowns */
+    double *x, *y;  /* [p][n] */
+    double *k2, *v; /* [p][p] */
+    double *d, *omega2;
     int *order;
 } subspace;
 
 static void free_subspace(subspace *u)
 {
-    free(u->m), free(u->x), free(u->y), free(u->k2), free(u->m2), free(u->v), free(u->d), free(u->omega2),
-        free(u->mixed), free(u->order);
+    free(u->m), free(u->x), free(u->y), free(u->k2), free(u->v), free(u->d), free(u->omega2), free(u->order);
 }
 
 static int make_subspace(subspace *u, int32_t modes, const double *mass, const double *inertia, fl_err *err)
@@ -112,9 +111,7 @@ static int make_subspace(subspace *u, int32_t modes, const double *mass, const d
     u->x = fl_alloc((int64_t)u->p * u->n, sizeof *u->x, err);
     u->y = fl_alloc((int64_t)u->p * u->n, sizeof *u->y, err);
     u->k2 = fl_alloc(pp, sizeof *u->k2, err);
-    u->m2 = fl_alloc(pp, sizeof *u->m2, err);
     u->v = fl_alloc(pp, sizeof *u->v, err);
-    u->mixed = fl_alloc(2 * pp, sizeof *u->mixed, err);
     u->d = fl_alloc(u->p, sizeof *u->d, err);
     u->omega2 = fl_alloc(u->p, sizeof *u->omega2, err);
     u->order = fl_alloc(u->p, sizeof *u->order, err);
@@ -127,78 +124,71 @@ static int make_subspace(subspace *u, int32_t modes, const double *mass, const d
     return 0;
 }
 
-/* Rayleigh and Ritz: with y = K^-1 M x the matrices are y.K y = y.M x and y.M y. Mass first, m2 = V d V^T,
- * then d^-1/2 V^T k2 V d^-1/2 = W omega2 W^T; the combinations are V d^-1/2 W. */
-static int turn_to_modes(subspace *u, fl_err *err)
+/* y becomes M-orthonormal, vector by vector and twice, since the first are nearly the same; x, which is K
+ * y, follows. Vectors that depend on those before come from elsewhere. */
+static void orthonormalise(subspace *u)
+{
+    for (int c = 0; c < u->p; c++) {
+        double *y = u->y + (int64_t)c * u->n, *z = u->x + (int64_t)c * u->n;
+        for (int pass = 0; pass < 2; pass++) {
+            for (int r = 0; r < c; r++) {
+                const double *q = u->y + (int64_t)r * u->n, *kq = u->x + (int64_t)r * u->n;
+                double part = 0.0;
+                for (int32_t i = 0; i < u->n; i++) part += q[i] * u->m[i] * y[i];
+                for (int32_t i = 0; i < u->n; i++) {
+                    y[i] -= part * q[i];
+                    z[i] -= part * kq[i];
+                }
+            }
+            double norm2 = 0.0;
+            for (int32_t i = 0; i < u->n; i++) norm2 += u->m[i] * y[i] * y[i];
+            const double over = norm2 > 0.0 ? 1.0 / sqrt(norm2) : 0.0;
+            for (int32_t i = 0; i < u->n; i++) {
+                y[i] *= over;
+                z[i] *= over;
+            }
+        }
+    }
+}
+
+/* Rayleigh and Ritz: with y = K^-1 M x made orthonormal, y.K y = V omega2 V^T, and the next x are y V. */
+static void turn_to_modes(subspace *u)
 {
     const int p = u->p;
-    double *a = u->mixed, *w = u->mixed + (int64_t)p * p;
+    orthonormalise(u);
     for (int r = 0; r < p; r++)
         for (int c = 0; c <= r; c++) {
             const double *yr = u->y + (int64_t)r * u->n, *yc = u->y + (int64_t)c * u->n,
-                         *xc = u->x + (int64_t)c * u->n;
-            double k = 0.0, m = 0.0;
-            for (int32_t i = 0; i < u->n; i++) {
-                k += yr[i] * (u->m[i] * xc[i]);
-                m += yr[i] * (u->m[i] * yc[i]);
-            }
+                         *zr = u->x + (int64_t)r * u->n, *zc = u->x + (int64_t)c * u->n;
+            double k = 0.0; /* symmetric but for rounding */
+            for (int32_t i = 0; i < u->n; i++) k += 0.5 * (yr[i] * zc[i] + yc[i] * zr[i]);
             u->k2[r * p + c] = u->k2[c * p + r] = k;
-            u->m2[r * p + c] = u->m2[c * p + r] = m;
         }
-    eigen_symmetric(p, u->m2, u->v, u->d);
-    for (int c = 0; c < p; c++) {
-        if (!(u->d[c] > 0.0))
-            return fl_fail(err, FL_NUMERIC,
-                           "modes: the masses of the structure are too unequal for %d of them", p);
-        for (int r = 0; r < p; r++) u->v[r * p + c] /= sqrt(u->d[c]);
-    }
-    for (int r = 0; r < p; r++)
-        for (int c = 0; c < p; c++) {
-            double sum = 0.0;
-            for (int k = 0; k < p; k++) sum += u->k2[r * p + k] * u->v[k * p + c];
-            w[r * p + c] = sum;
-        }
-    for (int r = 0; r < p; r++)
-        for (int c = 0; c < p; c++) {
-            double sum = 0.0;
-            for (int k = 0; k < p; k++) sum += u->v[k * p + r] * w[k * p + c];
-            a[r * p + c] = sum;
-        }
-    for (int r = 0; r < p; r++) /* rounding made it a little unsymmetric */
-        for (int c = 0; c < r; c++) a[r * p + c] = a[c * p + r] = 0.5 * (a[r * p + c] + a[c * p + r]);
-    eigen_symmetric(p, a, w, u->d);
+    eigen_symmetric(p, u->k2, u->v, u->d);
     for (int k = 0; k < p; k++) { /* ascending, by insertion */
         int at = k;
         for (; at > 0 && u->d[u->order[at - 1]] > u->d[k]; at--) u->order[at] = u->order[at - 1];
         u->order[at] = k;
     }
-    for (int r = 0; r < p; r++)
-        for (int c = 0; c < p; c++) {
-            double sum = 0.0;
-            for (int k = 0; k < p; k++) sum += u->v[r * p + k] * w[k * p + u->order[c]];
-            u->k2[r * p + c] = sum;
-        }
     for (int c = 0; c < p; c++) {
         double *x = u->x + (int64_t)c * u->n;
         memset(x, 0, (size_t)u->n * sizeof *x);
         for (int k = 0; k < p; k++) {
-            const double *y = u->y + (int64_t)k * u->n, f = u->k2[k * p + c];
+            const double *y = u->y + (int64_t)k * u->n, f = u->v[k * p + u->order[c]];
             for (int32_t i = 0; i < u->n; i++) x[i] += f * y[i];
         }
     }
-    return 0;
 }
 
 static int iterate(subspace *u, int32_t modes, fl_err *err)
 {
     for (int pass = 0; pass < ITERATIONS; pass++) {
         for (int a = 0; a < u->p; a++) {
-            double *y = u->y + (int64_t)a * u->n;
-            const double *x = u->x + (int64_t)a * u->n;
-            for (int32_t i = 0; i < u->n; i++) y[i] = u->m[i] * x[i];
+            double *y = u->y + (int64_t)a * u->n, *x = u->x + (int64_t)a * u->n;
+            for (int32_t i = 0; i < u->n; i++) y[i] = x[i] *= u->m[i];
             fl_member_stiffness_solve(u->s, y);
         }
-        if (turn_to_modes(u, err)) return -1;
+        turn_to_modes(u);
         int still = pass > 0;
         for (int a = 0; a < u->p; a++) {
             const double now = u->d[u->order[a]];

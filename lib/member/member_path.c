@@ -143,14 +143,27 @@ static double load_scale(const fl_path *p, double lambda)
                               : fmax(p->reaction_most, fl_member_chain_reaction(c));
 }
 
-static double step_lambda(const fl_path *p, relaxation_run *r, const fl_member_half *h, double balanced,
-                          int *root)
+/* Load factor that leads the controlled freedom to its target; its ball has not moved yet in this step. */
+static double control_lambda(const fl_path *p, const relaxation_run *r, double c2)
+{
+    const fl_member_chain *c = p->chain;
+    const fl_member_ball *a = &c->ball[p->options.control_ball];
+    const int axis = p->options.control_axis;
+    const double moved = v3_at(a->d, axis) + c->dt * v3_at(a->v, axis);
+    return (r->target - moved) / (c2 * c->dt * c->dt * a->over_m * v3_at(c->load[a->load].force, axis));
+}
+
+static double step_lambda(const fl_path *p, relaxation_run *r, const fl_member_half *h, double c2,
+                          double balanced, int *root)
 {
     double lambda = r->lambda;
     *root = 1;
     switch (r->constraint) {
     case FL_ARC_LOAD: break;
-    case FL_ARC_DISPLACEMENT: lambda = (r->target * p->chain->load_norm - h->work_a) / h->work_b; break;
+    case FL_ARC_DISPLACEMENT:
+        lambda = p->options.control ? control_lambda(p, r, c2)
+                                    : (r->target * p->chain->load_norm - h->work_a) / h->work_b;
+        break;
     case FL_ARC_TOTAL:
     case FL_ARC_INCREMENT:
         /* From the last point the load may turn back while the sphere goes on: the nearer root. */
@@ -197,7 +210,7 @@ static int relax_chain(fl_path *p, relaxation_run *r)
         const double c1 = fl_relaxation_c1(&damping), c2 = fl_relaxation_c2(&damping);
         const fl_member_half h = fl_member_chain_free_step(c, c1, c2, r->from);
         int root;
-        r->lambda = step_lambda(p, r, &h, balanced, &root);
+        r->lambda = step_lambda(p, r, &h, c2, balanced, &root);
         successive = root ? 0 : successive + 1;
         r->negative += !root;
         const double kinetic = h.kinetic + fl_member_chain_loaded_step(c, c2, r->lambda);
@@ -231,6 +244,15 @@ static double chord_share(fl_path *p, double dl, relaxation_run *r)
         x = dl / sqrt(bb);
         break;
     case FL_ARC_DISPLACEMENT:
+        if (p->options.control) {
+            const int32_t b = p->options.control_ball;
+            const double at = v3_at(p->last.d[b], p->options.control_axis),
+                         step = at - v3_at(p->before.d[b], p->options.control_axis);
+            dl = copysign(dl, step);
+            r->target = at + dl;
+            x = dl / step;
+            break;
+        }
         r->target = p->w[n] / c->load_norm + dl;
         x = dl / ((p->w[n] - p->w[n - 1]) / c->load_norm);
         break;
@@ -394,9 +416,11 @@ static int first_point(fl_path *p, fl_err *err)
     if (accept_point(p, &r, err)) return -1;
     const double l = p->point.length;
     p->first_steps = r.steps;
-    p->dl = p->options.dl > 0.0                            ? p->options.dl
-            : p->options.dl_first > 0.0                    ? p->options.dl_first
-            : p->options.constraint == FL_ARC_LOAD         ? p->options.first
+    p->dl = p->options.dl > 0.0                    ? p->options.dl
+            : p->options.dl_first > 0.0            ? p->options.dl_first
+            : p->options.constraint == FL_ARC_LOAD ? p->options.first
+            : p->options.control
+                ? fabs(v3_at(p->chain->ball[p->options.control_ball].d, p->options.control_axis))
             : p->options.constraint == FL_ARC_DISPLACEMENT ? fabs(p->point.along)
                                                            : l;
     if (p->options.dl_most > 0.0 && p->dl > p->options.dl_most) p->dl = p->options.dl_most;

@@ -33,6 +33,10 @@ typedef struct {
     double dl_first; /* of the second point where dl = 0; 0: that of the first point */
     double last;     /* of load control: load factor that a point is made at, 0: none */
     enum fl_arc_constraint constraint;
+    int32_t
+        control; /* of FL_ARC_DISPLACEMENT: 0 the displacement along the loads; else that of one freedom */
+    int32_t control_ball; /* ball and axis, along which a load acts */
+    int32_t control_axis;
     enum fl_path_predictor predictor;
     double load_step;   /* detP/P0 */
     int64_t load_steps; /* eta */

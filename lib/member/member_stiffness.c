@@ -4,8 +4,8 @@
 #include "base/array.h"
 
 /* Pivot below which a freedom is a spin of a member about its axis, over the diagonal element. That of a
- * cantilever of n pieces is of order n^-4. */
-static const double SPIN = 1e-14;
+ * cantilever of n pieces is of order n^-4, so that 500 pieces in line are told from one. */
+static const double SPIN = 1e-11;
 
 static int turns_ball(const fl_member_contact *e, int at_j)
 {

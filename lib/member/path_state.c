@@ -16,7 +16,8 @@ uint64_t fl_path_hash(const fl_path *p)
 {
     const fl_member_chain *c = p->chain;
     const fl_path_options *o = &p->options;
-    const int32_t choices[] = {(int32_t)o->constraint, (int32_t)o->predictor, (int32_t)o->damping};
+    const int32_t choices[] = {(int32_t)o->constraint, (int32_t)o->predictor, (int32_t)o->damping, o->control,
+                               o->control_ball,        o->control_axis};
     const double numbers[] = {
         o->first, o->dl,  o->dl_most,    o->dl_first, o->load_step,        (double)o->load_steps,
         o->c,     o->chi, o->resolution, o->last,     (double)o->max_steps};

@@ -178,6 +178,11 @@ static const fl_option OPTION[] = {
      .kind = FL_OPTION_CHOICE,
      .at = AT(constraint),
      .choice = CONSTRAINTS},
+    {.word = "control",
+     .argument = "NODE.x",
+     .help = "hold the displacement of this loaded freedom: displacement control of it",
+     .kind = FL_OPTION_FILE,
+     .at = AT(control)},
     {.word = "predictor",
      .argument = "P",
      .help = "chord, or load: --load-steps of --load-step each (chord)",
@@ -309,6 +314,10 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     o->path.predictor = (enum fl_path_predictor)o->predictor;
     o->path.load_steps = o->load_steps;
     o->path.max_steps = o->max_steps;
+    if (o->control && o->constraint != FL_ARC_TOTAL && o->constraint != FL_ARC_DISPLACEMENT)
+        return fl_fail(err, FL_USAGE, "--control is displacement control, --constraint %.20s is another",
+                       CONSTRAINTS[o->constraint]);
+    if (o->control) o->path.constraint = FL_ARC_DISPLACEMENT;
     for (int k = 0; k < o->untils; k++)
         if (strcmp(o->until[k].name, "lambda") == 0) o->path.last = o->until[k].value;
     if (!o->model) return fl_fail(err, FL_USAGE, "no model, expected a file of kind members");
@@ -350,6 +359,7 @@ void options_by(const struct options *o, fl_history_line *by)
     add_option(by, "--resolution", p->resolution, usual.resolution);
     if (p->constraint != usual.constraint)
         fl_history_line_add(by, "--constraint %s", CONSTRAINTS[p->constraint]);
+    if (o->control) fl_history_line_word(by, "--control ", o->control);
     if (p->predictor != usual.predictor) {
         fl_history_line_add(by, "--predictor %s --load-steps %lld", PREDICTORS[p->predictor],
                             (long long)p->load_steps);

@@ -16,6 +16,7 @@ struct until {
 struct options {
     const char *model; /* borrowed from argv */
     fl_path_options path;
+    const char *control;           /* freedom of --control, NULL: none */
     int constraint, predictor;     /* as numbers of the choices; path has them too */
     int32_t load_steps, max_steps; /* the same */
     char *watch[WATCH_MAX];

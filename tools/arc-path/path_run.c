@@ -168,8 +168,21 @@ static int prepare(struct run *r, fl_err *err)
     if (o->path.constraint != FL_ARC_LOAD && !fl_member_chain_has_force(&r->chain))
         return fl_fail(err, FL_USAGE,
                        "--constraint: the loads are moments or imposed displacements, expected load");
+    fl_path_options path = o->path;
+    if (o->control) {
+        fl_path_watch w;
+        if (fl_path_watch_parse(&w, &r->model, o->control, err)) return -1;
+        const int32_t load = r->chain.ball[w.node].load;
+        if (w.dof > 2 || load < 0 || v3_at(r->chain.load[load].force, w.dof) == 0.0)
+            return fl_fail(err, FL_USAGE,
+                           "--control %.60s: no load acts along it, expected a displacement with a load",
+                           o->control);
+        path.control = 1;
+        path.control_ball = w.node;
+        path.control_axis = w.dof;
+    }
     if (o->plot && path_plot_begin(o, err)) return -1;
-    return fl_path_start(&r->path, &r->chain, &o->path, err);
+    return fl_path_start(&r->path, &r->chain, &path, err);
 }
 
 /* The table of modes in place of a path. */
