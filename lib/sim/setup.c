@@ -116,6 +116,13 @@ int fl_world_check_walls(const fl_world *w, fl_err *err)
     return 0;
 }
 
+/* File of the structure, for messages. */
+static const char *structure_name(const fl_world *w)
+{
+    const fl_scene_structure *s = &w->scene->structure;
+    return s->members[0] ? s->members : s->file;
+}
+
 /* A body could touch a piece longer than the cell in two images at once. */
 static int check_piece_length(const fl_world *w, int32_t k, const fl_surface *surface, fl_err *err)
 {
@@ -130,7 +137,7 @@ static int check_piece_length(const fl_world *w, int32_t k, const fl_surface *su
                 err, FL_INPUT,
                 "%s: a piece of part %s is %.4g m long, and the periodic %c repeats every %.4g m: bodies "
                 "would touch more than one image of it",
-                w->scene->structure.file, surface->part[p->part].name, size[c], 'x' + c, length[c]);
+                structure_name(w), surface->part[p->part].name, size[c], 'x' + c, length[c]);
     return 0;
 }
 
@@ -285,8 +292,7 @@ static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *er
                 err, FL_INPUT,
                 "%s: part %s: its triangles, from line %d on, have inward normals, so all outside is "
                 "solid, and body %d is there: struct-import turns them",
-                w->scene->structure.file, p->name, p->line + (rows ? piece->inward_triangle - 1 : 0),
-                w->id[i]);
+                structure_name(w), p->name, p->line + (rows ? piece->inward_triangle - 1 : 0), w->id[i]);
         }
     }
     return 0;
@@ -314,7 +320,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     w->max_overlap_i = w->max_overlap_j = w->critical_body = -1;
     w->parts = surface ? surface->n : 0;
     if (surface && fl_structure_build(&w->structure, surface, &why)) {
-        if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", scene->structure.file, why.text);
+        if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", structure_name(w), why.text);
         else *err = why;
         goto fail;
     }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cost.sh MODEL END LIMIT OUT -- points, steps, seconds and error of the limit for several predictors, a row each.
-# The first rows are the predictor by load steps of Ye & Xu (2024) over eta (steps) and detP (load factor of a step).
+# The last rows are the predictor by load steps of Ye & Xu (2024) over eta (steps) and detP (load factor of a step).
 set -eu
 model=$1 end=$2 limit=$3 out=$4
 printf 'predictor\teta\tdetP\tpoints\tsteps\tseconds\treached[m]\tlimit[kN]\terror\n'
@@ -20,12 +20,12 @@ row() # NAME ETA DETP OPTIONS...
             else printf "%.2f\t%.1e\n", found, (found > exact ? found - exact : exact - found) / exact
         }' "$out/cost.tsv"
 }
-for eta in 10 30 100; do
-    for detp in 0.002 0.01 0.05; do
-        row load "$eta" "$detp" --predictor load --load-steps "$eta" --load-step "$detp" --points 400
-    done
-done
 for resolution in 0.1 0.03 0.01 0.003; do
     row chord,kinetic - "$resolution" --resolution "$resolution"
     row chord,adaptive - "$resolution" --damping adaptive --resolution "$resolution"
+done
+for eta in 10 30 100; do
+    for detp in 0.01 0.05; do
+        row load "$eta" "$detp" --predictor load --load-steps "$eta" --load-step "$detp" --points 300
+    done
 done
