@@ -120,18 +120,20 @@ int fl_member_dynamics_make(fl_member_dynamics *d, const fl_member_model *m, dou
 {
     fl_member_stiffness s = {0};
     *d = (fl_member_dynamics){.ratio = ratio};
-    int rc = fl_member_check_mechanism(m, err) || fl_member_chain_make(&d->chain, m, 1.0, err) ||
-                     allocate(d, err) || set_masses(d, m, err) ||
-                     fl_member_stiffness_make(&s, &d->chain, m->file, err)
-                 ? -1
-                 : 0;
+    int rc =
+        fl_member_check_mechanism(m, err) || fl_member_chain_make(&d->chain, m, 1.0, err) ||
+                allocate(d, err) || set_masses(d, m, err) ||
+                ((ratio > 0.0 || d->chain.loads > 0) && fl_member_stiffness_make(&s, &d->chain, m->file, err))
+            ? -1
+            : 0;
     for (int32_t k = 0; k < d->chain.moves && rc == 0; k++)
         rc =
             fl_fail(err, FL_INPUT,
                     "%s:%lld: node %s has an imposed displacement, which is for arc-path; expected a support",
                     m->file, (long long)m->node[d->chain.move[k].ball].line,
                     m->node_name.name[d->chain.move[k].ball]);
-    if (rc == 0) rc = balance(d, &s, m->file, err);
+    if (rc == 0 && d->chain.loads > 0) rc = balance(d, &s, m->file, err);
+    if (rc == 0) fl_member_chain_forces(&d->chain);
     if (rc == 0 && ratio > 0.0)
         rc = fl_member_modes_find(&d->modes, &s, d->chain.balls, d->mass, d->inertia, FL_MEMBER_DAMPED_MODES,
                                   err);

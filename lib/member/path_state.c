@@ -16,14 +16,15 @@ uint64_t fl_path_hash(const fl_path *p)
 {
     const fl_member_chain *c = p->chain;
     const fl_path_options *o = &p->options;
-    const int32_t choices[] = {(int32_t)o->constraint, (int32_t)o->predictor, (int32_t)o->damping, o->control,
-                               o->control_ball,        o->control_axis};
+    const int32_t choices[] = {(int32_t)o->constraint, (int32_t)o->predictor, (int32_t)o->damping};
+    const int32_t control[] = {o->control_ball, o->control_axis};
     const double numbers[] = {
         o->first, o->dl,  o->dl_most,    o->dl_first, o->load_step,        (double)o->load_steps,
         o->c,     o->chi, o->resolution, o->last,     (double)o->max_steps};
     uint64_t h = FL_HASH_START;
     h = fl_hash(h, choices, sizeof choices);
     h = fl_hash(h, numbers, sizeof numbers);
+    if (o->control) h = fl_hash(h, control, sizeof control);
     for (int32_t b = 0; b < c->balls; b++) {
         h = hash_vector(h, c->ball[b].x0);
         h = fl_hash(h, &c->ball[b].fixed, sizeof c->ball[b].fixed);

@@ -64,6 +64,8 @@ int import_members(const struct options *o, fl_err *err)
     fl_out out = {0};
     int rc = fl_mesh_read(&none, path, &opt, note, err);
     if (rc == 0) rc = fl_member_import(&m, &frame, o->pieces, o->map.s, o->map.t, path, err);
+    for (char *p = note, *end; !o->quiet && (end = strchr(p, '\n')) != NULL; p = end + 1)
+        fprintf(stderr, "struct-import: %s: %.*s\n", path, (int)(end - p), p);
     if (!o->quiet) tell_left(path, &frame);
     options_by(o, &by);
     if (rc == 0) rc = check_model(&m, &by, o->out, err);
