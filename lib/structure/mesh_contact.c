@@ -42,7 +42,16 @@ typedef struct {
     double front; /* height of x in front of the face */
     double same;
     int32_t of; /* face */
+    int thin;   /* the mesh has sheets with two sides */
 } nearest_search;
+
+/* True if a face at height s decides the side rather than one at height `most`.  Of the two sides of a sheet,
+ * at equal heights, it is the one that x is in front of. */
+static inline int is_decisive(double s, double most, int thin)
+{
+    if (thin && fabs(s + most) <= 1e-9 * fabs(s)) return s > most;
+    return fabs(s) > fabs(most);
+}
 
 /* Among faces whose nearest points agree within rounding (a shared edge or corner), the one that x is most in
  * front of decides the side: its plane passes between x and the others. */
@@ -53,7 +62,7 @@ static inline void try_face(nearest_search *b, const fl_poly *p, int32_t f, fl_v
     const fl_closest_point q = fl_closest_on_face(p, f, x);
     if (q.d > most) return;
     if (q.d < b->least) b->least = q.d;
-    if (q.d < b->at.d - b->same || fabs(s) > fabs(b->front)) b->at = q, b->front = s, b->of = f;
+    if (q.d < b->at.d - b->same || is_decisive(s, b->front, b->thin)) b->at = q, b->front = s, b->of = f;
 }
 
 /* Normals that differ by less are of one plane: the tolerance of the planes over the smallest side of a tile
@@ -76,7 +85,7 @@ static double height_in_front(const nearest_search *b, const fl_poly *p, const f
     for (int32_t f; (f = fl_bvh_walk_next(&at, same)) >= 0;) {
         const double s = v3_dot(p->n[f], r);
         if (fl_closest_on_face(p, f, b->at.p).d > same) continue;
-        if (fabs(s) > fabs(most)) most = s;
+        if (is_decisive(s, most, b->thin)) most = s;
         low = fmin(low, s), high = fmax(high, s);
         if (v3_norm2(v3_sub(p->n[f], first)) <= SAME_NORMAL * SAME_NORMAL) continue;
         if (planes == 1) second = p->n[f], planes = 2;
@@ -98,14 +107,18 @@ static fl_closest_point with_sign(const nearest_search *b, const fl_poly *p, con
     return q;
 }
 
-static nearest_search empty_search(const fl_poly *p)
+static nearest_search empty_search(const fl_poly *p, const fl_piece_mesh *sh)
 {
-    return (nearest_search){.at.d = INFINITY, .least = INFINITY, .same = ROUNDING_TOL * p->size, .of = -1};
+    return (nearest_search){.at.d = INFINITY,
+                            .least = INFINITY,
+                            .same = ROUNDING_TOL * p->size,
+                            .of = -1,
+                            .thin = sh->thin != NULL};
 }
 
 static nearest_search find_nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
-    nearest_search b = empty_search(p);
+    nearest_search b = empty_search(p, sh);
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, x);
     for (int32_t f; (f = fl_bvh_walk_next(&at, b.at.d + b.same)) >= 0;) try_face(&b, p, f, x);
     return b;
@@ -207,7 +220,7 @@ static int leads_through(fl_feature_set *r, const fl_poly *p, const fl_piece_mes
     return r->faces < 0 ? -1 : 0;
 }
 
-/* Evaluates the vertices of the core that may be behind the surface. Adds the contact points of those behind,
+/* Evaluates the vertices of the core that may be behind the surface, or beyond a sheet. Adds the contact points of those behind,
  * and sets *behind if there are any. An open surface has gone into the core if it lies between its middle and
  * the vertex; else the vertex has come round the rim, or the core from the back. */
 static int add_vertices_behind(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
@@ -217,9 +230,14 @@ static int add_vertices_behind(fl_patch_points *w, fl_mesh_contact_work *near, c
     *behind = 0;
     for (int32_t k = 0; k < l->candidates; k++) {
         const int32_t v = l->candidate[k];
-        const fl_closest_point q = signed_nearest(B->p, sh, w->va[v]);
+        fl_closest_point q = signed_nearest(B->p, sh, w->va[v]);
+        if (q.d >= 0.0 && sh->thin) { /* it may have passed a sheet */
+            const int through = leads_through(&near->of_mesh, B->p, sh, middle_of(w->va, A->p->nv), w->va[v]);
+            if (through < 0) return -1;
+            if (through) q.d = -q.d, q.n = v3_neg(q.n);
+        }
         if (q.d >= 0.0) continue;
-        if (!sh->closed) {
+        if (!sh->closed && !sh->thin) {
             const int through = leads_through(&near->of_mesh, B->p, sh, middle_of(w->va, A->p->nv), w->va[v]);
             if (through < 0) return -1;
             if (!through) continue;
@@ -265,11 +283,22 @@ static void keep_near(fl_feature_set *r, const fl_patch_core *A, const fl_patch_
     r->vertices = n;
 }
 
+/* Keeps of the sides of sheets those that face x. */
+static void keep_facing(fl_feature_set *r, const fl_poly *p, const fl_piece_mesh *mesh, fl_vec3 x)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < r->faces; k++) {
+        const int32_t f = r->face[k];
+        if (!mesh->thin[f] || v3_dot(p->n[f], x) > p->c[f]) r->face[n++] = f;
+    }
+    r->faces = n;
+}
+
 /* Lists the walls within reach, and the features of them and of the core that may have contact points, until
- * the pair has moved by the margin. */
+ * the pair has moved by the margin.  facing: of sheets only the sides that face the middle of the core. */
 static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
                               const fl_patch_core *B, const fl_piece_mesh *mesh, double ra, double reach,
-                              fl_feature_pairs *l)
+                              int facing, fl_feature_pairs *l)
 {
     const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * (A->p->size + B->p->size),
                  margin_behind = margin + EDGE_TOL * B->p->size;
@@ -284,6 +313,7 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
     for (int32_t v = 0; v < A->p->nv && !l->out_of_reach; v++)
         if (may_pass_behind(B->p, mesh, w->va[v], margin_behind)) l->candidate[l->candidates++] = v;
     keep_near(walls, A, B, ra + margin + same);
+    if (facing) keep_facing(walls, B->p, mesh, middle_of(w->va, A->p->nv));
     return list_all_features(all, A->p) || fl_feature_pairs_build(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_mesh_under_face_list(l, A, B)
                ? -1
@@ -314,7 +344,7 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
     w->couple = v3(0, 0, 0);
     *distance = reach;
     if (!fl_feature_pairs_valid(l, &w->M, w->o) &&
-        list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, l))
+        list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, 0, l))
         return -1;
     if (l->out_of_reach) {
         l->max_shift2 = 0.0; /* not near now: no list is kept */
@@ -329,6 +359,10 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
             w->n = 0;
             return bound_distance(w, near, a, &b->mesh, reach, distance);
         }
+    }
+    if (behind && b->mesh.thin) { /* the far side of a sheet in the core bears nothing */
+        if (list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, 1, l)) return -1;
+        l->max_shift2 = 0.0; /* for now only */
     }
     fl_feature_pairs rest;
     const double far = behind ? ra : 0.0, rim = FL_PATCH_RIM_WIDTH * ra;
@@ -380,7 +414,7 @@ int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const
     const fl_poly *core = &b->core;
     const fl_piece_mesh *sh = &b->mesh;
     const fl_vec3 x = w->va[0];
-    nearest_search best = empty_search(core);
+    nearest_search best = empty_search(core, sh);
     w->n = w->features = 0;
     w->couple = v3(0, 0, 0);
     if (!fl_feature_pairs_valid(l, &w->M, w->o) && list_sphere_tiles(w, near, b, ra, l, distance)) return -1;

@@ -71,7 +71,7 @@ static void the_nearest_triangle_takes_the_load(void **state)
         for (int32_t k = 0; k < l.w.panel_load.panels; k++)
             if (v3_norm(l.w.panel_load.impulse[k]) > 0.0) loaded = k, count++;
         assert_int_equal(count, 1);
-        const fl_load_panel *p = &l.w.panel_load.panel[loaded];
+        const fl_load_triangle *p = &l.w.panel_load.triangle[loaded];
         assert_near(p->area, 0.5, 1e-14);
         for (int c = 0; c < 3; c++) { /* the cell from (0, 0) to (1, 1), its upper half */
             assert_true(p->v[c].x > -1e-9 && p->v[c].x < 1 + 1e-9 && p->v[c].y > -1e-9 &&
