@@ -29,8 +29,7 @@ static body_kind kind_of(const fl_piece *p)
 
 static fl_vec3 in_piece(const fl_piece *p, fl_vec3 x) { return q_rotate(q_conj(p->q), v3_sub(x, p->x)); }
 
-/* True if x, in the pose of the file, lies in a solid. */
-static int contains(const fl_piece *p, fl_vec3 x)
+int fl_piece_contains(const fl_piece *p, fl_vec3 x)
 {
     const fl_vec3 at = in_piece(p, x);
     if (kind_of(p) != SOLID) return 0;
@@ -76,7 +75,10 @@ static int add_body(fl_region_surface *s, body *b, const fl_piece *p, int32_t in
     for (int32_t f = 0; f < b->n && rc == 0; f++) {
         const int32_t from = core->first[f], m = core->first[f + 1] - from;
         const fl_region_polygon like = {
-            .normal = q_rotate(p->q, core->n[f]), .body = index, .two_sided = b->kind == PLATE};
+            .normal = q_rotate(p->q, core->n[f]),
+            .body = index,
+            .two_sided = b->kind == PLATE,
+            .on_cone = p->kind == FL_PIECE_CONE && f >= (p->r0 > 0.0) + (p->r1 > 0.0)};
         if ((rc = fl_grow(&v, &cap, m, sizeof *v, err)) != 0) break;
         for (int32_t k = 0; k < m; k++)
             v[k] = v3_add(v3_sub(p->x, s->origin), q_rotate(p->q, core->v[core->loop[from + k]]));
@@ -257,7 +259,7 @@ static int stays(const fl_region_surface *s, const fragments *w, int32_t k, fl_v
         if (fabs(v3_dot(q->normal, v3_sub(middle, at[0]))) > s->tol || !is_on_face(at, q, middle)) continue;
         return !gives_way(a, b, a_first, v3_dot(normal, q->normal) > 0.0);
     }
-    return !contains(b->piece, v3_add(middle, s->origin));
+    return !fl_piece_contains(b->piece, v3_add(middle, s->origin));
 }
 
 static int find_near_faces(fragments *w, const body *b, fl_aabb box, int32_t *n, fl_err *err)
@@ -304,14 +306,13 @@ static int cut_polygon(fl_region_surface *to, const fl_region_surface *s, int32_
     return 0;
 }
 
-int fl_region_cut(fl_region_surface *s, const fl_piece *piece, int32_t n, const int32_t *of, double tol,
-                  fl_err *err)
+int fl_region_cut(fl_region_surface *s, int32_t n, const fl_piece *const *piece, double tol, fl_err *err)
 {
-    fl_region_surface whole = {.tol = tol, .origin = piece[of[0]].x};
+    fl_region_surface whole = {.tol = tol, .origin = piece[0]->x};
     fragments w = {0};
     body *all = fl_alloc(n, sizeof *all, err);
     int rc = all ? 0 : -1;
-    for (int32_t b = 0; b < n && rc == 0; b++) rc = add_body(&whole, &all[b], &piece[of[b]], b, err);
+    for (int32_t b = 0; b < n && rc == 0; b++) rc = add_body(&whole, &all[b], piece[b], b, err);
     *s = (fl_region_surface){.tol = tol, .origin = whole.origin, .open = whole.open};
     for (int32_t p = 0; p < whole.n && rc == 0; p++) rc = cut_polygon(s, &whole, p, all, n, &w, err);
     for (int32_t b = 0; all && b < n; b++) free(all[b].box), fl_bvh_free(&all[b].tree);
@@ -354,7 +355,7 @@ int fl_pieces_touch(const fl_piece *a, const fl_piece *b, double tol, fl_err *er
             touch = gap.overlap || gap.d <= tol;
         }
     }
-    if (!touch) touch = contains(a, point_of(b)) || contains(b, point_of(a));
+    if (!touch) touch = fl_piece_contains(a, point_of(b)) || fl_piece_contains(b, point_of(a));
 done:
     for (int k = 0; k < 2; k++) free(of[k].box), fl_bvh_free(&of[k].tree);
     fragments_free(&w);

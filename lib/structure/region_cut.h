@@ -21,6 +21,7 @@ typedef struct {
     fl_vec3 normal;
     int32_t body;
     int two_sided;
+    int on_cone; /* of the side of a cone */
 } fl_region_polygon;
 
 typedef struct {
@@ -35,9 +36,11 @@ typedef struct {
 /* True if the pieces a and b are nearer than tol [m], or one lies in the other.  -1 with FL_SYSTEM. */
 int fl_pieces_touch(const fl_piece *a, const fl_piece *b, double tol, fl_err *err);
 
-/* Makes the surface of the union of piece[of[0 .. n)].  Returns -1 with FL_SYSTEM. */
-int fl_region_cut(fl_region_surface *s, const fl_piece *piece, int32_t n, const int32_t *of, double tol,
-                  fl_err *err);
+/* True if x, in the pose of the file, lies in a piece with an inside. */
+int fl_piece_contains(const fl_piece *p, fl_vec3 x);
+
+/* Makes the surface of the union of n pieces.  Returns -1 with FL_SYSTEM. */
+int fl_region_cut(fl_region_surface *s, int32_t n, const fl_piece *const *piece, double tol, fl_err *err);
 void fl_region_surface_free(fl_region_surface *s);
 
 #endif

@@ -7,7 +7,7 @@ enum { ROUNDS = 4 };
 
 /* A triangle of the surface: vertices, and whether its back is a side as well. */
 typedef struct {
-    int32_t v[3], two_sided;
+    int32_t v[3], cone, two_sided;
 } triangle;
 
 typedef struct {
@@ -105,10 +105,10 @@ static int append_on_edge(mesh_builder *m, int32_t a, int32_t b, int32_t *n, fl_
     return 0;
 }
 
-static int add_triangle(mesh_builder *m, int32_t a, int32_t b, int32_t c, int two_sided, fl_err *err)
+static int add_triangle(mesh_builder *m, int32_t a, int32_t b, int32_t c, const fl_region_polygon *p, fl_err *err)
 {
     if (fl_grow(&m->t, &m->t_cap, (int64_t)m->nt + 1, sizeof *m->t, err)) return -1;
-    m->t[m->nt++] = (triangle){{a, b, c}, two_sided};
+    m->t[m->nt++] = (triangle){{a, b, c}, p->on_cone ? p->body : -1, p->two_sided};
     return 0;
 }
 
@@ -135,10 +135,10 @@ static int triangulate(mesh_builder *m, const fl_region_polygon *p, fl_err *err)
     }
     while (n > 1 && m->ring[n - 1] == m->ring[0]) n--;
     if (n < 3) return 0;
-    if (n == 3 && !p->two_sided) return add_triangle(m, m->ring[0], m->ring[1], m->ring[2], 0, err);
+    if (n == 3 && !p->two_sided) return add_triangle(m, m->ring[0], m->ring[1], m->ring[2], p, err);
     if (!p->two_sided && !has_straight_corner(m, n)) {
         for (int32_t k = 2; k < n; k++)
-            if (add_triangle(m, m->ring[0], m->ring[k - 1], m->ring[k], 0, err)) return -1;
+            if (add_triangle(m, m->ring[0], m->ring[k - 1], m->ring[k], p, err)) return -1;
         return 0;
     }
     fl_vec3 middle = v3(0, 0, 0);
@@ -147,7 +147,7 @@ static int triangulate(mesh_builder *m, const fl_region_polygon *p, fl_err *err)
     if (fl_grow(&m->v, &m->v_cap, (int64_t)m->nv + 1, sizeof *m->v, err)) return -1;
     m->v[m->nv++] = v3_add(o, middle);
     for (int32_t k = 0; k < n; k++)
-        if (add_triangle(m, m->ring[k], m->ring[(k + 1) % n], m->nv - 1, p->two_sided, err)) return -1;
+        if (add_triangle(m, m->ring[k], m->ring[(k + 1) % n], m->nv - 1, p, err)) return -1;
     return 0;
 }
 
@@ -286,12 +286,12 @@ static int32_t halve_double_seams(side_joiner *j, mesh_builder *m, fl_err *err)
 }
 
 /* Writes both sides of the triangles. */
-static int write_part(fl_part *out, uint8_t **thin, const side_joiner *j, const mesh_builder *m, fl_err *err)
+static int write_part(fl_part *out, fl_joined_triangle **of, const side_joiner *j, const mesh_builder *m, fl_err *err)
 {
     int32_t *number = fl_alloc(6 * (int64_t)m->nt, sizeof *number, err);
     int rc = -1;
-    *thin = fl_alloc(2 * (int64_t)m->nt, 1, err);
-    if (!number || !*thin) goto done;
+    *of = fl_alloc(2 * (int64_t)m->nt, sizeof **of, err);
+    if (!number || !*of) goto done;
     for (int32_t k = 0; k < 6 * m->nt; k++) number[k] = -1;
     for (int32_t h = 0; h < 2 * m->nt; h++) {
         const triangle *t = &m->t[h / 2];
@@ -306,7 +306,7 @@ static int write_part(fl_part *out, uint8_t **thin, const side_joiner *j, const 
             }
             v[c] = number[root];
         }
-        (*thin)[out->nt] = t->two_sided != 0;
+        (*of)[out->nt] = (fl_joined_triangle){t->cone, t->two_sided != 0};
         if (fl_surface_triangle(out, v[0], v[back ? 2 : 1], v[back ? 1 : 2], err)) goto done;
     }
     rc = 0;
@@ -315,11 +315,11 @@ done:
     return rc;
 }
 
-int fl_region_join(fl_part *out, uint8_t **thin, int32_t *rims, const fl_region_surface *s, fl_err *err)
+int fl_region_join(fl_part *out, fl_joined_triangle **of, int32_t *rims, const fl_region_surface *s, fl_err *err)
 {
     mesh_builder m = {.s = s, .tol = s->tol};
     int rc = -1;
-    *thin = NULL;
+    *of = NULL;
     for (int round = 0; round < ROUNDS; round++) {
         side_joiner j = {0};
         int32_t halved = -1;
@@ -332,7 +332,7 @@ int fl_region_join(fl_part *out, uint8_t **thin, int32_t *rims, const fl_region_
             halved = halve_double_seams(&j, &m, err);
         }
         if (halved == 0 || (halved > 0 && round + 1 == ROUNDS)) {
-            rc = write_part(out, thin, &j, &m, err);
+            rc = write_part(out, of, &j, &m, err);
             *rims = j.rims;
             joiner_free(&j);
             break;
@@ -341,6 +341,6 @@ int fl_region_join(fl_part *out, uint8_t **thin, int32_t *rims, const fl_region_
         if (halved < 0) break;
     }
     builder_free(&m);
-    if (rc) free(*thin), *thin = NULL;
+    if (rc) free(*of), *of = NULL;
     return rc;
 }

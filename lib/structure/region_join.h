@@ -11,9 +11,9 @@
 #include "structure/region_cut.h"
 
 /* Makes the triangles of `out` (zeroed), in the pose of the file.
- *   thin   out: [out->nt] 1: a side of a two-sided polygon; the caller frees it
+ *   of     out: [out->nt] what they are of, cones by the number of the body; the caller frees it
  *   rims   out: number of sides of triangles without a neighbour
  * Returns -1 with FL_SYSTEM. */
-int fl_region_join(fl_part *out, uint8_t **thin, int32_t *rims, const fl_region_surface *s, fl_err *err);
+int fl_region_join(fl_part *out, fl_joined_triangle **of, int32_t *rims, const fl_region_surface *s, fl_err *err);
 
 #endif

@@ -122,7 +122,8 @@ static int make_plate(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err
 
 static void mesh_free(fl_piece_mesh *s)
 {
-    free(s->corner), free(s->box), free(s->edge_box), free(s->concave_face), free(s->saddle), free(s->thin);
+    free(s->corner), free(s->box), free(s->edge_box), free(s->concave_face), free(s->saddle);
+    free(s->thin), free(s->cone_of_face);
     fl_tile_seams_free(&s->seams);
     fl_bvh_free(&s->tree);
     fl_bvh_free(&s->edge_tree);
@@ -342,19 +343,29 @@ static int find_saddles(fl_piece *piece, fl_err *err)
     return 0;
 }
 
-/* Marks the faces that are sides of a sheet with two; thin: of triangles, or NULL. */
-static int mark_thin(fl_piece *piece, const fl_merged_faces *tiles, int32_t nt, const uint8_t *thin, fl_err *err)
+/* Marks the faces of sheets with two sides and of cones; of: of triangles, or NULL. */
+static int mark_joined(fl_piece *piece, const fl_merged_faces *tiles, int32_t nt, const fl_joined_triangle *of,
+                       fl_err *err)
 {
-    int any = 0;
-    for (int32_t t = 0; thin && t < nt; t++) any |= thin[t];
-    if (!any) return 0;
-    piece->mesh.thin = fl_alloc(tiles->n, 1, err);
-    for (int32_t t = 0; piece->mesh.thin && t < nt; t++)
-        if (thin[t] && tiles->face_of_tri[t] >= 0) piece->mesh.thin[tiles->face_of_tri[t]] = 1;
-    return piece->mesh.thin ? 0 : -1;
+    fl_piece_mesh *mesh = &piece->mesh;
+    int thin = 0, cones = 0;
+    for (int32_t t = 0; of && t < nt; t++) thin |= of[t].thin, cones |= of[t].cone >= 0;
+    if (thin && !(mesh->thin = fl_alloc(tiles->n, 1, err))) return -1;
+    if (cones && !(mesh->cone_of_face = fl_alloc(tiles->n, sizeof *mesh->cone_of_face, err))) return -1;
+    for (int32_t f = 0; cones && f < tiles->n; f++) mesh->cone_of_face[f] = INT32_MAX;
+    for (int32_t t = 0; of && t < nt; t++) {
+        const int32_t f = tiles->face_of_tri[t];
+        if (f >= 0 && of[t].thin) mesh->thin[f] = 1;
+        if (f < 0 || !cones) continue;
+        int32_t *cone = &mesh->cone_of_face[f]; /* of one cone as a whole, or of none */
+        *cone = *cone == INT32_MAX || *cone == of[t].cone ? of[t].cone : -1;
+    }
+    for (int32_t f = 0; cones && f < tiles->n; f++) /* one of several that a wide face was cut into */
+        if (mesh->cone_of_face[f] == INT32_MAX) mesh->cone_of_face[f] = -1;
+    return 0;
 }
 
-static int make_mesh(fl_piece *piece, const fl_coplanar_regions *f, const uint8_t *thin, fl_err *err)
+static int make_mesh(fl_piece *piece, const fl_coplanar_regions *f, const fl_joined_triangle *of, fl_err *err)
 {
     const fl_part *p = f->p;
     fl_poly *core = &piece->core;
@@ -368,7 +379,7 @@ static int make_mesh(fl_piece *piece, const fl_coplanar_regions *f, const uint8_
         fl_merge_coplanar(&tiles, p->nv, p->v, p->nt, p->t, f->region, f->region_normal, f->neighbour, f->tol,
                           err) ||
         lay_out_mesh(piece, f, &tiles, err) || find_concave_faces(piece, f, &tiles, err) ||
-        mark_thin(piece, &tiles, p->nt, thin, err))
+        mark_joined(piece, &tiles, p->nt, of, err))
         goto done;
     bent_edges(f, edge, &edges, ends);
     for (int32_t k = 0; k < edges; k++) { /* every straight run once, from its lower end */
@@ -462,8 +473,8 @@ static void find_solid_side(fl_piece *piece, const fl_part *p)
     mesh->outer_winding = volume < 0.0 && !mesh->thin ? -1.0 : 0.0; /* sheets have no volume but rounding */
 }
 
-/* Makes the piece of the triangles; thin as in make_mesh().  0, or -1. */
-static int make_piece(fl_piece *piece, const fl_part *p, const uint8_t *thin, fl_err *err)
+/* Makes the piece of the triangles; of: NULL, or as in fl_structure_add_joined().  0, or -1. */
+static int make_piece(fl_piece *piece, const fl_part *p, const fl_joined_triangle *of, fl_err *err)
 {
     fl_coplanar_regions f = {0};
     int rc = -1, plate = 0;
@@ -472,10 +483,10 @@ static int make_piece(fl_piece *piece, const fl_part *p, const uint8_t *thin, fl
     if (flat) plate = make_plate(piece, &f, err);
     if (plate) rc = plate < 0 ? -1 : 0;
     else if (check_orientation(&f, err)) goto done;
-    else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_mesh(piece, &f, thin, err);
+    else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_mesh(piece, &f, of, err);
     piece->one_sided = flat && !plate && !piece->mesh.thin;
     if (rc == 0 && piece->kind == FL_PIECE_MESH) find_solid_side(piece, p);
-    if (rc == 0 && f.closed && piece->kind == FL_PIECE_MESH && !thin &&
+    if (rc == 0 && f.closed && piece->kind == FL_PIECE_MESH && !of &&
         (piece->inward_triangle = find_inward_body(&f, err)) < 0)
         rc = -1;
 done:
@@ -492,12 +503,13 @@ static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err
     return make_piece(piece, p, NULL, err);
 }
 
-int fl_structure_add_joined(fl_structure *s, const fl_part *p, const uint8_t *thin, int32_t part, fl_err *err)
+int fl_structure_add_joined(fl_structure *s, const fl_part *p, const fl_joined_triangle *of, int32_t part,
+                            fl_err *err)
 {
     fl_piece *piece = add_piece(s, err);
     if (!piece) return -1;
     piece->part = part;
-    if (make_piece(piece, p, thin, err)) {
+    if (make_piece(piece, p, of, err)) {
         fl_piece_free(piece);
         return -1;
     }
@@ -578,8 +590,24 @@ void fl_piece_free(fl_piece *p)
 {
     fl_poly_free(&p->core);
     mesh_free(&p->mesh);
-    free(p->member);
+    for (int32_t k = 0; k < p->cones; k++) free(p->free_cone[k].free);
+    free(p->member), free(p->free_cone);
     *p = (fl_piece){0};
+}
+
+fl_aabb fl_piece_face_box(const fl_piece *p, int32_t f)
+{
+    fl_aabb box = aabb_empty();
+    for (int32_t k = p->core.first[f]; k < p->core.first[f + 1]; k++)
+        box = aabb_add(box, v3_add(p->x, q_rotate(p->q, p->core.v[p->core.loop[k]])));
+    return box;
+}
+
+fl_aabb fl_piece_box(const fl_piece *p)
+{
+    fl_aabb box = aabb_empty();
+    for (int32_t f = 0; f < p->core.nf; f++) box = aabb_join(box, fl_piece_face_box(p, f));
+    return box;
 }
 
 void fl_structure_free(fl_structure *s)

@@ -39,7 +39,21 @@ typedef struct {
     int closed;            /* no rim: every edge has a face on both sides */
     double outer_winding;  /* winding number of what is in front: 0, or -1 if all outside is solid */
     uint8_t *thin;         /* [core.nf] 1: a side of a sheet that has two; NULL: no such face */
+    int32_t *cone_of_face; /* [core.nf] facet of the side of that free cone, -1: of none; NULL: no cones */
 } fl_piece_mesh;
+
+/* A cone in a joined piece, and the heights at which nothing else is near its side (region_cone.h). */
+typedef struct {
+    double from, to;
+} fl_interval;
+
+typedef struct {
+    fl_vec3 x; /* its frame, in that of the piece [m] */
+    fl_quat q;
+    double r0, r1, h; /* [m] */
+    int32_t n;
+    fl_interval *free; /* [n] of z, ascending [m] */
+} fl_free_cone;
 
 /* What a joined piece (region.h) was made of: the triangles of a part (cone -1), or a cone of it. */
 typedef struct {
@@ -62,6 +76,9 @@ typedef struct {
     double largest_region_area; /* of the largest flat region of a mesh, however it is divided [m2] */
     int32_t members;            /* of a joined piece; else 0 */
     fl_piece_member *member;    /* [members] */
+    int32_t cones;              /* of a joined piece that is a mesh */
+    fl_free_cone *free_cone;    /* [cones] */
+    double facet_error;         /* distance of facets and free cones, at most [m] */
     int several_parts;          /* the members are of several parts */
 } fl_piece;
 
@@ -78,16 +95,25 @@ typedef struct {
 int fl_structure_build(fl_structure *s, const fl_surface *surface, fl_err *err);
 
 /* Adds the piece of the joined surface of several pieces (region.h).
- *   thin   [p->nt] 1: a side of a sheet that has two
+ *   of     [p->nt] what the triangles are of
  *   part   index in the surface
  * Returns -1 as above, and s untouched. */
-int fl_structure_add_joined(fl_structure *s, const fl_part *p, const uint8_t *thin, int32_t part, fl_err *err);
+typedef struct {
+    int32_t cone; /* a facet of the side of that cone, -1: of none */
+    int thin;     /* 1: a side of a sheet that has two */
+} fl_joined_triangle;
+int fl_structure_add_joined(fl_structure *s, const fl_part *p, const fl_joined_triangle *of, int32_t part,
+                            fl_err *err);
 
 /* Makes the piece of a cone; piece is zeroed.  -1 with FL_SYSTEM. */
 int fl_cone_piece(fl_piece *piece, const fl_cone *c, fl_err *err);
 
 /* Prepares the meshes for contact with spheres, which needs the seams of tiles. Returns -1 with FL_SYSTEM. */
 int fl_structure_prepare_spheres(fl_structure *s, fl_err *err);
+/* Box of a piece, and of one of its faces, in the pose of the file. */
+fl_aabb fl_piece_box(const fl_piece *p);
+fl_aabb fl_piece_face_box(const fl_piece *p, int32_t f);
+
 void fl_piece_free(fl_piece *p);
 void fl_structure_free(fl_structure *s);
 
