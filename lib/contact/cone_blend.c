@@ -3,7 +3,6 @@
 #include <math.h>
 #include "base/array.h"
 #include "patch/cone.h"
-#include "structure/mesh_contact.h"
 
 /* Upper bound of the extent of A along the axis of the cone, from its centre, and the derivative by a
  * rotation of A.  It is the norm (sum h^8)^(1/8) over the heights h of the vertices, which is smooth and
@@ -51,8 +50,14 @@ int fl_cone_blend_points(fl_patch_points *s, int32_t first, int32_t exact, fl_ve
 
 /* --- joined pieces ------------------------------------------------------------------------------ */
 
+/* The pose of A in the frame of the piece. */
+typedef struct {
+    fl_mat3 M;
+    fl_vec3 o;
+} pose;
+
 /* The pose of A in the frame of a cone of the piece. */
-static void pose_at_cone(const fl_free_cone *c, const fl_relative_pose *r, fl_mat3 *M, fl_vec3 *o)
+static void pose_at_cone(const fl_free_cone *c, const pose *r, fl_mat3 *M, fl_vec3 *o)
 {
     const fl_mat3 Q = q_matrix(c->q);
     for (int k = 0; k < 3; k++)
@@ -81,7 +86,7 @@ static void points_to_piece(fl_patch_points *s, int32_t first, const fl_free_con
     s->couple = m3_mul(Q, s->couple);
 }
 
-/* The same of the features of a mesh that blending needs: only what moves with the frame. */
+/* And back. */
 static void points_to_cone(fl_patch_points *s, int32_t first, const fl_free_cone *c)
 {
     const fl_mat3 Q = q_matrix(c->q);
@@ -96,8 +101,8 @@ static void points_to_cone(fl_patch_points *s, int32_t first, const fl_free_cone
 
 /* Adds the points with cone k of the piece, which is free with some weight. */
 static int add_free_cone(fl_patch_points *s, fl_mesh_contact_work *near, const fl_poly *a,
-                         const fl_piece *piece, const fl_relative_pose *r, int32_t k, const fl_cone_blend *of,
-                         double ra, fl_feature_pairs *l)
+                         const fl_piece *piece, const pose *r, int32_t k, const fl_cone_blend *of, double ra,
+                         fl_feature_pairs *l)
 {
     const fl_free_cone *c = &piece->free_cone[k];
     const fl_truncated_cone cone = {c->r0, c->r1, c->h};
@@ -122,9 +127,10 @@ static int add_free_cone(fl_patch_points *s, fl_mesh_contact_work *near, const f
 }
 
 int fl_joined_find_points(fl_patch_points *s, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece *piece, const fl_relative_pose *r, double size, double ra,
+                          const fl_piece *piece, const fl_mat3 *axes, fl_vec3 at, double size, double ra,
                           double reach, fl_feature_pairs *l, double *distance)
 {
+    const pose r = {*axes, at};
     int32_t some = 0;
     if (fl_mesh_contact_reserve_cones(near, piece->cones)) return -1;
     for (int32_t k = 0; k < piece->cones; k++) {
@@ -133,7 +139,7 @@ int fl_joined_find_points(fl_patch_points *s, fl_mesh_contact_work *near, const 
         fl_vec3 o, turn;
         near->is_free[k] = 0;
         if (c->n == 0) continue;
-        pose_at_cone(c, r, &M, &o);
+        pose_at_cone(c, &r, &M, &o);
         if (!may_reach(c, o, size, ra)) continue;
         near->is_free[k] = fl_free_cone_weight(c, o.z, extent_along(a, &M, &turn) + ra).weight > 0.0;
         some += near->is_free[k];
@@ -146,10 +152,11 @@ int fl_joined_find_points(fl_patch_points *s, fl_mesh_contact_work *near, const 
         fl_mat3 M;
         fl_vec3 o, turn;
         if (!near->is_free[k]) continue;
-        pose_at_cone(&piece->free_cone[k], r, &M, &o);
-        const fl_cone_weight q = fl_free_cone_weight(&piece->free_cone[k], o.z, extent_along(a, &M, &turn) + ra);
+        pose_at_cone(&piece->free_cone[k], &r, &M, &o);
+        const fl_cone_weight q =
+            fl_free_cone_weight(&piece->free_cone[k], o.z, extent_along(a, &M, &turn) + ra);
         const fl_cone_blend of = {q.weight, q.slope, v3_scale(q.size, turn)};
-        if (add_free_cone(s, near, a, piece, r, k, &of, ra, l)) return -1;
+        if (add_free_cone(s, near, a, piece, &r, k, &of, ra, l)) return -1;
     }
     *distance = ra;
     return s->n ? 0 : fl_mesh_contact_bound(s, near, a, piece, reach, distance);

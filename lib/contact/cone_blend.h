@@ -4,12 +4,13 @@
  * Near its ends a cone is a frustum (structure/structure.h).  With the weight w of free_cone.h,
  *     U = (1 - w) U_frustum + w U_cone ,
  * and since w depends on the pose, a force along the axis and a couple besides, so that W is a potential.
- * In a joined piece (structure/region.h) that holds for each cone where it is free, and the rest of the mesh
- * counts as it is. */
+ * In a joined piece (structure/region.h) that holds for each cone where it is free, and the rest of the
+ * mesh counts as it is. */
 #ifndef FL_CONTACT_CONE_BLEND_H
 #define FL_CONTACT_CONE_BLEND_H
-#include "contact/pair_geometry.h"
+#include "patch/patch_types.h"
 #include "structure/free_cone.h"
+#include "structure/mesh_contact.h"
 
 /* Weight of the exact cone, and the derivatives by the height of the centre of A [1/m] and by a rotation of A
  * [1/rad]. */
@@ -27,9 +28,10 @@ int fl_cone_blend_points(fl_patch_points *s, int32_t first, int32_t exact, fl_ve
                          const fl_cone_blend *of, fl_vec3 centre);
 
 /* Finds the points on a joined piece with cones, as fl_mesh_contact_points().
+ *   M, o   pose of A in the frame of the piece
  *   size   bounding radius of A [m] */
 int fl_joined_find_points(fl_patch_points *s, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece *piece, const fl_relative_pose *r, double size, double ra,
+                          const fl_piece *piece, const fl_mat3 *M, fl_vec3 o, double size, double ra,
                           double reach, fl_feature_pairs *l, double *distance);
 
 #endif

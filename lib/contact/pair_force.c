@@ -534,7 +534,8 @@ static int evaluate_features(fl_world *w, fl_pair *p, int32_t thread, const fl_r
     }
     const double overlap = -c.gap;
     const fl_piece *piece = fl_world_piece(w, p->j);
-    if (piece && piece->several_parts) p->load_part = fl_load_part_at(w, p->j, v3_add(b->x[p->j], m3_mul(r->R, c.p)));
+    if (piece && piece->several_parts)
+        p->load_part = fl_load_part_at(w, p->j, v3_add(b->x[p->j], m3_mul(r->R, c.p)));
     const fl_manual_contact mc = {.kind = (fl_manual_kind)(c.mode - FL_VV),
                                   .length = c.length,
                                   .area = c.area,

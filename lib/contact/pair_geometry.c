@@ -279,10 +279,10 @@ int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
                    ? fl_mesh_contact_sphere(s, &w->mesh_near[thread], piece, ra, p->feature_pairs, distance)
                    : -1;
     if (piece && piece->kind == FL_PIECE_MESH && piece->cones && A->nv > 1)
-        return feature_pairs_of(p)
-                   ? fl_joined_find_points(s, &w->mesh_near[thread], A, piece, r, b->bounding_radius[p->i], ra,
-                                           ra + w->skin, p->feature_pairs, distance)
-                   : -1;
+        return feature_pairs_of(p) ? fl_joined_find_points(s, &w->mesh_near[thread], A, piece, &r->M, r->o,
+                                                           b->bounding_radius[p->i], ra, ra + w->skin,
+                                                           p->feature_pairs, distance)
+                                   : -1;
     if (piece && piece->kind == FL_PIECE_MESH)
         return feature_pairs_of(p) ? fl_mesh_contact_points(s, &w->mesh_near[thread], A, piece, ra,
                                                             ra + w->skin, p->feature_pairs, distance)

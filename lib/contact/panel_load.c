@@ -36,8 +36,8 @@ static int make_panels(fl_panel_loads *s, const fl_surface *surface, fl_err *err
         const fl_part *part = &surface->part[p];
         for (int32_t t = 0; t < part->nt; t++) {
             const fl_load_triangle q = triangle_of(part, t, s->all);
-            s->panel[s->all++] = (fl_load_panel){
-                v3_scale(1.0 / 3.0, v3_add(q.v[0], v3_add(q.v[1], q.v[2]))), q.area, p};
+            s->panel[s->all++] =
+                (fl_load_panel){v3_scale(1.0 / 3.0, v3_add(q.v[0], v3_add(q.v[1], q.v[2]))), q.area, p};
         }
         for (int32_t c = 0; c < part->nc; c++) {
             const fl_cone *cone = &part->cone[c];
@@ -63,7 +63,8 @@ static int add_triangle(fl_panel_loads *s, int32_t *n, int32_t *cap, fl_load_tri
 }
 
 /* The facets of a cone, for a piece that it is joined in. */
-static int add_facets(fl_panel_loads *s, int32_t *n, int32_t *cap, const fl_cone *cone, int32_t panel, fl_err *err)
+static int add_facets(fl_panel_loads *s, int32_t *n, int32_t *cap, const fl_cone *cone, int32_t panel,
+                      fl_err *err)
 {
     fl_piece frustum = {.q = q_one()};
     int rc = fl_cone_piece(&frustum, cone, err);
@@ -83,8 +84,8 @@ static int add_facets(fl_panel_loads *s, int32_t *n, int32_t *cap, const fl_cone
 }
 
 /* The triangles of a piece. */
-static int add_piece_triangles(fl_panel_loads *s, const fl_surface *surface, const fl_piece *piece, int32_t *n,
-                               int32_t *cap, fl_err *err)
+static int add_piece_triangles(fl_panel_loads *s, const fl_surface *surface, const fl_piece *piece,
+                               int32_t *n, int32_t *cap, fl_err *err)
 {
     const fl_piece_member own = {piece->part, piece->cone}, *member = piece->members ? piece->member : &own;
     for (int32_t m = 0; m < (piece->members ? piece->members : 1); m++) {
@@ -101,9 +102,9 @@ int fl_panels_make(fl_world *w, const fl_surface *surface, fl_err *err)
 {
     fl_panel_loads *s = &w->panel_load;
     const fl_scene_output *o = &w->scene->output;
-    int32_t n = 0, cap = 0, shared = 0;
-    for (int32_t k = 0; k < w->structure.n; k++) shared |= w->structure.piece[k].several_parts;
-    if (!surface || (!o->panels[0] && !o->events[0] && !shared)) return 0;
+    int32_t n = 0, cap = 0;
+    for (int32_t k = 0; k < w->structure.n; k++) s->shared |= w->structure.piece[k].several_parts;
+    if (!surface || (!o->panels[0] && !o->events[0] && !s->shared)) return 0;
     if (make_panels(s, surface, err)) return -1;
     s->panels = o->panels[0] || o->events[0] ? s->all : 0;
     s->pieces = w->structure.n, s->threads = w->threads;
@@ -116,8 +117,10 @@ int fl_panels_make(fl_world *w, const fl_surface *surface, fl_err *err)
     for (int32_t k = 0; k < s->pieces; k++) {
         const fl_piece *piece = &w->structure.piece[k];
         s->first_triangle[k] = s->first_triangle[k + 1] = n;
-        s->cone[k] = piece->cone < 0 ? -1 : s->first[piece->part] + surface->part[piece->part].nt + piece->cone;
-        if (piece->kind == FL_PIECE_PLANE || piece->cone >= 0 || !(s->panels || piece->several_parts)) continue;
+        s->cone[k] =
+            piece->cone < 0 ? -1 : s->first[piece->part] + surface->part[piece->part].nt + piece->cone;
+        if (piece->kind == FL_PIECE_PLANE || piece->cone >= 0 || !(s->panels || piece->several_parts))
+            continue;
         if (add_piece_triangles(s, surface, piece, &n, &cap, err) ||
             fl_bvh_build(&s->tree[k], s->box + s->first_triangle[k], n - s->first_triangle[k], err))
             return -1;
@@ -186,7 +189,8 @@ static int32_t find_nearest_panel(fl_panel_points *points, const fl_panel_loads 
             const double d2 = triangle_distance2(s->triangle[first + t].v, x);
             if (d2 < least || (d2 == least && t < best)) least = d2, best = t;
         }
-        if (best >= 0 && (least <= reach * reach || n == s->tree[k].n)) return s->triangle[first + best].panel;
+        if (best >= 0 && (least <= reach * reach || n == s->tree[k].n))
+            return s->triangle[first + best].panel;
         if (!(reach < 1e30)) return s->triangle[first].panel;
     }
 }
@@ -393,7 +397,8 @@ static int32_t record_features(fl_world *w, const fl_pair *p, fl_panel_points *p
 
 /* --- shares of parts ----------------------------------------------------------------------------- */
 
-static fl_load_share *share_of(fl_world *w, const fl_pair *p, fl_panel_points *points, int32_t from, int32_t part)
+static fl_load_share *share_of(fl_world *w, const fl_pair *p, fl_panel_points *points, int32_t from,
+                               int32_t part)
 {
     for (int32_t k = from; k < points->shares; k++)
         if (points->share[k].part == part) return &points->share[k];
@@ -427,7 +432,9 @@ static void split_load(fl_world *w, const fl_pair *p, fl_panel_points *points, i
     for (int32_t k = from; k < points->n; k++) {
         const fl_panel_point *m = &points->point[k];
         fl_load_share *to = share_of(w, p, points, first, m->part);
-        if (to) to->torque = v3_madd(to->torque, sum > 0.0 ? -m->normal_force / sum : -1.0 / (points->n - from), rest);
+        if (to)
+            to->torque =
+                v3_madd(to->torque, sum > 0.0 ? -m->normal_force / sum : -1.0 / (points->n - from), rest);
     }
 }
 
@@ -480,8 +487,9 @@ int32_t fl_load_part_at(fl_world *w, int32_t j, fl_vec3 x)
     const fl_piece *piece = &w->structure.piece[j - w->n];
     if (!piece->several_parts) return piece->part;
     const fl_vec3 at = m3_tmul(fl_body_axes(&w->b, j), v3_sub(x, w->b.x[j]));
-    const int32_t panel = find_nearest_panel(&w->panel_load.by_thread[0], &w->panel_load, j - w->n,
-                                             v3_add(piece->x, q_rotate(piece->q, at)), 1e-3 * piece->core.size);
+    const int32_t panel =
+        find_nearest_panel(&w->panel_load.by_thread[0], &w->panel_load, j - w->n,
+                           v3_add(piece->x, q_rotate(piece->q, at)), 1e-3 * piece->core.size);
     return panel < 0 ? piece->part : w->panel_load.panel[panel].part;
 }
 

@@ -39,7 +39,8 @@ void fl_panels_free(fl_panel_loads *s);
 /* True if the panels need the contact points of pair p. */
 static inline int fl_panels_need_points(const fl_world *w, const fl_pair *p)
 {
-    return (w->panel_load.panels && p->j >= w->n && p->j < w->n + w->pieces) || p->load_part == FL_LOAD_SHARED;
+    return (w->panel_load.panels && p->j >= w->n && p->j < w->n + w->pieces) ||
+           p->load_part == FL_LOAD_SHARED;
 }
 
 /* Sets p->load_part of a pair with a piece of several parts, from its contact points. */

@@ -394,7 +394,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
-    if (w->panel_load.all && !t->err->code) exchange_load_shares(t, w);
+    if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;
     if (w->sea.current.n) exchange_current_hash(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* free_cone.h -- how far the exact law of a cone, and not that of its polyhedron, holds near the ends of an
- * interval of its axis.
+/* free_cone.h -- how far the exact law of a cone, and not that of its polyhedron, holds near the ends of
+ * an interval of its axis.
  *
  * With z the height of the centre of a body, e the half of its extent along the axis plus its reach, and
  *     t = distance of the end / e - 1,    S(t) = t^3 (10 - 15 t + 6 t^2)  between t = 0 and 1,
- * the weight of the cone is the product of S over the two ends: 0 where an end is nearer than e, 1 where both
- * are farther than 2 e, with two continuous derivatives. */
+ * the weight of the cone is the product of S over the two ends: 0 where an end is nearer than e, 1 where
+ * both are farther than 2 e, with two continuous derivatives. */
 #ifndef FL_STRUCTURE_FREE_CONE_H
 #define FL_STRUCTURE_FREE_CONE_H
 #include "structure/structure.h"

@@ -159,7 +159,8 @@ static int32_t cone_of_edge(const fl_poly *p, const fl_piece_mesh *sh, int32_t e
 }
 
 /* Keeps the walls of a part of the piece. */
-static void keep_selected(fl_feature_set *r, const fl_poly *p, const fl_piece_mesh *sh, const mesh_selection *of)
+static void keep_selected(fl_feature_set *r, const fl_poly *p, const fl_piece_mesh *sh,
+                          const mesh_selection *of)
 {
     int32_t n = 0;
     for (int32_t k = 0; k < r->faces; k++)
@@ -426,7 +427,8 @@ static int add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_p
     const int32_t vertices = w->n, features = w->features;
     const fl_vec3 couple = w->couple;
     if (add_listed_points(w, near, &A, &B, ra, far, l)) return -1;
-    if (b->mesh.thin && (behind || has_core_contact(w, before, ra))) { /* the far side of the sheet is in the core */
+    if (b->mesh.thin &&
+        (behind || has_core_contact(w, before, ra))) { /* the far side of the sheet is in the core */
         w->n = vertices, w->features = features, w->couple = couple;
         if (list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, of, 1, l) ||
             add_listed_points(w, near, &A, &B, ra, far, l))

@@ -13,8 +13,8 @@
  * fit those of the other.  Then smaller tolerances are tried, by tenths. */
 enum { FINER = 5 };
 
-/* Distance of the facets of a cone from it, over its radius: 1 - cos(pi/96) = 5.4e-4, but half of it is on either
- * side. */
+/* Distance of the facets of a cone from it, over its radius: the facets are 1 - cos(pi/96) = 5.4e-4 deep, and
+ * some of that is on either side. */
 #define FACET_ERROR 1e-3
 
 static double diagonal_of(fl_aabb box) { return v3_norm(v3_sub(box.hi, box.lo)); }
@@ -45,13 +45,15 @@ static int find_groups(grouping *g, const fl_structure *s, const int32_t *mover,
     if (fl_bvh_build(&tree, g->box, s->n, err) || fl_grow(&near, &cap, s->n, sizeof *near, err)) goto done;
     for (int32_t k = 0; k < s->n; k++) all = aabb_join(all, g->box[k]);
     for (int32_t k = 0; k < s->n; k++) {
-        const int32_t n = fl_bvh_query(&tree, g->box, aabb_grow(g->box[k], TOUCH_TOL * diagonal_of(all)), near, cap);
+        const int32_t n =
+            fl_bvh_query(&tree, g->box, aabb_grow(g->box[k], TOUCH_TOL * diagonal_of(all)), near, cap);
         for (int32_t c = 0; c < n; c++) {
             const int32_t j = near[c];
             const fl_piece *a = &s->piece[k], *b = &s->piece[j];
             if (j <= k || root_of(g->parent, j) == root_of(g->parent, k)) continue;
             if (mover && mover[a->part] != mover[b->part]) continue;
-            const int touch = fl_pieces_touch(a, b, TOUCH_TOL * diagonal_of(aabb_join(g->box[k], g->box[j])), err);
+            const int touch =
+                fl_pieces_touch(a, b, TOUCH_TOL * diagonal_of(aabb_join(g->box[k], g->box[j])), err);
             if (touch < 0) goto done;
             const int32_t x = root_of(g->parent, k), y = root_of(g->parent, j);
             if (touch) g->parent[x > y ? x : y] = x < y ? x : y;
@@ -131,8 +133,8 @@ static int add_free_cones(fl_piece *to, const region_bodies *r, double tol, fl_e
     return 0;
 }
 
-/* Makes the piece of the union of the bodies after the others: 1, or 0 if its surface has holes that the bodies
- * do not have, or cannot be made. */
+/* Makes the piece of the union of the bodies after the others: 1, or 0 if its surface has holes that the
+ * bodies do not have, or cannot be made. */
 static int join_bodies(fl_structure *s, const fl_surface *surface, const region_bodies *r, int32_t part,
                        double tol, fl_err *err)
 {
@@ -173,7 +175,8 @@ static int join_pieces(fl_structure *s, const fl_surface *surface, int32_t n, co
             made = 1;
         } else {
             double by = tol;
-            for (int k = 0; k < FINER && (made = join_bodies(s, surface, &r, part, by, err)) == 0; k++) by *= 0.1;
+            for (int k = 0; k < FINER && (made = join_bodies(s, surface, &r, part, by, err)) == 0; k++)
+                by *= 0.1;
             if (made > 0 && add_free_cones(&s->piece[s->n - 1], &r, tol, err)) made = -1;
         }
     }

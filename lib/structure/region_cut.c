@@ -33,7 +33,8 @@ int fl_piece_contains(const fl_piece *p, fl_vec3 x)
 {
     const fl_vec3 at = in_piece(p, x);
     if (kind_of(p) != SOLID) return 0;
-    return p->kind == FL_PIECE_MESH ? fl_mesh_contact_contains(p, at) : fl_closest_on_poly(&p->core, at).d < 0.0;
+    return p->kind == FL_PIECE_MESH ? fl_mesh_contact_contains(p, at)
+                                    : fl_closest_on_poly(&p->core, at).d < 0.0;
 }
 
 static fl_aabb box_of_points(const fl_vec3 *v, int32_t n)
@@ -74,11 +75,11 @@ static int add_body(fl_region_surface *s, body *b, const fl_piece *p, int32_t in
     b->n = b->kind == PLATE ? 1 : core->nf;
     for (int32_t f = 0; f < b->n && rc == 0; f++) {
         const int32_t from = core->first[f], m = core->first[f + 1] - from;
-        const fl_region_polygon like = {
-            .normal = q_rotate(p->q, core->n[f]),
-            .body = index,
-            .two_sided = b->kind == PLATE,
-            .on_cone = p->kind == FL_PIECE_CONE && f >= (p->r0 > 0.0) + (p->r1 > 0.0)};
+        const fl_region_polygon like = {.normal = q_rotate(p->q, core->n[f]),
+                                        .body = index,
+                                        .two_sided = b->kind == PLATE,
+                                        .on_cone =
+                                            p->kind == FL_PIECE_CONE && f >= (p->r0 > 0.0) + (p->r1 > 0.0)};
         if ((rc = fl_grow(&v, &cap, m, sizeof *v, err)) != 0) break;
         for (int32_t k = 0; k < m; k++)
             v[k] = v3_add(v3_sub(p->x, s->origin), q_rotate(p->q, core->v[core->loop[from + k]]));
@@ -101,7 +102,7 @@ static int add_body(fl_region_surface *s, body *b, const fl_piece *p, int32_t in
 typedef struct {
     struct fragment {
         int32_t first, n;
-    } *at;
+    } * at;
     fl_vec3 *v;
     int32_t n, cap, nv, v_cap;
     int32_t *list, list_cap; /* faces of another body near it */
@@ -123,7 +124,8 @@ static int append_side(fragments *w, int32_t k, double sign, fl_err *err)
         const int32_t d = c + 1 < n ? c + 1 : 0;
         const double h = sign * w->height[c], g = sign * w->height[d];
         if (h >= 0.0) w->v[w->nv++] = w->v[from + c];
-        if ((h > 0.0 && g < 0.0) || (h < 0.0 && g > 0.0)) /* from the lower end: both sides get the same point */
+        if ((h > 0.0 && g < 0.0) ||
+            (h < 0.0 && g > 0.0)) /* from the lower end: both sides get the same point */
             w->v[w->nv++] = h < g ? v3_lerp(w->v[from + c], w->v[from + d], h / (h - g))
                                   : v3_lerp(w->v[from + d], w->v[from + c], g / (g - h));
     }
@@ -167,7 +169,8 @@ static fl_vec3 inward(const fl_vec3 *v, int32_t n, int32_t c, fl_vec3 normal)
 }
 
 /* True if some side of polygon a has all of b beyond it, within tol. */
-static int is_separated(const fl_vec3 *a, int32_t na, fl_vec3 normal, const fl_vec3 *b, int32_t nb, double tol)
+static int is_separated(const fl_vec3 *a, int32_t na, fl_vec3 normal, const fl_vec3 *b, int32_t nb,
+                        double tol)
 {
     for (int32_t c = 0; c < na; c++) {
         const fl_vec3 in = inward(a, na, c, normal);
@@ -189,7 +192,8 @@ static double length_on_face(const fragments *w, int32_t k, const fl_vec3 *q, in
         const int32_t d = c + 1 < w->at[k].n ? c + 1 : 0;
         const double h = w->height[c], g = w->height[d];
         if (h == 0.0) end[found++] = v[c];
-        else if ((h < 0.0 && g > 0.0) || (h > 0.0 && g < 0.0)) end[found++] = v3_lerp(v[c], v[d], h / (h - g));
+        else if ((h < 0.0 && g > 0.0) || (h > 0.0 && g < 0.0))
+            end[found++] = v3_lerp(v[c], v[d], h / (h - g));
     }
     if (found < 2) return 0.0;
     double t[2] = {0.0, 1.0};
@@ -295,7 +299,8 @@ static int cut_polygon(fl_region_surface *to, const fl_region_surface *s, int32_
         if (find_near_faces(w, &all[b], box, &near, err)) return -1;
         if (near > 1) qsort(w->list, (size_t)near, sizeof *w->list, compare_int);
         for (int32_t c = 0; c < near; c++)
-            if (cut_by_face(w, q.normal, s->v, &s->polygon[all[b].first + w->list[c]], s->tol, err)) return -1;
+            if (cut_by_face(w, q.normal, s->v, &s->polygon[all[b].first + w->list[c]], s->tol, err))
+                return -1;
         for (int32_t k = 0; k < w->n;) {
             if (stays(s, w, k, q.normal, &all[q.body], &all[b], near, q.body < b)) k++;
             else w->at[k] = w->at[--w->n];
@@ -332,7 +337,10 @@ void fl_region_surface_free(fl_region_surface *s)
 /* --- touch -------------------------------------------------------------------------------------- */
 
 /* A point of the surface of a piece, in the pose of the file. */
-static fl_vec3 point_of(const fl_piece *p) { return v3_add(p->x, q_rotate(p->q, p->core.v[p->core.loop[0]])); }
+static fl_vec3 point_of(const fl_piece *p)
+{
+    return v3_add(p->x, q_rotate(p->q, p->core.v[p->core.loop[0]]));
+}
 
 int fl_pieces_touch(const fl_piece *a, const fl_piece *b, double tol, fl_err *err)
 {

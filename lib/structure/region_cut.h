@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* region_cut.h -- the surface of several pieces that touch or intersect, as convex polygons.
  *
- * A body is a piece: a solid with an inside, a plate with two sides, or an open surface with one.  A face of a
- * body is cut along the faces of the others that it meets.  Of the fragments these go:
+ * A body is a piece: a solid with an inside, a plate with two sides, or an open surface with one.  A face
+ * of a body is cut along the faces of the others that it meets.  Of the fragments these go:
  *   - what lies in a solid;
  *   - what lies on a face of another body that faces the opposite way: there two solids stand together;
  *   - of two fragments in one place that face the same way, one: a solid's face stays before that of a plate,
  *     a plate before an open surface, else that of the body that comes first.
- * The rest is the surface of the union.  Corners of one polygon may lie on sides of others (region_join.h).
+ * The rest is the surface of the union.  Corners of one polygon may lie on sides of others
+ * (region_join.h).
  *
- * Limits.  A fragment counts as a whole, by its middle, so bodies must meet within `tol`.  Cuts go through a
- * whole polygon.  An open surface hides nothing: what is behind it stays. */
+ * Limits.  A fragment counts as a whole, by its middle, so bodies must meet within `tol`.  Cuts go
+ * through a whole polygon.  An open surface hides nothing: what is behind it stays. */
 #ifndef FL_STRUCTURE_REGION_CUT_H
 #define FL_STRUCTURE_REGION_CUT_H
 #include "structure/structure.h"

@@ -65,7 +65,8 @@ static int weld_corners(mesh_builder *m, fl_err *err)
         if (m->of[k] >= 0) continue;
         if (find_near(m, aabb_grow(m->box[k], m->tol), &near, err)) goto done;
         for (int32_t c = 0; c < near; c++)
-            if (m->of[m->on[c]] < 0 && v3_norm(v3_sub(all[m->on[c]], all[k])) <= m->tol) m->of[m->on[c]] = m->nv;
+            if (m->of[m->on[c]] < 0 && v3_norm(v3_sub(all[m->on[c]], all[k])) <= m->tol)
+                m->of[m->on[c]] = m->nv;
         m->v[m->nv++] = all[k];
     }
     rc = build_tree(m, m->v, m->nv, err);
@@ -105,7 +106,8 @@ static int append_on_edge(mesh_builder *m, int32_t a, int32_t b, int32_t *n, fl_
     return 0;
 }
 
-static int add_triangle(mesh_builder *m, int32_t a, int32_t b, int32_t c, const fl_region_polygon *p, fl_err *err)
+static int add_triangle(mesh_builder *m, int32_t a, int32_t b, int32_t c, const fl_region_polygon *p,
+                        fl_err *err)
 {
     if (fl_grow(&m->t, &m->t_cap, (int64_t)m->nt + 1, sizeof *m->t, err)) return -1;
     m->t[m->nt++] = (triangle){{a, b, c}, p->on_cone ? p->body : -1, p->two_sided};
@@ -257,8 +259,7 @@ static void join_sides(side_joiner *j, const mesh_builder *m)
     for (int32_t k = 0, end; k < all; k = end) {
         for (end = k + 1; end < all && j->sheet[end].a == j->sheet[k].a && j->sheet[end].b == j->sheet[k].b;
              end++) {}
-        for (int32_t i = k; i < end; i++)
-            join_facing(j, m, &j->sheet[i], &j->sheet[i + 1 < end ? i + 1 : k]);
+        for (int32_t i = k; i < end; i++) join_facing(j, m, &j->sheet[i], &j->sheet[i + 1 < end ? i + 1 : k]);
     }
 }
 
@@ -286,7 +287,8 @@ static int32_t halve_double_seams(side_joiner *j, mesh_builder *m, fl_err *err)
 }
 
 /* Writes both sides of the triangles. */
-static int write_part(fl_part *out, fl_joined_triangle **of, const side_joiner *j, const mesh_builder *m, fl_err *err)
+static int write_part(fl_part *out, fl_joined_triangle **of, const side_joiner *j, const mesh_builder *m,
+                      fl_err *err)
 {
     int32_t *number = fl_alloc(6 * (int64_t)m->nt, sizeof *number, err);
     int rc = -1;
@@ -315,7 +317,8 @@ done:
     return rc;
 }
 
-int fl_region_join(fl_part *out, fl_joined_triangle **of, int32_t *rims, const fl_region_surface *s, fl_err *err)
+int fl_region_join(fl_part *out, fl_joined_triangle **of, int32_t *rims, const fl_region_surface *s,
+                   fl_err *err)
 {
     mesh_builder m = {.s = s, .tol = s->tol};
     int rc = -1;

@@ -344,8 +344,8 @@ static int find_saddles(fl_piece *piece, fl_err *err)
 }
 
 /* Marks the faces of sheets with two sides and of cones; of: of triangles, or NULL. */
-static int mark_joined(fl_piece *piece, const fl_merged_faces *tiles, int32_t nt, const fl_joined_triangle *of,
-                       fl_err *err)
+static int mark_joined(fl_piece *piece, const fl_merged_faces *tiles, int32_t nt,
+                       const fl_joined_triangle *of, fl_err *err)
 {
     fl_piece_mesh *mesh = &piece->mesh;
     int thin = 0, cones = 0;

@@ -85,7 +85,8 @@ typedef struct {
 typedef struct {
     int32_t n, cap;
     fl_piece *piece;
-    int32_t unjoined, unjoined_part; /* groups of pieces that touch and yet could not be joined; the first part
+    int32_t unjoined,
+        unjoined_part; /* groups of pieces that touch and yet could not be joined; the first part
                                       * of the last of them */
 } fl_structure;
 

@@ -47,8 +47,9 @@ typedef struct fl_load_event fl_load_event;
 
 /* all = 0 and no memory where neither panels nor events are written and no piece is of several parts. */
 typedef struct {
-    int32_t all, panels;        /* panels that there are, and that are written: all or 0 */
+    int32_t all, panels; /* panels that there are, and that are written: all or 0 */
     int32_t pieces, threads;
+    int shared;                 /* some piece is of several parts */
     fl_load_panel *panel;       /* [all] part by part, triangles before cones */
     fl_vec3 *impulse;           /* [panels] of the interval of the table [N s] */
     int32_t *first;             /* [parts + 1] panels of each part */

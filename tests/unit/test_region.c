@@ -46,7 +46,8 @@ static fl_structure build_joined(const fl_surface *s, const int32_t *mover)
 {
     fl_structure st = {0};
     fl_err err = {0};
-    if (fl_structure_build(&st, s, &err) || fl_regions_join(&st, s, mover, ZERO, &err)) fail_msg("%s", err.text);
+    if (fl_structure_build(&st, s, &err) || fl_regions_join(&st, s, mover, ZERO, &err))
+        fail_msg("%s", err.text);
     assert_int_equal(st.unjoined, 0);
     return st;
 }
@@ -108,7 +109,8 @@ static void boxes_on_a_grid_have_the_volume_of_their_cells(void **state)
             for (int y = -1; y <= CELLS; y++)
                 for (int z = -1; z <= CELLS; z++) {
                     const fl_vec3 at = v3(x + 0.5, y + 0.5, z + 0.5);
-                    const int is = x >= 0 && y >= 0 && z >= 0 && x < CELLS && y < CELLS && z < CELLS && full[x][y][z];
+                    const int is =
+                        x >= 0 && y >= 0 && z >= 0 && x < CELLS && y < CELLS && z < CELLS && full[x][y][z];
                     int found = 0;
                     for (int32_t k = 0; k < st.n; k++) {
                         const fl_piece *p = &st.piece[k];
@@ -161,10 +163,10 @@ static void bodies_at_any_angle_have_the_volume_of_their_union(void **state)
         lab_start(&l);
         const int bodies = 2 + below(&r, 3);
         for (int k = 0; k < bodies; k++) {
-            b[k] = (body){.x = v3(fl_rng_in(&r, -0.7, 0.7), fl_rng_in(&r, -0.7, 0.7), fl_rng_in(&r, -0.7, 0.7)),
-                          .h = v3(fl_rng_in(&r, 0.2, 1), fl_rng_in(&r, 0.2, 1), fl_rng_in(&r, 0.2, 1))};
-            b[k].q = q_of_vector(
-                v3(fl_rng_in(&r, -2, 2), fl_rng_in(&r, -2, 2), fl_rng_in(&r, -2, 2)));
+            b[k] =
+                (body){.x = v3(fl_rng_in(&r, -0.7, 0.7), fl_rng_in(&r, -0.7, 0.7), fl_rng_in(&r, -0.7, 0.7)),
+                       .h = v3(fl_rng_in(&r, 0.2, 1), fl_rng_in(&r, 0.2, 1), fl_rng_in(&r, 0.2, 1))};
+            b[k].q = q_of_vector(v3(fl_rng_in(&r, -2, 2), fl_rng_in(&r, -2, 2), fl_rng_in(&r, -2, 2)));
             if (below(&r, 2))
                 b[k].length = fl_rng_in(&r, 0.5, 2), b[k].r0 = fl_rng_in(&r, 0.1, 0.6),
                 b[k].r1 = fl_rng_in(&r, 0.1, 0.6);
@@ -177,9 +179,11 @@ static void bodies_at_any_angle_have_the_volume_of_their_union(void **state)
             inside += in;
         }
         fl_structure st = build_joined(&l.surface, NULL);
-        const double share = (double)inside / POINTS, sigma = sqrt(share * (1.0 - share) / POINTS) + 1.0 / POINTS;
+        const double share = (double)inside / POINTS,
+                     sigma = sqrt(share * (1.0 - share) / POINTS) + 1.0 / POINTS;
         if (!(fabs(whole_volume(&st) / 216.0 - share) <= 5.0 * sigma))
-            fail_msg("case %ld: volume %g, %g +- %g expected", c, whole_volume(&st), 216.0 * share, 216.0 * sigma);
+            fail_msg("case %ld: volume %g, %g +- %g expected", c, whole_volume(&st), 216.0 * share,
+                     216.0 * sigma);
         fl_structure_free(&st);
         lab_free(&l);
     }
@@ -196,8 +200,10 @@ static void loads_alike(lab *one, lab *parts, fl_vec3 middle, double spread, dou
     int touching = 0;
     for (long c = 0; c < cases; c++) {
         fl_rng r = fl_rng_of(test_seed(), c, 79);
-        const fl_vec3 x = v3(fl_rng_in(&r, -spread, spread), fl_rng_in(&r, -spread, spread), fl_rng_in(&r, 0, 0.12));
-        const fl_quat q = q_of_vector(v3(fl_rng_in(&r, -0.1, 0.1), fl_rng_in(&r, -0.1, 0.1), fl_rng_in(&r, -3, 3)));
+        const fl_vec3 x =
+            v3(fl_rng_in(&r, -spread, spread), fl_rng_in(&r, -spread, spread), fl_rng_in(&r, 0, 0.12));
+        const fl_quat q =
+            q_of_vector(v3(fl_rng_in(&r, -0.1, 0.1), fl_rng_in(&r, -0.1, 0.1), fl_rng_in(&r, -3, 3)));
         lab *const both[2] = {one, parts};
         fl_pair p[2];
         for (int k = 0; k < 2; k++) {
@@ -249,8 +255,12 @@ static void however_they_meet(void **state)
         for (int k = 0; k < 2; k++) {
             start(&l[k]);
             if (k == 0) lab_wall(&l[k], v3(-2, -2, -1), v3(2, 2, 0), 1);
-            else if (kind == 0) lab_wall(&l[k], v3(-2, -2, -1), v3(0, 2, 0), 1), lab_wall(&l[k], v3(0, -2, -1), v3(2, 2, 0), 1);
-            else if (kind == 1) lab_wall(&l[k], v3(-2, -2, -1), v3(0.3, 2, 0), 1), lab_wall(&l[k], v3(-0.2, -2, -1), v3(2, 2, 0), 3);
+            else if (kind == 0)
+                lab_wall(&l[k], v3(-2, -2, -1), v3(0, 2, 0), 1),
+                    lab_wall(&l[k], v3(0, -2, -1), v3(2, 2, 0), 1);
+            else if (kind == 1)
+                lab_wall(&l[k], v3(-2, -2, -1), v3(0.3, 2, 0), 1),
+                    lab_wall(&l[k], v3(-0.2, -2, -1), v3(2, 2, 0), 3);
             else {
                 lab_wall(&l[k], v3(-2, -2, -1), v3(0, 2, 0), 1);
                 lab_wall(&l[k], v3(0, -2, -1), v3(2, 0.1, kind == 2 ? 0 : -1e-9), 1);
@@ -274,7 +284,9 @@ static void cones_that_continue_are_one(void **state)
             start(&l[k]);
             const fl_vec3 a = v3(0, -5, -2), b = v3(0, 0, -2), c = v3(0, 4, -2);
             if (k == 0) lab_cone(&l[k], (fl_cone){a, c, 2.0, 2.0});
-            else lab_cone(&l[k], (fl_cone){a, b, 2, 2}), lab_cone(&l[k], turned ? (fl_cone){c, b, 2, 2} : (fl_cone){b, c, 2, 2});
+            else
+                lab_cone(&l[k], (fl_cone){a, b, 2, 2}),
+                    lab_cone(&l[k], turned ? (fl_cone){c, b, 2, 2} : (fl_cone){b, c, 2, 2});
             lab_make(&l[k], 1e-9);
             assert_int_equal(l[k].w.pieces, 1);
             assert_int_equal(l[k].w.structure.piece[0].kind, FL_PIECE_CONE);
@@ -348,8 +360,7 @@ static void forces_on_a_joined_piece_have_a_potential(void **state)
     for (long c = 0; c < cases; c++) {
         fl_rng r = fl_rng_of(test_seed(), c, 80);
         const double z = fl_rng_in(&r, -2.5, 5), a = fl_rng_in(&r, -PI, PI);
-        const fl_quat q =
-            q_of_vector(v3(fl_rng_in(&r, -1, 1), fl_rng_in(&r, -1, 1), fl_rng_in(&r, -3, 3)));
+        const fl_quat q = q_of_vector(v3(fl_rng_in(&r, -1, 1), fl_rng_in(&r, -1, 1), fl_rng_in(&r, -3, 3)));
         fl_vec3 x = ZERO;
         fl_pair p = {0};
         for (double far = 3.5; far > 0.0 && !p.touching; far -= 0.04) { /* up to the structure */
@@ -372,7 +383,8 @@ static void forces_on_a_joined_piece_have_a_potential(void **state)
             d[k] = (w[0] - w[1]) / (2.0 * h);
         }
         for (int k = 0; k < 6; k++) off = fmax(off, fabs(d[k] - f[k])), largest = fmax(largest, fabs(f[k]));
-        if (getenv("DBG") && off > 1e-4 * largest) printf("case %ld z %g a %g overlap %g off %g of %g\n", c, z, a, p.overlap, off, largest);
+        if (getenv("DBG") && off > 1e-4 * largest)
+            printf("case %ld z %g a %g overlap %g off %g of %g\n", c, z, a, p.overlap, off, largest);
     }
     assert_true(touching > cases / 20);
     assert_near_of(off, 0.0, 1e-4, largest);
@@ -403,13 +415,14 @@ static void parts_share_the_load(void **state)
         (void)sum, (void)turn, (void)about;
         fl_vec3 force = ZERO, torque = ZERO;
         for (int32_t k = 0; k < l.w.panel_load.shares; k++)
-            force = v3_add(force, l.w.panel_load.share[k].force), torque = v3_add(torque, l.w.panel_load.share[k].torque);
+            force = v3_add(force, l.w.panel_load.share[k].force),
+            torque = v3_add(torque, l.w.panel_load.share[k].torque);
         assert_int_equal(l.w.panel_load.shares, 2);
         assert_near_of(v3_norm(v3_sub(force, f)), 0.0, 1e-12, v3_norm(f));
         assert_near_of(v3_norm(v3_sub(torque, t)), 0.0, 1e-12, v3_norm(f));
         /* 0.6 m of the face stand on the right wall */
         const double right = l.w.panel_load.share[0].part == 1 ? l.w.panel_load.share[0].force.z
-                                                              : l.w.panel_load.share[1].force.z;
+                                                               : l.w.panel_load.share[1].force.z;
         assert_near(right / f.z, 0.55 / 0.9, 0.01); /* of a core of 0.9 m */
         lab_free(&l);
     }
