@@ -533,6 +533,9 @@ static int evaluate_features(fl_world *w, fl_pair *p, int32_t thread, const fl_r
         return 0;
     }
     const double overlap = -c.gap;
+    const fl_piece *piece = fl_world_piece(w, p->j);
+    if (piece && piece->several_parts)
+        p->load_part = fl_load_part_at(w, p->j, v3_add(b->x[p->j], m3_mul(r->R, c.p)));
     const fl_manual_contact mc = {.kind = (fl_manual_kind)(c.mode - FL_VV),
                                   .length = c.length,
                                   .area = c.area,
@@ -630,7 +633,10 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
         if (evaluate_features(w, p, thread, &r, &a, survey, &distance)) goto failed;
         if (p->touching) goto touches;
     } else {
+        const int shared = piece && piece->several_parts;
+        s->keep_features = w->panel_load.panels || shared;
         if (fl_pair_find_points(w, p, thread, &r, &distance)) goto failed;
+        if (shared && s->n) fl_load_find_part(w, p, s);
         const int touch = p->points == FL_POINTS_PATCH ? evaluate_patch(w, p, thread, t, &r, &a, survey)
                           : s->n                       ? evaluate_points(w, p, s, &r, &a, survey)
                                                        : 0;

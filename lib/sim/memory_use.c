@@ -81,9 +81,10 @@ static double other_bytes(const fl_world *w)
     sum += ARRAY(z->bond, z->n) + ARRAY(z->image, 3 * (double)z->n) + ARRAY(z->radius_factor, z->n) +
            ARRAY(z->omega2, 2 * (double)z->n) + ARRAY(z->of, 2 * (double)z->n) +
            ARRAY(z->max_omega2, w->b.total) + ARRAY(z->first, w->b.total + 1);
-    sum += ARRAY(q->panel, q->panels) + ARRAY(q->box, q->panels) + ARRAY(q->impulse, q->panels) +
-           ARRAY(q->point, q->point_cap);
-    for (int32_t k = 0; k < q->trees && q->tree; k++) sum += tree_bytes(&q->tree[k]);
+    const int32_t triangles = q->first_triangle ? q->first_triangle[q->pieces] : 0;
+    sum += ARRAY(q->panel, q->all) + ARRAY(q->triangle, triangles) + ARRAY(q->box, triangles) +
+           ARRAY(q->impulse, q->panels) + ARRAY(q->point, q->point_cap) + ARRAY(q->share, q->share_cap);
+    for (int32_t k = 0; k < q->pieces && q->tree; k++) sum += tree_bytes(&q->tree[k]);
     sum += ARRAY(w->elastic_walls.outer, n) + ARRAY(w->elastic_walls.hull, n);
     for (int32_t i = 0; i < n && w->elastic_walls.hull; i++)
         sum += fl_poly_bytes(&w->elastic_walls.outer[i]) + hull_bytes(&w->elastic_walls.hull[i]);

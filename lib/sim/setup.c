@@ -18,6 +18,7 @@
 #include "sim/sleep.h"
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
+#include "structure/region.h"
 #include "water/added_mass.h"
 #include "water/force_table.h"
 #include "world/access.h"
@@ -50,6 +51,7 @@ static int add_wall(fl_structure *s, int elastic, fl_vec3 x, fl_vec3 normal, fl_
     s->piece[s->n++] =
         (fl_piece){.kind = FL_PIECE_PLANE,
                    .part = -1,
+                   .cone = -1,
                    .elastic = elastic,
                    .x = x,
                    .q = q_of_matrix(
@@ -89,6 +91,25 @@ static void make_cell(fl_world *w)
         *length = b - a;
         w->cell.periodic = 1;
     }
+}
+
+/* The pieces of the structure; those that touch and do not move apart are one. */
+static int make_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
+{
+    fl_err why = {0};
+    int32_t *mover = fl_alloc(surface->n, sizeof *mover, err);
+    int rc = -1;
+    if (mover) {
+        fl_mover_of_parts(w->scene, surface, mover);
+        rc = fl_structure_build(&w->structure, surface, &why) ||
+                     fl_regions_join(&w->structure, surface, mover, w->cell.length, &why)
+                 ? -1
+                 : 0;
+        if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", w->scene->structure.file, why.text);
+        else if (rc) *err = why;
+    }
+    free(mover);
+    return rc;
 }
 
 static fl_vec3 normal_of(const fl_piece *wall) { return q_rotate(wall->q, v3(0, 0, 1)); }
@@ -302,7 +323,6 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
                               const fl_ice_field *feed, const fl_surface *surface, fl_err *err)
 {
     double bound = 0.0;
-    fl_err why = {0};
     *w = (fl_world){.scene = scene, .n = field->n, .last_search_step = -1, .gravity = scene->run.gravity};
     fl_barrier_make(&w->barrier);
     w->threads = scene->run.threads > 0 ? scene->run.threads : omp_get_max_threads();
@@ -312,13 +332,8 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     w->dt_critical = w->dt_critical_contacts = INFINITY;
     w->max_overlap_i = w->max_overlap_j = w->critical_body = -1;
     w->parts = surface ? surface->n : 0;
-    if (surface && fl_structure_build(&w->structure, surface, &why)) {
-        if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", scene->structure.file, why.text);
-        else *err = why;
-        goto fail;
-    }
-    if (make_walls(w, err)) goto fail;
     make_cell(w);
+    if ((surface && make_pieces(w, surface, err)) || make_walls(w, err)) goto fail;
     if (check_groups(w, field, feed, err) || fl_inflow_make(w, field, feed, err) ||
         make_driven_floes(w, field, err))
         goto fail;

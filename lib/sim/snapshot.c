@@ -288,6 +288,29 @@ static void exchange_panel_loads(fl_state_io *t, fl_world *w)
     }
 }
 
+/* The loads of the last step that several parts bear. */
+static void exchange_load_shares(fl_state_io *t, fl_world *w)
+{
+    fl_panel_loads *s = &w->panel_load;
+    fl_state_io_open(t, "shared");
+    fl_state_io_int(t, 0, INT32_MAX, &s->shares);
+    fl_state_io_close(t);
+    const int32_t shares = s->shares;
+    if (t->in) s->shares = 0;
+    for (int32_t k = 0; k < shares && !t->err->code; k++) {
+        if (t->in && fl_grow(&s->share, &s->share_cap, (int64_t)k + 1, sizeof *s->share, t->err)) return;
+        if (t->in) s->share[k] = (fl_load_share){0};
+        fl_state_io_open(t, "share");
+        fl_state_io_int(t, 0, w->n - 1, &s->share[k].i);
+        fl_state_io_int(t, w->n, w->b.total - 1, &s->share[k].j);
+        fl_state_io_int(t, 0, w->parts - 1, &s->share[k].part);
+        fl_state_io_vec3(t, &s->share[k].force);
+        fl_state_io_vec3(t, &s->share[k].torque);
+        fl_state_io_close(t);
+        s->shares = k + 1;
+    }
+}
+
 /* A bond: its memory and its forces.  Separations follow from the poses of the bodies, face and law from the
  * scene. */
 static void exchange_bond(fl_state_io *t, fl_world *w, int32_t k)
@@ -371,6 +394,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
+    if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;
     if (w->sea.current.n) exchange_current_hash(t, &w->sea.current);
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {

@@ -78,12 +78,12 @@ static inline int fl_piece_is_free(const fl_world *w, int32_t j)
     return m >= 0 && w->moving.movers.motion[m].free_dof != 0;
 }
 
-/* 1 if floes may rest against thing j: a piece or wall that stands still and whose panel loads are not
- * written. */
+/* 1 if floes may rest against thing j: a piece or wall that stands still, of one part, and whose panel loads
+ * are not written. */
 static inline int fl_thing_is_still(const fl_world *w, int32_t j)
 {
     return j >= w->n && (w->moving.movers.n == 0 || w->moving.mover_of_piece[j - w->n] < 0) &&
-           !(w->panel_load.panels && j < w->n + w->pieces);
+           !(w->panel_load.panels && j < w->n + w->pieces) && !w->structure.piece[j - w->n].several_parts;
 }
 
 /* 1 if near pair p is not evaluated: the two touch and both rest, or one rests and the other stands still. */

@@ -67,7 +67,10 @@ typedef struct {
     double overlap;                                               /* largest [m] */
     double omega2_i, omega2_j; /* bounds of omega^2 of this contact for i and j, the other fixed [1/s2] */
     int32_t index;             /* into fl_world.pair */
+    int32_t load_part;         /* part that bears the load, FL_LOAD_SHARED: several; -1: a floe or wall */
 } fl_pair;
+
+enum { FL_LOAD_SHARED = -2 };
 
 /* The results of an evaluation are so many consecutive doubles, from force to omega2_j. */
 enum { FL_PAIR_RESULTS = 32 };

@@ -14,16 +14,28 @@ fl_poses poses_of(const struct run *r)
     return (fl_poses){&r->w->b, r->w->id, r->w->q0, r->order, &r->w->cell, r->w->inflow.absent};
 }
 
+/* Number of contacts whose load part bears, alone or with others. */
 static int32_t bodies_touching(const fl_world *w, int32_t part)
 {
     int32_t touching = 0;
     for (int32_t k = 0; k < w->pieces; k++) {
         const int32_t j = w->n + k;
-        if (w->structure.piece[k].part != part) continue;
-        for (int64_t c = w->first_pair_of_body[j]; c < w->first_pair_of_body[j + 1]; c++)
-            touching += w->pair[w->pairs_of_body[c]].touching > 0;
+        const fl_piece *piece = &w->structure.piece[k];
+        if (!piece->several_parts && piece->part != part) continue;
+        for (int64_t c = w->first_pair_of_body[j]; c < w->first_pair_of_body[j + 1]; c++) {
+            const fl_neighbour_pair *p = &w->pair[w->pairs_of_body[c]];
+            touching += p->touching > 0 && (!piece->several_parts || p->contact->load_part == part);
+        }
     }
+    for (int32_t k = 0; k < w->panel_load.shares; k++) touching += w->panel_load.share[k].part == part;
     return touching;
+}
+
+/* Number of body j of pair p in a table; x is a point of the contact. */
+static int32_t id_of_partner(fl_world *w, const fl_pair *p, fl_vec3 x)
+{
+    const fl_piece *piece = p->j < w->n ? NULL : &w->structure.piece[p->j - w->n];
+    return piece && piece->several_parts ? -1 - fl_load_part_at(w, p->j, x) : fl_world_id(w, p->j);
 }
 
 void write_loads(struct run *r, FILE *f, double t, double interval)
@@ -119,7 +131,7 @@ void write_contacts(struct run *r, FILE *f, double t, double interval)
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         fl_contact k;
         if (p->touching == 0 || !fl_pair_probe(w, p, 0.0, &k)) continue;
-        write_contact(f, t, w->id[p->i], fl_world_id(w, p->j), &k, p->force);
+        write_contact(f, t, w->id[p->i], id_of_partner(w, p, k.p), &k, p->force);
     }
 }
 
@@ -131,7 +143,7 @@ void write_near_pairs(struct run *r, FILE *f, double within)
         fl_contact k;
         if (!fl_pair_probe(w, p, within, &k)) continue;
         fl_contacts_row row = {.i = w->id[p->i],
-                               .j = fl_world_id(w, p->j),
+                               .j = id_of_partner(w, p, k.p),
                                .mode = fl_mode_name(k.mode),
                                .gap = k.gap,
                                .n = k.n,
