@@ -11,8 +11,8 @@
 #include "law/damping.h"
 #include "patch/no_tension.h"
 
-/* Numbers of rows: force to torque_j_friction of fl_pair and one more; fl_friction_springs and two more. */
-enum { PREVIOUS = 28, SPRINGS = 8 };
+/* Numbers of rows: force to torque_j_friction of fl_pair and one more; fl_friction_springs and one more. */
+enum { PREVIOUS = 28, SPRINGS = 12 };
 
 /* State and results of the contacts of a batch.  World axes unless a comment says "frame of B". */
 typedef struct {
@@ -28,10 +28,10 @@ typedef struct {
     fl_lane turn[3]; /* rotation of the force since the exact evaluation, frame of B */
     /* damping; fd and md in the frame of B, for a force ratio of 1 */
     fl_lane chi, weight_y, growth, shift[3], fd[3], md[3];
-    fl_lane springs[SPRINGS]; /* fl_friction_springs; the last two are unused */
+    fl_lane springs[SPRINGS]; /* fl_friction_springs; the last one is unused */
     fl_lane compliance[6];
     /* input of friction */
-    fl_lane n[3], v[3], v_end[3], aj[3], k, g, limit, arm, spin_mean, spin, spin_end;
+    fl_lane n[3], v[3], v_end[3], aj[3], elongation[3], k, g, limit, spin_mean, spin, spin_end;
     fl_lane results[FL_PAIR_RESULTS]; /* of fl_pair, from force on */
 } batch;
 
@@ -45,8 +45,9 @@ FL_SIMD4_VERSIONS static void load_rows(fl_lane *row, const double *const *of, i
 
 FL_SIMD_INLINE fl_friction_springs springs_of(const batch *b, int k)
 {
-    return (fl_friction_springs){fl_lane3(b->springs, k), b->springs[3].a[k], b->springs[4].a[k],
-                                 b->springs[5].a[k]};
+    const fl_lane *s = b->springs;
+    return (fl_friction_springs){fl_lane3(s, k),   s[3].a[k],          s[4].a[k],  s[5].a[k],
+                                 s[6].a[k], fl_lane3(s + 7, k), s[10].a[k]};
 }
 
 /* fl_previous_force_of() */
@@ -303,7 +304,7 @@ FL_SIMD_VERSIONS static void find_normal_forces(batch *restrict b)
         b->k.a[k] = springs * b->s.slope.a[k];
         b->g.a[k] = springs * b->chi.a[k] * (share * OF(pressure)->a[k]);
         b->limit.a[k] = mu * (share * size);
-        b->arm.a[k] = OF(radius)->a[k];
+        fl_lane3_set(b->elongation, k, r3_mul(R, rotated(turn, fl_lane3(OF(elongation), k))));
         b->spin.a[k] = wi - wj;
         b->spin_end.a[k] = wi - wj + more;
         b->spin_mean.a[k] = 0.5 * (wi + wj);
@@ -321,30 +322,32 @@ FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step 
             .k = b->k.a[k],
             .g = b->g.a[k],
             .limit = b->limit.a[k],
-            .arm = b->arm.a[k],
+            .arm = OF(arm)->a[k],
+            .elongation = fl_lane3(b->elongation, k),
             .compliance = compliance_of(b->compliance, k),
             .turn_compliance = OF(turn_compliance)->a[k],
             .contact_count = b->count.a[k],
         };
         const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
         const fl_friction_springs was = springs_of(b, k);
-        const fl_previous_force before = previous_of(b, k);
         const fl_friction_motion by = {fl_lane3(b->v, k),
                                        fl_lane3(b->v_end, k),
                                        b->spin.a[k],
                                        b->spin_end.a[k],
                                        b->spin_mean.a[k],
-                                       before.friction_damping,
-                                       fl_previous_damping_moment(before, c.n, ai, aj),
+                                       was.damping,
+                                       was.damping_moment,
                                        of.half_step,
                                        of.at_start};
         const fl_friction_result to = fl_tangent_step(was, c, by, of.dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
-        const double spring = fl_tangent_energy(to.springs), slope = surveyed * b->s.slope.a[k];
+        const double spring = to.springs.energy, slope = surveyed * b->s.slope.a[k];
         fl_lane3_set(b->springs, k, to.springs.force);
         b->springs[3].a[k] = to.springs.k, b->springs[4].a[k] = to.springs.moment,
-        b->springs[5].a[k] = to.springs.k_turn;
+        b->springs[5].a[k] = to.springs.k_turn, b->springs[6].a[k] = spring;
+        fl_lane3_set(b->springs + 7, k, to.springs.damping);
+        b->springs[10].a[k] = to.springs.damping_moment;
         fl_lane3_set(TO(force_friction), k, t);
         fl_lane3_set(TO(torque_i_friction), k, si);
         fl_lane3_set(TO(torque_j_friction), k, sj);
@@ -361,7 +364,7 @@ FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step 
 
 /* --- contact by contact ------------------------------------------------------------------------- */
 
-static_assert(offsetof(fl_friction_springs, k_turn) == 5 * sizeof(double), "six in a row");
+static_assert(offsetof(fl_friction_springs, damping_moment) == 10 * sizeof(double), "eleven in a row");
 
 /* Stores the results in the pairs that are done. */
 FL_SIMD4_VERSIONS static void store_results(const batch *restrict b, fl_pair *const *p, const uint8_t *done,
@@ -377,8 +380,11 @@ FL_SIMD4_VERSIONS static void store_results(const batch *restrict b, fl_pair *co
             slip[l] = c ? (double *)(void *)&c->springs : nowhere;
             end[l] = last[l];
         }
-        fl_lanes_store(slip, b->springs, k);
-        fl_lanes_store(end, b->springs + FL_SIMD_WIDTH, k);
+        for (int row = 0; row < SPRINGS - FL_SIMD_WIDTH; row += FL_SIMD_WIDTH) {
+            double *const at[FL_SIMD_WIDTH] = {slip[0] + row, slip[1] + row, slip[2] + row, slip[3] + row};
+            fl_lanes_store(at, b->springs + row, k);
+        }
+        fl_lanes_store(end, b->springs + SPRINGS - FL_SIMD_WIDTH, k);
         for (int row = 0; row < FL_PAIR_RESULTS; row += FL_SIMD_WIDTH) {
             double *const at[FL_SIMD_WIDTH] = {to[0] + row, to[1] + row, to[2] + row, to[3] + row};
             fl_lanes_store(at, b->results + row, k);
@@ -386,7 +392,8 @@ FL_SIMD4_VERSIONS static void store_results(const batch *restrict b, fl_pair *co
         for (int l = 0; l < FL_SIMD_WIDTH && k + l < n; l++) {
             fl_pair *const c = p[k + l];
             if (!done[k + l]) continue;
-            c->springs.moment = last[l][0], c->springs.k_turn = last[l][1];
+            c->springs.damping.y = last[l][0], c->springs.damping.z = last[l][1],
+            c->springs.damping_moment = last[l][2];
             c->surrogate->used = 1;
             c->max_approach_speed = b->max_approach.a[k + l];
         }

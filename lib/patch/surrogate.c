@@ -3,6 +3,7 @@
 #include <string.h>
 #include "base/simd.h"
 #include "patch/no_tension.h"
+#include "patch/patch_result.h"
 #include "patch/surrogate.h"
 
 #define FIRST_REACH 0.3 /* reach of a new contact over the root of the tolerance */
@@ -453,7 +454,9 @@ static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, double 
     s->direction = v3_scale(scale, q->direction), s->torque = v3_scale(scale, q->torque);
     s->centre_offset = v3_sub(q->centre, acts);
     for (int k = 0; k < FL_PRESSURE_MATRIX; k++) s->damping[k] = scale * q->damping[k];
-    s->radius = q->radius;
+    const fl_pressure_shape shape = fl_pressure_shape_about(q->pressure, v3_scale(q->pressure, q->centre),
+                                                            q->second, v3_unit(q->direction));
+    s->arm = shape.arm, s->elongation = shape.elongation;
 }
 
 /* Product of a symmetric matrix, given by its upper triangle, with x. */

@@ -110,7 +110,9 @@ typedef struct {
     fl_sym3 compliance;
     double turn_compliance;                     /*                              [1/(kg m2)] */
     fl_vec3 direction, torque;                  /* as in fl_pressure_moments, times dW/dU  */
-    double damping[FL_PRESSURE_MATRIX], radius; /* likewise                                */
+    double damping[FL_PRESSURE_MATRIX];         /* likewise                                */
+    double arm;                                 /* shape of the pressures, patch_result.h, [m] */
+    fl_vec3 elongation;                         /* in the frame of B                           */
     fl_vec3 centre_offset;       /* of the mean of the pressures from where they act      [m] */
     double half_width, skewness; /* of no_tension.h; half width over the standard deviation */
     /* Since the bodies touched. */
