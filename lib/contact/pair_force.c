@@ -157,7 +157,7 @@ static void add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, doub
                                    a->before.friction_damping_moment,
                                    a->step.half_step,
                                    a->step.at_start};
-    const fl_friction_result t = fl_tangent_step(p->springs, c, by, a->step.dt);
+    const fl_friction_result t = fl_tangent_step_of(p->springs, c, by, a->step.dt, 1);
     const fl_vec3 m = v3_scale(t.moment, c.n);
     p->springs = t.springs;
     add_wrench(&p->force_friction, &p->torque_i_friction, &p->torque_j_friction, t.force, ai, aj);

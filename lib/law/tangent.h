@@ -291,39 +291,47 @@ typedef struct {
     double p2; /* P(z)^2 */
 } fl_friction_face;
 
-/* Applies the limit to a face, steps 3 and 4 of fl_tangent_step().
- *   from     z before the step, of the value P(z) = size and the wrench given
- *   s        its change if the contact sticks
- *   slide    its change for fl_tangent_slide() if the contact slides
- *   damping  damping before the limit */
-FL_SIMD_INLINE fl_friction_face fl_tangent_face_limit(const fl_friction_shape *shape, fl_friction_wrench from,
-                                                      fl_friction_wrench wrench, double size,
-                                                      fl_friction_wrench s, fl_friction_wrench slide,
-                                                      double limit, fl_friction_wrench damping)
+/* What a face does in a step. */
+typedef struct {
+    fl_friction_wrench from; /* z before the step */
+    double size;             /* P(from) */
+    fl_friction_potential old;
+    fl_friction_wrench change, change_end; /* of z if the contact sticks, by the mean motion and that of the end */
+    fl_friction_wrench damping;            /* before the limit */
+    double limit;
+} fl_friction_trial;
+
+/* Applies the limit to a face, steps 3 and 4 of fl_tangent_step().  branches: 1 leaves out what a sticking
+ * contact does not need; 0 for loops over lanes.  The bits are the same. */
+FL_SIMD_INLINE fl_friction_face fl_tangent_face_limit(const fl_friction_shape *shape, fl_friction_trial t,
+                                                      int branches)
 {
-    const fl_friction_wrench to = fl_friction_wrench_madd(from, 1.0, s),
-                             flow = fl_tangent_slide(from, wrench, size, limit, slide);
-    const fl_friction_potential stuck = fl_friction_potential_of(shape, to),
-                                slid = fl_friction_potential_of(shape, flow);
-    const double stuck_size = sqrt(stuck.p2), flow_size = sqrt(slid.p2),
-                 scale = flow_size > 0.0 ? limit / flow_size : 0.0;
+    const double limit = t.limit;
+    fl_friction_wrench z = fl_friction_wrench_madd(t.from, 1.0, t.change);
+    fl_friction_potential now = fl_friction_potential_of(shape, z);
+    const double stuck_size = sqrt(now.p2);
     const int sticks = !(stuck_size > limit);
-    const fl_friction_wrench z = {
-        v3(sticks ? to.f.x : scale * flow.f.x, sticks ? to.f.y : scale * flow.f.y,
-           sticks ? to.f.z : scale * flow.f.z),
-        sticks ? to.m : scale * flow.m};
-    const fl_friction_potential now = {0.0, sticks ? stuck.h : slid.h, sticks ? stuck.j : slid.j,
-                                       sticks ? stuck.spin : slid.spin};
-    const double v2 = v3_norm2(z.f),
-                 p2 = v2 + shape->a * (z.m * z.m) - now.h * fl_friction_quadratic(shape, z.f, v2);
+    if (!branches || !sticks) {
+        const fl_friction_wrench flow = fl_tangent_slide(
+            t.from, fl_friction_wrench_of(shape, &t.old, t.from), t.size, limit,
+            fl_tangent_slide_path(t.size, limit, t.change, t.change_end));
+        const fl_friction_potential slid = fl_friction_potential_of(shape, flow);
+        const double flow_size = sqrt(slid.p2), scale = flow_size > 0.0 ? limit / flow_size : 0.0;
+        z = (fl_friction_wrench){v3(sticks ? z.f.x : scale * flow.f.x, sticks ? z.f.y : scale * flow.f.y,
+                                    sticks ? z.f.z : scale * flow.f.z),
+                                 sticks ? z.m : scale * flow.m};
+        now.h = sticks ? now.h : slid.h, now.j = sticks ? now.j : slid.j;
+        now.spin = sticks ? now.spin : slid.spin;
+        const double v2 = v3_norm2(z.f);
+        now.p2 = v2 + shape->a * (z.m * z.m) - now.h * fl_friction_quadratic(shape, z.f, v2);
+    }
     const fl_friction_wrench elastic = fl_friction_wrench_of(shape, &now, z);
-    const double wanted = v3_norm(damping.f) + FL_FRICTION_SPIN_SHARE * fabs(damping.m),
+    const double wanted = v3_norm(t.damping.f) + FL_FRICTION_SPIN_SHARE * fabs(t.damping.m),
                  room = sticks ? limit - stuck_size : 0.0, part = wanted > room ? room / wanted : 1.0;
-    return (fl_friction_face){z, elastic, fl_friction_wrench_madd(elastic, part, damping), p2};
+    return (fl_friction_face){z, elastic, fl_friction_wrench_madd(elastic, part, t.damping), now.p2};
 }
 
-/* One step of friction over dt [s], without a branch or a pointer to memory, so that loops over lanes can
- * call it.
+/* One step of friction over dt [s], which loops over lanes can call.
  *
  * 1. The remembered z_f is rotated about n by the mean spin of the pair, projected into the tangent plane and
  *    given its length again: it rolls with the contact.  Where the contact has changed its shape so that z
@@ -336,8 +344,8 @@ FL_SIMD_INLINE fl_friction_face fl_tangent_face_limit(const fl_friction_shape *s
  *    the share (L - P)/(|d_f| + |d_m|/sqrt(a)), which stays within the limit surface.  A sliding contact has
  *    none, as Coulomb's law says (V04 of verify_spheres), and the force does not jump as sliding begins or
  *    ends. */
-FL_SIMD_INLINE fl_friction_result fl_tangent_step(fl_friction_springs s, fl_friction_contact c,
-                                                  fl_friction_motion by, double dt)
+FL_SIMD_INLINE fl_friction_result fl_tangent_step_of(fl_friction_springs s, fl_friction_contact c,
+                                                     fl_friction_motion by, double dt, int branches)
 {
     const double before = v3_norm2(s.force), k = c.k, k_turn = k * c.arm * c.arm;
     const fl_vec3 rolled = v3_madd(s.force, by.mean_spin * dt, v3_cross(c.n, s.force));
@@ -349,23 +357,35 @@ FL_SIMD_INLINE fl_friction_result fl_tangent_step(fl_friction_springs s, fl_fric
     const double each = c.arm > 0.0 ? 1.0 / c.arm : 0.0;
     const fl_vec3 v = v3_madd(by.v, -v3_dot(by.v, c.n), c.n),
                   v_end = v3_madd(by.v_end, -v3_dot(by.v_end, c.n), c.n);
-    const fl_friction_shape shape =
-        fl_friction_shape_of(v3_madd(c.elongation, -v3_dot(c.elongation, c.n), c.n));
     const fl_friction_wrench held = {v3_scale(fall, v3_scale(length, laid)), each * (fall_turn * s.moment)},
                              change = {v3_scale(-mean_k * dt, v), each * (-mean_k_turn * dt * by.spin)},
                              change_end = {v3_scale(-mean_k * dt, v_end),
                                            each * (-mean_k_turn * dt * by.spin_end)},
                              motion = {v_end, c.arm * by.spin_end},
                              damped = {by.previous_damping, each * by.previous_damping_moment};
+    const fl_friction_wrench damping =
+        fl_tangent_damping(c, motion, change, damped, by.half_step, by.at_start);
+    if (branches && !(c.arm > 0.0)) {
+        const double length_now = fl_friction_wrench_norm(held);
+        const fl_friction_forces point =
+            fl_tangent_limit(held, length_now, change,
+                             fl_tangent_slide_path(length_now, c.limit, change, change_end), c.limit, damping);
+        return (fl_friction_result){{.force = point.elastic.f,
+                                     .k = k,
+                                     .energy = k > 0.0 ? 0.5 * v3_norm2(point.elastic.f) / k : 0.0,
+                                     .damping = v3_sub(point.total.f, point.elastic.f)},
+                                    point.total.f,
+                                    0.0};
+    }
+    const fl_friction_shape shape =
+        fl_friction_shape_of(v3_madd(c.elongation, -v3_dot(c.elongation, c.n), c.n));
     const fl_friction_potential old = fl_friction_potential_of(&shape, held);
     const double most = 2.0 * k * s.energy, reduced = old.p2 > most && c.arm > 0.0 ? sqrt(most / old.p2) : 1.0,
                  size = reduced * sqrt(old.p2);
     const fl_friction_wrench from = fl_friction_wrench_scale(reduced, held);
-    const fl_friction_wrench damping =
-        fl_tangent_damping(c, motion, change, damped, by.half_step, by.at_start);
-    const fl_friction_face now = fl_tangent_face_limit(
-        &shape, from, fl_friction_wrench_of(&shape, &old, from), size, change,
-        fl_tangent_slide_path(size, c.limit, change, change_end), c.limit, damping);
+    const fl_friction_face now =
+        fl_tangent_face_limit(&shape, (fl_friction_trial){from, size, old, change, change_end, damping, c.limit},
+                              branches);
     return (fl_friction_result){{.force = now.z.f,
                                  .k = k,
                                  .moment = c.arm * now.z.m,
@@ -375,6 +395,11 @@ FL_SIMD_INLINE fl_friction_result fl_tangent_step(fl_friction_springs s, fl_fric
                                  .damping_moment = c.arm * (now.total.m - now.elastic.m)},
                                 now.total.f,
                                 c.arm * now.total.m};
+}
+FL_SIMD_INLINE fl_friction_result fl_tangent_step(fl_friction_springs s, fl_friction_contact c,
+                                                  fl_friction_motion by, double dt)
+{
+    return fl_tangent_step_of(s, c, by, dt, 0);
 }
 
 /* Rescales the springs after the exact stiffness turned out to be `by` times the predicted one.

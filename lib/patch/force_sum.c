@@ -60,10 +60,11 @@ static fl_sym3 sum_matrix(const fl_simd a[6])
                      fl_simd_sum(&a[3]), fl_simd_sum(&a[4]), fl_simd_sum(&a[5])};
 }
 
-/* Adds weight arm arm^T. */
-FL_SIMD_INLINE void add_second_moments(fl_simd all[6], const fl_simd *weight, const fl_simd arm[3])
+/* Adds weight arm and weight arm arm^T. */
+FL_SIMD_INLINE void add_moments(fl_simd sum[3], fl_simd all[6], const fl_simd *weight, const fl_simd arm[3])
 {
     const fl_simd x = *weight * arm[0], y = *weight * arm[1], z = *weight * arm[2];
+    sum[0] += x, sum[1] += y, sum[2] += z;
     all[0] += x * arm[0], all[1] += x * arm[1], all[2] += x * arm[2];
     all[3] += y * arm[1], all[4] += y * arm[2], all[5] += z * arm[2];
 }
@@ -81,7 +82,8 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
     const fl_vec3 at = point[0].p;
     const fl_simd zero = {0};
     fl_simd u = zero, ddu = zero, most = zero, pressed = zero, elastic = zero;
-    fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero}, mid[3] = {zero, zero, zero};
+    fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero}, mid[3] = {zero, zero, zero},
+            second[6] = {zero, zero, zero, zero, zero, zero};
     for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH, t++) {
         const fl_patch_point *p = point + k;
         fl_patch_point last[FL_SIMD_WIDTH];
@@ -103,7 +105,7 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
         const fl_simd e = du * (nx * across[0] + ny * across[1] + nz * across[2]);
         t->e = e, t->du = du, t->curve = bent;
-        for (int c = 0; c < 3; c++) mid[c] += e * arm[c];
+        add_moments(mid, second, &e, arm);
         u += ux;
         ddu += bent;
         pressed += du;
@@ -113,7 +115,7 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
     q->u = fl_simd_sum(&u), q->ddu = fl_simd_sum(&ddu);
     q->du = fl_simd_sum(&pressed), q->pressure = fl_simd_sum(&elastic);
     q->gradient = (fl_wrench){sum_vector(f), sum_vector(m)};
-    q->pressure_moment = sum_vector(mid);
+    q->pressure_moment = sum_vector(mid), q->second = sum_matrix(second);
     q->overlap = largest_lane(&most);
 }
 
@@ -136,7 +138,6 @@ FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, doub
 {
     const fl_simd zero = {0};
     fl_simd normal = zero, way[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
-    fl_simd second[6] = {zero, zero, zero, zero, zero, zero};
     fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
     for (int32_t k = 0; k < lanes; k++, t++) {
         const fl_simd e = t->e, to = e * (still + chi * t->approach), p = FL_SIMD_MASKED(to > 0.0, to);
@@ -151,9 +152,8 @@ FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, doub
             f[c] += pull[c];
             m[c] += moment[c];
         }
-        add_second_moments(second, &p, arm);
     }
-    q->damped_pressure = fl_simd_sum(&normal), q->damped_second = sum_matrix(second);
+    q->damped_pressure = fl_simd_sum(&normal);
     q->direction = sum_vector(way), q->damped_moment = sum_vector(at);
     q->damping = (fl_wrench){sum_vector(f), sum_vector(m)};
 }
@@ -253,24 +253,6 @@ static fl_vec3 arm_of(const point_four *t, uint32_t k)
     return v3(arm[0][k % FL_SIMD_WIDTH], arm[1][k % FL_SIMD_WIDTH], arm[2][k % FL_SIMD_WIDTH]);
 }
 
-/* Adds w r r^T. */
-static void add_product(fl_sym3 *m, double w, fl_vec3 r)
-{
-    const fl_vec3 a = v3_scale(w, r);
-    m->xx += a.x * r.x, m->xy += a.x * r.y, m->xz += a.x * r.z;
-    m->yy += a.y * r.y, m->yz += a.y * r.z, m->zz += a.z * r.z;
-}
-
-/* Adds w times the sum of off (arm - middle) (arm - middle)^T over the three points; it is 0 for the four. */
-static void add_third_moment(const point_four *t, const area_motion *a, double w, fl_sym3 *sum)
-{
-    const fl_vec3 p0 = arm_of(t, a->k), p1 = v3_sub(arm_of(t, a->k + 1), p0),
-                  p2 = v3_sub(arm_of(t, a->k + 2), p0), mid = v3_scale(1.0 / AREA_POINTS, v3_add(p1, p2));
-    add_product(sum, w * a->off[0], mid);
-    add_product(sum, w * a->off[1], v3_sub(p1, mid));
-    add_product(sum, w * a->off[2], v3_sub(p2, mid));
-}
-
 /* Four points with the sum, mean and second moments of the three: from the middle forwards and backwards
  * along the direction in which the approach speed rises, and along one in which it is that of the middle.
  * They depend on the area only, whichever three points represent it. */
@@ -296,19 +278,16 @@ static point_four four_point_area(const point_four *t, const area_motion *a)
 
 /* Points in which no area pulls in part: s->point_lanes, or a copy behind it in which areas with part of
  * still + chi c < 0 have their four points.
- *     lanes   out: number of fours;  skew: sum of e off (arm - middle) (arm - middle)^T of the other areas */
+ *     lanes   out: number of fours */
 static const point_four *points_without_tension(const fl_patch_points *s, double chi, double still,
-                                                int32_t *lanes, fl_sym3 *skew)
+                                                int32_t *lanes)
 {
     point_four *const own = s->point_lanes, *copy = NULL;
     const int32_t n = *lanes = count_lanes(s);
-    *skew = (fl_sym3){0};
     const area_motion *a = s->area_motion;
     for (int32_t k = 0; k < s->areas; k++, a++) {
         const uint32_t at = a->k;
-        if (still + chi * (a->mean - a->amplitude) >= 0.0)
-            add_third_moment(own, a, own[at / FL_SIMD_WIDTH].e[at % FL_SIMD_WIDTH], skew);
-        else if (still + chi * (a->mean + a->amplitude) > 0.0) {
+        if (still + chi * (a->mean - a->amplitude) < 0.0 && still + chi * (a->mean + a->amplitude) > 0.0) {
             if (!copy) copy = memcpy(own + n, own, (size_t)n * sizeof *own);
             for (uint32_t c = at; c < at + AREA_POINTS; c++)
                 copy[c / FL_SIMD_WIDTH].e[c % FL_SIMD_WIDTH] = 0.0;
@@ -344,11 +323,9 @@ void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_off
 {
     if (s->n == 0) return;
     int32_t lanes;
-    fl_sym3 skew;
     const double still = 1.0 + chi * speed_offset;
-    const point_four *t = points_without_tension(s, chi, still, &lanes, &skew);
+    const point_four *t = points_without_tension(s, chi, still, &lanes);
     sum_damped(t, lanes, chi, still, q);
-    q->damped_second = s3_add(q->damped_second, s3_times(-chi, skew));
 }
 
 void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q)
@@ -369,16 +346,15 @@ void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q)
 FL_SIMD_VERSIONS static void sum_pressure(const point_four *t, int32_t lanes, fl_pressure_moments *q)
 {
     const fl_simd zero = {0};
-    fl_simd all[FL_PRESSURE_MATRIX], e = zero, second[6] = {zero, zero, zero, zero, zero, zero},
-                                     way[3] = {zero, zero, zero}, turns[3] = {zero, zero, zero},
-                                     at[3] = {zero, zero, zero};
+    fl_simd all[FL_PRESSURE_MATRIX], e = zero, wide = zero, way[3] = {zero, zero, zero},
+                                     turns[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
     for (int m = 0; m < FL_PRESSURE_MATRIX; m++) all[m] = zero;
     for (int32_t k = 0; k < lanes; k++) {
         fl_simd g[6] = {t[k].across[0], t[k].across[1], t[k].across[2]};
         CROSS((g + 3), t[k].arm, t[k].across);
         const fl_simd *arm = t[k].arm;
         e += t[k].e;
-        add_second_moments(second, &t[k].e, arm);
+        wide += t[k].e * (arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
         for (int c = 0; c < 3; c++) {
             way[c] += t[k].e * g[c];
             turns[c] += t[k].e * g[3 + c];
@@ -387,7 +363,7 @@ FL_SIMD_VERSIONS static void sum_pressure(const point_four *t, int32_t lanes, fl
         add_outer_product(all, &t[k].e, g);
     }
     for (int m = 0; m < FL_PRESSURE_MATRIX; m++) q->damping[m] = fl_simd_sum(&all[m]);
-    q->pressure = fl_simd_sum(&e), q->second = sum_matrix(second);
+    q->pressure = fl_simd_sum(&e), q->radius = fl_simd_sum(&wide);
     q->direction = sum_vector(way), q->torque = sum_vector(turns), q->centre = sum_vector(at);
 }
 
@@ -398,7 +374,7 @@ void fl_force_sum_pressure(const fl_patch_points *s, fl_pressure_moments *q)
     if (!(q->pressure > 0.0)) return;
     const double each = 1.0 / q->pressure;
     q->centre = v3_scale(each, q->centre);
-    const double wide2 = each * (q->second.xx + q->second.yy + q->second.zz) - v3_norm2(q->centre);
+    const double wide2 = each * q->radius - v3_norm2(q->centre);
     q->radius = wide2 > 0.0 ? sqrt(wide2) : 0.0;
 }
 

@@ -2,11 +2,12 @@
 /* patch_result.h -- what a contact law hands to friction: the load of a contact, where it acts and how it is
  * distributed.
  *
- *     N = sum f,   x_c = sum f x / N,   Theta = sum f t t^T / N,   t = (x - x_c) x n
+ *     N = sum f,   x_c = sum f x / N,   Theta = sum e t t^T / sum e,   t = (x - x_e) x n
  *
- *   f      pressure at a point of the contact, with damping, never tension [N]
+ *   f, e   pressure at a point of the contact with damping, never tension, and without [N]
  *   x, n   the point [m] and the unit normal of the contact, sum f n(x) over its length
- *   Theta  second moments of the pressure across n [m2], as the root mean square distance rho and the
+ *   x_e    centre of the pressures e [m]
+ *   Theta  second moments of the pressure e across n [m2], as the root mean square distance rho and the
  *          elongation e of law/tangent.h,
  *          Theta = rho^2 ((1 - e^2)/2 (1 - n n^T) + e e^T)
  *
@@ -81,8 +82,7 @@ static inline fl_patch_result fl_patch_result_of(const fl_force_sum *q, double e
     const fl_vec3 mean = m3_mul(*R, v3_scale(1.0 / q->damped_pressure, q->damped_moment));
     r.centre = v3_add(at, mean);
     r.couple = v3_sub(v3_scale(scale, m3_mul(*R, q->gradient.m)), v3_cross(mean, r.force));
-    r.shape = fl_pressure_shape_about(q->damped_pressure, q->damped_moment, q->damped_second,
-                                      v3_unit(q->direction));
+    r.shape = fl_pressure_shape_about(q->pressure, q->pressure_moment, q->second, v3_unit(q->direction));
     r.shape.elongation = m3_mul(*R, r.shape.elongation);
     return r;
 }

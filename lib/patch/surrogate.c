@@ -447,15 +447,15 @@ static double slope_of_energy(const fl_surrogate *s, const fl_exact_contact *see
 }
 
 /* Pressure sums times dW/dU. */
-static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, double scale)
+static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, const fl_force_sum *sums, double scale)
 {
     const fl_vec3 acts = fl_surrogate_force_centre(q->direction, q->torque);
     s->pressure = scale * q->pressure;
     s->direction = v3_scale(scale, q->direction), s->torque = v3_scale(scale, q->torque);
     s->centre_offset = v3_sub(q->centre, acts);
     for (int k = 0; k < FL_PRESSURE_MATRIX; k++) s->damping[k] = scale * q->damping[k];
-    const fl_pressure_shape shape = fl_pressure_shape_about(q->pressure, v3_scale(q->pressure, q->centre),
-                                                            q->second, v3_unit(q->direction));
+    const fl_pressure_shape shape =
+        fl_pressure_shape_about(sums->pressure, sums->pressure_moment, sums->second, v3_unit(q->direction));
     s->arm = shape.arm, s->elongation = shape.elongation;
 }
 
@@ -530,7 +530,7 @@ static void set_from_evaluation(fl_surrogate *s, const fl_exact_contact *seen,
     s->compliance = seen->compliance, s->turn_compliance = seen->turn_compliance;
     set_free_travel(s, seen);
     compute_curvature(s, seen, slope, v3_sub(s->first_point, s->point), last);
-    set_pressures(s, pressing, seen->scale);
+    set_pressures(s, pressing, seen->sums, seen->scale);
     s->other_force = v3_sub(v3_scale(seen->scale, q->gradient.f), s->direction);
     s->centre = fl_surrogate_force_centre(q->gradient.f, q->gradient.m);
     s->valid = s->force > MIN_NET_FORCE * s->pressure && v3_norm2(s->direction) > 0.0;
