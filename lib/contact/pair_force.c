@@ -249,6 +249,24 @@ static double damping_factor(fl_pair *p, double now, double mass)
                           p->energy, mass);
 }
 
+/* True if the other body is a piece of the structure that may have several faces, which bodies pass. */
+static int is_on_facets(const fl_world *w, const fl_pair *p)
+{
+    const fl_piece *piece = fl_world_piece(w, p->j);
+    return piece && piece->kind != FL_PIECE_PLANE;
+}
+
+/* Share of the load of p that was laid down before (law/damping.h), with load, slope and mass now; takes note
+ * of the load.  cos2 as in fl_damping_bend_share(). */
+static double laid_share(const fl_world *w, fl_pair *p, double load, double slope, double mass, double cos2)
+{
+    const double now = fl_world_time(w), laid = p->touching ? p->laid_load : 0.0;
+    const double omega2 = slope > 0.0 && mass < INFINITY ? slope / mass : 0.0;
+    p->laid_load = fl_damping_laid_load(laid, load, p->touching ? now - p->laid_time : 0.0, omega2);
+    p->laid_time = now;
+    return fl_damping_laid_share(laid, load) * fl_damping_bend_share(cos2);
+}
+
 /* A contact point in world axes. */
 typedef struct {
     fl_vec3 n, ai, aj; /* normal; from the centres of A and B */
@@ -320,10 +338,23 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
     if (one || !fl_pair_has_reduced_mass(w, p)) ease = fl_pair_mobility_of(w, p);
     const double mass = less > 0.0 ? fl_pair_mass(w, p, &ease, way, turn_i, turn_j) / less : INFINITY;
     const double first_approach = approach_speed_of(b, p, a, &first);
-    double approach = first_approach;
-    for (int32_t c = 1; c < s->n; c++) {
-        const world_point t = world_point_of(p, &s->point[c], r);
-        if (s->point[c].du > 0.0) approach = fmax(approach, approach_speed_of(b, p, a, &t));
+    double approach = first_approach, mean = 0.0, laid = 0.0;
+    if (s->n > 1) {
+        double load = k * fabs(first.weight), stiff = k * s->point[0].du * fl_normal_slope(s->point[0].overlap, p->exponent);
+        mean = first.weight * first_approach;
+        for (int32_t c = 1; c < s->n; c++) {
+            const fl_patch_point *q = &s->point[c];
+            const world_point t = world_point_of(p, q, r);
+            const double comes = approach_speed_of(b, p, a, &t);
+            mean += t.weight * comes;
+            load += k * t.weight;
+            stiff += k * q->du * fl_normal_slope(q->overlap, p->exponent);
+            if (q->du > 0.0) approach = fmax(approach, comes);
+        }
+        mean /= sum;
+        laid = laid_share(w, p, load, stiff, mass, less);
+    } else if (is_on_facets(w, p)) {
+        laid_share(w, p, k * first.weight, k * fl_normal_slope(s->point[0].overlap, p->exponent), mass, 1.0);
     }
     const double chi = damping_factor(p, approach > 0.0 ? approach : 0.0, mass), push = k * first.weight,
                  more = one ? approach_correction(a, first_approach, push, chi * push,
@@ -334,7 +365,8 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
         const fl_patch_point *q = &s->point[c];
         const world_point t = c ? world_point_of(p, q, r) : first;
         const double elastic = k * t.weight, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
-                     comes = c ? approach_speed_of(b, p, a, &t) : first_approach,
+                     own = c ? approach_speed_of(b, p, a, &t) : first_approach,
+                     comes = laid > 0.0 ? own + laid * (mean - own) : own, /* all slide as one sphere */
                      normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes + more);
         add_wrench(&p->force, &p->torque_i, &p->torque_j, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping,
@@ -402,6 +434,31 @@ static fl_patch_result add_damping_and_friction(fl_world *w, fl_pair *p, const f
     return all;
 }
 
+/* Leaves the approach that sliding and rolling over faces of different normals give out of q and s, as far as
+ * the load was laid down before (law/damping.h).  elastic: the force; v, spin: arguments of
+ * fl_force_sum_motion().  -1 when memory runs out. */
+static int leave_out_sliding(const fl_world *w, fl_pair *p, fl_patch_points *s, fl_force_sum *q,
+                             const fl_exact_contact *exact, fl_vec3 elastic, const fl_relative_pose *r,
+                             const prediction *a, fl_vec3 v, fl_vec3 spin, double mass)
+{
+    const fl_bodies *b = &w->b;
+    const double load = exact->scale * q->pressure, f2 = v3_norm2(elastic), cos2 = f2 / (load * load),
+                 laid = laid_share(w, p, load, exact->slope, mass, cos2);
+    if (!(laid > 0.0 && q->pressure > 0.0)) return 0;
+    const fl_vec3 n = v3_unit(elastic),
+                  aj = m3_mul(r->R, v3_madd(s->point[0].p, 1.0 / q->pressure, q->pressure_moment)),
+                  core = end_velocity(b, p, a, v3_madd(v3_add(aj, r->off), p->radius_factor * b->radius[p->i], n),
+                                      v3_madd(aj, -p->radius_factor * b->radius[p->j], n)),
+                  slides = m3_tmul(r->R, v3_madd(core, -v3_dot(core, n), n));
+    double with, square;
+    fl_force_sum_sliding(s, slides, &with, &square);
+    if (!(with > 0.0 && square > FL_FLAT_CONTACT * q->pressure * v3_norm2(slides))) return 0;
+    const double share = laid * fmin(with / square, 1.0), approach = q->du_approach;
+    if (fl_force_sum_motion(s, v3_madd(v, -share, slides), spin, q)) return -1;
+    q->du_approach = approach;
+    return 0;
+}
+
 /* --- exact evaluation -------------------------------------------------------------------------- */
 
 /* Evaluates a patch, W = k sqrt(U), each point with its share of dW/dU; t as in fl_pair_update_surrogate().
@@ -441,6 +498,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const fl_vec3 v = m3_tmul(R, end_velocity(b, p, a, ai, aj)), turn = m3_tmul(R, spin);
     if (fl_force_sum_motion(s, v, turn, &q)) return -1;
     const double chi = damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass);
+    if (is_on_facets(w, p) && leave_out_sliding(w, p, s, &q, &exact, elastic, r, a, v, turn, mass)) return -1;
     const double size = v3_norm(elastic),
                  more = fl_predictor_share(size, exact.scale * q.pressure) *
                         approach_correction(a, q.pressure_rate / q.pressure, size, chi * size, compliance);

@@ -133,6 +133,17 @@ FL_SIMD_VERSIONS static void sum_motion(point_four *t, int32_t lanes, fl_vec3 v,
     q->du_approach = fl_simd_sum(&approach), q->pressure_rate = fl_simd_sum(&rate);
 }
 
+FL_SIMD_VERSIONS static void sum_sliding(const point_four *t, int32_t lanes, fl_vec3 v, double sum[2])
+{
+    fl_simd with = {0}, square = {0};
+    for (int32_t k = 0; k < lanes; k++, t++) {
+        const fl_simd s = -(t->across[0] * v.x + t->across[1] * v.y + t->across[2] * v.z), es = t->e * s;
+        with += es * t->approach;
+        square += es * s;
+    }
+    sum[0] = fl_simd_sum(&with), sum[1] = fl_simd_sum(&square);
+}
+
 FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, double chi, double still,
                                         fl_force_sum *q)
 {
@@ -317,6 +328,13 @@ int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_su
     if (find_areas(s)) return -1;
     q->du_approach += approach_correction(s);
     return 0;
+}
+
+void fl_force_sum_sliding(const fl_patch_points *s, fl_vec3 v, double *with_approach, double *square)
+{
+    double sum[2];
+    sum_sliding(s->point_lanes, count_lanes(s), v, sum);
+    *with_approach = sum[0], *square = sum[1];
 }
 
 void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, fl_force_sum *q)

@@ -57,6 +57,10 @@ int fl_force_sum_elastic(fl_patch_points *s, fl_force_sum *q);
  * -1 when memory runs out. */
 int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_sum *q);
 
+/* Sums of e s c and of e s^2 of the approach s = -t.v that the velocity v alone gives, law/damping.h; after
+ * fl_force_sum_motion(). */
+void fl_force_sum_sliding(const fl_patch_points *s, fl_vec3 v, double *with_approach, double *square);
+
 /* Sets damped_pressure, direction, damped_moment and damping, after fl_force_sum_motion().
  *   chi            damping coefficient [s/m]
  *   speed_offset   added to the approach speed of every point [m/s] */
