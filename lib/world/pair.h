@@ -54,6 +54,8 @@ typedef struct {
     double exponent; /* n; 0 with FL_POINTS_PATCH */
     double mass;     /* reduced mass [kg] */
     double max_approach_speed; /* largest of this contact so far [m/s] */
+    double laid_load;          /* fl_damping_laid_load() [N] */
+    double laid_time;          /* its time [s] */
     int32_t points;            /* enum fl_contact_points: what is evaluated */
     int32_t bond;              /* 1 + index of the bond that was here, 0: none; bond_list.h */
     double radius_factor;      /* multiplies both radii: 1, but less after a bond */
