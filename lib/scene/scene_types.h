@@ -66,11 +66,11 @@ typedef struct {
     double loads_every;
     double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
     int32_t files;                         /* number of files the frames are split over */
-    double state_every, energy_every, contacts_every, hash_every, bonds_every;
+    double state_every, energy_every, contacts_every, hash_every, bonds_every, members_every;
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
         hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        checkpoint[FL_SCENE_PATH]; /* "": none */
+        members[FL_SCENE_PATH], checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
 typedef struct {
@@ -132,7 +132,9 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    char file[FL_SCENE_PATH]; /* g_struct */
+    char file[FL_SCENE_PATH];    /* g_struct; "" not given */
+    char members[FL_SCENE_PATH]; /* members; "" not given */
+    double member_damping;       /* ratio of the lowest modes */
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */
     fl_scene_motion motion;

@@ -316,11 +316,12 @@ static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *er
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_ice_field *field, const fl_surface *surface,
                   fl_err *err)
 {
-    return fl_world_make_with_inflow(w, scene, field, field, surface, err);
+    return fl_world_make_with_inflow(w, scene, field, field, surface, NULL, err);
 }
 
 int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_field *field,
-                              const fl_ice_field *feed, const fl_surface *surface, fl_err *err)
+                              const fl_ice_field *feed, const fl_surface *surface,
+                              const fl_member_model *members, fl_err *err)
 {
     double bound = 0.0;
     *w = (fl_world){.scene = scene, .n = field->n, .last_search_step = -1, .gravity = scene->run.gravity};
@@ -356,7 +357,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         w->inflow.absent[i] = 1;
         if (fl_world_place_floe(w, i, feed, w->inflow.source_floe[i], err)) goto fail;
     }
-    if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, err) ||
+    if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
         fl_panels_make(w, surface, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
         fl_bond_list_make(w, field, err))
         goto fail;

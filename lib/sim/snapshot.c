@@ -11,6 +11,7 @@
 #include "sim/energy_ledger.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
+#include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
 #include "sim/setup.h"
@@ -219,6 +220,27 @@ static void exchange_mover(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_close(t);
 }
 
+/* A structure of members: its balls.  Its forces follow from them and from those on the pieces. */
+static void exchange_members(fl_state_io *t, fl_world *w)
+{
+    fl_member_dynamics *d = &w->moving.members.dynamics;
+    int32_t balls = d->chain.balls;
+    fl_state_io_open(t, "members");
+    fl_state_io_int(t, balls, balls, &balls);
+    fl_state_io_real(t, &d->damped);
+    fl_state_io_close(t);
+    for (int32_t k = 0; k < d->chain.balls && !t->err->code; k++) {
+        fl_member_ball *a = &d->chain.ball[k];
+        fl_state_io_open(t, "chain");
+        fl_state_io_vec3(t, &a->d);
+        fl_state_io_vec3(t, &a->v);
+        fl_state_io_quat(t, &a->q);
+        fl_state_io_vec3(t, &a->w);
+        fl_state_io_close(t);
+    }
+    if (t->in && !t->err->code) fl_member_structure_refresh(w);
+}
+
 /* A contact point on the structure, of the last step. */
 static void exchange_point(fl_state_io *t, fl_world *w, fl_panel_point *m)
 {
@@ -361,7 +383,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     fl_state_io_real(t, &w->skin);
     fl_state_io_real(t, &w->dt_critical);
     fl_state_io_real(t, &w->dt_critical_contacts);
-    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1, &w->critical_body);
+    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1 + fl_structure_has_members(w),
+                    &w->critical_body);
     fl_state_io_real(t, &w->dt_safe);
     fl_state_io_int(t, w->parts, w->parts, &parts);
     fl_state_io_int(t, w->b.total, w->b.total, &total);
@@ -391,6 +414,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         if (t->in) w->sleep.n_resting += w->sleep.phase[k] == FL_RESTING;
     }
     for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) exchange_mover(t, w, k);
+    if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
@@ -443,7 +467,7 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
     const int more = fl_text_row(in, err);
     if (more > 0) fl_text_fail(in, err, "unexpected \"%.40s\" after the last pair", in->field[0]);
     if (more) return -1;
-    if (w->moving.movers.n) fl_moving_structure_set_step(w);
+    if (fl_structure_moves(w)) fl_moving_structure_set_step(w);
     if ((fl_contact_list_size(w) || w->spheres.bodies) && fl_contact_list_index(w, err)) return -1;
     if (fl_neighbour_list_index(w, err)) return -1;
     fl_sleep_after_read(w);

@@ -16,6 +16,7 @@
 #include "sim/energy_ledger.h"
 #include "sim/half_kicks.h"
 #include "sim/inflow.h"
+#include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
 #include "sim/sleep.h"
@@ -48,9 +49,8 @@ typedef struct {
 /* End of the drift: move pieces and walls without a mover, count the step, set the time of the water. */
 static void advance_time(fl_world *w)
 {
-    const int moves = w->moving.movers.n > 0;
     for (int32_t k = w->n; k < w->b.total; k++)
-        if (!moves || w->moving.mover_of_piece[k - w->n] < 0) fl_drift(&w->b, k, w->dt);
+        if (!fl_piece_moves(w, k)) fl_drift(&w->b, k, w->dt);
     w->step++;
     w->sea.time = fl_world_time(w);
     w->sea.sample_now = w->sea.sample_every < 2 || w->step % w->sea.sample_every == 0;
@@ -223,7 +223,7 @@ static int check_state(fl_world *w, int update_stiffness, fl_err *err)
             !v3_finite(w->moving.movers.b.t[k]))
             return fl_fail(err, FL_NUMERIC, "%s: not a finite number in step %lld (t = %g s)",
                            fl_mover_name(w, k), (long long)w->step, fl_world_time(w));
-    return 0;
+    return fl_structure_has_members(w) ? fl_member_structure_check(w, err) : 0;
 }
 
 /* Adds a force and a torque about the origin of piece or wall j to part p. */
@@ -357,7 +357,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     if (w->panel_load.all) fl_panels_clear(w);
     step_context q = {.w = w, .update_stiffness = 1, .err = err};
     if (run_step(&q)) return -1;
-    if (w->moving.movers.n) {
+    if (fl_structure_moves(w)) {
         fl_moving_structure_set_step(w);
         fl_moving_structure_second_half(w, 0.0, 0.0);
     }
@@ -366,7 +366,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     if (w->automatic_dt && fl_shorten_step_at_start(w)) { /* damping and friction depend on the step */
         if (w->panel_load.all) fl_panels_clear(w);
         if (run_step(&q)) return -1;
-        if (w->moving.movers.n) {
+        if (fl_structure_moves(w)) {
             fl_moving_structure_set_step(w);
             fl_moving_structure_second_half(w, 0.0, 0.0);
         }
@@ -386,7 +386,7 @@ int fl_step_start(fl_world *w, fl_err *err)
 int fl_step(fl_world *w, fl_err *err)
 {
     const double dt = w->dt, h = 0.5 * dt;
-    const int moves = w->moving.movers.n > 0, update_stiffness = fl_stiffness_due(w, w->step + 1);
+    const int moves = fl_structure_moves(w), update_stiffness = fl_stiffness_due(w, w->step + 1);
 
     /* loads: half a step of the present forces on the structure */
     fl_thread_count_begin(&w->team);
@@ -439,5 +439,5 @@ void fl_step_set_size(fl_world *w, double dt, double t)
     w->step0 = w->step;
     w->dt = dt;
     book_work_ahead(w, 1.0);
-    if (w->moving.movers.n) fl_moving_structure_set_step(w);
+    if (fl_structure_moves(w)) fl_moving_structure_set_step(w);
 }

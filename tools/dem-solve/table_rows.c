@@ -6,6 +6,7 @@
 #include "out/frames.h"
 #include "out/tables.h"
 #include "sim/energy_balance.h"
+#include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sphere/contact_list.h"
 
@@ -55,6 +56,13 @@ void write_loads(struct run *r, FILE *f, double t, double interval)
     }
 }
 
+/* Middle of the cylinder of panel k: all panels are cylinders, in the order of the pieces. */
+static fl_vec3 middle_of_piece(const fl_world *w, int32_t k)
+{
+    const int32_t j = w->n + k;
+    return v3_add(w->b.x[j], q_rotate(w->b.q[j], v3(0, 0, 0.5 * w->structure.piece[k].h)));
+}
+
 /* Panels are numbered within their part; their centroids move with it. */
 void write_panels(struct run *r, FILE *f, double t, double interval)
 {
@@ -67,7 +75,8 @@ void write_panels(struct run *r, FILE *f, double t, double interval)
                              .centroid = p->centroid,
                              .area = p->area,
                              .force = v3_scale(1.0 / interval, s->impulse[k])};
-        if (w->moving.movers.n && w->moving.mover_of_part[p->part] >= 0)
+        if (fl_structure_has_members(w)) row.centroid = middle_of_piece(w, k);
+        else if (w->moving.movers.n && w->moving.mover_of_part[p->part] >= 0)
             row.centroid = fl_part_point(w, p->part, p->centroid);
         fl_table_write_row(f, &fl_panels_table, 0, t, &row);
     }
@@ -183,6 +192,16 @@ void write_bonds(struct run *r, FILE *f, double t, double interval)
     }
 }
 
+void write_members(struct run *r, FILE *f, double t, double interval)
+{
+    const fl_world *w = r->w;
+    (void)interval;
+    for (int32_t k = 0; k < w->moving.members.dynamics.chain.contacts; k++) {
+        const fl_member_forces_row row = fl_member_structure_row(w, k);
+        fl_table_write_row(f, &fl_member_forces_table, 0, t, &row);
+    }
+}
+
 /* 1 if the structure as a whole translates: frames then have its displacement, else the pose of each part. */
 static int only_translates(const fl_world *w)
 {
@@ -198,6 +217,14 @@ static fl_vec3 displacement_of(const fl_world *w)
 static void write_part_poses(const struct run *r, FILE *f)
 {
     const fl_rigid_motions *v = &r->w->moving.movers;
+    const fl_member_motion *members = &r->w->moving.members;
+    for (int32_t k = 0; k < members->dynamics.chain.contacts; k++) {
+        fl_vec3 x;
+        fl_quat q;
+        if (r->frames_surface->part[k].nc == 0) continue;
+        fl_member_motion_piece_pose(members, k, &x, &q);
+        fl_frames_part_pose(f, r->frames_surface->part[k].id, x, q);
+    }
     if (v->n == 0 || only_translates(r->w)) return;
     for (int32_t p = 0; p < r->w->parts; p++) {
         const int32_t m = r->w->moving.mover_of_part[p];
