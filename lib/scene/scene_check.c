@@ -308,9 +308,9 @@ static int check_bonds(const fl_scene *s, fl_err *err)
     if (s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
         return fl_scene_fail(s, "boundary.inflow", err,
                              "inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
-    if (b->softening != FL_SOFTENING_KEEP && b->energy == 0.0)
+    if (b->softening == FL_SOFTENING_WEAKEN && b->energy == 0.0)
         return fl_scene_fail(s, "bond.softening", err,
-                             "softening needs a fracture energy: bond.energy is expected");
+                             "softening = weaken needs a fracture energy: bond.energy is expected");
     if (b->softening == FL_SOFTENING_WEAKEN && (isinf(b->normal_strength) || isinf(b->shear_strength)))
         return fl_scene_fail(
             s, "bond.softening", err,

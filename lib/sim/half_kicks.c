@@ -534,7 +534,7 @@ static int end_sphere_block(fl_world *w, int32_t from, int32_t to, double h, fl_
     const int32_t *slot = w->contact_sums.slot, *previous = w->previous_sums.slot;
     fl_free_batch_work works;
     int32_t touched = 0;
-    if (!w->spheres.bodies || !w->b.is_isotropic[from] || w->sea.n || w->driven_floes.n ||
+    if (!w->spheres.bodies || !w->b.is_isotropic[from] || w->sea.n || w->driven_floes.n || w->discs.n ||
         w->contact_sums.one_each || !(h > 0.0))
         return 0;
     for (int32_t k = from; k < to; k++) touched |= slot[k] | previous[k];

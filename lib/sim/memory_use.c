@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/memory_use.h"
+#include "contact/disc_list.h"
 #include "sim/sleep.h"
 #include "sphere/contact_list.h"
 
@@ -77,7 +78,7 @@ static double other_bytes(const fl_world *w)
     if (t->feed) sum += ARRAY(t->lag, t->feed->n) + ARRAY(t->next_copy, t->feed->n);
     sum += ARRAY(w->driven_floes.is_driven, w->driven_floes.n) + ARRAY(w->driven_floes.k, w->driven_floes.n) +
            ARRAY(w->driven_floes.rest_height, w->driven_floes.n);
-    sum += fl_sleep_bytes(w);
+    sum += fl_sleep_bytes(w) + fl_disc_list_bytes(w);
     sum += ARRAY(z->bond, z->n) + ARRAY(z->image, 3 * (double)z->n) + ARRAY(z->radius_factor, z->n) +
            ARRAY(z->omega2, 2 * (double)z->n) + ARRAY(z->of, 2 * (double)z->n) +
            ARRAY(z->max_omega2, w->b.total) + ARRAY(z->first, w->b.total + 1);

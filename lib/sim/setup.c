@@ -385,6 +385,7 @@ void fl_world_free(fl_world *w)
     fl_moving_structure_free(&w->moving);
     fl_sleep_free(&w->sleep);
     fl_bond_list_free(&w->bonds);
+    fl_disc_list_free(&w->discs);
     fl_panels_free(&w->panel_load);
     fl_pairs_free(&w->candidates);
     fl_environment_free(&w->sea);

@@ -323,6 +323,38 @@ static void exchange_bond(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_close(t);
 }
 
+/* A bond of spheres: its memory.  The forces of a step follow from it in the next one alone. */
+static void exchange_disc(fl_state_io *t, fl_world *w, int32_t k)
+{
+    fl_disc_list *s = &w->discs;
+    fl_disc_memory m = fl_disc_list_memory(s, k);
+    fl_disc_wrench *f = &s->at.out[k];
+    fl_state_io_open(t, "disc");
+    fl_state_io_byte(t, FL_DISC_ENDED, &s->has_ended[k]);
+    fl_state_io_vec3(t, &m.S), fl_state_io_vec3(t, &m.M);
+    fl_state_io_real(t, &m.lambda);
+    fl_state_io_real(t, &m.dissipated), fl_state_io_real(t, &m.rubbed);
+    fl_state_io_real(t, &s->pending[k]);
+    fl_state_io_vec3(t, &f->force), fl_state_io_vec3(t, &f->couple_i), fl_state_io_vec3(t, &f->couple_j);
+    if (s->at.damped) {
+        fl_state_io_vec3(t, &m.damping_force), fl_state_io_vec3(t, &m.damping_couple);
+        fl_state_io_real(t, &m.damped);
+    }
+    fl_state_io_close(t);
+    if (!t->in || t->err->code) return;
+    if (!(m.lambda >= 0.0)) fl_text_fail(t->in, t->err, "lambda = %g is not possible in a bond", m.lambda);
+    else fl_disc_list_set_memory(s, k, &m);
+}
+
+static void exchange_discs(fl_state_io *t, fl_world *w)
+{
+    fl_disc_list *s = &w->discs;
+    for (int32_t k = 0; k < s->n && !t->err->code; k++) exchange_disc(t, w, k);
+    if (!t->in) return;
+    s->ended = 0;
+    for (int32_t k = 0; k < s->n; k++) s->ended += s->has_ended[k] == FL_DISC_JUST_ENDED;
+}
+
 /* Everything but the pairs; returns their number. */
 static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *spheres)
 {
@@ -370,6 +402,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) exchange_mover(t, w, k);
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
+    if (w->discs.n && !t->err->code) exchange_discs(t, w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
     const double now = w->sea.time;
     if (w->sea.current.n) exchange_current_hash(t, &w->sea.current);

@@ -525,6 +525,7 @@ void fl_sphere_chunk_evaluate(fl_world *w, int32_t a, double dt, int survey)
     memset(t.law, -1, sizeof t.law);
     for (int32_t m = 0; s->one_law >= 0 && m < FL_SPHERE_BATCH; m++) load_law(w, &t, m, s->one_law);
     t.m = 0;
+    t.at.exponent = fl_round_exponent(w);
     s->totals[a] = (fl_chunk_totals){.max_overlap_contact = -1};
     clear_sums(&s->sum[begin], end - begin);
     clear_sums(&s->slot[slot_begin], s->slot_first[a + 1] - slot_begin);
