@@ -256,6 +256,10 @@ static int check_waves(const fl_scene *s, fl_err *err)
     const fl_scene_water *w = &s->water;
     const fl_vec3 g = s->run.gravity;
     if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
+    if (s->ice.slab > 0.0)
+        return fl_scene_fail(s, "ice.slab", err,
+                             "spheres that stand for a slab float in still water: either ice.slab or "
+                             "water.wave is expected");
     if (w->height == 0.0)
         return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height is expected");
     if (w->period == 0.0)

@@ -613,6 +613,18 @@ const fl_key fl_key_table[] = {
      .meaning = "shape for mass, inertia and buoyancy: faces moved outward by the radius "
                 "with sharp edges, or the Minkowski sum itself",
      .source = "Steiner's formula, Schneider, Convex Bodies (2014), ch. 4"},
+    {.section = FL_SEC_ICE,
+     .key = "slab",
+     .type = FL_VALUE_F64,
+     .unit = FL_UNIT_LENGTH,
+     .offset = OFFSET(ice, slab),
+     .default_text = "none",
+     .special = "none",
+     .range = "(0,inf)",
+     .meaning = "thickness of the slab that a sheet of equal spheres in layers stands for: their mass, "
+                "buoyancy, drag and added mass are divided by the solid part of the slab; densities stay those "
+                "of ice and water",
+     .source = "weight, draft and heave stiffness of the slab"},
     {.section = FL_SEC_STRUCTURE,
      .key = "file",
      .type = FL_VALUE_PATH,
@@ -954,7 +966,8 @@ const fl_key fl_key_table[] = {
      .meaning = "added mass over displaced mass along the body axes: two in the plane of a "
                 "floe, the third normal to it, the axis nearest to the vertical at the "
                 "start; auto is 0.1 in the plane and 4/3 rho a^3, a disc of its area with "
-                "one wet side, normal to it; 1/2 for spheres and capsules",
+                "one wet side, normal to it; 1/2 for spheres and capsules; \"0 0 a\" in a field of spheres "
+                "without waves: along the vertical of the world, a times the mass displaced at the time",
      .source = "Lamb, Hydrodynamics (1932), art. 92, 102; surge 0.1 to 0.15"},
     {.section = FL_SEC_WATER,
      .key = "added_inertia",

@@ -110,6 +110,7 @@ typedef struct {
     char file[FL_SCENE_PATH];     /* g-polys; "-" is standard input, "" not given */
     char material[FL_SCENE_NAME]; /* of bodies whose record names none */
     int32_t shape;                /* enum fl_shape */
+    double slab;                  /* thickness that spheres stand for [m]; 0: none */
 } fl_scene_ice;
 
 /* Motion of the structure, or of one part.  Free directions follow forces; the others follow the

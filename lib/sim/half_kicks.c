@@ -38,7 +38,7 @@ static int32_t run_end(const uint8_t *a, uint8_t x, int32_t k, int32_t to)
  * Returns k if k is not such a body. */
 static int32_t simple_run_end(const fl_world *w, int32_t k, int32_t to)
 {
-    if (w->b.is_isotropic[k] && (w->b.added_mass || w->sea.waves)) return k;
+    if (w->b.is_isotropic[k] && (w->b.added_mass || w->b.heave_mass || w->sea.waves)) return k;
     to = run_end(w->b.is_isotropic, w->b.is_isotropic[k], k, run_end(w->b.fixed_dof, 0, k, to));
     return w->inflow.absent ? run_end(w->inflow.absent, 0, k, to) : to;
 }
@@ -112,7 +112,7 @@ static fl_velocity_change sphere_change(const fl_bodies *b, int32_t k, double h)
 static fl_velocity_change body_change(const fl_bodies *b, int32_t k, double h)
 {
     const fl_vec3 f = b->f[k], turn = fl_body_apply_inverse_inertia(b, k, v3_scale(h, b->t[k]));
-    return (fl_velocity_change){b->added_mass ? v3_scale(h, fl_body_velocity_of_momentum(b, k, f))
+    return (fl_velocity_change){b->added_mass || b->heave_mass ? v3_scale(h, fl_body_velocity_of_momentum(b, k, f))
                                               : v3_scale(h * b->invm[k], f),
                                 turn};
 }

@@ -136,6 +136,7 @@ static void exchange_body(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_open(t, "body");
     exchange_motion(t, b, k);
     if (b->added_mass) fl_state_io_real(t, &b->flow_work[k]);
+    if (b->heave_mass) fl_state_io_real(t, &b->heave_work[k]);
     fl_state_io_real(t, &b->odometer[k]);
     fl_state_io_real(t, &w->odometer_at_search[k]);
     fl_state_io_close(t);

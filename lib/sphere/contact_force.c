@@ -60,7 +60,7 @@ static int test_contact(const fl_world *w, batch *t, int32_t c)
 /* Inverse mass of body k if it is the same in all directions, else NAN. */
 static double isotropic_inverse_mass(const fl_bodies *b, int32_t k)
 {
-    if (fl_body_fixed_translations(b, k)) return NAN;
+    if (fl_body_fixed_translations(b, k) || b->heave_mass) return NAN;
     return b->added_mass ? 1.0 / (b->m[k] + b->added_mass[k].x) : b->invm[k];
 }
 

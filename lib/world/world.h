@@ -54,6 +54,7 @@ typedef struct {
     /* bodies and their surroundings */
     fl_bodies b;
     fl_topologies topologies; /* of cores and outer shapes */
+    double slab_fill;          /* mass of a sphere over that of its volume, ice.slab; 1 without */
     int has_points;           /* some core is a point, whose contacts need face offsets of the other cores */
     int32_t n, pieces, walls;
     fl_structure structure;
