@@ -6,9 +6,9 @@
  *     k_n = E A/l,     k_s = k_n G/E,     k_b = E I/l = k_n R^2/4,     k_t = G J/l = k_s R^2/2.
  * N = k_n (|d| - l) follows from the centres, d = x_j - x_i, e = d/|d|.  S across e and the moment M, both in
  * world axes, turn with the mean rotation of the two spheres and grow by
- *     dS = k_s dt (u - (u.e) e),     u = v_j - v_i - |d| (a w_i + (1 - a) w_j) x e,
+ *     dS = k_s dt (u - (u.e) e),     u = v_j - v_i - (a w_i + (1 - a) w_j) x (d - dt/2 (v_j - v_i)),
  *     dM = dt (k_b (w - (w.e) e) + k_t (w.e) e),     w = w_j - w_i.
- * a is the share of i in |d|.  Neither needs the attitude of a sphere.  Force on i: F = N e + S; couples on i
+ * a is the share of i in |d|, and v, w are those of the middle of the step, like d - dt/2 (v_j - v_i).  Neither needs the attitude of a sphere.  Force on i: F = N e + S; couples on i
  * and j: a |d| e x F + M and (1 - a) |d| e x F - M.  So forces and couples balance, and their power is that
  * of N, S and M exactly.
  *

@@ -36,7 +36,8 @@ FL_SIMD_INLINE fl_disc_motion fl_disc_motion_of(fl_vec3 d, fl_vec3 vi, fl_vec3 v
     q.r = sqrt(v3_norm2(d));
     q.e = v3_scale(1.0 / q.r, d);
     q.N = kn * (q.r - length);
-    const fl_vec3 u = v3_madd(v3_sub(vj, vi), -q.r, v3_cross(middle, q.e));
+    const fl_vec3 v = v3_sub(vj, vi), half = v3_madd(d, -0.5 * dt, v); /* d in the middle of the step */
+    const fl_vec3 u = v3_sub(v, v3_cross(middle, half));
     q.opening = v3_dot(u, q.e);
     q.slip = v3_madd(u, -q.opening, q.e);
     q.twist = v3_dot(w, q.e);

@@ -291,14 +291,12 @@ fl_vec3 fl_disc_list_separation(const fl_world *w, int32_t k)
 
 /* --- in a step --------------------------------------------------------------------------------- */
 
-/* Energy of the contact that takes over: elastic, with a spring of friction that holds S. */
-static double contact_energy(const fl_world *w, int32_t i, int32_t j, double overlap, fl_vec3 S)
+/* Energy along the normal of the contact that takes over.  What its spring of friction begins with is in the
+ * books of friction: they count the work of the whole friction force, less what springs hold. */
+static double contact_energy(const fl_world *w, int32_t i, int32_t j, double overlap)
 {
     const fl_pair_spring p = fl_pair_stiffness(w, i, j);
-    const double kt = fl_pair_law_of(w, i, j)->tangential_ratio * p.k * fl_normal_slope(overlap, p.exponent);
-    return overlap > 0.0
-               ? p.k * fl_normal_phi(overlap, p.exponent) + (kt > 0.0 ? 0.5 * v3_norm2(S) / kt : 0.0)
-               : 0.0;
+    return overlap > 0.0 ? p.k * fl_normal_phi(overlap, p.exponent) : 0.0;
 }
 
 /* Ends bond k, whose friction holds S. */
@@ -307,7 +305,7 @@ static void end_disc(fl_world *w, int32_t k, const fl_disc_class *c, fl_disc_mem
     fl_disc_list *s = &w->discs;
     const int32_t i = s->at.i[k], j = s->at.j[k];
     const double overlap = w->b.radius[i] + w->b.radius[j] - v3_norm(d);
-    s->pending[k] = contact_energy(w, i, j, overlap, S);
+    s->pending[k] = contact_energy(w, i, j, overlap);
     m->dissipated += fl_disc_energy(c, m, d) - s->pending[k];
     m->S = S, m->M = m->damping_force = m->damping_couple = v3(0, 0, 0);
     s->has_ended[k] = FL_DISC_JUST_ENDED;
