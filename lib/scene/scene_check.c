@@ -258,6 +258,10 @@ static int check_waves(const fl_scene *s, fl_err *err)
     const fl_scene_water *w = &s->water;
     const fl_vec3 g = s->run.gravity;
     if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
+    if (s->ice.slab > 0.0)
+        return fl_scene_fail(s, "ice.slab", err,
+                             "spheres that stand for a slab float in still water: either ice.slab or "
+                             "water.wave is expected");
     if (w->height == 0.0)
         return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height is expected");
     if (w->period == 0.0)
@@ -310,9 +314,9 @@ static int check_bonds(const fl_scene *s, fl_err *err)
     if (s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
         return fl_scene_fail(s, "boundary.inflow", err,
                              "inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
-    if (b->softening != FL_SOFTENING_KEEP && b->energy == 0.0)
+    if (b->softening == FL_SOFTENING_WEAKEN && b->energy == 0.0)
         return fl_scene_fail(s, "bond.softening", err,
-                             "softening needs a fracture energy: bond.energy is expected");
+                             "softening = weaken needs a fracture energy: bond.energy is expected");
     if (b->softening == FL_SOFTENING_WEAKEN && (isinf(b->normal_strength) || isinf(b->shear_strength)))
         return fl_scene_fail(
             s, "bond.softening", err,

@@ -515,6 +515,17 @@ const fl_key fl_key_table[] = {
                 "have 1.5, patch and the laws of the manual their own",
      .source = "1 linear; 1.5 Hertz"},
     {.section = FL_SEC_CONTACT,
+     .key = "round_law",
+     .type = FL_VALUE_WORD,
+     .offset = OFFSET(contact, round_law),
+     .default_text = "auto",
+     .choices = "auto|hertz|linear",
+     .meaning = "contacts of spheres and ends of capsules in patch and core; linear: F = kappa s, kappa auto = "
+                "pi E r^2/(r_i + r_j) between spheres, r the smaller radius, E as of bonds where there are any, "
+                "and pi E r on other things; auto: linear where spheres may be bonded, else hertz; one for all "
+                "pairs",
+     .source = "a broken bond then leaves a contact of its own stiffness"},
+    {.section = FL_SEC_CONTACT,
      .key = "stiffness",
      .type = FL_VALUE_F64,
      .unit = FL_UNIT_CONTACT_STIFFNESS,
@@ -523,7 +534,7 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "kappa of a whole face in the law patch, of the contact point in the law "
-                "core, of Hertz' law [N/m^1.5] for spheres and ends of capsules; auto "
+                "core, of Hertz' law [N/m^1.5] for spheres and ends of capsules, or of round_law = linear [N/m]; auto "
                 "follows from the moduli",
      .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for spheres"},
     {.section = FL_SEC_CONTACT,
@@ -619,6 +630,18 @@ const fl_key fl_key_table[] = {
      .meaning = "shape for mass, inertia and buoyancy: faces moved outward by the radius "
                 "with sharp edges, or the Minkowski sum itself",
      .source = "Steiner's formula, Schneider, Convex Bodies (2014), ch. 4"},
+    {.section = FL_SEC_ICE,
+     .key = "slab",
+     .type = FL_VALUE_F64,
+     .unit = FL_UNIT_LENGTH,
+     .offset = OFFSET(ice, slab),
+     .default_text = "none",
+     .special = "none",
+     .range = "(0,inf)",
+     .meaning = "thickness of the slab that a sheet of equal spheres in layers stands for: their mass, "
+                "buoyancy, drag and added mass are divided by the solid part of the slab; densities stay those "
+                "of ice and water",
+     .source = "weight, draft and heave stiffness of the slab"},
     {.section = FL_SEC_STRUCTURE,
      .key = "file",
      .type = FL_VALUE_PATH,
@@ -977,7 +1000,8 @@ const fl_key fl_key_table[] = {
      .meaning = "added mass over displaced mass along the body axes: two in the plane of a "
                 "floe, the third normal to it, the axis nearest to the vertical at the "
                 "start; auto is 0.1 in the plane and 4/3 rho a^3, a disc of its area with "
-                "one wet side, normal to it; 1/2 for spheres and capsules",
+                "one wet side, normal to it; 1/2 for spheres and capsules; \"0 0 a\" in a field of spheres "
+                "without waves: along the vertical of the world, a times the mass displaced at the time",
      .source = "Lamb, Hydrodynamics (1932), art. 92, 102; surge 0.1 to 0.15"},
     {.section = FL_SEC_WATER,
      .key = "added_inertia",
@@ -1165,7 +1189,7 @@ const fl_key fl_key_table[] = {
      .range = "[0,inf)",
      .needs = {"on"},
      .meaning = "friction coefficient of a face: increase of the shear strength with "
-                "pressure, and friction of the broken part",
+                "pressure unless internal_friction is given, and friction of the broken part",
      .source = "ice on ice 0.1 to 0.5"},
     {.section = FL_SEC_BOND,
      .key = "young",
@@ -1254,6 +1278,55 @@ const fl_key fl_key_table[] = {
      .meaning = "dashpots parallel to the springs, as a fraction of the critical damping of "
                 "the two bodies on their face",
      .source = "none: bonds have no damping of their own here"},
+    {.section = FL_SEC_BOND,
+     .key = "internal_friction",
+     .type = FL_VALUE_F64,
+     .offset = OFFSET(bond, internal_friction),
+     .default_text = "auto",
+     .special = "auto",
+     .special_value = -1.0,
+     .range = "[0,inf)",
+     .needs = {"on"},
+     .meaning = "increase of the shear strength per pressure; auto: bond.friction for faces, 0 for spheres, "
+                "since a sheet of spheres that is held at its sides could else not fail in its plane",
+     .source = "Mohr and Coulomb"},
+    {.section = FL_SEC_BOND,
+     .key = "moment_factor",
+     .type = FL_VALUE_F64,
+     .offset = OFFSET(bond, moment_factor),
+     .default_text = "1",
+     .range = "[0,1]",
+     .needs = {"on"},
+     .meaning = "share of the bending and twisting stress at the rim of a disc between spheres that counts "
+                "for its strength: 1 parallel bond, 0 contact bond",
+     .source = "Potyondy, Geosystem Eng. 18 (2015) 1"},
+    {.section = FL_SEC_BOND,
+     .key = "radius_factor",
+     .type = FL_VALUE_F64,
+     .offset = OFFSET(bond, radius_factor),
+     .default_text = "1",
+     .range = "(0,2]",
+     .needs = {"on"},
+     .meaning = "radius of the disc between two spheres over that of the smaller sphere",
+     .source = "Potyondy & Cundall, Int. J. Rock Mech. Min. Sci. 41 (2004) 1329"},
+    {.section = FL_SEC_BOND,
+     .key = "scatter",
+     .type = FL_VALUE_F64,
+     .offset = OFFSET(bond, scatter),
+     .default_text = "0",
+     .range = "[0,0.5]",
+     .needs = {"on"},
+     .meaning = "standard deviation over mean of the strengths of bonds between spheres, a normal law cut off "
+                "at 0.1, one number for both strengths of a bond",
+     .source = "a lattice without scatter has columns along its rows"},
+    {.section = FL_SEC_BOND,
+     .key = "seed",
+     .type = FL_VALUE_I32,
+     .offset = OFFSET(bond, seed),
+     .default_text = "1",
+     .range = "[0,2147483647]",
+     .needs = {"scatter"},
+     .meaning = "seed of that scatter"},
     {.section = FL_SEC_GROUP,
      .key = "fixed",
      .type = FL_VALUE_FIXED,

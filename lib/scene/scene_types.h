@@ -83,6 +83,9 @@ typedef struct {
     double friction;
 } fl_scene_material;
 
+/* Law of a point of a round core. */
+enum fl_round_law { FL_ROUND_AUTO, FL_ROUND_HERTZ, FL_ROUND_LINEAR };
+
 /* Contact parameters of a pair.  In scene.contact a member counts only where its key was given;
  * fl_scene_pair() returns a struct with every member set. */
 typedef struct {
@@ -90,6 +93,7 @@ typedef struct {
     char a[FL_SCENE_NAME], b[FL_SCENE_NAME]; /* both empty: the defaults of all pairs */
     int32_t law;                             /* row of fl_contact_laws, law/contact_law.h */
     double exponent;                         /* n of F = kappa delta^n: 1 or 1.5 */
+    int32_t round_law;                       /* enum fl_round_law */
     double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli, notation(7) */
     double stiffness_factor;                 /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
     double tangential_ratio;                 /* kt / kn */
@@ -106,6 +110,7 @@ typedef struct {
     char file[FL_SCENE_PATH];     /* g-polys; "-" is standard input, "" not given */
     char material[FL_SCENE_NAME]; /* of bodies whose record names none */
     int32_t shape;                /* enum fl_shape */
+    double slab;                  /* thickness that spheres stand for [m]; 0: none */
 } fl_scene_ice;
 
 /* Motion of the structure, or of one part.  Free directions follow forces; the others follow the
@@ -215,6 +220,11 @@ typedef struct {
     int32_t softening; /* enum fl_softening */
     double stretch;    /* least ratio of final to peak separation, of stretch */
     double damping;    /* fraction of critical of the two bodies on their bond */
+    double internal_friction; /* mu_i of the shear strength; negative: auto */
+    double moment_factor;     /* beta of discs */
+    double radius_factor;     /* of discs over the smaller sphere */
+    double scatter;           /* standard deviation over mean of their strengths */
+    int32_t seed;
 } fl_scene_bond;
 
 typedef struct {

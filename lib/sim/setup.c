@@ -11,6 +11,7 @@
 #include "contact/panel_load.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
+#include "ice/slab_fill.h"
 #include "sim/energy_ledger.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
@@ -28,6 +29,9 @@
 enum { BODIES_PER_THREAD = 32 };
 
 /* --- surroundings ------------------------------------------------------------------------------ */
+
+/* Radii that differ by less than this fraction are equal. */
+#define EQUAL_RADII 1e-6
 
 static int make_elastic_walls(fl_world *w, fl_err *err)
 {
@@ -268,11 +272,48 @@ static int make_driven_floes(fl_world *w, const fl_ice_field *field, fl_err *err
                    w->scene->ice.file, s->drive_width);
 }
 
+static int only_points(const fl_ice_field *f)
+{
+    for (int32_t k = 0; k < f->n; k++)
+        if (f->core[k].nv != 1) return 0;
+    return 1;
+}
+
 static int has_points(const fl_ice_field *f)
 {
     for (int32_t k = 0; k < f->n; k++)
         if (f->core[k].nv == 1) return 1;
     return 0;
+}
+
+/* Set how much more than its own volume a sphere stands for. */
+static int set_slab(fl_world *w, const fl_ice_field *field, fl_err *err)
+{
+    const double h = w->scene->ice.slab;
+    double phi, radius = 0.0;
+    int32_t n = 0;
+    w->slab_fill = 1.0;
+    if (h == 0.0) return 0;
+    fl_vec3 *x = fl_alloc(field->n, sizeof *x, err);
+    if (!x) return -1;
+    int equal = 1;
+    for (int32_t k = 0; k < field->n; k++) {
+        if (field->core[k].nv != 1) continue;
+        if (n == 0) radius = field->radius[k];
+        equal &= fabs(field->radius[k] - radius) <= EQUAL_RADII * radius;
+        x[n++] = field->core[k].v[0];
+    }
+    int rc = equal ? 0
+                   : fl_scene_fail(w->scene, "ice.slab", err,
+                                   "the spheres of %s are not equal: no slab is made of them",
+                                   w->scene->ice.file);
+    fl_err why = {0};
+    if (rc == 0 && fl_slab_fill(n, x, radius, h, &phi, &why))
+        rc = why.code == FL_INPUT ? fl_fail(err, FL_INPUT, "%s: %s", w->scene->ice.file, why.text)
+                                  : (*err = why, -1);
+    if (rc == 0) w->slab_fill = 1.0 / phi;
+    free(x);
+    return rc;
 }
 
 /* Winding number of a surface about x: 1 inside a surface with outward normals, 0 in its cavities. */
@@ -339,11 +380,13 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         make_driven_floes(w, field, err))
         goto fail;
     w->pieces = w->structure.n - w->walls;
+    w->sea.only_spheres = only_points(field) && only_points(feed);
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
         fl_contact_sums_make(w, err) || make_elastic_walls(w, err) ||
         fl_environment_set_up(&w->sea, &w->b, w->scene, w->n, w->threads, err))
         goto fail;
     w->has_points = has_points(field) || has_points(feed);
+    if (set_slab(w, field, err)) goto fail;
     if (w->has_points && fl_structure_prepare_spheres(&w->structure, err)) goto fail;
     if (w->has_points && w->sea.n && !(w->drag_change = fl_alloc(w->n, sizeof *w->drag_change, err)))
         goto fail;
@@ -401,6 +444,7 @@ void fl_world_free(fl_world *w)
     fl_moving_structure_free(&w->moving);
     fl_sleep_free(&w->sleep);
     fl_bond_list_free(&w->bonds);
+    fl_disc_list_free(&w->discs);
     fl_panels_free(&w->panel_load);
     fl_pairs_free(&w->candidates);
     fl_environment_free(&w->sea);

@@ -137,6 +137,7 @@ static void exchange_body(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_open(t, "body");
     exchange_motion(t, b, k);
     if (b->added_mass) fl_state_io_real(t, &b->flow_work[k]);
+    if (b->heave_mass) fl_state_io_real(t, &b->heave_work[k]);
     fl_state_io_real(t, &b->odometer[k]);
     fl_state_io_real(t, &w->odometer_at_search[k]);
     fl_state_io_close(t);
@@ -368,6 +369,38 @@ static void exchange_bond(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_close(t);
 }
 
+/* A bond of spheres: its memory.  The forces of a step follow from it in the next one alone. */
+static void exchange_disc(fl_state_io *t, fl_world *w, int32_t k)
+{
+    fl_disc_list *s = &w->discs;
+    fl_disc_memory m = fl_disc_list_memory(s, k);
+    fl_disc_wrench *f = &s->at.out[k];
+    fl_state_io_open(t, "disc");
+    fl_state_io_byte(t, FL_DISC_ENDED, &s->has_ended[k]);
+    fl_state_io_vec3(t, &m.S), fl_state_io_vec3(t, &m.M);
+    fl_state_io_real(t, &m.lambda);
+    fl_state_io_real(t, &m.dissipated), fl_state_io_real(t, &m.rubbed);
+    fl_state_io_real(t, &s->pending[k]);
+    fl_state_io_vec3(t, &f->force), fl_state_io_vec3(t, &f->couple_i), fl_state_io_vec3(t, &f->couple_j);
+    if (s->at.damped) {
+        fl_state_io_vec3(t, &m.damping_force), fl_state_io_vec3(t, &m.damping_couple);
+        fl_state_io_real(t, &m.damped);
+    }
+    fl_state_io_close(t);
+    if (!t->in || t->err->code) return;
+    if (!(m.lambda >= 0.0)) fl_text_fail(t->in, t->err, "lambda = %g is not possible in a bond", m.lambda);
+    else fl_disc_list_set_memory(s, k, &m);
+}
+
+static void exchange_discs(fl_state_io *t, fl_world *w)
+{
+    fl_disc_list *s = &w->discs;
+    for (int32_t k = 0; k < s->n && !t->err->code; k++) exchange_disc(t, w, k);
+    if (!t->in) return;
+    s->ended = 0;
+    for (int32_t k = 0; k < s->n; k++) s->ended += s->has_ended[k] == FL_DISC_JUST_ENDED;
+}
+
 /* Everything but the pairs; returns their number. */
 static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *spheres)
 {
@@ -417,6 +450,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
+    if (w->discs.n && !t->err->code) exchange_discs(t, w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
     if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;

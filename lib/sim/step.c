@@ -72,7 +72,7 @@ static void after_contacts(void *arg)
     fl_work_share_split(w->block_share, w->team.n, fl_block_count(w));
     fl_collect_touching(w);
     fl_contact_sums_assign(w);
-    if (w->bonds.ended) { /* the neighbour list must take up the pair of an ended bond */
+    if (w->bonds.ended || w->discs.ended) { /* the neighbour list must take up the pair of an ended bond */
         w->last_search_step = -1;
         w->bonds.ended = 0;
     }
@@ -114,6 +114,9 @@ static void evaluate_pairs(fl_world *w, double dt, int update_stiffness)
 #pragma omp for schedule(static) nowait
     for (int32_t k = 0; k < w->bonds.n; k += FL_BOND_LIST_RUN)
         fl_bond_list_evaluate(w, k, k + FL_BOND_LIST_RUN < w->bonds.n ? k + FL_BOND_LIST_RUN : w->bonds.n);
+#pragma omp for schedule(static) nowait
+    for (int32_t k = 0; k < w->discs.n; k += FL_DISC_RUN)
+        fl_disc_list_evaluate(w, k, k + FL_DISC_RUN < w->discs.n ? k + FL_DISC_RUN : w->discs.n, dt);
     fl_evaluate_active_pairs(w, dt, update_stiffness);
 }
 
@@ -331,6 +334,7 @@ static void gather_overlaps(fl_world *w, double dt)
         w->contact_steps += all.touching;
     }
     for (int32_t k = 0; k < w->bonds.n; k++) w->impulse_sum += dt * v3_norm(w->bonds.bond[k].force);
+    if (w->discs.n) w->impulse_sum += dt * fl_disc_list_force_sum(w);
     record_deepest(w, &d);
     for (int32_t g = 0; g < fl_block_count(w); g++) balance = v3_add(balance, w->blocks[g].contact_force);
     for (int32_t k = w->n; k < b->total; k++) balance = v3_add(balance, b->f[k]);

@@ -10,6 +10,9 @@
 /* Time now [s].  dt changes only at times that are known exactly, so no rounding accumulates. */
 static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(w->step - w->step0) * w->dt; }
 
+/* Number of bonds, of faces and of spheres. */
+static inline int32_t fl_world_bonds(const fl_world *w) { return w->bonds.n + w->discs.n; }
+
 /* Heave spring of driven floe i: returns its stiffness [N/m], 0 without a spring; *drawn is its extension
  * upwards [m]. */
 static inline double fl_driven_floe_spring(const fl_world *w, int32_t i, double *drawn)

@@ -16,6 +16,8 @@
 typedef struct {
     const fl_contact_law *law;  /* row of the table of laws */
     double exponent;            /* n of contact points of polyhedra */
+    double round_exponent;      /* n of those of spheres and ends of capsules: 3/2 or 1 */
+    double round_young;         /* E of a linear one [Pa] */
     double modulus;             /* E* [Pa] */
     double stiffness;           /* given by the scene [N/m^n]; 0: from the modulus */
     double stiffness_factor;    /* multiplies the stiffness that follows from the modulus */

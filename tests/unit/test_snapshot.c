@@ -14,7 +14,7 @@
  * periodic domain or not, or with the last. With surrogates a touching pair states whether it has been
  * evaluated, and then its surrogate. A bond has its points once it is damaged. */
 static const char LAYOUT[] =
-    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|books 34|borne 15|budget 15|event "
+    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|books 34|borne 15|budget 15|disc 28|event "
     "15|known "
     "6|mark 16|"
     "mover 40|nap 13|next 2|pair 19|pair 20|pair 21|pair 22|pair 27|pair 30|pair 91|pair 92|panel 5|part 8|"
@@ -132,6 +132,7 @@ static void each_layout_has_a_version_number(void **state)
     scene_of_spheres(&l, 3, NULL), collect_state(&all, &l, 1);
     scene_of_spheres(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), collect_state(&all, &l, 0);
     scene_of_bonds(&l, 3, NULL), collect_state(&all, &l, 1);
+    scene_of_sheet(&l, 3, NULL), collect_state(&all, &l, 0);
     scene_of_surrogates(&l, 2, NULL), collect_state(&all, &l, 0);
     scene_of_joined_parts(&l, 2, NULL), collect_state(&all, &l, 0);
     collect_budget(&all);

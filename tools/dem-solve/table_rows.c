@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "table_rows.h"
+#include "base/pi.h"
 #include "contact/bond_list.h"
 #include "contact/pair_geometry.h"
 #include "contact/panel_load.h"
@@ -170,9 +171,32 @@ void write_hash(struct run *r, FILE *f, double t, double interval)
     fl_table_write_row(f, &fl_hash_table, 0, t, &row);
 }
 
+static const char *const BOND_STATE[] = {"whole", "damaged", "broken", "ended"};
+
+/* Row of the bond k of two spheres. */
+static void write_disc(const fl_world *w, FILE *f, double t, int32_t k)
+{
+    const fl_disc_list *s = &w->discs;
+    const fl_disc_class *c = &s->classes[s->at.which[k]];
+    const fl_disc_load q = fl_disc_list_load(w, k);
+    const int32_t i = s->at.i[k], j = s->at.j[k];
+    if (fl_body_absent(w, i) || fl_body_absent(w, j)) return;
+    const fl_bonds_row row = {.i = w->id[i],
+                              .j = w->id[j],
+                              .state = BOND_STATE[s->has_ended[k]     ? FL_BOND_ENDED
+                                                  : s->at.is_whole[k] ? FL_BOND_INTACT
+                                                                      : FL_BOND_DAMAGED],
+                              .damage = 1.0 - fl_disc_remainder(c, s->at.lambda[k]),
+                              .tension = q.tension,
+                              .shear = q.shear,
+                              .moment = q.moment,
+                              .area = PI * c->radius * c->radius,
+                              .x = q.x};
+    fl_table_write_row(f, &fl_bonds_table, 0, t, &row);
+}
+
 void write_bonds(struct run *r, FILE *f, double t, double interval)
 {
-    static const char *const STATE[] = {"whole", "damaged", "broken", "ended"};
     const fl_world *w = r->w;
     (void)interval;
     for (int32_t k = 0; k < w->bonds.n; k++) {
@@ -181,7 +205,7 @@ void write_bonds(struct run *r, FILE *f, double t, double interval)
         if (fl_body_absent(w, c->i) || fl_body_absent(w, c->j)) continue;
         const fl_bonds_row row = {.i = w->id[c->i],
                                   .j = w->id[c->j],
-                                  .state = STATE[c->state],
+                                  .state = BOND_STATE[c->state],
                                   .damage = fl_bond_mean_damage(c),
                                   .tension = q.tension,
                                   .shear = q.shear,
@@ -190,6 +214,7 @@ void write_bonds(struct run *r, FILE *f, double t, double interval)
                                   .x = q.x};
         fl_table_write_row(f, &fl_bonds_table, 0, t, &row);
     }
+    for (int32_t k = 0; k < w->discs.n; k++) write_disc(w, f, t, k);
 }
 
 void write_members(struct run *r, FILE *f, double t, double interval)
