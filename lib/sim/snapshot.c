@@ -180,7 +180,7 @@ static void exchange_block(fl_state_io *t, fl_wave_block *c)
     fl_state_io_int(t, 0, 2, &c->span);
     fl_state_io_int(t, 0, INT32_MAX, &c->short_turns);
     fl_state_io_quat(t, &c->q);
-    for (int k = 0; k < FL_WAVE_LOOKS; k++) fl_state_io_vec3(t, &c->x[k]), fl_state_io_vec3(t, &c->turn[k]);
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++) fl_state_io_vec3(t, &c->x[k]), fl_state_io_vec3(t, &c->turn[k]);
     if (t->in && !t->err->code && c->level != FL_WAVE_NO_BLOCK && (c->level < 0 || c->span < 1))
         fl_text_fail(t->in, t->err, "a block of waves at level %lld in steps of %d does not exist",
                      (long long)c->level, c->span);

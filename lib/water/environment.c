@@ -87,12 +87,12 @@ static int fit_nodes(fl_environment *s, int32_t i, fl_err *err)
     s->block[i].level = FL_WAVE_NO_BLOCK;
     s->block[i].short_turns = 0;
     if (fl_wave_nodes_make(&s->nodes[i], &s->hull[i], &s->wave, s->grid.error, err)) return -1;
-    if (s->nodes[i].n <= s->room_per_thread) return 0;
+    if (s->nodes[i].n <= s->scratch_per_thread) return 0;
     fl_wave_surface *room = fl_alloc((int64_t)s->threads * s->nodes[i].n, sizeof *room, err);
     if (!room) return -1;
-    free(s->room);
-    s->room = room;
-    s->room_per_thread = s->nodes[i].n;
+    free(s->node_scratch);
+    s->node_scratch = room;
+    s->scratch_per_thread = s->nodes[i].n;
     return 0;
 }
 
@@ -159,7 +159,7 @@ void fl_environment_free(fl_environment *s)
     free(s->flow_velocity), free(s->drag_loss), free(s->wind_work);
     free(s->cells), free(s->water_force), free(s->water_moment), free(s->water_work);
     free(s->panels), free(s->drag_surface), free(s->sample);
-    free(s->nodes), free(s->block), free(s->room);
+    free(s->nodes), free(s->block), free(s->node_scratch);
     fl_wave_grid_free(&s->grid);
     fl_waves_free(&s->wave);
     fl_current_free(&s->current);
@@ -447,111 +447,10 @@ int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t 
     return fl_wave_grid_fill(&s->grid, &at, first, shorter ? 1 : 2, shorter ? 7 : 4, threads, err);
 }
 
-/* Load on body i by its block at a pose and time: of the plane, and what the plane leaves out; world axes. */
-static void load_by_block(const fl_environment *s, int32_t i, double time, fl_vec3 x, fl_quat q,
-                          fl_wave_values *v, fl_submerged *wet, fl_vec3 *f, fl_vec3 *t)
+static fl_wave_body wave_body(const fl_environment *s, int32_t i)
 {
-    const fl_mat3 R = q_matrix(q);
-    fl_vec3 force, turn;
-    fl_wave_block_values(&s->block[i], &s->grid, time, x, q, v);
-    const double c = 1.0 / sqrt(1.0 + v->slope[0] * v->slope[0] + v->slope[1] * v->slope[1]),
-                 level = c * (v->z + s->level - x.z);
-    const fl_vec3 up = m3_tmul(R, v3(-c * v->slope[0], -c * v->slope[1], c));
-    *wet = submerged_of(s, i, up, level);
-    fl_buoyancy_force(wet, up, level, s->specific_weight / c, &force, &turn);
-    *f = v3_add(m3_mul(R, force), v->f);
-    *t = v3_add(m3_mul(R, turn), v->t);
-}
-
-static fl_wave_floater floater_of(const fl_environment *s, int32_t i)
-{
-    return (fl_wave_floater){&s->hull[i], &s->nodes[i], s->drag_radius[i],
-                             s->room + (int64_t)omp_get_thread_num() * s->room_per_thread};
-}
-
-/* Components of the degrees of freedom from `first` on that are free. */
-static fl_vec3 free_part(unsigned fixed, unsigned first, fl_vec3 a)
-{
-    return v3(fixed & first ? 0.0 : a.x, fixed & first << 1 ? 0.0 : a.y, fixed & first << 2 ? 0.0 : a.z);
-}
-
-/* A body on its way through a block. */
-typedef struct {
-    fl_vec3 x, v, turn, spin, a, alpha;
-    double t;
-} path_state;
-
-/* Accelerations by water and weight, from the block there is. */
-static void path_acceleration(const fl_environment *s, const fl_bodies *b, int32_t i,
-                              const fl_wave_block *next, path_state *p)
-{
-    fl_wave_values v;
-    fl_submerged wet;
-    fl_vec3 f, t;
-    if (s->block[i].level == FL_WAVE_NO_BLOCK) return;
-    load_by_block(s, i, p->t, p->x, fl_wave_block_attitude(next, p->turn), &v, &wet, &f, &t);
-    p->a = free_part(b->fixed_dof[i], FL_DOF_X,
-                     v3_madd(fl_body_velocity_of_momentum(b, i, f), -s->wave.gravity, v3(0, 0, 1)));
-    if (!b->is_isotropic[i])
-        p->alpha = free_part(b->fixed_dof[i], FL_DOF_RX, fl_body_apply_inverse_inertia(b, i, t));
-}
-
-/* Steps from one look to the next. */
-enum { PATH_STEPS = 2 };
-
-/* The path of body i through the block `next`: by the forces of the block there is, contacts and drag left
- * out. Looks in the past lie on the parabola through the present. */
-static void predict_path(const fl_environment *s, const fl_bodies *b, int32_t i, fl_wave_block *next)
-{
-    path_state p = {.x = b->x[i], .v = b->v[i], .t = s->time};
-    next->q = *fl_body_attitude(b, i);
-    if (!b->is_isotropic[i]) p.spin = b->w[i];
-    path_acceleration(s, b, i, next, &p);
-    for (int k = 0; k < FL_WAVE_LOOKS; k++) {
-        const double left = fl_wave_look_time(next, &s->grid, k) - p.t,
-                     h = left / (left > 0.0 ? PATH_STEPS : 1);
-        path_state q = p;
-        for (int n = 0; n < (left > 0.0 ? PATH_STEPS : 1); n++) {
-            const fl_vec3 a = q.a, alpha = q.alpha;
-            q.x = v3_madd(v3_madd(q.x, h, q.v), 0.5 * h * h, a);
-            q.turn = v3_madd(v3_madd(q.turn, h, q.spin), 0.5 * h * h, alpha);
-            q.t += h;
-            if (left > 0.0) path_acceleration(s, b, i, next, &q);
-            q.v = v3_madd(q.v, 0.5 * h, v3_add(a, q.a));
-            q.spin = v3_madd(q.spin, 0.5 * h, v3_add(alpha, q.alpha));
-        }
-        next->x[k] = q.x, next->turn[k] = q.turn;
-        if (left > 0.0) p = q;
-    }
-}
-
-/* Long blocks that a body takes in halves after its load has jumped. */
-enum { SHORT_TURNS = 3 };
-
-/* Begins a block of body i. */
-static void begin_block(fl_environment *s, const fl_bodies *b, int32_t i)
-{
-    fl_wave_block *c = &s->block[i], next = *c;
-    const fl_wave_floater body = floater_of(s, i);
-    const fl_quat q = *fl_body_attitude(b, i);
-    const int64_t group = fl_wave_group(&s->grid, s->time);
-    const int old = c->level != FL_WAVE_NO_BLOCK, end = old && c->level + 3 * (int64_t)c->span == group;
-    fl_wave_values v;
-    fl_submerged wet;
-    fl_vec3 f, t, f2, t2;
-    if (end) load_by_block(s, i, s->time, b->x[i], q, &v, &wet, &f, &t);
-    if (!old || c->level < group || c->level >= group + FL_WAVE_GROUP) /* the start of a long block */
-        next.span = c->short_turns > 0 ? 1 : 2;
-    next.level = fl_wave_block_level(&s->grid, s->time, next.span);
-    predict_path(s, b, i, &next);
-    fl_wave_block_fill(&next, &s->sea, &body);
-    *c = next;
-    if (!end) return;
-    load_by_block(s, i, s->time, b->x[i], q, &v, &wet, &f2, &t2);
-    const double most = 0.25 * s->grid.error * s->specific_weight * s->nodes[i].section * s->wave.four_sigma,
-                 turn = most * s->drag_radius[i];
-    const int jumped = v3_norm2(v3_sub(f2, f)) > most * most || v3_norm2(v3_sub(t2, t)) > turn * turn;
-    c->short_turns = jumped ? SHORT_TURNS : c->short_turns > 0 ? c->short_turns - 1 : 0;
+    return (fl_wave_body){&s->hull[i], &s->nodes[i], s->drag_radius[i],
+                          s->node_scratch + (int64_t)omp_get_thread_num() * s->scratch_per_thread};
 }
 
 /* Velocity of the water at all wet pieces of body i, under the plane. */
@@ -582,10 +481,12 @@ static void evaluate_block(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *
 {
     fl_wave_values v;
     fl_submerged wet;
-    if (fl_wave_block_due(&s->block[i], &s->sea, s->drag_radius[i], s->time, b->x[i],
-                          *fl_body_attitude(b, i)))
-        begin_block(s, b, i);
-    load_by_block(s, i, s->time, b->x[i], *fl_body_attitude(b, i), &v, &wet, f, t);
+    const fl_wave_body body = wave_body(s, i);
+    fl_wave_block *const c = &s->block[i];
+    const fl_quat q = *fl_body_attitude(b, i);
+    if (fl_wave_block_due(c, &s->sea, body.reach, s->time, b->x[i], q))
+        fl_wave_block_begin(c, &s->sea, &body, b, i, s->time);
+    fl_wave_block_load(c, &s->sea, &body, s->time, b->x[i], q, &v, &wet, f, t);
     s->wetted_area[i] = wet.wetted_area;
     s->buoyancy[i] = s->specific_weight * wet.volume;
     s->flow_velocity[i] = v.flow;
@@ -597,10 +498,10 @@ static void evaluate_block(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *
     }
     if (s->drag_surface) {
         const fl_mat3 R = fl_body_axes(b, i);
-        const double c = 1.0 / sqrt(1.0 + v.slope[0] * v.slope[0] + v.slope[1] * v.slope[1]);
+        const double n = 1.0 / sqrt(1.0 + v.slope[0] * v.slope[0] + v.slope[1] * v.slope[1]);
         fl_drag_surface *skin = &s->drag_surface[i];
-        const fl_vec3 up = m3_tmul(R, v3(-c * v.slope[0], -c * v.slope[1], c));
-        const double level = wet.volume > 0.0 ? c * (v.z + s->level - b->x[i].z) : -INFINITY;
+        const fl_vec3 up = m3_tmul(R, v3(-n * v.slope[0], -n * v.slope[1], n));
+        const double level = wet.volume > 0.0 ? n * (v.z + s->level - b->x[i].z) : -INFINITY;
         if (skin->dry.group) fl_facet_cut_update(&skin->dry, &skin->facets, &s->hull[i], up, level);
         if (skin->wet.group) fl_facet_cut_update(&skin->wet, &skin->facets, &s->hull[i], up, level);
         if (skin->wet.group && skin->wet.flow) update_block_flow(s, b, i, &v);
@@ -645,7 +546,7 @@ void fl_environment_refresh(fl_environment *s, fl_bodies *b, int32_t i)
     if (!s->water) return;
     if (!s->sample) {
         if (s->block && s->block[i].level != FL_WAVE_NO_BLOCK) {
-            const fl_wave_floater body = floater_of(s, i);
+            const fl_wave_body body = wave_body(s, i);
             fl_wave_block_fill(&s->block[i], &s->sea, &body);
         }
         evaluate_water(s, b, i, &f, &t);

@@ -12,7 +12,7 @@
 #include "water/drag.h"
 #include "water/facet_drag.h"
 #include "water/froude_krylov.h"
-#include "water/wave_block.h"
+#include "water/wave_path.h"
 #include "water/water_force.h"
 
 /* In the order of the choices of water.drag and wind.drag. */
@@ -88,11 +88,11 @@ struct fl_environment {
      * unused */
     int by_blocks;
     fl_wave_grid grid;
-    fl_wave_water sea;     /* what all bodies have in common */
-    fl_wave_nodes *nodes;  /* [n] */
-    fl_wave_block *block;  /* [n] */
-    fl_wave_surface *room; /* [threads][room_per_thread] scratch */
-    int32_t room_per_thread;
+    fl_wave_water sea;             /* what all bodies have in common */
+    fl_wave_nodes *nodes;          /* [n] */
+    fl_wave_block *block;          /* [n] */
+    fl_wave_surface *node_scratch; /* [threads][scratch_per_thread] */
+    int32_t scratch_per_thread;
     /* rows of the table of forces that are present and have an `impulse` */
     const fl_water_force *impulse[FL_WATER_FORCES_MAX];
     int32_t impulses;

@@ -83,6 +83,7 @@ static int set_up_grid(fl_environment *s, const fl_scene *scene, fl_err *err)
                              .level = s->level,
                              .weight = s->specific_weight,
                              .max_crest = s->wave.max_crest,
+                             .deviation = 0.25 * s->wave.four_sigma,
                              .k95 = s->wave.k95};
     return 0;
 }

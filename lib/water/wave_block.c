@@ -33,14 +33,14 @@ int64_t fl_wave_block_level(const fl_wave_grid *g, double t, int span)
     return each * floor_level(t / ((double)each * g->step));
 }
 
-double fl_wave_look_time(const fl_wave_block *c, const fl_wave_grid *g, int k)
+double fl_wave_sample_time(const fl_wave_block *c, const fl_wave_grid *g, int k)
 {
     return (double)(c->level + (int64_t)k * c->span) * g->step;
 }
 
-/* Weights of the cubic through the four looks; u = 0 .. 3 from the first to the last. Beyond the last the
+/* Weights of the cubic through the four samples; u = 0 .. 3 from the first to the last. Beyond the last the
  * cubic goes on along its tangent. */
-static void cubic_weights(const fl_wave_block *c, const fl_wave_grid *g, double t, double w[FL_WAVE_LOOKS],
+static void cubic_weights(const fl_wave_block *c, const fl_wave_grid *g, double t, double w[FL_WAVE_SAMPLES],
                           double *u)
 {
     const double x = (t / g->step - (double)c->level) / c->span, a = x - 1.0, b = x - 2.0, d = x - 3.0;
@@ -55,7 +55,7 @@ static void cubic_weights(const fl_wave_block *c, const fl_wave_grid *g, double 
 
 /* --- the path ------------------------------------------------------------------------------------ */
 
-static fl_vec3 combine(const double w[FL_WAVE_LOOKS], const fl_vec3 x[FL_WAVE_LOOKS])
+static fl_vec3 combine(const double w[FL_WAVE_SAMPLES], const fl_vec3 x[FL_WAVE_SAMPLES])
 {
     return v3_add(v3_madd(v3_scale(w[0], x[0]), w[1], x[1]), v3_madd(v3_scale(w[2], x[2]), w[3], x[3]));
 }
@@ -68,7 +68,7 @@ fl_quat fl_wave_block_attitude(const fl_wave_block *c, fl_vec3 turn)
     return q_mul(p, c->q);
 }
 
-static fl_wave_deviation deviation(const fl_wave_block *c, const double w[FL_WAVE_LOOKS], fl_vec3 x,
+static fl_wave_deviation deviation(const fl_wave_block *c, const double w[FL_WAVE_SAMPLES], fl_vec3 x,
                                    fl_quat q)
 {
     const fl_quat p = q_mul(q, q_conj(c->q));
@@ -80,7 +80,7 @@ static fl_wave_deviation deviation(const fl_wave_block *c, const double w[FL_WAV
 fl_wave_deviation fl_wave_block_deviation(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_vec3 x,
                                           fl_quat q)
 {
-    double w[FL_WAVE_LOOKS], u;
+    double w[FL_WAVE_SAMPLES], u;
     cubic_weights(c, g, t, w, &u);
     return deviation(c, w, x, q);
 }
@@ -94,7 +94,7 @@ int fl_wave_block_due(const fl_wave_block *c, const fl_wave_water *sea, double r
     return !(v3_norm2(d.x) <= far * far && turned <= far * far); /* written so that a NaN begins one */
 }
 
-/* --- a look -------------------------------------------------------------------------------------- */
+/* --- a sample -------------------------------------------------------------------------------------- */
 
 /* The plane under a body: height over its centre, slopes; heights above still water. */
 typedef struct {
@@ -103,7 +103,7 @@ typedef struct {
 
 typedef struct {
     const fl_wave_water *sea;
-    const fl_wave_floater *body;
+    const fl_wave_body *body;
     fl_wave_view view;
     fl_vec3 x; /* centre */
     double z;  /* of the centre, above still water */
@@ -112,7 +112,7 @@ typedef struct {
     int changes; /* 1: G too */
     fl_vec3 force, moment;
     double (*change)[6];
-} body_look;
+} body_sample;
 
 /* Gradient of p/(rho g) and its parts. */
 typedef struct {
@@ -122,7 +122,7 @@ typedef struct {
 } point_pressure;
 
 /* Pressure at a point z above still water, under the elevation `over` with the slopes of `at`. */
-FL_SIMD_INLINE void pressure_at(const body_look *b, double x, double y, double z, double over,
+FL_SIMD_INLINE void pressure_at(const body_sample *b, double x, double y, double z, double over,
                                 const fl_wave_surface *at, point_pressure *out)
 {
     const double depth = b->sea->grid->water;
@@ -136,7 +136,7 @@ FL_SIMD_INLINE void pressure_at(const body_look *b, double x, double y, double z
 }
 
 /* Adds the change of the load at offset r with a displacement of that point: dF_i = sum_j K_ij d_j. */
-FL_SIMD_INLINE void add_change(body_look *b, fl_vec3 r, const fl_mat3 *K)
+FL_SIMD_INLINE void add_change(body_sample *b, fl_vec3 r, const fl_mat3 *K)
 {
     const fl_vec3 shift[FL_WAVE_CHANGES] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -r.z, r.y}, {r.z, 0, -r.x}};
     for (int k = 0; k < FL_WAVE_CHANGES; k++) {
@@ -160,8 +160,31 @@ FL_SIMD_INLINE void wet_part(double H, double above, double rate, double *lo, do
     else *lo = in;
 }
 
+/* Mean of max(p, 0) over a part of the vertical half extent d, and of the wet share. */
+FL_SIMD_INLINE double positive_part(double p, double d, double *share)
+{
+    *share = p >= d ? 1.0 : p > -d ? 0.5 * (p + d) / d : 0.0;
+    return p >= d ? p : p > -d ? 0.25 * (p + d) * (p + d) / d : 0.0;
+}
+
+/* What the mean of max(depth, 0) over the part of the section of a column has more than the value at its
+ * middle, where the water line of an end crosses that part. depth: of the middle of the column, growing by
+ * `rate` along it; g: gradient of the depth; half: half the width of the part. Upper end counted negative. */
+FL_SIMD_INLINE double cut_ends(double H, double depth, double rate, fl_vec3 g, double half)
+{
+    const double one = depth - 0.5 * H * rate, two = depth + 0.5 * H * rate,
+                 least = fabs(one) < fabs(two) ? fabs(one) : fabs(two);
+    const double across2 = v3_norm2(g) - rate * rate;
+    if (least * least >= half * half * across2 || !(across2 > 0.0)) return 0.0;
+    const double d = half * sqrt(across2);
+    double share;
+    return (positive_part(one, d, &share) - (one > 0.0 ? one : 0.0)) -
+           (positive_part(two, d, &share) - (two > 0.0 ? two : 0.0));
+}
+
 /* One column: its lower end at offset r, of the unit direction e, weight w. */
-FL_SIMD_INLINE void add_column(body_look *b, fl_vec3 r, fl_vec3 e, double w, const fl_wave_surface *at)
+FL_SIMD_INLINE void add_column(body_sample *b, fl_vec3 r, fl_vec3 e, double w, double half,
+                               const fl_wave_surface *at)
 {
     const double H = b->body->nodes->length;
     const fl_vec3 mid = v3_madd(r, 0.5 * H, e);
@@ -190,6 +213,10 @@ FL_SIMD_INLINE void add_column(body_look *b, fl_vec3 r, fl_vec3 e, double w, con
         force = v3_madd(force, low - high, g);
         first = v3_madd(first, 0.5 * (low * low - high * high), g);
     }
+    const fl_vec3 wave = v3(at->x, at->y, -1.0), flat = v3(q->x, q->y, -1.0);
+    const double cut = cut_ends(H, at->eta - z, v3_dot(wave, e), wave, half) -
+                       cut_ends(H, q->z + q->x * mid.x + q->y * mid.y - z, v3_dot(flat, e), flat, half);
+    force = v3_madd(force, cut, e);
     force = v3_scale(w, force), first = v3_scale(w, first);
     b->force = v3_add(b->force, force);
     b->moment = v3_add(b->moment, v3_add(v3_cross(r, force), v3_cross(e, first)));
@@ -214,26 +241,20 @@ FL_SIMD_INLINE void add_column(body_look *b, fl_vec3 r, fl_vec3 e, double w, con
     add_change(b, v3_madd(r, wet ? (up ? lo : hi) : (up ? low : high), e), &K);
 }
 
-FL_SIMD4_VERSIONS static void add_columns(body_look *b)
+FL_SIMD4_VERSIONS static void add_columns(body_sample *b)
 {
     const fl_wave_nodes *a = b->body->nodes;
     const fl_vec3 e = m3_mul(b->R, a->along);
-    for (int32_t k = 0; k < a->n; k++) add_column(b, m3_mul(b->R, a->x[k]), e, a->w[k], &b->body->room[k]);
+    for (int32_t k = 0; k < a->n; k++)
+        add_column(b, m3_mul(b->R, a->x[k]), e, a->w[k], a->half[k], &b->body->scratch[k]);
 }
 
-/* Mean of max(p, 0) over a part of the vertical half extent d, and of the wet share. */
-FL_SIMD_INLINE double positive_part(double p, double d, double *share)
-{
-    *share = p >= d ? 1.0 : p > -d ? 0.5 * (p + d) / d : 0.0;
-    return p >= d ? p : p > -d ? 0.25 * (p + d) * (p + d) / d : 0.0;
-}
-
-FL_SIMD4_VERSIONS static void add_faces(body_look *b)
+FL_SIMD4_VERSIONS static void add_faces(body_sample *b)
 {
     const fl_wave_nodes *a = b->body->nodes;
     const water_plane *q = &b->plane;
     for (int32_t k = 0; k < a->n; k++) {
-        const fl_wave_surface *at = &b->body->room[k];
+        const fl_wave_surface *at = &b->body->scratch[k];
         const fl_vec3 r = m3_mul(b->R, a->x[k]), A = m3_mul(b->R, a->area[k]);
         const double z = b->z + r.z, size = v3_norm(A), level2 = A.x * A.x + A.y * A.y,
                      half = size > 0.0 ? 0.5 * sqrt(level2 / size) : 0.0;
@@ -255,13 +276,13 @@ FL_SIMD4_VERSIONS static void add_faces(body_look *b)
 }
 
 /* The surface over all nodes. */
-FL_SIMD4_VERSIONS static void survey_surface(const body_look *b)
+FL_SIMD4_VERSIONS static void survey_surface(const body_sample *b)
 {
     const fl_wave_nodes *a = b->body->nodes;
     const fl_vec3 up = v3_scale(0.5 * a->length, m3_mul(b->R, a->along));
     for (int32_t k = 0; k < a->n; k++) {
         const fl_vec3 r = v3_add(m3_mul(b->R, a->x[k]), up);
-        fl_wave_surface_at(&b->view, b->x.x + r.x, b->x.y + r.y, &b->body->room[k]);
+        fl_wave_surface_at(&b->view, b->x.x + r.x, b->x.y + r.y, &b->body->scratch[k]);
     }
 }
 
@@ -270,7 +291,7 @@ FL_SIMD4_VERSIONS static void survey_surface(const body_look *b)
 
 /* Weighted least squares: z + a s along one line of propagation, or z + x r.x + y r.y with several. Where the
  * nodes have no extent the slope is the mean one. */
-static void fit_plane(body_look *b)
+static void fit_plane(body_sample *b)
 {
     const fl_wave_nodes *a = b->body->nodes;
     const fl_wave_line *line = &b->sea->grid->line[0];
@@ -279,7 +300,7 @@ static void fit_plane(body_look *b)
     double all = 0.0, mean[2] = {0}, eta = 0.0, slope[2] = {0}, xx = 0.0, xy = 0.0, yy = 0.0, xe = 0.0,
            ye = 0.0;
     for (int32_t k = 0; k < a->n; k++) {
-        const fl_wave_surface *at = &b->body->room[k];
+        const fl_wave_surface *at = &b->body->scratch[k];
         const fl_vec3 r = v3_add(m3_mul(b->R, a->x[k]), up);
         const double w = a->w ? a->w[k]
                               : fabs(v3_dot(a->area[k], v3(b->R.m[2][0], b->R.m[2][1], b->R.m[2][2]))),
@@ -312,21 +333,27 @@ static void fit_plane(body_look *b)
     b->plane = (water_plane){eta - x * mean[0] - y * mean[1], x, y};
 }
 
-/* The wet part of the hull under the plane, body axes; *c: 1/|(slopes, 1)|. */
-static fl_submerged submerge(const body_look *b)
+void fl_wave_body_submerged(const fl_wave_body *body, fl_vec3 up, double level, fl_submerged *wet)
 {
-    const double c = 1.0 / sqrt(1.0 + b->plane.x * b->plane.x + b->plane.y * b->plane.y),
-                 level = c * (b->plane.z - b->z), reach = b->body->reach;
-    fl_submerged wet = {0};
-    if (level >= reach)
-        wet = (fl_submerged){.volume = b->body->hull->volume, .centre = b->body->hull->centre};
-    else if (level > -reach)
-        fl_hull_submerged(b->body->hull, m3_tmul(b->R, v3(-c * b->plane.x, -c * b->plane.y, c)), level, &wet);
+    const fl_hull *h = body->hull;
+    *wet = (fl_submerged){0};
+    if (level >= body->reach)
+        *wet = (fl_submerged){.volume = h->volume, .centre = h->centre, .wetted_area = h->surface_area};
+    else if (level > -body->reach) fl_hull_submerged(h, up, level, wet);
+}
+
+/* The wet part of the hull under the plane, body axes. */
+static fl_submerged submerge(const body_sample *b)
+{
+    const double c = 1.0 / sqrt(1.0 + b->plane.x * b->plane.x + b->plane.y * b->plane.y);
+    fl_submerged wet;
+    fl_wave_body_submerged(b->body, m3_tmul(b->R, v3(-c * b->plane.x, -c * b->plane.y, c)),
+                           c * (b->plane.z - b->z), &wet);
     return wet;
 }
 
 /* Tangent plane over the centre of a sphere or capsule. */
-static void set_tangent(body_look *b)
+static void set_tangent(body_sample *b)
 {
     fl_wave_surface at;
     fl_wave_surface_at(&b->view, b->x.x, b->x.y, &at);
@@ -335,7 +362,7 @@ static void set_tangent(body_look *b)
 
 /* Load of a sphere or capsule, at the centre r of its wet part: rho V times the acceleration, less the slope
  * of the plane. */
-static void add_round(body_look *b, fl_vec3 r, double volume, double zeta)
+static void add_round(body_sample *b, fl_vec3 r, double volume, double zeta)
 {
     fl_wave_depth deep;
     double x = 0.0, y = 0.0, z = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, xz = 0.0, yz = 0.0;
@@ -363,7 +390,7 @@ static void add_round(body_look *b, fl_vec3 r, double volume, double zeta)
 }
 
 /* Velocity and acceleration of the water at the centre of the wet part, and the current there. */
-static void survey_flow(const body_look *b, fl_vec3 r, double zeta, double *row)
+static void survey_flow(const body_sample *b, fl_vec3 r, double zeta, double *row)
 {
     const fl_vec3 u = v3_add(fl_wave_velocity(&b->view, b->x.x + r.x, b->x.y + r.y, zeta),
                              fl_current_at(b->sea->current, b->z + r.z));
@@ -375,8 +402,8 @@ static void survey_flow(const body_look *b, fl_vec3 r, double zeta, double *row)
     row[AT_ACCELERATION + 2] = -g * head.zeta;
 }
 
-/* Fills a row of looks. */
-static void evaluate_look(body_look *b, double *row)
+/* Fills a row of samples. */
+static void evaluate_sample(body_sample *b, double *row)
 {
     const fl_wave_nodes *a = b->body->nodes;
     const double weight = b->sea->weight;
@@ -410,38 +437,38 @@ static void evaluate_look(body_look *b, double *row)
     row[AT_MOMENT + 2] = weight * b->moment.z;
 }
 
-void fl_wave_block_fill(fl_wave_block *c, const fl_wave_water *sea, const fl_wave_floater *body)
+void fl_wave_block_fill(fl_wave_block *c, const fl_wave_water *sea, const fl_wave_body *body)
 {
     for (int e = 0; e < 2; e++)
         for (int k = 0; k < FL_WAVE_CHANGES; k++)
             for (int i = 0; i < 6; i++) c->change[e][k][i] = 0.0;
-    for (int k = 0; k < FL_WAVE_LOOKS; k++) {
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++) {
         const int64_t level = c->level + (int64_t)k * c->span;
-        body_look b = {.sea = sea,
-                       .body = body,
-                       .view = fl_wave_grid_view(sea->grid, level),
-                       .x = c->x[k],
-                       .R = q_matrix(fl_wave_block_attitude(c, c->turn[k])),
-                       .changes = k == 0 || k == FL_WAVE_LOOKS - 1,
-                       .change = c->change[k > 0]};
+        body_sample b = {.sea = sea,
+                         .body = body,
+                         .view = fl_wave_grid_view(sea->grid, level),
+                         .x = c->x[k],
+                         .R = q_matrix(fl_wave_block_attitude(c, c->turn[k])),
+                         .changes = k == 0 || k == FL_WAVE_SAMPLES - 1,
+                         .change = c->change[k > 0]};
         b.z = b.x.z - sea->level;
-        evaluate_look(&b, c->look[k]);
+        evaluate_sample(&b, c->sample[k]);
     }
     for (int e = 0; e < 2; e++)
         for (int k = 0; k < FL_WAVE_CHANGES; k++)
             for (int i = 0; i < 6; i++) c->change[e][k][i] *= sea->weight;
 }
 
-/* --- between the looks --------------------------------------------------------------------------- */
+/* --- between the samples --------------------------------------------------------------------------- */
 
 void fl_wave_block_values(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_vec3 x, fl_quat q,
                           fl_wave_values *out)
 {
-    double w[FL_WAVE_LOOKS], u, row[FL_WAVE_ROW], load[6];
+    double w[FL_WAVE_SAMPLES], u, row[FL_WAVE_ROW], load[6];
     cubic_weights(c, g, t, w, &u);
     for (int k = 0; k < FL_WAVE_ROW; k++)
-        row[k] =
-            (w[0] * c->look[0][k] + w[1] * c->look[1][k]) + (w[2] * c->look[2][k] + w[3] * c->look[3][k]);
+        row[k] = (w[0] * c->sample[0][k] + w[1] * c->sample[1][k]) +
+                 (w[2] * c->sample[2][k] + w[3] * c->sample[3][k]);
     const fl_wave_deviation d = deviation(c, w, x, q);
     const double off[FL_WAVE_CHANGES] = {d.x.x, d.x.y, d.x.z, d.turn.x, d.turn.y}, late = u / 3.0;
     for (int i = 0; i < 6; i++) load[i] = row[AT_FORCE + i];
@@ -458,11 +485,11 @@ void fl_wave_block_values(const fl_wave_block *c, const fl_wave_grid *g, double 
 fl_vec3 fl_wave_block_velocity(const fl_wave_block *c, const fl_wave_grid *g, double t, double x, double y,
                                double z, double eta)
 {
-    double w[FL_WAVE_LOOKS], u, rate;
+    double w[FL_WAVE_SAMPLES], u, rate;
     fl_vec3 sum = v3(0, 0, 0);
     const double zeta = fl_wave_grid_stretch(g, z, eta, &rate);
     cubic_weights(c, g, t, w, &u);
-    for (int k = 0; k < FL_WAVE_LOOKS; k++) {
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++) {
         const fl_wave_view v = fl_wave_grid_view(g, c->level + (int64_t)k * c->span);
         sum = v3_madd(sum, w[k], fl_wave_velocity(&v, x, y, zeta));
     }

@@ -35,7 +35,8 @@ static void spread_angles(double n, double angle[FL_WAVE_DIRECTIONS])
     for (int c = 0; c < CELLS; c++) {
         const double theta = (c + 0.5) * d - 0.5 * PI, e = pow(cos(theta), n) / all;
         sum += e, part += e, square += e * sin(theta) * sin(theta);
-        if (sum < (at + 1.0) / FL_WAVE_DIRECTIONS && c + 1 < CELLS) continue;
+        if (c + 1 < CELLS && (at + 1 == FL_WAVE_DIRECTIONS || sum < (at + 1.0) / FL_WAVE_DIRECTIONS))
+            continue;
         angle[at] = (2 * at < FL_WAVE_DIRECTIONS ? -1.0 : 1.0) * asin(sqrt(square / part));
         part = square = 0.0;
         if (at + 1 < FL_WAVE_DIRECTIONS) at++;
@@ -129,13 +130,13 @@ int fl_wave_grid_make(fl_wave_grid *g, const fl_waves *w, const fl_wave_grid_for
         const int32_t c = line_of(f, j);
         add_train(g, &g->line[at[c]], count[c], &w->train[j], f);
     }
-    g->spare = fl_alloc(threads, sizeof *g->spare, err);
-    if (!g->spare) goto failed;
+    g->outside = fl_alloc(threads, sizeof *g->outside, err);
+    if (!g->outside) goto failed;
     for (int k = 0; k < threads; k++) {
-        g->spare[k].level = INT64_MIN;
-        g->spare[k].at =
-            fl_alloc((int64_t)3 * FL_WAVE_CHUNK * FL_WAVE_NUMBERS * g->depths, sizeof *g->spare[k].at, err);
-        if (!g->spare[k].at) goto failed;
+        g->outside[k].level = INT64_MIN;
+        g->outside[k].at =
+            fl_alloc((int64_t)3 * FL_WAVE_CHUNK * FL_WAVE_NUMBERS * g->depths, sizeof *g->outside[k].at, err);
+        if (!g->outside[k].at) goto failed;
     }
     return 0;
 failed:
@@ -151,8 +152,8 @@ void fl_wave_grid_free(fl_wave_grid *g)
             free(d->limit);
         for (int k = 0; k < FL_WAVE_SLOTS; k++) free(d->table[k]);
     }
-    for (int k = 0; k < g->threads && g->spare; k++) free(g->spare[k].at);
-    free(g->spare);
+    for (int k = 0; k < g->threads && g->outside; k++) free(g->outside[k].at);
+    free(g->outside);
     *g = (fl_wave_grid){0};
 }
 
@@ -323,9 +324,9 @@ fl_wave_view fl_wave_grid_view(const fl_wave_grid *g, int64_t level)
     return v;
 }
 
-const double *fl_wave_grid_spare(const fl_wave_grid *g, int32_t line, int64_t level, int64_t place)
+const double *fl_wave_grid_outside(const fl_wave_grid *g, int32_t line, int64_t level, int64_t place)
 {
-    fl_wave_spare *const a = &g->spare[omp_get_thread_num()];
+    fl_wave_outside *const a = &g->outside[omp_get_thread_num()];
     const int64_t chunk =
         (place >= 0 ? place : place - (FL_WAVE_CHUNK - 1)) / FL_WAVE_CHUNK - 1; /* before that of place */
     if (a->level != level || a->line != line || a->chunk != chunk) {

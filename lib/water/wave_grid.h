@@ -65,7 +65,7 @@ typedef struct {
     int64_t level, chunk;
     int32_t line;
     double *at; /* [depths][4][3 * 64] */
-} fl_wave_spare;
+} fl_wave_outside;
 
 typedef struct {
     int32_t lines, depths, threads;
@@ -77,7 +77,7 @@ typedef struct {
     double edge;    /* s of the edge of the ice [m] */
     double zeta[FL_WAVE_DEPTHS];
     int64_t level[FL_WAVE_SLOTS]; /* level in each slot; INT64_MIN: none */
-    fl_wave_spare *spare;         /* [threads] */
+    fl_wave_outside *outside;     /* [threads] */
 } fl_wave_grid;
 
 typedef struct {
@@ -88,7 +88,8 @@ typedef struct {
     double thickness;      /* H [m] */
 } fl_wave_grid_form;
 
-/* Makes the grid of a sea, without tables. threads: how many may look at once. Returns -1 with FL_SYSTEM. */
+/* Makes the grid of a sea, without tables. threads: how many may sample at once. Returns -1 with FL_SYSTEM.
+ * */
 int fl_wave_grid_make(fl_wave_grid *g, const fl_waves *w, const fl_wave_grid_form *f, int threads,
                       fl_err *err);
 void fl_wave_grid_free(fl_wave_grid *g); /* accepts a zeroed struct, leaves one */
@@ -107,11 +108,11 @@ int fl_wave_grid_fill(fl_wave_grid *g, const fl_wave_extent *at, int64_t first, 
 double fl_wave_grid_bytes(const fl_wave_grid *g);
 
 /* Fills the three chunks around one outside the window; for fl_wave_grid_cell(). */
-const double *fl_wave_grid_spare(const fl_wave_grid *g, int32_t line, int64_t level, int64_t place);
+const double *fl_wave_grid_outside(const fl_wave_grid *g, int32_t line, int64_t level, int64_t place);
 
 /* --- evaluation ---------------------------------------------------------------------------------- */
 
-/* One level, to look at. */
+/* One level, to sample at. */
 typedef struct {
     const fl_wave_grid *grid;
     int64_t level;
@@ -142,7 +143,7 @@ FL_SIMD_INLINE void fl_wave_taps_at(const fl_wave_view *v, int32_t line, double 
         p->at = d->table[v->slot] + rel;
         p->stride = (int64_t)FL_WAVE_CHUNK * d->chunks;
     } else {
-        p->at = fl_wave_grid_spare(g, line, v->level, place);
+        p->at = fl_wave_grid_outside(g, line, v->level, place);
         p->stride = 3 * FL_WAVE_CHUNK;
     }
 }

@@ -16,7 +16,7 @@ enum {
 /* rms of the degrees left out, over e and the square root of the number of points: what a rule of positive
  * weights integrates them to is like a mean of so many random numbers. On floes of 20 m at Tp 6 s it leaves
  * 0.3 e of the force along the waves. */
-#define TAIL_SHARE 0.7
+#define TAIL_SHARE 0.35
 /* Most points of a body, as FL_HULL_PANELS_MAX. */
 enum { MAX_POINTS = 1000000 };
 
@@ -200,24 +200,35 @@ static int32_t greatest_divisor(int32_t a, int32_t b)
     return a;
 }
 
-/* Weights again from all moments, by the inverse there is: takes the rounding of the pivots back. */
-static void refine_weights(pivot_table *t, const flat_rule *r, int p, double R)
+/* Makes the polynomials orthonormal over the rule, M[k] being their values at point k. Products of Chebyshev
+ * polynomials alone are nearly dependent on a section that does not fill its square. */
+static void orthonormalise(const flat_rule *r, int n, double *M)
 {
-    double m[MAX_MOMENTS], off[MAX_MOMENTS];
-    for (int c = 0; c < t->n; c++) off[c] = 0.0;
-    for (int32_t k = 0; k < r->n; k++) {
-        moments_of(p, r->x[k] / R, r->y[k] / R, m);
-        for (int c = 0; c < t->n; c++) off[c] += r->w[k] * m[c];
-    }
-    for (int row = 0; row < t->n; row++) {
-        const int32_t k = t->basis[row];
-        if (k < 0) continue;
-        moments_of(p, r->x[k] / R, r->y[k] / R, m);
-        for (int c = 0; c < t->n; c++) off[c] -= t->w[row] * m[c];
-    }
+    for (int c = 0; c < n; c++)
+        for (int turn = 0; turn < 2; turn++) {
+            double size = 0.0;
+            for (int d = 0; d < c; d++) {
+                double dot = 0.0;
+                for (int32_t k = 0; k < r->n; k++) dot += r->w[k] * M[k * n + c] * M[k * n + d];
+                for (int32_t k = 0; k < r->n; k++) M[k * n + c] -= dot * M[k * n + d];
+            }
+            for (int32_t k = 0; k < r->n; k++) size += r->w[k] * M[k * n + c] * M[k * n + c];
+            for (int32_t k = 0; k < r->n; k++) M[k * n + c] /= sqrt(size);
+        }
+}
+
+/* Weights again from all moments, by the inverse there is: takes the rounding of the pivots back. */
+static void refine_weights(pivot_table *t, const flat_rule *r, const double *M)
+{
+    double off[MAX_MOMENTS] = {0};
+    for (int32_t k = 0; k < r->n; k++)
+        for (int c = 0; c < t->n; c++) off[c] += r->w[k] * M[k * t->n + c];
+    for (int row = 0; row < t->n; row++)
+        for (int c = 0; c < t->n && t->basis[row] >= 0; c++)
+            off[c] -= t->w[row] * M[t->basis[row] * t->n + c];
     for (int row = 0; row < t->n; row++) {
         double sum = 0.0;
-        for (int c = 0; c < t->n; c++) sum += t->B[(int64_t)row * t->n + c] * off[c];
+        for (int c = 0; c < t->n; c++) sum += t->B[row * t->n + c] * off[c];
         if (t->basis[row] >= 0) t->w[row] = fmax(0.0, t->w[row] + sum);
     }
 }
@@ -225,25 +236,27 @@ static void refine_weights(pivot_table *t, const flat_rule *r, int p, double R)
 /* Reduces a rule to at most (p + 1)(p + 2)/2 points. */
 static int reduce_rule(flat_rule *r, int p, double R, fl_err *err)
 {
-    double m[MAX_MOMENTS];
-    const int n = moments_of(p, 0.0, 0.0, m);
+    double first[MAX_MOMENTS];
+    const int n = moments_of(p, 0.0, 0.0, first);
     int rc = -1;
     pivot_table t = {.n = n};
     if (r->n <= n) return 0;
+    double *const M = fl_alloc((int64_t)r->n * n, sizeof *M, err);
     t.basis = fl_alloc(n, sizeof *t.basis, err);
     t.w = fl_alloc(n, sizeof *t.w, err);
     t.B = fl_alloc((int64_t)n * n, sizeof *t.B, err);
     t.y = fl_alloc(n, sizeof *t.y, err);
-    if (!t.basis || !t.w || !t.B || !t.y) goto done;
-    for (int k = 0; k < n; k++) t.basis[k] = -1, t.B[(int64_t)k * n + k] = 1.0;
+    if (!M || !t.basis || !t.w || !t.B || !t.y) goto done;
+    for (int k = 0; k < n; k++) t.basis[k] = -1, t.B[k * n + k] = 1.0;
+    for (int32_t k = 0; k < r->n; k++) moments_of(p, r->x[k] / R, r->y[k] / R, M + k * n);
+    orthonormalise(r, n, M);
     int32_t step = (int32_t)(GOLDEN * r->n) + 1;
     while (greatest_divisor(step, r->n) != 1) step++;
     for (int32_t c = 0; c < r->n; c++) {
         const int32_t k = (int32_t)((int64_t)c * step % r->n);
-        moments_of(p, r->x[k] / R, r->y[k] / R, m);
-        pivot_point(&t, k, r->w[k], m);
+        pivot_point(&t, k, r->w[k], M + k * n);
     }
-    for (int turn = 0; turn < 2; turn++) refine_weights(&t, r, p, R);
+    for (int turn = 0; turn < 2; turn++) refine_weights(&t, r, M);
     int32_t kept = 0;
     double *const w = t.y; /* in the order of the points, so that nothing is overwritten before it is read */
     for (int32_t k = 0; k < r->n; k++)
@@ -256,7 +269,7 @@ static int reduce_rule(flat_rule *r, int p, double R, fl_err *err)
     r->n = kept;
     rc = 0;
 done:
-    free(t.basis), free(t.w), free(t.B), free(t.y);
+    free(M), free(t.basis), free(t.w), free(t.B), free(t.y);
     return rc;
 }
 
@@ -275,8 +288,8 @@ static int alloc_nodes(fl_wave_nodes *a, int32_t n, int faces, fl_err *err)
     a->n = n;
     a->x = fl_alloc(n, sizeof *a->x, err);
     if (faces) a->area = fl_alloc(n, sizeof *a->area, err);
-    else a->w = fl_alloc(n, sizeof *a->w, err);
-    return a->x && (faces ? a->area != NULL : a->w != NULL) ? 0 : -1;
+    else a->w = fl_alloc(n, sizeof *a->w, err), a->half = fl_alloc(n, sizeof *a->half, err);
+    return a->x && (faces ? a->area != NULL : a->w && a->half) ? 0 : -1;
 }
 
 /* A convex section, counter-clockwise. */
@@ -374,7 +387,7 @@ static int make_columns(fl_wave_nodes *a, const fl_hull *h, const fl_waves *w, d
     if (!outline.v || add_section(&r, &outline, w, error, 1.0, err) || alloc_nodes(a, r.n, 0, err)) goto done;
     for (int32_t k = 0; k < r.n; k++) {
         a->x[k] = v3_madd(v3_madd(v3_madd(q->o, r.x[k], q->a), r.y[k], b), q->z0, q->e);
-        a->w[k] = r.w[k];
+        a->w[k] = r.w[k], a->half[k] = 0.5 * sqrt(r.w[k]);
     }
     a->along = q->e;
     a->length = q->z1 - q->z0;
@@ -503,6 +516,6 @@ int fl_wave_nodes_make(fl_wave_nodes *a, const fl_hull *hull, const fl_waves *w,
 
 void fl_wave_nodes_free(fl_wave_nodes *a)
 {
-    free(a->x), free(a->w), free(a->area);
+    free(a->x), free(a->w), free(a->half), free(a->area);
     *a = (fl_wave_nodes){0};
 }
