@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Waves by the error asked for (water.wave_error): tables, points and blocks against closed forms and against the
- * evaluation in each step. */
+/* Waves by the error asked for (water.wave_error): tables, points and blocks against closed forms and
+ * against the evaluation in each step. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
