@@ -16,7 +16,8 @@ enum fl_rng_purpose {
     FL_RNG_BOOTSTRAP,
     FL_RNG_LAYER,
     FL_RNG_OFFSET,
-    FL_RNG_STRENGTH
+    FL_RNG_STRENGTH,
+    FL_RNG_WAVE_DIRECTION
 };
 
 typedef struct {

@@ -175,6 +175,19 @@ static void exchange_sleep(fl_state_io *t, fl_world *w, int32_t k)
                      (double)w->step);
 }
 
+/* The path of a body through a block of waves; the rest is evaluated again. */
+static void exchange_block(fl_state_io *t, fl_wave_block *c)
+{
+    fl_state_io_count(t, &c->level);
+    fl_state_io_int(t, 0, 2, &c->span);
+    fl_state_io_int(t, 0, INT32_MAX, &c->short_turns);
+    fl_state_io_quat(t, &c->q);
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++) fl_state_io_vec3(t, &c->x[k]), fl_state_io_vec3(t, &c->turn[k]);
+    if (t->in && !t->err->code && c->level != FL_WAVE_NO_BLOCK && (c->level < 0 || c->span < 1))
+        fl_text_fail(t->in, t->err, "a block of waves at level %lld in steps of %d does not exist",
+                     (long long)c->level, c->span);
+}
+
 static void exchange_water(fl_state_io *t, fl_environment *s, const fl_bodies *b, int32_t i)
 {
     double energy = s->water && !s->waves ? fl_environment_energy(s, b, i) : 0.0,
@@ -193,6 +206,7 @@ static void exchange_water(fl_state_io *t, fl_environment *s, const fl_bodies *b
         fl_state_io_pose(t, &h->x, &h->q);
         fl_state_io_real(t, &h->when);
     }
+    if (s->block) exchange_block(t, &s->block[i]);
     fl_state_io_close(t);
 }
 
@@ -455,6 +469,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;
     if (w->sea.current.n) exchange_current_hash(t, &w->sea.current);
+    if (t->in && !t->err->code && fl_environment_prepare(&w->sea, &w->b, w->inflow.absent, now, 1, t->err))
+        return pairs;
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         exchange_water(t, &w->sea, &w->b, i);
         if (t->in && !t->err->code && w->sea.sample && !fl_body_absent(w, i) &&

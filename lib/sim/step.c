@@ -187,6 +187,12 @@ static void run_step_in_team(step_context *q)
     fl_barrier_wait(&w->barrier, threads, NULL, NULL);
 }
 
+/* Tables of the waves for time t. */
+static int prepare_waves(fl_world *w, double t, fl_err *err)
+{
+    return fl_environment_prepare(&w->sea, &w->b, w->inflow.absent, t, w->team.n, err);
+}
+
 /* A parallel region costs as much as a step of three floes, so a team of one runs without it. */
 static int run_step(step_context *q)
 {
@@ -355,6 +361,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     if (fl_check_wave_sampling(w, err)) return -1;
     w->dt_safe = fmin(fl_automatic_step(w, &body), SAFE_SHARE * fl_critical_step(w));
     w->sea.time = fl_world_time(w);
+    if (prepare_waves(w, w->sea.time, err)) return -1;
 
     /* neighbour list, contacts and forces */
     if (fl_neighbour_list_update(w, err)) return -1;
@@ -399,6 +406,9 @@ int fl_step(fl_world *w, fl_err *err)
     /* moving structure: first half */
     fl_ledger_begin_step(w);
     if (moves) fl_moving_structure_first_half(w, fl_world_time(w));
+
+    /* tables of the waves */
+    if (w->sea.by_blocks && prepare_waves(w, w->t0 + (double)(w->step + 1 - w->step0) * dt, err)) return -1;
 
     /* bodies: first half; contacts; bodies: second half */
     if (w->panel_load.all) fl_panels_clear(w);
