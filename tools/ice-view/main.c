@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ice-view -- the ice seen: frames in; a window, pictures, films, a page, files for ParaView out. */
+#include <stdio.h>
+#include <stdlib.h>
+#include "base/stream.h"
+#include "base/tool.h"
+#include "options.h"
+#ifdef FL_HAVE_GL
+#include "shot.h"
+#endif
+#include "subject.h"
+
+static int save_look(const struct options *o, fl_err *err)
+{
+    fl_out out = {0};
+    if (fl_out_open(&out, o->save_look, 0, err)) return -1;
+    fl_look_write(out.f, &o->look);
+    return fl_out_close(&out, err);
+}
+
+static int print_info(const struct subject *s, const struct options *o)
+{
+    const fl_frame_data *d = s->play.data;
+    printf("%s: %d bodies, %d parts", o->in, d->rows, d->structure.n);
+    if (d->frames)
+        printf(", %d frames from %g s to %g s", d->frames, d->frame[0].t, d->frame[d->frames - 1].t);
+    putchar('\n');
+    return 0;
+}
+
+/* What needs OpenGL. */
+static int draw(struct subject *s, struct options *o, fl_err *err)
+{
+#ifdef FL_HAVE_GL
+    if (o->out && shot_picture(s, o, err)) return -1;
+    return o->movie ? shot_movie(s, o, err) : 0;
+#else
+    (void)s;
+    return o->out || o->movie ? fl_fail(err, FL_SYSTEM,
+                                        "no pictures: this ice-view was built without OpenGL (packages "
+                                        "libepoxy-dev, libegl-dev)")
+                              : 0;
+#endif
+}
+
+static int run(struct options *o, fl_err *err)
+{
+    struct subject s;
+    int rc = subject_open(&s, o, err);
+    if (rc == 0 && o->info) rc = print_info(&s, o);
+    if (rc == 0 && o->save_look) rc = save_look(o, err);
+    if (rc == 0) rc = draw(&s, o, err);
+    subject_close(&s);
+    return rc;
+}
+
+int main(int argc, char **argv)
+{
+    struct options o;
+    fl_err err = {0};
+    fl_tool_begin();
+    int rc = options_parse(&o, argc, argv, &err);
+    if (rc == 0 && !o.ended && o.keys) fl_look_explain(stdout);
+    else if (rc == 0 && !o.ended) rc = run(&o, &err);
+    return fl_tool_end("ice-view", rc, &err);
+}
