@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* frame_data.h -- what a file of frames holds: shapes, parts of the structure, an index of frames; and the poses of
- * one frame.  Formats: animation(5), state(5).
+/* frame_data.h -- what a file of frames holds: shapes, parts of the structure, an index of frames; and the
+ * poses of one frame.  Formats: animation(5), state(5).
  *
- * A body is a number (id) of the file; its row is counted from 0 in the order of first appearance.  A shape that
- * comes again under a known number replaces the old one from the next frame on. */
+ * A body is a number (id) of the file; its row is counted from 0 in the order of first appearance.  A
+ * shape that comes again under a known number replaces the old one from the next frame on. */
 #ifndef FL_OUT_FRAME_DATA_H
 #define FL_OUT_FRAME_DATA_H
 #include <stdint.h>

@@ -184,13 +184,13 @@ static int take_blocks(fl_frame_file *f, fl_seekable *in, fl_err *err)
         }
         fl_packed_block b;
         fl_packed_frame h;
-        if (f->buf_len < FL_PACKED_BLOCK) return 0;
+        if (f->buf_len < FL_PACKED_BLOCK) return f->buf_len > 0;
         memcpy(head, f->buf, f->buf_len < (int32_t)sizeof head ? (size_t)f->buf_len : sizeof head);
         if (fl_packed_block_read(head, &b))
             return fl_fail(err, FL_INPUT, "%s: no block begins at byte %" PRId64 ": the file is damaged",
                            f->text.name, f->offset);
         const int is_frame = strcmp(b.kind, "FRAM") == 0;
-        if (is_frame && f->buf_len < (int32_t)sizeof head) return 0;
+        if (is_frame && f->buf_len < (int32_t)sizeof head) return 1;
         if (is_frame && fl_packed_frame_read(head + FL_PACKED_BLOCK, &h))
             return fl_fail(err, FL_INPUT, "%s: the frame at byte %" PRId64 " is damaged", f->text.name,
                            f->offset);

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* frame_file.h -- a file of frames: animation(5), text or packed, or state(5); one pass over it makes an index, and
- * a frame is read when it is asked for.
+/* frame_file.h -- a file of frames: animation(5), text or packed, or state(5); one pass over it makes an
+ * index, and a frame is read when it is asked for.
  *
- * Memory: the shapes, 64 bytes a frame, and one frame.  Read: plain, gzip, standard input ("-"); the files NAME.0,
- * NAME.1, ... of a run that splits its frames, given as NAME; NAME.part, the file of a run that has not ended, where
- * NAME is missing.  A file that is cut off ends at its last whole frame, with a warning. */
+ * Memory: the shapes, 64 bytes a frame, and one frame.  Read: plain, gzip, standard input ("-"); the files
+ * NAME.0, NAME.1, ... of a run that splits its frames, given as NAME; NAME.part, the file of a run that
+ * has not ended, where NAME is missing.  A file that is cut off ends at its last whole frame, with a
+ * warning. */
 #ifndef FL_OUT_FRAME_FILE_H
 #define FL_OUT_FRAME_FILE_H
 #include "out/frame_data.h"
 
 typedef struct fl_frame_file fl_frame_file;
 
-/* shapes: the ice file, g-polys(5), that a state file refers to; NULL: none.  NULL is returned with FL_INPUT (missing,
- * another kind, a record that is invalid: "file:line: ...") or FL_SYSTEM. */
+/* shapes: the ice file, g-polys(5), that a state file refers to; NULL: none.  NULL is returned with
+ * FL_INPUT (missing, another kind, a record that is invalid: "file:line: ...") or FL_SYSTEM. */
 fl_frame_file *fl_frame_file_open(const char *path, const char *shapes, fl_err *err);
 
 /* True if the file can be one of frames, by its first line or its name. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* frame_text.h -- records of animation(5), version 1: the first pass over them, and the poses of one frame. */
+/* frame_text.h -- records of animation(5), version 1: the first pass over them, and the poses of one
+ * frame. */
 #ifndef FL_OUT_FRAME_TEXT_H
 #define FL_OUT_FRAME_TEXT_H
 #include "out/frame_data.h"
@@ -29,8 +30,8 @@ int fl_frame_text_end(fl_frame_text *s, int64_t offset, fl_err *err);
 
 /* The records of frame e, its bytes given and closed by a newline: poses of bodies, and of the parts.
  *   bodies, parts   0: records of that kind are not read
- * `out` has been cleared.  0, or -1 with FL_INPUT: a body without a shape, or twice; a pose that is not finite; a
- * quaternion that is no rotation. */
+ * `out` has been cleared.  0, or -1 with FL_INPUT: a body without a shape, or twice; a pose that is not
+ * finite; a quaternion that is no rotation. */
 int fl_frame_text_read(const fl_frame_data *d, const fl_frame_entry *e, const char *name, const char *bytes,
                        int bodies, int parts, fl_frame *out, fl_err *err);
 

@@ -63,8 +63,8 @@ void fl_packed_frames_begin(FILE *f, const fl_packed_writer *w)
             fl_number_text(w->codec.bound_q, bq), w->key_every);
 }
 
-/* Writes a block of `head` and the deflated `a` and `b`.  Runs and Huffman codes only (Z_RLE) are smaller here, and
- * faster, than a search for strings. */
+/* Writes a block of `head` and the deflated `a` and `b`.  Runs and Huffman codes only (Z_RLE) are smaller
+ * here, and faster, than a search for strings. */
 static int write_block(FILE *f, fl_packed_writer *w, const char *kind, const unsigned char *head,
                        int32_t head_len, const unsigned char *a, int64_t a_len, const unsigned char *b,
                        int64_t b_len, int strategy, fl_err *err)

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* packed_frames.h -- frames in packed form, animation(5) version 2: blocks behind the text of shapes and parts.
+/* packed_frames.h -- frames in packed form, animation(5) version 2: blocks behind the text of shapes and
+ * parts.
  *
- * A block is 16 bytes, kind, stored length, inflated length, CRC-32 of what is stored, little-endian, and what is
- * stored.  FRAM: t (double), n, order, flags, two zero bytes, then a zlib stream of the planes of frame_codec.h, the
- * way of the structure, moved parts.  TEXT: a zlib stream of records of version 1, shapes that come in. */
+ * A block is 16 bytes, kind, stored length, inflated length, CRC-32 of what is stored, little-endian, and
+ * what is stored.  FRAM: t (double), n, order, flags, two zero bytes, then a zlib stream of the planes of
+ * frame_codec.h, the way of the structure, moved parts.  TEXT: a zlib stream of records of version 1,
+ * shapes that come in. */
 #ifndef FL_OUT_PACKED_FRAMES_H
 #define FL_OUT_PACKED_FRAMES_H
 #include <stdio.h>

@@ -33,6 +33,11 @@ struct fl_seekable {
     int64_t ready;                   /* bytes before it that were not handed out */
     struct mark *mark;
     int32_t marks, mark_cap;
+    /* gzip: reading at a place */
+    z_stream reader;
+    int reader_open, reader_raw, reader_left; /* left: bytes of a member's check to pass over */
+    int64_t reader_at, reader_text;           /* bytes of the file read, place in the text */
+    unsigned char *work;                      /* [2 CHUNK] */
     unsigned char ring[WINDOW], in[CHUNK];
 };
 
@@ -211,69 +216,92 @@ void fl_seekable_back(fl_seekable *s, int64_t offset)
     if (!s->gzip) s->at = offset;
 }
 
-/* n bytes from `offset`, inflated from the last mark before it. */
+/* Sets the reader at a mark. */
+static int begin_reader(fl_seekable *s, const struct mark *m, fl_err *err)
+{
+    unsigned char first;
+    if (s->reader_open) inflateEnd(&s->reader);
+    s->reader_open = 0;
+    s->reader = (z_stream){0};
+    if (!s->work) s->work = fl_alloc(2 * CHUNK, 1, err);
+    if (!s->work) return -1;
+    if (inflateInit2(&s->reader, RAW) != Z_OK)
+        return fl_fail(err, FL_SYSTEM, "%s: out of memory for gzip", s->name);
+    s->reader_open = 1;
+    s->reader_raw = 1;
+    s->reader_left = 0;
+    s->reader_at = m->in;
+    s->reader_text = m->out;
+    if (m->bits) {
+        if (file_read(s, m->in - 1, &first, 1, err) != 1) return -1;
+        inflatePrime(&s->reader, m->bits, first >> (8 - m->bits));
+    }
+    inflateSetDictionary(&s->reader, m->window, (uInt)m->have);
+    return 0;
+}
+
+/* Up to `room` bytes from where the reader stands.  Their number, or -1. */
+static int64_t reader_next(fl_seekable *s, unsigned char *to, int64_t room, fl_err *err)
+{
+    z_stream *const z = &s->reader;
+    for (;;) {
+        if (!z->avail_in) {
+            const int64_t k = file_read(s, s->reader_at, s->work, CHUNK, err);
+            if (k <= 0) return -1;
+            s->reader_at += k;
+            z->next_in = s->work;
+            z->avail_in = (uInt)k;
+        }
+        if (s->reader_left) { /* a raw stream leaves the check of its member to us */
+            s->reader_left--;
+            z->avail_in--;
+            z->next_in++;
+            if (!s->reader_left) inflateReset2(z, GZIP_HEADER);
+            continue;
+        }
+        z->next_out = to;
+        z->avail_out = (uInt)room;
+        const int r = inflate(z, Z_NO_FLUSH);
+        const int64_t made = room - z->avail_out;
+        if (r == Z_STREAM_END) {
+            if (s->reader_raw) s->reader_left = TRAILER;
+            else inflateReset2(z, GZIP_HEADER);
+            s->reader_raw = 0;
+        } else if (r != Z_OK && r != Z_BUF_ERROR) return -1;
+        if (made) {
+            s->reader_text += made;
+            return made;
+        }
+    }
+}
+
+/* n bytes from `offset`: from where the reader stands, or from the last mark before, whichever is nearer. */
 static int read_gzip(fl_seekable *s, int64_t offset, unsigned char *buf, int64_t n, fl_err *err)
 {
-    int lo = 0, raw = 1, rc = -1;
-    int64_t at, skip, got = 0;
-    z_stream z = {0};
-    unsigned char *work = fl_alloc(2 * CHUNK, 1, err), *drop = work ? work + CHUNK : NULL, first;
-    if (!work) return -1;
-    if (!s->marks) goto other;
+    int lo = 0;
     for (int hi = s->marks; lo + 1 < hi;) {
         const int mid = (lo + hi) / 2;
         if (s->mark[mid].out <= offset) lo = mid;
         else hi = mid;
     }
-    const struct mark *m = &s->mark[lo];
-    skip = offset - m->out;
-    at = m->in;
-    if (skip < 0) goto other;
-    if (inflateInit2(&z, RAW) != Z_OK) {
-        fl_fail(err, FL_SYSTEM, "%s: out of memory for gzip", s->name);
-        goto done;
+    if (!s->marks || s->mark[lo].out > offset) goto other;
+    if (!s->reader_open || s->reader_text > offset || s->reader_text < s->mark[lo].out) {
+        if (begin_reader(s, &s->mark[lo], err)) goto other;
     }
-    if (m->bits) {
-        if (file_read(s, at - 1, &first, 1, err) != 1) goto other;
-        inflatePrime(&z, m->bits, first >> (8 - m->bits));
+    while (n > 0) {
+        const int64_t skip = offset - s->reader_text, want = skip ? skip : n;
+        const int64_t k = reader_next(s, skip ? s->work + CHUNK : buf, want < CHUNK ? want : CHUNK, err);
+        if (k < 0) goto other;
+        if (skip) continue;
+        buf += k;
+        offset += k;
+        n -= k;
     }
-    inflateSetDictionary(&z, m->window, (uInt)m->have);
-    for (int left = 0; got < n;) {
-        if (!z.avail_in) {
-            const int64_t k = file_read(s, at, work, CHUNK, err);
-            if (k <= 0) goto other;
-            at += k;
-            z.next_in = work;
-            z.avail_in = (uInt)k;
-        }
-        if (left) { /* a raw stream leaves the check of its member to us */
-            left--;
-            z.avail_in--;
-            z.next_in++;
-            if (!left) inflateReset2(&z, GZIP_HEADER);
-            continue;
-        }
-        const int64_t room = skip ? (skip < CHUNK ? skip : CHUNK) : n - got > CHUNK ? CHUNK : n - got;
-        z.next_out = skip ? drop : buf + got;
-        z.avail_out = (uInt)room;
-        const int r = inflate(&z, Z_NO_FLUSH);
-        const int64_t made = room - z.avail_out;
-        if (skip) skip -= made;
-        else got += made;
-        if (r == Z_STREAM_END) {
-            if (raw) left = TRAILER;
-            else inflateReset2(&z, GZIP_HEADER);
-            raw = 0;
-        } else if (r != Z_OK && r != Z_BUF_ERROR) goto other;
-    }
-    rc = 0;
-    goto done;
+    return 0;
 other:
-    fl_fail(err, FL_INPUT, "%s: has changed since it was opened", s->name);
-done:
-    inflateEnd(&z);
-    free(work);
-    return rc;
+    if (s->reader_open) inflateEnd(&s->reader);
+    s->reader_open = 0;
+    return err->code ? -1 : fl_fail(err, FL_INPUT, "%s: has changed since it was opened", s->name);
 }
 
 int fl_seekable_read(fl_seekable *s, int64_t offset, void *buf, int64_t n, fl_err *err)
@@ -295,6 +323,8 @@ void fl_seekable_close(fl_seekable *s)
 {
     if (!s) return;
     if (s->z_open) inflateEnd(&s->z);
+    if (s->reader_open) inflateEnd(&s->reader);
+    free(s->work);
     for (int32_t k = 0; k < s->marks; k++) free(s->mark[k].window);
     free(s->mark);
     if (s->fd > STDIN_FILENO) close(s->fd);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* seekable.h -- a file, plain or gzip, or standard input, read once from its start and then at any place.
  *
- * A plain file is read where it lies.  Standard input is copied to a file without a name in TMPDIR.  Of a gzip
- * file the first pass keeps, every 16 MiB of its text, a block boundary with the 32 KiB of text before it, from
- * which inflating can start; reading at a place inflates at most 16 MiB.  Several gzip members are one text.
- * Memory: 32 KiB for each 16 MiB of text.
- * Source: M. Adler, zlib/examples/zran.c. */
+ * A plain file is read where it lies.  Standard input is copied to a file without a name in TMPDIR.  Of a
+ * gzip file the first pass keeps, every 16 MiB of its text, a block boundary with the 32 KiB of text
+ * before it, from which inflating can start; reading at a place inflates at most 16 MiB.  Several gzip
+ * members are one text. Memory: 32 KiB for each 16 MiB of text. Source: M. Adler, zlib/examples/zran.c. */
 #ifndef FL_OUT_SEEKABLE_H
 #define FL_OUT_SEEKABLE_H
 #include <stdint.h>
@@ -16,9 +15,9 @@ typedef struct fl_seekable fl_seekable;
 /* "-" is standard input.  NULL with FL_INPUT (missing, a folder, unreadable) or FL_SYSTEM. */
 fl_seekable *fl_seekable_open(const char *path, fl_err *err);
 
-/* The first pass: the next bytes, up to n.  The number read; 0 at the end; -1 with FL_INPUT or FL_SYSTEM.  A
- * gzip file that is cut off or damaged ends where its text ends; fl_seekable_cut() then says so.  At the end of
- * a plain file that still grows, a later call goes on. */
+/* The first pass: the next bytes, up to n.  The number read; 0 at the end; -1 with FL_INPUT or FL_SYSTEM.
+ * A gzip file that is cut off or damaged ends where its text ends; fl_seekable_cut() then says so.  At the
+ * end of a plain file that still grows, a later call goes on. */
 int64_t fl_seekable_next(fl_seekable *s, void *buf, int64_t n, fl_err *err);
 
 /* Passes over n bytes.  0, or -1 as above. */

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include "view/edge_smoothing.h"
 
-/* An edge: luminance differs by more than this among the neighbours, and by more than an eighth of the largest. */
+/* An edge: luminance differs by more than this among the neighbours, and by more than an eighth of the
+ * largest. */
 enum { CONTRAST = 10, CONTRAST_SHARE = 8, REACH = 6 * 256 };
 
 /* Adds the colour between pixels; x, y with 8 bits of fraction, centres at whole numbers. */

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gl_bodies.h -- bodies and parts in OpenGL: meshes by level of detail, made when first needed, all in one vertex
- * buffer with the body's row as an attribute; poses in a texture; spheres drawn as points or squares that a ray per
- * pixel turns into spheres; tubes.
+/* gl_bodies.h -- bodies and parts in OpenGL: meshes by level of detail, made when first needed, all in one
+ * vertex buffer with the body's row as an attribute; poses in a texture; spheres drawn as points or
+ * squares that a ray per pixel turns into spheres; tubes.
  *
- * Level of detail by the dilation radius in pixels: below 1/4 faces alone, below 2 arcs uncut, below 6 cut in 2, else
- * in 6.  Points are limited to 255 pixels and vanish with their centre; spheres near these limits are squares. */
+ * Level of detail by the dilation radius in pixels: below 1/4 faces alone, below 2 arcs uncut, below 6 cut
+ * in 2, else in 6.  Points are limited to 255 pixels and vanish with their centre; spheres near these
+ * limits are squares. */
 #ifndef FL_VIEW_GL_BODIES_H
 #define FL_VIEW_GL_BODIES_H
 #include "view/camera.h"
@@ -20,8 +21,8 @@ int fl_gl_bodies_load(fl_gl_bodies *b, const fl_view_frame *v, const fl_eye *eye
 
 enum fl_gl_what { FL_GL_ICE, FL_GL_STRUCTURE };
 
-/* Draw with the program in use, which takes its matrices from the caller.  Meshes: `coarse` 1 takes at most uncut
- * arcs.  Spheres of the ice: as points, with a program for points, or as squares. */
+/* Draw with the program in use, which takes its matrices from the caller.  Meshes: `coarse` 1 takes at
+ * most uncut arcs.  Spheres of the ice: as points, with a program for points, or as squares. */
 void fl_gl_bodies_meshes(fl_gl_bodies *b, unsigned program, enum fl_gl_what what, int coarse);
 void fl_gl_bodies_points(fl_gl_bodies *b);
 void fl_gl_bodies_squares(fl_gl_bodies *b);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gl_context.h -- OpenGL 3.3 core without a window, by EGL: Mesa's surfaceless platform, else the default display. */
+/* gl_context.h -- OpenGL 3.3 core without a window, by EGL: Mesa's surfaceless platform, else the default
+ * display. */
 #ifndef FL_VIEW_GL_CONTEXT_H
 #define FL_VIEW_GL_CONTEXT_H
 #include "base/err.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gl_program.h -- programs, textures and framebuffers of OpenGL, with failures reported.  Names of OpenGL's objects
- * are unsigned; 0: none. */
+/* gl_program.h -- programs, textures and framebuffers of OpenGL, with failures reported.  Names of
+ * OpenGL's objects are unsigned; 0: none. */
 #ifndef FL_VIEW_GL_PROGRAM_H
 #define FL_VIEW_GL_PROGRAM_H
 #include "base/err.h"

@@ -72,7 +72,7 @@ const char fl_glsl_common[] =
     "        c = mix(vec3(0.46, 0.68, 0.80), mix(vec3(0.80, 0.88, 0.93), vec3(0.93, 0.95, 0.96) * (0.96\n"
     "            + 0.05 * speck), smoothstep(0.30, 0.55, k)), flatness);\n"
     "    } else if (kind < 1.5)\n"
-    "        c = mix(0.80 * c + 0.16 * smoothstep(0.15, 0.6, N.z), c, flatness); // edges lighter, sides darker\n"
+    "        c = mix(0.80 * c + 0.16 * smoothstep(0.15, 0.6, N.z), c, flatness);\n"
     "    float d = max(dot(N, sun), 0.0) * s / sun.z;\n"
     "    c *= AMBIENT * (0.66 + 0.34 * N.z) * a * vec3(0.98, 1.0, 1.02) + (1.0 - AMBIENT) * d * (0.5 +\n"
     "        0.5 * a) * vec3(1.02, 1.0, 0.98);\n"
@@ -257,7 +257,8 @@ const char fl_glsl_back_pixel[] =
     "    float t = d.z < 0.0 ? meet(from, d) : -1.0;\n"
     "    vec3 c = sky(d.z);\n"
     "    if (plain == 1 && water == 0) c = backdrop;\n"
-    "    else if (water == 1 && (t > 0.0 || (parallel == 1 && d.z < -1e-3))) c = surface(from + t * d, d, deep, 0.0);\n"
+    "    else if (water == 1 && (t > 0.0 || (parallel == 1 && d.z < -1e-3)))\n"
+    "        c = surface(from + t * d, d, deep, 0.0);\n"
     "    else if (water == 1 && parallel == 1 && from.z < level) c = mix(deep, HAZE, 0.45);\n"
     "    o = vec4(c, 1);\n"
     "}\n";

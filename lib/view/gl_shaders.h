@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gl_shaders.h -- the shaders of a picture, GLSL 3.30.
  *
- * Light, in display values, no tone curve; s shadow, a ambient occlusion, n normal, `sun` the unit vector towards it:
+ * Light, in display values, no tone curve; s shadow, a ambient occlusion, n normal, `sun` the unit vector
+ * towards it:
  *     c (1/2 (0.66 + 0.34 n.z) a (0.98, 1, 1.02) + 1/2 max(n.sun, 0) / sun.z s (1/2 + a/2) (1.02, 1, 0.98))
- * A level face in the sun has the factor 1, the colour of the bar.
- * Below the surface of the water mix(deep, c, 2^-(6.1, 1.95, 1.37) path), path along the view [m]; then the sky,
- * 0.55 of its mirror image by Fresnel's reflection at n = 1.33, F = 0.02 + 0.98 (1 - cos)^5 (C. Schlick, Computer
- * Graphics Forum 13 (1994) 233), and haze. */
+ * A level face in the sun has the factor 1, the colour of the bar. Below the surface of the water
+ * mix(deep, c, 2^-(6.1, 1.95, 1.37) path), path along the view [m]; then the sky, 0.55 of its mirror image
+ * by Fresnel's reflection at n = 1.33, F = 0.02 + 0.98 (1 - cos)^5 (C. Schlick, Computer Graphics Forum 13
+ * (1994) 233), and haze. */
 #ifndef FL_VIEW_GL_SHADERS_H
 #define FL_VIEW_GL_SHADERS_H
 

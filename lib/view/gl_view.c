@@ -410,7 +410,8 @@ static void draw_structure(fl_gl_view *g, const fl_view_frame *v, const fl_look 
     fl_gl_bodies_meshes(g->bodies, p, FL_GL_STRUCTURE, 0);
 }
 
-/* What is transparent shows its nearest layer alone: its depth first, then its colour where the depth is equal. */
+/* What is transparent shows its nearest layer alone: its depth first, then its colour where the depth is
+ * equal. */
 static void draw_transparent(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, int which,
                              const fl_sea_surface *sea, int ice)
 {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gl_view.h -- the passes of a picture: shadow map, ambient occlusion at half size, water and sky, bodies, tubes. */
+/* gl_view.h -- the passes of a picture: shadow map, ambient occlusion at half size, water and sky, bodies,
+ * tubes. */
 #ifndef FL_VIEW_GL_VIEW_H
 #define FL_VIEW_GL_VIEW_H
 #include "view/camera.h"
 #include "view/look.h"
-#include "view/picture.h"
+#include "view/picture_rgba.h"
 #include "view/sea_surface.h"
 #include "view/view_frame.h"
 
@@ -35,8 +36,8 @@ int fl_gl_view_read(fl_gl_view *g, fl_picture *p, fl_err *err);
 void fl_gl_view_start_read(fl_gl_view *g, int which);
 void fl_gl_view_end_read(fl_gl_view *g, int which, fl_picture *p);
 
-/* Shows the picture drawn last in the window's framebuffer of w x h, under an overlay whose rows go from the top and
- * whose colours are multiplied by their alpha; NULL: none. */
+/* Shows the picture drawn last in the window's framebuffer of w x h, under an overlay whose rows go from
+ * the top and whose colours are multiplied by their alpha; NULL: none. */
 void fl_gl_view_show(fl_gl_view *g, int w, int h, const fl_picture *overlay);
 
 void fl_gl_view_close(fl_gl_view *g); /* NULL is accepted */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* legend.h -- what stands on a picture: colour bar with its unit, time, load curve with a cursor.  Sizes follow the height
- * of the picture. */
+/* legend.h -- what stands on a picture: colour bar with its unit, time, load curve with a cursor.  Sizes
+ * follow the height of the picture. */
 #ifndef FL_VIEW_LEGEND_H
 #define FL_VIEW_LEGEND_H
 #include "view/colour_map.h"
@@ -14,8 +14,8 @@ void fl_legend_time(fl_picture *p, double t, int bottom);
 /* A line of text at the upper left. */
 void fl_legend_note(fl_picture *p, const char *text);
 
-/* A curve y of n points over time, as a strip of `high` rows at the picture's lower edge; fl_legend_curve_height():
- * what suits it.  The extent of time is [t0, t1], the cursor stands at t. */
+/* A curve y of n points over time, as a strip of `high` rows at the picture's lower edge;
+ * fl_legend_curve_height(): what suits it.  The extent of time is [t0, t1], the cursor stands at t. */
 typedef struct {
     const double *t, *y;
     int64_t n;

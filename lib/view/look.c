@@ -205,7 +205,7 @@ int fl_look_set(fl_look *l, const char *key, const char *value, const char *wher
                    fl_text_nearest(key, name, ROWS));
 }
 
-static char *trim(char *s)
+static char *trim_blanks(char *s)
 {
     while (*s == ' ' || *s == '\t') s++;
     size_t n = strlen(s);
@@ -222,12 +222,12 @@ int fl_look_read(fl_look *l, const char *path, fl_err *err)
     while ((more = fl_text_line(&in, err)) > 0) {
         char *hash = strchr(in.line, '#');
         if (hash) *hash = '\0';
-        char *line = trim(in.line);
+        char *line = trim_blanks(in.line);
         if (!*line) continue;
         char *equals = strchr(line, '=');
         if (*line == '[' && line[strlen(line) - 1] == ']' && strlen(line) < sizeof section) {
             line[strlen(line) - 1] = '\0';
-            memcpy(section, trim(line + 1), strlen(trim(line + 1)) + 1);
+            memcpy(section, trim_blanks(line + 1), strlen(trim_blanks(line + 1)) + 1);
             continue;
         }
         if (!equals) {
@@ -235,9 +235,9 @@ int fl_look_read(fl_look *l, const char *path, fl_err *err)
             goto done;
         }
         *equals = '\0';
-        snprintf(key, sizeof key, "%s%s%.60s", section, section[0] ? "." : "", trim(line));
+        snprintf(key, sizeof key, "%s%s%.60s", section, section[0] ? "." : "", trim_blanks(line));
         snprintf(where, sizeof where, "%.200s:%" PRId64, fl_in_name(in.in), in.line_number);
-        if (fl_look_set(l, key, trim(equals + 1), where, FL_INPUT, err)) goto done;
+        if (fl_look_set(l, key, trim_blanks(equals + 1), where, FL_INPUT, err)) goto done;
     }
     rc = more < 0 ? -1 : 0;
 done:

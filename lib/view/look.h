@@ -75,7 +75,8 @@ typedef struct {
 
 fl_look fl_look_defaults(void);
 
-/* Reads "section.key=value" into the look; `where` names it in messages, and `code` is FL_USAGE or FL_INPUT. */
+/* Reads "section.key=value" into the look; `where` names it in messages, and `code` is FL_USAGE or
+ * FL_INPUT. */
 int fl_look_set(fl_look *l, const char *key, const char *value, const char *where, int code, fl_err *err);
 
 /* Reads a file of kind look: sections, "key = value", comments with #.  -1 with FL_INPUT or FL_SYSTEM. */

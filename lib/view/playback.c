@@ -146,8 +146,8 @@ double fl_shape_thickness(const fl_frame_data *d, const fl_frame_shape *s)
     return hi - lo + 2.0 * s->radius;
 }
 
-/* Area from above of the core, half of the sum of |n_z| A; with its outline, of a length that two sides of its box
- * estimate, moved out by the radius. */
+/* Area from above of the core, half of the sum of |n_z| A; with its outline, of a length that two sides of
+ * its box estimate, moved out by the radius. */
 double fl_shape_diameter(const fl_frame_data *d, const fl_frame_shape *s)
 {
     double area = 0.0;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* playback.h -- the poses of a file of frames at any time, and values of bodies: speed, size and others.
  *
- * Between two frames places are linear in time and rotations normalised linear quaternions.  Speed and spin are those
- * of the file, state(5), else differences of these two frames.  A body that has jumped by more than half of the scene,
- * as across a periodic side, takes the pose of the nearer frame and has no speed there. */
+ * Between two frames places are linear in time and rotations normalised linear quaternions.  Speed and
+ * spin are those of the file, state(5), else differences of these two frames.  A body that has jumped by
+ * more than half of the scene, as across a periodic side, takes the pose of the nearer frame and has no
+ * speed there. */
 #ifndef FL_VIEW_PLAYBACK_H
 #define FL_VIEW_PLAYBACK_H
 #include "geom/aabb.h"
@@ -20,8 +21,8 @@ typedef struct {
     int32_t value_cap;
 } fl_playback;
 
-/* file: borrowed; or data with `still`, the one frame to show, which the playback takes over.  -1 with FL_INPUT or
- * FL_SYSTEM. */
+/* file: borrowed; or data with `still`, the one frame to show, which the playback takes over.  -1 with
+ * FL_INPUT or FL_SYSTEM. */
 int fl_playback_open(fl_playback *p, fl_frame_file *file, const fl_frame_data *data, fl_frame *still,
                      fl_err *err);
 
@@ -35,8 +36,8 @@ int fl_playback_at(fl_playback *p, double t, fl_err *err);
 /* Sets p->value for speed, spin, diameter, thickness, height or number.  -1 with FL_SYSTEM. */
 int fl_playback_values(fl_playback *p, int by, fl_err *err);
 
-/* Extent of these values over a sample of frames: what 99.5 % stay below, rounded up to 1, 2 or 5 times a power of ten;
- * from 0, or from the least for heights and numbers.  -1 with FL_INPUT or FL_SYSTEM. */
+/* Extent of these values over a sample of frames: what 99.5 % stay below, rounded up to 1, 2 or 5 times a
+ * power of ten; from 0, or from the least for heights and numbers.  -1 with FL_INPUT or FL_SYSTEM. */
 int fl_playback_range(fl_playback *p, int by, double *from, double *to, fl_err *err);
 
 /* Size of a shape: diameter of a circle of its area seen from above, height with its radius [m]. */

@@ -138,8 +138,8 @@ static int add_faces(fl_rounded_mesh *m, struct edges *h, fl_err *err)
     return 0;
 }
 
-/* The vertex i of `cuts` on the arc at the start of half-edge e, from the normal of its face to that of its twin's,
- * about the edge: n cos w + o sin w, o normal to the edge in the plane of the face. */
+/* The vertex i of `cuts` on the arc at the start of half-edge e, from the normal of its face to that of
+ * its twin's, about the edge: n cos w + o sin w, o normal to the edge in the plane of the face. */
 static fl_vec3 arc_normal(const struct edges *h, int32_t e, double part)
 {
     const fl_vec3 a = h->normal[h->face[e]], b = h->normal[h->face[h->twin[e]]];

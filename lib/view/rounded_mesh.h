@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* rounded_mesh.h -- triangles of a dilated shape, the Minkowski sum of a convex core and a ball of radius r: faces
- * moved out, strips of cylinders along edges, spherical polygons at vertices, without a crack between them.
+/* rounded_mesh.h -- triangles of a dilated shape, the Minkowski sum of a convex core and a ball of radius
+ * r: faces moved out, strips of cylinders along edges, spherical polygons at vertices, without a crack
+ * between them.
  *
- * A vertex of the mesh is v + r n, v a vertex of the core and n a unit normal, which is also its normal for light.  An
- * arc between two face normals is cut into `cuts` parts; chords lie inside, so that the volume is below that of
- * fl_dilate_volume() and converges with cuts^2.  cuts = 0: faces alone, with gaps at the edges. */
+ * A vertex of the mesh is v + r n, v a vertex of the core and n a unit normal, which is also its normal
+ * for light.  An arc between two face normals is cut into `cuts` parts; chords lie inside, so that the
+ * volume is below that of fl_dilate_volume() and converges with cuts^2.  cuts = 0: faces alone, with gaps
+ * at the edges. */
 #ifndef FL_VIEW_ROUNDED_MESH_H
 #define FL_VIEW_ROUNDED_MESH_H
 #include "out/frame_data.h"
@@ -20,8 +22,8 @@ typedef struct {
     int32_t nt, t_cap;
 } fl_rounded_mesh;
 
-/* Appends the triangles of a shape: polyhedron, flat polygon, capsule (two vertices) or sphere (one).  Faces that do
- * not close are drawn as they are.  -1 with FL_SYSTEM. */
+/* Appends the triangles of a shape: polyhedron, flat polygon, capsule (two vertices) or sphere (one).
+ * Faces that do not close are drawn as they are.  -1 with FL_SYSTEM. */
 int fl_rounded_mesh_shape(fl_rounded_mesh *m, const fl_frame_data *d, const fl_frame_shape *s, int cuts,
                           fl_err *err);
 

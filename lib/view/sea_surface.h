@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sea_surface.h -- the waves of a scene as heights over a square, water/wave.h: eta = sum a cos(k s - omega t + phi). */
+/* sea_surface.h -- the waves of a scene as heights over a square, water/wave.h: eta = sum a cos(k s -
+ * omega t + phi). */
 #ifndef FL_VIEW_SEA_SURFACE_H
 #define FL_VIEW_SEA_SURFACE_H
 #include "scene/scene.h"

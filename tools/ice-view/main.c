@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "base/stream.h"
 #include "base/tool.h"
+#include "convert.h"
 #include "options.h"
 #ifdef FL_HAVE_GL
 #include "shot.h"
@@ -18,18 +19,8 @@ static int save_look(const struct options *o, fl_err *err)
     return fl_out_close(&out, err);
 }
 
-static int print_info(const struct subject *s, const struct options *o)
-{
-    const fl_frame_data *d = s->play.data;
-    printf("%s: %d bodies, %d parts", o->in, d->rows, d->structure.n);
-    if (d->frames)
-        printf(", %d frames from %g s to %g s", d->frames, d->frame[0].t, d->frame[d->frames - 1].t);
-    putchar('\n');
-    return 0;
-}
-
 /* What needs OpenGL. */
-static int draw(struct subject *s, struct options *o, fl_err *err)
+static int draw_all(struct subject *s, struct options *o, fl_err *err)
 {
 #ifdef FL_HAVE_GL
     if (o->out && shot_picture(s, o, err)) return -1;
@@ -47,9 +38,10 @@ static int run(struct options *o, fl_err *err)
 {
     struct subject s;
     int rc = subject_open(&s, o, err);
-    if (rc == 0 && o->info) rc = print_info(&s, o);
+    if (rc == 0 && o->info) rc = convert_info(&s, o, err);
+    if (rc == 0 && (o->text || o->packed)) rc = convert_frames(&s, o, err);
     if (rc == 0 && o->save_look) rc = save_look(o, err);
-    if (rc == 0) rc = draw(&s, o, err);
+    if (rc == 0) rc = draw_all(&s, o, err);
     subject_close(&s);
     return rc;
 }

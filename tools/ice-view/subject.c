@@ -289,7 +289,8 @@ static int add_contacts(struct subject *s, const fl_look *l, double t, fl_err *e
     return 0;
 }
 
-/* A bar along each face that is damaged, broken or has ended: across the line of the two bodies, as long as the face. */
+/* A bar along each face that is damaged, broken or has ended: across the line of the two bodies, as long
+ * as the face. */
 static int add_bonds(struct subject *s, double t, fl_err *err)
 {
     static const fl_rgb colour[] = {[DAMAGED] = {{255, 190, 60}},
@@ -367,8 +368,8 @@ int subject_at(struct subject *s, const fl_look *l, double t, fl_err *err)
     return 0;
 }
 
-/* The distance from which all corners of the box are in the picture; with `move`, the point looked at is shifted to the
- * middle of what they take up. */
+/* The distance from which all corners of the box are in the picture; with `move`, the point looked at is
+ * shifted to the middle of what they take up. */
 static double fit_distance(fl_camera *c, fl_aabb box, double aspect, int move)
 {
     const double e = c->elevation, a = c->azimuth, half_up = tan(0.5 * c->field), up = half_up * INNER,

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
-#include "view/picture.h"
+#include "view/picture_rgba.h"
 
 int fl_picture_make(fl_picture *p, int w, int h, fl_err *err)
 {
@@ -56,8 +56,8 @@ void fl_picture_line(fl_picture *p, float x0, float y0, float x1, float y1, floa
         }
 }
 
-/* A glyph is polylines on a grid 4 wide: pairs of digits x y, a blank lifts the pen.  Baseline y = 2, small letters
- * up to 6, capitals up to 8, descenders down to 0. */
+/* A glyph is polylines on a grid 4 wide: pairs of digits x y, a blank lifts the pen.  Baseline y = 2,
+ * small letters up to 6, capitals up to 8, descenders down to 0. */
 static const char *const GLYPH[128] = {['0'] = "120307183847433212",
                                        ['1'] = "062822 1232",
                                        ['2'] = "07183847460242",

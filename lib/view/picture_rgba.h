@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* picture.h -- a picture of RGBA bytes, rows from the top, and what is drawn on it by the processor: areas, lines,
- * letters.  Letters are strokes of our own, of any size, so that no font file is needed. */
-#ifndef FL_VIEW_PICTURE_H
-#define FL_VIEW_PICTURE_H
+/* picture_rgba.h -- a picture of RGBA bytes, rows from the top, and what is drawn on it by the processor:
+ * areas, lines, letters.  Letters are strokes of our own, of any size, so that no font file is needed. */
+#ifndef FL_VIEW_PICTURE_RGBA_H
+#define FL_VIEW_PICTURE_RGBA_H
 #include <stdint.h>
 #include "base/err.h"
 
