@@ -41,6 +41,8 @@ static int run(struct options *o, fl_err *err)
     if (rc == 0 && o->info) rc = convert_info(&s, o, err);
     if (rc == 0 && (o->text || o->packed)) rc = convert_frames(&s, o, err);
     if (rc == 0 && o->save_look) rc = save_look(o, err);
+    if (rc == 0 && o->html) rc = convert_html(&s, o, err);
+    if (rc == 0 && o->vtk) rc = convert_vtk(&s, o, err);
     if (rc == 0) rc = draw_all(&s, o, err);
     subject_close(&s);
     return rc;

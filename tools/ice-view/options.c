@@ -184,6 +184,7 @@ static const fl_option OPTION[] = {
     FILE_ROW("table", table, "FILE", "any table with columns body and colour.column, of --by column"),
     FILE_ROW("html", html, "FILE", "write a page that plays in a browser"),
     FILE_ROW("vtk", vtk, "DIR", "write files for ParaView into a folder: .pvd and .vtp"),
+    FILE_ROW("panels", panels, "FILE", "of --vtk: loads on the panels of the structure, panels(5)"),
     {.word = "points", .help = "with --vtk: centres with orientation instead of shapes", .at = AT(points)},
     {.word = "every",
      .argument = "N",
@@ -223,6 +224,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (!o->in)
         return fl_fail(err, FL_USAGE, "no input, expected a file of frames, of ice or of a structure");
     if (o->points && !o->vtk) return fl_fail(err, FL_USAGE, "--points needs --vtk");
+    if (o->panels && !o->vtk) return fl_fail(err, FL_USAGE, "--panels needs --vtk");
     if (o->part && !o->loads) return fl_fail(err, FL_USAGE, "--part needs --loads");
     if (o->look.colour.by == FL_BY_COLUMN && (!o->table || !o->look.colour.column[0]))
         return fl_fail(err, FL_USAGE, "--by column needs --table FILE and --set colour.column=NAME");

@@ -12,7 +12,7 @@ struct options {
     const char *in;
     double at, from, to, fps, times; /* NAN: not given */
     const char *movie, *html, *vtk, *text, *packed;
-    const char *ice, *structure, *table, *loads, *contacts, *bonds, *scene;
+    const char *ice, *structure, *table, *loads, *contacts, *bonds, *scene, *panels;
     const char *component, *part, *save_look;
     int points, info, keys, window;
     int32_t every;

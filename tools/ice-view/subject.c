@@ -16,6 +16,7 @@ enum { BOND_I, BOND_J, BOND_STATE, BOND_DAMAGE, BOND_AREA, BOND_X, BONDS = 8 };
 static const char *const CONTACT_COLUMN[CONTACTS] = {"i",   "j",   "px",  "py", "pz", "fn",
                                                      "fsx", "fsy", "fsz", "nx", "ny", "nz"};
 static const char *const BOND_COLUMN[BONDS] = {"i", "j", "state", "damage", "area", "x", "y", "z"};
+static const char *const PANEL_COLUMN[4] = {"area", "fx", "fy", "fz"};
 static const char *const BOND_STATES[] = {"whole",   "damaged", "broken", "ended",
                                           "elastic", "slip",    "open",   NULL};
 enum { WHOLE, DAMAGED, BROKEN, ENDED, ELASTIC, SLIP, OPENED };
@@ -144,6 +145,8 @@ static int read_tables(struct subject *s, const struct options *o, fl_err *err)
         return -1;
     if (o->bonds &&
         fl_time_rows_read(&s->bonds, o->bonds, "bonds", BOND_COLUMN, BONDS, BOND_STATE, BOND_STATES, err))
+        return -1;
+    if (o->panels && fl_time_rows_read(&s->panels, o->panels, "panels", PANEL_COLUMN, 4, -1, NULL, err))
         return -1;
     if (o->table && fl_time_rows_read(&s->table, o->table, NULL, column, 2, -1, NULL, err)) return -1;
     if (o->loads && fl_load_curve_read(&s->curve, o->loads, o->component, o->part, err)) return -1;
@@ -478,6 +481,7 @@ void subject_close(struct subject *s)
     fl_time_rows_free(&s->contacts);
     fl_time_rows_free(&s->bonds);
     fl_time_rows_free(&s->table);
+    fl_time_rows_free(&s->panels);
     fl_load_curve_free(&s->curve);
     fl_waves_free(&s->waves);
     free(s->sea_height);

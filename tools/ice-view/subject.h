@@ -19,7 +19,7 @@ struct subject {
     fl_view_frame shown;
     int32_t *group; /* [rows] of --ice, by row; -1: none */
     int32_t groups;
-    fl_time_rows contacts, bonds, table;
+    fl_time_rows contacts, bonds, table, panels;
     fl_load_curve curve;
     char curve_title[80], column_title[160];
     fl_waves waves;
