@@ -578,11 +578,12 @@ void fl_gl_view_end_read(fl_gl_view *g, int which, fl_picture *p)
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
-void fl_gl_view_show(fl_gl_view *g, int w, int h, const fl_picture *overlay)
+void fl_gl_view_show(fl_gl_view *g, int w, int h, int bottom, const fl_picture *overlay)
 {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, g->frame);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, g->W, g->H, 0, 0, w, h, GL_COLOR_BUFFER_BIT, g->W == w ? GL_NEAREST : GL_LINEAR);
+    glBlitFramebuffer(0, 0, g->W, g->H, 0, bottom, w, h, GL_COLOR_BUFFER_BIT,
+                      g->W == w ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (!overlay) return;
     if (!g->overlay || g->overlay_w != overlay->w || g->overlay_h != overlay->h) {

@@ -36,9 +36,10 @@ int fl_gl_view_read(fl_gl_view *g, fl_picture *p, fl_err *err);
 void fl_gl_view_start_read(fl_gl_view *g, int which);
 void fl_gl_view_end_read(fl_gl_view *g, int which, fl_picture *p);
 
-/* Shows the picture drawn last in the window's framebuffer of w x h, under an overlay whose rows go from
- * the top and whose colours are multiplied by their alpha; NULL: none. */
-void fl_gl_view_show(fl_gl_view *g, int w, int h, const fl_picture *overlay);
+/* Shows the picture drawn last in the window's framebuffer of w x h, `bottom` pixels above its lower edge,
+ * under an overlay of w x h whose rows go from the top and whose colours are multiplied by their alpha;
+ * NULL: none. */
+void fl_gl_view_show(fl_gl_view *g, int w, int h, int bottom, const fl_picture *overlay);
 
 void fl_gl_view_close(fl_gl_view *g); /* NULL is accepted */
 

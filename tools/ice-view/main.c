@@ -10,6 +10,9 @@
 #include "shot.h"
 #endif
 #include "subject.h"
+#ifdef FL_HAVE_WINDOW
+#include "window.h"
+#endif
 
 static int save_look(const struct options *o, fl_err *err)
 {
@@ -34,6 +37,19 @@ static int draw_all(struct subject *s, struct options *o, fl_err *err)
 #endif
 }
 
+static int show_window(struct subject *s, struct options *o, fl_err *err)
+{
+#ifdef FL_HAVE_WINDOW
+    return window_run(s, o, err);
+#else
+    (void)s;
+    (void)o;
+    return fl_fail(
+        err, FL_SYSTEM,
+        "no window: this ice-view was built without it (package libsdl2-dev); -o FILE.png needs none");
+#endif
+}
+
 static int run(struct options *o, fl_err *err)
 {
     struct subject s;
@@ -44,6 +60,7 @@ static int run(struct options *o, fl_err *err)
     if (rc == 0 && o->html) rc = convert_html(&s, o, err);
     if (rc == 0 && o->vtk) rc = convert_vtk(&s, o, err);
     if (rc == 0) rc = draw_all(&s, o, err);
+    if (rc == 0 && o->window) rc = show_window(&s, o, err);
     subject_close(&s);
     return rc;
 }
