@@ -25,8 +25,8 @@ void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 displacement,
  *     moved ID X Y Z QW QX QY QZ       vertex v of part ID is now at x + R(q) v. */
 void fl_frames_part_pose(FILE *f, int32_t id, fl_vec3 x, fl_quat q);
 
-/* The same frame packed: bodies of s into w, after fl_packed_frame_clear(); parts and the frame itself are the
- * caller's.  -1 with FL_SYSTEM. */
+/* The same frame packed: bodies of s into w, after fl_packed_frame_clear(); parts and the frame itself are
+ * the caller's.  -1 with FL_SYSTEM. */
 int fl_frames_packed_bodies(fl_packed_writer *w, const fl_poses *s, fl_err *err);
 
 #endif

@@ -122,7 +122,7 @@ static void standard_view(struct window *v, double azimuth, double elevation, in
 
 /* --- actions ------------------------------------------------------------------------------------ */
 
-static void say(struct window *v, const char *text)
+static void show_note(struct window *v, const char *text)
 {
     snprintf(v->note, sizeof v->note, "%s", text);
     v->picked = -1;
@@ -166,7 +166,7 @@ static void save_settings(struct window *v)
         fl_out_close(&out, &lost);
     }
     snprintf(text, sizeof text, "%.190s", lost.code ? lost.text : path);
-    say(v, text);
+    show_note(v, text);
 }
 
 /* A name that is not taken: ice-view-N.png. */
@@ -197,7 +197,7 @@ static void save_picture(struct window *v)
     fl_picture_free(&p);
     fl_picture_free(&whole);
     snprintf(text, sizeof text, "%.190s", lost.code ? lost.text : name);
-    say(v, text);
+    show_note(v, text);
 }
 
 static void toggle_film(struct window *v)
@@ -208,7 +208,7 @@ static void toggle_film(struct window *v)
         v->filming = 0;
         fl_film_close(&v->film, &lost);
         snprintf(text, sizeof text, "%.190s", lost.code ? lost.text : v->film_path);
-        say(v, text);
+        show_note(v, text);
         return;
     }
     free_name(v->film_path, &v->films, "mp4");
@@ -216,10 +216,10 @@ static void toggle_film(struct window *v)
     v->film_h = (v->h - strip_of(v)) / 2 * 2;
     if (fl_film_open(&v->film, v->film_path, v->film_w, v->film_h, FILM_FPS, &lost) == 0) {
         v->filming = 1;
-        say(v, "recording");
+        show_note(v, "recording");
     } else {
         snprintf(text, sizeof text, "%.190s", lost.text);
-        say(v, text);
+        show_note(v, text);
     }
 }
 
