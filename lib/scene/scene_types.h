@@ -44,6 +44,7 @@ enum fl_error_of {
     FL_ERROR_OF_MZ
 };
 enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
+enum fl_frames_form { FL_FRAMES_TEXT, FL_FRAMES_PACKED };
 enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
 enum fl_ice_decay { FL_ICE_DECAY_NONE, FL_ICE_DECAY_ROGERS, FL_ICE_DECAY_MEYLAN, FL_ICE_DECAY_OWN };
 enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, FL_FIX_RZ = 32 };
@@ -67,6 +68,7 @@ typedef struct {
     double loads_every;
     double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
     int32_t files;                         /* number of files the frames are split over */
+    int32_t frames_form;                   /* text, packed: enum fl_frames_form */
     double state_every, energy_every, contacts_every, hash_every, bonds_every, members_every;
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],

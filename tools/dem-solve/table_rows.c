@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "table_rows.h"
+#include <stdlib.h>
 #include "base/pi.h"
 #include "contact/bond_list.h"
 #include "contact/pair_geometry.h"
@@ -239,7 +240,16 @@ static fl_vec3 displacement_of(const fl_world *w)
     return v3_sub(w->moving.movers.b.x[0], w->moving.movers.motion[0].reference);
 }
 
-static void write_part_poses(const struct run *r, FILE *f)
+/* packed NULL: as text. */
+static int write_part_pose(FILE *f, fl_packed_writer *packed, int32_t id, fl_vec3 x, fl_quat q, fl_err *err)
+{
+    if (packed) return fl_packed_frame_part(packed, id, x, q, err);
+    fl_frames_part_pose(f, id, x, q);
+    return 0;
+}
+
+/* Each part with a motion of its own. */
+static int write_part_poses(const struct run *r, FILE *f, fl_packed_writer *packed, fl_err *err)
 {
     const fl_rigid_motions *v = &r->w->moving.movers;
     const fl_member_motion *members = &r->w->moving.members;
@@ -248,25 +258,58 @@ static void write_part_poses(const struct run *r, FILE *f)
         fl_quat q;
         if (r->frames_surface->part[k].nc == 0) continue;
         fl_member_motion_piece_pose(members, k, &x, &q);
-        fl_frames_part_pose(f, r->frames_surface->part[k].id, x, q);
+        if (write_part_pose(f, packed, r->frames_surface->part[k].id, x, q, err)) return -1;
     }
-    if (v->n == 0 || only_translates(r->w)) return;
+    if (v->n == 0 || only_translates(r->w)) return 0;
     for (int32_t p = 0; p < r->w->parts; p++) {
         const int32_t m = r->w->moving.mover_of_part[p];
         if (m < 0) continue;
-        fl_frames_part_pose(f, r->surface->part[p].id,
-                            v3_sub(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v->motion[m].reference)),
-                            v->b.q[m]);
+        const fl_vec3 x = v3_sub(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v->motion[m].reference));
+        if (write_part_pose(f, packed, r->surface->part[p].id, x, v->b.q[m], err)) return -1;
     }
+    return 0;
 }
 
-void write_frame(const struct run *r, FILE *f, double t, int ice, int64_t since)
+/* Shapes of floes that came in from step `since` on. */
+static void write_new_shapes(const struct run *r, FILE *f, const fl_poses *now, int64_t since)
 {
     const fl_inflow_state *in = &r->w->inflow;
-    const fl_poses now = poses_of(r);
     for (int32_t i = 0; i < r->w->n && since >= 0; i++)
-        if (!in->absent[i] && in->entry_step[i] > 0 && in->entry_step[i] >= since)
-            fl_frames_shape(f, &now, i);
-    fl_frames_frame(f, t, &now, displacement_of(r->w), ice);
-    write_part_poses(r, f);
+        if (!in->absent[i] && in->entry_step[i] > 0 && in->entry_step[i] >= since) fl_frames_shape(f, now, i);
+}
+
+static int write_packed_shapes(const struct run *r, FILE *f, fl_packed_writer *packed, const fl_poses *now,
+                               int64_t since, fl_err *err)
+{
+    char *text = NULL;
+    size_t n = 0;
+    FILE *records = since >= 0 ? open_memstream(&text, &n) : NULL;
+    if (since < 0) return 0;
+    if (!records) return fl_fail(err, FL_SYSTEM, "out of memory for frames");
+    write_new_shapes(r, records, now, since);
+    const int lost = fclose(records) != 0;
+    const int rc = lost ? fl_fail(err, FL_SYSTEM, "out of memory for frames")
+                        : fl_packed_frames_text(f, packed, text, (int64_t)n, err);
+    free(text);
+    return rc;
+}
+
+int write_frame(const struct run *r, FILE *f, fl_packed_writer *packed, double t, int ice, int64_t since,
+                fl_err *err)
+{
+    const fl_poses now = poses_of(r);
+    const fl_vec3 displacement = displacement_of(r->w);
+    if (!packed) {
+        write_new_shapes(r, f, &now, since);
+        fl_frames_frame(f, t, &now, displacement, ice);
+        return write_part_poses(r, f, NULL, err);
+    }
+    fl_packed_frame_clear(packed);
+    return write_packed_shapes(r, f, packed, &now, since, err) ||
+                   (ice && fl_frames_packed_bodies(packed, &now, err)) ||
+                   write_part_poses(r, f, packed, err) ||
+                   fl_packed_frame_write(f, packed, t, ice, v3_nonzero(displacement) ? &displacement : NULL,
+                                         err)
+               ? -1
+               : 0;
 }
