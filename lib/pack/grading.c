@@ -52,7 +52,8 @@ double fl_grading_number(const fl_grading *g, int dim)
 double fl_grading_mass(const fl_grading *g, int dim, double d)
 {
     double sum = 0.0, all = 0.0;
-    for (int32_t k = 0; k < g->pieces; k++) sum += g->piece[k].share * piece_part(&g->piece[k], g->piece[k].m, d);
+    for (int32_t k = 0; k < g->pieces; k++)
+        sum += g->piece[k].share * piece_part(&g->piece[k], g->piece[k].m, d);
     for (int32_t k = 0; k < g->n; k++) {
         const double v = pow(g->size[k], dim);
         all += v;
@@ -223,8 +224,9 @@ int fl_grading_law(fl_grading *g, const char *text, int dim, fl_err *err)
         if (strncmp(text, LAW[k].name, len) != 0) continue;
         const int n = split_numbers(text + len, x, 3, word), by_number = strcmp(word, "number") == 0;
         const double *d = &x[k == 1];
-        const int good = n == LAW[k].numbers && (!word[0] || (k == 0 && (by_number || !strcmp(word, "mass")))) &&
-                         is_size(d[0]) && (k == 2 || (is_size(d[1]) && d[0] < d[1])) &&
+        const int good = n == LAW[k].numbers &&
+                         (!word[0] || (k == 0 && (by_number || !strcmp(word, "mass")))) && is_size(d[0]) &&
+                         (k == 2 || (is_size(d[1]) && d[0] < d[1])) &&
                          (k != 1 || (x[0] > 0.0 && x[0] <= 10.0));
         if (!good)
             return fl_fail(err, FL_USAGE, "--grading is \"%.60s\", expected %s, sizes in m", text,
@@ -269,15 +271,15 @@ static int read_curve(fl_grading *g, fl_table *t, int32_t column, int32_t passin
         if (!(p >= 0.0 && p <= 1.0))
             return fl_text_fail(&t->text, err, "passing %g found, 0 to %g is expected", p * all, all);
         if (rows && !(d > last))
-            return fl_text_fail(&t->text, err, "sieve %g m does not follow %g m, rising sizes are expected", d,
-                                last);
+            return fl_text_fail(&t->text, err, "sieve %g m does not follow %g m, rising sizes are expected",
+                                d, last);
         if (rows && p < before)
             return fl_text_fail(&t->text, err, "passing decreases from %g to %g, a rising curve is expected",
                                 before * all, p * all);
         if (!rows && p > 0.0)
-            return fl_text_fail(&t->text, err,
-                                "%g passes the first sieve, 0 is expected: the curve begins at the least size",
-                                p * all);
+            return fl_text_fail(
+                &t->text, err, "%g passes the first sieve, 0 is expected: the curve begins at the least size",
+                p * all);
         if (rows++ && p > before && add_piece(g, last, d, p - before, linear ? 1.0 : 0.0, err)) return -1;
         last = d;
         before = p;

@@ -47,10 +47,13 @@ static void enter(fl_growth *g, enum fl_growth_phase phase)
     g->stage = 0;
 }
 
+/* Bodies with edges do not balance exactly, and more steps do not help. */
+static int64_t full_steps(const fl_overlaps *o) { return o->p->q ? LONG / 4 : LONG; }
+
 /* 1 where bodies jam at the present scale, 0 where they can part, -1 with FL_SYSTEM. */
 static int is_jammed(fl_overlaps *o, double free, double balance, fl_err *err)
 {
-    const int state = fl_overlaps_relax(o, free, balance, LONG, err);
+    const int state = fl_overlaps_relax(o, free, balance, full_steps(o), err);
     if (state < 0) return -1;
     if (state == FL_RELAXED_FREE) return 0;
     /* after so many steps a packing that could part would have done so, but for the last of its overlap */
@@ -85,9 +88,10 @@ static int rise(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_e
         return 0;
     }
     p->s = next;
-    const int state = fl_overlaps_relax(o, LOOSE, BALANCE, QUICK, err);
+    /* bodies with edges part slowly: whether they jam is decided at the end */
+    const int state = fl_overlaps_relax(o, LOOSE, BALANCE, p->q ? 3 * QUICK : QUICK, err);
     if (state < 0) return -1;
-    if (opt->trim != FL_TRIM_ALL || state == FL_RELAXED_FREE || !freedoms_are_held(o)) return 0;
+    if (opt->trim != FL_TRIM_ALL || p->q || state == FL_RELAXED_FREE || !freedoms_are_held(o)) return 0;
     const int jammed = is_jammed(o, LOOSE, BALANCE_GROW, err);
     if (jammed < 0) return -1;
     if (jammed) jam(g, o, opt);
@@ -101,7 +105,7 @@ static int settle(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl
     p->s = 1.0 + MARGIN;
     /* Overlaps up to MARGIN of the smaller body at the larger scale are none at 1: of two bodies the overlap
      * falls by MARGIN times the sum of the radii, at the boundary by MARGIN times the radius. */
-    const int state = fl_overlaps_relax(o, MARGIN, BALANCE, LONG, err);
+    const int state = fl_overlaps_relax(o, MARGIN, BALANCE, full_steps(o), err);
     p->s = 1.0;
     if (state < 0) return -1;
     if (state == FL_RELAXED_FREE) {
@@ -120,7 +124,7 @@ static int follow_pressure(fl_growth *g, fl_overlaps *o, const fl_growth_options
     fl_packing *p = o->p;
     /* far from s_J the pressure need not be known well */
     const double balance = g->strain > 300.0 * opt->overlap ? 5.0 * BALANCE_SECANT : BALANCE_SECANT;
-    if (fl_overlaps_relax(o, 0.0, balance, LONG, err) < 0) return -1;
+    if (fl_overlaps_relax(o, 0.0, balance, full_steps(o), err) < 0) return -1;
     const double now = o->now.pressure, s = p->s;
     g->strain = strain_of(o);
     /* first s (1 - strain); then the secant, kept between a tenth and three times that */
@@ -142,7 +146,7 @@ static int follow_pressure(fl_growth *g, fl_overlaps *o, const fl_growth_options
 static int balance_all(fl_growth *g, fl_overlaps *o, fl_err *err)
 {
     o->strict = 1;
-    const int state = fl_overlaps_relax(o, 0.0, 0.5 * BALANCE_SECANT, POLISH, err);
+    const int state = fl_overlaps_relax(o, 0.0, 0.5 * BALANCE_SECANT, o->p->q ? full_steps(o) : POLISH, err);
     o->strict = 0;
     enter(g, FL_GROWTH_DONE);
     return state < 0 ? -1 : 0;
@@ -180,7 +184,8 @@ static int trim_near(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt,
         return 0;
     }
     if (g->stage == TRIMS)
-        return fl_fail(err, FL_NUMERIC, "helper walls still carry force after %.3g of the radii near them is gone",
+        return fl_fail(err, FL_NUMERIC,
+                       "helper walls still carry force after %.3g of the radii near them is gone",
                        1.0 - g->trimmed);
     for (int32_t i = 0; i < p->n; i++) reach += opt->layers * 2.0 * p->bound[i] / p->n;
     for (int32_t i = 0; i < p->n; i++) {

@@ -48,15 +48,15 @@ typedef struct {
 fl_growth_options fl_growth_defaults(void);
 
 typedef struct {
-    int32_t phase;              /* enum fl_growth_phase */
-    int32_t jammed;             /* at or before s = 1 */
-    int32_t stage;              /* of this phase */
-    double rise;                /* the next relative rise of s */
-    double s_before, p_before;  /* the last state of the secant */
-    double strain;              /* mean overlap over the mean distance there */
-    double jam_scale;           /* s_J; 0: not jammed */
-    double reached;             /* the scale at which the bodies jammed, before decompression */
-    double trimmed;             /* FL_TRIM_NEAR: smallest radius over that before; 1 */
+    int32_t phase;             /* enum fl_growth_phase */
+    int32_t jammed;            /* at or before s = 1 */
+    int32_t stage;             /* of this phase */
+    double rise;               /* the next relative rise of s */
+    double s_before, p_before; /* the last state of the secant */
+    double strain;             /* mean overlap over the mean distance there */
+    double jam_scale;          /* s_J; 0: not jammed */
+    double reached;            /* the scale at which the bodies jammed, before decompression */
+    double trimmed;            /* FL_TRIM_NEAR: smallest radius over that before; 1 */
 } fl_growth;
 
 /* Of bodies that were thrown. */

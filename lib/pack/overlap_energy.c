@@ -12,8 +12,8 @@ enum { BLOCK = 128 };
 
 /* Bodies with edges chatter about their rest: forces do not balance to the last digit.  They count as balanced
  * where the least energy has not fallen below STALLED of that STALL steps ago. */
-enum { STALL = 400 };
-static const double STALLED = 0.9;
+enum { STALL = 1000 };
+static const double STALLED = 0.95;
 
 /* Thickness of the skin over the smallest body, and growth of the scale that a list allows for. */
 static const double SKIN = 0.6, GROWTH = 1.03;
@@ -47,7 +47,8 @@ static int make_shape_arrays(fl_overlaps *o, fl_err *err)
     for (int32_t i = 0; i < p->n; i++) {
         o->corner_first[i] = (int32_t)corners, o->normal_first[i] = (int32_t)normals;
         corners += shape_of(p, i)->core.nv, normals += shape_of(p, i)->core.nf;
-        if (corners > INT32_MAX || normals > INT32_MAX) return fl_fail(err, FL_SYSTEM, "out of memory: corners");
+        if (corners > INT32_MAX || normals > INT32_MAX)
+            return fl_fail(err, FL_SYSTEM, "out of memory: corners");
     }
     o->corner_first[p->n] = (int32_t)corners, o->normal_first[p->n] = (int32_t)normals;
     o->corner = fl_alloc(corners, sizeof *o->corner, err);
@@ -92,7 +93,8 @@ int fl_overlaps_make(fl_overlaps *o, fl_packing *p, const fl_pack_region *region
 void fl_overlaps_free(fl_overlaps *o)
 {
     free(o->box), free(o->first), free(o->near), free(o->near_pair), free(o->at_wall), free(o->listed_at);
-    free(o->mass), free(o->ball), free(o->force), free(o->torque), free(o->v), free(o->spin), free(o->wall_force);
+    free(o->mass), free(o->ball), free(o->force), free(o->torque), free(o->v), free(o->spin),
+        free(o->wall_force);
     free(o->block_wall), free(o->block), free(o->pair), free(o->corner), free(o->normal);
     free(o->corner_first), free(o->normal_first);
     fl_pairs_free(&o->candidates);
@@ -171,8 +173,8 @@ typedef struct {
 } body_sums;
 
 /* A contact of body i with the boundary: delta > 0, n on it, its distance from the centre. */
-static void add_contact(const fl_packing *p, body_sums *b, int32_t i, double delta, fl_vec3 n, double distance,
-                        double weight)
+static void add_contact(const fl_packing *p, body_sums *b, int32_t i, double delta, fl_vec3 n,
+                        double distance, double weight)
 {
     const double f = weight * fl_normal_power(delta, 1.0), size = p->s * p->bound[i];
     b->force = v3_madd(b->force, f, n);
@@ -203,7 +205,8 @@ static inline double nearest_image(double d, double length, double half)
 
 static inline fl_vec3 nearest_images(const fl_overlaps *o, fl_vec3 d)
 {
-    return v3(nearest_image(d.x, o->period.x, o->half_period.x), nearest_image(d.y, o->period.y, o->half_period.y),
+    return v3(nearest_image(d.x, o->period.x, o->half_period.x),
+              nearest_image(d.y, o->period.y, o->half_period.y),
               nearest_image(d.z, o->period.z, o->half_period.z));
 }
 
@@ -252,13 +255,13 @@ static void place_shapes(fl_overlaps *o)
         const fl_poly *core = &shape_of(p, i)->core;
         const fl_mat3 axes = q_matrix(p->q[i]);
         fl_packing_corners(p, i, &o->corner[o->corner_first[i]]);
-        for (int32_t f = 0; f < core->nf; f++)
-            o->normal[o->normal_first[i] + f] = m3_mul(axes, core->n[f]);
+        for (int32_t f = 0; f < core->nf; f++) o->normal[o->normal_first[i] + f] = m3_mul(axes, core->n[f]);
     }
 }
 
 /* Adds a point of contact: overlap, direction on i, place. */
-static void add_point(fl_overlap_pair *c, double delta, double weight, fl_vec3 n, fl_vec3 at, fl_vec3 xi, fl_vec3 xj)
+static void add_point(fl_overlap_pair *c, double delta, double weight, fl_vec3 n, fl_vec3 at, fl_vec3 xi,
+                      fl_vec3 xj)
 {
     const fl_vec3 f = v3_scale(weight * fl_normal_power(delta, 1.0), n);
     c->force = v3_add(c->force, f);
@@ -279,24 +282,13 @@ static void corner_points(const fl_overlaps *o, fl_overlap_pair *c, const fl_vec
     for (int32_t a = 0; a < nv; a++) {
         const fl_vec3 d = v3_sub(v[a], xk);
         if (v3_norm2(d) >= reach * reach) continue;
-        const fl_closest_point near = fl_closest_on_poly(&shape_of(p, k)->core, v3_scale(1.0 / scale, m3_tmul(axes, d)));
+        const fl_closest_point near =
+            fl_closest_on_poly(&shape_of(p, k)->core, v3_scale(1.0 / scale, m3_tmul(axes, d)));
         const double delta = R - scale * near.d;
         if (!(delta > 0.0)) continue;
         const fl_vec3 n = m3_mul(axes, near.n);
         add_point(c, delta, CORNER, v3_scale(sign, n), v3_madd(v[a], -0.5 * scale * near.d, n), xi, xj);
     }
-}
-
-/* Weight of the closest points of two edges: it vanishes at their ends, where corners touch, and where the
- * edges are parallel, so that the energy is continuous. */
-static double edge_weight(const fl_vec3 a[2], const fl_vec3 b[2], fl_vec3 pa, fl_vec3 pb)
-{
-    const fl_vec3 ea = v3_sub(a[1], a[0]), eb = v3_sub(b[1], b[0]);
-    const double la = v3_norm2(ea), lb = v3_norm2(eb);
-    if (!(la > 0.0 && lb > 0.0)) return 0.0;
-    const double t = v3_dot(v3_sub(pa, a[0]), ea) / la, u = v3_dot(v3_sub(pb, b[0]), eb) / lb;
-    const double w = v3_norm2(v3_cross(ea, eb)) / (la * lb) * 16.0 * t * (1.0 - t) * u * (1.0 - u);
-    return w > 0.0 ? w : 0.0;
 }
 
 static void evaluate_pair(const fl_overlaps *o, fl_overlap_pair *c)
@@ -311,7 +303,8 @@ static void evaluate_pair(const fl_overlaps *o, fl_overlap_pair *c)
     /* j at its image beside i */
     const fl_vec3 shift = v3_sub(d, w), xi = p->x[i], xj = v3_add(p->x[j], shift);
     fl_vec3 moved[CORNERS];
-    const int32_t ni = o->corner_first[i + 1] - o->corner_first[i], nj = o->corner_first[j + 1] - o->corner_first[j];
+    const int32_t ni = o->corner_first[i + 1] - o->corner_first[i],
+                  nj = o->corner_first[j + 1] - o->corner_first[j];
     const fl_vec3 *vi = &o->corner[o->corner_first[i]], *vj = &o->corner[o->corner_first[j]];
     if (v3_nonzero(shift) && nj <= CORNERS) {
         for (int32_t k = 0; k < nj; k++) moved[k] = v3_add(vj[k], shift);
@@ -321,29 +314,23 @@ static void evaluate_pair(const fl_overlaps *o, fl_overlap_pair *c)
     fl_gjk((fl_core){vi, ni, NULL}, (fl_core){vj, nj, NULL}, &c->cache, &gap);
     if (!gap.overlap && gap.d >= R) return;
     c->distance = v3_norm(w);
-    if (ni > 1 && nj > 1) {
-        corner_points(o, c, vi, ni, j, xj, R, 1.0, xi, xj);
-        corner_points(o, c, vj, nj, i, xi, R, -1.0, xi, xj);
-    } else {
-        add_point(c, R - gap.d, 1.0, gap.n, v3_lerp(gap.pa, gap.pb, 0.5), xi, xj);
-    }
     if (gap.overlap) {
         const fl_solid a = {&shape_of(p, i)->core, vi, &o->normal[o->normal_first[i]], R},
                        b = {&shape_of(p, j)->core, vj, &o->normal[o->normal_first[j]], R};
         fl_penetration deep;
         fl_penetration_find(&a, &b, NULL, &deep);
-        if (deep.turns_with == 0 || c->energy == 0.0)
-            add_point(c, R + deep.depth, 1.0, deep.n, v3_lerp(deep.pa, deep.pb, 0.5), xi, xj);
-    } else if (gap.na == 2 && gap.nb == 2) {
-        const fl_vec3 ea[2] = {vi[gap.ia[0]], vi[gap.ia[1]]}, eb[2] = {vj[gap.ib[0]], vj[gap.ib[1]]};
-        add_point(c, R - gap.d, edge_weight(ea, eb, gap.pa, gap.pb), gap.n, v3_lerp(gap.pa, gap.pb, 0.5), xi, xj);
+        add_point(c, R + deep.depth, 1.0, deep.n, v3_lerp(deep.pa, deep.pb, 0.5), xi, xj);
+    } else {
+        add_point(c, R - gap.d, 1.0, gap.n, v3_lerp(gap.pa, gap.pb, 0.5), xi, xj);
     }
+    if (ni > 2 && nj > 1) corner_points(o, c, vi, ni, j, xj, R, 1.0, xi, xj);
+    if (nj > 2 && ni > 1) corner_points(o, c, vj, nj, i, xi, R, -1.0, xi, xj);
     c->strength = v3_norm(c->force);
 }
 
 /* A contact of body i with the boundary, at the arm from its centre. */
-static void add_shape_contact(const fl_packing *p, body_sums *b, int32_t i, double delta, fl_vec3 n, fl_vec3 arm,
-                              double distance, double weight)
+static void add_shape_contact(const fl_packing *p, body_sums *b, int32_t i, double delta, fl_vec3 n,
+                              fl_vec3 arm, double distance, double weight)
 {
     add_contact(p, b, i, delta, n, distance, weight);
     b->torque = v3_madd(b->torque, weight * delta, v3_cross(arm, n));
@@ -369,7 +356,8 @@ static void shape_features(const fl_overlaps *o, body_sums *b, int32_t i)
         const fl_region_feature *f = &r->feature[found[k]];
         fl_gap gap;
         if (f->corners == r->dim || f->convex) continue;
-        fl_gjk((fl_core){&o->corner[o->corner_first[i]], nv, NULL}, (fl_core){f->p, f->corners, NULL}, NULL, &gap);
+        fl_gjk((fl_core){&o->corner[o->corner_first[i]], nv, NULL}, (fl_core){f->p, f->corners, NULL}, NULL,
+               &gap);
         if (gap.d >= radius) continue;
         const fl_vec3 normal = gap.overlap ? v3_unit(f->n) : gap.n;
         int outside = 0;
@@ -550,7 +538,8 @@ int fl_overlaps_relax(fl_overlaps *o, double free, double balance, int64_t steps
         least = fmin(least, t->energy);
         if (t->max_overlap <= free) return FL_RELAXED_FREE;
         const double residual = o->strict ? t->max_force : sqrt(t->force2 / o->p->n);
-        if (t->contacts && residual <= balance * t->overlap_sum / (double)t->contacts) return FL_RELAXED_JAMMED;
+        if (t->contacts && residual <= balance * t->overlap_sum / (double)t->contacts)
+            return FL_RELAXED_JAMMED;
         if (k == steps) return FL_RELAXED_SLOW;
         if (o->p->q && k % STALL == STALL - 1) {
             if (least > STALLED * energy) return FL_RELAXED_JAMMED;
@@ -573,7 +562,8 @@ void fl_overlaps_each(const fl_overlaps *o, fl_overlap_call *call, void *with)
             if (j < i) continue;
             if (p->q) {
                 const fl_overlap_pair *e = &o->pair[o->near_pair[k]];
-                if (e->energy > 0.0) call(with, i, j, v3_unit(e->i == i ? e->force : v3_neg(e->force)), e->deepest);
+                if (e->energy > 0.0)
+                    call(with, i, j, v3_unit(e->i == i ? e->force : v3_neg(e->force)), e->deepest);
                 continue;
             }
             const fl_vec3 d = fl_region_wrap(o->region, v3_sub(p->x[i], p->x[j]));

@@ -4,12 +4,10 @@
  *     E = sum over contacts of k phi(delta),  phi(delta) = delta^2/2 for delta > 0 (law/normal.h, n = 1),
  * with k = 1 for all sizes, and 1/4 for the corners of polyhedra.  Lengths in m, so forces are in m, too.  delta is
  *     of two spheres        r_i + r_j less the distance of their centres: one point;
- *     of two other bodies   r_i + r_j less the distance of each corner of one core from the other core
- *                           (narrow/closest_point.h, negative inside), and that of the closest points where
- *                           these lie on two edges (narrow/gjk.h), with the weight
- *                           sin^2(angle) 16 t (1 - t) u (1 - u), t and u their places along the edges.  So
- *                           faces touch at their corners, and the energy is continuous.  Of cores that
- *                           overlap across edges it is the depth (narrow/penetration.h) in its place;
+ *     of two other bodies   r_i + r_j less the distance of their cores (narrow/gjk.h; of cores that overlap
+ *                           their depth is added, narrow/penetration.h), and of polyhedra the same of each
+ *                           corner of one core and the other core (narrow/closest_point.h), so that faces
+ *                           touch at their corners, too;
  *     at the boundary       r_i less the distance (pack_region.h) of the centre of a sphere, or of each corner
  *                           of a core, and of each edge and corner of the boundary that points inwards.
  *
@@ -57,35 +55,35 @@ typedef struct {
 } fl_overlap_ball;
 
 typedef struct {
-    fl_packing *p;                /* borrowed, as the region */
+    fl_packing *p; /* borrowed, as the region */
     const fl_pack_region *region;
     fl_pairs candidates;
-    fl_aabb *box;                 /* [n] */
-    int64_t *first;               /* [n + 1] neighbours of i, each pair from both sides */
+    fl_aabb *box;   /* [n] */
+    int64_t *first; /* [n + 1] neighbours of i, each pair from both sides */
     int32_t *near, near_cap, first_cap;
-    int64_t *near_pair;           /* where there are shapes: pair of each neighbour */
+    int64_t *near_pair; /* where there are shapes: pair of each neighbour */
     int32_t near_pair_cap;
-    uint8_t *at_wall;             /* [n] the boundary is near */
-    double reach, skin;           /* scale up to which the list holds; [m] */
-    fl_vec3 *listed_at;           /* [n] where bodies were then [m] */
-    fl_vec3 period, half_period;  /* 0 and infinite where not periodic [m] */
-    fl_overlap_ball *ball;        /* [n] of the last evaluation, of spheres */
-    double *mass;                 /* [n] fictitious */
-    fl_vec3 *force, *torque;      /* [n] torque over rho [m] */
-    fl_vec3 *v, *spin;            /* [n] velocities; spin times rho [m] */
-    double *wall_force;           /* [walls] sum of overlaps on each wall, of the last evaluation [m] */
-    double *block_wall;           /* [blocks][walls] */
-    fl_overlap_totals *block;     /* [blocks] */
+    uint8_t *at_wall;            /* [n] the boundary is near */
+    double reach, skin;          /* scale up to which the list holds; [m] */
+    fl_vec3 *listed_at;          /* [n] where bodies were then [m] */
+    fl_vec3 period, half_period; /* 0 and infinite where not periodic [m] */
+    fl_overlap_ball *ball;       /* [n] of the last evaluation, of spheres */
+    double *mass;                /* [n] fictitious */
+    fl_vec3 *force, *torque;     /* [n] torque over rho [m] */
+    fl_vec3 *v, *spin;           /* [n] velocities; spin times rho [m] */
+    double *wall_force;          /* [walls] sum of overlaps on each wall, of the last evaluation [m] */
+    double *block_wall;          /* [blocks][walls] */
+    fl_overlap_totals *block;    /* [blocks] */
     int32_t blocks;
-    fl_overlap_pair *pair;        /* of shapes */
+    fl_overlap_pair *pair; /* of shapes */
     int32_t pairs, pair_cap;
-    fl_vec3 *corner, *normal;     /* of all bodies, at corner_first, normal_first */
+    fl_vec3 *corner, *normal; /* of all bodies, at corner_first, normal_first */
     int32_t *corner_first, *normal_first;
-    int stale;                    /* the list is made anew at the next evaluation */
-    int strict;                   /* the balance of every body counts, not that of most */
+    int stale;  /* the list is made anew at the next evaluation */
+    int strict; /* the balance of every body counts, not that of most */
     fl_fire fire;
-    fl_overlap_totals now;        /* of the last evaluation */
-    int64_t steps, lists;         /* FIRE steps and neighbour lists so far */
+    fl_overlap_totals now; /* of the last evaluation */
+    int64_t steps, lists;  /* FIRE steps and neighbour lists so far */
 } fl_overlaps;
 
 /* -1 with FL_SYSTEM. */

@@ -9,7 +9,8 @@
 
 /* --- boxes, cylinders, spheres ------------------------------------------------------------------ */
 
-static void add_contact(fl_region_contact *out, int *n, double gap, fl_vec3 normal, int32_t wall, double reach)
+static void add_contact(fl_region_contact *out, int *n, double gap, fl_vec3 normal, int32_t wall,
+                        double reach)
 {
     if (gap < reach && *n < FL_REGION_CONTACTS) out[(*n)++] = (fl_region_contact){gap, normal, wall, -1};
 }
@@ -83,8 +84,8 @@ static int feature_gap(const fl_pack_region *r, int32_t k, fl_vec3 x, fl_region_
     if (!local_minimum(r, f, x, &d)) return 0;
     const double length = v3_norm(d), side = v3_dot(d, f->n);
     const double sign = side >= 0.0 ? 1.0 : -1.0;
-    *c = (fl_region_contact){sign * length, length > 0.0 ? v3_scale(sign / length, d) : v3_unit(f->n), f->wall,
-                             k};
+    *c = (fl_region_contact){sign * length, length > 0.0 ? v3_scale(sign / length, d) : v3_unit(f->n),
+                             f->wall, k};
     return 1;
 }
 
@@ -152,7 +153,10 @@ double fl_region_distance(const fl_pack_region *r, fl_vec3 x, double reach)
     return gap;
 }
 
-int fl_region_is_periodic(const fl_pack_region *r) { return r->periodic[0] | r->periodic[1] | r->periodic[2]; }
+int fl_region_is_periodic(const fl_pack_region *r)
+{
+    return r->periodic[0] | r->periodic[1] | r->periodic[2];
+}
 
 static double wrap_one(double x, double length) { return x - length * floor(x / length + 0.5); }
 
@@ -194,8 +198,9 @@ int fl_region_set_helpers(fl_pack_region *r, const char *names, fl_err *err)
             for (int k = 0; k < n; k++) list[k] = r->wall[k].name;
             snprintf(word, sizeof word, "%.*s", (int)(len < 60 ? len : 60), names);
             const char *near = fl_text_nearest(word, list, n);
-            return fl_fail(err, FL_USAGE, "--helper names the wall \"%s\", which is not there; the nearest is \"%s\"",
-                           word, near ? near : "");
+            return fl_fail(err, FL_USAGE,
+                           "--helper names the wall \"%s\", which is not there; the nearest is \"%s\"", word,
+                           near ? near : "");
         }
         names += len;
         if (*names == ',') names++;

@@ -28,38 +28,38 @@ enum { FL_REGION_CONTACTS = 32 }; /* most contacts of one body with the boundary
 
 /* A face (three corners, in two dimensions a side with two), an edge (two) or a corner (one). */
 typedef struct {
-    int32_t corners;    /* of its hull: 1 to 3 */
+    int32_t corners; /* of its hull: 1 to 3 */
     int32_t wall;
-    fl_vec3 p[3];       /* [m] */
-    fl_vec3 n;          /* unit normal of a face, or sum of normals, into the region */
-    int32_t out, outs;  /* directions into the faces at an edge or a corner, in region->out */
-    int convex;         /* an edge or corner that no body inside can touch */
+    fl_vec3 p[3];      /* [m] */
+    fl_vec3 n;         /* unit normal of a face, or sum of normals, into the region */
+    int32_t out, outs; /* directions into the faces at an edge or a corner, in region->out */
+    int convex;        /* an edge or corner that no body inside can touch */
 } fl_region_feature;
 
 typedef struct {
     char name[64];
-    int helper;    /* taken away after packing */
+    int helper; /* taken away after packing */
 } fl_region_wall;
 
 typedef struct {
     enum fl_region_kind kind;
-    int dim;                     /* 2 or 3; in two dimensions all z are 0 */
-    fl_vec3 lo, hi;              /* box of the region [m] */
-    int periodic[3];             /* directions of a box that are periodic: no walls there */
-    fl_vec3 centre;              /* of cylinder (at its bottom) and sphere [m] */
-    double radius;               /* of these [m] */
-    double volume;               /* in two dimensions the area [m3], [m2] */
-    double inradius;             /* radius of the largest body inside, to about 1 % [m] */
+    int dim;         /* 2 or 3; in two dimensions all z are 0 */
+    fl_vec3 lo, hi;  /* box of the region [m] */
+    int periodic[3]; /* directions of a box that are periodic: no walls there */
+    fl_vec3 centre;  /* of cylinder (at its bottom) and sphere [m] */
+    double radius;   /* of these [m] */
+    double volume;   /* in two dimensions the area [m3], [m2] */
+    double inradius; /* radius of the largest body inside, to about 1 % [m] */
     int32_t walls;
-    fl_region_wall *wall;        /* [walls] */
+    fl_region_wall *wall; /* [walls] */
     int32_t features, feature_cap;
-    fl_region_feature *feature;  /* [features] */
-    fl_vec3 *out;                /* unit vectors from an edge, or a corner, along its faces */
+    fl_region_feature *feature; /* [features] */
+    fl_vec3 *out;               /* unit vectors from an edge, or a corner, along its faces */
     int32_t outs, out_cap, wall_cap;
-    fl_aabb *box;                /* [features] */
+    fl_aabb *box; /* [features] */
     fl_bvh tree;
-    fl_surface surface;          /* of a surface: its triangles, outward; of an outline nothing */
-    fl_domain domain;            /* of an outline */
+    fl_surface surface; /* of a surface: its triangles, outward; of an outline nothing */
+    fl_domain domain;   /* of an outline */
 } fl_pack_region;
 
 /* Contact of a point with the boundary: gap the distance, negative beyond it, n into the region. */

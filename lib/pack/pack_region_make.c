@@ -89,7 +89,8 @@ static void find_inradius(fl_pack_region *r)
             int moved = 0;
             for (int c = 0; c < 2 * r->dim; c++) {
                 const double d = c % 2 ? step : -step;
-                const fl_vec3 x = v3_add(best[k].x, v3(c / 2 == 0 ? d : 0, c / 2 == 1 ? d : 0, c / 2 == 2 ? d : 0));
+                const fl_vec3 x =
+                    v3_add(best[k].x, v3(c / 2 == 0 ? d : 0, c / 2 == 1 ? d : 0, c / 2 == 2 ? d : 0));
                 const double at = fl_region_distance(r, x, INFINITY);
                 if (at > best[k].g) best[k].g = at, best[k].x = x, moved = 1;
             }
@@ -113,8 +114,9 @@ static int add_ring(fl_pack_region *r, int32_t ring, fl_err *err)
         char name[32];
         snprintf(name, sizeof name, "side-%d", first + k + 1);
         if (add_wall(r, name, err) < 0 ||
-            !add_feature(r, (fl_region_feature){.corners = 2, .wall = wall + k, .p = {a, b}, .n = v3(-t.y, t.x, 0)},
-                         err))
+            !add_feature(
+                r, (fl_region_feature){.corners = 2, .wall = wall + k, .p = {a, b}, .n = v3(-t.y, t.x, 0)},
+                err))
             return -1;
     }
     for (int32_t k = 0; k < n; k++) {
@@ -158,9 +160,10 @@ static int join_parts(fl_pack_region *r, fl_part *all, int32_t **wall, fl_err *e
         const int32_t from = all->nv, w = add_wall(r, part->name, err);
         if (w < 0) return -1;
         if (part->nc)
-            return fl_fail(err, FL_INPUT,
-                           "part %s has cones, a surface of triangles is expected: struct-import --facets makes one",
-                           part->name);
+            return fl_fail(
+                err, FL_INPUT,
+                "part %s has cones, a surface of triangles is expected: struct-import --facets makes one",
+                part->name);
         for (int32_t k = 0; k < part->nv; k++)
             if (fl_surface_vertex(all, part->v[k], err)) return -1;
         for (int32_t t = 0; t < part->nt; t++) {
@@ -200,10 +203,11 @@ static int check_closed(const fl_part *p, const fl_edges *e, fl_err *err)
             if (!open++) a = p->v[v], b = p->v[e->side[k].hi];
         }
     if (!open) return 0;
-    return fl_fail(err, FL_INPUT,
-                   "the surface is not closed: %lld edges have not two triangles, the first from (%.6g, %.6g, %.6g) to "
-                   "(%.6g, %.6g, %.6g): struct-import mends it",
-                   (long long)open, a.x, a.y, a.z, b.x, b.y, b.z);
+    return fl_fail(
+        err, FL_INPUT,
+        "the surface is not closed: %lld edges have not two triangles, the first from (%.6g, %.6g, %.6g) to "
+        "(%.6g, %.6g, %.6g): struct-import mends it",
+        (long long)open, a.x, a.y, a.z, b.x, b.y, b.z);
 }
 
 /* Direction in the plane of triangle t away from its side a b. */
@@ -242,7 +246,8 @@ static int add_edges(fl_pack_region *r, const fl_part *p, const fl_edges *e, con
 static int add_corners(fl_pack_region *r, const fl_part *p, const int32_t *wall, const fl_vec3 *inward,
                        const uint8_t *sharp, fl_err *err)
 {
-    int32_t *first = fl_alloc((int64_t)p->nv + 2, sizeof *first, err), *of = fl_alloc(3 * (int64_t)p->nt, sizeof *of, err);
+    int32_t *first = fl_alloc((int64_t)p->nv + 2, sizeof *first, err),
+            *of = fl_alloc(3 * (int64_t)p->nt, sizeof *of, err);
     int rc = -1;
     if (!first || !of) goto done;
     for (int32_t t = 0; t < p->nt; t++)
@@ -301,7 +306,8 @@ static int make_surface(fl_pack_region *r, fl_err *err)
         const int32_t *v = all.t[t].v;
         inward[t] = v3_scale(turn, v3_unit(tri_area(&all, t)));
         if (!v3_nonzero(inward[t])) {
-            fl_fail(err, FL_INPUT, "a triangle at (%.6g, %.6g, %.6g) has no area: struct-import mends the surface",
+            fl_fail(err, FL_INPUT,
+                    "a triangle at (%.6g, %.6g, %.6g) has no area: struct-import mends the surface",
                     all.v[v[0]].x, all.v[v[0]].y, all.v[v[0]].z);
             goto done;
         }
@@ -343,7 +349,8 @@ static int surface_of_bodies(fl_pack_region *r, const fl_ice_field *field, fl_er
             return -1;
         const int32_t p = fl_surface_add(&r->surface, name, strlen(name), err);
         int bad = p < 0;
-        for (int32_t v = 0; !bad && v < outer.nv; v++) bad = fl_surface_vertex(&r->surface.part[p], outer.v[v], err);
+        for (int32_t v = 0; !bad && v < outer.nv; v++)
+            bad = fl_surface_vertex(&r->surface.part[p], outer.v[v], err);
         for (int32_t f = 0; !bad && f < outer.nf; f++)
             for (int32_t c = outer.first[f] + 2; !bad && c < outer.first[f + 1]; c++)
                 bad = fl_surface_triangle(&r->surface.part[p], outer.loop[outer.first[f]], outer.loop[c - 1],
@@ -388,8 +395,9 @@ static int make_box(fl_pack_region *r, const char *text, const char *periodic, f
     static const char *const NAMES[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
     double x[6];
     if (numbers_of(text, x, 6) || !(x[0] < x[3] && x[1] < x[4] && (r->dim == 2 || x[2] < x[5])))
-        return fl_fail(err, FL_USAGE,
-                       "--in is \"box:%.60s\", expected box:X0,Y0,Z0,X1,Y1,Z1 with X0 < X1, Y0 < Y1 and Z0 < Z1", text);
+        return fl_fail(
+            err, FL_USAGE,
+            "--in is \"box:%.60s\", expected box:X0,Y0,Z0,X1,Y1,Z1 with X0 < X1, Y0 < Y1 and Z0 < Z1", text);
     r->kind = FL_REGION_BOX;
     r->lo = v3(x[0], x[1], r->dim == 2 ? 0.0 : x[2]);
     r->hi = v3(x[3], x[4], r->dim == 2 ? 0.0 : x[5]);
@@ -409,7 +417,8 @@ static int make_cylinder(fl_pack_region *r, const char *text, fl_err *err)
 {
     double x[5];
     if (numbers_of(text, x, 5) || !(x[0] > 0.0 && x[1] < x[2]))
-        return fl_fail(err, FL_USAGE, "--in is \"cylinder:%.60s\", expected cylinder:R,Z0,Z1,X,Y with R > 0 and Z0 < Z1",
+        return fl_fail(err, FL_USAGE,
+                       "--in is \"cylinder:%.60s\", expected cylinder:R,Z0,Z1,X,Y with R > 0 and Z0 < Z1",
                        text);
     r->kind = FL_REGION_CYLINDER;
     r->radius = x[0];
@@ -454,8 +463,7 @@ static int make_from_file(fl_pack_region *r, const char *path, fl_err *err)
     char note[FL_MESH_NOTE];
     fl_err why = {0};
     r->kind = FL_REGION_FEATURES;
-    if (strcmp(path, "-") == 0)
-        return fl_fail(err, FL_USAGE, "--in is -, the name of a file is expected");
+    if (strcmp(path, "-") == 0) return fl_fail(err, FL_USAGE, "--in is -, the name of a file is expected");
     if (r->dim == 2) {
         if (make_outline(r, path, err)) return -1;
     } else if (is_g_polys(path)) {

@@ -31,7 +31,8 @@ static int add_shape(fl_pack_shapes *s, const fl_poly *core, double radius, fl_e
     double half[3] = {0};
     for (int32_t v = 0; v < from->nv; v++) {
         const fl_vec3 d = m3_tmul(mass.axes, v3_sub(from->v[v], mass.centre));
-        half[0] = fmax(half[0], fabs(d.x)), half[1] = fmax(half[1], fabs(d.y)), half[2] = fmax(half[2], fabs(d.z));
+        half[0] = fmax(half[0], fabs(d.x)), half[1] = fmax(half[1], fabs(d.y)),
+        half[2] = fmax(half[2], fabs(d.z));
     }
     for (int k = 0; k < 3; k++) half[k] += solid ? 0.0 : radius;
     const double scale = 0.5 / middle_of(half[0], half[1], half[2]);
@@ -63,7 +64,8 @@ static int read_shapes(fl_pack_shapes *s, const char *path, fl_err *err)
     for (int32_t k = 0; rc == 0 && k < field.n; k++) {
         fl_err why = {0};
         if (add_shape(s, &field.core[k], field.radius[k], &why))
-            rc = fl_fail(err, why.code, "%s:%d: body %d: %s", path, field.record_line[k], field.id[k], why.text);
+            rc = fl_fail(err, why.code, "%s:%d: body %d: %s", path, field.record_line[k], field.id[k],
+                         why.text);
     }
     fl_ice_field_free(&field);
     return rc;
@@ -77,11 +79,14 @@ int fl_pack_shapes_make(fl_pack_shapes *s, const char *text, fl_err *err)
     if (capsule || strcmp(text, "sphere") == 0) {
         double ratio = 1.0;
         if (capsule && (fl_number_f64(text + 8, &ratio) || !(ratio > 1.0 && ratio <= 100.0)))
-            return fl_fail(err, FL_USAGE,
-                           "--shapes is \"%.60s\", expected capsule:R with length over diameter R above 1, to 100", text);
+            return fl_fail(
+                err, FL_USAGE,
+                "--shapes is \"%.60s\", expected capsule:R with length over diameter R above 1, to 100",
+                text);
         const fl_vec3 v[2] = {v3(0.5 * (1.0 - ratio), 0, 0), v3(0.5 * (ratio - 1.0), 0, 0)}, o = v3(0, 0, 0);
         fl_poly core = {0};
-        rc = fl_poly_make(&core, capsule ? 2 : 1, capsule ? v : &o, 0, NULL, NULL, err) || add_shape(s, &core, 0.5, err)
+        rc = fl_poly_make(&core, capsule ? 2 : 1, capsule ? v : &o, 0, NULL, NULL, err) ||
+                     add_shape(s, &core, 0.5, err)
                  ? -1
                  : 0;
         fl_poly_free(&core);
@@ -152,7 +157,8 @@ int fl_packing_make(fl_packing *p, int dim, int32_t n, const double *size, const
 static void reorder(void *array, size_t size, int32_t n, const int32_t *order, char *scratch)
 {
     if (!array) return;
-    for (int32_t k = 0; k < n; k++) memcpy(scratch + (size_t)k * size, (char *)array + (size_t)order[k] * size, size);
+    for (int32_t k = 0; k < n; k++)
+        memcpy(scratch + (size_t)k * size, (char *)array + (size_t)order[k] * size, size);
     memcpy(array, scratch, (size_t)n * size);
 }
 
@@ -233,7 +239,8 @@ int fl_packing_field(const fl_packing *p, const char *material, const char *grou
         fl_poly core = {0};
         fl_packing_corners(p, i, v);
         rc = fl_poly_make(&core, t->nv, v, t->nf, t->first, t->loop, err) ||
-                     fl_ice_field_add(out, i, p->s * p->radius[i], &core, material, group, v3(0, 0, 0), v3(0, 0, 0), err)
+                     fl_ice_field_add(out, i, p->s * p->radius[i], &core, material, group, v3(0, 0, 0),
+                                      v3(0, 0, 0), err)
                  ? -1
                  : 0;
         if (rc) fl_poly_free(&core);

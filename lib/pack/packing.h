@@ -18,11 +18,11 @@
 /* A shape of size 1: core about its centroid, in principal axes. */
 typedef struct {
     fl_poly core;
-    double radius;   /* dilation radius over the size */
-    double bound;    /* bounding radius, with the dilation */
-    double volume;   /* of the outer sharp shape; round for spheres and capsules */
-    double rounded;  /* volume by Steiner's formula */
-    fl_vec3 half;    /* half extents along the principal axes */
+    double radius;  /* dilation radius over the size */
+    double bound;   /* bounding radius, with the dilation */
+    double volume;  /* of the outer sharp shape; round for spheres and capsules */
+    double rounded; /* volume by Steiner's formula */
+    fl_vec3 half;   /* half extents along the principal axes */
 } fl_pack_shape;
 
 typedef struct {

@@ -18,7 +18,7 @@ typedef struct {
 typedef struct {
     grid_level level[LEVELS_MAX];
     int levels;
-    int32_t *next; /* [n] body + 1 after this one in its cell */
+    int32_t *next;                 /* [n] body + 1 after this one in its cell */
     int32_t period[LEVELS_MAX][3]; /* cells of a periodic direction, 0: not periodic */
 } grid;
 
@@ -67,10 +67,7 @@ static uint32_t hash_cell(int32_t a, int32_t b, int32_t c)
     return (uint32_t)a * 73856093u ^ (uint32_t)b * 19349663u ^ (uint32_t)c * 83492791u;
 }
 
-static int32_t wrap_cell(int32_t c, int32_t period)
-{
-    return period ? (c % period + period) % period : c;
-}
+static int32_t wrap_cell(int32_t c, int32_t period) { return period ? (c % period + period) % period : c; }
 
 /* True if a ball about x of radius R overlaps a body that is placed. */
 static int overlaps_level(const grid *g, int level, const fl_packing *p, const fl_pack_region *r, fl_vec3 x,
@@ -88,8 +85,9 @@ static int overlaps_level(const grid *g, int level, const fl_packing *p, const f
     for (int32_t a = from[0]; a <= to[0]; a++)
         for (int32_t b = from[1]; b <= to[1]; b++)
             for (int32_t c = from[2]; c <= to[2]; c++) {
-                const uint32_t h = hash_cell(wrap_cell(a, g->period[level][0]), wrap_cell(b, g->period[level][1]),
-                                             wrap_cell(c, g->period[level][2]));
+                const uint32_t h =
+                    hash_cell(wrap_cell(a, g->period[level][0]), wrap_cell(b, g->period[level][1]),
+                              wrap_cell(c, g->period[level][2]));
                 for (int32_t j = l->head[h & (uint32_t)l->mask]; j; j = g->next[j - 1]) {
                     const double both = R + s * p->bound[j - 1];
                     if (v3_norm2(fl_region_wrap(r, v3_sub(x, p->x[j - 1]))) < both * both) return 1;
@@ -153,5 +151,6 @@ int fl_throw_bodies(fl_packing *p, const fl_pack_region *r, enum fl_throw how, u
             return 0;
         }
     }
-    return fl_fail(err, FL_INPUT, "%d bodies find no free place in the region even at %.3g of their size", p->n, s);
+    return fl_fail(err, FL_INPUT, "%d bodies find no free place in the region even at %.3g of their size",
+                   p->n, s);
 }
