@@ -17,7 +17,9 @@ enum fl_rng_purpose {
     FL_RNG_LAYER,
     FL_RNG_OFFSET,
     FL_RNG_STRENGTH,
-    FL_RNG_WAVE_DIRECTION
+    FL_RNG_WAVE_DIRECTION,
+    FL_RNG_SCATTER,
+    FL_RNG_ORIENTATION
 };
 
 typedef struct {
