@@ -402,7 +402,7 @@ static double fit_distance(fl_camera *c, fl_aabb box, double aspect, int move)
 
 void subject_frame(struct subject *s)
 {
-    const fl_aabb box = fl_frame_box(s->play.data, &s->play.now);
+    const fl_aabb box = fl_view_frame_box(s->play.data, &s->play.now);
     if (box.lo.x <= box.hi.x) s->box = box;
 }
 
