@@ -97,8 +97,9 @@ static void make_cell(fl_world *w)
     }
 }
 
-/* The pieces of the structure; those that touch and do not move apart are one. */
-static int make_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
+/* The pieces of the structure; those that touch and do not move apart are one.  Cylinders that members carry
+ * move apart. */
+static int make_pieces(fl_world *w, const fl_surface *surface, int carried, fl_err *err)
 {
     fl_err why = {0};
     int32_t *mover = fl_alloc(surface->n, sizeof *mover, err);
@@ -106,7 +107,7 @@ static int make_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
     if (mover) {
         fl_mover_of_parts(w->scene, surface, mover);
         rc = fl_structure_build(&w->structure, surface, &why) ||
-                     fl_regions_join(&w->structure, surface, mover, w->cell.length, &why)
+                     (!carried && fl_regions_join(&w->structure, surface, mover, w->cell.length, &why))
                  ? -1
                  : 0;
         if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", w->scene->structure.file, why.text);
@@ -375,7 +376,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     w->max_overlap_i = w->max_overlap_j = w->critical_body = -1;
     w->parts = surface ? surface->n : 0;
     make_cell(w);
-    if ((surface && make_pieces(w, surface, err)) || make_walls(w, err)) goto fail;
+    if ((surface && make_pieces(w, surface, members != NULL, err)) || make_walls(w, err)) goto fail;
     if (check_groups(w, field, feed, err) || fl_inflow_make(w, field, feed, err) ||
         make_driven_floes(w, field, err))
         goto fail;
