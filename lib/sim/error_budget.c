@@ -85,7 +85,7 @@ static int save_state(fl_error_budget *g, fl_world *w, fl_err *err)
 static int kind_of(const fl_world *w, const fl_pair *p)
 {
     if (p->j < w->n) return FLOES;
-    const int32_t part = w->structure.piece[p->j - w->n].part;
+    const int32_t part = p->load_part >= 0 ? p->load_part : w->structure.piece[p->j - w->n].part;
     return part < 0 ? WALLS : PARTS + part;
 }
 

@@ -94,13 +94,23 @@ static int add_mover(fl_world *w, const fl_scene_motion *m, const char *section,
     return 0;
 }
 
+void fl_mover_of_parts(const fl_scene *s, const fl_surface *surface, int32_t *mover)
+{
+    int32_t next = has_motion(&s->structure.motion) ? 1 : 0;
+    for (int32_t p = 0; p < surface->n; p++) mover[p] = next - 1;
+    for (int32_t i = 0; i < s->n_part; i++) {
+        const char *name = s->part[i].name;
+        const int32_t p = fl_surface_find(surface, name, strlen(name)),
+                      own = has_motion(&s->part[i].motion) ? next++ : -1;
+        if (p >= 0) mover[p] = own;
+    }
+}
+
 /* Movers of [structure] and of each [part NAME], and the mover of each part. */
 static int make_movers(fl_world *w, const fl_surface *surface, fl_err *err)
 {
     const fl_scene *s = w->scene;
-    fl_moving_structure *r = &w->moving;
-    int32_t next = has_motion(&s->structure.motion) ? 1 : 0;
-    for (int32_t p = 0; p < surface->n; p++) r->mover_of_part[p] = next - 1;
+    fl_mover_of_parts(s, surface, w->moving.mover_of_part);
     for (int32_t i = 0; i < s->n_part; i++) {
         const char *name = s->part[i].name;
         const int32_t p = fl_surface_find(surface, name, strlen(name));
@@ -108,7 +118,6 @@ static int make_movers(fl_world *w, const fl_surface *surface, fl_err *err)
         snprintf(section, sizeof section, "part %s", name);
         if (p < 0)
             return fl_scene_fail(s, section, err, "there is no part %s in %s", name, s->structure.file);
-        r->mover_of_part[p] = has_motion(&s->part[i].motion) ? next++ : -1;
         w->part_reference[p] = s->part[i].motion.reference;
     }
     if (has_motion(&s->structure.motion) && add_mover(w, &s->structure.motion, "structure", surface, err))

@@ -9,6 +9,9 @@
 #include "out/tables.h"
 #include "world/access.h"
 
+/* The mover of each part, mover[surface->n]; -1: it stands still.  Names without a part are skipped. */
+void fl_mover_of_parts(const fl_scene *s, const fl_surface *surface, int32_t *mover);
+
 /* Build w->moving from the scene and from the model of members, NULL: none, after the pieces have been
  * placed, and move the pieces to the pose of t = 0. Sets w->part_reference too.  -1 with FL_INPUT (a part
  * that does not exist, a track that cannot be read, a mesh that does not float) or FL_SYSTEM. */

@@ -10,6 +10,9 @@
 /* Time now [s].  dt changes only at times that are known exactly, so no rounding accumulates. */
 static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(w->step - w->step0) * w->dt; }
 
+/* Number of bonds, of faces and of spheres. */
+static inline int32_t fl_world_bonds(const fl_world *w) { return w->bonds.n + w->discs.n; }
+
 /* Heave spring of driven floe i: returns its stiffness [N/m], 0 without a spring; *drawn is its extension
  * upwards [m]. */
 static inline double fl_driven_floe_spring(const fl_world *w, int32_t i, double *drawn)
@@ -95,11 +98,12 @@ static inline int fl_piece_is_free(const fl_world *w, int32_t j)
     return m >= 0 && w->moving.movers.motion[m].free_dof != 0;
 }
 
-/* 1 if floes may rest against thing j: a piece or wall that stands still and whose panel loads are not
- * written. */
+/* 1 if floes may rest against thing j: a piece or wall that stands still, of one part, and whose panel loads
+ * are not written. */
 static inline int fl_thing_is_still(const fl_world *w, int32_t j)
 {
-    return j >= w->n && !fl_piece_moves(w, j) && !(w->panel_load.panels && j < w->n + w->pieces);
+    return j >= w->n && !fl_piece_moves(w, j) && !(w->panel_load.panels && j < w->n + w->pieces) &&
+           !w->structure.piece[j - w->n].several_parts;
 }
 
 /* 1 if near pair p is not evaluated: the two touch and both rest, or one rests and the other stands still. */

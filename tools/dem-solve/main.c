@@ -284,7 +284,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     if (targets_check(&in.scene, o, r.loads_path, err)) goto done;
     choose_step(&r);
     if (check_step_count(&r, err)) goto done;
-    if (!o->quiet && world.bonds.n) note_long_bonds(&world, stderr);
+    if (!o->quiet && fl_world_bonds(&world)) note_long_bonds(&world, stderr);
     rc = run_or_print(&r, err);
     *stopped = r.stopped;
     if (r.stopped && !o->quiet) print_stop(&r);

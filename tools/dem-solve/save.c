@@ -94,6 +94,7 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
     scene.run.threads = 0; /* the only byte that would depend on the machine */
     for (int k = 0; k < TABLES; k++)
         if (u->table[k].f && fl_out_mark(&u->table[k], &mark[k], err)) return -1;
+    fl_packed_writer_restart(&u->packed); /* the next frame does not refer to one before the mark */
     for (int k = 0; k < PARTS; k++) {
         if (part[k].text || !part[k].name[0]) continue;
         FILE *f = open_memstream(&text[k], &n[k]);
