@@ -427,10 +427,11 @@ int subject_strip(const struct subject *s, const fl_look *l, int w, int h)
     return l->picture.curve && s->curve.n > 0 ? fl_legend_curve_height(&p) / 2 * 2 : 0;
 }
 
-void subject_legend(const struct subject *s, const fl_look *l, fl_picture *p)
+double subject_time(const struct subject *s) { return s->play.file ? s->play.now.t : 0.0; }
+
+void subject_legend(const struct subject *s, const fl_look *l, double t, fl_picture *p)
 {
     const int bottom = subject_strip(s, l, p->w, p->h), curve = bottom > 0;
-    const double t = s->play.file ? s->play.now.t : 0.0;
     if (curve) {
         fl_curve c = {s->curve.t, s->curve.y, s->curve.n, 0, 0, s->curve_title};
         c.t0 = s->play.file ? fmin(s->curve.t[0], fl_playback_start(&s->play)) : s->curve.t[0];

@@ -50,8 +50,11 @@ fl_camera subject_camera(const struct subject *s, const fl_look *l, double aspec
 /* Height of the strip of the load curve at the lower edge of a picture; 0: none. */
 int subject_strip(const struct subject *s, const fl_look *l, int w, int h);
 
-/* Draws bar, time and curve. */
-void subject_legend(const struct subject *s, const fl_look *l, fl_picture *p);
+/* Draws bar, time and curve of time t. */
+void subject_legend(const struct subject *s, const fl_look *l, double t, fl_picture *p);
+
+/* The time shown. */
+double subject_time(const struct subject *s);
 
 /* Sentences about a body for a click; text has 200 bytes. */
 void subject_tell(const struct subject *s, int32_t row, char text[200]);

@@ -191,7 +191,7 @@ static void save_picture(struct window *v)
             0 &&
         fl_gl_view_read(v->gl, &p, &lost) == 0) {
         memcpy(whole.px, p.px, 4 * (size_t)v->w * (size_t)h);
-        subject_legend(v->s, &v->look, &whole);
+        subject_legend(v->s, &v->look, subject_time(v->s), &whole);
         shot_write(name, &whole, &lost);
     }
     fl_picture_free(&p);
@@ -392,11 +392,11 @@ static void draw_overlay(struct window *v)
     memset(v->overlay.px, 0, 4 * (size_t)v->w * (size_t)v->h);
     l.picture.curve = 0;
     l.picture.time = 0;
-    subject_legend(v->s, &l, &above);
+    subject_legend(v->s, &l, subject_time(v->s), &above);
     if (curve) {
         l = v->look;
         l.picture.legend = l.picture.time = 0;
-        subject_legend(v->s, &l, &v->overlay);
+        subject_legend(v->s, &l, subject_time(v->s), &v->overlay);
     }
     draw_panel(v, curve);
     if (v->note[0]) fl_legend_note(&v->overlay, v->note);
@@ -421,7 +421,7 @@ static int film_frame(struct window *v, fl_err *err)
     if (rc == 0) {
         fl_look l = v->look;
         l.picture.curve = 0;
-        subject_legend(v->s, &l, &p);
+        subject_legend(v->s, &l, subject_time(v->s), &p);
         for (int y = 0; y < v->film_h && y < p.h; y++)
             memcpy(v->seen.px + 4 * (size_t)y * (size_t)v->film_w, p.px + 4 * (size_t)y * (size_t)p.w,
                    4 * (size_t)(v->film_w < p.w ? v->film_w : p.w));
