@@ -105,10 +105,19 @@ void fl_legend_curve(fl_picture *p, const fl_curve *c, int high, double t)
     const double fy = (y0 - y1) / (hi - lo), fx = c->t1 > c->t0 ? (right - left) / (c->t1 - c->t0) : 0.0;
     const float zero = y0 - (float)((0.0 - lo) * fy);
     fl_picture_line(p, (float)left, zero, (float)right, zero, 1.0f, INK, 0.35f);
-    /* For each column the least and the largest value in it, joined to the column before. */
-    int64_t i = 0;
-    float last = NAN;
+    int64_t i = 0, n = 0;
     while (i < c->n && c->t[i] < c->t0) i++;
+    while (i + n < c->n && c->t[i + n] <= c->t1) n++;
+    if (n < right - left) { /* few points: joined by lines */
+        for (int64_t e = i + 1; e < i + n; e++)
+            fl_picture_line(p, (float)left + (float)((c->t[e - 1] - c->t0) * fx),
+                            y0 - (float)((c->y[e - 1] - lo) * fy),
+                            (float)left + (float)((c->t[e] - c->t0) * fx), y0 - (float)((c->y[e] - lo) * fy),
+                            fmaxf(1.0f, 1.2f * k), LINE, 0.9f);
+        i = c->n;
+    }
+    /* Many: for each column the least and the largest value in it, joined to the column before. */
+    float last = NAN;
     for (int x = left; x < right && i < c->n; x++) {
         const double until = c->t0 + (x + 1 - left) / fx;
         double a = INFINITY, b = -INFINITY;

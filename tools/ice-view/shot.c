@@ -112,8 +112,7 @@ int shot_picture(struct subject *s, const struct options *o, fl_err *err)
     if (s->play.file && (t > fl_playback_end(&s->play) * (1 + 1e-12) || t < fl_playback_start(&s->play)))
         return fl_fail(err, FL_USAGE, "--at %g: the frames are from %g s to %g s", t,
                        fl_playback_start(&s->play), fl_playback_end(&s->play));
-    if (subject_range(s, l, err) || subject_at(s, l, t, err)) return -1;
-    subject_frame(s);
+    if (subject_range(s, l, err) || subject_at(s, l, t, err) || subject_fit_now(s, err)) return -1;
     if (canvas_open(&k, s, l, 0, err) == 0 && canvas_draw(&k, s, l, 0.0, err) == 0 &&
         fl_gl_view_read(k.gl, &k.seen, err) == 0 && canvas_finish(&k, s, l, subject_time(s), err) == 0)
         rc = shot_write(o->out, &k.whole, err);
@@ -147,7 +146,7 @@ int shot_movie(struct subject *s, const struct options *o, fl_err *err)
                        end);
     const double last = fmin(to, end), first = fmax(from, start);
     const int64_t n = (int64_t)floor((last - first) / step * (1 + 1e-12)) + 1;
-    if (subject_range(s, l, err) ||
+    if (subject_range(s, l, err) || subject_fit_all(s, first, last, err) ||
         fl_film_open(&film, o->movie, l->picture.width, l->picture.height, o->fps, err))
         return -1;
     if (canvas_open(&k, s, l, 1, err)) goto done;

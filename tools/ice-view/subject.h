@@ -26,9 +26,10 @@ struct subject {
     int has_waves;
     float *sea_height;
     fl_sea_surface sea; /* the waves at the time shown; height NULL: still water */
-    fl_aabb box;        /* what `auto` of the camera shows: all times, or that of the picture */
-    double from, to;    /* ends of the colour bar */
-    int bar;            /* a colour bar belongs to the picture */
+    fl_vec3 *fit;       /* points that a camera of its own choice has in view */
+    int32_t fits, fit_cap;
+    double from, to; /* ends of the colour bar */
+    int bar;         /* a colour bar belongs to the picture */
     double most_force;
 };
 
@@ -41,8 +42,9 @@ int subject_range(struct subject *s, const fl_look *l, fl_err *err);
 /* Poses, colours, tubes and waves at a time.  -1 with FL_INPUT or FL_SYSTEM. */
 int subject_at(struct subject *s, const fl_look *l, double t, fl_err *err);
 
-/* `auto` of the camera shows the present time. */
-void subject_frame(struct subject *s);
+/* What `auto` of the camera has in view: the time shown, or all times.  -1 with FL_INPUT or FL_SYSTEM. */
+int subject_fit_now(struct subject *s, fl_err *err);
+int subject_fit_all(struct subject *s, double from, double to, fl_err *err);
 
 /* The camera of a look: `auto` is resolved by the extent; spun by view.spin from `start`. */
 fl_camera subject_camera(const struct subject *s, const fl_look *l, double aspect, double spin_seconds);

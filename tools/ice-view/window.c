@@ -116,7 +116,8 @@ static void standard_view(struct window *v, double azimuth, double elevation, in
     v->look.view.elevation = elevation;
     v->look.view.parallel = parallel;
     v->look.view.distance = v->look.view.at_x = v->look.view.at_y = v->look.view.at_z = NAN;
-    subject_frame(v->s);
+    fl_err lost = {0};
+    subject_fit_now(v->s, &lost);
     fix_camera(v);
 }
 
@@ -483,7 +484,9 @@ int window_run(struct subject *s, const struct options *o, fl_err *err)
         .s = s, .o = o, .look = o->look, .rate = 1.0, .picked = -1, .range_due = 1, .dirty = 1};
     int rc = -1;
     v.t = isnan(o->at) ? fl_playback_start(&s->play) : o->at;
-    if (subject_at(s, &v.look, v.t, err) || open_window(&v, err) || resize(&v, err)) goto done;
+    if (subject_fit_all(s, fl_playback_start(&s->play), fl_playback_end(&s->play), err) ||
+        subject_at(s, &v.look, v.t, err) || open_window(&v, err) || resize(&v, err))
+        goto done;
     fix_camera(&v);
     v.last = v.followed_at = SDL_GetTicks();
     v.moved_at = v.last - SETTLE_MS;
