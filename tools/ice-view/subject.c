@@ -23,7 +23,7 @@ enum { WHOLE, DAMAGED, BROKEN, ENDED, ELASTIC, SLIP, OPENED };
 
 /* A camera without a distance of its own sees all within this share of the picture. */
 #define INNER 0.93
-enum { FIT_TURNS = 12, FIT_BODIES = 5000, FIT_VERTICES = 16, FIT_FRAMES = 5 };
+enum { FIT_TURNS = 12, FIT_BODIES = 5000, FIT_VERTICES = 16, FIT_FRAMES = 5, WALL_POSTS = 9 };
 
 /* --- opening ------------------------------------------------------------------------------------ */
 
@@ -132,6 +132,8 @@ static int read_scene(struct subject *s, const struct options *o, fl_look *l, fl
     fl_scene scene;
     if (fl_scene_read(&scene, o->scene, err)) return -1;
     l->water.level = scene.water.level;
+    s->walls = scene.boundary;
+    s->has_walls = 1;
     const int rc = fl_sea_of_scene(&s->waves, &scene, &s->has_waves, err);
     fl_scene_free(&scene);
     return rc;
@@ -323,6 +325,44 @@ static int add_bonds(struct subject *s, double t, fl_err *err)
     return 0;
 }
 
+/* A side of the boundary as a frame that stands on the water: a rail along its top and its bottom, and posts. */
+static int add_wall(struct subject *s, const fl_look *l, int axis, double at, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->walls;
+    const double lo[2] = {b->min.x, b->min.y}, hi[2] = {b->max.x, b->max.y}, size = s->shown.radius;
+    const double box_lo[2] = {s->play.box.lo.x, s->play.box.lo.y},
+                 box_hi[2] = {s->play.box.hi.x, s->play.box.hi.y};
+    const int other = 1 - axis;
+    const double a = isfinite(lo[other]) ? lo[other] : box_lo[other],
+                 e = isfinite(hi[other]) ? hi[other] : box_hi[other];
+    const double z[2] = {l->water.level, l->water.level + 0.04 * size}, thick = 0.0025 * size;
+    for (int k = 0; k < 2 + WALL_POSTS; k++) {
+        const double post = a + (e - a) * (k - 2) / (WALL_POSTS - 1);
+        fl_vec3 p, q;
+        if (k < 2) {
+            p = axis ? v3(a, at, z[k]) : v3(at, a, z[k]);
+            q = axis ? v3(e, at, z[k]) : v3(at, e, z[k]);
+        } else {
+            p = axis ? v3(post, at, z[0]) : v3(at, post, z[0]);
+            q = axis ? v3(post, at, z[1]) : v3(at, post, z[1]);
+        }
+        if (fl_view_frame_add_tube(&s->shown, p, q, thick, l->boundary.colour, err)) return -1;
+    }
+    return 0;
+}
+
+static int add_walls(struct subject *s, const fl_look *l, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->walls;
+    const double side[2][2] = {{b->min.x, b->max.x}, {b->min.y, b->max.y}};
+    for (int axis = 0; axis < 2; axis++)
+        for (int k = 0; k < 2; k++)
+            if (b->type[axis] != FL_BOUNDARY_FREE && isfinite(side[axis][k]) &&
+                add_wall(s, l, axis, side[axis][k], err))
+                return -1;
+    return 0;
+}
+
 /* --- a time ------------------------------------------------------------------------------------- */
 
 static void place_bodies(struct subject *s)
@@ -358,6 +398,7 @@ int subject_at(struct subject *s, const fl_look *l, double t, fl_err *err)
     place_bodies(s);
     paint_bodies(s, l);
     s->shown.tubes = 0;
+    if (s->has_walls && l->boundary.shown && add_walls(s, l, err)) return -1;
     if (l->contacts.shown && (add_contacts(s, l, now, err) || add_bonds(s, now, err))) return -1;
     if (s->has_waves && !s->sea_height) {
         s->sea_height = fl_alloc(FL_SEA_SIDE * FL_SEA_SIDE, sizeof *s->sea_height, err);

@@ -23,6 +23,8 @@ struct subject {
     fl_load_curve curve;
     char curve_title[80], column_title[160];
     fl_waves waves;
+    fl_scene_boundary walls; /* of --scene */
+    int has_walls;
     int has_waves;
     float *sea_height;
     fl_sea_surface sea; /* the waves at the time shown; height NULL: still water */
