@@ -120,7 +120,7 @@ int fl_playback_open(fl_playback *p, fl_frame_file *file, const fl_frame_data *d
     if (!file) {
         p->now = *still;
         *still = (fl_frame){0};
-        p->box = fl_frame_box(data, &p->now);
+        p->box = fl_view_frame_box(data, &p->now);
         return 0;
     }
     const int32_t n = p->data->frames;
@@ -129,7 +129,7 @@ int fl_playback_open(fl_playback *p, fl_frame_file *file, const fl_frame_data *d
         if (at == last) continue;
         last = at;
         if (fl_frame_file_read(file, at, &p->now, err)) return -1;
-        p->box = aabb_join(p->box, fl_frame_box(p->data, &p->now));
+        p->box = aabb_join(p->box, fl_view_frame_box(p->data, &p->now));
     }
     return 0;
 }

@@ -49,7 +49,7 @@ int fl_view_frame_make(fl_view_frame *v, const fl_frame_data *d, fl_aabb box, fl
     return 0;
 }
 
-fl_aabb fl_frame_box(const fl_frame_data *d, const fl_frame *f)
+fl_aabb fl_view_frame_box(const fl_frame_data *d, const fl_frame *f)
 {
     fl_aabb box = aabb_empty();
     for (int32_t r = 0; r < f->rows; r++) {

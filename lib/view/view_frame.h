@@ -40,7 +40,7 @@ typedef struct {
 int fl_view_frame_make(fl_view_frame *v, const fl_frame_data *d, fl_aabb box, fl_err *err);
 
 /* Box of the bodies and parts of a frame. */
-fl_aabb fl_frame_box(const fl_frame_data *d, const fl_frame *f);
+fl_aabb fl_view_frame_box(const fl_frame_data *d, const fl_frame *f);
 
 int fl_view_frame_add_tube(fl_view_frame *v, fl_vec3 a, fl_vec3 b, double r, fl_rgb c, fl_err *err);
 

@@ -50,6 +50,8 @@ static const struct table TABLE[TABLES] = {
                       WITH_LOADS, 0, 0},
     [TABLE_BONDS] = {"bonds", PATH(bonds), PATH(bonds_every), &fl_bonds_table, NULL, write_bonds, ALONE, 0,
                      1},
+    [TABLE_MEMBERS] = {"members", PATH(members), PATH(members_every), &fl_member_forces_table, NULL,
+                       write_members, ALONE, 0, 0},
 };
 
 const char *table_name(int table) { return TABLE[table].name; }
@@ -123,7 +125,7 @@ void write_header(struct run *r, struct outputs *u, int table)
         const fl_poses now = poses_of(r);
         fl_packed_writer *const packed = packed_writer(r, u);
         if (packed) fl_packed_writer_restart(packed);
-        fl_frames_header(u->table[table].f, r->history, r->by, &now, r->surface, packed);
+        fl_frames_header(u->table[table].f, r->history, r->by, &now, r->frames_surface, packed);
         return;
     }
     fl_table_write_header(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history, r->by,

@@ -20,6 +20,7 @@ enum table_id {
     TABLE_PANELS,
     TABLE_EVENTS,
     TABLE_BONDS,
+    TABLE_MEMBERS,
     TABLES,
     TIMER_ICE = TABLES, /* frames with ice */
     TIMER_SAVE,         /* checkpoints */
