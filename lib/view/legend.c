@@ -7,7 +7,7 @@
 static const fl_rgb PAPER = {{20, 32, 40}}, INK = {{236, 242, 246}}, LINE = {{110, 200, 235}},
                     CURSOR = {{255, 180, 84}};
 #define PAPER_OPACITY 0.72f
-enum { TICKS = 4 };
+enum { TICKS = 4, NAMES_MAX = 12 };
 
 /* Pixels of a picture of 720 rows; smaller pictures shrink less, so that letters stay legible. */
 static float scale_of(const fl_picture *p)
@@ -50,6 +50,22 @@ void fl_legend_bar(fl_picture *p, const char *title, int map, double from, doubl
                         small, text, INK);
     }
     fl_picture_text(p, (float)x0, (float)y0 - 12 * k, cap, title, INK);
+}
+
+void fl_legend_names(fl_picture *p, const char *const *name, int n, int bottom)
+{
+    const float k = scale_of(p), cap = 10.5f * k, row = 20 * k;
+    const int shown = n < NAMES_MAX ? n : NAMES_MAX;
+    float wide = 0.0f;
+    for (int i = 0; i < shown; i++) wide = fmaxf(wide, fl_picture_text_width(name[i], cap));
+    const int x0 = p->w - (int)(wide + 62 * k), y0 = p->h - bottom - (int)(row * (float)shown + 26 * k);
+    fl_picture_plate(p, x0, y0, p->w - (int)(16 * k), p->h - bottom - (int)(16 * k), PAPER, PAPER_OPACITY);
+    for (int i = 0; i < shown; i++) {
+        const float y = (float)y0 + row * (float)(i + 1);
+        fl_picture_plate(p, x0 + (int)(10 * k), (int)(y - 10 * k), x0 + (int)(24 * k), (int)(y + 1 * k),
+                         fl_colour_of_number(i), 1.0f);
+        fl_picture_text(p, (float)x0 + 32 * k, y, cap, name[i], INK);
+    }
 }
 
 static void plate_of_text(fl_picture *p, const char *text, float x, float base)

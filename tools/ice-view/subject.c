@@ -122,7 +122,8 @@ static int read_groups(struct subject *s, const char *path, fl_err *err)
         const int32_t r = fl_frame_data_row(d, ice.id[i]);
         if (r >= 0) s->group[r] = ice.group[i];
     }
-    s->groups = ice.groups.n;
+    s->groups = ice.groups; /* taken over */
+    ice.groups = (fl_string_table){0};
     fl_ice_field_free(&ice);
     return s->group ? 0 : -1;
 }
@@ -518,8 +519,10 @@ void subject_legend(const struct subject *s, const fl_look *l, double t, fl_pict
         fl_legend_curve(p, &c, bottom, t);
     }
     if (l->picture.time && s->play.file) fl_legend_time(p, t, bottom);
-    if (!l->picture.legend || !s->bar) return;
     const int by = l->colour.by;
+    if (l->picture.legend && by == FL_BY_GROUP && s->groups.n)
+        fl_legend_names(p, (const char *const *)s->groups.name, s->groups.n, bottom);
+    if (!l->picture.legend || !s->bar) return;
     fl_legend_bar(p,
                   by == FL_BY_COLUMN   ? s->column_title
                   : by == FL_BY_FORCE  ? "largest contact force [N]"
@@ -558,6 +561,7 @@ void subject_close(struct subject *s)
     fl_frame_data_free(&s->own);
     fl_view_frame_free(&s->shown);
     free(s->group);
+    fl_string_table_free(&s->groups);
     fl_time_rows_free(&s->contacts);
     fl_time_rows_free(&s->bonds);
     fl_time_rows_free(&s->table);

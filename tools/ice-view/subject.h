@@ -3,6 +3,7 @@
 #ifndef ICE_VIEW_SUBJECT_H
 #define ICE_VIEW_SUBJECT_H
 #include "options.h"
+#include "base/string_table.h"
 #include "scene/scene.h"
 #include "view/camera.h"
 #include "view/legend.h"
@@ -18,7 +19,7 @@ struct subject {
     fl_playback play;
     fl_view_frame shown;
     int32_t *group; /* [rows] of --ice, by row; -1: none */
-    int32_t groups;
+    fl_string_table groups;
     fl_time_rows contacts, bonds, table, panels;
     fl_load_curve curve;
     char curve_title[80], column_title[160];
