@@ -38,6 +38,8 @@ $B/%.o: %.c
 # templates and take twenty times the space.  -O1 takes 0.8 of the time of -O2; the planar file is hot and keeps -O2.
 $(SHIMOBJ): CXXFLAGS += -frounding-math -g0 -Wno-maybe-uninitialized
 $B/lib/shim/cgal_s%.o: OPT := $(OPT:-O2=-O1)
+# Loops over the bytes of pictures, of which -O3 makes vectors.
+$B/lib/view/edge_smoothing.o: OPT := $(OPT:-O2=-O3)
 $B/%.o: %.cpp
 	@mkdir -p $(@D)
 	$(CXXALL) -c $< -o $@

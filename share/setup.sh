@@ -12,6 +12,7 @@ needs="gcc:gcc g++:g++ make:make libcgal-dev libccd-dev libgsl-dev libinih-dev z
 gnuplot-nox:gnuplot"
 # Of ice-view: OpenGL without a window and a driver for it, the window, films.  Where they cannot be had, it is built
 # without what needs them.
+refused=build/setup-left-out
 wanted="libepoxy-dev libegl-dev libgl1-mesa-dri libsdl2-dev ffmpeg:ffmpeg"
 missing=
 
@@ -56,6 +57,11 @@ install_on_debian()
     optional=$missing
     missing=$required$optional
     [ -z "$missing" ] && return 0
+    # What could not be had before is not asked for again; rm the file to try once more.
+    if [ -z "$required" ] && [ "$(cat "$refused" 2>/dev/null)" = "$missing" ]; then
+        leave_out
+        return 0
+    fi
     asroot=
     if [ "$(id -u)" -ne 0 ]; then
         have sudo || {
@@ -91,7 +97,11 @@ install_on_debian()
     [ -z "$missing" ] || fail 4 "apt-get said it installed$missing, but it is not there"
 }
 
-leave_out() { echo "setup: left out of ice-view, missing:$missing" >&2; }
+leave_out()
+{
+    mkdir -p "${refused%/*}" && echo "$missing" >"$refused"
+    echo "setup: left out of ice-view, missing:$missing" >&2
+}
 
 # Elsewhere: does the header compile, is the program on the PATH?
 probe()

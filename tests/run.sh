@@ -143,6 +143,8 @@ check)
         name=$(basename "$reader" .o)
         [ -f "tests/fuzz/$name.c" ] && add "corpus/${name#fuzz_}" "FLOE_FUZZ=0 exec $straight '${reader%.o}'"
     done
+    add view/pictures "exec sh tests/view/pictures.sh '$build'"
+    add view/window "exec sh tests/view/window.sh '$build'"
     for c in tests/golden/*/cmd; do
         [ -f "$c" ] && add "golden/$(basename "${c%/cmd}")" "exec sh tests/golden.sh '${c%/cmd}' '$build'"
     done
@@ -151,6 +153,8 @@ check)
 verify)
     unset FLOE_QUICK
     all_verify
+    add view/page "exec sh tests/view/page.sh '$build'"
+    add view/paraview "exec sh tests/view/paraview.sh '$build'"
     ;;
 bench)
     unset FLOE_QUICK

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 #include "view/edge_smoothing.h"
 
 /* An edge: luminance differs by more than this among the neighbours, and by more than an eighth of the
  * largest. */
-enum { CONTRAST = 10, CONTRAST_SHARE = 8, REACH = 6 * 256 };
+enum { CONTRAST = 10, CONTRAST_SHIFT = 3, REACH = 6 * 256, ROW = 256 };
 
 /* Adds the colour between pixels; x, y with 8 bits of fraction, centres at whole numbers. */
 static inline void add_tap(const unsigned char *p, int w, int h, int x, int y, int c[3])
@@ -38,7 +39,6 @@ static void smooth_pixel(const unsigned char *p, int w, int h, const unsigned ch
               hi = greater(m[x], greater(greater(a, b), greater(c, e)));
     int gx = -((a + b) - (c + e)), gy = (a + c) - (b + e), near[3] = {0}, wide[3] = {0};
     const int divisor = lesser(abs(gx), abs(gy)) + (a + b + c + e) / 32 + 1;
-    if (hi - lo <= CONTRAST || hi - lo <= hi / CONTRAST_SHARE) return;
     gx = within(256 * gx / divisor, REACH);
     gy = within(256 * gy / divisor, REACH);
     const int px = x << 8, py = y << 8;
@@ -51,6 +51,23 @@ static void smooth_pixel(const unsigned char *p, int w, int h, const unsigned ch
     for (int k = 0; k < 3; k++) d[k] = (unsigned char)(far ? (near[k] + 1) / 2 : (wide[k] + 2) / 4);
 }
 
+/* Marks pixels 1 .. n - 2 that are at edges; m: luminance from there on, rows of w.  Bytes alone, so that compilers make vectors of it. */
+static void mark_edges(const unsigned char *restrict m, int n, int w, unsigned char *restrict at)
+{
+    const unsigned char *restrict u = m - w, *restrict l = m + w;
+    for (int x = 1; x < n - 1; x++) {
+        const unsigned char a = u[x - 1], b = u[x + 1], c = l[x - 1], e = l[x + 1], o = m[x];
+        unsigned char lo = a < b ? a : b, hi = a < b ? b : a;
+        const unsigned char lo2 = c < e ? c : e, hi2 = c < e ? e : c;
+        lo = lo < lo2 ? lo : lo2;
+        hi = hi > hi2 ? hi : hi2;
+        lo = lo < o ? lo : o;
+        hi = hi > o ? hi : o;
+        const unsigned char d = (unsigned char)(hi - lo);
+        at[x] = (unsigned char)((d > CONTRAST) & (d > (hi >> CONTRAST_SHIFT)));
+    }
+}
+
 void fl_smooth_edges(const unsigned char *restrict from, int w, int h, unsigned char *restrict luminance,
                      unsigned char *restrict to)
 {
@@ -61,9 +78,15 @@ void fl_smooth_edges(const unsigned char *restrict from, int w, int h, unsigned 
     for (int y = 0; y < h; y++) {
         const unsigned char *s = from + 4 * (size_t)y * (size_t)w, *m = luminance + (size_t)y * (size_t)w;
         unsigned char *d = to + 4 * (size_t)y * (size_t)w;
-        for (int i = 0; i < 4 * w; i++) d[i] = s[i];
+        memcpy(d, s, 4 * (size_t)w);
         if (y == 0 || y == h - 1) continue;
-        for (int x = 1; x < w - 1; x++) smooth_pixel(from, w, h, m, x, y, d + 4 * x);
+        for (int x0 = 0; x0 < w; x0 += ROW - 2) { /* in pieces, with a pixel on either side */
+            unsigned char at[ROW] = {0};
+            const int piece = w - x0 < ROW ? w - x0 : ROW;
+            mark_edges(m + x0, piece, w, at);
+            for (int x = 1; x < piece - 1; x++)
+                if (at[x]) smooth_pixel(from, w, h, m, x0 + x, y, d + 4 * (x0 + x));
+        }
     }
 }
 

@@ -524,7 +524,10 @@ int fl_gl_view_draw(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, con
 static void reduce_samples(const unsigned char *from, int W, int s, fl_picture *p)
 {
     const int n = s * s;
-    for (int y = 0; y < p->h; y++)
+    for (int y = 0; y < p->h && s == 1; y++)
+        memcpy(p->px + 4 * (size_t)y * (size_t)p->w, from + 4 * (size_t)(p->h - 1 - y) * (size_t)W,
+               4 * (size_t)p->w);
+    for (int y = 0; y < p->h && s > 1; y++)
         for (int x = 0; x < p->w; x++) {
             int sum[3] = {0};
             for (int j = 0; j < s; j++) {

@@ -7,7 +7,7 @@
 static const fl_rgb PAPER = {{20, 32, 40}}, INK = {{236, 242, 246}}, LINE = {{110, 200, 235}},
                     CURSOR = {{255, 180, 84}};
 #define PAPER_OPACITY 0.72f
-enum { TICKS = 4 };
+enum { TICKS = 4, NAMES_MAX = 12 };
 
 /* Pixels of a picture of 720 rows; smaller pictures shrink less, so that letters stay legible. */
 static float scale_of(const fl_picture *p)
@@ -50,6 +50,22 @@ void fl_legend_bar(fl_picture *p, const char *title, int map, double from, doubl
                         small, text, INK);
     }
     fl_picture_text(p, (float)x0, (float)y0 - 12 * k, cap, title, INK);
+}
+
+void fl_legend_names(fl_picture *p, const char *const *name, int n, int bottom)
+{
+    const float k = scale_of(p), cap = 10.5f * k, row = 20 * k;
+    const int shown = n < NAMES_MAX ? n : NAMES_MAX;
+    float wide = 0.0f;
+    for (int i = 0; i < shown; i++) wide = fmaxf(wide, fl_picture_text_width(name[i], cap));
+    const int x0 = p->w - (int)(wide + 62 * k), y0 = p->h - bottom - (int)(row * (float)shown + 26 * k);
+    fl_picture_plate(p, x0, y0, p->w - (int)(16 * k), p->h - bottom - (int)(16 * k), PAPER, PAPER_OPACITY);
+    for (int i = 0; i < shown; i++) {
+        const float y = (float)y0 + row * (float)(i + 1);
+        fl_picture_plate(p, x0 + (int)(10 * k), (int)(y - 10 * k), x0 + (int)(24 * k), (int)(y + 1 * k),
+                         fl_colour_of_number(i), 1.0f);
+        fl_picture_text(p, (float)x0 + 32 * k, y, cap, name[i], INK);
+    }
 }
 
 static void plate_of_text(fl_picture *p, const char *text, float x, float base)
@@ -105,10 +121,19 @@ void fl_legend_curve(fl_picture *p, const fl_curve *c, int high, double t)
     const double fy = (y0 - y1) / (hi - lo), fx = c->t1 > c->t0 ? (right - left) / (c->t1 - c->t0) : 0.0;
     const float zero = y0 - (float)((0.0 - lo) * fy);
     fl_picture_line(p, (float)left, zero, (float)right, zero, 1.0f, INK, 0.35f);
-    /* For each column the least and the largest value in it, joined to the column before. */
-    int64_t i = 0;
-    float last = NAN;
+    int64_t i = 0, n = 0;
     while (i < c->n && c->t[i] < c->t0) i++;
+    while (i + n < c->n && c->t[i + n] <= c->t1) n++;
+    if (n < right - left) { /* few points: joined by lines */
+        for (int64_t e = i + 1; e < i + n; e++)
+            fl_picture_line(p, (float)left + (float)((c->t[e - 1] - c->t0) * fx),
+                            y0 - (float)((c->y[e - 1] - lo) * fy),
+                            (float)left + (float)((c->t[e] - c->t0) * fx), y0 - (float)((c->y[e] - lo) * fy),
+                            fmaxf(1.0f, 1.2f * k), LINE, 0.9f);
+        i = c->n;
+    }
+    /* Many: for each column the least and the largest value in it, joined to the column before. */
+    float last = NAN;
     for (int x = left; x < right && i < c->n; x++) {
         const double until = c->t0 + (x + 1 - left) / fx;
         double a = INFINITY, b = -INFINITY;

@@ -8,6 +8,9 @@
 /* The bar, at the lower right; bottom: pixels below it that are taken. */
 void fl_legend_bar(fl_picture *p, const char *title, int map, double from, double to, int bottom);
 
+/* Names with their colours, fl_colour_of_number(), at the lower right; of many the first ones. */
+void fl_legend_names(fl_picture *p, const char *const *name, int n, int bottom);
+
 /* The time, at the lower left. */
 void fl_legend_time(fl_picture *p, double t, int bottom);
 

@@ -50,6 +50,10 @@ typedef struct {
         fl_rgb colour;
     } water;
     struct {
+        int shown;
+        fl_rgb colour;
+    } boundary;
+    struct {
         int kind; /* sky, plain */
         fl_rgb colour;
     } background;

@@ -229,6 +229,15 @@ int fl_playback_range(fl_playback *p, int by, double *from, double *to, fl_err *
     free(sorted);
     *from = signed_values && isfinite(lo) ? lo : 0.0;
     *to = isfinite(hi) && hi > *from ? (signed_values ? hi : fl_round_up(hi)) : *from + 1.0;
+    if (by == FL_BY_HEIGHT) { /* ends that four even ticks divide */
+        double step = fl_round_up(0.25 * (*to - *from)), least = floor(*from / step) * step;
+        if (least + 4.0 * step < *to) {
+            step = fl_round_up(1.01 * step);
+            least = floor(*from / step) * step;
+        }
+        *from = least;
+        *to = least + 4.0 * step;
+    }
     return 0;
 fail:
     free(sorted);

@@ -9,7 +9,7 @@
 #include "support/near.h"
 #include "view/playback.h"
 
-static char path[64];
+static char path[80];
 static const char HEAD[] =
     "#animation 1\n#by test\nshape 3 0.5 1 0\nv 0 0 0\nshape 9 0.1 4 4\nv 1 1 1\nv 1 -1 -1\nv -1 1 -1\n"
     "v -1 -1 1\nf 3 0 2 1\nf 3 0 1 3\nf 3 0 3 2\nf 3 1 2 3\npart 1 leg\nv 0 0 0\nv 1 0 0\nv 0 1 0\nt 0 1 2\n"
@@ -82,7 +82,7 @@ static void gzip_and_packed_hold_the_same(void **state)
 {
     (void)state;
     fl_err err = {0};
-    char packed[80];
+    char packed[120];
     snprintf(packed, sizeof packed, "%s.packed", path);
     gzFile z = gzopen(path, "wb");
     gzputs(z, HEAD);
@@ -149,6 +149,45 @@ static void a_cut_file_ends_at_its_last_whole_frame(void **state)
         fl_frame_file_close(f);
         write_text(HEAD, FRAMES);
     }
+}
+
+/* The file of a run under way: NAME.part grows, in pieces that end anywhere; what is whole is shown. */
+static void a_run_under_way_is_followed(void **state)
+{
+    (void)state;
+    fl_err err = {0};
+    char part[120], name[80], all[4000], line[200];
+    fl_frame a = {0};
+    strcpy(name, path);
+    unlink(name);
+    snprintf(part, sizeof part, "%s.part", name);
+    snprintf(path, sizeof path, "%.79s", part);
+    snprintf(all, sizeof all, "%s", HEAD);
+    for (int k = 0; k < 12; k++) {
+        snprintf(line, sizeof line, "frame %d\nbody 3 %d 0 0 1 0 0 0\nbody 9 %d 0 1 1 0 0 0\n", k, k, 2 * k);
+        strcat(all, line);
+    }
+    size_t n = strlen(HEAD) + 140;
+    write_file(all, n);
+    fl_frame_file *f = fl_frame_file_open(name, NULL, &err);
+    assert_non_null(f);
+    int32_t frames = fl_frame_file_data(f)->frames;
+    assert_true(frames >= 1 && frames < 12);
+    for (n += 17; n < strlen(all); n += 17) {
+        write_file(all, n);
+        const int32_t more = fl_frame_file_more(f, &err);
+        assert_true(more >= 0 && more <= 1);
+        frames += more;
+        assert_int_equal(fl_frame_file_data(f)->frames, frames);
+        assert_int_equal(fl_frame_file_read(f, frames - 1, &a, &err), 0);
+        assert_near(a.t, frames - 1, 0);
+        assert_near(a.x[1].x, 2.0 * (frames - 1), 0);
+    }
+    assert_true(frames >= 10);
+    fl_frame_free(&a);
+    fl_frame_file_close(f);
+    unlink(part);
+    strcpy(path, name);
 }
 
 static void refused(const char *frames, const char *sentence)
@@ -219,6 +258,7 @@ int main(void)
         cmocka_unit_test(text_is_read_at_random),
         cmocka_unit_test(gzip_and_packed_hold_the_same),
         cmocka_unit_test(a_cut_file_ends_at_its_last_whole_frame),
+        cmocka_unit_test(a_run_under_way_is_followed),
         cmocka_unit_test(what_is_wrong_has_file_and_line),
         cmocka_unit_test(motion_between_frames_is_linear),
     };

@@ -71,6 +71,11 @@ int main(int argc, char **argv)
     fl_err err = {0};
     fl_tool_begin();
     int rc = options_parse(&o, argc, argv, &err);
+    if (rc == 0 && o.threads) { /* of Mesa's software renderer */
+        char text[16];
+        snprintf(text, sizeof text, "%d", o.threads);
+        setenv("LP_NUM_THREADS", text, 1);
+    }
     if (rc == 0 && !o.ended && o.keys) fl_look_explain(stdout);
     else if (rc == 0 && !o.ended) rc = run(&o, &err);
     return fl_tool_end("ice-view", rc, &err);

@@ -93,13 +93,12 @@ static int canvas_draw(struct canvas *k, const struct subject *s, const fl_look 
     return fl_gl_view_draw(k->gl, &s->shown, l, &c, k->q, sea_of(s), err);
 }
 
-/* What has been drawn, with bar, time and curve. */
-static int canvas_take(struct canvas *k, const struct subject *s, const fl_look *l, fl_err *err)
+/* Edges, bar, time and curve on what has been read. */
+static int canvas_finish(struct canvas *k, const struct subject *s, const fl_look *l, double t, fl_err *err)
 {
-    if (fl_gl_view_read(k->gl, &k->seen, err)) return -1;
     if (k->q.samples == 1 && l->picture.smooth && smooth_picture(&k->seen, err)) return -1;
     memcpy(k->whole.px, k->seen.px, 4 * (size_t)k->seen.w * (size_t)k->seen.h);
-    subject_legend(s, l, &k->whole);
+    subject_legend(s, l, t, &k->whole);
     return 0;
 }
 
@@ -113,10 +112,9 @@ int shot_picture(struct subject *s, const struct options *o, fl_err *err)
     if (s->play.file && (t > fl_playback_end(&s->play) * (1 + 1e-12) || t < fl_playback_start(&s->play)))
         return fl_fail(err, FL_USAGE, "--at %g: the frames are from %g s to %g s", t,
                        fl_playback_start(&s->play), fl_playback_end(&s->play));
-    if (subject_range(s, l, err) || subject_at(s, l, t, err)) return -1;
-    subject_frame(s);
+    if (subject_range(s, l, err) || subject_at(s, l, t, err) || subject_fit_now(s, err)) return -1;
     if (canvas_open(&k, s, l, 0, err) == 0 && canvas_draw(&k, s, l, 0.0, err) == 0 &&
-        canvas_take(&k, s, l, err) == 0)
+        fl_gl_view_read(k.gl, &k.seen, err) == 0 && canvas_finish(&k, s, l, subject_time(s), err) == 0)
         rc = shot_write(o->out, &k.whole, err);
     canvas_close(&k);
     return rc;
@@ -137,6 +135,7 @@ int shot_movie(struct subject *s, const struct options *o, fl_err *err)
     const fl_look *l = &o->look;
     struct canvas k = {0};
     fl_film film = {0};
+    double t[2] = {0, 0};
     int rc = -1;
     if (!s->play.file) return fl_fail(err, FL_INPUT, "%s: this file has one picture, and no film", o->in);
     const double start = fl_playback_start(&s->play), end = fl_playback_end(&s->play);
@@ -147,18 +146,25 @@ int shot_movie(struct subject *s, const struct options *o, fl_err *err)
                        end);
     const double last = fmin(to, end), first = fmax(from, start);
     const int64_t n = (int64_t)floor((last - first) / step * (1 + 1e-12)) + 1;
-    if (subject_range(s, l, err) ||
+    if (subject_range(s, l, err) || subject_fit_all(s, first, last, err) ||
         fl_film_open(&film, o->movie, l->picture.width, l->picture.height, o->fps, err))
         return -1;
     if (canvas_open(&k, s, l, 1, err)) goto done;
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);
-    for (int64_t i = 0; i < n && !stopped; i++) {
-        if (subject_at(s, l, first + (double)i * step, err) ||
-            canvas_draw(&k, s, l, (double)i / o->fps, err) || canvas_take(&k, s, l, err) ||
-            fl_film_add(&film, &k.whole, err))
-            goto done;
-        show_progress(o, i + 1, n);
+    /* Picture i is started before picture i - 1 is taken, smoothed and encoded. */
+    for (int64_t i = 0; i <= n && !stopped; i++) {
+        if (i < n) {
+            if (subject_at(s, l, first + (double)i * step, err) ||
+                canvas_draw(&k, s, l, (double)i / o->fps, err))
+                goto done;
+            t[i & 1] = subject_time(s);
+            fl_gl_view_start_read(k.gl, (int)(i & 1));
+        }
+        if (i == 0) continue;
+        fl_gl_view_end_read(k.gl, (int)((i - 1) & 1), &k.seen);
+        if (canvas_finish(&k, s, l, t[(i - 1) & 1], err) || fl_film_add(&film, &k.whole, err)) goto done;
+        show_progress(o, i, n);
     }
     if (stopped) fl_fail(err, FL_SYSTEM, "%s: stopped by a signal; nothing is left of the film", o->movie);
     else rc = fl_film_close(&film, err);

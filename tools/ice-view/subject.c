@@ -23,7 +23,7 @@ enum { WHOLE, DAMAGED, BROKEN, ENDED, ELASTIC, SLIP, OPENED };
 
 /* A camera without a distance of its own sees all within this share of the picture. */
 #define INNER 0.93
-enum { FIT_TURNS = 12 };
+enum { FIT_TURNS = 12, FIT_BODIES = 5000, FIT_VERTICES = 16, FIT_FRAMES = 5, WALL_POSTS = 9 };
 
 /* --- opening ------------------------------------------------------------------------------------ */
 
@@ -122,7 +122,8 @@ static int read_groups(struct subject *s, const char *path, fl_err *err)
         const int32_t r = fl_frame_data_row(d, ice.id[i]);
         if (r >= 0) s->group[r] = ice.group[i];
     }
-    s->groups = ice.groups.n;
+    s->groups = ice.groups; /* taken over */
+    ice.groups = (fl_string_table){0};
     fl_ice_field_free(&ice);
     return s->group ? 0 : -1;
 }
@@ -132,6 +133,8 @@ static int read_scene(struct subject *s, const struct options *o, fl_look *l, fl
     fl_scene scene;
     if (fl_scene_read(&scene, o->scene, err)) return -1;
     l->water.level = scene.water.level;
+    s->walls = scene.boundary;
+    s->has_walls = 1;
     const int rc = fl_sea_of_scene(&s->waves, &scene, &s->has_waves, err);
     fl_scene_free(&scene);
     return rc;
@@ -169,7 +172,6 @@ int subject_open(struct subject *s, struct options *o, fl_err *err)
     if (fl_frame_file_is(o->in) ? open_frames(s, o, err) : open_still(s, o, err)) return -1;
     if (read_tables(s, o, err) || (o->ice && read_groups(s, o->ice, err))) return -1;
     if (o->scene && read_scene(s, o, &o->look, err)) return -1;
-    s->box = s->play.box;
     return fl_view_frame_make(&s->shown, s->play.data, s->play.box, err);
 }
 
@@ -324,6 +326,44 @@ static int add_bonds(struct subject *s, double t, fl_err *err)
     return 0;
 }
 
+/* A side of the boundary as a frame that stands on the water: a rail along its top and its bottom, and posts. */
+static int add_wall(struct subject *s, const fl_look *l, int axis, double at, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->walls;
+    const double lo[2] = {b->min.x, b->min.y}, hi[2] = {b->max.x, b->max.y}, size = s->shown.radius;
+    const double box_lo[2] = {s->play.box.lo.x, s->play.box.lo.y},
+                 box_hi[2] = {s->play.box.hi.x, s->play.box.hi.y};
+    const int other = 1 - axis;
+    const double a = isfinite(lo[other]) ? lo[other] : box_lo[other],
+                 e = isfinite(hi[other]) ? hi[other] : box_hi[other];
+    const double z[2] = {l->water.level, l->water.level + 0.04 * size}, thick = 0.0025 * size;
+    for (int k = 0; k < 2 + WALL_POSTS; k++) {
+        const double post = a + (e - a) * (k - 2) / (WALL_POSTS - 1);
+        fl_vec3 p, q;
+        if (k < 2) {
+            p = axis ? v3(a, at, z[k]) : v3(at, a, z[k]);
+            q = axis ? v3(e, at, z[k]) : v3(at, e, z[k]);
+        } else {
+            p = axis ? v3(post, at, z[0]) : v3(at, post, z[0]);
+            q = axis ? v3(post, at, z[1]) : v3(at, post, z[1]);
+        }
+        if (fl_view_frame_add_tube(&s->shown, p, q, thick, l->boundary.colour, err)) return -1;
+    }
+    return 0;
+}
+
+static int add_walls(struct subject *s, const fl_look *l, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->walls;
+    const double side[2][2] = {{b->min.x, b->max.x}, {b->min.y, b->max.y}};
+    for (int axis = 0; axis < 2; axis++)
+        for (int k = 0; k < 2; k++)
+            if (b->type[axis] != FL_BOUNDARY_FREE && isfinite(side[axis][k]) &&
+                add_wall(s, l, axis, side[axis][k], err))
+                return -1;
+    return 0;
+}
+
 /* --- a time ------------------------------------------------------------------------------------- */
 
 static void place_bodies(struct subject *s)
@@ -359,6 +399,7 @@ int subject_at(struct subject *s, const fl_look *l, double t, fl_err *err)
     place_bodies(s);
     paint_bodies(s, l);
     s->shown.tubes = 0;
+    if (s->has_walls && l->boundary.shown && add_walls(s, l, err)) return -1;
     if (l->contacts.shown && (add_contacts(s, l, now, err) || add_bonds(s, now, err))) return -1;
     if (s->has_waves && !s->sea_height) {
         s->sea_height = fl_alloc(FL_SEA_SIDE * FL_SEA_SIDE, sizeof *s->sea_height, err);
@@ -371,9 +412,9 @@ int subject_at(struct subject *s, const fl_look *l, double t, fl_err *err)
     return 0;
 }
 
-/* The distance from which all corners of the box are in the picture; with `move`, the point looked at is
+/* The distance from which all points of s->fit are in the picture; with `move`, the point looked at is
  * shifted to the middle of what they take up. */
-static double fit_distance(fl_camera *c, fl_aabb box, double aspect, int move)
+static double fit_distance(const struct subject *s, fl_camera *c, double aspect, int move)
 {
     const double e = c->elevation, a = c->azimuth, half_up = tan(0.5 * c->field), up = half_up * INNER,
                  across = up * aspect;
@@ -383,32 +424,71 @@ static double fit_distance(fl_camera *c, fl_aabb box, double aspect, int move)
     for (int turn = 0; turn < FIT_TURNS; turn++) {
         fl_aabb seen = aabb_empty();
         d = 0.0;
-        for (int pass = 0; pass < 2; pass++)
-            for (int k = 0; k < 8; k++) {
-                const fl_vec3 corner =
-                    v3(k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z);
-                const fl_vec3 p = v3_sub(corner, c->at);
-                const double nearer = c->parallel ? 0.0 : v3_dot(p, back), x = v3_dot(p, right),
-                             y = v3_dot(p, top);
-                if (pass == 0) d = fmax(d, nearer + fmax(fabs(x) / across, fabs(y) / up));
-                else if (d > nearer) seen = aabb_add(seen, v3(x / (d - nearer), y / (d - nearer), 0));
-            }
-        if (!move || !(seen.lo.x <= seen.hi.x)) break;
+        for (int32_t k = 0; k < s->fits; k++) {
+            const fl_vec3 p = v3_sub(s->fit[k], c->at);
+            const double nearer = c->parallel ? 0.0 : v3_dot(p, back);
+            d = fmax(d, nearer + fmax(fabs(v3_dot(p, right)) / across, fabs(v3_dot(p, top)) / up));
+        }
+        for (int32_t k = 0; k < s->fits && move; k++) {
+            const fl_vec3 p = v3_sub(s->fit[k], c->at);
+            const double away = d - (c->parallel ? 0.0 : v3_dot(p, back));
+            if (away > 0.0) seen = aabb_add(seen, v3(v3_dot(p, right) / away, v3_dot(p, top) / away, 0));
+        }
+        if (!(seen.lo.x <= seen.hi.x)) break;
         c->at = v3_madd(c->at, 0.5 * d * (seen.lo.x + seen.hi.x), right);
         c->at = v3_madd(c->at, 0.5 * d * (seen.lo.y + seen.hi.y), top);
     }
     return d > 0.0 ? d : 1.0;
 }
 
-void subject_frame(struct subject *s)
+static int add_fit(struct subject *s, fl_vec3 x, fl_err *err)
 {
-    const fl_aabb box = fl_view_frame_box(s->play.data, &s->play.now);
-    if (box.lo.x <= box.hi.x) s->box = box;
+    if (fl_grow(&s->fit, &s->fit_cap, (int64_t)s->fits + 1, sizeof *s->fit, err)) return -1;
+    s->fit[s->fits++] = x;
+    return 0;
+}
+
+/* Points that the picture has to hold: vertices of bodies, corners of parts.  Of many bodies some. */
+static int add_fits(struct subject *s, fl_err *err)
+{
+    const fl_frame *f = &s->play.now;
+    const fl_frame_data *d = s->play.data;
+    for (int32_t r = 0; r < f->rows; r += f->rows / FIT_BODIES + 1) {
+        if (!f->there[r]) continue;
+        const fl_frame_shape *shape = fl_frame_data_shape(d, r, f->k < 0 ? 0 : f->k);
+        const fl_mat3 R = q_matrix(f->q[r]);
+        for (int32_t k = 0; k < shape->nv; k += shape->nv / FIT_VERTICES + 1)
+            if (add_fit(s, v3_add(f->x[r], m3_mul(R, d->vertex[shape->v + k])), err)) return -1;
+    }
+    for (int32_t p = 0; p < f->parts; p++) {
+        const fl_aabb b = fl_part_aabb(&d->structure.part[p]);
+        const fl_mat3 R = q_matrix(f->part_q[p]);
+        for (int k = 0; k < 8 && b.lo.x <= b.hi.x; k++) {
+            const fl_vec3 c = v3(k & 1 ? b.hi.x : b.lo.x, k & 2 ? b.hi.y : b.lo.y, k & 4 ? b.hi.z : b.lo.z);
+            if (add_fit(s, v3_add(f->part_x[p], m3_mul(R, c)), err)) return -1;
+        }
+    }
+    return 0;
+}
+
+int subject_fit_now(struct subject *s, fl_err *err)
+{
+    s->fits = 0;
+    return add_fits(s, err);
+}
+
+int subject_fit_all(struct subject *s, double from, double to, fl_err *err)
+{
+    s->fits = 0;
+    for (int k = 0; k < FIT_FRAMES; k++)
+        if (fl_playback_at(&s->play, from + (to - from) * k / (FIT_FRAMES - 1), err) || add_fits(s, err))
+            return -1;
+    return 0;
 }
 
 fl_camera subject_camera(const struct subject *s, const fl_look *l, double aspect, double spin_seconds)
 {
-    const fl_vec3 o = v3_scale(0.5, v3_add(s->box.lo, s->box.hi));
+    const fl_vec3 o = s->shown.origin;
     fl_camera c = {.field = fl_radians(l->view.field), .parallel = l->view.parallel};
     c.azimuth = fl_radians(l->view.azimuth + l->view.spin * spin_seconds);
     c.elevation = fl_radians(l->view.elevation);
@@ -416,8 +496,8 @@ fl_camera subject_camera(const struct subject *s, const fl_look *l, double aspec
               isnan(l->view.at_z) ? o.z : l->view.at_z);
     c.distance = l->view.distance;
     if (isnan(c.distance))
-        c.distance = fit_distance(&c, s->box, aspect,
-                                  isnan(l->view.at_x) && isnan(l->view.at_y) && isnan(l->view.at_z));
+        c.distance =
+            fit_distance(s, &c, aspect, isnan(l->view.at_x) && isnan(l->view.at_y) && isnan(l->view.at_z));
     return c;
 }
 
@@ -427,10 +507,11 @@ int subject_strip(const struct subject *s, const fl_look *l, int w, int h)
     return l->picture.curve && s->curve.n > 0 ? fl_legend_curve_height(&p) / 2 * 2 : 0;
 }
 
-void subject_legend(const struct subject *s, const fl_look *l, fl_picture *p)
+double subject_time(const struct subject *s) { return s->play.file ? s->play.now.t : 0.0; }
+
+void subject_legend(const struct subject *s, const fl_look *l, double t, fl_picture *p)
 {
     const int bottom = subject_strip(s, l, p->w, p->h), curve = bottom > 0;
-    const double t = s->play.file ? s->play.now.t : 0.0;
     if (curve) {
         fl_curve c = {s->curve.t, s->curve.y, s->curve.n, 0, 0, s->curve_title};
         c.t0 = s->play.file ? fmin(s->curve.t[0], fl_playback_start(&s->play)) : s->curve.t[0];
@@ -438,8 +519,10 @@ void subject_legend(const struct subject *s, const fl_look *l, fl_picture *p)
         fl_legend_curve(p, &c, bottom, t);
     }
     if (l->picture.time && s->play.file) fl_legend_time(p, t, bottom);
-    if (!l->picture.legend || !s->bar) return;
     const int by = l->colour.by;
+    if (l->picture.legend && by == FL_BY_GROUP && s->groups.n)
+        fl_legend_names(p, (const char *const *)s->groups.name, s->groups.n, bottom);
+    if (!l->picture.legend || !s->bar) return;
     fl_legend_bar(p,
                   by == FL_BY_COLUMN   ? s->column_title
                   : by == FL_BY_FORCE  ? "largest contact force [N]"
@@ -478,6 +561,7 @@ void subject_close(struct subject *s)
     fl_frame_data_free(&s->own);
     fl_view_frame_free(&s->shown);
     free(s->group);
+    fl_string_table_free(&s->groups);
     fl_time_rows_free(&s->contacts);
     fl_time_rows_free(&s->bonds);
     fl_time_rows_free(&s->table);
@@ -485,5 +569,6 @@ void subject_close(struct subject *s)
     fl_load_curve_free(&s->curve);
     fl_waves_free(&s->waves);
     free(s->sea_height);
+    free(s->fit);
     *s = (struct subject){0};
 }

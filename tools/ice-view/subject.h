@@ -3,6 +3,7 @@
 #ifndef ICE_VIEW_SUBJECT_H
 #define ICE_VIEW_SUBJECT_H
 #include "options.h"
+#include "base/string_table.h"
 #include "scene/scene.h"
 #include "view/camera.h"
 #include "view/legend.h"
@@ -18,17 +19,20 @@ struct subject {
     fl_playback play;
     fl_view_frame shown;
     int32_t *group; /* [rows] of --ice, by row; -1: none */
-    int32_t groups;
+    fl_string_table groups;
     fl_time_rows contacts, bonds, table, panels;
     fl_load_curve curve;
     char curve_title[80], column_title[160];
     fl_waves waves;
+    fl_scene_boundary walls; /* of --scene */
+    int has_walls;
     int has_waves;
     float *sea_height;
     fl_sea_surface sea; /* the waves at the time shown; height NULL: still water */
-    fl_aabb box;        /* what `auto` of the camera shows: all times, or that of the picture */
-    double from, to;    /* ends of the colour bar */
-    int bar;            /* a colour bar belongs to the picture */
+    fl_vec3 *fit;       /* points that a camera of its own choice has in view */
+    int32_t fits, fit_cap;
+    double from, to; /* ends of the colour bar */
+    int bar;         /* a colour bar belongs to the picture */
     double most_force;
 };
 
@@ -41,8 +45,9 @@ int subject_range(struct subject *s, const fl_look *l, fl_err *err);
 /* Poses, colours, tubes and waves at a time.  -1 with FL_INPUT or FL_SYSTEM. */
 int subject_at(struct subject *s, const fl_look *l, double t, fl_err *err);
 
-/* `auto` of the camera shows the present time. */
-void subject_frame(struct subject *s);
+/* What `auto` of the camera has in view: the time shown, or all times.  -1 with FL_INPUT or FL_SYSTEM. */
+int subject_fit_now(struct subject *s, fl_err *err);
+int subject_fit_all(struct subject *s, double from, double to, fl_err *err);
 
 /* The camera of a look: `auto` is resolved by the extent; spun by view.spin from `start`. */
 fl_camera subject_camera(const struct subject *s, const fl_look *l, double aspect, double spin_seconds);
@@ -50,8 +55,11 @@ fl_camera subject_camera(const struct subject *s, const fl_look *l, double aspec
 /* Height of the strip of the load curve at the lower edge of a picture; 0: none. */
 int subject_strip(const struct subject *s, const fl_look *l, int w, int h);
 
-/* Draws bar, time and curve. */
-void subject_legend(const struct subject *s, const fl_look *l, fl_picture *p);
+/* Draws bar, time and curve of time t. */
+void subject_legend(const struct subject *s, const fl_look *l, double t, fl_picture *p);
+
+/* The time shown. */
+double subject_time(const struct subject *s);
 
 /* Sentences about a body for a click; text has 200 bytes. */
 void subject_tell(const struct subject *s, int32_t row, char text[200]);

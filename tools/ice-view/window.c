@@ -116,7 +116,8 @@ static void standard_view(struct window *v, double azimuth, double elevation, in
     v->look.view.elevation = elevation;
     v->look.view.parallel = parallel;
     v->look.view.distance = v->look.view.at_x = v->look.view.at_y = v->look.view.at_z = NAN;
-    subject_frame(v->s);
+    fl_err lost = {0};
+    subject_fit_now(v->s, &lost);
     fix_camera(v);
 }
 
@@ -191,7 +192,7 @@ static void save_picture(struct window *v)
             0 &&
         fl_gl_view_read(v->gl, &p, &lost) == 0) {
         memcpy(whole.px, p.px, 4 * (size_t)v->w * (size_t)h);
-        subject_legend(v->s, &v->look, &whole);
+        subject_legend(v->s, &v->look, subject_time(v->s), &whole);
         shot_write(name, &whole, &lost);
     }
     fl_picture_free(&p);
@@ -392,11 +393,11 @@ static void draw_overlay(struct window *v)
     memset(v->overlay.px, 0, 4 * (size_t)v->w * (size_t)v->h);
     l.picture.curve = 0;
     l.picture.time = 0;
-    subject_legend(v->s, &l, &above);
+    subject_legend(v->s, &l, subject_time(v->s), &above);
     if (curve) {
         l = v->look;
         l.picture.legend = l.picture.time = 0;
-        subject_legend(v->s, &l, &v->overlay);
+        subject_legend(v->s, &l, subject_time(v->s), &v->overlay);
     }
     draw_panel(v, curve);
     if (v->note[0]) fl_legend_note(&v->overlay, v->note);
@@ -421,7 +422,7 @@ static int film_frame(struct window *v, fl_err *err)
     if (rc == 0) {
         fl_look l = v->look;
         l.picture.curve = 0;
-        subject_legend(v->s, &l, &p);
+        subject_legend(v->s, &l, subject_time(v->s), &p);
         for (int y = 0; y < v->film_h && y < p.h; y++)
             memcpy(v->seen.px + 4 * (size_t)y * (size_t)v->film_w, p.px + 4 * (size_t)y * (size_t)p.w,
                    4 * (size_t)(v->film_w < p.w ? v->film_w : p.w));
@@ -483,7 +484,9 @@ int window_run(struct subject *s, const struct options *o, fl_err *err)
         .s = s, .o = o, .look = o->look, .rate = 1.0, .picked = -1, .range_due = 1, .dirty = 1};
     int rc = -1;
     v.t = isnan(o->at) ? fl_playback_start(&s->play) : o->at;
-    if (subject_at(s, &v.look, v.t, err) || open_window(&v, err) || resize(&v, err)) goto done;
+    if (subject_fit_all(s, fl_playback_start(&s->play), fl_playback_end(&s->play), err) ||
+        subject_at(s, &v.look, v.t, err) || open_window(&v, err) || resize(&v, err))
+        goto done;
     fix_camera(&v);
     v.last = v.followed_at = SDL_GetTicks();
     v.moved_at = v.last - SETTLE_MS;

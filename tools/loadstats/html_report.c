@@ -376,7 +376,7 @@ static void remove_folder(const char *dir)
 
 /* --- the page ------------------------------------------------------------------------------------------- */
 
-static void write_head(FILE *f, const report_source *from)
+static void write_head(FILE *f, const report_source *from, const struct options *o)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
           "content=\"width=device-width, initial-scale=1\">\n",
@@ -385,6 +385,11 @@ static void write_head(FILE *f, const report_source *from)
             STYLE, from->title);
     from->intro(f, from->what);
     fputs("</p>\n", f);
+    if (o->page) {
+        fputs("<p><a href=\"", f);
+        write_text(f, o->page);
+        fputs("\">The ice in motion</a>, a page of ice-view.</p>\n", f);
+    }
 }
 
 /* Data and options that are available for the report, table_need. */
@@ -416,7 +421,7 @@ static int write_page(FILE *f, const char *dir, const report_source *from, const
                       const fl_history_line *by, fl_err *err)
 {
     const struct table *t;
-    write_head(f, from);
+    write_head(f, from, o);
     if (from->alone) {
         if (write_pictures(f, dir, err) || write_section(f, from, o, o->table, "Numbers", err)) return -1;
         write_end(f, from, by);

@@ -81,6 +81,7 @@ int options_check(struct options *o, fl_err *err)
                        "negative load, and --sample pot takes any threshold",
                        o->threshold);
     if (o->residue && !o->rule) return fl_fail(err, FL_USAGE, "--residue needs --rule iso");
+    if (o->page && !o->report) return fl_fail(err, FL_USAGE, "--page needs --report");
     if (o->report && strcmp(o->report, "-") == 0 && strcmp(o->out, "-") == 0)
         return fl_fail(err, FL_USAGE, "--report - needs --output for the table");
     if ((o->table->needs & NEEDS_OSCILLATOR) && !o->oscillators)

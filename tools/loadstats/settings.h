@@ -27,9 +27,9 @@ struct oscillator_case {
 };
 
 struct options {
-    const char *in, *out, *part, *plot, *format, *report; /* borrowed from argv */
-    const char *signal[SIGNALS_MAX];                      /* into words */
-    char *words;                                          /* the lists of the command line, cut in place */
+    const char *in, *out, *part, *plot, *format, *report, *page; /* borrowed from argv */
+    const char *signal[SIGNALS_MAX];                             /* into words */
+    char *words; /* the lists of the command line, cut in place */
     int32_t signals, words_len, words_cap;
     double from, to, window; /* [s] */
     double skip[3];          /* diameters, diameter, distance at time 0; NAN: from the first load */
