@@ -15,7 +15,7 @@ function height(x, f, m, df)
     for (f = 0.3 / Tp; f < 4 / Tp; f += df) m += spectrum(f) * df * exp(-2 * decay * 2.9 * 0.8 ^ 1.25 * f ^ 4.5 * x)
     return 4 * sqrt(m)
 }
-BEGIN { Hs = 1; Tp = 6; WIDTH = 200; START = 20 }
+BEGIN { Hs = 1; Tp = 6; WIDTH = 200; START = 15 }
 FNR == 1 { files++ }
 /^#/ { next }
 /^t/ { for (k = 1; k <= NF; k++) { name = $k; sub(/\[.*/, "", name); at[files, name] = k } next }
