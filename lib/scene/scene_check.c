@@ -35,6 +35,7 @@ static void set_default_intervals(fl_scene *s)
     copy_unless_given(o, "contacts_every", &o->contacts_every, o->loads_every);
     copy_unless_given(o, "hash_every", &o->hash_every, o->loads_every);
     copy_unless_given(o, "bonds_every", &o->bonds_every, o->loads_every);
+    copy_unless_given(o, "members_every", &o->members_every, o->loads_every);
 }
 
 /* Check that a material exists; place: "structure" and "boundary" are accepted too.  key is the whole
@@ -54,7 +55,7 @@ static int check_inputs(const fl_scene *s, fl_err *err)
     if (!s->ice.head.present || s->ice.file[0] == '\0')
         return fl_scene_fail(s, "ice.file", err,
                              "the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
-    if (s->structure.head.present && s->structure.file[0] == '\0')
+    if (s->structure.head.present && !s->structure.file[0] && !s->structure.members[0])
         return fl_scene_fail(s, "structure.file", err,
                              "[structure] has no file: file = FILE, or --structure FILE, is expected");
     if (std_scene + std_ice + std_structure > 1)
@@ -68,12 +69,12 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames",   "output.state", "output.energy",
-                               "output.contacts", "output.hash",  "output.panels",
-                               "output.events",   "output.bonds", "output.checkpoint"};
-    const char *const path[] = {s->output.frames,   s->output.state, s->output.energy,
-                                s->output.contacts, s->output.hash,  s->output.panels,
-                                s->output.events,   s->output.bonds, s->output.checkpoint};
+    const char *const key[] = {"output.frames",  "output.state",     "output.energy", "output.contacts",
+                               "output.hash",    "output.panels",    "output.events", "output.bonds",
+                               "output.members", "output.checkpoint"};
+    const char *const path[] = {s->output.frames,  s->output.state,     s->output.energy, s->output.contacts,
+                                s->output.hash,    s->output.panels,    s->output.events, s->output.bonds,
+                                s->output.members, s->output.checkpoint};
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
@@ -83,7 +84,8 @@ static int check_outputs(const fl_scene *s, fl_err *err)
             if (strcmp(path[j], path[k]) == 0)
                 return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is %s already", key[k], path[k],
                                      key[j]);
-        if (path[k][0] && (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0))
+        if (path[k][0] && (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0 ||
+                           strcmp(path[k], s->structure.members) == 0))
             return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is an input", key[k], path[k]);
     }
     return 0;
@@ -259,6 +261,10 @@ static int check_waves(const fl_scene *s, fl_err *err)
     const fl_scene_water *w = &s->water;
     const fl_vec3 g = s->run.gravity;
     if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
+    if (s->ice.slab > 0.0)
+        return fl_scene_fail(s, "ice.slab", err,
+                             "spheres that stand for a slab float in still water: either ice.slab or "
+                             "water.wave is expected");
     if (w->height == 0.0)
         return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height is expected");
     if (w->period == 0.0)
@@ -371,9 +377,9 @@ static int check_bonds(const fl_scene *s, fl_err *err)
     if (s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
         return fl_scene_fail(s, "boundary.inflow", err,
                              "inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
-    if (b->softening != FL_SOFTENING_KEEP && b->energy == 0.0)
+    if (b->softening == FL_SOFTENING_WEAKEN && b->energy == 0.0)
         return fl_scene_fail(s, "bond.softening", err,
-                             "softening needs a fracture energy: bond.energy is expected");
+                             "softening = weaken needs a fracture energy: bond.energy is expected");
     if (b->softening == FL_SOFTENING_WEAKEN && (isinf(b->normal_strength) || isinf(b->shear_strength)))
         return fl_scene_fail(
             s, "bond.softening", err,
@@ -485,6 +491,30 @@ static int check_motions(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+/* A structure of members has no other motion, and no other pieces. */
+static int check_members(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_structure *t = &s->structure;
+    const fl_scene_motion *m = &t->motion;
+    if (!t->head.present || !t->members[0]) {
+        if (s->output.members[0])
+            return fl_scene_fail(s, "output.members", err,
+                                 "there are no members: structure.members is expected");
+        return 0;
+    }
+    if (t->file[0])
+        return fl_scene_fail(s, "structure.members", err,
+                             "structure.file is given as well: one of the two is expected");
+    if (strcmp(t->members, "-") == 0)
+        return fl_scene_fail(s, "structure.members", err,
+                             "structure.members is \"-\": a file is expected, as it is read twice");
+    if (m->free || m->track[0] || v3_nonzero(m->velocity) || v3_nonzero(m->spin) || s->n_part)
+        return fl_scene_fail(s, s->n_part ? "part" : "structure.members", err,
+                             "a structure of members moves by its own masses and supports: no %s is expected",
+                             s->n_part ? "[part NAME]" : "velocity, spin, track or free");
+    return 0;
+}
+
 int fl_scene_check(fl_scene *s, fl_err *err)
 {
     if (add_missing_material(s, "ice", err) || add_missing_material(s, "steel", err)) return -1;
@@ -508,7 +538,7 @@ int fl_scene_check(fl_scene *s, fl_err *err)
         return -1;
     set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
-                   check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) ||
+                   check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) || check_members(s, err) ||
                    check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)

@@ -44,6 +44,7 @@ enum fl_error_of {
     FL_ERROR_OF_MZ
 };
 enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
+enum fl_frames_form { FL_FRAMES_TEXT, FL_FRAMES_PACKED };
 enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
 enum fl_ice_decay { FL_ICE_DECAY_NONE, FL_ICE_DECAY_ROGERS, FL_ICE_DECAY_MEYLAN, FL_ICE_DECAY_OWN };
 enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, FL_FIX_RZ = 32 };
@@ -67,11 +68,12 @@ typedef struct {
     double loads_every;
     double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
     int32_t files;                         /* number of files the frames are split over */
-    double state_every, energy_every, contacts_every, hash_every, bonds_every;
+    int32_t frames_form;                   /* text, packed: enum fl_frames_form */
+    double state_every, energy_every, contacts_every, hash_every, bonds_every, members_every;
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
         hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        checkpoint[FL_SCENE_PATH]; /* "": none */
+        members[FL_SCENE_PATH], checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
 typedef struct {
@@ -84,6 +86,9 @@ typedef struct {
     double friction;
 } fl_scene_material;
 
+/* Law of a point of a round core. */
+enum fl_round_law { FL_ROUND_AUTO, FL_ROUND_HERTZ, FL_ROUND_LINEAR };
+
 /* Contact parameters of a pair.  In scene.contact a member counts only where its key was given;
  * fl_scene_pair() returns a struct with every member set. */
 typedef struct {
@@ -91,6 +96,7 @@ typedef struct {
     char a[FL_SCENE_NAME], b[FL_SCENE_NAME]; /* both empty: the defaults of all pairs */
     int32_t law;                             /* row of fl_contact_laws, law/contact_law.h */
     double exponent;                         /* n of F = kappa delta^n: 1 or 1.5 */
+    int32_t round_law;                       /* enum fl_round_law */
     double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli, notation(7) */
     double stiffness_factor;                 /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
     double tangential_ratio;                 /* kt / kn */
@@ -107,6 +113,7 @@ typedef struct {
     char file[FL_SCENE_PATH];     /* g-polys; "-" is standard input, "" not given */
     char material[FL_SCENE_NAME]; /* of bodies whose record names none */
     int32_t shape;                /* enum fl_shape */
+    double slab;                  /* thickness that spheres stand for [m]; 0: none */
 } fl_scene_ice;
 
 /* Motion of the structure, or of one part.  Free directions follow forces; the others follow the
@@ -133,7 +140,9 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    char file[FL_SCENE_PATH]; /* g_struct */
+    char file[FL_SCENE_PATH];    /* g_struct; "" not given */
+    char members[FL_SCENE_PATH]; /* members; "" not given */
+    double member_damping;       /* ratio of the lowest modes */
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */
     fl_scene_motion motion;
@@ -220,6 +229,11 @@ typedef struct {
     int32_t softening; /* enum fl_softening */
     double stretch;    /* least ratio of final to peak separation, of stretch */
     double damping;    /* fraction of critical of the two bodies on their bond */
+    double internal_friction; /* mu_i of the shear strength; negative: auto */
+    double moment_factor;     /* beta of discs */
+    double radius_factor;     /* of discs over the smaller sphere */
+    double scatter;           /* standard deviation over mean of their strengths */
+    int32_t seed;
 } fl_scene_bond;
 
 typedef struct {

@@ -7,10 +7,17 @@
 #include "geom/dilate.h"
 #include "water/buoyancy.h"
 
+void fl_hull_fill(fl_hull *h, double fill)
+{
+    h->fill = fill;
+    h->volume *= fill;
+    h->surface_area *= fill;
+}
+
 int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
 {
     const int round = p->nv <= 2;
-    fl_hull out = {.shape = p, .radius = round ? radius : 0.0};
+    fl_hull out = {.shape = p, .radius = round ? radius : 0.0, .fill = 1.0};
     fl_mass m;
     if (fl_mass_of(&m, p, out.radius, err)) return -1;
     out.volume = m.volume;
@@ -276,10 +283,10 @@ static void submerge_sphere(const fl_hull *h, fl_vec3 up, double water, fl_subme
         *wet = (fl_submerged){.volume = h->volume, .centre = h->centre, .wetted_area = h->surface_area};
         return;
     }
-    wet->volume = PI * t * t * (3.0 * r - t) / 3.0;
+    wet->volume = h->fill * (PI * t * t * (3.0 * r - t) / 3.0);
     wet->centre = v3_madd(o, -0.75 * (2.0 * r - t) * (2.0 * r - t) / (3.0 * r - t), up);
-    wet->wetted_area = 2.0 * PI * r * t;
-    wet->waterplane_area = PI * t * (2.0 * r - t);
+    wet->wetted_area = h->fill * (2.0 * PI * r * t);
+    wet->waterplane_area = h->fill * (PI * t * (2.0 * r - t));
 }
 
 /* Sums over the parts of a capsule: first moments about its middle, along the axis and along w, the direction

@@ -241,6 +241,14 @@ double fl_environment_energy(const fl_environment *s, const fl_bodies *b, int32_
     return fl_buoyancy_force(&wet, up, level, s->specific_weight, &f, &turn);
 }
 
+/* The added mass of a sphere in a sheet follows its immersion; v is constant meanwhile. */
+static void update_heave_mass(const fl_environment *s, fl_bodies *b, int32_t i)
+{
+    const double now = s->heave_factor * (s->buoyancy[i] / s->gravity), change = now - b->heave_mass[i];
+    b->heave_work[i] += 0.5 * change * b->v[i].z * b->v[i].z;
+    b->heave_mass[i] = now;
+}
+
 /* Evaluates still water at body i: force and moment about its centre, world axes. */
 static void evaluate_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
@@ -254,6 +262,7 @@ static void evaluate_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *
     s->buoyancy[i] = s->specific_weight * wet.volume;
     if (s->flow_velocity) s->flow_velocity[i] = fl_current_at(&s->current, v3_dot(up, wet.centre) - level);
     if (b->added_mass) b->flow_velocity[i] = fl_environment_flow(s, i);
+    if (b->heave_mass) update_heave_mass(s, b, i);
     if (s->drag_surface) fl_environment_update_surface(s, b, i, up, level);
     *f = v3(0, 0, s->buoyancy[i]); /* R up is e_z */
     *t = m3_mul(R, turn);
@@ -546,11 +555,13 @@ void fl_environment_refresh(fl_environment *s, fl_bodies *b, int32_t i)
     fl_vec3 f, t;
     if (!s->water) return;
     if (!s->sample) {
+        const double work = b->heave_mass ? b->heave_work[i] : 0.0;
         if (s->block && s->block[i].level != FL_WAVE_NO_BLOCK) {
             const fl_wave_body body = wave_body(s, i);
             fl_wave_block_fill(&s->block[i], &s->sea, &body);
         }
         evaluate_water(s, b, i, &f, &t);
+        if (b->heave_mass) b->heave_work[i] = work;
         return;
     }
     const fl_vec3 x = b->x[i];
@@ -589,6 +600,7 @@ static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, dou
                                          p.z / (1.0 + s / (m + a.z)))));
     } else {
         b->v[i] = v3_madd(c, fl_drag_decay_factor(m, c_force, speed, h), u);
+        if (b->heave_mass) b->v[i].z = c.z + u.z * fl_drag_decay_factor(m + b->heave_mass[i], c_force, speed, h);
     }
     const double turning = v3_dot(b->w[i], b->L[i]);
     if (turning > 0.0 && fluid->moment_coefficient > 0.0) {

@@ -53,6 +53,9 @@ enum { FL_WATER_FORCES_MAX = 16 };
 
 struct fl_environment {
     int water, wind;        /* 1 if there is water, wind; with neither nothing below is allocated or used */
+    int only_spheres;       /* 1: all bodies are spheres; set before fl_environment_set_up() */
+    double gravity;         /* |g| [m/s2] */
+    double heave_factor;    /* added mass along the vertical over displaced mass, of b->heave_mass */
     double level;           /* z of the still water [m] */
     double specific_weight; /* rho g [N/m3] */
     fl_fluid seawater, air;

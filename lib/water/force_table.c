@@ -12,7 +12,8 @@ static int set_up_buoyancy(fl_environment *s, fl_bodies *b, const fl_scene *scen
 {
     (void)b, (void)err;
     s->level = scene->water.level;
-    s->specific_weight = scene->water.density * v3_norm(scene->run.gravity);
+    s->gravity = v3_norm(scene->run.gravity);
+    s->specific_weight = scene->water.density * s->gravity;
     return 0;
 }
 
@@ -164,20 +165,25 @@ static void describe_current(const fl_environment *s, char text[FL_FORCE_TEXT])
 
 static int set_up_added_mass(fl_environment *s, fl_bodies *b, const fl_scene *scene, fl_err *err)
 {
-    return s->water && v3_nonzero(scene->water.added_mass) ? fl_bodies_alloc_added_mass(b, err) : 0;
+    const fl_vec3 a = scene->water.added_mass;
+    if (!s->water || !v3_nonzero(a)) return 0;
+    if (!s->only_spheres || s->waves || a.x != 0.0 || a.y != 0.0 || !(a.z > 0.0) || !(s->gravity > 0.0))
+        return fl_bodies_alloc_added_mass(b, err);
+    s->heave_factor = a.z; /* of a sheet: along the vertical, whichever way its spheres have turned */
+    return fl_bodies_alloc_heave(b, err);
 }
 
 static int has_added_mass(const fl_environment *s, const fl_bodies *b)
 {
     (void)s;
-    return b->added_mass != NULL;
+    return b->added_mass || b->heave_mass;
 }
 
 /* Work that the flow has taken out of a body with added mass. */
 static double flow_loss(const fl_environment *s, const fl_bodies *b, int32_t i)
 {
     (void)s;
-    return -b->flow_work[i];
+    return b->heave_mass ? -b->heave_work[i] : -b->flow_work[i];
 }
 
 /* --- drag of water and wind -------------------------------------------------------------------- */

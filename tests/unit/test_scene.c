@@ -667,8 +667,8 @@ static void bonds_are_checked(void **state)
         ICE "[bond]\non = true\n[boundary]\ntype = free\nmin = 0 none none\nmax = 9 none none\ninflow = "
             "ice\ninflow_speed = 1\n",
         ":9: inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
-    expect_refusal(ICE "[bond]\non = true\nsoftening = stretch\n",
-                   ":5: softening needs a fracture energy: bond.energy is expected");
+    expect_refusal(ICE "[bond]\non = true\nsoftening = weaken\n",
+                   ":5: softening = weaken needs a fracture energy: bond.energy is expected");
     expect_refusal(ICE "[bond]\non = true\nenergy = 10\nnormal_strength = none\nsoftening = weaken\n",
                    ":7: softening = weaken lowers both strengths, but one is none: a number is expected");
 }

@@ -80,6 +80,18 @@ static void warn_sheets(const struct run *r)
                     r->surface->part[s->piece[k].part].name);
 }
 
+/* Parts that touch and yet are contacts of their own bear twice where they meet. */
+static void warn_unjoined(const struct run *r)
+{
+    const fl_structure *s = &r->w->structure;
+    if (s->unjoined)
+        fprintf(
+            stderr,
+            "dem-solve: warning: %d group%s of parts that touch could not be joined to one surface, the last "
+            "that of part %s: where they meet, bodies feel each of them\n",
+            s->unjoined, s->unjoined == 1 ? "" : "s", r->surface->part[s->unjoined_part].name);
+}
+
 /* A hull that does not float in its pose: its motion is one about that pose. */
 static void warn_hulls(const struct run *r)
 {
@@ -161,6 +173,7 @@ void warn_at_start(const struct run *r)
     warn_waves(r);
     warn_hulls(r);
     warn_sheets(r);
+    warn_unjoined(r);
 }
 
 /* Thickness of a dilated body: smallest extent along the normals of its faces. */
