@@ -88,7 +88,7 @@ static int fit_nodes(fl_environment *s, int32_t i, fl_err *err)
     s->block[i].short_turns = 0;
     if (fl_wave_nodes_make(&s->nodes[i], &s->hull[i], &s->wave, s->grid.error, err)) return -1;
     if (s->nodes[i].n <= s->scratch_per_thread) return 0;
-    fl_wave_surface *room = fl_alloc((int64_t)s->threads * s->nodes[i].n, sizeof *room, err);
+    fl_wave_node_sample *room = fl_alloc((int64_t)s->threads * s->nodes[i].n, sizeof *room, err);
     if (!room) return -1;
     free(s->node_scratch);
     s->node_scratch = room;
@@ -468,7 +468,9 @@ static void update_block_flow(fl_environment *s, const fl_bodies *b, int32_t i, 
     const fl_mat3 R = fl_body_axes(b, i);
     const fl_vec3 x = v3(b->x[i].x, b->x[i].y, b->x[i].z - s->level);
     fl_facet_cut *wet = &s->drag_surface[i].wet;
+    fl_wave_flow flow;
     int32_t k = 0;
+    fl_wave_block_flow(&s->block[i], &s->grid, s->time, &flow);
     for (const fl_facet_group *f = wet->group; f < wet->group + wet->groups; f++)
         for (const int32_t end = k + f->pieces; k < end; k++)
             for (int l = 0; l < FL_SIMD_WIDTH; l++) {
@@ -477,8 +479,7 @@ static void update_block_flow(fl_environment *s, const fl_bodies *b, int32_t i, 
                     const fl_vec3 r = m3_mul(R, fl_facet_piece_position(f, &wet->piece[k], l));
                     const double eta = v->z + v->slope[0] * r.x + v->slope[1] * r.y;
                     u = v3_add(fl_current_at(&s->current, x.z + r.z),
-                               fl_wave_block_velocity(&s->block[i], &s->grid, s->time, x.x + r.x, x.y + r.y,
-                                                      x.z + r.z, eta));
+                               fl_wave_flow_velocity(&flow, x.x + r.x, x.y + r.y, x.z + r.z, eta));
                     u = fl_facet_group_to_local(f, l, m3_tmul(R, v3_sub(u, fl_environment_flow(s, i))));
                 }
                 wet->flow[k].u[0][l] = u.x, wet->flow[k].u[1][l] = u.y, wet->flow[k].u[2][l] = u.z;

@@ -91,10 +91,10 @@ struct fl_environment {
      * unused */
     int by_blocks;
     fl_wave_grid grid;
-    fl_wave_water sea;             /* what all bodies have in common */
-    fl_wave_nodes *nodes;          /* [n] */
-    fl_wave_block *block;          /* [n] */
-    fl_wave_surface *node_scratch; /* [threads][scratch_per_thread] */
+    fl_wave_water sea;                 /* what all bodies have in common */
+    fl_wave_nodes *nodes;              /* [n] */
+    fl_wave_block *block;              /* [n] */
+    fl_wave_node_sample *node_scratch; /* [threads][scratch_per_thread] */
     int32_t scratch_per_thread;
     /* rows of the table of forces that are present and have an `impulse` */
     const fl_water_force *impulse[FL_WATER_FORCES_MAX];

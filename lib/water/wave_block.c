@@ -11,6 +11,9 @@ enum { AT_Z, AT_SLOPE, AT_FORCE = 3, AT_MOMENT = 6, AT_FLOW = 9, AT_ACCELERATION
 #define MAX_TURN 1.0
 /* Cosine of the tilt of columns below which pressure is not integrated by its ends, and G is 0. */
 #define UPRIGHT 0.5
+/* Distance along the waves, over that of the places, up to which the taps of a node serve its whole column:
+ * what Taylor's formula leaves is (0.2 / 2)^3 k h of a wave. */
+#define NEAR 0.2
 /* A column whose ends are at the same distance from the wave is wholly wet or dry. */
 #define LEVEL_COLUMN 1e-9
 
@@ -121,18 +124,35 @@ typedef struct {
     fl_wave_head head;
 } point_pressure;
 
-/* Pressure at a point z above still water, under the elevation `over` with the slopes of `at`. */
-FL_SIMD_INLINE void pressure_at(const body_sample *b, double x, double y, double z, double over,
-                                const fl_wave_surface *at, point_pressure *out)
+/* Pressure at a point z above still water, zeta and rate by fl_wave_grid_stretch(), under the elevation
+ * `over` with the slopes of `at`; out->head is set. */
+FL_SIMD_INLINE void set_pressure(const body_sample *b, double z, double over, double zeta, double rate,
+                                 const fl_wave_surface *at, point_pressure *out)
 {
     const double depth = b->sea->grid->water;
-    double rate;
-    const double zeta = fl_wave_grid_stretch(b->sea->grid, z, over, &rate);
-    fl_wave_head_at(&b->view, x, y, zeta, &out->head);
     const double moved = depth < INFINITY ? rate * (1.0 + zeta / (rate * (depth + over))) : 1.0,
                  down = out->head.zeta * moved;
     out->p = out->head.p - z;
     out->g = v3(out->head.x - at->x * down, out->head.y - at->y * down, out->head.zeta * rate - 1.0);
+}
+
+FL_SIMD_INLINE void pressure_at(const body_sample *b, double x, double y, double z, double over,
+                                const fl_wave_surface *at, point_pressure *out)
+{
+    double rate;
+    const double zeta = fl_wave_grid_stretch(b->sea->grid, z, over, &rate);
+    fl_wave_head_at(&b->view, x, y, zeta, &out->head);
+    set_pressure(b, z, over, zeta, rate, at, out);
+}
+
+/* The same at a distance s along the only line from a node. */
+FL_SIMD_INLINE void pressure_near(const body_sample *b, double s, double z, double over,
+                                  const fl_wave_node_sample *node, point_pressure *out)
+{
+    double rate;
+    const double zeta = fl_wave_grid_stretch(b->sea->grid, z, over, &rate);
+    fl_wave_head_near(b->sea->grid, &node->taps, s, zeta, &out->head);
+    set_pressure(b, z, over, zeta, rate, &node->at, out);
 }
 
 /* Adds the change of the load at offset r with a displacement of that point: dF_i = sum_j K_ij d_j. */
@@ -184,8 +204,9 @@ FL_SIMD_INLINE double cut_ends(double H, double depth, double rate, fl_vec3 g, d
 
 /* One column: its lower end at offset r, of the unit direction e, weight w. */
 FL_SIMD_INLINE void add_column(body_sample *b, fl_vec3 r, fl_vec3 e, double w, double half,
-                               const fl_wave_surface *at)
+                               const fl_wave_node_sample *node)
 {
+    const fl_wave_surface *at = &node->at;
     const double H = b->body->nodes->length;
     const fl_vec3 mid = v3_madd(r, 0.5 * H, e);
     const double z = b->z + mid.z, rise = at->x * e.x + at->y * e.y;
@@ -193,6 +214,9 @@ FL_SIMD_INLINE void add_column(body_sample *b, fl_vec3 r, fl_vec3 e, double w, d
     double lo, hi, low, high;
     wet_part(H, z - at->eta, e.z - rise, &lo, &hi);
     wet_part(H, z - (q->z + q->x * mid.x + q->y * mid.y), e.z - (q->x * e.x + q->y * e.y), &low, &high);
+    const fl_wave_grid *g0 = b->sea->grid;
+    const double along = g0->line[0].x * e.x + g0->line[0].y * e.y;
+    const int near = g0->lines == 1 && 0.5 * H * fabs(along) < NEAR * g0->h;
     const int wet = hi > lo, still = high > low, upright = fabs(e.z) > UPRIGHT;
     point_pressure end[3];
     fl_vec3 force = v3(0, 0, 0), first = force; /* integrals of -grad p, and of h times it */
@@ -200,8 +224,10 @@ FL_SIMD_INLINE void add_column(body_sample *b, fl_vec3 r, fl_vec3 e, double w, d
         const double len = hi - lo;
         for (int k = 0; k < 3; k++) {
             const double h = lo + 0.5 * k * len, off = h - 0.5 * H, part = (k == 1 ? 4.0 : 1.0) * len / 6.0;
-            pressure_at(b, b->x.x + mid.x + off * e.x, b->x.y + mid.y + off * e.y, z + off * e.z,
-                        at->eta + off * rise, at, &end[k]);
+            if (near) pressure_near(b, off * along, z + off * e.z, at->eta + off * rise, node, &end[k]);
+            else
+                pressure_at(b, b->x.x + mid.x + off * e.x, b->x.y + mid.y + off * e.y, z + off * e.z,
+                            at->eta + off * rise, at, &end[k]);
             force = v3_madd(force, -part, end[k].g);
             first = v3_madd(first, -part * h, end[k].g);
         }
@@ -254,7 +280,7 @@ FL_SIMD4_VERSIONS static void add_faces(body_sample *b)
     const fl_wave_nodes *a = b->body->nodes;
     const water_plane *q = &b->plane;
     for (int32_t k = 0; k < a->n; k++) {
-        const fl_wave_surface *at = &b->body->scratch[k];
+        const fl_wave_surface *at = &b->body->scratch[k].at;
         const fl_vec3 r = m3_mul(b->R, a->x[k]), A = m3_mul(b->R, a->area[k]);
         const double z = b->z + r.z, size = v3_norm(A), level2 = A.x * A.x + A.y * A.y,
                      half = size > 0.0 ? 0.5 * sqrt(level2 / size) : 0.0;
@@ -282,7 +308,12 @@ FL_SIMD4_VERSIONS static void survey_surface(const body_sample *b)
     const fl_vec3 up = v3_scale(0.5 * a->length, m3_mul(b->R, a->along));
     for (int32_t k = 0; k < a->n; k++) {
         const fl_vec3 r = v3_add(m3_mul(b->R, a->x[k]), up);
-        fl_wave_surface_at(&b->view, b->x.x + r.x, b->x.y + r.y, &b->body->scratch[k]);
+        fl_wave_node_sample *const to = &b->body->scratch[k];
+        if (b->sea->grid->lines == 1) {
+            to->at = (fl_wave_surface){0};
+            fl_wave_taps_at(&b->view, 0, b->x.x + r.x, b->x.y + r.y, &to->taps);
+            fl_wave_surface_add(&b->sea->grid->line[0], &to->taps, &to->at);
+        } else fl_wave_surface_at(&b->view, b->x.x + r.x, b->x.y + r.y, &to->at);
     }
 }
 
@@ -300,7 +331,7 @@ static void fit_plane(body_sample *b)
     double all = 0.0, mean[2] = {0}, eta = 0.0, slope[2] = {0}, xx = 0.0, xy = 0.0, yy = 0.0, xe = 0.0,
            ye = 0.0;
     for (int32_t k = 0; k < a->n; k++) {
-        const fl_wave_surface *at = &b->body->scratch[k];
+        const fl_wave_surface *at = &b->body->scratch[k].at;
         const fl_vec3 r = v3_add(m3_mul(b->R, a->x[k]), up);
         const double w = a->w ? a->w[k]
                               : fabs(v3_dot(a->area[k], v3(b->R.m[2][0], b->R.m[2][1], b->R.m[2][2]))),
@@ -482,16 +513,37 @@ void fl_wave_block_values(const fl_wave_block *c, const fl_wave_grid *g, double 
     out->acceleration = v3(row[AT_ACCELERATION], row[AT_ACCELERATION + 1], row[AT_ACCELERATION + 2]);
 }
 
-fl_vec3 fl_wave_block_velocity(const fl_wave_block *c, const fl_wave_grid *g, double t, double x, double y,
-                               double z, double eta)
+void fl_wave_block_flow(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_wave_flow *out)
 {
-    double w[FL_WAVE_SAMPLES], u, rate;
-    fl_vec3 sum = v3(0, 0, 0);
-    const double zeta = fl_wave_grid_stretch(g, z, eta, &rate);
-    cubic_weights(c, g, t, w, &u);
-    for (int k = 0; k < FL_WAVE_SAMPLES; k++) {
-        const fl_wave_view v = fl_wave_grid_view(g, c->level + (int64_t)k * c->span);
-        sum = v3_madd(sum, w[k], fl_wave_velocity(&v, x, y, zeta));
+    double u;
+    cubic_weights(c, g, t, out->weight, &u);
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++)
+        out->view[k] = fl_wave_grid_view(g, c->level + (int64_t)k * c->span);
+}
+
+/* The four levels are combined before the sums over the places, which they share. */
+FL_SIMD4_VERSIONS fl_vec3 fl_wave_flow_velocity(const fl_wave_flow *f, double x, double y, double z,
+                                                double eta)
+{
+    const fl_wave_grid *g = f->view[0].grid;
+    fl_vec3 u = v3(0, 0, 0);
+    fl_wave_depth deep;
+    double rate;
+    fl_wave_depth_at(g, fl_wave_grid_stretch(g, z, eta, &rate), &deep);
+    for (int32_t c = 0; c < g->lines; c++) {
+        const fl_wave_line *d = &g->line[c];
+        fl_simd value = {0.0, 0.0, 0.0, 0.0}, dz = value, one, slope;
+        fl_wave_taps p = {0};
+        for (int k = 0; k < FL_WAVE_SAMPLES; k++) {
+            const double *first = p.at;
+            if (k > 0 && f->view[k].slot >= 0 && f->view[0].slot >= 0 && p.stride > 3 * FL_WAVE_CHUNK)
+                p.at = d->table[f->view[k].slot] + (first - d->table[f->view[k - 1].slot]);
+            else fl_wave_taps_at(&f->view[k], c, x, y, &p);
+            fl_wave_between(&p, &deep, 2, &one, &slope);
+            value += f->weight[k] * one, dz += f->weight[k] * slope;
+        }
+        const double along = fl_wave_dot(&value, &p.dw);
+        u = v3_add(u, v3(d->x * along, d->y * along, fl_wave_dot(&dz, &p.w)));
     }
-    return sum;
+    return u;
 }

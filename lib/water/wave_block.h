@@ -60,12 +60,18 @@ typedef struct {
     double k95;       /* [1/m] */
 } fl_wave_water;
 
+/* The surface over one node; with one line of propagation its taps too. */
+typedef struct {
+    fl_wave_surface at;
+    fl_wave_taps taps;
+} fl_wave_node_sample;
+
 /* One body. */
 typedef struct {
     const fl_hull *hull;
     const fl_wave_nodes *nodes;
-    double reach;             /* of its points from the centre [m] */
-    fl_wave_surface *scratch; /* [nodes] scratch */
+    double reach;                 /* of its points from the centre [m] */
+    fl_wave_node_sample *scratch; /* [nodes] */
 } fl_wave_body;
 
 /* The part of a body below a plane, by buoyancy.h. */
@@ -103,8 +109,14 @@ typedef struct {
 void fl_wave_block_values(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_vec3 x, fl_quat q,
                           fl_wave_values *out);
 
-/* Velocity of the waves at time t at a point z above still water, under the elevation eta [m/s]. */
-fl_vec3 fl_wave_block_velocity(const fl_wave_block *c, const fl_wave_grid *g, double t, double x, double y,
-                               double z, double eta);
+/* Velocity of the waves at a time of a block, at many points. */
+typedef struct {
+    fl_wave_view view[FL_WAVE_SAMPLES];
+    double weight[FL_WAVE_SAMPLES]; /* of the cubic */
+} fl_wave_flow;
+void fl_wave_block_flow(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_wave_flow *out);
+
+/* ... at a point z above still water, under the elevation eta [m/s]. */
+fl_vec3 fl_wave_flow_velocity(const fl_wave_flow *f, double x, double y, double z, double eta);
 
 #endif

@@ -197,19 +197,23 @@ typedef struct {
     double zeta, xx, xy, yy;
 } fl_wave_surface;
 
+FL_SIMD_INLINE void fl_wave_surface_add(const fl_wave_line *d, const fl_wave_taps *p, fl_wave_surface *a)
+{
+    const fl_simd value = FL_SIMD_LOAD(p->at), dz = FL_SIMD_LOAD(p->at + p->stride);
+    const double slope = fl_wave_dot(&value, &p->dw), zeta = fl_wave_dot(&dz, &p->w);
+    a->eta += fl_wave_dot(&value, &p->w);
+    a->x += d->x * slope, a->y += d->y * slope;
+    a->zeta += zeta;
+    a->xx += d->x * d->x * zeta, a->xy += d->x * d->y * zeta, a->yy += d->y * d->y * zeta;
+}
+
 FL_SIMD_INLINE void fl_wave_surface_at(const fl_wave_view *v, double x, double y, fl_wave_surface *a)
 {
     *a = (fl_wave_surface){0};
     for (int32_t c = 0; c < v->grid->lines; c++) {
-        const fl_wave_line *d = &v->grid->line[c];
         fl_wave_taps p = {0};
         fl_wave_taps_at(v, c, x, y, &p);
-        const fl_simd value = FL_SIMD_LOAD(p.at), dz = FL_SIMD_LOAD(p.at + p.stride);
-        const double slope = fl_wave_dot(&value, &p.dw), zeta = fl_wave_dot(&dz, &p.w);
-        a->eta += fl_wave_dot(&value, &p.w);
-        a->x += d->x * slope, a->y += d->y * slope;
-        a->zeta += zeta;
-        a->xx += d->x * d->x * zeta, a->xy += d->x * d->y * zeta, a->yy += d->y * d->y * zeta;
+        fl_wave_surface_add(&v->grid->line[c], &p, a);
     }
 }
 
@@ -237,6 +241,24 @@ FL_SIMD_INLINE void fl_wave_head_at(const fl_wave_view *v, double x, double y, d
         a->zeta += down;
         a->xx += d->x * d->x * down, a->xy += d->x * d->y * down, a->yy += d->y * d->y * down;
     }
+}
+
+/* The same along one line, at a distance s from the position of the taps, small against the places: by
+ * Taylor's formula to s^2. */
+FL_SIMD_INLINE void fl_wave_head_near(const fl_wave_grid *g, const fl_wave_taps *p, double s, double zeta,
+                                      fl_wave_head *a)
+{
+    const fl_wave_line *d = &g->line[0];
+    const fl_simd w = p->w + s * (p->dw + 0.5 * s * p->ddw), dw = p->dw + s * p->ddw;
+    fl_wave_depth deep;
+    fl_simd value, dz;
+    fl_wave_depth_at(g, zeta, &deep);
+    fl_wave_between(p, &deep, 0, &value, &dz);
+    const double slope = fl_wave_dot(&value, &dw), down = fl_wave_dot(&dz, &w);
+    a->p = fl_wave_dot(&value, &w);
+    a->x = d->x * slope, a->y = d->y * slope;
+    a->zeta = down;
+    a->xx = d->x * d->x * down, a->xy = d->x * d->y * down, a->yy = d->y * d->y * down;
 }
 
 /* Stretched height of z above still water below the elevation eta, <= 0; *rate: d zeta / d z. */

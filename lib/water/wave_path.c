@@ -88,12 +88,13 @@ static void predict_path(const path_forces *f, double time, fl_wave_block *next)
 /* Long blocks that a body takes in halves after its load has jumped. */
 enum { SHORT_TURNS = 3 };
 
+/* A block that ended more than its own length ago does not tell the path. */
 void fl_wave_block_begin(fl_wave_block *c, const fl_wave_water *sea, const fl_wave_body *body,
                          const fl_bodies *b, int32_t i, double time)
 {
     const fl_quat q = *fl_body_attitude(b, i);
     const int64_t group = fl_wave_group(sea->grid, time);
-    const int has_block = c->level != FL_WAVE_NO_BLOCK,
+    const int has_block = c->level != FL_WAVE_NO_BLOCK && time < fl_wave_sample_time(c, sea->grid, 6),
               ends = has_block && c->level + 3 * (int64_t)c->span == group;
     const path_forces forces = {has_block ? c : NULL, sea, body, b, i};
     fl_wave_block next = *c;

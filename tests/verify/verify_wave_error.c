@@ -377,9 +377,9 @@ static void motion(void)
     static record all, some;
     const voyage v = {10, 0.2, 6, verify_quick() ? 20 : 60, 0.005, 100};
     double off[3];
-    sail(&v, "none", 2.0, &all);
+    sail(&v, "none", 0.8, &all);
     for (int c = 0; c < 3; c++) {
-        sail(&v, ERROR[c], 2.0, &some);
+        sail(&v, ERROR[c], 0.8, &some);
         off[c] = rms_off(all.n, all.x, some.x);
         verify_note("e %s: surge, heave, pitch rms off over rms: %.2g %.2g %.2g; residual of the ledger %.2g "
                     "(each step: %.2g)",
@@ -407,14 +407,20 @@ static void long_motion(void)
     verify_below("WV7", "  residual of the ledger over that of each step", some.ledger / all.ledger, 1.1);
 }
 
+/* A floe that each wave washes over. Its way is sensitive: runs of e = 0.001 and 0.0001 part by 7 % in two
+ * minutes. The evaluation in each step resolves edges under water by panels of some metres, and is 1.3 % off
+ * after 20 s. */
 static void drift(void)
 {
-    static record all, some;
-    const voyage v = {14, 1, 6, verify_quick() ? 40 : 120, 0.005, 100};
-    sail(&v, "none", 2.0, &all);
-    sail(&v, "0.003", 2.0, &some);
-    verify_row("WV8", "14 m, Hs 1: drift over that of each step", some.x[some.n - 1] / all.x[all.n - 1], 1.0,
-               5e-3, VERIFY_REL);
+    static record all, some, fine;
+    const voyage v = {14, 1, 6, 20, 0.005, 100};
+    sail(&v, "none", 0.8, &all);
+    sail(&v, "0.003", 0.8, &some);
+    sail(&v, "0.0003", 0.8, &fine);
+    const double x = some.x[some.n - 1];
+    verify_row("WV8", "14 m, Hs 1, washed over: drift in 20 s over that of e = 0.0003",
+               x / fine.x[fine.n - 1], 1.0, 5e-3, VERIFY_REL);
+    verify_row("WV8", "  over that of each step", x / all.x[all.n - 1], 1.0, 0.02, VERIFY_REL);
 }
 
 /* Bodies thrown, capsized, under water and dry: force against the evaluation at the same pose. */
