@@ -65,9 +65,9 @@ FL_SIMD_INLINE void evaluate_lanes(disc_lanes *restrict t, const memory_rows *re
         if (damped) {
             const fl_vec3 drag = fl_disc_damping_force(q, kn, ratio, damping),
                           brake = fl_disc_damping_couple(q, kn, ratio, R, damping);
-            const double more = 0.5 * dt *
-                                fl_disc_power(q, v3_add(row3(m->force, k), drag),
-                                              v3_add(row3(m->couple, k), brake));
+            const double more =
+                0.5 * dt *
+                fl_disc_power(q, v3_add(row3(m->force, k), drag), v3_add(row3(m->couple, k), brake));
             m->damped[k] += on ? more : 0.0;
             set_row3(m->force, k, on, drag);
             set_row3(m->couple, k, on, brake);

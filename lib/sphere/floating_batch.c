@@ -51,8 +51,11 @@ static drag_law drag_law_of(const fl_world *w, double h)
 {
     const fl_fluid *s = &w->sea.seawater;
     const fl_vec3 c = w->sea.current.velocity;
-    return (drag_law){0.5 * s->force_coefficient * s->density, 0.5 * s->moment_coefficient * s->density, h,
-                      {c.x, c.y, c.z}, s->moment_coefficient > 0.0};
+    return (drag_law){0.5 * s->force_coefficient * s->density,
+                      0.5 * s->moment_coefficient * s->density,
+                      h,
+                      {c.x, c.y, c.z},
+                      s->moment_coefficient > 0.0};
 }
 
 static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows *q)
@@ -72,8 +75,7 @@ static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows 
         q->r[k] = w->sea.drag_radius[i];
     }
     for (int32_t k = n; k < (n + 7) / 8 * 8; k++) { /* the last register is full */
-        for (int e = 0; e < 3; e++)
-            q->v[e][k] = q->L[e][k] = q->w[e][k] = q->f[e][k] = q->t[e][k] = 0.0;
+        for (int e = 0; e < 3; e++) q->v[e][k] = q->L[e][k] = q->w[e][k] = q->f[e][k] = q->t[e][k] = 0.0;
         q->m[k] = q->invm[k] = q->turn[k] = q->up[k] = q->r[k] = q->fill[k] = 1.0;
         q->heave[k] = q->area[k] = q->loss[k] = q->z[k] = q->volume[k] = q->surface[k] = q->work[k] = 0.0;
     }
@@ -86,8 +88,9 @@ FL_SIMD_INLINE void decay_lane(sphere_rows *restrict q, int k, const drag_law *d
     double v[3], L[3], w[3];
     for (int e = 0; e < 3; e++) v[e] = q->v[e][k], L[e] = q->L[e][k], w[e] = q->w[e][k];
     const double turning = w[0] * L[0] + w[1] * L[1] + w[2] * L[2];
-    const double before = heavy ? 0.5 * ((v[0] * (m * v[0]) + v[1] * (m * v[1]) + v[2] * (up * v[2])) + turning)
-                                : 0.5 * (m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning);
+    const double before = heavy
+                              ? 0.5 * ((v[0] * (m * v[0]) + v[1] * (m * v[1]) + v[2] * (up * v[2])) + turning)
+                              : 0.5 * (m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning);
     const double ux = v[0] - d->flow[0], uy = v[1] - d->flow[1], uz = v[2] - d->flow[2],
                  speed = sqrt(ux * ux + uy * uy + uz * uz), spin2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
     const double c = d->c_force * area, decay = m / (m + c * speed * h), rise = up / (up + c * speed * h);
@@ -114,7 +117,8 @@ FL_SIMD_INLINE void kick_lane(sphere_rows *restrict q, int k, double h, int heav
 {
     const double invm = q->invm[k];
     for (int e = 0; e < 3; e++) {
-        const double a = heavy ? h * (e < 2 ? invm * q->f[e][k] : q->f[e][k] / q->up[k]) : h * invm * q->f[e][k];
+        const double a =
+            heavy ? h * (e < 2 ? invm * q->f[e][k] : q->f[e][k] / q->up[k]) : h * invm * q->f[e][k];
         q->v[e][k] = q->v[e][k] + a;
         q->L[e][k] = q->L[e][k] + h * q->t[e][k];
         q->w[e][k] = q->turn[k] * q->L[e][k];
@@ -143,7 +147,8 @@ FL_SIMD_VERSIONS static void kick_rows(sphere_rows *restrict q, int n, double h,
     }
 }
 
-/* Cap of each sphere below the water, as fl_environment_force(); its added mass, and the work of its change. */
+/* Cap of each sphere below the water, as fl_environment_force(); its added mass, and the work of its change.
+ */
 FL_SIMD_VERSIONS static void float_rows(sphere_rows *restrict q, int n, double level, double weight,
                                         double heave_factor, double gravity)
 {

@@ -14,7 +14,8 @@
  * periodic domain or not, or with the last. With surrogates a touching pair states whether it has been
  * evaluated, and then its surrogate. A bond has its points once it is damaged. */
 static const char LAYOUT[] =
-    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|books 34|borne 15|budget 15|disc 28|event "
+    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|books 34|borne 15|budget 15|disc "
+    "28|event "
     "15|known "
     "6|mark 16|"
     "mover 40|nap 13|next 2|pair 19|pair 20|pair 22|pair 27|pair 30|pair 91|panel 5|part 8|place 6|pressed 5|"
