@@ -192,6 +192,13 @@ static void lifted_strip(void)
     lab_free(&l);
 }
 
+static double mean_height(const fl_world *w)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < w->n; i++) sum += w->b.x[i].z / w->n;
+    return sum;
+}
+
 /* A raft of spheres in two layers that stands for a slab of 0.33 m: weight per area, level at rest, and heave
  * with three times the displaced mass, m (1 + 3) z'' = -rho g A z with the water plane A of the caps. */
 static void floating_slab(void)
@@ -209,7 +216,7 @@ static void floating_slab(void)
     double mass = 0.0, buoyancy = 0.0, plane = 0.0, added = 0.0;
     for (int32_t i = 0; i < n; i++) {
         l.w.b.v[i] = l.w.b.L[i] = l.w.b.w[i] = ZERO;
-        l.w.b.fixed_dof[i] = 0;
+        l.w.b.fixed_dof[i] = ALL & ~FL_DOF_Z; /* the layers lie beside each other: it would also roll */
         l.w.b.x[i].x -= 2.0; /* away from the cone */
         fl_submerged wet;
         fl_hull_submerged(&l.w.sea.hull[i], v3(0, 0, 1), -l.w.b.x[i].z, &wet);
@@ -225,10 +232,10 @@ static void floating_slab(void)
     fl_err err = {0};
     if (fl_step_start(&l.w, &err)) exit(1);
     double first = 0.0, last = 0.0, was = 0.0;
-    const double z0 = l.w.b.x[n / 2].z;
-    for (int crossings = 0; crossings < 2 && fl_world_time(&l.w) < 3.0 * expected;) {
+    const double z0 = mean_height(&l.w);
+    for (int crossings = 0; crossings < 3 && fl_world_time(&l.w) < 3.0 * expected;) {
         must_run(&l, 1);
-        const double now = l.w.b.x[n / 2].z - z0, t = fl_world_time(&l.w);
+        const double now = mean_height(&l.w) - z0, t = fl_world_time(&l.w);
         if (was * now < 0.0) {
             last = t - step * now / (now - was);
             if (!crossings++) first = last;
@@ -236,8 +243,8 @@ static void floating_slab(void)
         was = now;
     }
     for (int32_t i = 0; i < n; i++) added += l.w.b.heave_mass[i];
-    verify_row("S5", "added mass over mass", added / mass, 3.0, 1e-2, VERIFY_REL);
-    verify_row("S5", "heave, period [s]", 2.0 * (last - first), expected, 2e-2, VERIFY_REL);
+    verify_row("S5", "added mass over mass", added / mass, 3.0, 1e-3, VERIFY_REL);
+    verify_row("S5", "heave, period [s]", last - first, expected, 1e-3, VERIFY_REL);
     lab_free(&l);
 }
 

@@ -66,10 +66,10 @@ velocity = -0.02 0 0' ;;
 esac
 cat >"$out/sample.scene" <<SCENE
 [ice]
-file = $out/ice.dat
+file = ice.dat
 slab = $h m
 [structure]
-file = $out/struct.dat
+file = struct.dat
 friction = 0
 [run]
 gravity = 0
@@ -90,10 +90,9 @@ tangential_ratio = 0.385
 friction = 0.3
 $part
 [output]
-energy = $out/energy.tsv
 loads_every = 1 ms
 SCENE
-dem-solve -q -j 1 --report "$out/report.txt" -o "$out/loads.tsv" "$out/sample.scene" || test $? -eq 5
+dem-solve -q -j 1 --set output.energy="$out/energy.tsv" --report "$out/report.txt" -o "$out/loads.tsv" "$out/sample.scene" || test $? -eq 5
 
 # The strain energy stops growing when the sample breaks; the largest load has passed then.
 awk -v test="$test" -v layers="$layers" -v rows="$rows" -v seed="$seed" -v h=$h '
