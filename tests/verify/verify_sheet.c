@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bonds between spheres and sheets of them: beams as V61 to V66 have them for faces, a strip that is lifted at
- * speed, a floating slab, and the books of a sheet that breaks on a cone (S1 to S6). */
+/* Bonds between spheres and sheets of them: beams as V61 to V66 have them for faces, a strip that is lifted
+ * at speed, a floating slab, and the books of a sheet that breaks on a cone (S1 to S6). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,8 +61,8 @@ static void unlimited(lab *l)
     lab_set(l, "bond.shear_strength=none");
 }
 
-/* A chain clamped at one end whose other end moves slowly: force over deflection.  n - 1 discs of the length D are
- * rotation springs in their middles:
+/* A chain clamped at one end whose other end moves slowly: force over deflection.  n - 1 discs of the length
+ * D are rotation springs in their middles:
  *     w/P = sum (x_k)^2 l/(E I) + (n - 1) l/(G A),   x_k: distance of disc k from the end. */
 static void cantilever(void)
 {
@@ -94,8 +94,9 @@ static void cantilever(void)
     lab_free(&l);
 }
 
-/* First bending frequency of a chain that is free at both ends, (4.730)^2/(2 pi) sqrt(E I/(m l^4)), m = MASS/D.
- * Shear and rotary inertia lower it by (4.73)^2 (r/l)^2 (1 + E/G)/2 or so: below 0.6 % for 40 spheres. */
+/* First bending frequency of a chain that is free at both ends, (4.730)^2/(2 pi) sqrt(E I/(m l^4)), m =
+ * MASS/D. Shear and rotary inertia lower it by (4.73)^2 (r/l)^2 (1 + E/G)/2 or so: below 0.6 % for 40
+ * spheres. */
 static void frequency(void)
 {
     const int32_t n = 40;
@@ -217,7 +218,7 @@ static void floating_slab(void)
     for (int32_t i = 0; i < n; i++) {
         l.w.b.v[i] = l.w.b.L[i] = l.w.b.w[i] = ZERO;
         l.w.b.fixed_dof[i] = ALL & ~FL_DOF_Z; /* the layers lie beside each other: it would also roll */
-        l.w.b.x[i].x -= 2.0; /* away from the cone */
+        l.w.b.x[i].x -= 2.0;                  /* away from the cone */
         fl_submerged wet;
         fl_hull_submerged(&l.w.sea.hull[i], v3(0, 0, 1), -l.w.b.x[i].z, &wet);
         mass += l.w.b.m[i], buoyancy += rho * g * wet.volume, plane += wet.waterplane_area;
