@@ -36,8 +36,8 @@ static void warn_overlaps(const struct run *r)
     fprintf(stderr, "body %d and %s; they will be pushed apart\n", w->id[i], other);
 }
 
-/* A sheet of bonded spheres that starts inside the structure by more than this share of a radius loses spheres
- * at once, and at speeds that belong to no case. */
+/* A sheet of bonded spheres that starts inside the structure by more than this share of a radius loses
+ * spheres at once, and at speeds that belong to no case. */
 #define SHEET_INSIDE 0.01
 
 /* Buoyancy over weight of a sheet at the start; beyond these it jumps up or sinks. */
