@@ -4,7 +4,7 @@
  *
  * While a bond stands its two spheres have no contact.  In the step in which it breaks it still presses and
  * rubs; from the next one on the two are an ordinary pair, whose spring of friction begins with the shear
- * that friction held.  With contact.round_law = linear the stiffness is that of the bond, so no force jumps;
+ * that friction held.  With contact.round_law = linear the stiffness is that of the bond, and no force jumps;
  * the difference of the energies, which is not 0 for Hertz, counts as fracture.
  *
  * Bonded spheres stay isotropic: a disc does not need their attitude. */

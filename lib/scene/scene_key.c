@@ -501,8 +501,8 @@ const fl_key fl_key_table[] = {
      .key = "round_law",
      .type = FL_VALUE_WORD,
      .offset = OFFSET(contact, round_law),
-     .default_text = "auto",
-     .choices = "auto|hertz|linear",
+     .default_text = "hertz",
+     .choices = "hertz|linear",
      .meaning =
          "contacts of spheres and ends of capsules in patch and core; linear: F = kappa s, kappa auto = "
          "pi E r^2/(r_i + r_j) between spheres, r the smaller radius, E as of bonds where there are any, "

@@ -84,7 +84,7 @@ typedef struct {
 } fl_scene_material;
 
 /* Law of a point of a round core. */
-enum fl_round_law { FL_ROUND_AUTO, FL_ROUND_HERTZ, FL_ROUND_LINEAR };
+enum fl_round_law { FL_ROUND_HERTZ, FL_ROUND_LINEAR };
 
 /* Contact parameters of a pair.  In scene.contact a member counts only where its key was given;
  * fl_scene_pair() returns a struct with every member set. */

@@ -38,6 +38,7 @@ static void make_sheet(lab *l, int32_t n)
     lab_set(l, "material.ice.young=1 GPa");
     lab_set(l, "run.gravity=9.81");
     lab_set(l, "ice.slab=0.23 m");
+    lab_set(l, "contact.round_law=linear");
     lab_set(l, "bond.on=true");
     lab_set(l, "bond.poisson=0.3");
     lab_set(l, "bond.softening=stretch");

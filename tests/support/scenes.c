@@ -227,6 +227,7 @@ void scene_of_sheet(lab *l, int32_t side, const char *law)
                                        "contact.restitution=0.4",
                                        "run.gravity=9.81",
                                        "ice.slab=0.33 m",
+                                       "contact.round_law=linear",
                                        "bond.on=true",
                                        "bond.normal_strength=30 kPa",
                                        "bond.shear_strength=30 kPa",

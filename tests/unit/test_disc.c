@@ -232,6 +232,7 @@ static void make_cluster(lab *l, int side, const char *const *keys)
     lab_set(l, "bond.normal_strength=40 kPa");
     lab_set(l, "bond.shear_strength=40 kPa");
     lab_set(l, "bond.softening=stretch");
+    lab_set(l, "contact.round_law=linear");
     for (; *keys; keys++) lab_set(l, *keys);
     for (int k = 0; k < side * side; k++) {
         fl_rng g = fl_rng_of(7, k, FL_RNG_TEST);

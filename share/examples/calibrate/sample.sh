@@ -86,6 +86,7 @@ damping = 0.1
 scatter = $scatter
 seed = $seed
 [contact]
+round_law = linear
 tangential_ratio = 0.385
 friction = 0.3
 $part
