@@ -287,6 +287,33 @@ static void a_breaking_cluster_keeps_its_books(void **state)
     }
 }
 
+/* A sphere that leaves takes its bond and the energy in it. */
+static void a_sphere_that_leaves_loses_its_bond(void **state)
+{
+    fl_err err = {0};
+    lab l;
+    (void)state;
+    lab_start(&l);
+    lab_set(&l, "bond.on=true");
+    lab_set(&l, "bond.normal_strength=none");
+    lab_set(&l, "bond.shear_strength=none");
+    lab_set(&l, "boundary.type=free rigid rigid");
+    lab_set(&l, "boundary.min=-9 none none");
+    lab_set(&l, "boundary.max=1.02 none none");
+    for (int k = 0; k < 3; k++) lab_sphere(&l, v3(k - 1.1, 0, 0), 0.5, v3(4, 0.01 * k, 0), ZERO);
+    for (int k = 0; k < 2; k++)
+        assert_int_equal(fl_ice_field_add_bond(&l.field, k, k + 1, 0.7, 1.0, v3(k - 0.6, 0, 0), &err), 0);
+    lab_make(&l, 0);
+    for (int k = 0; k < 20000 && l.w.inflow.n_left == 0; k++) assert_int_equal(lab_run(&l, 1), 0);
+    assert_int_equal(l.w.inflow.n_left, 1);
+    assert_int_equal(l.w.discs.has_ended[1], FL_DISC_ENDED);
+    assert_int_equal(l.w.discs.has_ended[0], FL_DISC_STANDS);
+    assert_int_equal(lab_run(&l, 50), 0);
+    fl_energy_update(&l.w);
+    assert_near_of(l.w.ledger.residual, 0, 1e-4, l.w.ledger.throughput);
+    lab_free(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -297,6 +324,7 @@ int main(void)
         cmocka_unit_test(a_rigid_motion_changes_nothing),
         cmocka_unit_test(lanes_have_the_bits_of_one),
         cmocka_unit_test(a_breaking_cluster_keeps_its_books),
+        cmocka_unit_test(a_sphere_that_leaves_loses_its_bond),
     };
     return cmocka_run_group_tests_name("disc", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bonds between spheres and sheets of them: beams as V61 to V66 have them for faces, a strip that is lifted
- * at speed, a floating slab, and the books of a sheet that breaks on a cone (S1 to S6). */
+ * at speed, a floating slab, and the books of a sheet that breaks on a cone (BS1 to BS6). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,7 +89,7 @@ static void cantilever(void)
     }
     for (int32_t k = 0; k + 1 < n; k++)
         expected += pow((n - 1.5 - k) * D, 2) * D / (E * INERTIA) + D / (G * AREA);
-    verify_row("S1", "cantilever of 8 discs, deflection over load [m/N]",
+    verify_row("BS1", "cantilever of 8 discs, deflection over load [m/N]",
                l.w.b.x[n - 1].z / -l.w.b.f[n - 1].z, expected, 1e-3, VERIFY_REL);
     lab_free(&l);
 }
@@ -123,7 +123,7 @@ static void frequency(void)
         }
         was = now;
     }
-    verify_row("S2", "free chain of 40, first bending frequency [Hz]", 2.0 / (last - first), expected, 1.5e-2,
+    verify_row("BS2", "free chain of 40, first bending frequency [Hz]", 2.0 / (last - first), expected, 1.5e-2,
                VERIFY_REL);
     lab_free(&l);
 }
@@ -153,7 +153,7 @@ static void strengths(void)
                 most = fmax(most, bent ? q.moment : q.tension);
             }
         }
-        verify_row("S3",
+        verify_row("BS3",
                    bent ? "chain in bending, largest moment [N m]" : "chain in tension, largest force [N]",
                    most, 0.7e6 * (bent ? INERTIA / R : AREA), 2e-3, VERIFY_REL);
         lab_free(&l);
@@ -185,9 +185,9 @@ static void lifted_strip(void)
             if (q.moment > most) most = q.moment, where = q.x.x;
         }
         snprintf(what, sizeof what, "lifted strip at %.0f ms, curvature [1/m]", 1e3 * t);
-        verify_row("S4", what, most / EI, 0.4876 * w * sqrt(per / EI), 4e-2, VERIFY_REL);
+        verify_row("BS4", what, most / EI, 0.4876 * w * sqrt(per / EI), 4e-2, VERIFY_REL);
         snprintf(what, sizeof what, "lifted strip at %.0f ms, its place [m]", 1e3 * t);
-        verify_row("S4", what, where, 1.772 * pow(EI / per, 0.25) * sqrt(t), 0.05 + 0.5 * D / where,
+        verify_row("BS4", what, where, 1.772 * pow(EI / per, 0.25) * sqrt(t), 0.05 + 0.5 * D / where,
                    VERIFY_REL);
     }
     lab_free(&l);
@@ -223,9 +223,9 @@ static void floating_slab(void)
         fl_hull_submerged(&l.w.sea.hull[i], v3(0, 0, 1), -l.w.b.x[i].z, &wet);
         mass += l.w.b.m[i], buoyancy += rho * g * wet.volume, plane += wet.waterplane_area;
     }
-    verify_row("S5", "slab of two layers, mass per area [kg/m2]", mass / (0.5 * n * sqrt(0.75) * 4.0 * r * r),
+    verify_row("BS5", "slab of two layers, mass per area [kg/m2]", mass / (0.5 * n * sqrt(0.75) * 4.0 * r * r),
                RHO * h, 1e-12, VERIFY_REL);
-    verify_row("S5", "buoyancy over weight where voronoi-ice puts it", buoyancy / (mass * g), 1.0, 1e-9,
+    verify_row("BS5", "buoyancy over weight where voronoi-ice puts it", buoyancy / (mass * g), 1.0, 1e-9,
                VERIFY_REL);
     const double expected = 2.0 * PI * sqrt(4.0 * mass / (rho * g * plane)), step = l.w.dt;
     for (int32_t i = 0; i < n; i++) l.w.b.v[i].z = 2e-3;
@@ -244,8 +244,8 @@ static void floating_slab(void)
         was = now;
     }
     for (int32_t i = 0; i < n; i++) added += l.w.b.heave_mass[i];
-    verify_row("S5", "added mass over mass", added / mass, 3.0, 1e-3, VERIFY_REL);
-    verify_row("S5", "heave, period [s]", last - first, expected, 1e-3, VERIFY_REL);
+    verify_row("BS5", "added mass over mass", added / mass, 3.0, 1e-3, VERIFY_REL);
+    verify_row("BS5", "heave, period [s]", last - first, expected, 1e-3, VERIFY_REL);
     lab_free(&l);
 }
 
@@ -260,9 +260,9 @@ static void breaking_sheet(void)
     fl_energy_update(&l.w);
     verify_note("%d bonds of %d broken, %d damaged", c.state[FL_BOND_ENDED], l.w.discs.n,
                 c.state[FL_BOND_DAMAGED]);
-    verify_below("S6", "breaking sheet, energy residual over throughput",
+    verify_below("BS6", "breaking sheet, energy residual over throughput",
                  fabs(l.w.ledger.residual) / l.w.ledger.throughput, 1e-3);
-    verify_below("S6", "breaking sheet, momentum over contact impulses",
+    verify_below("BS6", "breaking sheet, momentum over contact impulses",
                  v3_norm(l.w.imbalance) / l.w.impulse_sum, 1e-12);
     lab_free(&l);
 }
