@@ -126,7 +126,8 @@ static inline fl_vec3 fl_body_velocity_of_momentum(const fl_bodies *b, int32_t i
 static inline double fl_body_kinetic_energy(const fl_bodies *b, int32_t i)
 {
     const double turning = v3_dot(b->w[i], b->L[i]);
-    if (b->added_mass || b->heave_mass) return 0.5 * (v3_dot(b->v[i], fl_body_momentum(b, i, b->v[i])) + turning);
+    if (b->added_mass || b->heave_mass)
+        return 0.5 * (v3_dot(b->v[i], fl_body_momentum(b, i, b->v[i])) + turning);
     return 0.5 * (b->m[i] * v3_norm2(b->v[i]) + turning);
 }
 

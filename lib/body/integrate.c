@@ -33,7 +33,7 @@ void fl_kick(fl_bodies *b, int32_t i, double h)
 {
     const fl_vec3 v0 = b->v[i], w0 = b->w[i];
     b->v[i] = b->added_mass || b->heave_mass ? v3_madd(v0, h, fl_body_velocity_of_momentum(b, i, b->f[i]))
-                            : v3_madd(v0, h * b->invm[i], b->f[i]);
+                                             : v3_madd(v0, h * b->invm[i], b->f[i]);
     b->L[i] = v3_madd(b->L[i], h, b->t[i]);
     b->w[i] = fl_body_apply_inverse_inertia(b, i, b->L[i]);
     if (b->fixed_dof[i]) fl_body_apply_fixed_dof(b, i, v0, w0);
@@ -387,6 +387,6 @@ void fl_body_apply_fixed_dof(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_
     if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) apply_fixed_rotation(b, i, hold, w_held);
     const fl_vec3 change = v3_sub(b->v[i], v);
     const double rising = b->heave_mass ? b->heave_mass[i] * change.z * v_held.z : 0.0;
-    b->work_of_constraints[i] += b->m[i] * v3_dot(change, v_held) + rising +
-                                 angular_constraint_work(hold, v3_sub(b->L[i], L), w_held);
+    b->work_of_constraints[i] +=
+        b->m[i] * v3_dot(change, v_held) + rising + angular_constraint_work(hold, v3_sub(b->L[i], L), w_held);
 }

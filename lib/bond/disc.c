@@ -67,13 +67,13 @@ fl_disc_wrench fl_disc_force(const fl_disc_law *law, const fl_disc_class *c, dou
     if (g < before)
         m->dissipated += 0.5 * (before - g) * spring_product(c, q.e, N0, q.S0, q.M0, q.N, q.S, q.M);
     if (g < 1.0)
-        m->rubbed += 0.5 * dt *
-                     ((share0 - before) * v3_dot(q.S0, q.slip) + (share - g) * v3_dot(q.S, q.slip));
+        m->rubbed +=
+            0.5 * dt * ((share0 - before) * v3_dot(q.S0, q.slip) + (share - g) * v3_dot(q.S, q.slip));
     const fl_vec3 drag = v3_scale(g, fl_disc_damping_force(q, c->kn, c->shear_ratio, c->damping)),
-                  brake = v3_scale(g, fl_disc_damping_couple(q, c->kn, c->shear_ratio, c->radius,
-                                                             c->damping));
-    m->damped += 0.5 * dt *
-                 fl_disc_power(q, v3_add(m->damping_force, drag), v3_add(m->damping_couple, brake));
+                  brake =
+                      v3_scale(g, fl_disc_damping_couple(q, c->kn, c->shear_ratio, c->radius, c->damping));
+    m->damped +=
+        0.5 * dt * fl_disc_power(q, v3_add(m->damping_force, drag), v3_add(m->damping_couple, brake));
     m->damping_force = drag, m->damping_couple = brake;
     m->S = q.S, m->M = q.M;
     const fl_vec3 F = v3_add(v3_madd(v3_scale(q.N > 0.0 ? g * q.N : q.N, q.e), share, q.S), drag),

@@ -31,7 +31,7 @@ FL_SIMD4_VERSIONS static void load_lanes(disc_lanes *restrict t, const double *c
     fl_lanes_load(t->xi, of[0], 4), fl_lanes_load(t->xj, of[1], 4);
     fl_lanes_load(t->vi, of[2], 4), fl_lanes_load(t->vj, of[3], 4);
     fl_lanes_load(t->wi, of[4], 4), fl_lanes_load(t->wj, of[5], 4);
-    fl_lanes_load(t->class, class, FL_DISC_CLASS_NUMBERS);
+    if (class[0]) fl_lanes_load(t->class, class, FL_DISC_CLASS_NUMBERS);
 }
 
 /* The arrays of fl_disc_arrays from the first disc of the batch on. */
@@ -46,28 +46,33 @@ FL_SIMD_INLINE void set_row3(double *const *a, int k, int on, fl_vec3 v)
     a[0][k] = on ? v.x : a[0][k], a[1][k] = on ? v.y : a[1][k], a[2][k] = on ? v.z : a[2][k];
 }
 
+/* Number `row` of the class of lane k; of all lanes if `one`. */
+#define CLASS(member, row) (one ? all.member : c[row].a[k])
+
 FL_SIMD_INLINE void evaluate_lanes(disc_lanes *restrict t, const memory_rows *restrict m,
-                                   const fl_disc_law *restrict law, double dt, int damped)
+                                   const fl_disc_law *restrict law, fl_disc_class all, double dt, int damped,
+                                   int one)
 {
     const fl_lane *c = t->class;
     const double beta = law->moment_factor, tension = law->tension, cohesion = law->cohesion;
 #pragma omp simd
     for (int k = 0; k < FL_LANE_COUNT; k++) {
-        const double kn = c[KN].a[k], ratio = c[RATIO].a[k], R = c[RADIUS].a[k], share = c[SHARE].a[k],
-                     damping = c[DAMPING].a[k], s = t->scatter.a[k] * c[WEAKENING].a[k];
+        const double kn = CLASS(kn, KN), ratio = CLASS(shear_ratio, RATIO), R = CLASS(radius, RADIUS),
+                     share = CLASS(share, SHARE), damping = CLASS(damping, DAMPING),
+                     s = t->scatter.a[k] * CLASS(weakening, WEAKENING);
         const fl_vec3 d = v3_add(v3_sub(fl_lane3(t->xj, k), fl_lane3(t->xi, k)), fl_lane3(t->shift, k));
-        const fl_disc_motion q = fl_disc_motion_of(d, fl_lane3(t->vi, k), fl_lane3(t->vj, k),
-                                                   fl_lane3(t->wi, k), fl_lane3(t->wj, k), row3(m->S, k),
-                                                   row3(m->M, k), c[LENGTH].a[k], kn, ratio, R, share, dt);
+        const fl_disc_motion q = fl_disc_motion_of(
+            d, fl_lane3(t->vi, k), fl_lane3(t->vj, k), fl_lane3(t->wi, k), fl_lane3(t->wj, k), row3(m->S, k),
+            row3(m->M, k), CLASS(length, LENGTH), kn, ratio, R, share, dt);
         const double used = fl_disc_strength_bound(q, R, beta, s * tension, s * cohesion);
         const int on = t->whole.a[k] > 0.0 && used < WHOLE_LIMIT;
         fl_vec3 F = v3_madd(v3_scale(q.N, q.e), 1.0, q.S), M = q.M;
         if (damped) {
             const fl_vec3 drag = fl_disc_damping_force(q, kn, ratio, damping),
                           brake = fl_disc_damping_couple(q, kn, ratio, R, damping);
-            const double more = 0.5 * dt *
-                                fl_disc_power(q, v3_add(row3(m->force, k), drag),
-                                              v3_add(row3(m->couple, k), brake));
+            const double more =
+                0.5 * dt *
+                fl_disc_power(q, v3_add(row3(m->force, k), drag), v3_add(row3(m->couple, k), brake));
             m->damped[k] += on ? more : 0.0;
             set_row3(m->force, k, on, drag);
             set_row3(m->couple, k, on, brake);
@@ -86,15 +91,19 @@ FL_SIMD_INLINE void evaluate_lanes(disc_lanes *restrict t, const memory_rows *re
 }
 
 FL_SIMD_VERSIONS static void evaluate_elastic(disc_lanes *restrict t, const memory_rows *restrict m,
-                                              const fl_disc_law *restrict law, double dt)
+                                              const fl_disc_law *restrict law,
+                                              const fl_disc_class *restrict all, double dt)
 {
-    evaluate_lanes(t, m, law, dt, 0);
+    if (all) evaluate_lanes(t, m, law, *all, dt, 0, 1);
+    else evaluate_lanes(t, m, law, (fl_disc_class){0}, dt, 0, 0);
 }
 
 FL_SIMD_VERSIONS static void evaluate_damped(disc_lanes *restrict t, const memory_rows *restrict m,
-                                             const fl_disc_law *restrict law, double dt)
+                                             const fl_disc_law *restrict law,
+                                             const fl_disc_class *restrict all, double dt)
 {
-    evaluate_lanes(t, m, law, dt, 1);
+    if (all) evaluate_lanes(t, m, law, *all, dt, 1, 1);
+    else evaluate_lanes(t, m, law, (fl_disc_class){0}, dt, 1, 0);
 }
 
 /* Stores the forces of the discs that are done. */
@@ -127,15 +136,18 @@ double fl_disc_batch_force(const fl_disc_arrays *a, int32_t from, const fl_disc_
         m.force[e] = a->damped ? a->damping_force[e] + from : NULL;
         m.couple[e] = a->damped ? a->damping_couple[e] + from : NULL;
     }
+    int same = 1; /* class of all lanes */
+    for (int k = 1; k < FL_LANE_COUNT; k++) same &= a->which[from + k] == a->which[from];
+    const fl_disc_class *all = same ? &classes[a->which[from]] : NULL;
     for (int k = 0; k < FL_LANE_COUNT; k++) {
-        class[k] = fl_lane_column(&classes[a->which[from + k]]);
+        class[k] = all ? NULL : fl_lane_column(&classes[a->which[from + k]]);
         fl_lane3_set(t.shift, k, shift ? shift[k] : v3(0, 0, 0));
         t.scatter.a[k] = a->scatter ? a->scatter[from + k] : 1.0;
         t.whole.a[k] = a->is_whole[from + k] ? 1.0 : 0.0;
     }
     load_lanes(&t, class, b, a->i + from, a->j + from);
-    if (a->damped) evaluate_damped(&t, &m, law, dt);
-    else evaluate_elastic(&t, &m, law, dt);
+    if (a->damped) evaluate_damped(&t, &m, law, all, dt);
+    else evaluate_elastic(&t, &m, law, all, dt);
     store_lanes(&t, a->out + from);
     for (int k = 0; k < FL_LANE_COUNT; k++) done[k] = t.done.a[k] > 0.0, sum += t.size.a[k];
     return sum;

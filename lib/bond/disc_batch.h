@@ -6,17 +6,17 @@
 #include "bond/disc.h"
 #include "geom/lanes.h"
 
-/* Memory of many discs, an array for each number; fl_disc_memory has their meaning.  Arrays hold a multiple of
- * FL_LANE_COUNT. */
+/* Memory of many discs, an array for each number; fl_disc_memory has their meaning.  Arrays hold a multiple
+ * of FL_LANE_COUNT. */
 typedef struct {
-    int32_t *i, *j;                    /* bodies, i < j */
+    int32_t *i, *j; /* bodies, i < j */
     double *S[3], *M[3];
     double *damping_force[3], *damping_couple[3], *damped; /* NULL without dashpots */
-    double *scatter;                   /* s; NULL: 1 */
+    double *scatter;                                       /* s; NULL: 1 */
     double *lambda, *dissipated, *rubbed;
-    uint8_t *is_whole;                 /* not damaged */
-    uint16_t *which;                   /* class */
-    fl_disc_wrench *out;               /* of the last evaluation */
+    uint8_t *is_whole;   /* not damaged */
+    uint16_t *which;     /* class */
+    fl_disc_wrench *out; /* of the last evaluation */
 } fl_disc_arrays;
 
 /* Evaluates the discs [from, from + FL_LANE_COUNT) that are whole over a step of dt [s].  shift: offsets that

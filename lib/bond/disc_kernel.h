@@ -9,13 +9,13 @@
 
 /* Motion of the two sides over a step, and the elastic state after it. */
 typedef struct {
-    fl_vec3 e;              /* from i to j */
-    double r, N;            /* |d| [m]; k_n (r - l) [N] */
-    double opening;         /* rate of r [m/s] */
-    fl_vec3 slip, bend;     /* rates across e [m/s], of the rotation across e [rad/s] */
-    double twist;           /* rate about e [rad/s] */
-    fl_vec3 S0, M0;         /* memory, turned to now */
-    fl_vec3 S, M;           /* and grown */
+    fl_vec3 e;          /* from i to j */
+    double r, N;        /* |d| [m]; k_n (r - l) [N] */
+    double opening;     /* rate of r [m/s] */
+    fl_vec3 slip, bend; /* rates across e [m/s], of the rotation across e [rad/s] */
+    double twist;       /* rate about e [rad/s] */
+    fl_vec3 S0, M0;     /* memory, turned to now */
+    fl_vec3 S, M;       /* and grown */
 } fl_disc_motion;
 
 /* a turned by the small rotation t, to order 2. */
@@ -56,8 +56,7 @@ FL_SIMD_INLINE double fl_disc_strength_bound(fl_disc_motion q, double radius, do
 {
     const double area = 3.14159265358979323846 * radius * radius,
                  moment = beta * (fabs(q.M.x) + fabs(q.M.y) + fabs(q.M.z)) / radius,
-                 pull = q.N > 0.0 ? q.N : 0.0,
-                 sigma = (pull + 4.0 * moment) / (area * tension),
+                 pull = q.N > 0.0 ? q.N : 0.0, sigma = (pull + 4.0 * moment) / (area * tension),
                  tau = (fabs(q.S.x) + fabs(q.S.y) + fabs(q.S.z) + 2.0 * moment) / (area * cohesion);
     return sigma * sigma + tau * tau;
 }

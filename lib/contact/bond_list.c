@@ -80,7 +80,8 @@ static int make_bond(fl_world *w, int32_t k, const fl_ice_field_bond *d, const f
     const int32_t i = d->i, j = d->j;
     fl_bond *c = &w->bonds.bond[k];
     fl_common_face face;
-    const fl_vec3 ci = fl_bond_cells_between(w, i, d->x), cells = v3_sub(fl_bond_cells_between(w, j, d->x), ci);
+    const fl_vec3 ci = fl_bond_cells_between(w, i, d->x),
+                  cells = v3_sub(fl_bond_cells_between(w, j, d->x), ci);
     w->bonds.image[3 * k] = (int32_t)cells.x;
     w->bonds.image[3 * k + 1] = (int32_t)cells.y;
     w->bonds.image[3 * k + 2] = (int32_t)cells.z;

@@ -97,10 +97,14 @@ static int alloc_arrays(fl_world *w, int64_t n, fl_err *err)
     fl_disc_list *s = &w->discs;
     fl_disc_arrays *a = &s->at;
     const int64_t full = (n + FL_LANE_COUNT - 1) / FL_LANE_COUNT * FL_LANE_COUNT;
-    double **const reals[] = {&a->S[0], &a->S[1], &a->S[2],   &a->M[0],       &a->M[1],
+    double **const reals[] = {&a->S[0], &a->S[1],   &a->S[2],       &a->M[0],   &a->M[1],
                               &a->M[2], &a->lambda, &a->dissipated, &a->rubbed, &s->pending};
-    double **const dampers[] = {&a->damping_force[0],  &a->damping_force[1],  &a->damping_force[2],
-                                &a->damping_couple[0], &a->damping_couple[1], &a->damping_couple[2],
+    double **const dampers[] = {&a->damping_force[0],
+                                &a->damping_force[1],
+                                &a->damping_force[2],
+                                &a->damping_couple[0],
+                                &a->damping_couple[1],
+                                &a->damping_couple[2],
                                 &a->damped};
     for (size_t k = 0; k < sizeof reals / sizeof *reals; k++)
         if (!(*reals[k] = fl_alloc(full, sizeof **reals[k], err))) return -1;
@@ -126,8 +130,7 @@ static int add_disc(fl_world *w, const fl_ice_field_bond *d, fl_err *err)
     const int32_t k = s->n;
     const fl_disc_class c = class_of(w, d);
     if (!(c.length > 0.0))
-        return fl_fail(err, FL_INPUT,
-                       "%s: the bond of body %d and %d has no length: their centres coincide",
+        return fl_fail(err, FL_INPUT, "%s: the bond of body %d and %d has no length: their centres coincide",
                        w->scene->ice.file, w->id[d->i], w->id[d->j]);
     const int32_t which = find_class(s, &c, err);
     if (which < 0) return -1;
@@ -154,8 +157,7 @@ static int index_discs(fl_world *w, fl_err *err)
     s->of = fl_alloc(s->n, sizeof *s->of, err);
     if (!s->first_i || !s->first_j || !s->of) return -1;
     for (int32_t k = 0; k < s->n; k++) s->first_i[s->at.i[k] + 1]++, s->first_j[s->at.j[k] + 1]++;
-    for (int32_t i = 0; i < w->n; i++)
-        s->first_i[i + 1] += s->first_i[i], s->first_j[i + 1] += s->first_j[i];
+    for (int32_t i = 0; i < w->n; i++) s->first_i[i + 1] += s->first_i[i], s->first_j[i + 1] += s->first_j[i];
     /* filling moves each offset to the start of the next; then all move back by one */
     for (int32_t k = 0; k < s->n; k++) s->of[s->first_j[s->at.j[k]]++] = k;
     for (int32_t i = w->n; i > 0; i--) s->first_j[i] = s->first_j[i - 1];
@@ -245,8 +247,7 @@ int32_t fl_disc_list_find(const fl_world *w, int32_t i, int32_t j, const int32_t
     const fl_disc_list *s = &w->discs;
     if (i >= w->n || j >= w->n || !s->n) return -1;
     for (int64_t k = s->first_i[i]; k < s->first_i[i + 1]; k++)
-        if (s->at.j[k] == j &&
-            (!s->image || memcmp(&s->image[3 * k], image, 3 * sizeof *image) == 0))
+        if (s->at.j[k] == j && (!s->image || memcmp(&s->image[3 * k], image, 3 * sizeof *image) == 0))
             return (int32_t)k;
     return -1;
 }
@@ -255,7 +256,10 @@ int32_t fl_disc_list_find(const fl_world *w, int32_t i, int32_t j, const int32_t
 
 static fl_vec3 vector_of(double *const *a, int32_t k) { return v3(a[0][k], a[1][k], a[2][k]); }
 
-static void set_vector(double *const *a, int32_t k, fl_vec3 v) { a[0][k] = v.x, a[1][k] = v.y, a[2][k] = v.z; }
+static void set_vector(double *const *a, int32_t k, fl_vec3 v)
+{
+    a[0][k] = v.x, a[1][k] = v.y, a[2][k] = v.z;
+}
 
 fl_disc_memory fl_disc_list_memory(const fl_disc_list *s, int32_t k)
 {
@@ -322,8 +326,7 @@ static double evaluate_disc(fl_world *w, int32_t k, double dt)
     const fl_disc_class *c = &s->classes[s->at.which[k]];
     const fl_disc_pose at = {fl_disc_list_separation(w, k), b->v[i], b->v[j], b->w[i], b->w[j]};
     fl_disc_memory m = fl_disc_list_memory(s, k);
-    const fl_disc_wrench f =
-        fl_disc_force(&s->law, c, s->at.scatter ? s->at.scatter[k] : 1.0, &at, dt, &m);
+    const fl_disc_wrench f = fl_disc_force(&s->law, c, s->at.scatter ? s->at.scatter[k] : 1.0, &at, dt, &m);
     s->at.out[k] = f;
     if (fl_disc_is_broken(c, m.lambda)) {
         const fl_vec3 e = v3_unit(at.d);
@@ -457,9 +460,9 @@ double fl_disc_list_force_sum(const fl_world *w)
 double fl_disc_list_bytes(const fl_world *w)
 {
     const fl_disc_list *s = &w->discs;
-    const double real = sizeof(double),
-                 bond = 12 * real + 3 * sizeof(int32_t) + sizeof(uint16_t) + 2 + sizeof(fl_disc_wrench) +
-                        (s->at.damped ? 7 * real : 0.0) + (s->at.scatter ? real : 0.0) +
-                        (s->image ? sizeof(fl_vec3) + 3 * sizeof(int32_t) : 0.0);
+    const double real = sizeof(double), bond = 12 * real + 3 * sizeof(int32_t) + sizeof(uint16_t) + 2 +
+                                               sizeof(fl_disc_wrench) + (s->at.damped ? 7 * real : 0.0) +
+                                               (s->at.scatter ? real : 0.0) +
+                                               (s->image ? sizeof(fl_vec3) + 3 * sizeof(int32_t) : 0.0);
     return s->n ? s->n * bond + w->n * (2.0 * sizeof(int64_t) + real) : 0.0;
 }

@@ -20,14 +20,6 @@ static int32_t column_of(const fl_world *w, int32_t material)
     return material >= 0 ? material : material == FL_SCENE_STRUCTURE ? w->materials : w->materials + 1;
 }
 
-/* Exponent of contacts of round cores. */
-static double round_exponent(const fl_world *w, const fl_scene_contact *t)
-{
-    const fl_scene_bond *b = &w->scene->bond;
-    const int bonded = w->has_points && b->head.present && b->on;
-    return t->round_law == FL_ROUND_LINEAR || (t->round_law == FL_ROUND_AUTO && bonded) ? 1.0 : 1.5;
-}
-
 /* E of a linear contact of materials a and b: that of the bonds, or of the materials. */
 static double round_young(const fl_world *w, int32_t a, int32_t b)
 {
@@ -61,7 +53,7 @@ int fl_pair_law_make_table(fl_world *w, fl_err *err)
             w->law[a * (w->materials + 2) + c] = (fl_pair_law){
                 .law = row,
                 .exponent = t.exponent,
-                .round_exponent = round_exponent(w, &t),
+                .round_exponent = t.round_law == FL_ROUND_LINEAR ? 1.0 : 1.5,
                 .round_young = round_young(w, a, b),
                 .modulus = fl_material_modulus(elastic_of(s, a), elastic_of(s, b)),
                 .stiffness = t.stiffness,

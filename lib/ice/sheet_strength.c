@@ -10,9 +10,9 @@ typedef struct {
 
 /* flexural, compressive, young, spread */
 static const table_row TABLE[] = {
-    {FL_PACKING_HCP, 1, 0, {1.02, 11.6, 0.91, 0.05}}, {FL_PACKING_HCP, 1, 1, {1.18, 4.7, 0.87, 0.05}},
-    {FL_PACKING_HCP, 2, 0, {1.29, 11.6, 1.45, 0.05}}, {FL_PACKING_HCP, 2, 1, {1.43, 4.7, 1.36, 0.05}},
-    {FL_PACKING_HCP, 3, 0, {1.29, 11.6, 1.43, 0.05}}, {FL_PACKING_HCP, 3, 1, {1.43, 4.7, 1.35, 0.05}},
+    {FL_PACKING_HCP, 1, 0, {0.87, 4.24, 0.76, 0.10}}, {FL_PACKING_HCP, 1, 1, {0.92, 3.13, 0.81, 0.14}},
+    {FL_PACKING_HCP, 2, 0, {1.36, 4.24, 1.24, 0.03}}, {FL_PACKING_HCP, 2, 1, {1.29, 3.13, 1.18, 0.07}},
+    {FL_PACKING_HCP, 3, 0, {1.36, 4.24, 1.16, 0.12}}, {FL_PACKING_HCP, 3, 1, {1.44, 3.13, 1.13, 0.04}},
 };
 enum { ROWS = sizeof TABLE / sizeof *TABLE };
 

@@ -61,10 +61,11 @@ int fl_slab_fill(int32_t n, const fl_vec3 *x, double radius, double h, double *p
     const double area = count_neighbours(n, x, D, z[0]) > 4 ? sqrt(0.75) * D * D : D * D,
                  fill = layers * (PI * D * D * D / 6.0) / (area * h);
     if (!(fill >= LEAST_FILL && fill <= MOST_FILL))
-        return fl_fail(err, FL_INPUT,
-                       "ice.slab: %d layers of spheres of %.4g m would fill %.3g of a slab of %.4g m, %.1f to "
-                       "%.1f are expected",
-                       layers, D, fill, h, LEAST_FILL, MOST_FILL);
+        return fl_fail(
+            err, FL_INPUT,
+            "ice.slab: %d layers of spheres of %.4g m would fill %.3g of a slab of %.4g m, %.1f to "
+            "%.1f are expected",
+            layers, D, fill, h, LEAST_FILL, MOST_FILL);
     *phi = fill;
     return 0;
 }

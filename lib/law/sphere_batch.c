@@ -19,7 +19,8 @@ FL_SIMD_VERSIONS static void find_geometry(fl_sphere_batch *restrict b, int32_t 
     {
         const double x = b->d[0][c], y = b->d[1][c], z = b->d[2][c];
         const double d = sqrt(x * x + y * y + z * z), inverse = d > 0.0 ? 1.0 / d : 0.0;
-        const double s = b->ri[c] + b->rj[c] - d, root = linear ? (s > 0.0 ? 1.0 : 0.0) : sqrt(s > 0.0 ? s : 0.0);
+        const double s = b->ri[c] + b->rj[c] - d,
+                     root = linear ? (s > 0.0 ? 1.0 : 0.0) : sqrt(s > 0.0 ? s : 0.0);
         b->n[0][c] = inverse * x;
         b->n[1][c] = inverse * y;
         b->n[2][c] = d > 0.0 ? inverse * z : 1.0;

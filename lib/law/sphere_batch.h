@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sphere_batch.h -- contacts of two spheres, evaluated many at a time: Hertz or linear with the damping of Hunt and
- * Crossley along the normal (normal.h), and a friction spring for a contact that is a point (tangent.h).
+/* sphere_batch.h -- contacts of two spheres, evaluated many at a time: Hertz or linear with the damping of
+ * Hunt and Crossley along the normal (normal.h), and a friction spring for a contact that is a point
+ * (tangent.h).
  *
  *     D = x_i - x_j,  n = D/|D|,  overlap s = r_i + r_j - |D| > 0,
  *     arms a_i = r_i - s/2, a_j = r_j - s/2 from the centres to the middle of the overlap,
@@ -27,7 +28,7 @@ enum { FL_SPHERE_BATCH = 24 };
 /* One array for each quantity; vectors are x, y, z. */
 typedef struct {
     /* in */
-    double exponent; /* n of F_e = k s^n: 3/2, or 1 */
+    double exponent;                          /* n of F_e = k s^n: 3/2, or 1 */
     alignas(64) double d[3][FL_SPHERE_BATCH]; /* D                             [m]     */
     double u[3][FL_SPHERE_BATCH];             /* v_i - v_j                                [m/s]   */
     double wi[3][FL_SPHERE_BATCH];            /* angular velocities                       [rad/s] */

@@ -526,12 +526,13 @@ const fl_key fl_key_table[] = {
      .key = "round_law",
      .type = FL_VALUE_WORD,
      .offset = OFFSET(contact, round_law),
-     .default_text = "auto",
-     .choices = "auto|hertz|linear",
-     .meaning = "contacts of spheres and ends of capsules in patch and core; linear: F = kappa s, kappa auto = "
-                "pi E r^2/(r_i + r_j) between spheres, r the smaller radius, E as of bonds where there are any, "
-                "and pi E r on other things; auto: linear where spheres may be bonded, else hertz; one for all "
-                "pairs",
+     .default_text = "hertz",
+     .choices = "hertz|linear",
+     .meaning =
+         "contacts of spheres and ends of capsules in patch and core; linear: F = kappa s, kappa auto = "
+         "pi E r^2/(r_i + r_j) between spheres, r the smaller radius, E as of bonds where there are any, "
+         "and pi E r on other things; auto: linear where spheres may be bonded, else hertz; one for all "
+         "pairs",
      .source = "a broken bond then leaves a contact of its own stiffness"},
     {.section = FL_SEC_CONTACT,
      .key = "stiffness",
@@ -542,7 +543,8 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .range = "(0,inf)",
      .meaning = "kappa of a whole face in the law patch, of the contact point in the law "
-                "core, of Hertz' law [N/m^1.5] for spheres and ends of capsules, or of round_law = linear [N/m]; auto "
+                "core, of Hertz' law [N/m^1.5] for spheres and ends of capsules, or of round_law = linear "
+                "[N/m]; auto "
                 "follows from the moduli",
      .source = "flat punch 2 E* beta sqrt(A/pi), a sixth of it in core; (4/3) E* sqrt(R*) for spheres"},
     {.section = FL_SEC_CONTACT,
@@ -646,9 +648,10 @@ const fl_key fl_key_table[] = {
      .default_text = "none",
      .special = "none",
      .range = "(0,inf)",
-     .meaning = "thickness of the slab that a sheet of equal spheres in layers stands for: their mass, "
-                "buoyancy, drag and added mass are divided by the solid part of the slab; densities stay those "
-                "of ice and water",
+     .meaning =
+         "thickness of the slab that a sheet of equal spheres in layers stands for: their mass, "
+         "buoyancy, drag and added mass are divided by the solid part of the slab; densities stay those "
+         "of ice and water",
      .source = "weight, draft and heave stiffness of the slab"},
     {.section = FL_SEC_STRUCTURE,
      .key = "file",
@@ -1388,8 +1391,9 @@ const fl_key fl_key_table[] = {
      .default_text = "0",
      .range = "[0,0.5]",
      .needs = {"on"},
-     .meaning = "standard deviation over mean of the strengths of bonds between spheres, a normal law cut off "
-                "at 0.1, one number for both strengths of a bond",
+     .meaning =
+         "standard deviation over mean of the strengths of bonds between spheres, a normal law cut off "
+         "at 0.1, one number for both strengths of a bond",
      .source = "a lattice without scatter has columns along its rows"},
     {.section = FL_SEC_BOND,
      .key = "seed",

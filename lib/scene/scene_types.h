@@ -87,7 +87,7 @@ typedef struct {
 } fl_scene_material;
 
 /* Law of a point of a round core. */
-enum fl_round_law { FL_ROUND_AUTO, FL_ROUND_HERTZ, FL_ROUND_LINEAR };
+enum fl_round_law { FL_ROUND_HERTZ, FL_ROUND_LINEAR };
 
 /* Contact parameters of a pair.  In scene.contact a member counts only where its key was given;
  * fl_scene_pair() returns a struct with every member set. */
@@ -226,9 +226,9 @@ typedef struct {
     double friction;
     double energy, shear_energy; /* [J/m2]; 0: brittle; shear_energy negative: auto, as energy */
     int32_t mixing;
-    int32_t softening; /* enum fl_softening */
-    double stretch;    /* least ratio of final to peak separation, of stretch */
-    double damping;    /* fraction of critical of the two bodies on their bond */
+    int32_t softening;        /* enum fl_softening */
+    double stretch;           /* least ratio of final to peak separation, of stretch */
+    double damping;           /* fraction of critical of the two bodies on their bond */
     double internal_friction; /* mu_i of the shear strength; negative: auto */
     double moment_factor;     /* beta of discs */
     double radius_factor;     /* of discs over the smaller sphere */

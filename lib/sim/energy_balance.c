@@ -127,7 +127,8 @@ void fl_energy_update(fl_world *w)
     g->elastic = elastic;
     g->hydrostatic = hydro;
     g->damping_now = g->damping - ahead.damping + bonds.damped;
-    g->friction_now = g->friction - ahead.friction - spring + bonds.rubbed; /* the friction springs can give it back */
+    g->friction_now =
+        g->friction - ahead.friction - spring + bonds.rubbed; /* the friction springs can give it back */
     g->drag = drag;
     g->wind = wind;
     g->waves = waves;

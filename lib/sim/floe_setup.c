@@ -186,8 +186,7 @@ static void drive_body(fl_world *w, int32_t i)
     fl_body_set_spin(b, i,
                      v3(fixed & FL_DOF_RX ? 0.0 : spin.x, fixed & FL_DOF_RY ? 0.0 : spin.y,
                         fixed & FL_DOF_RZ ? 0.0 : spin.z));
-    w->driven_floes.k[i] =
-        fixed & FL_DOF_Z ? 0.0 : s->drive_spring + s->drive_foundation * area;
+    w->driven_floes.k[i] = fixed & FL_DOF_Z ? 0.0 : s->drive_spring + s->drive_foundation * area;
     w->driven_floes.rest_height[i] = b->x[i].z;
 }
 

@@ -113,8 +113,9 @@ static fl_velocity_change sphere_change(const fl_bodies *b, int32_t k, double h)
 static fl_velocity_change body_change(const fl_bodies *b, int32_t k, double h)
 {
     const fl_vec3 f = b->f[k], turn = fl_body_apply_inverse_inertia(b, k, v3_scale(h, b->t[k]));
-    return (fl_velocity_change){b->added_mass || b->heave_mass ? v3_scale(h, fl_body_velocity_of_momentum(b, k, f))
-                                              : v3_scale(h * b->invm[k], f),
+    return (fl_velocity_change){b->added_mass || b->heave_mass
+                                    ? v3_scale(h, fl_body_velocity_of_momentum(b, k, f))
+                                    : v3_scale(h * b->invm[k], f),
                                 turn};
 }
 
@@ -600,14 +601,14 @@ static void start_block(fl_world *w, int32_t g)
 static int32_t end_floating_spheres(fl_world *w, int32_t k, int32_t to, double h, fl_body_block *own)
 {
     fl_floating_result r;
-    const int32_t end =
-        h > 0.0 && fl_floating_batch_applies(w) ? fl_floating_run_end(w, k, to, 1) : k;
+    const int32_t end = h > 0.0 && fl_floating_batch_applies(w) ? fl_floating_run_end(w, k, to, 1) : k;
     if (end == k) return k;
     fl_floating_batch_end(w, k, end, h, &r);
     for (int32_t i = k; i < end; i++) {
         const int32_t at = i - k;
         if (has_contact(w, i)) own->contact_force = v3_add(own->contact_force, r.contact_force[at]);
-        if (!w->spheres.bodies || !(w->spheres.contact_count[i] | w->spheres.previous_contact_count[i])) continue;
+        if (!w->spheres.bodies || !(w->spheres.contact_count[i] | w->spheres.previous_contact_count[i]))
+            continue;
         const fl_velocity_change first = {r.first_v[at], r.first_w[at]}, back = {r.back_v[at], r.back_w[at]};
         add_works(own, fl_work_of_step(w, i, &first, &back));
     }

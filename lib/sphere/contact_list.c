@@ -393,8 +393,9 @@ static void convert_contact(const fl_world *w, int32_t c, fl_pair *p)
     if (!p->touching) return;
     p->torque_j_friction = p->torque_j =
         v3_madd(v3_neg(fl_rolling_moment(roll)), -arm, v3_cross(n, r->friction_force));
-    p->omega2_j = fl_stiffness_of_point(b, j, r->k * fl_normal_slope(over, fl_round_exponent(w)), r->spring_stiffness, arm,
-                                        roll ? fl_rolling_turn_stiffness(roll) : 0.0);
+    p->omega2_j =
+        fl_stiffness_of_point(b, j, r->k * fl_normal_slope(over, fl_round_exponent(w)), r->spring_stiffness,
+                              arm, roll ? fl_rolling_turn_stiffness(roll) : 0.0);
 }
 
 /* Walls come after all other contacts of a sphere. */

@@ -37,8 +37,8 @@ typedef struct {
 
 typedef struct {
     double c_force, c_moment, h; /* 1/2 C rho of the drag; half a step */
-    double flow[3];
-    int turns; /* there is a drag moment */
+    fl_vec3 flow;
+    double turns; /* 1: there is a drag moment */
 } drag_law;
 
 #define LOAD(member, from)                                                                                   \
@@ -51,8 +51,8 @@ static drag_law drag_law_of(const fl_world *w, double h)
 {
     const fl_fluid *s = &w->sea.seawater;
     const fl_vec3 c = w->sea.current.velocity;
-    return (drag_law){0.5 * s->force_coefficient * s->density, 0.5 * s->moment_coefficient * s->density, h,
-                      {c.x, c.y, c.z}, s->moment_coefficient > 0.0};
+    return (drag_law){0.5 * s->force_coefficient * s->density, 0.5 * s->moment_coefficient * s->density, h, c,
+                      s->moment_coefficient > 0.0 ? 1.0 : 0.0};
 }
 
 static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows *q)
@@ -72,56 +72,54 @@ static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows 
         q->r[k] = w->sea.drag_radius[i];
     }
     for (int32_t k = n; k < (n + 7) / 8 * 8; k++) { /* the last register is full */
-        for (int e = 0; e < 3; e++)
-            q->v[e][k] = q->L[e][k] = q->w[e][k] = q->f[e][k] = q->t[e][k] = 0.0;
+        for (int e = 0; e < 3; e++) q->v[e][k] = q->L[e][k] = q->w[e][k] = q->f[e][k] = q->t[e][k] = 0.0;
         q->m[k] = q->invm[k] = q->turn[k] = q->up[k] = q->r[k] = q->fill[k] = 1.0;
         q->heave[k] = q->area[k] = q->loss[k] = q->z[k] = q->volume[k] = q->surface[k] = q->work[k] = 0.0;
     }
 }
 
-/* The decay of velocities by drag, as decay_velocity() of environment.c. */
-FL_SIMD_INLINE void decay_lane(sphere_rows *restrict q, int k, const drag_law *d, int heavy)
+/* Kinetic energy, as fl_body_kinetic_energy(). */
+FL_SIMD_INLINE double kinetic(double m, double up, fl_vec3 v, double turning, int heavy)
 {
-    const double m = q->m[k], up = q->up[k], area = q->area[k], h = d->h;
-    double v[3], L[3], w[3];
-    for (int e = 0; e < 3; e++) v[e] = q->v[e][k], L[e] = q->L[e][k], w[e] = q->w[e][k];
-    const double turning = w[0] * L[0] + w[1] * L[1] + w[2] * L[2];
-    const double before = heavy ? 0.5 * ((v[0] * (m * v[0]) + v[1] * (m * v[1]) + v[2] * (up * v[2])) + turning)
-                                : 0.5 * (m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + turning);
-    const double ux = v[0] - d->flow[0], uy = v[1] - d->flow[1], uz = v[2] - d->flow[2],
-                 speed = sqrt(ux * ux + uy * uy + uz * uz), spin2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
-    const double c = d->c_force * area, decay = m / (m + c * speed * h), rise = up / (up + c * speed * h);
-    v[0] = d->flow[0] + decay * ux, v[1] = d->flow[1] + decay * uy;
-    v[2] = d->flow[2] + (heavy ? rise : decay) * uz;
-    const double r = q->r[k], moment = d->c_moment * area * r * r * r * spin2,
-                 slow = turning / (turning + moment * sqrt(spin2) * h),
-                 spin = d->turns && turning > 0.0 ? slow : 1.0;
-    double after = 0.0;
-    for (int e = 0; e < 3; e++) L[e] = spin * L[e], w[e] = spin * w[e];
-    const double still = w[0] * L[0] + w[1] * L[1] + w[2] * L[2];
-    after = heavy ? 0.5 * ((v[0] * (m * v[0]) + v[1] * (m * v[1]) + v[2] * (up * v[2])) + still)
-                  : 0.5 * (m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + still);
+    return heavy ? 0.5 * ((v.x * (m * v.x) + v.y * (m * v.y) + v.z * (up * v.z)) + turning)
+                 : 0.5 * (m * v3_norm2(v) + turning);
+}
+
+/* The decay of velocities by drag, as decay_velocity() of environment.c. */
+FL_SIMD_INLINE void decay_lane(sphere_rows *restrict q, int k, drag_law d, int heavy)
+{
+    const double m = q->m[k], up = q->up[k], area = q->area[k], r = q->r[k], c = d.c_force * area;
+    const fl_vec3 v0 = v3(q->v[0][k], q->v[1][k], q->v[2][k]), L0 = v3(q->L[0][k], q->L[1][k], q->L[2][k]),
+                  w0 = v3(q->w[0][k], q->w[1][k], q->w[2][k]), u = v3_sub(v0, d.flow);
+    const double turning = v3_dot(w0, L0), speed = sqrt(v3_norm2(u)), spin2 = v3_norm2(w0),
+                 decay = m / (m + c * speed * d.h), rise = up / (up + c * speed * d.h),
+                 moment = d.c_moment * area * r * r * r * spin2,
+                 slow = turning / (turning + moment * sqrt(spin2) * d.h),
+                 spin = d.turns > 0.0 && turning > 0.0 ? slow : 1.0;
+    const fl_vec3 v = v3(d.flow.x + decay * u.x, d.flow.y + decay * u.y,
+                         d.flow.z + (heavy ? rise : decay) * u.z),
+                  L = v3_scale(spin, L0), w = v3_scale(spin, w0);
+    const double lost = kinetic(m, up, v, v3_dot(w, L), heavy) - kinetic(m, up, v0, turning, heavy);
     const int wet = area > 0.0;
-    q->loss[k] = wet ? q->loss[k] - (after - before) : q->loss[k];
-    for (int e = 0; e < 3; e++) {
-        q->v[e][k] = wet ? v[e] : q->v[e][k];
-        q->L[e][k] = wet ? L[e] : q->L[e][k];
-        q->w[e][k] = wet ? w[e] : q->w[e][k];
-    }
+    q->loss[k] = q->loss[k] - (wet ? lost : 0.0);
+    q->v[0][k] = wet ? v.x : v0.x, q->v[1][k] = wet ? v.y : v0.y, q->v[2][k] = wet ? v.z : v0.z;
+    q->L[0][k] = wet ? L.x : L0.x, q->L[1][k] = wet ? L.y : L0.y, q->L[2][k] = wet ? L.z : L0.z;
+    q->w[0][k] = wet ? w.x : w0.x, q->w[1][k] = wet ? w.y : w0.y, q->w[2][k] = wet ? w.z : w0.z;
 }
 
 FL_SIMD_INLINE void kick_lane(sphere_rows *restrict q, int k, double h, int heavy)
 {
-    const double invm = q->invm[k];
-    for (int e = 0; e < 3; e++) {
-        const double a = heavy ? h * (e < 2 ? invm * q->f[e][k] : q->f[e][k] / q->up[k]) : h * invm * q->f[e][k];
-        q->v[e][k] = q->v[e][k] + a;
-        q->L[e][k] = q->L[e][k] + h * q->t[e][k];
-        q->w[e][k] = q->turn[k] * q->L[e][k];
-    }
+    const double invm = q->invm[k], turn = q->turn[k], fx = q->f[0][k], fy = q->f[1][k], fz = q->f[2][k];
+    const double ax = heavy ? h * (invm * fx) : h * invm * fx, ay = heavy ? h * (invm * fy) : h * invm * fy,
+                 az = heavy ? h * (fz / q->up[k]) : h * invm * fz;
+    const double Lx = q->L[0][k] + h * q->t[0][k], Ly = q->L[1][k] + h * q->t[1][k],
+                 Lz = q->L[2][k] + h * q->t[2][k];
+    q->v[0][k] = q->v[0][k] + ax, q->v[1][k] = q->v[1][k] + ay, q->v[2][k] = q->v[2][k] + az;
+    q->L[0][k] = Lx, q->L[1][k] = Ly, q->L[2][k] = Lz;
+    q->w[0][k] = turn * Lx, q->w[1][k] = turn * Ly, q->w[2][k] = turn * Lz;
 }
 
-FL_SIMD_VERSIONS static void decay_rows(sphere_rows *restrict q, int n, const drag_law *restrict d, int heavy)
+FL_SIMD_VERSIONS static void decay_rows(sphere_rows *restrict q, int n, drag_law d, int heavy)
 {
     if (heavy) {
 #pragma omp simd
@@ -143,7 +141,8 @@ FL_SIMD_VERSIONS static void kick_rows(sphere_rows *restrict q, int n, double h,
     }
 }
 
-/* Cap of each sphere below the water, as fl_environment_force(); its added mass, and the work of its change. */
+/* Cap of each sphere below the water, as fl_environment_force(); its added mass, and the work of its change.
+ */
 FL_SIMD_VERSIONS static void float_rows(sphere_rows *restrict q, int n, double level, double weight,
                                         double heave_factor, double gravity)
 {
@@ -173,7 +172,7 @@ void fl_floating_batch_begin(fl_world *w, int32_t from, int32_t to, double h)
     fl_vec3 v0[N], w0[N];
     load_motion(w, from, n, q);
     for (int32_t k = 0; k < n && w->drag_change; k++) v0[k] = b->v[from + k], w0[k] = b->w[from + k];
-    decay_rows(q, full, &d, heavy);
+    decay_rows(q, full, d, heavy);
     for (int32_t k = 0; k < n; k++) {
         w->sea.drag_loss[from + k] = q->loss[k];
         if (!w->drag_change) continue;
@@ -235,7 +234,7 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
         out->back_v[k] = change_by(q, k, h, heavy), out->back_w[k] = turn_by(q, k, h);
     }
     kick_rows(q, full, h, heavy);
-    decay_rows(q, full, &d, heavy);
+    decay_rows(q, full, d, heavy);
     for (int32_t k = 0; k < n; k++) {
         s->drag_loss[from + k] = q->loss[k];
         STORE(b->v[from + k], v);

@@ -298,7 +298,8 @@ void fl_wall_chunk_energy(const fl_world *w, int32_t a, double *all, double *spr
         const fl_wall_contact *const l = &s->wall[c];
         if (!l->touches) continue;
         const double held = fl_sphere_spring_energy(&l->contact, roll_of(s, c));
-        *all += l->contact.k * fl_normal_phi(overlap_of(w, l, normal_of(w, l->j)), fl_round_exponent(w)) + held;
+        *all +=
+            l->contact.k * fl_normal_phi(overlap_of(w, l, normal_of(w, l->j)), fl_round_exponent(w)) + held;
         *springs += held;
     }
 }

@@ -252,6 +252,7 @@ void scene_of_sheet(lab *l, int32_t side, const char *law)
                                        "contact.restitution=0.4",
                                        "run.gravity=9.81",
                                        "ice.slab=0.33 m",
+                                       "contact.round_law=linear",
                                        "bond.on=true",
                                        "bond.normal_strength=30 kPa",
                                        "bond.shear_strength=30 kPa",
@@ -283,8 +284,8 @@ void scene_of_sheet(lab *l, int32_t side, const char *law)
     }
     for (int32_t k = 0; k < a.pairs; k++) {
         const int32_t i = a.pair[k][0], j = a.pair[k][1];
-        if (fl_ice_field_add_bond(&l->field, i, j, 0.03, 0.2, v3_lerp(l->field.core[i].v[0], l->field.core[j].v[0], 0.5),
-                                  &err))
+        if (fl_ice_field_add_bond(&l->field, i, j, 0.03, 0.2,
+                                  v3_lerp(l->field.core[i].v[0], l->field.core[j].v[0], 0.5), &err))
             exit(1);
     }
     fl_sphere_packing_free(&a);

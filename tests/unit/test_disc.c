@@ -23,7 +23,7 @@ static const fl_vec3 ZERO = {0, 0, 0};
 
 static fl_disc_class class_of(double ductility, double damping)
 {
-    return (fl_disc_class){LENGTH, E *AREA / LENGTH, RATIO, R, 0.5, damping, 1.0, ductility};
+    return (fl_disc_class){LENGTH, E * AREA / LENGTH, RATIO, R, 0.5, damping, 1.0, ductility};
 }
 
 static const fl_disc_law LAW = {.tension = 1e6, .cohesion = 0.5e6, .friction = 0.3, .moment_factor = 1.0};
@@ -52,8 +52,12 @@ static void springs_are_those_of_a_beam(void **state)
     for (int k = 0; k < 4; k++) {
         fl_disc_memory m = {0};
         fl_vec3 d = v3(LENGTH, 0, 0);
-        const fl_vec3 u = k == 0 ? v3(s, 0, 0) : k == 1 ? v3(0, s, 0) : ZERO,
-                      a = k == 2 ? v3(0, s, 0) : k == 3 ? v3(s, 0, 0) : ZERO;
+        const fl_vec3 u = k == 0   ? v3(s, 0, 0)
+                          : k == 1 ? v3(0, s, 0)
+                                   : ZERO,
+                      a = k == 2   ? v3(0, s, 0)
+                          : k == 3 ? v3(s, 0, 0)
+                                   : ZERO;
         const fl_disc_wrench f = moved(&LAW, &c, &m, &d, u, a, 10);
         if (k == 0) assert_near(f.force.x, E * AREA / LENGTH * s, 1e-6);
         if (k == 1) assert_near(f.force.y, G * AREA / LENGTH * s, 1e-4);
@@ -77,7 +81,9 @@ static void strengths_are_those_of_the_rim(void **state)
             fl_disc_memory m = {0};
             fl_vec3 d = v3(LENGTH, 0, 0);
             const double s = most[k] * (over ? 1.002 : 0.998);
-            const fl_vec3 u = k == 0 ? v3(s, 0, 0) : k == 1 ? v3(0, s, 0) : ZERO,
+            const fl_vec3 u = k == 0   ? v3(s, 0, 0)
+                              : k == 1 ? v3(0, s, 0)
+                                       : ZERO,
                           a = k == 3 ? v3(s, 0, 0) : ZERO;
             if (k == 2) { /* both turn apart: no shear */
                 for (int n = 0; n < 100; n++) {
@@ -168,7 +174,8 @@ static void lanes_have_the_bits_of_one(void **state)
         uint16_t which[FL_LANE_COUNT] = {0};
         fl_disc_wrench out[FL_LANE_COUNT];
         assert_int_equal(fl_bodies_alloc(&b, 9, 9, &err), 0);
-        fl_disc_arrays a = {.i = i, .j = j, .scatter = row[13], .is_whole = whole, .which = which, .out = out};
+        fl_disc_arrays a = {
+            .i = i, .j = j, .scatter = row[13], .is_whole = whole, .which = which, .out = out};
         for (int e = 0; e < 3; e++) {
             a.S[e] = row[e], a.M[e] = row[3 + e];
             a.damping_force[e] = row[6 + e], a.damping_couple[e] = row[9 + e];
@@ -196,7 +203,8 @@ static void lanes_have_the_bits_of_one(void **state)
         fl_disc_batch_force(&a, 0, &LAW, &c, &b, NULL, 1e-5, done);
         for (int k = 0; k < FL_LANE_COUNT; k++) {
             fl_disc_memory m = before[k];
-            const fl_disc_pose at = {v3_sub(b.x[j[k]], b.x[i[k]]), b.v[i[k]], b.v[j[k]], b.w[i[k]], b.w[j[k]]};
+            const fl_disc_pose at = {v3_sub(b.x[j[k]], b.x[i[k]]), b.v[i[k]], b.v[j[k]], b.w[i[k]],
+                                     b.w[j[k]]};
             const fl_disc_wrench f = fl_disc_force(&LAW, &c, row[13][k], &at, 1e-5, &m);
             const fl_vec3 S = v3(row[0][k], row[1][k], row[2][k]), M = v3(row[3][k], row[4][k], row[5][k]);
             assert_int_equal(done[k], k != 3);
@@ -224,6 +232,7 @@ static void make_cluster(lab *l, int side, const char *const *keys)
     lab_set(l, "bond.normal_strength=40 kPa");
     lab_set(l, "bond.shear_strength=40 kPa");
     lab_set(l, "bond.softening=stretch");
+    lab_set(l, "contact.round_law=linear");
     for (; *keys; keys++) lab_set(l, *keys);
     for (int k = 0; k < side * side; k++) {
         fl_rng g = fl_rng_of(7, k, FL_RNG_TEST);
@@ -252,8 +261,8 @@ static fl_vec3 angular_momentum(const fl_world *w)
 /* Energy, momentum and angular momentum close while a cluster breaks and its pieces collide. */
 static void a_breaking_cluster_keeps_its_books(void **state)
 {
-    const char *const plain[] = {NULL},
-                      *const rough[] = {"bond.damping=0.1", "contact.friction=0.5", "bond.scatter=0.2", NULL};
+    const char *const plain[] = {NULL}, *const rough[] = {"bond.damping=0.1", "contact.friction=0.5",
+                                                          "bond.scatter=0.2", NULL};
     const char *const *const keys[] = {plain, rough};
     (void)state;
     for (int k = 0; k < 2; k++) {
@@ -278,6 +287,33 @@ static void a_breaking_cluster_keeps_its_books(void **state)
     }
 }
 
+/* A sphere that leaves takes its bond and the energy in it. */
+static void a_sphere_that_leaves_loses_its_bond(void **state)
+{
+    fl_err err = {0};
+    lab l;
+    (void)state;
+    lab_start(&l);
+    lab_set(&l, "bond.on=true");
+    lab_set(&l, "bond.normal_strength=none");
+    lab_set(&l, "bond.shear_strength=none");
+    lab_set(&l, "boundary.type=free rigid rigid");
+    lab_set(&l, "boundary.min=-9 none none");
+    lab_set(&l, "boundary.max=1.02 none none");
+    for (int k = 0; k < 3; k++) lab_sphere(&l, v3(k - 1.1, 0, 0), 0.5, v3(4, 0.01 * k, 0), ZERO);
+    for (int k = 0; k < 2; k++)
+        assert_int_equal(fl_ice_field_add_bond(&l.field, k, k + 1, 0.7, 1.0, v3(k - 0.6, 0, 0), &err), 0);
+    lab_make(&l, 0);
+    for (int k = 0; k < 20000 && l.w.inflow.n_left == 0; k++) assert_int_equal(lab_run(&l, 1), 0);
+    assert_int_equal(l.w.inflow.n_left, 1);
+    assert_int_equal(l.w.discs.has_ended[1], FL_DISC_ENDED);
+    assert_int_equal(l.w.discs.has_ended[0], FL_DISC_STANDS);
+    assert_int_equal(lab_run(&l, 50), 0);
+    fl_energy_update(&l.w);
+    assert_near_of(l.w.ledger.residual, 0, 1e-4, l.w.ledger.throughput);
+    lab_free(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -288,6 +324,7 @@ int main(void)
         cmocka_unit_test(a_rigid_motion_changes_nothing),
         cmocka_unit_test(lanes_have_the_bits_of_one),
         cmocka_unit_test(a_breaking_cluster_keeps_its_books),
+        cmocka_unit_test(a_sphere_that_leaves_loses_its_bond),
     };
     return cmocka_run_group_tests_name("disc", tests, NULL, NULL);
 }

@@ -73,7 +73,8 @@ static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, cha
 {
     char bonds[160] = "";
     if (fl_world_bonds(w))
-        snprintf(bonds, sizeof bonds, "%d bonded faces, %d bonds per body", fl_world_bonds(w),
+        snprintf(bonds, sizeof bonds, "%d %s, %d bonds per body", fl_world_bonds(w),
+                 w->discs.n ? "bonds" : "bonded faces",
                  (2 * fl_world_bonds(w) + n->present / 2) / n->present);
     fprintf(f, "stages\n");
     print_stage(f, "weight", v3_norm(w->gravity) > 0.0, "");

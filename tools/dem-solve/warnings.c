@@ -36,6 +36,70 @@ static void warn_overlaps(const struct run *r)
     fprintf(stderr, "body %d and %s; they will be pushed apart\n", w->id[i], other);
 }
 
+/* A sheet of bonded spheres that starts inside the structure by more than this share of a radius loses
+ * spheres at once, and at speeds that belong to no case. */
+#define SHEET_INSIDE 0.01
+
+/* Buoyancy over weight of a sheet at the start; beyond these it jumps up or sinks. */
+#define LEAST_LIFT 0.9
+#define MOST_LIFT 1.1
+
+/* Breaking lengths that the shorter side of a sheet should have. */
+#define LENGTHS_OF_SHEET 4.0
+
+static void warn_sheet_inside(const struct run *r)
+{
+    const fl_world *w = r->w;
+    double most = 0.0;
+    int32_t found = 0, part = 0;
+    fl_pair_iterator at = {.w = w};
+    for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
+        if (!p->touching || p->j < w->n || p->j >= w->n + w->pieces ||
+            !(p->overlap > SHEET_INSIDE * w->b.radius[p->i]))
+            continue;
+        found++;
+        if (p->overlap > most) most = p->overlap, part = p->j - w->n;
+    }
+    if (found)
+        fprintf(
+            stderr,
+            "dem-solve: warning: %d bonded spheres start inside the structure, up to %.3g m in part %s, and "
+            "will be thrown off: a sheet farther away is expected\n",
+            found, most, r->surface->part[w->structure.piece[part].part].name);
+}
+
+/* Weight and buoyancy of a sheet, and its sides against the breaking length of a floating beam, pi/4
+ * (E h^3/(3 rho g))^(1/4). */
+static void warn_bonded_sheet(const struct run *r)
+{
+    const fl_world *w = r->w;
+    const double h = w->scene->ice.slab, E = w->discs.n ? w->law[0].round_young : 0.0;
+    double weight = 0.0, lift = 0.0;
+    fl_aabb box = aabb_empty();
+    if (!w->discs.n) return;
+    warn_sheet_inside(r);
+    for (int32_t i = 0; i < w->n; i++) {
+        weight += w->b.m[i] * v3_norm(w->gravity);
+        if (w->sea.water) lift += w->sea.buoyancy[i];
+        box = aabb_add(box, w->b.x[i]);
+    }
+    if (!w->sea.water || !(weight > 0.0)) return;
+    if (!(lift >= LEAST_LIFT * weight && lift <= MOST_LIFT * weight))
+        fprintf(stderr,
+                "dem-solve: warning: the water bears %.3g of the weight of the spheres at the start: the "
+                "sheet %s; the "
+                "densities it was made with, or ice.slab, are expected\n",
+                lift / weight, lift < weight ? "sinks" : "jumps up");
+    const double side = fmin(box.hi.x - box.lo.x, box.hi.y - box.lo.y),
+                 length = 0.25 * PI * pow(E * h * h * h / (3.0 * w->sea.specific_weight), 0.25);
+    if (h > 0.0 && side < LENGTHS_OF_SHEET * length)
+        fprintf(stderr,
+                "dem-solve: warning: the sheet is %.3g m wide, less than four breaking lengths of a floating "
+                "beam, "
+                "%.3g m each: cracks may run to its edges\n",
+                side, length);
+}
+
 /* 1 if body i is inside piece k, a mesh, without touching it. */
 static int is_inside(const fl_world *w, int32_t i, int32_t k)
 {
@@ -169,6 +233,7 @@ void warn_at_start(const struct run *r)
 {
     warn_materials(r);
     warn_overlaps(r);
+    warn_bonded_sheet(r);
     warn_inside(r);
     warn_waves(r);
     warn_hulls(r);

@@ -6,17 +6,20 @@
 /* Strength and stiffness where none is asked for, as in the table of keys. */
 #define DEFAULT_STRENGTH 0.7e6
 
-int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_packing_kind kind, fl_err *err)
+int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_packing_kind kind,
+                       fl_err *err)
 {
     *out = (struct sheet_bonds){0};
     if (o->flexural > 0.0 && o->compressive > 0.0)
-        return fl_fail(err, FL_USAGE,
-                       "--flexural and --compressive both set the strength of the bonds, one of them expected");
+        return fl_fail(
+            err, FL_USAGE,
+            "--flexural and --compressive both set the strength of the bonds, one of them expected");
     if (o->flexural == 0.0 && o->compressive == 0.0 && o->young == 0.0) return 0;
     if (!o->bonded || !o->scene)
-        return fl_fail(err, FL_USAGE,
-                       "--flexural, --compressive and --young set the bonds of --scene FILE, which is expected "
-                       "with --bonded");
+        return fl_fail(
+            err, FL_USAGE,
+            "--flexural, --compressive and --young set the bonds of --scene FILE, which is expected "
+            "with --bonded");
     if (fl_sheet_strength_of(kind, o->layers, o->rows_across, &out->ratio, err)) return -1;
     if (o->flexural > 0.0) out->strength = o->flexural / out->ratio.flexural;
     if (o->compressive > 0.0) out->strength = o->compressive / out->ratio.compressive;

@@ -12,7 +12,8 @@ struct sheet_bonds {
 };
 
 /* Choose the bonds.  -1 with FL_USAGE. */
-int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_packing_kind kind, fl_err *err);
+int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_packing_kind kind,
+                       fl_err *err);
 
 /* Write the file of --scene; slab: thickness of the sheet [m].  -1 with FL_SYSTEM. */
 int sheet_scene_write(const struct recipe *o, const struct sheet_bonds *bonds, double slab,

@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # check.sh TABLE -- what voronoi-ice promises beside what the samples gave.
-while read -r test layers rows n first peak spread young; do
+while read -r test layers rows _ _ peak _ young; do
     case $test in bend) key=flexural ;; press) key=compressive ;; *) continue ;; esac
     voronoi-ice --lattice hcp --layers "$layers" --thickness 0.23 --size 2x2 --rows "$rows" --bonded \
-        --$key 1MPa --young 1GPa --scene "${TABLE:-$1}.scene" -q -o /dev/null
+        "--$key" 1MPa --young 1GPa --scene "$1.scene" -q -o /dev/null
     awk -v test="$test" -v layers="$layers" -v rows="$rows" -v peak="$peak" -v young="$young" '
         $1 == "normal_strength" { c = 1e6/$3 }
         /^\[/ { section = $1 }

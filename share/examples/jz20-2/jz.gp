@@ -16,7 +16,7 @@ set title 'spectrum of the load along the drift'
 set xlabel 'f [Hz]'; set ylabel 'S [N^2/Hz]'
 set logscale xy
 unset key
-plot 'spectrum.dat' using 1:2 with lines lw 1 lc rgb '#2a6f97'
+plot 'spectrum.dat' using 8:9 with lines lw 1 lc rgb '#2a6f97'
 unset logscale
 set title 'the ice at the end, from above: height'
 set xlabel 'x [m]'; set ylabel 'y [m]'; set cblabel 'z [m]'
