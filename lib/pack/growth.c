@@ -67,7 +67,7 @@ static int freedoms_are_held(const fl_overlaps *o)
 }
 
 /* The phase after a jam. */
-static void jam(fl_growth *g, const fl_overlaps *o, const fl_growth_options *opt)
+static void end_growth(fl_growth *g, const fl_overlaps *o, const fl_growth_options *opt)
 {
     g->jammed = 1;
     g->reached = o->p->s;
@@ -78,7 +78,7 @@ static void jam(fl_growth *g, const fl_overlaps *o, const fl_growth_options *opt
 
 /* --- phases ------------------------------------------------------------------------------------- */
 
-static int rise(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_err *err)
+static int raise_scale(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_err *err)
 {
     fl_packing *p = o->p;
     const double next = p->s * (1.0 + g->rise);
@@ -94,7 +94,7 @@ static int rise(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_e
     if (opt->trim != FL_TRIM_ALL || p->q || state == FL_RELAXED_FREE || !freedoms_are_held(o)) return 0;
     const int jammed = is_jammed(o, LOOSE, BALANCE_GROW, err);
     if (jammed < 0) return -1;
-    if (jammed) jam(g, o, opt);
+    if (jammed) end_growth(g, o, opt);
     else g->rise = fmax(0.5 * g->rise, 0.1 * opt->rise);
     return 0;
 }
@@ -115,7 +115,7 @@ static int settle(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl
     const int jammed = is_jammed(o, NONE, BALANCE, err);
     if (jammed < 0) return -1;
     enter(g, FL_GROWTH_DONE);
-    if (jammed) jam(g, o, opt);
+    if (jammed) end_growth(g, o, opt);
     return 0;
 }
 
@@ -200,7 +200,7 @@ int fl_growth_stage(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, 
 {
     g->stage++;
     switch (g->phase) {
-    case FL_GROWTH_RISE: return rise(g, o, opt, err);
+    case FL_GROWTH_RISE: return raise_scale(g, o, opt, err);
     case FL_GROWTH_SETTLE: return settle(g, o, opt, err);
     case FL_GROWTH_DENSEST: return follow_pressure(g, o, opt, err);
     case FL_GROWTH_BALANCE: return balance_all(g, o, err);

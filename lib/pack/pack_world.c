@@ -18,7 +18,7 @@
 enum { FACETS = 180, CHECK = 100, QUIET = 10, STAGE_STEPS = 25 };
 
 /* See pack_world.h. */
-static const double RATE = 2e-4, STAGE = 5e-3, DAMPING = 0.02, JAM = 1e-3;
+static const double RATE = 2e-4, STAGE = 5e-3, DAMPING = 0.05, JAM = 2e-3, HELD = 0.45;
 
 typedef struct {
     fl_packing *p;
@@ -171,11 +171,39 @@ static void free_motion(motion *q)
     q->q0 = NULL;
 }
 
-static int make_motion(motion *q, fl_packing *p, const fl_pack_region *r, const fl_pack_motion *m,
+/* Step of growth, where nothing but growth moves the bodies: SAFETY of 2/omega of the smallest body between
+ * NEIGHBOURS others at an overlap of DEEP of its radius, contacts of Hertz. */
+static double growth_step(const motion *q)
+{
+    const double SAFETY = 0.2, NEIGHBOURS = 12.0, DEEP = 0.02;
+    double dt = INFINITY;
+    for (int32_t i = 0; i < q->p->n; i++) {
+        const double r = q->p->bound[i], E = q->m->young / (2.0 * (1.0 - 0.3 * 0.3));
+        const double slope = 2.0 * E * sqrt(r * DEEP * r); /* of 4/3 E sqrt(r) delta^(3/2), at a wall */
+        dt = fmin(dt, SAFETY * 2.0 / sqrt(NEIGHBOURS * slope * q->w.b.invm[i]));
+    }
+    return dt;
+}
+
+/* Spheres at scale s; the way of their surface counts for the neighbour list. */
+static void set_scale(motion *q, double s)
+{
+    for (int32_t i = 0; i < q->w.n; i++) {
+        const double r = s * q->p->radius[i];
+        q->w.b.odometer[i] += fabs(r - q->w.b.radius[i]);
+        q->w.b.radius[i] = r;
+    }
+    q->p->s = s;
+}
+
+/* grows: radii are those of p->s, masses those of the final size. */
+static int make_motion(motion *q, fl_packing *p, const fl_pack_region *r, const fl_pack_motion *m, int grows,
                        fl_err *err)
 {
+    const double s = p->s;
     int32_t body;
     *q = (motion){.p = p, .region = r, .m = m};
+    if (grows && !p->q) p->s = 1.0;
     if (make_scene(q, err) || fl_packing_field(p, NULL, p->dim == 2 ? "plane" : NULL, &q->field, err) ||
         fl_scene_check(&q->scene, err))
         goto bad;
@@ -183,10 +211,13 @@ static int make_motion(motion *q, fl_packing *p, const fl_pack_region *r, const 
     q->made = 1;
     if (!(q->q0 = fl_alloc(p->n, sizeof *q->q0, err))) goto bad;
     for (int32_t i = 0; i < p->n; i++) q->q0[i] = q->w.b.q[i];
-    q->w.dt = fl_automatic_step(&q->w, &body);
-    q->w.automatic_dt = 1;
+    q->w.dt = grows ? growth_step(q) : fl_automatic_step(&q->w, &body);
+    q->w.automatic_dt = !grows;
+    if (grows && !p->q) set_scale(q, s);
+    p->s = s;
     if (fl_step_start(&q->w, err) == 0) return 0;
 bad:
+    p->s = s;
     free_motion(q);
     return -1;
 }
@@ -231,17 +262,6 @@ static void damp_velocities(motion *q)
 
 /* --- growth ------------------------------------------------------------------------------------- */
 
-/* Spheres at scale s; the way of their surface counts for the neighbour list. */
-static void set_scale(motion *q, double s)
-{
-    for (int32_t i = 0; i < q->w.n; i++) {
-        const double r = s * q->p->radius[i];
-        q->w.b.odometer[i] += r - q->w.b.radius[i];
-        q->w.b.radius[i] = r;
-    }
-    q->p->s = s;
-}
-
 static double strain_of(const fl_overlaps *o)
 {
     const fl_overlap_totals *t = &o->now;
@@ -257,7 +277,7 @@ static int is_jammed(motion *q, fl_overlaps *o, double *strain, fl_err *err)
     o->stale = 1;
     if (fl_overlaps_evaluate(o, err)) return -1;
     *strain = strain_of(o);
-    return *strain > JAM && o->now.contacts > q->p->n;
+    return *strain > JAM && (double)o->now.contacts > HELD * (q->p->dim + 1) * q->p->n;
 }
 
 /* Steps of one stage: of spheres, growing; of others, at one scale. */
@@ -282,11 +302,11 @@ int fl_pack_grow_moving(fl_packing *p, const fl_pack_region *r, const fl_pack_mo
     int jammed = 0, rc = 0;
     still.gravity = 0.0;
     *out = (fl_pack_moved){0};
-    if (!p->q && make_motion(&q, p, r, &still, err)) return -1;
+    if (!p->q && make_motion(&q, p, r, &still, 1, err)) return -1;
     while (rc == 0 && !jammed && p->s < 1.0) {
         if (p->q) {
             p->s = fmin(1.0, p->s * (1.0 + STAGE));
-            if (make_motion(&q, p, r, &still, err)) return -1;
+            if (make_motion(&q, p, r, &still, 1, err)) return -1;
         }
         rc = run_stage(&q, p->q ? STAGE_STEPS : CHECK, out, err);
         if (rc == 0) jammed = is_jammed(&q, o, &strain, err);
@@ -315,7 +335,7 @@ int fl_pack_settle(fl_packing *p, const fl_pack_region *r, const fl_pack_motion 
                  longest = m->longest > 0.0 ? m->longest : 1000.0 * sqrt(d / m->gravity);
     int quiet = 0, rc = 0;
     *out = (fl_pack_moved){0};
-    if (make_motion(&q, p, r, m, err)) return -1;
+    if (make_motion(&q, p, r, m, 0, err)) return -1;
     while (rc == 0 && quiet < QUIET && out->time < longest) {
         for (int k = 0; rc == 0 && k < CHECK; k++) {
             rc = fl_step(&q.w, err);

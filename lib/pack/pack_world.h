@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pack_world.h -- a packing moved by the steps of the library (sim/step.h): growth with friction, and rest under
- * gravity behind all walls of the region.
+/* pack_world.h -- a packing moved by the steps of the library (sim/step.h): growth with friction, and rest
+ * under gravity behind all walls of the region.
  *
  * The bodies get masses, Hertz contacts with damping and friction, and the region becomes the boundary of a
  * scene: a box its walls or periods, an outline or a surface a part whose normals point inward, a cylinder a
@@ -9,7 +9,8 @@
  * Growth.  The radii of spheres rise in every step by RATE of themselves, which is below 0.1 delta omega for
  * overlaps delta of 1 % and the frequency omega of the stiffest contact, and lasts more than 50 collision
  * times; other shapes grow in the same time by stages of STAGE, with a new world for each.  Velocities lose
- * DAMPING of themselves in every step (body/relaxation.h, viscous).  Bodies jam where the mean overlap passes
+ * DAMPING of themselves in every step (body/relaxation.h, viscous).  Bodies jam where they have nearly (D +
+ * 1)/2 contacts each and the mean overlap passes
  * JAM of the mean distance; radii then shrink by that.
  *
  * Rest.  Steps under gravity until the root mean square speed is below `rest` of sqrt(g d), d the mean size,
@@ -39,7 +40,8 @@ typedef struct {
 /* Called every 100 steps; 1 to stop. */
 typedef int fl_pack_motion_call(void *with, const fl_packing *p, const fl_pack_moved *m);
 
-/* Grow to s = 1, or until bodies jam.  o: of the packing, to measure overlaps.  -1 with FL_NUMERIC or FL_SYSTEM. */
+/* Grow to s = 1, or until bodies jam.  o: of the packing, to measure overlaps.  -1 with FL_NUMERIC or
+ * FL_SYSTEM. */
 int fl_pack_grow_moving(fl_packing *p, const fl_pack_region *r, const fl_pack_motion *m, fl_overlaps *o,
                         fl_pack_motion_call *call, void *with, fl_pack_moved *out, fl_err *err);
 
