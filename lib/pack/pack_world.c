@@ -15,10 +15,10 @@
 #include "sim/step.h"
 #include "world/access.h"
 
-enum { FACETS = 180, CHECK = 100, QUIET = 10, STAGE_STEPS = 25 };
+enum { FACETS = 180, CHECK = 100, QUIET = 10, STAGE_STEPS = 25, PAUSE = 1000 };
 
 /* See pack_world.h. */
-static const double RATE = 2e-4, STAGE = 5e-3, DAMPING = 0.05, JAM = 2e-3, HELD = 0.45;
+static const double RATE = 1e-4, STAGE = 5e-3, DAMPING = 0.01, JAM = 5e-3, HELD = 0.5;
 
 typedef struct {
     fl_packing *p;
@@ -281,10 +281,10 @@ static int is_jammed(motion *q, fl_overlaps *o, double *strain, fl_err *err)
 }
 
 /* Steps of one stage: of spheres, growing; of others, at one scale. */
-static int run_stage(motion *q, int64_t steps, fl_pack_moved *out, fl_err *err)
+static int run_stage(motion *q, int64_t steps, int grows, fl_pack_moved *out, fl_err *err)
 {
     for (int64_t k = 0; k < steps; k++) {
-        if (!q->p->q && q->p->s < 1.0) set_scale(q, fmin(1.0, q->p->s * (1.0 + RATE)));
+        if (grows && q->p->s < 1.0) set_scale(q, fmin(1.0, q->p->s * (1.0 + RATE)));
         if (fl_step(&q->w, err)) return -1;
         damp_velocities(q);
         out->steps++;
@@ -308,8 +308,11 @@ int fl_pack_grow_moving(fl_packing *p, const fl_pack_region *r, const fl_pack_mo
             p->s = fmin(1.0, p->s * (1.0 + STAGE));
             if (make_motion(&q, p, r, &still, 1, err)) return -1;
         }
-        rc = run_stage(&q, p->q ? STAGE_STEPS : CHECK, out, err);
+        rc = run_stage(&q, p->q ? STAGE_STEPS : CHECK, !p->q, out, err);
         if (rc == 0) jammed = is_jammed(&q, o, &strain, err);
+        /* bodies that only collide part again while growth pauses */
+        if (rc == 0 && jammed > 0) rc = run_stage(&q, PAUSE, 0, out, err);
+        if (rc == 0 && jammed > 0) jammed = is_jammed(&q, o, &strain, err);
         if (jammed < 0) rc = -1;
         if (p->q) free_motion(&q);
         if (rc == 0 && call && call(with, p, out)) break;

@@ -9,9 +9,9 @@
  * Growth.  The radii of spheres rise in every step by RATE of themselves, which is below 0.1 delta omega for
  * overlaps delta of 1 % and the frequency omega of the stiffest contact, and lasts more than 50 collision
  * times; other shapes grow in the same time by stages of STAGE, with a new world for each.  Velocities lose
- * DAMPING of themselves in every step (body/relaxation.h, viscous).  Bodies jam where they have nearly (D +
- * 1)/2 contacts each and the mean overlap passes
- * JAM of the mean distance; radii then shrink by that.
+ * DAMPING of themselves in every step (body/relaxation.h, viscous).   Bodies jam where they have nearly (D
+ * + 1)/2 contacts each and the mean overlap passes JAM of the mean distance, also after a pause of growth;
+ * radii then shrink by that.
  *
  * Rest.  Steps under gravity until the root mean square speed is below `rest` of sqrt(g d), d the mean size,
  * ten times in a row 100 steps apart.

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* packing_certificate.h -- measures of a packing: grading, density, overlaps, balance, contacts, fabric.
  *
- * Contacts are pairs that overlap, and overlaps with the boundary.  Z is their mean number per body; rattlers
- * are bodies with fewer than D + 1 contacts (spheres and discs; D = 2, 3), found again until none is left,
- * and Z* is the mean number of the others among themselves and with the boundary.  A packing without force
- * has no contacts.
+ * Contacts are pairs that overlap by more than 2e-6 of the radius, and such overlaps with the boundary.  Z
+ * is their mean number per body; rattlers are bodies with fewer than D + 1 contacts (spheres and discs; D =
+ * 2, 3), found again until none is left, and Z* is the mean number of the others among themselves and with
+ * the boundary.  A packing without force has no contacts.
  *
  * Fabric: the tensor F = <n n> of the directions n of contacts between bodies, and its principal values; of
  * an isotropic packing they are 1/D.  Order: Q6^2 = <P6(n_i . n_j)> over pairs of contacts, 0 for a liquid,

@@ -233,8 +233,9 @@ static int write_section(struct picture *p, fl_err *err)
     const double edge = 0.02 * fmax(hi - lo, r->hi.x - r->lo.x);
     fprintf(p->script, "set xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n", r->lo.x - edge, r->hi.x + edge,
             lo - edge, hi + edge);
-    fprintf(p->script, "set cbrange [%.6g:%.6g]\nset cblabel 'Size  [m]' offset 1.5\n", least * (1.0 - 1e-3),
-            most * (1.0 + 1e-3));
+    fprintf(p->script, "set cbrange [%.6g:%.6g]\nset cblabel 'Size  [m]' offset 1.5\n",
+            least * (most > 1.01 * least ? 1.0 - 1e-3 : 0.9),
+            most * (most > 1.01 * least ? 1.0 + 1e-3 : 1.1));
     if (q->dim == 3) fprintf(p->script, "set title 'section at y = %.6g m'\n", at);
     write_region(p);
     fputs("\n\n", p->data);
