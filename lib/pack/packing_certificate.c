@@ -12,6 +12,9 @@ enum { CONTACTS = 4000 };
  * contacts. */
 static const double TOUCH = 2e-6;
 
+/* Distances from the complement beyond this many radii are not measured. */
+static const double FAR = 1.5;
+
 typedef struct {
     int32_t i, j; /* j < 0: the boundary */
     fl_vec3 n;
@@ -141,13 +144,14 @@ static double order_of(const contact_list *l)
 static void find_room(fl_packing_certificate *c, const fl_overlaps *o)
 {
     const fl_packing *p = o->p;
-    c->room = INFINITY;
+    c->room = FAR;
     for (int32_t i = 0; i < p->n; i++) {
         const int32_t from = p->q ? o->corner_first[i] : i, to = p->q ? o->corner_first[i + 1] : i + 1;
         const double r = p->s * p->radius[i], bound = p->s * p->bound[i];
         double least = INFINITY;
         for (int32_t v = from; v < to; v++)
-            least = fmin(least, fl_region_distance(o->region, p->q ? o->corner[v] : p->x[i], bound) - r);
+            least =
+                fmin(least, fl_region_distance(o->region, p->q ? o->corner[v] : p->x[i], FAR * bound) - r);
         c->room = fmin(c->room, 1.0 + least / bound);
         c->outside += least < -1e-3 * bound;
     }
