@@ -99,13 +99,24 @@ static int raise_scale(fl_growth *g, fl_overlaps *o, const fl_growth_options *op
     return 0;
 }
 
+/* Smallest inner radius over the bounding radius of the shapes: 1 for spheres. */
+static double slimness(const fl_packing *p)
+{
+    double least = 1.0;
+    for (int32_t k = 0; k < p->shapes->n; k++) {
+        const fl_pack_shape *t = &p->shapes->shape[k];
+        least = fmin(least, fmin(t->half.x, fmin(t->half.y, t->half.z)) / t->bound);
+    }
+    return least;
+}
+
 static int settle(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_err *err)
 {
     fl_packing *p = o->p;
     p->s = 1.0 + MARGIN;
     /* Overlaps up to MARGIN of the smaller body at the larger scale are none at 1: of two bodies the overlap
-     * falls by MARGIN times the sum of the radii, at the boundary by MARGIN times the radius. */
-    const int state = fl_overlaps_relax(o, MARGIN, BALANCE, full_steps(o), err);
+     * falls by MARGIN times the sum of the inner radii at least, at the boundary by MARGIN times that. */
+    const int state = fl_overlaps_relax(o, 0.95 * MARGIN * slimness(p), BALANCE, full_steps(o), err);
     p->s = 1.0;
     if (state < 0) return -1;
     if (state == FL_RELAXED_FREE) {

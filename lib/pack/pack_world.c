@@ -125,7 +125,7 @@ static int set_box(motion *q, fl_err *err)
            set_key(s, err, "boundary.max=%.17g %.17g %.17g", r->hi.x, r->hi.y, hi);
 }
 
-static int make_scene(motion *q, fl_err *err)
+static int make_scene(motion *q, int grows, fl_err *err)
 {
     const fl_pack_motion *m = q->m;
     fl_scene *s = &q->scene;
@@ -139,6 +139,7 @@ static int make_scene(motion *q, fl_err *err)
         set_key(s, err, "contact.friction=%.17g", m->friction) ||
         set_key(s, err, "contact.restitution=%.17g", m->restitution))
         return -1;
+    if (grows && set_key(s, err, "contact.round_law=linear")) return -1;
     if (flat && set_key(s, err, "group.plane.fixed=z rx ry")) return -1;
     if (q->region->kind == FL_REGION_BOX) return set_box(q, err);
     if (q->region->kind == FL_REGION_CYLINDER && !flat &&
@@ -163,15 +164,14 @@ static void free_motion(motion *q)
 }
 
 /* Step of growth, where nothing but growth moves the bodies: SAFETY of 2/omega of the smallest body between
- * NEIGHBOURS others at an overlap of DEEP of its radius, contacts of Hertz. */
+ * NEIGHBOURS others, linear contacts of the stiffness pi E r/2. */
 static double growth_step(const motion *q)
 {
-    const double SAFETY = 0.2, NEIGHBOURS = 12.0, DEEP = 0.02;
+    const double SAFETY = 0.2, NEIGHBOURS = 12.0;
     double dt = INFINITY;
     for (int32_t i = 0; i < q->p->n; i++) {
-        const double r = q->p->bound[i], E = q->m->young / (2.0 * (1.0 - 0.3 * 0.3));
-        const double slope = 2.0 * E * sqrt(r * DEEP * r); /* of 4/3 E sqrt(r) delta^(3/2), at a wall */
-        dt = fmin(dt, SAFETY * 2.0 / sqrt(NEIGHBOURS * slope * q->w.b.invm[i]));
+        const double stiffness = 0.5 * PI * q->m->young * q->p->bound[i];
+        dt = fmin(dt, SAFETY * 2.0 / sqrt(NEIGHBOURS * stiffness * q->w.b.invm[i]));
     }
     return dt;
 }
@@ -195,7 +195,7 @@ static int make_motion(motion *q, fl_packing *p, const fl_pack_region *r, const 
     int32_t body;
     *q = (motion){.p = p, .region = r, .m = m};
     if (grows && !p->q) p->s = 1.0;
-    if (make_scene(q, err) || fl_packing_field(p, NULL, p->dim == 2 ? "plane" : NULL, &q->field, err) ||
+    if (make_scene(q, grows, err) || fl_packing_field(p, NULL, p->dim == 2 ? "plane" : NULL, &q->field, err) ||
         fl_scene_check(&q->scene, err))
         goto bad;
     if (fl_world_make(&q->w, &q->scene, &q->field, q->surface.n ? &q->surface : NULL, err)) goto bad;

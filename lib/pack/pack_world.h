@@ -2,9 +2,9 @@
 /* pack_world.h -- a packing moved by the steps of the library (sim/step.h): growth with friction, and rest
  * under gravity behind all walls of the region.
  *
- * The bodies get masses, Hertz contacts with damping and friction, and the region becomes the boundary of a
- * scene: a box its walls or periods, an outline or a surface thin plates behind its faces, a cylinder FACETS
- * plates.
+ * The bodies get masses and contacts with damping and friction, linear for growth and those of Hertz for
+ * rest, and the region becomes the boundary of a scene: a box its walls or periods, an outline or a surface
+ * thin plates behind its faces, a cylinder FACETS plates.
  *
  * Growth.  The radii of spheres rise in every step by RATE of themselves, which is below 0.1 delta omega for
  * overlaps delta of 1 % and the frequency omega of the stiffest contact, and lasts more than 50 collision
