@@ -3,13 +3,10 @@
  * bits for any number of threads and after a state was written and read. */
 #include <math.h>
 #include <omp.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
+#include "support/near.h"
 #include "base/parallel.h"
 #include "base/pi.h"
 #include "base/rng.h"
@@ -24,12 +21,6 @@ typedef struct {
     fl_overlaps o;
     fl_growth g;
 } sample;
-
-static uint64_t test_seed(void)
-{
-    const char *text = getenv("FLOE_SEED");
-    return text ? strtoull(text, NULL, 10) : 1;
-}
 
 static void make_sample(sample *s, uint64_t k, const char *shape)
 {
@@ -136,11 +127,9 @@ static void a_state_goes_on_to_the_same_bits(void **state)
 {
     (void)state;
     const fl_growth_options opt = fl_growth_defaults();
-    const char *dir = getenv("TMPDIR") ? getenv("TMPDIR") : "/tmp";
-    char path[400];
+    const char *path = test_path("packing.state");
     fl_err err = {0};
     sample whole = {0};
-    snprintf(path, sizeof path, "%s/prop-packing.%d.state", dir, (int)(omp_get_wtime() * 1e3));
     make_sample(&whole, 7, "capsule:2");
     grow_sample(&whole);
     for (int stages = 0; stages < 70; stages += 31) {
