@@ -67,7 +67,7 @@ static int freedoms_are_held(const fl_overlaps *o)
 }
 
 /* The phase after a jam. */
-static void jam(fl_growth *g, const fl_overlaps *o, const fl_growth_options *opt)
+static void end_growth(fl_growth *g, const fl_overlaps *o, const fl_growth_options *opt)
 {
     g->jammed = 1;
     g->reached = o->p->s;
@@ -78,7 +78,7 @@ static void jam(fl_growth *g, const fl_overlaps *o, const fl_growth_options *opt
 
 /* --- phases ------------------------------------------------------------------------------------- */
 
-static int rise(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_err *err)
+static int raise_scale(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_err *err)
 {
     fl_packing *p = o->p;
     const double next = p->s * (1.0 + g->rise);
@@ -94,9 +94,20 @@ static int rise(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_e
     if (opt->trim != FL_TRIM_ALL || p->q || state == FL_RELAXED_FREE || !freedoms_are_held(o)) return 0;
     const int jammed = is_jammed(o, LOOSE, BALANCE_GROW, err);
     if (jammed < 0) return -1;
-    if (jammed) jam(g, o, opt);
+    if (jammed) end_growth(g, o, opt);
     else g->rise = fmax(0.5 * g->rise, 0.1 * opt->rise);
     return 0;
+}
+
+/* Smallest inner radius over the bounding radius of the shapes: 1 for spheres. */
+static double slimness(const fl_packing *p)
+{
+    double least = 1.0;
+    for (int32_t k = 0; k < p->shapes->n; k++) {
+        const fl_pack_shape *t = &p->shapes->shape[k];
+        least = fmin(least, fmin(t->half.x, fmin(t->half.y, t->half.z)) / t->bound);
+    }
+    return least;
 }
 
 static int settle(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_err *err)
@@ -104,8 +115,8 @@ static int settle(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl
     fl_packing *p = o->p;
     p->s = 1.0 + MARGIN;
     /* Overlaps up to MARGIN of the smaller body at the larger scale are none at 1: of two bodies the overlap
-     * falls by MARGIN times the sum of the radii, at the boundary by MARGIN times the radius. */
-    const int state = fl_overlaps_relax(o, MARGIN, BALANCE, full_steps(o), err);
+     * falls by MARGIN times the sum of the inner radii at least, at the boundary by MARGIN times that. */
+    const int state = fl_overlaps_relax(o, 0.95 * MARGIN * slimness(p), BALANCE, full_steps(o), err);
     p->s = 1.0;
     if (state < 0) return -1;
     if (state == FL_RELAXED_FREE) {
@@ -115,7 +126,7 @@ static int settle(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl
     const int jammed = is_jammed(o, NONE, BALANCE, err);
     if (jammed < 0) return -1;
     enter(g, FL_GROWTH_DONE);
-    if (jammed) jam(g, o, opt);
+    if (jammed) end_growth(g, o, opt);
     return 0;
 }
 
@@ -200,7 +211,7 @@ int fl_growth_stage(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, 
 {
     g->stage++;
     switch (g->phase) {
-    case FL_GROWTH_RISE: return rise(g, o, opt, err);
+    case FL_GROWTH_RISE: return raise_scale(g, o, opt, err);
     case FL_GROWTH_SETTLE: return settle(g, o, opt, err);
     case FL_GROWTH_DENSEST: return follow_pressure(g, o, opt, err);
     case FL_GROWTH_BALANCE: return balance_all(g, o, err);

@@ -10,16 +10,20 @@
 /* Bodies of a block of sums. */
 enum { BLOCK = 128 };
 
-/* Bodies with edges chatter about their rest: forces do not balance to the last digit.  They count as balanced
- * where the least energy has not fallen below STALLED of that STALL steps ago. */
+/* Bodies with edges chatter about their rest: forces do not balance to the last digit.  They count as
+ * balanced where the least energy has not fallen below STALLED of that STALL steps ago. */
 enum { STALL = 1000 };
 static const double STALLED = 0.95;
 
 /* Thickness of the skin over the smallest body, and growth of the scale that a list allows for. */
 static const double SKIN = 0.6, GROWTH = 1.03;
 
-/* Radius of gyration over the bounding radius; way of a step over the radius; neighbours of a body of mass 1. */
+/* Radius of gyration over the bounding radius; way of a step over the radius; neighbours of a body of mass
+ * 1. */
 static const double ARM = 0.6, LONGEST = 0.2, CROWD = 16.0;
+
+/* Step and damping of shapes that are no spheres. */
+static const double SHAPE_STEP = 0.2, VISCOUS = 0.15;
 
 /* Stiffness of a corner of a polyhedron over that of a sphere: a face has four or more. */
 static const double CORNER = 0.25;
@@ -525,6 +529,15 @@ static void move_bodies(fl_overlaps *o, const fl_fire_step *f)
     for (int32_t k = 0; k < o->blocks; k++) o->now.max_move2 = fmax(o->now.max_move2, o->block[k].max_move2);
 }
 
+/* Where the closest points of two polyhedra jump, forces are no gradient that FIRE could follow: their steps
+ * are damped by a constant. */
+static fl_fire_step damped_step(void)
+{
+    const fl_relaxation viscous = fl_relaxation_start(FL_RELAXATION_VISCOUS, VISCOUS);
+    return (fl_fire_step){
+        .dt = SHAPE_STEP, .keep = fl_relaxation_c1(&viscous), .push = 1.0 / (1.0 + 0.5 * VISCOUS)};
+}
+
 int fl_overlaps_relax(fl_overlaps *o, double free, double balance, int64_t steps, fl_err *err)
 {
     memset(o->v, 0, (size_t)o->p->n * sizeof *o->v);
@@ -545,7 +558,8 @@ int fl_overlaps_relax(fl_overlaps *o, double free, double balance, int64_t steps
             if (least > STALLED * energy) return FL_RELAXED_JAMMED;
             energy = least;
         }
-        const fl_fire_step f = fl_fire_next(&o->fire, t->power, t->force2, t->speed2);
+        const fl_fire_step f =
+            o->p->q ? damped_step() : fl_fire_next(&o->fire, t->power, t->force2, t->speed2);
         move_bodies(o, &f);
         o->steps++;
     }

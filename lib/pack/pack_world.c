@@ -15,10 +15,10 @@
 #include "sim/step.h"
 #include "world/access.h"
 
-enum { FACETS = 180, CHECK = 100, QUIET = 10, STAGE_STEPS = 25 };
+enum { FACETS = 180, CHECK = 100, QUIET = 10, STAGE_STEPS = 25, PAUSE = 1000 };
 
 /* See pack_world.h. */
-static const double RATE = 2e-4, STAGE = 5e-3, DAMPING = 0.02, JAM = 1e-3;
+static const double RATE = 1e-4, STAGE = 5e-3, DAMPING = 0.01, JAM = 5e-3, HELD = 0.5, PLATE = 0.2;
 
 typedef struct {
     fl_packing *p;
@@ -34,81 +34,66 @@ typedef struct {
 
 /* --- the region as a surface -------------------------------------------------------------------- */
 
-/* An upright prism over a polygon; inward: its normals point inside, with the corners counter-clockwise. */
-static int add_prism(fl_surface *s, int32_t n, const fl_vec2 *v, double z0, double z1, int inward,
+/* A plate behind the face v[n] of the boundary, whose unit normal into the region is `inward`: a prism of the
+ * given thickness.  Corners counter-clockwise or clockwise. */
+static int add_plate(fl_surface *s, int32_t n, const fl_vec3 *v, fl_vec3 inward, double thickness,
                      fl_err *err)
 {
-    const int32_t k = fl_surface_add(s, "region", 6, err);
-    int32_t *low = fl_alloc(n, sizeof *low, err), *high = fl_alloc(n, sizeof *high, err);
-    int rc = k < 0 || !low || !high ? -1 : 0;
-    fl_part *p = rc ? NULL : &s->part[k];
-    for (int32_t a = 0; rc == 0 && a < 2 * n; a++)
-        rc = fl_surface_vertex(p, v3(v[a % n].x, v[a % n].y, a < n ? z0 : z1), err);
-    for (int32_t a = 0; rc == 0 && a < n; a++) {
-        const int32_t b = (a + 1) % n, out[4] = {a, b, n + b, n + a}, in[4] = {a, n + a, n + b, b};
-        low[a] = inward ? a : n - 1 - a;
-        high[a] = n + (inward ? n - 1 - a : a);
-        rc = fl_facet_polygon(p, 4, inward ? in : out, err);
-    }
-    if (rc == 0) rc = fl_facet_polygon(p, n, low, err) || fl_facet_polygon(p, n, high, err) ? -1 : 0;
-    free(low), free(high);
-    return rc;
-}
-
-static int add_outline(const fl_pack_region *r, double thickness, fl_surface *out, fl_err *err)
-{
-    const fl_domain *d = &r->domain;
-    for (int32_t k = 0; k < d->rings; k++) {
-        const int32_t first = d->first[k], n = d->first[k + 1] - first;
-        if (k == 0) {
-            if (add_prism(out, n, d->v + first, -thickness, thickness, 1, err)) return -1;
-            continue;
-        }
-        fl_vec2 *turned = fl_alloc(n, sizeof *turned, err); /* holes are clockwise */
-        if (!turned) return -1;
-        for (int32_t c = 0; c < n; c++) turned[c] = d->v[first + n - 1 - c];
-        const int rc = add_prism(out, n, turned, -thickness, thickness, 0, err);
-        free(turned);
-        if (rc) return -1;
-    }
-    return 0;
-}
-
-static int add_cylinder(const fl_pack_region *r, double thickness, fl_surface *out, fl_err *err)
-{
-    fl_vec2 v[FACETS];
-    for (int k = 0; k < FACETS; k++) {
-        const double a = 2.0 * PI * k / FACETS;
-        v[k] = (fl_vec2){r->centre.x + r->radius * cos(a), r->centre.y + r->radius * sin(a)};
-    }
-    const int flat = r->dim == 2;
-    return add_prism(out, FACETS, v, flat ? -thickness : r->lo.z, flat ? thickness : r->hi.z, 1, err);
-}
-
-/* Faces of the region as one part. */
-static int add_faces(const fl_pack_region *r, fl_surface *out, fl_err *err)
-{
-    const int32_t k = fl_surface_add(out, "region", 6, err);
+    enum { CORNERS = 4 };
+    const int32_t k = fl_surface_add(s, "wall", 4, err);
+    int32_t front[CORNERS], back[CORNERS];
     if (k < 0) return -1;
-    fl_part *p = &out->part[k];
-    for (int32_t f = 0; f < r->features; f++) {
-        const fl_region_feature *e = &r->feature[f];
-        if (e->corners < 3) continue;
-        const fl_vec3 n = v3_cross(v3_sub(e->p[1], e->p[0]), v3_sub(e->p[2], e->p[0]));
-        const int turn = v3_dot(n, e->n) < 0.0;
-        for (int c = 0; c < 3; c++)
-            if (fl_surface_vertex(p, e->p[turn ? 2 - c : c], err)) return -1;
-        if (fl_surface_triangle(p, p->nv - 3, p->nv - 2, p->nv - 1, err)) return -1;
+    fl_part *p = &s->part[k];
+    const fl_vec3 normal = v3_cross(v3_sub(v[1], v[0]), v3_sub(v[2], v[0]));
+    const int turned = v3_dot(normal, inward) < 0.0;
+    for (int32_t a = 0; a < 2 * n; a++) {
+        const fl_vec3 at = v[turned ? n - 1 - a % n : a % n];
+        if (fl_surface_vertex(p, a < n ? at : v3_madd(at, -thickness, inward), err)) return -1;
+    }
+    for (int32_t a = 0; a < n; a++) {
+        const int32_t b = (a + 1) % n, side[4] = {a, n + a, n + b, b};
+        front[a] = a;
+        back[a] = 2 * n - 1 - a;
+        if (fl_facet_polygon(p, 4, side, err)) return -1;
+    }
+    return fl_facet_polygon(p, n, front, err) || fl_facet_polygon(p, n, back, err) ? -1 : 0;
+}
+
+/* An upright plate on the side from a to b. */
+static int add_upright(fl_surface *s, fl_vec3 a, fl_vec3 b, fl_vec3 inward, double z0, double z1,
+                       double thickness, fl_err *err)
+{
+    const fl_vec3 v[4] = {v3(a.x, a.y, z0), v3(b.x, b.y, z0), v3(b.x, b.y, z1), v3(a.x, a.y, z1)};
+    return add_plate(s, 4, v, inward, thickness, err);
+}
+
+static int add_cylinder(const fl_pack_region *r, double height, double thickness, fl_surface *out,
+                        fl_err *err)
+{
+    const double z0 = r->dim == 2 ? -height : r->lo.z, z1 = r->dim == 2 ? height : r->hi.z;
+    for (int k = 0; k < FACETS; k++) {
+        const double a = 2.0 * PI * k / FACETS, b = 2.0 * PI * (k + 1) / FACETS, c = 0.5 * (a + b);
+        const fl_vec3 p = v3_madd(r->centre, r->radius, v3(cos(a), sin(a), 0)),
+                      q = v3_madd(r->centre, r->radius, v3(cos(b), sin(b), 0));
+        if (add_upright(out, p, q, v3(-cos(c), -sin(c), 0), z0, z1, thickness, err)) return -1;
     }
     return 0;
 }
 
-int fl_pack_region_surface(const fl_pack_region *r, double thickness, fl_surface *out, fl_err *err)
+int fl_pack_region_surface(const fl_pack_region *r, double height, double thickness, fl_surface *out,
+                           fl_err *err)
 {
-    if (r->kind == FL_REGION_CYLINDER) return add_cylinder(r, thickness, out, err);
-    if (r->kind == FL_REGION_FEATURES)
-        return r->dim == 2 ? add_outline(r, thickness, out, err) : add_faces(r, out, err);
-    return fl_fail(err, FL_INPUT, "a box or a sphere has no surface of triangles");
+    if (r->kind == FL_REGION_CYLINDER) return add_cylinder(r, height, thickness, out, err);
+    if (r->kind != FL_REGION_FEATURES)
+        return fl_fail(err, FL_INPUT, "a box or a sphere has no surface of triangles");
+    for (int32_t k = 0; k < r->features; k++) {
+        const fl_region_feature *f = &r->feature[k];
+        if (f->corners != r->dim) continue;
+        if (r->dim == 2 ? add_upright(out, f->p[0], f->p[1], f->n, -height, height, thickness, err)
+                        : add_plate(out, 3, f->p, f->n, thickness, err))
+            return -1;
+    }
+    return 0;
 }
 
 /* --- the world ---------------------------------------------------------------------------------- */
@@ -140,7 +125,7 @@ static int set_box(motion *q, fl_err *err)
            set_key(s, err, "boundary.max=%.17g %.17g %.17g", r->hi.x, r->hi.y, hi);
 }
 
-static int make_scene(motion *q, fl_err *err)
+static int make_scene(motion *q, int grows, fl_err *err)
 {
     const fl_pack_motion *m = q->m;
     fl_scene *s = &q->scene;
@@ -154,9 +139,16 @@ static int make_scene(motion *q, fl_err *err)
         set_key(s, err, "contact.friction=%.17g", m->friction) ||
         set_key(s, err, "contact.restitution=%.17g", m->restitution))
         return -1;
+    if (grows && set_key(s, err, "contact.round_law=linear")) return -1;
     if (flat && set_key(s, err, "group.plane.fixed=z rx ry")) return -1;
     if (q->region->kind == FL_REGION_BOX) return set_box(q, err);
-    return fl_pack_region_surface(q->region, 4.0 * fl_packing_most(q->p), &q->surface, err) ||
+    if (q->region->kind == FL_REGION_CYLINDER && !flat &&
+        (set_key(s, err, "boundary.type=free free rigid") ||
+         set_key(s, err, "boundary.min=none none %.17g", q->region->lo.z) ||
+         set_key(s, err, "boundary.max=none none %.17g", q->region->hi.z)))
+        return -1;
+    return fl_pack_region_surface(q->region, 4.0 * fl_packing_most(q->p), PLATE * fl_packing_least(q->p),
+                                  &q->surface, err) ||
            set_key(s, err, "structure.file=region");
 }
 
@@ -171,22 +163,52 @@ static void free_motion(motion *q)
     q->q0 = NULL;
 }
 
-static int make_motion(motion *q, fl_packing *p, const fl_pack_region *r, const fl_pack_motion *m,
+/* Step of growth, where nothing but growth moves the bodies: SAFETY of 2/omega of the smallest body between
+ * NEIGHBOURS others, linear contacts of the stiffness pi E r/2. */
+static double growth_step(const motion *q)
+{
+    const double SAFETY = 0.2, NEIGHBOURS = 12.0;
+    double dt = INFINITY;
+    for (int32_t i = 0; i < q->p->n; i++) {
+        const double stiffness = 0.5 * PI * q->m->young * q->p->bound[i];
+        dt = fmin(dt, SAFETY * 2.0 / sqrt(NEIGHBOURS * stiffness * q->w.b.invm[i]));
+    }
+    return dt;
+}
+
+/* Spheres at scale s; the way of their surface counts for the neighbour list. */
+static void set_scale(motion *q, double s)
+{
+    for (int32_t i = 0; i < q->w.n; i++) {
+        const double r = s * q->p->radius[i];
+        q->w.b.odometer[i] += fabs(r - q->w.b.radius[i]);
+        q->w.b.radius[i] = r;
+    }
+    q->p->s = s;
+}
+
+/* grows: radii are those of p->s, masses those of the final size. */
+static int make_motion(motion *q, fl_packing *p, const fl_pack_region *r, const fl_pack_motion *m, int grows,
                        fl_err *err)
 {
+    const double s = p->s;
     int32_t body;
     *q = (motion){.p = p, .region = r, .m = m};
-    if (make_scene(q, err) || fl_packing_field(p, NULL, p->dim == 2 ? "plane" : NULL, &q->field, err) ||
+    if (grows && !p->q) p->s = 1.0;
+    if (make_scene(q, grows, err) || fl_packing_field(p, NULL, p->dim == 2 ? "plane" : NULL, &q->field, err) ||
         fl_scene_check(&q->scene, err))
         goto bad;
     if (fl_world_make(&q->w, &q->scene, &q->field, q->surface.n ? &q->surface : NULL, err)) goto bad;
     q->made = 1;
     if (!(q->q0 = fl_alloc(p->n, sizeof *q->q0, err))) goto bad;
     for (int32_t i = 0; i < p->n; i++) q->q0[i] = q->w.b.q[i];
-    q->w.dt = fl_automatic_step(&q->w, &body);
-    q->w.automatic_dt = 1;
+    q->w.dt = grows ? growth_step(q) : fl_automatic_step(&q->w, &body);
+    q->w.automatic_dt = !grows;
+    if (grows && !p->q) set_scale(q, s);
+    p->s = s;
     if (fl_step_start(&q->w, err) == 0) return 0;
 bad:
+    p->s = s;
     free_motion(q);
     return -1;
 }
@@ -231,17 +253,6 @@ static void damp_velocities(motion *q)
 
 /* --- growth ------------------------------------------------------------------------------------- */
 
-/* Spheres at scale s; the way of their surface counts for the neighbour list. */
-static void set_scale(motion *q, double s)
-{
-    for (int32_t i = 0; i < q->w.n; i++) {
-        const double r = s * q->p->radius[i];
-        q->w.b.odometer[i] += r - q->w.b.radius[i];
-        q->w.b.radius[i] = r;
-    }
-    q->p->s = s;
-}
-
 static double strain_of(const fl_overlaps *o)
 {
     const fl_overlap_totals *t = &o->now;
@@ -257,14 +268,14 @@ static int is_jammed(motion *q, fl_overlaps *o, double *strain, fl_err *err)
     o->stale = 1;
     if (fl_overlaps_evaluate(o, err)) return -1;
     *strain = strain_of(o);
-    return *strain > JAM && o->now.contacts > q->p->n;
+    return *strain > JAM && (double)o->now.contacts > HELD * (q->p->dim + 1) * q->p->n;
 }
 
 /* Steps of one stage: of spheres, growing; of others, at one scale. */
-static int run_stage(motion *q, int64_t steps, fl_pack_moved *out, fl_err *err)
+static int run_stage(motion *q, int64_t steps, int grows, fl_pack_moved *out, fl_err *err)
 {
     for (int64_t k = 0; k < steps; k++) {
-        if (!q->p->q && q->p->s < 1.0) set_scale(q, fmin(1.0, q->p->s * (1.0 + RATE)));
+        if (grows && q->p->s < 1.0) set_scale(q, fmin(1.0, q->p->s * (1.0 + RATE)));
         if (fl_step(&q->w, err)) return -1;
         damp_velocities(q);
         out->steps++;
@@ -282,14 +293,17 @@ int fl_pack_grow_moving(fl_packing *p, const fl_pack_region *r, const fl_pack_mo
     int jammed = 0, rc = 0;
     still.gravity = 0.0;
     *out = (fl_pack_moved){0};
-    if (!p->q && make_motion(&q, p, r, &still, err)) return -1;
+    if (!p->q && make_motion(&q, p, r, &still, 1, err)) return -1;
     while (rc == 0 && !jammed && p->s < 1.0) {
         if (p->q) {
             p->s = fmin(1.0, p->s * (1.0 + STAGE));
-            if (make_motion(&q, p, r, &still, err)) return -1;
+            if (make_motion(&q, p, r, &still, 1, err)) return -1;
         }
-        rc = run_stage(&q, p->q ? STAGE_STEPS : CHECK, out, err);
+        rc = run_stage(&q, p->q ? STAGE_STEPS : CHECK, !p->q, out, err);
         if (rc == 0) jammed = is_jammed(&q, o, &strain, err);
+        /* bodies that only collide part again while growth pauses */
+        if (rc == 0 && jammed > 0) rc = run_stage(&q, PAUSE, 0, out, err);
+        if (rc == 0 && jammed > 0) jammed = is_jammed(&q, o, &strain, err);
         if (jammed < 0) rc = -1;
         if (p->q) free_motion(&q);
         if (rc == 0 && call && call(with, p, out)) break;
@@ -315,7 +329,7 @@ int fl_pack_settle(fl_packing *p, const fl_pack_region *r, const fl_pack_motion 
                  longest = m->longest > 0.0 ? m->longest : 1000.0 * sqrt(d / m->gravity);
     int quiet = 0, rc = 0;
     *out = (fl_pack_moved){0};
-    if (make_motion(&q, p, r, m, err)) return -1;
+    if (make_motion(&q, p, r, m, 0, err)) return -1;
     while (rc == 0 && quiet < QUIET && out->time < longest) {
         for (int k = 0; rc == 0 && k < CHECK; k++) {
             rc = fl_step(&q.w, err);

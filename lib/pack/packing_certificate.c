@@ -8,26 +8,35 @@
 
 enum { CONTACTS = 4000 };
 
+/* Overlaps up to this part of the radius, which the search for a packing without force leaves, are no
+ * contacts. */
+static const double TOUCH = 2e-6;
+
+/* Distances from the complement beyond this many radii are not measured. */
+static const double FAR = 1.5;
+
 typedef struct {
     int32_t i, j; /* j < 0: the boundary */
     fl_vec3 n;
 } contact;
 
 typedef struct {
+    const fl_packing *p;
     contact *c;
-    int32_t n, cap;
+    int32_t n, cap, walls;
     int failed;
 } contact_list;
 
 static void collect(void *with, int32_t i, int32_t j, fl_vec3 n, double delta)
 {
     contact_list *l = with;
-    (void)delta;
+    if (delta <= TOUCH * l->p->s * l->p->bound[i]) return;
     if (l->failed || fl_grow_quiet(&l->c, &l->cap, (int64_t)l->n + 1, sizeof *l->c)) {
         l->failed = 1;
         return;
     }
     l->c[l->n++] = (contact){i, j, n};
+    l->walls += j < 0;
 }
 
 /* --- grading ------------------------------------------------------------------------------------ */
@@ -135,13 +144,14 @@ static double order_of(const contact_list *l)
 static void find_room(fl_packing_certificate *c, const fl_overlaps *o)
 {
     const fl_packing *p = o->p;
-    c->room = INFINITY;
+    c->room = FAR;
     for (int32_t i = 0; i < p->n; i++) {
         const int32_t from = p->q ? o->corner_first[i] : i, to = p->q ? o->corner_first[i + 1] : i + 1;
         const double r = p->s * p->radius[i], bound = p->s * p->bound[i];
         double least = INFINITY;
         for (int32_t v = from; v < to; v++)
-            least = fmin(least, fl_region_distance(o->region, p->q ? o->corner[v] : p->x[i], bound) - r);
+            least =
+                fmin(least, fl_region_distance(o->region, p->q ? o->corner[v] : p->x[i], FAR * bound) - r);
         c->room = fmin(c->room, 1.0 + least / bound);
         c->outside += least < -1e-3 * bound;
     }
@@ -150,7 +160,7 @@ static void find_room(fl_packing_certificate *c, const fl_overlaps *o)
 int fl_packing_certify(fl_packing_certificate *c, fl_overlaps *o, const fl_grading *g, fl_err *err)
 {
     const fl_packing *p = o->p;
-    contact_list l = {0};
+    contact_list l = {.p = o->p};
     *c = (fl_packing_certificate){.solid = fl_packing_volume(p, p->s, 0) / o->region->volume,
                                   .rounded = fl_packing_volume(p, p->s, 1) / o->region->volume};
     if (compare_grading(c, p, g, err)) return -1;
@@ -158,9 +168,9 @@ int fl_packing_certify(fl_packing_certificate *c, fl_overlaps *o, const fl_gradi
     int rc = l.failed ? fl_fail(err, FL_SYSTEM, "out of memory: contacts") : count_rattlers(c, p, &l, err);
     if (rc == 0) {
         c->max_overlap = o->now.max_overlap;
-        c->contacts = o->now.contacts;
-        c->wall_contacts = o->now.wall_contacts;
-        c->mean_overlap = c->contacts ? o->now.overlap_sum / (double)c->contacts : 0.0;
+        c->contacts = l.n;
+        c->wall_contacts = l.walls;
+        c->mean_overlap = l.n ? o->now.overlap_sum / (double)o->now.contacts : 0.0;
         c->unbalanced = c->mean_overlap > 0.0 ? o->now.max_force / c->mean_overlap : 0.0;
         c->coordination = (2.0 * (double)(c->contacts - c->wall_contacts) + (double)c->wall_contacts) / p->n;
         find_fabric(c, p, &l);

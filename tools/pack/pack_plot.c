@@ -103,8 +103,8 @@ static int write_grading(struct picture *p, fl_err *err)
 
 /* --- the plan, or a section --------------------------------------------------------------------- */
 
-/* Corners of the section of body i with the plane y = at, in x and z; in two dimensions its disc.  Returns their
- * number, 0 for none. */
+/* Corners of the section of body i with the plane y = at, in x and z; in two dimensions its disc.  Returns
+ * their number, 0 for none. */
 static int section_of(const fl_packing *p, int32_t i, double at, fl_vec3 *corner, double out[POINTS][2])
 {
     const double r = p->s * p->radius[i];
@@ -119,8 +119,8 @@ static int section_of(const fl_packing *p, int32_t i, double at, fl_vec3 *corner
         }
         return CIRCLE;
     }
-    /* the hull of the section is that of its crossings with edges; here with all pairs of corners, each a ball
-     * of the dilation radius */
+    /* the hull of the section is that of its crossings with edges; here with all pairs of corners, each a
+     * ball of the dilation radius */
     fl_packing_corners(p, i, corner);
     const int32_t nv = p->shapes->shape[p->shape[i]].core.nv;
     for (int32_t a = 0; a < nv; a++)
@@ -233,8 +233,9 @@ static int write_section(struct picture *p, fl_err *err)
     const double edge = 0.02 * fmax(hi - lo, r->hi.x - r->lo.x);
     fprintf(p->script, "set xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n", r->lo.x - edge, r->hi.x + edge,
             lo - edge, hi + edge);
-    fprintf(p->script, "set cbrange [%.6g:%.6g]\nset cblabel 'Size  [m]' offset 1.5\n", least * (1.0 - 1e-3),
-            most * (1.0 + 1e-3));
+    fprintf(p->script, "set cbrange [%.6g:%.6g]\nset cblabel 'Size  [m]' offset 1.5\n",
+            least * (most > 1.01 * least ? 1.0 - 1e-3 : 0.9),
+            most * (most > 1.01 * least ? 1.0 + 1e-3 : 1.1));
     if (q->dim == 3) fprintf(p->script, "set title 'section at y = %.6g m'\n", at);
     write_region(p);
     fputs("\n\n", p->data);

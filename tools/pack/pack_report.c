@@ -85,7 +85,8 @@ static void add_contacts(struct table *t, const struct result *r)
     const fl_packing_certificate *c = &r->certificate;
     add_row(t, "", 0.0, c->max_overlap, 3, "over the smaller radius", "overlap, largest");
     add_row(t, "m", NAN, c->mean_overlap, 3, "", "overlap, mean");
-    add_row(t, "", 0.0, c->unbalanced, 3, "over the mean force", "unbalanced force, largest");
+    if (r->rest.steps == 0) /* weight is no force of the overlaps */
+        add_row(t, "", 0.0, c->unbalanced, 3, "over the mean force", "unbalanced force, largest");
     for (int32_t k = 0; k < r->region.walls && k < 512; k++)
         add_row(t, "", NAN, c->mean_overlap > 0.0 ? r->overlaps.wall_force[k] / c->mean_overlap : 0.0, 6,
                 r->region.wall[k].helper ? "helper, over the mean force" : "over the mean force",

@@ -157,16 +157,21 @@ static fl_pack_motion motion_of(const struct options *o)
                             .rest = 1e-3};
 }
 
-/* By steps with friction; what overlap is left of a packing that is not jammed is relaxed. */
+/* By steps with friction; what overlap is left of a packing that is not jammed is relaxed.  Without friction
+ * relaxation goes on from where the steps jam. */
 static int grow_moving(const struct options *o, struct result *r, fl_err *err)
 {
     const fl_pack_motion m = motion_of(o);
     struct moving w = {o, r, "growth"};
     if (fl_pack_grow_moving(&r->packing, &r->region, &m, &r->overlaps, note_motion, &w, &r->moved, err))
         return -1;
-    r->growth.jammed = r->moved.jammed;
-    r->growth.jam_scale = r->moved.jam_scale;
-    r->growth.phase = r->moved.jammed ? FL_GROWTH_DONE : FL_GROWTH_SETTLE;
+    if (r->moved.jammed && o->friction > 0.0) {
+        r->growth.jammed = 1;
+        r->growth.jam_scale = r->moved.jam_scale;
+        r->growth.phase = FL_GROWTH_DONE;
+    } else if (r->packing.s >= 1.0) {
+        r->growth.phase = FL_GROWTH_SETTLE;
+    }
     return grow_relaxed(o, r, err);
 }
 

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Bounds of the slope: what stands, and what must not.
+function say(ok, what) { printf "%s: %s\n", what, ok ? "ok" : "FAILED"; bad = bad || !ok }
+$1 == "trimmed" || $1 == "loose" {
+    say($4 == 0, $1 ": no disc left")
+    say($7 <= 1 && $9 <= 1, $1 ": at most 1 % rose by more than 0.1 d, none by more than 1 d")
+    say($8 <= 2, $1 ": at most 2 % moved by more than 2 d")
+    say($10 <= 0.5, $1 ": the crest stays within 0.5 m")
+    calm = $5 > calm ? $5 : calm
+}
+$1 == "untrimmed" { say($7 > 10 && $5 > 5 * calm, "untrimmed: discs jump off") }
+$1 == "low" { say($8 > 5, "friction 0.1: the slope fails") }
+END { exit bad }
