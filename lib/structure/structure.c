@@ -484,7 +484,7 @@ static void find_solid_side(fl_piece *piece, const fl_part *p)
     mesh->outer_winding = volume < 0.0 && !mesh->thin ? -1.0 : 0.0; /* sheets have no volume but rounding */
 }
 
-/* Faces of a joined piece above which it is a mesh even if convex: a solid is cut by one face after another. */
+/* Faces of a joined piece above which it is a mesh even if convex: a solid is cut by one after another. */
 #define MANY_FACES 1000
 
 /* Makes the piece of the triangles; of: NULL, or as in fl_structure_add_joined().  0, or -1. */
