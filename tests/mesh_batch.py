@@ -3,9 +3,9 @@
 """mesh_batch.py [options] FOLDER... -- import every mesh of a folder and compare it with sums of another reader.
 
 A row for each file goes to standard output, tab-separated: the exit status and the volume, area and number of open
-edges that struct-import reports, the same from this script, and what differs.  The script reads STL, OBJ and OFF
-itself; other formats are read by meshio (Debian: python3-meshio) where it is installed, and are otherwise imported
-without a comparison.  Volumes are compared where the surface is closed.  share/doc/mesh-batch.md tells how to read
+edges that struct-import reports, the same from this script, and what differs.  The script reads STL, OBJ, OFF, ANSYS
+archives and g_struct files itself; other formats are read by meshio (Debian: python3-meshio) where this Python has it,
+and are otherwise imported without a comparison.  Volumes are compared where the surface is closed.  share/doc/mesh-batch.md tells how to read
 the table.  Status 1 if a file differs, crashes the program or runs out of time."""
 import argparse
 import contextlib
@@ -94,24 +94,126 @@ def read_off(path):
     return points, [f for f in faces if len(f) > 2]
 
 
+def read_gstruct(path):
+    points, faces, base = [], [], 0
+    for line in open(path, encoding="latin-1"):
+        w = line.split("#")[0].split()
+        if w and w[0] == "part":
+            base = len(points)
+        elif w and w[0] == "v":
+            points.append(tuple(float(c) for c in w[1:4]))
+        elif w and w[0] == "t":
+            faces.append(tuple(base + int(c) for c in w[1:4]))
+        elif w and w[0] == "cone":
+            raise ValueError("has cones")
+    return points, faces
+
+
+# Corners of the ANSYS types whose shape does not depend on their nodes; others are bricks or quadrilaterals.
+ANSYS_TET = {87, 92, 98, 123, 127, 148, 168, 187, 227, 232, 237, 285, 291}
+ANSYS_SHELL = {28, 41, 43, 63, 93, 131, 132, 157, 181, 281}
+
+
+def ansys_cells(number, node):
+    """Cells, as meshio calls them, of an ANSYS element: collapsed bricks repeat corners."""
+    if number in ANSYS_SHELL:
+        loop = list(dict.fromkeys(node[:4]))
+        return [("triangle" if len(loop) == 3 else "quad", loop)]
+    if number in ANSYS_TET:
+        return [("tetra", node[:4])]
+    a, b = list(dict.fromkeys(node[:4])), list(dict.fromkeys(node[4:8]))
+    if len(b) == 1:
+        return [("tetra" if len(a) == 3 else "pyramid", a + b)]
+    return [("wedge", a + b)] if len(a) == 3 else [("hexahedron", node[:8])]
+
+
+def read_cdb(path):
+    index, points, types, cells = {}, [], {}, []
+    lines = iter(open(path, encoding="latin-1").read().splitlines())
+
+    def fields(line, width):
+        return [line[k : k + width].strip() for k in range(0, len(line.rstrip()), width)]
+
+    for line in lines:
+        w = [c.strip() for c in line.upper().split(",")]
+        if w[0] == "ET":
+            digits = "".join(c for c in w[2] if c.isdigit())
+            types[int(w[1])] = int(digits)
+        elif w[0] == "NBLOCK":
+            form = next(lines).strip().lower()
+            n, width = int(form[1 : form.index("i")]), int(form[form.index("i") + 1 : form.index(",")])
+            wide = int(form.split("e")[1].split(".")[0])
+            for row in lines:
+                if row.startswith("N,") or row.strip() == "-1":
+                    break
+                x = [float(c) if c else 0.0 for c in fields(row[n * width :], wide)][:3]
+                index[int(row[:width])] = len(points)
+                points.append(tuple(x + [0.0] * (3 - len(x))))
+        elif w[0] == "EBLOCK" and len(w) > 2 and w[2] == "SOLID":
+            form = next(lines).strip().lower()
+            width = int(form[form.index("i") + 1 : form.index(")")])
+            for row in lines:
+                head = [int(c or 0) for c in fields(row, width)]
+                if head[0] == -1:
+                    break
+                node, want = head[11:], head[8]
+                while len(node) < want:
+                    node += [int(c or 0) for c in fields(next(lines), width)]
+                cells.append((types.get(head[1], 0), node[:want]))
+    out = []
+    for number, node in cells:
+        for kind, corner in ansys_cells(number, node):
+            out.append((kind, [index[k] for k in corner]))
+    return points, skin_of(out, points)
+
+
+def read_bulk_as(end):
+    """meshio goes by the end of the name."""
+
+    def read(path):
+        with tempfile.NamedTemporaryFile("w", suffix=end) as f:
+            f.write(open(path, encoding="latin-1").read())
+            f.flush()
+            return read_bulk(f.name)
+
+    return read
+
+
+def read_bulk(path):
+    """A deck that starts without BEGIN BULK, which meshio needs."""
+    try:
+        return read_meshio(path)
+    except (Exception, SystemExit) as e:
+        if "BEGIN BULK" not in str(e):
+            raise
+    with tempfile.NamedTemporaryFile("w", suffix=".bdf") as f:
+        f.write("BEGIN BULK\n" + open(path, encoding="latin-1").read() + "\nENDDATA\n")
+        f.flush()
+        return read_meshio(f.name)
+
+
 def read_meshio(path):
     with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
         mesh = meshio.read(path)
     points = [tuple(float(c) for c in list(p) + [0.0] * (3 - len(p))) for p in mesh.points]
+    return points, skin_of(
+        [(block.type.rstrip("0123456789"), [int(k) for k in cell]) for block in mesh.cells for cell in block.data],
+        points)
+
+
+def skin_of(cells, points):
+    """Shells, and the faces of solids that no other solid has."""
     faces, once = [], {}
-    for block in mesh.cells:
-        kind = block.type.rstrip("0123456789")
-        for cell in block.data:
-            cell = [int(k) for k in cell]
-            if kind in SHELL:
-                faces.append(tuple(cell[: SHELL[kind]]))
-            for f in SOLID.get(kind, ()):
-                loop = []
-                for k in f:
-                    if cell[k] not in loop:
-                        loop.append(cell[k])
-                if len(loop) > 2:
-                    once.setdefault(tuple(sorted(loop)), []).append((tuple(loop), cell))
+    for kind, cell in cells:
+        if kind in SHELL:
+            faces.append(tuple(cell[: SHELL[kind]]))
+        for f in SOLID.get(kind, ()):
+            loop = []
+            for k in f:
+                if cell[k] not in loop:
+                    loop.append(cell[k])
+            if len(loop) > 2:
+                once.setdefault(tuple(sorted(loop)), []).append((tuple(loop), cell))
     skin = set()
     for (loop, cell), *others in once.values():
         if others:
@@ -126,8 +228,7 @@ def read_meshio(path):
         if key not in seen and (key not in once or key in skin):
             seen.add(key)
             kept.append(f)
-    faces = kept if once else faces
-    return points, faces
+    return kept if once else faces
 
 
 def sums(points, faces):
@@ -193,8 +294,17 @@ def near(a, b, tolerance):
 def compare(path, args):
     status, volume, area, opened, told = run_import(args.program, args.option, path, args.seconds)
     end = os.path.splitext(path)[1].lower()
-    reader = {".stl": read_stl, ".obj": read_obj, ".off": read_off}.get(end, read_meshio if meshio else None)
+    reader = {".stl": read_stl, ".obj": read_obj, ".off": read_off, ".cdb": read_cdb}.get(
+        end, (read_bulk if end in (".bdf", ".nas") else read_meshio) if meshio else None)
     own, why = None, "no other reader"
+    if end == ".dat":  # of whom?
+        head = open(path, encoding="latin-1").readline(4096)
+        if head.startswith("#g_struct"):
+            reader = read_gstruct
+        elif head.startswith("#"):
+            reader, why = None, "no mesh"
+        elif meshio:
+            reader = read_bulk_as(".bdf")
     if reader:
         try:
             points, faces = reader(path)

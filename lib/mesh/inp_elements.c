@@ -36,25 +36,36 @@ static int32_t part_of_set(fl_inp_model *r, int32_t set, fl_err *err)
     return fl_string_table_add(&r->e.parts, name, err);
 }
 
+/* Fails with the line of an element that ends there. */
+static int fail_short(fl_inp_model *r, int32_t line, int64_t id, int nodes, int least, fl_err *err)
+{
+    r->e.line = line;
+    return fl_deck_fail(&r->line.deck, err, "element %lld has %d nodes, %d are expected", (long long)id,
+                        nodes, least);
+}
+
 /* Read the numbers of one element, over as many lines as needed: its own and at least `least` nodes, up to
  * `most` where a line announces more.  Numbers behind these on a line that holds the whole element are
  * ignored and counted, as in CalculiX; on any other line they show that the type is wrong.  Returns their
  * count, 0 at the end of the data, or -1. */
 static int read_element_row(fl_inp_model *r, int least, int most, int64_t *id, fl_err *err)
 {
-    int32_t line = 0;
-    int n = 0;
+    int32_t line = 0, first_line = 0;
+    int n = 0, first_nodes = 0, ends = 0; /* of the first line: nodes, and it ends without a comma */
     for (;;) {
         const int more = fl_inp_next_data(&r->line, err), first = n == 0;
         int wide = 0;
         if (more < 0) return -1;
         if (!more) break;
         line = r->e.line;
+        if (first) first_line = line, first_nodes = r->line.fields - 1, ends = !r->line.more;
         for (int k = 0; k < r->line.fields; k++) {
             if (n > most && (first || r->line.field[k][0] == '\0')) {
                 wide |= r->line.field[k][0] != '\0';
                 continue;
             }
+            if (n > most && ends && first_nodes < least)
+                return fail_short(r, first_line, id[0], first_nodes, least, err);
             if (n > most)
                 return fl_deck_fail(&r->line.deck, err, "element %lld has more than %d nodes",
                                     (long long)id[0], most);
@@ -67,9 +78,8 @@ static int read_element_row(fl_inp_model *r, int least, int most, int64_t *id, f
         if (n > least && !(r->line.more && r->line.fields == FULL && n <= most)) return n;
     }
     if (n == 0) return 0;
-    r->e.line = line; /* report the line of the element */
-    return fl_deck_fail(&r->line.deck, err, "element %lld has %d nodes, %d are expected", (long long)id[0],
-                        n - 1, least);
+    return ends ? fail_short(r, first_line, id[0], first_nodes, least, err)
+                : fail_short(r, line, id[0], n - 1, least, err);
 }
 
 /* Count the elements of a type without a surface. */

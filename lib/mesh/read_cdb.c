@@ -239,6 +239,18 @@ static int set_current(cdb_reader *c, int64_t *x, int k)
     return 0;
 }
 
+/* /INPUT,NAME,EXTENSION,FOLDER: the lines of another file. */
+static int read_input(cdb_reader *c, fl_err *err)
+{
+    const char *name = c->k.word[1], *extension = c->k.word[2], *folder = c->k.word[3];
+    char path[600];
+    if (!*name) return fl_deck_fail(&c->k.d, err, "/INPUT names no file");
+    const int n = snprintf(path, sizeof path, "%s%s%s%s%s", folder, *folder ? "/" : "", name,
+                           *extension ? "." : "", extension);
+    if (n < 0 || n >= (int)sizeof path) return fl_deck_fail(&c->k.d, err, "/INPUT has too long a name");
+    return fl_deck_include(&c->k.d, path, err);
+}
+
 static int run_command(cdb_reader *c, fl_err *err)
 {
     char *equals;
@@ -261,9 +273,7 @@ static int run_command(cdb_reader *c, fl_err *err)
     if (is_command(c, "EN")) return read_e(c, 1, err);
     if (is_command(c, "EMORE")) return read_emore(c, err);
     if (is_command(c, "*SET")) return set_parameter(c, c->k.word[1], c->k.word[2], err);
-    if (is_command(c, "/INPUT"))
-        return fl_deck_fail(&c->k.d, err, "/INPUT is not followed: put \"%.60s\" into the archive",
-                            c->k.word[1]);
+    if (is_command(c, "/INPUT")) return read_input(c, err);
     if (is_command(c, "CSYS") || is_command(c, "LOCAL")) {
         int64_t k = 1;
         c->system =

@@ -78,6 +78,8 @@ typedef struct {
     int32_t *of;      /* [e.element_id.n] list of the groups of an element; 0 for none */
     int64_t *tag;     /* of the nodes of a block */
     int32_t members, coarse;
+    int32_t element_line, split_end; /* ASCII: line of the element being read; last line of the one before, if
+                                      * it has several */
     int32_t name_cap, member_cap, single_cap, in_cap, of_cap, tag_cap;
 } msh_reader;
 
@@ -421,14 +423,42 @@ static int add_groups(msh_reader *m, int32_t of, fl_err *err)
     return 0;
 }
 
+/* Fails because of an element without all of its nodes. */
+static int fail_short(msh_reader *m, int type, int64_t id, fl_err *err)
+{
+    m->b->line = m->element_line;
+    return fail_at_position(m, err, "element %lld of type %d has fewer than %d nodes on its line",
+                            (long long)id, type, TYPE[type].nodes);
+}
+
+/* Read the number of an element.  Writers put an element on a line of its own; of one that goes on where the
+ * next line has more than its nodes, some are missing. */
+static int read_element_id(msh_reader *m, int64_t *id, fl_err *err)
+{
+    const int32_t before = m->element_line;
+    if (m->version == 4 ? read_size(m, "the tag of an element", id, err) : read_int(m, "an element", id, err))
+        return -1;
+    if (!m->binary && m->split_end && m->b->line == m->split_end) {
+        m->b->line = before;
+        return fail_at_position(m, err, "this element has fewer nodes on its line than its type");
+    }
+    m->element_line = m->b->line;
+    m->split_end = 0;
+    return 0;
+}
+
 /* Read the nodes of an element and add it; `of` is the list of its groups. */
 static int read_element(msh_reader *m, int type, int64_t id, int32_t of, fl_err *err)
 {
     int64_t node[NODES], mine[20];
     int32_t k;
     for (int i = 0; i < TYPE[type].nodes; i++)
-        if (m->version == 4 ? read_size(m, "a node", &node[i], err) : read_int(m, "a node", &node[i], err))
-            return -1;
+        if (m->version == 4 ? read_size(m, "a node", &node[i], err) : read_int(m, "a node", &node[i], err)) {
+            if (m->binary || err->code != FL_INPUT || m->b->line == m->element_line) return -1;
+            *err = (fl_err){0};
+            return fail_short(m, type, id, err);
+        }
+    if (!m->binary && m->b->line != m->element_line) m->split_end = m->b->line;
     if (type == 15) return fl_elements_skip(&m->e, "point", err);
     for (int i = 0; i < fl_shape_nodes((enum fl_shape)TYPE[type].shape); i++) {
         mine[i] = node[TYPE[type].at ? TYPE[type].at[i] : i];
@@ -459,8 +489,7 @@ static int read_element_block(msh_reader *m, fl_err *err)
     entity = fl_id_map_find(&m->entity, (int32_t)dim, tag);
     if (entity >= 0) of = m->member[entity];
     for (int64_t i = 0; i < n; i++)
-        if (read_size(m, "the tag of an element", &id, err) || read_element(m, (int)type, id, of, err))
-            return -1;
+        if (read_element_id(m, &id, err) || read_element(m, (int)type, id, of, err)) return -1;
     return 0;
 }
 
@@ -497,7 +526,7 @@ static int read_elements(msh_reader *m, fl_err *err)
     }
     for (int64_t i = 0; i < m->tag[0];) {
         if (!m->binary) {
-            if (read_int(m, "an element", &id, err) || read_int(m, "an element type", &type, err) ||
+            if (read_element_id(m, &id, err) || read_int(m, "an element type", &type, err) ||
                 read_int(m, "the number of tags", &tags, err) || check_type(m, type, err) ||
                 read_tagged(m, type, tags, id, err))
                 return -1;
@@ -509,7 +538,7 @@ static int read_elements(msh_reader *m, fl_err *err)
             return -1;
         if (n < 1) return fail_at_position(m, err, "%lld elements in a row were found", (long long)n);
         for (; n > 0; n--, i++)
-            if (read_int(m, "an element", &id, err) || read_tagged(m, type, tags, id, err)) return -1;
+            if (read_element_id(m, &id, err) || read_tagged(m, type, tags, id, err)) return -1;
     }
     return 0;
 }

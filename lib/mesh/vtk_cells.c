@@ -365,10 +365,10 @@ static int add_cell(cell_adder *a, int64_t cell, int polyhedra, fl_err *err)
         else snprintf(text, sizeof text, "VTK type %.17g", t);
         return fl_elements_skip(a->e, text, err);
     }
-    if (a->nodes < CELL[type].nodes || (a->nodes > CELL[type].nodes && type < 68)) {
-        snprintf(text, sizeof text, "of type %d %d corners instead of", type, a->nodes);
-        return fail_cell(a, cell, err, text, CELL[type].nodes);
-    }
+    if (a->nodes < CELL[type].nodes || (a->nodes > CELL[type].nodes && type < 68))
+        return fl_elements_fail(a->e, a->e->file, 0, err,
+                                "cell %lld of type %d has %d nodes, %d are expected", (long long)cell, type,
+                                (int)a->nodes, CELL[type].nodes);
     shape = (enum fl_shape)(CELL[type].shape - 1);
     *a->coarse += CELL[type].coarse;
     for (int k = 0; k < fl_shape_nodes(shape); k++)

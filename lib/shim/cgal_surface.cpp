@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Intersecting triangles, distance, remeshing and simplification of surfaces.  One file, since most of its
+/* Intersecting triangles, distance, sides, remeshing and simplification of surfaces.  One file, since most of its
  * compile time is that of CGAL's kernel and meshes.  The headers are plain C; no C++ name and no exception
  * leaves it. */
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include "shim/cgal_mesh.hpp"
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -13,6 +14,7 @@
 #include <CGAL/intersections.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
@@ -24,6 +26,7 @@ extern "C" {
 #include "shim/cgal_crossing.h"
 #include "shim/cgal_distance.h"
 #include "shim/cgal_remesh.h"
+#include "shim/cgal_side.h"
 #include "shim/cgal_simplify.h"
 }
 
@@ -420,6 +423,37 @@ int simplify(fl_soup *s, double distance, int32_t *removed, fl_err *err)
     *removed = before - s->nt;
     return 0;
 }
+
+/* --- sides ----------------------------------------------------------------------------------------- */
+
+using Facet = Kernel::Triangle_3;
+
+std::vector<Facet> facets_of(const fl_soup *s)
+{
+    std::vector<Facet> all;
+    for (int32_t t = 0; t < s->nt; t++) {
+        const corners c = corners_of(s, t);
+        all.emplace_back(c.p[0], c.p[1], c.p[2]);
+    }
+    return all;
+}
+
+/* Squared distance of two boxes: no triangles in them are nearer. */
+double box_distance2(const CGAL::Bbox_3 &a, const CGAL::Bbox_3 &b)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double apart = std::max({a.min(k) - b.max(k), b.min(k) - a.max(k), 0.0});
+        sum += apart * apart;
+    }
+    return sum;
+}
+
+Exact::Triangle_3 exactly(const Facet &t)
+{
+    const auto point = [](const Point &p) { return Exact::Point_3(p.x(), p.y(), p.z()); };
+    return {point(t[0]), point(t[1]), point(t[2])};
+}
 } // namespace
 
 extern "C" int fl_cgal_crossings(const fl_soup *s, fl_crossing *c, fl_err *err)
@@ -452,3 +486,63 @@ extern "C" int fl_cgal_simplify(fl_soup *s, double distance, int32_t *removed, f
     *removed = 0;
     return run_guarded("simplification", s->nt, err, [&] { return simplify(s, distance, removed, err); });
 }
+
+struct fl_cgal_oracle {
+    Mesh mesh;
+    std::vector<Facet> triangle;
+    std::vector<CGAL::Bbox_3> box;
+    std::unique_ptr<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side;
+};
+
+extern "C" fl_cgal_oracle *fl_cgal_oracle_make(const fl_soup *s, fl_err *err)
+{
+    auto o = std::make_unique<fl_cgal_oracle>();
+    const int rc = run_guarded("oracle", s->nt, err, [&] {
+        std::vector<Point> points;
+        std::vector<Corners> corners;
+        to_vectors(s, points, corners);
+        if (to_mesh(points, corners, o->mesh, err)) return -1;
+        o->triangle = facets_of(s);
+        for (const Facet &t : o->triangle) o->box.push_back(t.bbox());
+        if (CGAL::is_closed(o->mesh))
+            o->side = std::make_unique<CGAL::Side_of_triangle_mesh<Mesh, Kernel>>(o->mesh);
+        return 0;
+    });
+    return rc ? nullptr : o.release();
+}
+
+extern "C" int fl_cgal_oracle_side(const fl_cgal_oracle *o, const double x[3])
+{
+    if (!o->side) return 0;
+    const CGAL::Bounded_side side = (*o->side)(Point(x[0], x[1], x[2]));
+    return side == CGAL::ON_BOUNDED_SIDE ? 1 : side == CGAL::ON_UNBOUNDED_SIDE ? -1 : 0;
+}
+
+extern "C" double fl_cgal_oracle_distance(const fl_cgal_oracle *o, const fl_soup *other)
+{
+    double best = HUGE_VAL;
+    const Facet *nearest[2] = {nullptr, nullptr};
+    const std::vector<Facet> all = facets_of(other);
+    for (const Facet &u : all) {
+        const CGAL::Bbox_3 box = u.bbox();
+        for (std::size_t k = 0; k < o->triangle.size(); k++) {
+            if (box_distance2(box, o->box[k]) >= best) continue;
+            const double d2 = CGAL::squared_distance(o->triangle[k], u);
+            if (d2 < best) best = d2, nearest[0] = &o->triangle[k], nearest[1] = &u;
+        }
+    }
+    if (!nearest[0] || CGAL::do_intersect(*nearest[0], *nearest[1])) return nearest[0] ? 0.0 : best;
+    return std::sqrt(CGAL::to_double(CGAL::squared_distance(exactly(*nearest[0]), exactly(*nearest[1]))));
+}
+
+extern "C" double fl_cgal_oracle_point_distance(const fl_cgal_oracle *o, const double x[3])
+{
+    const Point at(x[0], x[1], x[2]);
+    double best = HUGE_VAL;
+    for (std::size_t k = 0; k < o->triangle.size(); k++)
+        if (box_distance2(at.bbox(), o->box[k]) < best)
+            best = std::min(best, CGAL::to_double(CGAL::squared_distance(o->triangle[k], at)));
+    return std::sqrt(best);
+}
+
+extern "C" void fl_cgal_oracle_free(fl_cgal_oracle *o) { delete o; }

@@ -4,6 +4,12 @@
 #include "base/array.h"
 #include "stat/peaks.h"
 
+const char *fl_peak_side_name(int side)
+{
+    static const char *const name[FL_PEAK_SIDES] = {"max", "min", "abs"};
+    return name[side];
+}
+
 static int push_row(fl_peaks *p, int32_t at, fl_err *err)
 {
     if (fl_grow(&p->row, &p->cap, (int64_t)p->n + 1, sizeof *p->row, err)) return -1;

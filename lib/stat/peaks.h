@@ -2,8 +2,21 @@
 /* peaks.h -- separate peaks of a record, by Rayleigh separation. */
 #ifndef FL_STAT_PEAKS_H
 #define FL_STAT_PEAKS_H
+#include <math.h>
 #include <stdint.h>
 #include "base/err.h"
+
+/* What counts as a peak: the maxima of y = x, of y = -x, or of y = |x|. */
+enum fl_peak_side { FL_PEAK_MAX, FL_PEAK_MIN, FL_PEAK_ABS, FL_PEAK_SIDES };
+
+/* "max", "min", "abs" */
+const char *fl_peak_side_name(int side);
+
+/* y of x. */
+static inline double fl_peak_turned(int side, double x)
+{
+    return side == FL_PEAK_MAX ? x : side == FL_PEAK_ABS ? fabs(x) : -x;
+}
 
 typedef struct {
     int32_t n, cap;

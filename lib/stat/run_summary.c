@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
+#include "stat/peaks.h"
 #include "stat/rainflow.h"
 #include "stat/run_summary.h"
 
@@ -151,7 +152,7 @@ static int add_value(fl_run *r, struct fl_run_state *state, double w, fl_fixed_t
     const fl_record *rec = &r->record;
     const fl_summary_settings *settings = &r->sum.settings;
     fl_summary_signal *s = &r->sum.entry[state->at];
-    const double x = rec->x[state->of];
+    const double x = rec->x[state->of], y = fl_peak_turned(settings->side, x);
     if (s->rows == 0) {
         s->from = rec->edge[0];
         s->min = s->max = x;
@@ -169,9 +170,9 @@ static int add_value(fl_run *r, struct fl_run_state *state, double w, fl_fixed_t
     }
     if (fl_exact_add_powers(s->sum, w, x, err) ||
         fl_log_histogram_add(&s->level, fl_log_bin_key(x), 1, time, err) ||
-        push_peak(&state->peak, s, settings, x, err))
+        push_peak(&state->peak, s, settings, y, err))
         return -1;
-    if (settings->block > 0.0 && push_block(&state->block, s, settings->block, rec->edge, x, err)) return -1;
+    if (settings->block > 0.0 && push_block(&state->block, s, settings->block, rec->edge, y, err)) return -1;
     if (fl_rainflow_push(&state->cycle, x, err)) return -1;
     return state->cycle.cycles ? add_cycles(&state->cycle, s, err) : 0;
 }

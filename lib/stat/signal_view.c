@@ -14,12 +14,6 @@ const char *fl_filter_name(int kind)
     return name[kind];
 }
 
-const char *fl_peak_side_name(int side)
-{
-    static const char *const name[FL_PEAK_SIDES] = {"max", "min", "abs"};
-    return name[side];
-}
-
 static int design_filter(fl_butterworth *f, double fs, const fl_signal_view_settings *settings, fl_err *err)
 {
     switch (settings->kind) {
@@ -78,7 +72,7 @@ static int turn_signal(fl_signal_view *v, int side, fl_err *err)
     if (side == FL_PEAK_MAX) return 0;
     v->turned = fl_alloc(v->n, sizeof *v->turned, err);
     if (!v->turned) return -1;
-    for (int32_t k = 0; k < v->n; k++) v->turned[k] = side == FL_PEAK_ABS ? fabs(v->x[k]) : -v->x[k];
+    for (int32_t k = 0; k < v->n; k++) v->turned[k] = fl_peak_turned(side, v->x[k]);
     v->y = v->turned;
     return 0;
 }

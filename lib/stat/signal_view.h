@@ -27,12 +27,6 @@ enum fl_filter_kind { FL_FILTER_LOW, FL_FILTER_HIGH, FL_FILTER_BAND, FL_FILTER_M
 /* "low", "high", "band", "mean" */
 const char *fl_filter_name(int kind);
 
-/* What counts as a peak: the maxima of y = x, of y = -x, or of y = |x|. */
-enum fl_peak_side { FL_PEAK_MAX, FL_PEAK_MIN, FL_PEAK_ABS, FL_PEAK_SIDES };
-
-/* "max", "min", "abs" */
-const char *fl_peak_side_name(int side);
-
 /* Settings of a view.
  *   filter       -3 dB frequency of one pass, or the lower one of a band [Hz], or the length of a moving mean
  *                [s]; 0 for the raw view

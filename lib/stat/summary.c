@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
+#include "stat/peaks.h"
 #include "stat/summary.h"
 
 int fl_multiset_add(fl_multiset *v, double x, int64_t count, fl_err *err)
@@ -205,6 +206,10 @@ static int check_settings(const fl_summary_settings *a, const fl_summary_setting
         return fl_fail(err, FL_INPUT, what, name, "separation of peaks is", b->separation, a->separation);
     if (a->threshold != b->threshold)
         return fl_fail(err, FL_INPUT, what, name, "threshold of peaks is", b->threshold, a->threshold);
+    if (a->side != b->side)
+        return fl_fail(err, FL_INPUT,
+                       "%s: its peaks are those of %s, those of the other runs of %s: they do not add up",
+                       name, fl_peak_side_name(b->side), fl_peak_side_name(a->side));
     if (a->block != b->block)
         return fl_fail(err, FL_INPUT, what, name, "length of blocks is", b->block, a->block);
     if (a->rule != b->rule || a->residue != b->residue)

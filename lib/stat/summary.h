@@ -22,11 +22,12 @@
 
 /* Settings, equal for all runs of a summary.
  *   separation, threshold   of the peaks, fl_peaks_rayleigh()
+ *   side                    fl_peak_side: peaks and largest values of blocks are those of the turned signal
  *   block                   length of a block [s], 0 for none
  *   rule, residue           of the cycles, rainflow.h */
 typedef struct {
     double separation, threshold, block;
-    int rule, residue;
+    int side, rule, residue;
 } fl_summary_settings;
 
 /* A multiset of values: x[k] occurs count[k] times. */

@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "base/number_text.h"
 #include "base/table.h"
+#include "stat/peaks.h"
 #include "stat/rainflow.h"
 #include "stat/summary_file.h"
 
@@ -76,6 +77,10 @@ int fl_summary_write(FILE *f, fl_summary *s, fl_err *err)
     fputs("-\n", f);
     write_item(&w, "threshold", NAN, NAN, NAN, s->settings.threshold);
     fputs("-\n", f);
+    if (s->settings.side) {
+        write_item(&w, "peaks", NAN, NAN, NAN, NAN);
+        fprintf(f, "%s\n", fl_peak_side_name(s->settings.side));
+    }
     write_item(&w, "block_length", NAN, NAN, NAN, s->settings.block);
     fputs("-\n", f);
     write_item(&w, "rule", NAN, NAN, NAN, NAN);
@@ -159,18 +164,19 @@ static int read_choice(reader *r, const char *(*name)(int), int n, int *k, fl_er
 
 static int read_setting(reader *r, fl_err *err)
 {
-    static const char *const name[] = {"separation", "threshold", "block_length", "rule", "residue"};
+    static const char *const name[] = {"separation", "threshold", "block_length", "rule", "residue", "peaks"};
     double *const to[] = {&r->s.settings.separation, &r->s.settings.threshold, &r->s.settings.block};
     int k = 0, rc;
-    while (k < 5 && strcmp(word_of(r, ITEM), name[k]) != 0) k++;
-    if (k == 5)
+    while (k < 6 && strcmp(word_of(r, ITEM), name[k]) != 0) k++;
+    if (k == 6)
         return fl_text_fail(&r->t.text, err, "unknown setting %.60s, the nearest is %s", word_of(r, ITEM),
-                            fl_text_nearest(word_of(r, ITEM), name, 5));
+                            fl_text_nearest(word_of(r, ITEM), name, 6));
     if (r->settings & 1 << k || r->last)
         return fl_text_fail(&r->t.text, err, "%s is given twice, or below the first signal", name[k]);
     r->settings |= 1 << k;
     if (k == 3) return read_choice(r, fl_rainflow_rule_name, FL_RAINFLOW_RULES, &r->s.settings.rule, err);
     if (k == 4) return read_choice(r, fl_residue_name, FL_RESIDUES, &r->s.settings.residue, err);
+    if (k == 5) return read_choice(r, fl_peak_side_name, FL_PEAK_SIDES, &r->s.settings.side, err);
     rc = read_bounded(r, VALUE, to[k], err);
     if (rc == 0 && !(*to[k] >= 0.0)) rc = fl_text_fail(&r->t.text, err, "%s is below 0", name[k]);
     return rc;
@@ -310,7 +316,7 @@ static int read_row(reader *r, fl_err *err)
 {
     const char *part = word_of(r, PART), *signal = word_of(r, SIGNAL), *unit = word_of(r, UNIT);
     if (strcmp(part, "-") == 0 && strcmp(signal, "-") == 0) return read_setting(r, err);
-    if (r->settings != SETTINGS)
+    if ((r->settings & SETTINGS) != SETTINGS)
         return fl_text_fail(&r->t.text, err,
                             "expected separation, threshold, block_length, rule and residue first");
     if (!r->last || strcmp(r->last->part, part) != 0 || strcmp(r->last->signal, signal) != 0) {

@@ -8,14 +8,25 @@
 #include "geom/clip.h"
 #include "geom/merge_coplanar.h"
 
-/* True if every vertex in use lies behind every region's plane. */
+/* True if triangle t lies behind the plane of region r. */
+static int is_behind(const fl_coplanar_regions *f, int32_t r, int32_t t)
+{
+    for (int k = 0; k < 3; k++)
+        if (v3_dot(f->region_normal[r], f->p->v[f->p->t[t].v[k]]) - f->region_offset[r] > f->tol) return 0;
+    return 1;
+}
+
+/* True if every vertex in use lies behind every region's plane.  The neighbours come first: they show most of
+ * what is not convex. */
 static int is_convex(const fl_coplanar_regions *f)
 {
     const fl_part *p = f->p;
+    for (int32_t k = 0; k < 3 * p->nt; k++)
+        if (f->neighbour[k] >= 0 && f->region[k / 3] >= 0 && !is_behind(f, f->region[k / 3], f->neighbour[k]))
+            return 0;
     for (int32_t r = 0; r < f->regions; r++)
         for (int32_t t = 0; t < p->nt; t++)
-            for (int k = 0; k < 3; k++)
-                if (v3_dot(f->region_normal[r], p->v[p->t[t].v[k]]) - f->region_offset[r] > f->tol) return 0;
+            if (!is_behind(f, r, t)) return 0;
     return 1;
 }
 
@@ -473,6 +484,9 @@ static void find_solid_side(fl_piece *piece, const fl_part *p)
     mesh->outer_winding = volume < 0.0 && !mesh->thin ? -1.0 : 0.0; /* sheets have no volume but rounding */
 }
 
+/* Faces of a joined piece above which it is a mesh even if convex: a solid is cut by one after another. */
+#define MANY_FACES 1000
+
 /* Makes the piece of the triangles; of: NULL, or as in fl_structure_add_joined().  0, or -1. */
 static int make_piece(fl_piece *piece, const fl_part *p, const fl_joined_triangle *of, fl_err *err)
 {
@@ -483,7 +497,10 @@ static int make_piece(fl_piece *piece, const fl_part *p, const fl_joined_triangl
     if (flat) plate = make_plate(piece, &f, err);
     if (plate) rc = plate < 0 ? -1 : 0;
     else if (check_orientation(&f, err)) goto done;
-    else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_mesh(piece, &f, of, err);
+    else
+        rc = f.closed && !flat && (!of || f.regions <= MANY_FACES) && is_convex(&f)
+                 ? make_solid(piece, &f, err)
+                 : make_mesh(piece, &f, of, err);
     piece->one_sided = flat && !plate && !piece->mesh.thin;
     if (rc == 0 && piece->kind == FL_PIECE_MESH) find_solid_side(piece, p);
     if (rc == 0 && f.closed && piece->kind == FL_PIECE_MESH && !of &&

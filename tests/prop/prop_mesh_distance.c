@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a floe is to a structure that is not convex: which side, how far, how deep, against brute force. */
+/* Where a floe is to a structure that is not convex: which side, how far, how deep, against CGAL (crossings of
+ * a ray, exact distances of triangles) and against winding numbers and brute force. */
 #include <stdio.h>
 #include <stdlib.h>
 #include "geom/mass.h"
 #include "patch/patch_law.h"
 #include "patch/patch_points.h"
+#include "shim/cgal_side.h"
 #include "structure/mesh_contact.h"
 #include "support/hulls.h"
 #include "support/near.h"
@@ -29,7 +31,56 @@ typedef struct {
     const fl_piece *piece;
     fl_aabb box;
     int closed;
+    int solid_outside; /* a tank */
+    fl_cgal_oracle *oracle;
 } structure;
+
+static double *numbers_of(const fl_vec3 *v, int32_t n)
+{
+    double *x = malloc((3 * (size_t)n + 1) * sizeof *x);
+    assert_non_null(x);
+    for (int32_t k = 0; k < n; k++) x[3 * k] = v[k].x, x[3 * k + 1] = v[k].y, x[3 * k + 2] = v[k].z;
+    return x;
+}
+
+static fl_soup soup_of_part(const fl_part *p)
+{
+    fl_soup s = {.nv = p->nv, .nt = p->nt, .x = numbers_of(p->v, p->nv)};
+    s.t = malloc(3 * (size_t)p->nt * sizeof *s.t);
+    assert_non_null(s.t);
+    for (int32_t k = 0; k < 3 * p->nt; k++) s.t[k] = p->t[k / 3].v[k % 3];
+    return s;
+}
+
+static fl_soup soup_of_core(const fl_poly *p)
+{
+    fl_soup s = {.nv = p->nv, .x = numbers_of(p->v, p->nv)};
+    s.t = malloc(3 * (size_t)p->first[p->nf] * sizeof *s.t);
+    assert_non_null(s.t);
+    for (int32_t f = 0; f < p->nf; f++)
+        for (int32_t k = p->first[f] + 2; k < p->first[f + 1]; k++) {
+            int32_t *t = &s.t[3 * s.nt++];
+            t[0] = p->loop[p->first[f]], t[1] = p->loop[k - 1], t[2] = p->loop[k];
+        }
+    return s;
+}
+
+/* True if x is in the solid, as CGAL finds. */
+static int is_inside(const structure *s, fl_vec3 x)
+{
+    const double at[3] = {x.x, x.y, x.z};
+    const int side = fl_cgal_oracle_side(s->oracle, at);
+    return s->solid_outside ? side < 0 : side > 0;
+}
+
+/* Distance of a core as CGAL finds; 0 where the two meet. */
+static double exact_distance(const structure *s, const fl_poly *core)
+{
+    fl_soup soup = soup_of_core(core);
+    const double d = fl_cgal_oracle_distance(s->oracle, &soup);
+    fl_soup_free(&soup);
+    return d;
+}
 
 static void begin(structure *s, int k)
 {
@@ -40,12 +91,19 @@ static void begin(structure *s, int k)
     if (fl_structure_build(&s->st, &s->surface, &err)) fail_msg("%s %d: %s", hull_name(k), k, err.text);
     s->piece = &s->st.piece[0];
     s->box = fl_part_aabb(s->part);
+    s->solid_outside =
+        s->closed && hull_winding(s->part, v3_add(s->box.hi, v3_sub(s->box.hi, s->box.lo))) > 0.5;
+    fl_soup soup = soup_of_part(s->part);
+    s->oracle = fl_cgal_oracle_make(&soup, &err);
+    fl_soup_free(&soup);
+    if (!s->oracle) fail_msg("%s %d: %s", hull_name(k), k, err.text);
     assert_int_equal(s->piece->kind, FL_PIECE_MESH);
     assert_int_equal(s->piece->mesh.closed, s->closed);
 }
 
 static void end(structure *s)
 {
+    fl_cgal_oracle_free(s->oracle);
     fl_structure_free(&s->st);
     fl_surface_free(&s->surface);
 }
@@ -111,7 +169,7 @@ static void every_point_is_inside_once_or_not_at_all(void **state)
     }
 }
 
-static void a_point_is_inside_where_the_winding_number_says_so(void **state)
+static void a_point_is_inside_where_cgal_and_the_winding_number_say_so(void **state)
 {
     (void)state;
     long wrong = 0, inside = 0;
@@ -122,9 +180,11 @@ static void a_point_is_inside_where_the_winding_number_says_so(void **state)
         for (long c = 0; c < points && s.closed; c++) {
             fl_rng g = fl_rng_of(test_seed(), 1000000000LL * k + c, FL_RNG_TEST);
             const fl_vec3 x = point_near(&s, &g);
-            const int in = hull_winding(s.part, x) > 0.5;
+            const int in = is_inside(&s, x);
             inside += in;
-            if (fl_mesh_contact_contains(s.piece, v3_sub(x, s.piece->x)) == in) continue;
+            if (fl_mesh_contact_contains(s.piece, v3_sub(x, s.piece->x)) == in &&
+                (hull_winding(s.part, x) > 0.5) == in)
+                continue;
             if (hull_point_distance(s.part, x) < 1e-6 * s.piece->core.size) continue;
             if (!wrong++)
                 print_error("seed %llu: %s %d, point %ld: %.17g %.17g %.17g is %s\n",
@@ -162,11 +222,14 @@ typedef struct {
     long clear, near, pierced, enclosed;
 } seen;
 
+/* One floe in so many is also measured by brute force. */
+enum { BRUTE_EVERY = 4 };
+
 /* Returns 0, or 1 and says what is wrong. */
-static int check_floe(const structure *s, const fl_poly *core, fl_patch_points *w, fl_mesh_contact_work *near,
-                      seen *n, char *why)
+static int check_floe(const structure *s, const fl_poly *core, long core_number, fl_patch_points *w,
+                      fl_mesh_contact_work *near, seen *n, char *why)
 {
-    const double d = hull_distance(s->part, core), size = s->piece->core.size + core->size;
+    const double d = exact_distance(s, core), size = s->piece->core.size + core->size;
     fl_feature_pairs l = {0};
     double distance, most = -INFINITY, deepest = 0.0;
     fl_gap gap;
@@ -174,9 +237,9 @@ static int check_floe(const structure *s, const fl_poly *core, fl_patch_points *
     assert_int_equal(fl_patch_points_transform(w, core, q_matrix(q_one()), v3_neg(s->piece->x)), 0);
     assert_int_equal(fl_mesh_contact_points(w, near, core, s->piece, RADIUS, 2.0 * RADIUS, &l, &distance), 0);
     for (int32_t k = 0; k < w->n; k++) most = fmax(most, w->point[k].overlap);
-    const int in = s->closed && d > 0.0 && hull_winding(s->part, core->v[0]) > 0.5;
+    const int in = s->closed && d > 0.0 && is_inside(s, core->v[0]);
     for (int32_t v = 0; v < core->nv; v++)
-        if (s->closed && hull_winding(s->part, core->v[v]) > 0.5)
+        if (s->closed && is_inside(s, core->v[v]))
             deepest = fmax(deepest, hull_point_distance(s->part, core->v[v]));
     const int found = fl_mesh_contact_gap(near, w->va, core, s->piece, 2.0 * RADIUS, &gap);
     assert_true(found >= 0);
@@ -188,6 +251,10 @@ static int check_floe(const structure *s, const fl_poly *core, fl_patch_points *
             wrong = sprintf(why, "no contact at a distance of %g", d);
         else if (d < 1.9 * RADIUS && (!found || fabs(gap.d - d) > PLANE_TOL * size))
             wrong = sprintf(why, "a gap of %g instead of %g", gap.d, d);
+        if (!wrong && core_number % BRUTE_EVERY == 0 &&
+            fabs(hull_distance(s->part, core) - d) > PLANE_TOL * size)
+            wrong = sprintf(why, "a distance of %g by brute force, of %g by CGAL",
+                            hull_distance(s->part, core), d);
     } else if (d > 0.0) {
         n->enclosed++;
         if (d < 1.9 * RADIUS && (!found || fabs(gap.d + d) > PLANE_TOL * size))
@@ -204,7 +271,7 @@ static int check_floe(const structure *s, const fl_poly *core, fl_patch_points *
     return wrong != 0;
 }
 
-static void a_floe_is_as_far_from_a_structure_as_brute_force_finds(void **state)
+static void a_floe_is_as_far_from_a_structure_as_cgal_finds(void **state)
 {
     (void)state;
     fl_patch_points w = {0};
@@ -220,7 +287,7 @@ static void a_floe_is_as_far_from_a_structure_as_brute_force_finds(void **state)
             fl_poly core = {0};
             char why[200];
             random_floe(&core, &s, &g);
-            if (check_floe(&s, &core, &w, &near, &n, why) && here++ < 3)
+            if (check_floe(&s, &core, c, &w, &near, &n, why) && here++ < 3)
                 print_error("seed %llu: %s %d, pose %ld: %s\n", (unsigned long long)test_seed(), hull_name(k),
                             k, c, why);
             fl_poly_free(&core);
@@ -285,9 +352,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_point_is_inside_once_or_not_at_all),
-        cmocka_unit_test(a_point_is_inside_where_the_winding_number_says_so),
+        cmocka_unit_test(a_point_is_inside_where_cgal_and_the_winding_number_say_so),
         cmocka_unit_test(a_sphere_overlaps_by_its_signed_distance),
-        cmocka_unit_test(a_floe_is_as_far_from_a_structure_as_brute_force_finds),
+        cmocka_unit_test(a_floe_is_as_far_from_a_structure_as_cgal_finds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -302,7 +302,8 @@ static void bad_decks_are_reported_with_their_line(void **state)
             "ends after 8 of its 20 nodes");
     refuses("ET,1,185\n" NODES HEX "CMBLOCK,A,ELEM,1\n(8i10)\n        -9\n", "-9 was found after 0");
     refuses("ET,1,185\nNBLOCK,3\n(i8,3e20.13)\n  -1\nEN,R5.5,ATTR,8,1\n", "CDWRITE");
-    refuses("ET,1,185\n" NODES "/INPUT,rest,dat\n", "/INPUT is not followed");
+    refuses("ET,1,185\n" NODES "/INPUT,none,such\n", "none.such");
+    refuses("ET,1,185\n" NODES "/INPUT\n", "/INPUT names no file");
     refuses("ET,1,185\n" NODES "CSYS,12\nN,12,1,2,3\n", "coordinate system 12");
     refuses("ET,1,185\n" NODES, "no triangles");
 }

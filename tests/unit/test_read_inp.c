@@ -54,8 +54,14 @@ static void elements_continue_over_lines(void **state)
     assert_int_equal(s.n, 1);
     assert_near(q.area, 2.0, 1e-15);
     refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n2, 5, 6, 7, 8\n",
-            "deck:12: element 1 has more than 4 nodes");
+            "deck:11: element 1 has 3 nodes, 4 are expected");
+    refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3,\n5, 6, 7, 8\n", "deck:12: element 1 has more than 4 nodes");
     refuses(CUBE "*ELEMENT, TYPE=S4\n1, 1, 2, 3\n*STEP\n", "deck:11: element 1 has 3 nodes, 4 are expected");
+    /* the type decides, whatever the count */
+    refuses(CUBE "*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4, 5, 6, 7, 8\n",
+            "element 1 has 8 nodes, 10 are expected");
+    refuses(CUBE "*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4\n2, 5, 6, 7, 8\n*STEP\n",
+            "deck:11: element 1 has 4 nodes, 10 are expected");
 }
 
 /* Other input that CalculiX reads: a mark before the first comment, stars alone, more nodes than the type

@@ -104,6 +104,18 @@ static void partitioned_elements_keep_their_groups(void **state)
     assert_string_equal(s.part[0].name, "surface_3");
 }
 
+/* A row without all nodes of its type is not filled from the next one. */
+static void elements_have_their_nodes_on_their_line(void **state)
+{
+    (void)state;
+    expect_refusal(HEAD2 NODES2 "$Elements\n2\n1 3 2 0 1 1 20 300\n2 3 2 0 1 20 300 4000 1\n$EndElements\n",
+                   "deck.msh:14: this element has fewer nodes on its line than its type");
+    expect_refusal(HEAD2 NODES2 "$Elements\n1\n1 11 2 0 1 1 20 300 50000\n$EndElements\n",
+                   "deck.msh:14: element 1 of type 11 has fewer than 10 nodes on its line");
+    expect_refusal(HEAD2 NODES2 "$Elements\n1\n1 2 2 0 1 1 x 300\n$EndElements\n", "a node is \"x\"");
+    expect_read(HEAD2 NODES2 "$Elements\n2\n1 3 2 0 1 1 20\n300 4000\n2 2 2 0 1 1 20 50000\n$EndElements\n");
+}
+
 /* Nodes with parameters: none at a point and in a volume, one on a curve, two on a surface. */
 static void nodes_may_have_parameters(void **state)
 {
@@ -198,6 +210,7 @@ int main(void)
         cmocka_unit_test(an_element_of_two_groups_is_read_once),
         cmocka_unit_test(entities_name_groups),
         cmocka_unit_test(partitioned_elements_keep_their_groups),
+        cmocka_unit_test(elements_have_their_nodes_on_their_line),
         cmocka_unit_test(nodes_may_have_parameters),
         cmocka_unit_test(high_orders_are_read_by_their_corners),
         cmocka_unit_test(bad_files_are_reported_with_their_line),

@@ -104,7 +104,7 @@ static void bad_files_are_reported_with_their_line(void **state)
     expect_refusal(HEAD "POLYDATA\n" CUBE "CELLS 1 4\n3 0 1 2\n", "do not belong");
     expect_refusal(HEAD "UNSTRUCTURED_GRID\n" CUBE "CELLS 1 4\n3 0 1 2\n", "1 cells have 0 types");
     expect_refusal(HEAD "UNSTRUCTURED_GRID\n" CUBE "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n10\n",
-                   "of type 10 3 corners");
+                   "of type 10 has 3 nodes, 4 are expected");
     expect_refusal(HEAD "UNSTRUCTURED_GRID\n" CUBE "CELLS 1 5\n4 1 9 0 1\nCELL_TYPES 1\n42\n",
                    "a number of corners");
     expect_refusal(HEAD "POLYDATA\n" CUBE "ANYTHING 1\n", "\"ANYTHING\" has no place");

@@ -65,6 +65,7 @@ static int read_run(fl_summary *one, const char *path, FILE *f, const struct opt
                                            .patience = o->follow > 0.0 ? o->patience : 0.0};
     const fl_summary_settings settings = {.separation = o->separation,
                                           .threshold = o->threshold,
+                                          .side = o->peaks,
                                           .block = o->block,
                                           .rule = o->rule,
                                           .residue = o->residue};
@@ -93,7 +94,7 @@ static void sort_values(fl_summary *all)
 {
     for (int32_t k = 0; k < all->n; k++) {
         fl_multiset_sort(&all->entry[k].block);
-        fl_multiset_sort(&all->entry[k].run[FL_RUN_MAX]);
+        fl_multiset_sort(&all->entry[k].run[FL_RUN_MIN]), fl_multiset_sort(&all->entry[k].run[FL_RUN_MAX]);
     }
 }
 

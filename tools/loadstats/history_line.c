@@ -135,6 +135,7 @@ void history_line_summary(const struct options *o, char *text)
     add_selection(o, &by);
     add_number(&by, "separation", o->separation);
     if (o->threshold > 0.0) add_number(&by, "threshold", o->threshold);
+    if (o->peaks) fl_history_line_add(&by, "--peaks %s", fl_peak_side_name(o->peaks));
     if (o->block > 0.0) add_number(&by, "block", o->block);
     if (o->rule) fl_history_line_add(&by, "--rule %s", fl_rainflow_rule_name(o->rule));
     if (o->rule) fl_history_line_add(&by, "--residue %s", fl_residue_name(o->residue));

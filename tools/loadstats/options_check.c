@@ -49,9 +49,13 @@ static int check_summary(struct options *o, fl_err *err)
     if (o->follow > 0.0 && (o->files > 1 || o->merge))
         return fl_fail(err, FL_USAGE, "--follow reads one record");
     const int pictures = (o->plot || o->report) && !o->table->draw_runs;
-    if (o->peaks)
-        return fl_fail(err, FL_USAGE, "--peaks %s needs the whole record, not --%s",
-                       fl_peak_side_name(o->peaks), how);
+    if (o->peaks && o->merge)
+        return fl_fail(err, FL_USAGE, "--peaks %s is a setting of the summaries, not of --merge",
+                       fl_peak_side_name(o->peaks));
+    if (o->peaks == FL_PEAK_ABS && o->sample == SAMPLE_RUNS)
+        return fl_fail(err, FL_USAGE,
+                       "--peaks abs has no --sample runs: a summary keeps the smallest and the "
+                       "largest value of each run by itself");
     const int first = o->skips && isnan(o->skip[2]); /* the first load is not known in advance */
     const char *whole = first             ? "skip without GAP"
                         : o->step > 0.0   ? "step"
@@ -75,6 +79,8 @@ int options_check(struct options *o, fl_err *err)
         return fl_fail(err, FL_USAGE, "--sample runs needs several runs, --merge or --stream");
     if (o->sample == SAMPLE_BLOCKS && !o->merge && !(o->block > 0.0))
         return fl_fail(err, FL_USAGE, "--sample blocks needs --block");
+    if (o->threshold < 0.0 && o->peaks == FL_PEAK_MIN && o->sample != SAMPLE_POT)
+        o->threshold = -o->threshold; /* of the signal, whose negative has the peaks */
     if (o->threshold < 0.0 && o->sample != SAMPLE_POT)
         return fl_fail(err, FL_USAGE,
                        "--threshold %g is below 0, which separate peaks are not: --peaks min has those of a "

@@ -31,6 +31,13 @@ static void write_run_labels(FILE *f, const fl_summary_signal *s)
     fprintf(f, "%s\t%s\t%s", s->part, s->signal, s->unit[0] ? s->unit : "-");
 }
 
+/* Largest value of the signal whose maxima are the peaks. */
+static double largest_turned(const fl_summary_signal *s, int side)
+{
+    const double high = fl_peak_turned(side, s->max), low = fl_peak_turned(side, s->min);
+    return high > low ? high : low;
+}
+
 /* One row.  What is open at the end of the data so far, such as a last peak, is not included. */
 int stats_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struct options *o, fl_err *err)
 {
@@ -43,7 +50,7 @@ int stats_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const stru
     }
     if (s->peak.n) {
         lo = fl_log_bin_lower(peak[0].key);
-        hi = fmin(fl_log_bin_upper(peak[s->peak.n - 1].key), s->max);
+        hi = fmin(fl_log_bin_upper(peak[s->peak.n - 1].key), largest_turned(s, runs->all.settings.side));
     }
     fl_summary_moments(s, moment);
     write_run_labels(f, s);
@@ -110,15 +117,17 @@ int histogram_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const 
         return -1;
     }
     const double total = fl_exact_value(&s->sum[0]);
-    for (int32_t k = 0, j = 0; k < s->level.n; k++) {
-        /* A peak is a value, so its class is among the classes of values. */
-        while (j < s->peak.n && peak[j].key < level[k].key) j++;
-        const int64_t peaks = j < s->peak.n && peak[j].key == level[k].key ? peak[j].n : 0;
-        const double time = fl_fixed_time_seconds(level[k].time);
+    /* A peak is a value, so its class is among the classes of values, unless the signal is turned. */
+    for (int32_t k = 0, j = 0; k < s->level.n || j < s->peak.n;) {
+        const int valued = k < s->level.n && !(j < s->peak.n && peak[j].key < level[k].key),
+                  peaked = j < s->peak.n && !(k < s->level.n && level[k].key < peak[j].key);
+        const int32_t key = valued ? level[k].key : peak[j].key;
+        const double time = valued ? fl_fixed_time_seconds(level[k++].time) : 0.0;
+        const int64_t peaks = peaked ? peak[j++].n : 0;
         write_run_labels(f, s);
         fputs("\traw", f);
-        write_cell(f, fl_log_bin_lower(level[k].key));
-        write_cell(f, fl_log_bin_upper(level[k].key));
+        write_cell(f, fl_log_bin_lower(key));
+        write_cell(f, fl_log_bin_upper(key));
         write_cell(f, time);
         write_cell(f, time / total);
         fprintf(f, "\t%lld\n", (long long)peaks);
@@ -134,7 +143,8 @@ int fits_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struc
     const fl_summary *all = &runs->all;
     const fl_summary_signal *s = &all->entry[entry];
     const int of_runs = o->sample == SAMPLE_RUNS || !(all->settings.block > 0.0);
-    const fl_multiset *values = of_runs ? &s->run[FL_RUN_MAX] : &s->block;
+    const int turned = of_runs && all->settings.side == FL_PEAK_MIN;
+    const fl_multiset *values = of_runs ? &s->run[turned ? FL_RUN_MIN : FL_RUN_MAX] : &s->block;
     const int64_t n = fl_multiset_size(values);
     struct options own = *o;
     own.sample = of_runs ? SAMPLE_RUNS : SAMPLE_BLOCKS;
@@ -145,7 +155,7 @@ int fits_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const struc
     double *x = fl_alloc(2 * n + 1, sizeof *x, err), *edge = x + n;
     if (!x) return -1;
     for (int32_t k = 0, i = 0; k < values->n; k++)
-        for (int64_t j = 0; j < values->v[k].count; j++) x[i++] = values->v[k].x;
+        for (int64_t j = 0; j < values->v[k].count; j++) x[i++] = turned ? -values->v[k].x : values->v[k].x;
     for (int64_t k = 0; k <= n; k++) edge[k] = own.block * (double)k;
     char *part = s->part, *signal = s->signal, *unit = s->unit;
     const fl_series series = {.n = (int32_t)n,
