@@ -7,6 +7,9 @@
 /* Makes the table w->law of all pairs of materials in the scene.  -1 with FL_SYSTEM. */
 int fl_pair_law_make_table(fl_world *w, fl_err *err);
 
+/* True if some pair of materials in the scene has the law `quick`. */
+int fl_pair_law_any_quick(const fl_scene *s);
+
 /* The law of bodies i and j. */
 const fl_pair_law *fl_pair_law_of(const fl_world *w, int32_t i, int32_t j);
 

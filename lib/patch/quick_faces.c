@@ -2,6 +2,7 @@
 #include <math.h>
 #include "patch/quick_faces.h"
 #include "base/array.h"
+#include "geom/quadrature_rules.h"
 
 /* Of the sizes of the cores: how far below the plane of the other face a point still counts as on it. */
 #define ON_PLANE_TOL 1e-12
@@ -66,54 +67,89 @@ static fl_vec3 point_at(const face_pair *q, double x, double y, double s)
 
 static fl_wrench force_at(fl_vec3 f, fl_vec3 x) { return (fl_wrench){f, v3_cross(x, f)}; }
 
-/* Adds what one side of f on the border adds to the gradient of int g over the own face, -int g q.u, with g
- * linear along it and ga, gb at its ends. */
-static void add_linear_side(fl_wrench *to, double ga, double gb, double length, fl_vec3 q, fl_vec3 xa,
-                            fl_vec3 xb)
+/* How near the own face comes, D = int z^4/int z^3 over the polygon with z = s + R > 0, and its gradient:
+ * with z growing by -n_f.u and the border moving,
+ *     dD int z^3 = -int (4 z^3 - 3 D z^2) n_f.u dP - sum over sides int (z^4 - D z^3) q.u dl.
+ * D is at least 2R/3 where the faces touch. */
+static double find_nearness(const face_pair *q, fl_wrench *rise)
 {
-    const double wa = length * (2.0 * ga + gb) / 6.0, wb = length * (ga + 2.0 * gb) / 6.0;
-    *to = fl_wrench_madd(*to, -1.0, force_at(v3_scale(wa, q), xa));
-    *to = fl_wrench_madd(*to, -1.0, force_at(v3_scale(wb, q), xb));
+    const double R = q->d->R;
+    const corner *p = q->p;
+    double area3 = 0.0, area4 = 0.0;
+    double D = 0.0;
+    *rise = (fl_wrench){.f = {0}};
+    for (int pass = 0; pass < 2; pass++) {
+        for (int32_t k = 1; k + 1 < q->corners; k++) {
+            const corner a = p[0], b = p[k], c = p[k + 1];
+            const double T = 0.5 * ((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
+            for (int i = 0; i < FL_TRIANGLE_NODES; i++) {
+                const double *at = FL_TRIANGLE_NODE[i], w = T * FL_TRIANGLE_WEIGHT[i];
+                const double x = at[0] * a.x + at[1] * b.x + at[2] * c.x,
+                             y = at[0] * a.y + at[1] * b.y + at[2] * c.y,
+                             s = at[0] * a.s + at[1] * b.s + at[2] * c.s, z = s + R, z2 = z * z;
+                if (pass == 0) area3 += w * z2 * z, area4 += w * z2 * z2;
+                else
+                    *rise = fl_wrench_madd(*rise, -w * (4.0 * z - 3.0 * D) * z2,
+                                           force_at(q->f->n, point_at(q, x, y, s)));
+            }
+        }
+        if (pass > 0) break;
+        if (!(area3 > 0.0)) return 0.0;
+        D = area4 / area3;
+    }
+    for (int32_t k = 0; k < q->corners; k++) {
+        const corner a = p[k], b = p[k + 1 < q->corners ? k + 1 : 0];
+        const double l = sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+        if (a.side < 0) continue;
+        for (int i = 0; i < FL_LINE4_NODES; i++) {
+            const double t = FL_LINE4_NODE[i], x = a.x + t * (b.x - a.x), y = a.y + t * (b.y - a.y),
+                         s = a.s + t * (b.s - a.s), z = s + R;
+            *rise = fl_wrench_madd(*rise, -l * FL_LINE4_WEIGHT[i] * (z - D) * z * z * z,
+                                   force_at(q->side[a.side].q, point_at(q, x, y, s)));
+        }
+    }
+    *rise = fl_wrench_madd((fl_wrench){.f = {0}}, 1.0 / area3, *rise);
+    return D;
 }
 
-/* Share of the edges of the own face that the pair bears.  The polygon is not yet cut at s = 0. */
-static int find_borne(const face_pair *q, double a0, int32_t own, fl_quick_borne *to)
+/* Area of the polygon on the own face, and its gradient: -int q.u dl over the sides of f, over C. */
+static double find_area(const face_pair *q, fl_wrench *rise)
 {
-    double area = 0.0, sum = 0.0, cx = 0.0, cy = 0.0;
     const corner *p = q->p;
-    for (int32_t k = 1; k + 1 < q->corners; k++) {
-        const double T =
-            0.5 * ((p[k].x - p[0].x) * (p[k + 1].y - p[0].y) - (p[k + 1].x - p[0].x) * (p[k].y - p[0].y));
-        area += T, sum += T / 3.0 * (p[0].s + p[k].s + p[k + 1].s);
-        cx += T / 3.0 * (p[0].x + p[k].x + p[k + 1].x), cy += T / 3.0 * (p[0].y + p[k].y + p[k + 1].y);
+    double area = 0.0;
+    *rise = (fl_wrench){.f = {0}};
+    for (int32_t k = 0; k < q->corners; k++) {
+        const corner a = p[k], b = p[k + 1 < q->corners ? k + 1 : 0];
+        area += (a.x - p[0].x) * (b.y - p[0].y) - (b.x - p[0].x) * (a.y - p[0].y);
+        if (a.side < 0) continue;
+        const double l = sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+        *rise = fl_wrench_madd(*rise, -l / q->C,
+                               force_at(q->side[a.side].q, point_at(q, 0.5 * (a.x + b.x), 0.5 * (a.y + b.y),
+                                                                    0.5 * (a.s + b.s))));
     }
-    if (!(area > 0.0 && sum > 0.0)) return 0;
-    const double mean = sum / area, border = FL_QUICK_BORNE * q->d->R, each = 1.0 / area;
-    double da, ds;
-    const double by_area = fl_quick_step(area / (q->C * a0), &da),
-                 by_depth = fl_quick_step(mean / border, &ds),
-                 by_angle = q->m < FL_QUICK_FLAT ? q->m / FL_QUICK_FLAT : 1.0;
-    da /= a0, ds /= border;
-    *to = (fl_quick_borne){.share = by_angle * by_area * by_depth, .face = own};
-    to->reach = by_angle * by_area * ds;
-    if (da > 0.0 || ds > 0.0) {
-        fl_wrench of_area = {.f = {0}}, of_mean = {.f = {0}};
-        for (int32_t k = 0; k < q->corners; k++) {
-            const corner a = p[k], b = p[k + 1 < q->corners ? k + 1 : 0];
-            if (a.side < 0) continue;
-            const double l = sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-            const fl_vec3 xa = point_at(q, a.x, a.y, a.s), xb = point_at(q, b.x, b.y, b.s),
-                          n = q->side[a.side].q;
-            add_linear_side(&of_area, 1.0, 1.0, l, n, xa, xb);
-            add_linear_side(&of_mean, a.s - mean, b.s - mean, l, n, xa, xb);
-        }
-        of_mean = fl_wrench_madd(of_mean, -area, force_at(q->f->n, point_at(q, each * cx, each * cy, mean)));
-        to->rise = fl_wrench_madd(to->rise, by_angle * da * by_depth / q->C, of_area);
-        to->rise = fl_wrench_madd(to->rise, by_angle * by_area * ds * each, of_mean);
-    }
+    return 0.5 * area / q->C;
+}
+
+/* Share of the edges of the own face that the pair bears.  The polygon is not yet cut at s = 0; where it does
+ * not touch it is cut at z = 0 here.  least: the least s.  g: scratch. */
+static int find_borne(face_pair *q, double a0, int touching, double least, int32_t own, double *g,
+                      fl_quick_borne *to)
+{
+    const double far = FL_QUICK_NEARNESS * q->d->R;
+    fl_wrench of_area, of_nearness = {.f = {0}};
+    double da, dn = 0.0, by_nearness = 1.0;
+    const double by_area = fl_quick_step(find_area(q, &of_area) / a0, &da);
+    if (!(by_area > 0.0)) return 0;
+    if (!touching && least < -q->d->R && !clip_side(q, q->s0 + q->d->R, -q->sx, -q->sy, CUT, g)) return 0;
+    if (!touching) by_nearness = fl_quick_step(find_nearness(q, &of_nearness) / far, &dn);
+    const double by_angle = q->m < FL_QUICK_FLAT ? q->m / FL_QUICK_FLAT : 1.0;
+    *to = (fl_quick_borne){.share = by_angle * by_area * by_nearness, .face = own};
+    to->reach = by_angle * by_area * dn / far;
+    if (da > 0.0) to->rise = fl_wrench_madd(to->rise, by_angle * da / a0 * by_nearness, of_area);
+    if (dn > 0.0) to->rise = fl_wrench_madd(to->rise, to->reach, of_nearness);
     if (q->m < FL_QUICK_FLAT)
         to->rise.m =
-            v3_madd(to->rise.m, -q->dm / FL_QUICK_FLAT * by_area * by_depth, v3_cross(q->n, q->f->n));
+            v3_madd(to->rise.m, -q->dm / FL_QUICK_FLAT * by_area * by_nearness, v3_cross(q->n, q->f->n));
     return to->share > 0.0;
 }
 
@@ -201,7 +237,7 @@ static void add_area(const face_pair *q, fl_quick_total *to)
     a[FL_QUICK_ZZ] += e * p.z * p.z + xx * g.z * g.z + 2.0 * xy * g.z * h.z + yy * h.z * h.z;
 }
 
-/* Projects own face j; returns 0 where no corner overlaps. */
+/* Projects own face j; returns 0 where no corner is nearer than R + R. */
 static int project_face(face_pair *q, const fl_quick_face *j)
 {
     const fl_quick_way *d = q->d;
@@ -218,7 +254,7 @@ static int project_face(face_pair *q, const fl_quick_face *j)
     q->corners = j->sides;
     q->sx = -per * v3_dot(q->n, f->t1), q->sy = -per * v3_dot(q->n, f->t2);
     q->s0 = q->p[0].s - q->sx * q->p[0].x - q->sy * q->p[0].y;
-    return most > 0.0;
+    return most > -d->R;
 }
 
 /* Adds a pair of faces; returns 1 if it bears edges of its own face. */
@@ -235,12 +271,13 @@ static int add_pair(face_pair *q, int32_t own, int32_t other, double *g, fl_quic
     for (int32_t c = 0; c < q->f->sides; c++)
         if (!clip_side(q, q->side[c].inset_c, q->side[c].qx, q->side[c].qy, c, g)) return 0;
     const double most = d->reach + ON_PLANE_TOL * (d->own->bound + d->other->bound);
-    int below = 0, far = 0;
-    for (int32_t k = 0; k < q->corners; k++) below |= q->p[k].s<0.0, far |= q->p[k].s> most;
-    if (far && !clip_side(q, most - q->s0, q->sx, q->sy, CUT, g)) return 0;
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t k = 0; k < q->corners; k++) low = fmin(low, q->p[k].s), high = fmax(high, q->p[k].s);
+    if (high > most && !clip_side(q, most - q->s0, q->sx, q->sy, CUT, g)) return 0;
     const double least = fmin(j->area, q->f->area), a0 = fmin(d->R * sqrt(least), 0.5 * least);
-    const int bears = find_borne(q, a0, own, borne);
-    if (below) {
+    const int bears = find_borne(q, a0, high > 0.0, low, own, g, borne);
+    if (!(high > 0.0)) return bears;
+    if (low < 0.0) {
         if (!clip_side(q, q->s0, -q->sx, -q->sy, CUT, g)) return bears;
         for (int32_t k = 0; k < q->corners; k++) q->p[k].s = fmax(q->p[k].s, 0.0);
     }
@@ -256,7 +293,7 @@ int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_way *d, fl_quick_tota
     const int32_t *at = fl_quick_section_of(d->l, d->section + FL_QUICK_PAIR, &pairs);
     *n = 0;
     for (int32_t k = 0; k < pairs; k += 2) {
-        const int32_t corners = d->own->face[at[k]].sides + d->other->face[at[k + 1]].sides + 2;
+        const int32_t corners = d->own->face[at[k]].sides + d->other->face[at[k + 1]].sides + 3;
         most = corners > most ? corners : most;
     }
     if (fl_reserve(&w->polygon, &w->polygon_cap, 2 * most, sizeof(corner)) ||

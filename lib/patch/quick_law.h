@@ -15,12 +15,14 @@
  *           part below the plane of k is beyond the other side of the body
  *     w     weight of a blunt edge or corner, as in `patch`;  rho, L as there
  *     l_i   Gauss weights of four points in each part of the edge, at most FL_QUICK_SEGMENT rho long [m]
- *     v     share of the edge that its faces do not bear: product of 1 - min(1, m/0.95) h(A/A_0) h(s_m/s_0)
- *           over the pairs of a face of the edge; A area of the overlap on face j, s_m the mean of s over it,
- *           A_0 = min(R sqrt(a), a/2) of the smaller face a, s_0 = FL_QUICK_BORNE R
+ *     v     share of the edge that its faces do not bear: product of 1 - min(1, m/0.95) h(A/A_0) h(D/0.6 R)
+ *           over the pairs of a face of the edge; A area of the common part on face j,
+ *           A_0 = min(R sqrt(a), a/2) of the smaller face a, D = int z^4/int z^3 over the part within 2R,
+ *           z = s + R: at least 2R/3 where the faces touch
  *     o_i   1 over a face.  Beyond its rim o = H + (1 - H) (1 - g(S^2)) t(z): H falls to 0 where the
- *           direction from the nearest point leaves the normals of all faces by 20 degrees, 1 - g is the share of edges
- *           that are parallel to the nearest edge.  What is left crosses, and is a term of its own.
+ *           direction from the nearest point leaves the normals of all faces by 20 degrees, 1 - g is the
+ *           share of edges that are parallel to the nearest edge.  What is left crosses, and is a term of
+ *           its own.
  *     S     sine of the angle of two edges;  g = h((S^2 - FL_QUICK_ALONG^2)/FL_QUICK_PARALLEL)
  *     z     distance of a foot from the nearer end of its edge;  t = h(z/min(0.3 R, l/2))
  *     h(x)  x^2 (3 - 2x) between 0 and 1
@@ -54,8 +56,9 @@ typedef struct {
 } fl_quick_sums;
 
 /* Evaluates the listed terms of two cores.
- *     M, o   pose of A in the frame of B;  deep: penetration of the cores in that frame, depth 0 where
- *            they do not overlap.  Cores that penetrate by D are evaluated as if A were shifted by D n, with R + D.
+ *     M, o   pose of A in the frame of B
+ *     deep   penetration of the cores in that frame, depth 0 where they do not overlap.  Cores that penetrate
+ *            by D are evaluated as if A were shifted by D n, with R + D.
  * The list must be valid for the shifted pose.  -1 when memory runs out. */
 int fl_quick_evaluate(fl_quick_scratch *w, const fl_quick_shape *a, const fl_quick_shape *b, double ra,
                       double rb, fl_mat3 M, fl_vec3 o, const fl_penetration *deep, const fl_quick_list *l,

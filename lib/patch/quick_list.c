@@ -134,7 +134,7 @@ static int append_faces(fl_quick_list *l, const direction *d, int section)
                 const double h = d->height[loop[c] * other->faces + k];
                 low = fmin(low, h), high = fmax(high, h);
             }
-            if (low > d->R + d->margin || high < -d->margin ||
+            if (low > 2.0 * d->R + d->margin || high < -d->margin ||
                 is_beside(other, k, d->at, loop, sides, d->margin))
                 continue;
             if (append_index(l, j) || append_index(l, k)) return -1;

@@ -14,7 +14,7 @@
 #define FL_QUICK_PARALLEL 0.01  /* sin^2 of the angle of edges from which on they cross */
 #define FL_QUICK_TAPER 0.3      /* over R: from the end of an edge to where a crossing counts whole */
 #define FL_QUICK_FLAT 0.95      /* m from which on faces bear alone */
-#define FL_QUICK_BORNE 0.002    /* over R: mean overlap from which on faces bear alone */
+#define FL_QUICK_NEARNESS 0.6   /* over R, of D: see v */
 #define FL_QUICK_FACE_ONLY 0.94 /* cosine of 20 degrees */
 
 /* Scratch of one thread.  Zeroed to start; grows as needed. */
