@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
+#include "geom/quadrature_rules.h"
 
 /* Multiples of R for the margin: of the first list, and bounds. */
 #define FIRST_MARGIN 0.05
@@ -98,7 +99,8 @@ static int append_points(fl_quick_list *l, direction *d, int section)
         if (!d->near[e] || !(edge->weight > 0.0)) continue;
         const int32_t n = fl_quick_segments(edge, d->rho);
         for (int32_t k = 0; k < n; k++)
-            if (least_distance(d, edge->end, (double)k / n, (double)(k + 1) / n) <= near &&
+            if (least_distance(d, edge->end, (k + FL_LINE4_NODE[0]) / n,
+                               (k + FL_LINE4_NODE[FL_LINE4_NODES - 1]) / n) <= near &&
                 (append_index(l, e) || append_index(l, k) || append_index(l, n)))
                 return -1;
     }
@@ -195,6 +197,16 @@ static int append_direction(fl_quick_list *l, direction *d, int section)
     return 0;
 }
 
+/* True if a foot of the common normal of two lines stays beyond the end of its edge.  Where points move by
+ * the margin the feet move by less than 3 times that over sin^2. */
+static int feet_outside(const fl_quick_edge *a, const fl_quick_edge *b, double C, double S2, double margin)
+{
+    const fl_vec3 w = v3_sub(a->a, b->a);
+    const double wa = v3_dot(w, a->d), wb = v3_dot(w, b->d), t = C * wb - wa, u = wb - C * wa,
+                 room = 3.0 * margin;
+    return t < -room || t > S2 * a->length + room || u < -room || u > S2 * b->length + room;
+}
+
 /* Crossings: both feet may come inside both edges, within reach. */
 static int append_crossings(fl_quick_list *l, const direction *d, const uint8_t *near_b)
 {
@@ -207,7 +219,7 @@ static int append_crossings(fl_quick_list *l, const direction *d, const uint8_t 
             const double C = v3_dot(a.d, b->d), S2 = 1.0 - C * C;
             if (!near_b[f] || !(a.weight * b->weight > 0.0) || sqrt(fmax(S2, 0.0)) + turn < FL_QUICK_ALONG)
                 continue;
-            if (edge_from_edge(&a, b) > d->R + d->margin) continue;
+            if (feet_outside(&a, b, C, S2, d->margin) || edge_from_edge(&a, b) > d->R + d->margin) continue;
             if (append_index(l, e) || append_index(l, f)) return -1;
         }
     }

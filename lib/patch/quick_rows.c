@@ -4,6 +4,6 @@
 
 void fl_quick_scratch_free(fl_quick_scratch *w)
 {
-    free(w->weight), free(w->polygon), free(w->height), free(w->borne);
+    free(w->polygon), free(w->height), free(w->borne);
     *w = (fl_quick_scratch){0};
 }

@@ -19,9 +19,8 @@
 
 /* Scratch of one thread.  Zeroed to start; grows as needed. */
 typedef struct {
-    double *weight;
     void *polygon, *height, *borne;
-    int32_t weight_cap, polygon_cap, height_cap, borne_cap;
+    int32_t polygon_cap, height_cap, borne_cap;
 } fl_quick_scratch;
 
 void fl_quick_scratch_free(fl_quick_scratch *w);

@@ -3,11 +3,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
+#include "base/simd.h"
 #include "patch/patch_law.h"
 
 /* Arrays one behind the other; sizes are multiples of 8. */
 typedef struct {
-    size_t vertex, weight, edge, face, side, loop, all;
+    size_t vertex, weight, edge, face, side, corner, loop, all;
 } block_layout;
 
 static block_layout layout_of(const fl_quick_shape *s)
@@ -17,7 +18,8 @@ static block_layout layout_of(const fl_quick_shape *s)
     b.edge = b.weight + (size_t)s->vertices * sizeof *s->weight;
     b.face = b.edge + (size_t)s->edges * sizeof *s->edge;
     b.side = b.face + (size_t)s->faces * sizeof *s->face;
-    b.loop = b.side + (size_t)s->loops * sizeof *s->side;
+    b.corner = b.side + (size_t)s->loops * sizeof *s->side;
+    b.loop = b.corner + 3 * (size_t)(s->loops + FL_SIMD_WIDTH) * sizeof **s->corner;
     b.all = b.loop + (size_t)s->loops * sizeof *s->loop;
     return b;
 }
@@ -39,7 +41,10 @@ static void make_face(fl_quick_shape *s, const fl_poly *p, int32_t f)
     for (int32_t k = 0; k < n; k++) {
         const fl_vec3 a = p->v[loop[k]], b = p->v[loop[k + 1 < n ? k + 1 : 0]];
         fl_quick_side *const side = &s->side[first + k];
+        const fl_vec3 mirrored = p->v[loop[n - 1 - k]];
         s->loop[first + k] = loop[k];
+        s->corner[0][first + k] = mirrored.x, s->corner[1][first + k] = mirrored.y;
+        s->corner[2][first + k] = mirrored.z;
         side->q = v3_unit(v3_cross(v3_sub(b, a), to->n));
         side->qx = v3_dot(side->q, to->t1), side->qy = v3_dot(side->q, to->t2);
         side->c = fmax(v3_dot(side->q, a), v3_dot(side->q, b));
@@ -74,6 +79,8 @@ int fl_quick_shape_make(fl_quick_shape *s, const fl_poly *p, double radius, fl_e
     s->vertex = (fl_vec3 *)(void *)at, s->weight = (double *)(void *)(at + b.weight);
     s->edge = (fl_quick_edge *)(void *)(at + b.edge), s->face = (fl_quick_face *)(void *)(at + b.face);
     s->side = (fl_quick_side *)(void *)(at + b.side), s->loop = (int32_t *)(void *)(at + b.loop);
+    for (int c = 0; c < 3; c++)
+        s->corner[c] = (double *)(void *)(at + b.corner) + c * (s->loops + FL_SIMD_WIDTH);
     for (int32_t v = 0; v < p->nv; v++) {
         s->vertex[v] = p->v[v];
         s->weight[v] = fmin(1.0, FL_PATCH_CORNER_WEIGHT * fl_poly_corner_angle(p, v));

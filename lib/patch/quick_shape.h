@@ -44,6 +44,7 @@ typedef struct {
     fl_quick_edge *edge;
     fl_quick_face *face;
     int32_t *loop;
+    double *corner[3]; /* [loops + 4] coordinates of the corners, the other way round within each face */
     fl_quick_side *side;
     void *block; /* owns all arrays */
 } fl_quick_shape;
