@@ -104,8 +104,8 @@ static void add_pressure(point_sum *s, double elastic, double normal, fl_vec3 n,
     q->direction = v3_madd(q->direction, normal, n);
     const fl_vec3 a = v3_scale(normal, arm);
     s->moment = v3_add(s->moment, a);
-    s->second = s3_add(s->second, (fl_sym3){a.x * arm.x, a.x * arm.y, a.x * arm.z, a.y * arm.y, a.y * arm.z,
-                                            a.z * arm.z});
+    s->second = s3_add(
+        s->second, (fl_sym3){a.x * arm.x, a.x * arm.y, a.x * arm.z, a.y * arm.y, a.y * arm.z, a.z * arm.z});
 }
 
 /* The result of n points. */
@@ -126,8 +126,8 @@ typedef struct {
 } contact_compliance;
 
 /* Adds friction at the centre of pressure. */
-static void add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, double chi, const contact_compliance *at,
-                         const fl_relative_pose *r, const prediction *a)
+static void add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, double chi,
+                         const contact_compliance *at, const fl_relative_pose *r, const prediction *a)
 {
     const fl_bodies *b = &w->b;
     const fl_pair_law *law = p->law;
@@ -340,7 +340,8 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
     const double first_approach = approach_speed_of(b, p, a, &first);
     double approach = first_approach, mean = 0.0, laid = 0.0;
     if (s->n > 1) {
-        double load = k * fabs(first.weight), stiff = k * s->point[0].du * fl_normal_slope(s->point[0].overlap, p->exponent);
+        double load = k * fabs(first.weight),
+               stiff = k * s->point[0].du * fl_normal_slope(s->point[0].overlap, p->exponent);
         mean = first.weight * first_approach;
         for (int32_t c = 1; c < s->n; c++) {
             const fl_patch_point *q = &s->point[c];
@@ -367,7 +368,7 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
         const double elastic = k * t.weight, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
                      own = c ? approach_speed_of(b, p, a, &t) : first_approach,
                      comes = laid > 0.0 ? own + laid * (mean - own) : own, /* all slide as one sphere */
-                     normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes + more);
+            normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes + more);
         add_wrench(&p->force, &p->torque_i, &p->torque_j, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping,
                    v3_scale(normal - elastic, t.n), t.ai, t.aj);
@@ -447,7 +448,8 @@ static int leave_out_sliding(const fl_world *w, fl_pair *p, fl_patch_points *s, 
     if (!(laid > 0.0 && q->pressure > 0.0)) return 0;
     const fl_vec3 n = v3_unit(elastic),
                   aj = m3_mul(r->R, v3_madd(s->point[0].p, 1.0 / q->pressure, q->pressure_moment)),
-                  core = end_velocity(b, p, a, v3_madd(v3_add(aj, r->off), p->radius_factor * b->radius[p->i], n),
+                  core = end_velocity(b, p, a,
+                                      v3_madd(v3_add(aj, r->off), p->radius_factor * b->radius[p->i], n),
                                       v3_madd(aj, -p->radius_factor * b->radius[p->j], n)),
                   slides = m3_tmul(r->R, v3_madd(core, -v3_dot(core, n), n));
     double with, square;
@@ -637,12 +639,18 @@ static int evaluate_quick(fl_world *w, fl_pair *p, const fl_quick_sums *q, const
     p->force = v3_add(p->force, p->force_damping);
     p->torque_i = v3_add(p->torque_i, p->torque_i_damping);
     p->torque_j = v3_add(p->torque_j, p->torque_j_damping);
-    const pressure all = {.normal = damped * pressed,
-                          .elastic = pressed,
-                          .direction = v3_scale(damped * scale, m3_mul(R, q->direction)),
-                          .at = aj,
-                          .spread = damped * pressed * spread,
-                          .slope = slope};
+    const fl_vec3 normal = v3_unit(q->direction);
+    fl_patch_result all = {.energy = energy,
+                           .force = elastic,
+                           .elastic = pressed,
+                           .normal = damped * pressed,
+                           .direction = v3_scale(damped * scale, m3_mul(R, q->direction)),
+                           .centre = aj,
+                           .shape = fl_pressure_shape_of(second, normal),
+                           .slope = slope};
+    all.load = v3_norm(all.direction);
+    all.couple = v3_sub(v3_scale(scale, m3_mul(R, q->gradient.m)), v3_cross(aj, elastic));
+    all.shape.elongation = m3_mul(R, all.shape.elongation);
     add_friction(w, p, &all, chi, &at_contact, r, a);
     if (survey) {
         const fl_spring_sums at = quick_springs(q, &second);
