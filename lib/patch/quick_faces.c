@@ -176,14 +176,20 @@ static int find_borne(face_pair *q, double a0, int touching, double least, int32
         close_polygon(q);
         by_nearness = fl_quick_step(find_nearness(q, &of_nearness) / far, &dn);
     }
-    const double by_angle = q->m < FL_QUICK_FLAT ? q->m / FL_QUICK_FLAT : 1.0;
-    *to = (fl_quick_borne){.share = by_angle * by_area * by_nearness, .face = own};
+    /* 1 - h of the sine S of the angle, and its derivative by C, S dS = -C dC */
+    const double S2 = 1.0 - q->C * q->C, S = S2 > 0.0 ? sqrt(S2) : 0.0;
+    double dS;
+    const double by_angle = 1.0 - fl_quick_step((S - FL_QUICK_FLAT) / (FL_QUICK_TILTED - FL_QUICK_FLAT), &dS),
+                 by_others = by_area * by_nearness;
+    if (!(by_angle > 0.0)) return 0;
+    *to = (fl_quick_borne){.share = by_angle * by_others, .face = own};
     to->reach = by_angle * by_area * dn / far;
     if (da > 0.0) to->rise = fl_wrench_madd(to->rise, by_angle * da / a0 * by_nearness, of_area);
     if (dn > 0.0) to->rise = fl_wrench_madd(to->rise, to->reach, of_nearness);
-    if (q->m < FL_QUICK_FLAT)
-        to->rise.m =
-            v3_madd(to->rise.m, -q->dm / FL_QUICK_FLAT * by_area * by_nearness, v3_cross(q->n, q->f->n));
+    if (dS > 0.0) {
+        const double by_C = dS / (FL_QUICK_TILTED - FL_QUICK_FLAT) * q->C / S;
+        to->rise.m = v3_madd(to->rise.m, -by_C * by_others, v3_cross(q->n, q->f->n));
+    }
     return to->share > 0.0;
 }
 

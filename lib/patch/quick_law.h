@@ -15,8 +15,9 @@
  *           part below the plane of k is beyond the other side of the body
  *     w     weight of a blunt edge or corner, as in `patch`;  rho, L as there
  *     l_i   Gauss weights of four points in each part of the edge, at most FL_QUICK_SEGMENT rho long [m]
- *     v     share of the edge that its faces do not bear: product of 1 - min(1, m/0.95) h(A/A_0) h(D/0.6 R)
- *           over the pairs of a face of the edge; A area of the common part on face j,
+ *     v     share of the edge that its faces do not bear: product of 1 - f h(A/A_0) h(D/0.6 R)
+ *           over the pairs of a face of the edge; f = 1 - h of the sine of the angle of the two faces, 1 below
+ *           FL_QUICK_FLAT and 0 from FL_QUICK_TILTED on; A area of the common part on face j,
  *           A_0 = min(R sqrt(a), a/2) of the smaller face a, D = int z^4/int z^3 over the part within 2R,
  *           z = s + R: at least 2R/3 where the faces touch
  *     o_i   1 over a face.  Beyond its rim o = H + (1 - H) (1 - g(S^2)) t(z): H falls to 0 where the
