@@ -104,9 +104,12 @@ void fl_quick_add_crossings(const fl_quick_way *d, double rho_b, fl_vec3 axis, f
     int32_t n;
     const int32_t *at = fl_quick_section_of(d->l, FL_QUICK_CROSSING, &n);
     for (int32_t k = 0; k < n; k += 2 * FL_SIMD_WIDTH) {
-        crossing_lanes c = {0};
-        for (int32_t i = 0; i < FL_SIMD_WIDTH && k + 2 * i < n; i++)
-            load_crossing(&c, (int)i, d, at[k + 2 * i], at[k + 2 * i + 1]);
+        crossing_lanes c;
+        for (int32_t i = 0; i < FL_SIMD_WIDTH; i++) { /* the last is repeated without length */
+            const int32_t from = k + 2 * i < n ? k + 2 * i : n - 2;
+            load_crossing(&c, (int)i, d, at[from], at[from + 1]);
+            if (k + 2 * i >= n) c.la[i] = 0.0;
+        }
         add_four(&c, d->reach, d->R, factor, d->r, axis, to, overlap);
     }
 }

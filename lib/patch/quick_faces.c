@@ -167,6 +167,11 @@ static int find_borne(face_pair *q, double a0, int touching, double least, int32
 {
     const double far = FL_QUICK_NEARNESS * q->d->R;
     fl_wrench of_area = {.f = {0}}, of_nearness = of_area;
+    /* 1 - h of the sine S of the angle, and its derivative by C, S dS = -C dC */
+    const double S2 = 1.0 - q->C * q->C, S = S2 > 0.0 ? sqrt(S2) : 0.0;
+    double dS;
+    const double by_angle = 1.0 - fl_quick_step((S - FL_QUICK_FLAT) / (FL_QUICK_TILTED - FL_QUICK_FLAT), &dS);
+    if (!(by_angle > 0.0)) return 0;
     double da, dn = 0.0, by_nearness = 1.0;
     const double by_area = fl_quick_step(find_area(q) / a0, &da);
     if (!(by_area > 0.0)) return 0;
@@ -176,12 +181,7 @@ static int find_borne(face_pair *q, double a0, int touching, double least, int32
         close_polygon(q);
         by_nearness = fl_quick_step(find_nearness(q, &of_nearness) / far, &dn);
     }
-    /* 1 - h of the sine S of the angle, and its derivative by C, S dS = -C dC */
-    const double S2 = 1.0 - q->C * q->C, S = S2 > 0.0 ? sqrt(S2) : 0.0;
-    double dS;
-    const double by_angle = 1.0 - fl_quick_step((S - FL_QUICK_FLAT) / (FL_QUICK_TILTED - FL_QUICK_FLAT), &dS),
-                 by_others = by_area * by_nearness;
-    if (!(by_angle > 0.0)) return 0;
+    const double by_others = by_area * by_nearness;
     *to = (fl_quick_borne){.share = by_angle * by_others, .face = own};
     to->reach = by_angle * by_area * dn / far;
     if (da > 0.0) to->rise = fl_wrench_madd(to->rise, by_angle * da / a0 * by_nearness, of_area);

@@ -31,9 +31,10 @@ typedef struct {
 
 #define CHOOSE(to, m, v) (to) = FL_SIMD_SELECT(m, v, to)
 
-/* The nearest point lies in a face only if that is the face over which x is highest. */
+/* Nearest points that are nearer than reach, d = infinity else.  One lies in a face only if that is
+ * the face over which x is highest. */
 FL_SIMD_INLINE void find_nearest(nearest_point *q, const nearest_features *of, const fl_simd x[3],
-                                 int edges_too)
+                                 double reach, int edges_too)
 {
     const fl_simd zero = {0};
     fl_simd top = zero - INFINITY, which = zero - 1.0;
@@ -49,8 +50,11 @@ FL_SIMD_INLINE void find_nearest(nearest_point *q, const nearest_features *of, c
     for (int c = 0; c < 3; c++) q->n[c] = zero, q->b[c] = zero;
     q->t = q->length = zero;
     q->d = zero + INFINITY;
+    const fl_simd_mask within = top < reach; /* no point is nearer than it is high */
+    q->on_face = in;
+    if (!fl_simd_any(&within)) return;
     for (int32_t k = 0; k < of->faces; k++) {
-        const fl_simd_mask mine = (which == (double)k) & (top > -of->tol);
+        const fl_simd_mask mine = (which == (double)k) & (top > -of->tol) & within;
         if (!fl_simd_any(&mine)) continue;
         const fl_quick_face *f = &of->s->face[of->face[k]];
         const fl_quick_side *side = of->s->side + f->first;
@@ -62,7 +66,7 @@ FL_SIMD_INLINE void find_nearest(nearest_point *q, const nearest_features *of, c
         in |= inside;
     }
     q->on_face = in;
-    const fl_simd_mask out = ~in;
+    const fl_simd_mask out = ~in & within;
     if (!fl_simd_any(&out)) return;
     fl_simd best = zero + INFINITY, way[3] = {zero, zero, zero};
     for (int32_t k = 0; k < of->edges; k++) {
@@ -107,7 +111,7 @@ FL_SIMD_VERSIONS static void add_vertices(const fl_quick_way *d, const nearest_f
             x[0][k] = v.x, x[1][k] = v.y, x[2][k] = v.z, weight[k] = d->own->weight[at[c + k]];
         }
         nearest_point q;
-        find_nearest(&q, of, x, 0);
+        find_nearest(&q, of, x, d->reach, 0);
         const fl_simd_mask on = (q.d < d->reach) & (weight > 0.0);
         if (!fl_simd_any(&on)) continue;
         const fl_simd s = FL_SIMD_MASKED(on, d->reach - q.d), s2 = s * s, k4 = factor * weight * s2 * s2,
@@ -133,7 +137,7 @@ FL_SIMD_VERSIONS static void add_segment(const fl_quick_way *d, const nearest_fe
     const fl_simd place = l * ((double)part + node);
     const fl_simd x[3] = {from.x + place * along.x, from.y + place * along.y, from.z + place * along.z};
     nearest_point q;
-    find_nearest(&q, of, x, 1);
+    find_nearest(&q, of, x, d->reach, 1);
     const fl_simd_mask on = q.d < d->reach;
     if (!fl_simd_any(&on)) return;
     const fl_simd s = FL_SIMD_MASKED(on, d->reach - q.d), s2 = s * s;
