@@ -303,6 +303,47 @@ int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
     return of.weight < 1.0 ? fl_cone_blend_points(s, 0, n, couple, &of, r->o) : 0;
 }
 
+int fl_pair_find_quick(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r, double *distance,
+                       fl_quick_sums *sums)
+{
+    const fl_bodies *b = &w->b;
+    const fl_poly *A = &b->core[p->i], *B = &b->core[p->j];
+    const fl_quick_shape *a = &w->quick_shape[p->i], *c = &w->quick_shape[p->j];
+    const double ra = p->radius_factor * b->radius[p->i], rb = p->radius_factor * b->radius[p->j],
+                 R = ra + rb;
+    fl_patch_points *const s = &w->scratch[thread];
+    fl_quick_scratch *const own = &w->quick_scratch[thread];
+    fl_penetration deep = {.depth = 0.0};
+    fl_err lost = {0};
+    if (p->touching && p->quick_list && p->quick_list->separated &&
+        fl_quick_list_valid(p->quick_list, &r->M, r->o)) {
+        if (fl_quick_evaluate(own, a, c, ra, rb, r->M, r->o, &deep, p->quick_list, sums)) return -1;
+        p->cores_overlap = 0;
+        if (sums->u > 0.0) return 0;
+    }
+    *sums = (fl_quick_sums){.u = 0.0};
+    if (fl_patch_points_transform(s, A, r->M, r->o)) return -1;
+    const double enough = p->touching ? 0.0 : bound_factor(w, p->i, p->j) * R;
+    if (find_separation(w, p, A, B, s, r->M, enough, &deep, NULL, distance)) return -1;
+    if (*distance >= R) return 0;
+    if (!p->quick_list && !(p->quick_list = fl_alloc(1, sizeof *p->quick_list, &lost))) return -1;
+    fl_quick_list *const l = p->quick_list;
+    const double margin = p->cores_overlap ? 0.0 : fl_quick_list_margin(l, R);
+    if (p->cores_overlap || !fl_quick_list_valid(l, &r->M, r->o)) {
+        if (fl_quick_list_build(l, a, c, ra, rb, R + deep.depth, r->M, v3_madd(r->o, deep.depth, deep.n),
+                                margin))
+            return -1;
+        l->separated = !p->cores_overlap && *distance > margin;
+    }
+    if (fl_quick_evaluate(own, a, c, ra, rb, r->M, r->o, &deep, l, sums)) return -1;
+    if (p->cores_overlap) l->max_shift2 = 0.0; /* not valid for the shifted core */
+    if (sums->u == 0.0) {                      /* the old direction gave only a bound: compute the distance */
+        p->has_axis = 0;
+        return find_separation(w, p, A, B, s, r->M, INFINITY, &deep, NULL, distance);
+    }
+    return 0;
+}
+
 /* The contact of features of two dilated cores; s holds the vertices of A. */
 static int find_feature_contact(const fl_patch_points *s, const fl_poly *A, const fl_poly *B, double ra,
                                 double rb, const fl_mat3 *M, fl_mode before, fl_gjk_cache *cache,

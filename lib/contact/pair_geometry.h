@@ -3,6 +3,7 @@
  * distance. */
 #ifndef FL_CONTACT_PAIR_GEOMETRY_H
 #define FL_CONTACT_PAIR_GEOMETRY_H
+#include "patch/quick_law.h"
 #include "world/world.h"
 
 /* The pose of A relative to B, so that no result depends on the origin of the world.  o and M take A's
@@ -18,6 +19,17 @@ fl_relative_pose fl_relative_pose_of(const fl_world *w, const fl_pair *p);
 /* Finds the contact points of the pair in the frame of B and writes them to w->scratch[thread]; none if the
  * two do not touch.  *distance: a lower bound of the distance of the cores [m].  -1 when memory runs out. */
 int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r, double *distance);
+
+/* True if the law `quick` applies: it is that of the pair, and both are floes with faces. */
+static inline int fl_pair_is_quick(const fl_world *w, const fl_pair *p)
+{
+    return p->law->law->quick && p->j < w->n && w->quick_shape[p->i].faces > 0 &&
+           w->quick_shape[p->j].faces > 0;
+}
+
+/* The terms of the law `quick`, in the frame of B; *distance as above.  -1 when memory runs out. */
+int fl_pair_find_quick(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r, double *distance,
+                       fl_quick_sums *sums);
 
 /* Finds the one contact of features of the laws manual and manual-si, by narrow/contact.h, in the frame of B.
  * -1 when memory runs out. */

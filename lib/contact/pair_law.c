@@ -78,6 +78,18 @@ int fl_pair_law_make_table(fl_world *w, fl_err *err)
     return any_surrogate && !w->surrogate_counts ? -1 : 0;
 }
 
+int fl_pair_law_any_quick(const fl_scene *s)
+{
+    for (int32_t a = 0; a < s->n_material; a++)
+        for (int32_t b = 0; b < s->n_material + 2; b++) {
+            const int32_t c = b < s->n_material    ? b
+                              : b == s->n_material ? FL_SCENE_STRUCTURE
+                                                   : FL_SCENE_BOUNDARY;
+            if (fl_contact_laws[fl_scene_pair(s, a, c).law].quick) return 1;
+        }
+    return 0;
+}
+
 const fl_pair_law *fl_pair_law_of(const fl_world *w, int32_t i, int32_t j)
 {
     return &w->law[w->material[i] * (w->materials + 2) + column_of(w, w->material[j])];

@@ -8,6 +8,9 @@
  * contact.round_law is not the same for all pairs. */
 int fl_pair_law_make_table(fl_world *w, fl_err *err);
 
+/* True if some pair of materials in the scene has the law `quick`. */
+int fl_pair_law_any_quick(const fl_scene *s);
+
 /* The law of bodies i and j. */
 const fl_pair_law *fl_pair_law_of(const fl_world *w, int32_t i, int32_t j);
 

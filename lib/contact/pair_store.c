@@ -24,6 +24,9 @@ void fl_pair_free(fl_pair *p)
 {
     if (p->feature_pairs) fl_mesh_under_face_free_pairs(p->feature_pairs);
     free(p->feature_pairs), free(p->surrogate), free(p->rolling);
+    if (p->quick_list) fl_quick_list_free(p->quick_list);
+    free(p->quick_list);
+    p->quick_list = NULL;
     p->feature_pairs = NULL;
     p->surrogate = NULL;
     p->rolling = NULL;
@@ -130,8 +133,8 @@ void fl_neighbour_pair_free(fl_world *w, fl_neighbour_pair *q)
  * has so many vertices that the cache of the distance query does not fit. */
 static int needs_record(const fl_world *w, const fl_pair *p)
 {
-    return p->touching || p->feature_pairs || p->surrogate || p->bond || w->b.core[p->i].nv > UINT8_MAX ||
-           w->b.core[p->j].nv > UINT8_MAX;
+    return p->touching || p->feature_pairs || p->quick_list || p->surrogate || p->bond ||
+           w->b.core[p->i].nv > UINT8_MAX || w->b.core[p->j].nv > UINT8_MAX;
 }
 
 int fl_neighbour_pair_put_back(fl_world *w, fl_neighbour_pair *q, fl_pair *p)

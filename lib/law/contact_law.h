@@ -7,6 +7,7 @@
  * ones serves.
  *
  *   patch             W = c sqrt(U), U an integral over faces, edges and vertices; patch/patch_law.h
+ *   quick             the same W for two floes from fewer and cheaper terms; patch/quick_law.h
  *   core              F = k s^n at the closest point of the two cores, n of the scene; normal.h
  *   manual, manual-si the contact of two features by the formulae of the DilatedDEM manual; manual.h
  *
@@ -40,6 +41,7 @@ typedef struct {
     double face_ratio;      /* stiffness of a whole face over that of one point */
     enum fl_contact_damping damping;
     int end_speed; /* damping uses the approach speed predicted for the end of the step, damping.h */
+    int quick;     /* pairs of polyhedra go by patch/quick_law.h where it applies, by `patch` where not */
     int spheres;   /* contacts of spheres are evaluated in batches, sphere_batch.h */
     int si;        /* formulae of the manual with consistent units */
 } fl_contact_law;

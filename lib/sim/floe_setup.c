@@ -74,6 +74,9 @@ static int make_body(fl_world *w, int32_t i, const fl_ice_field *field, int32_t 
         b->bounding_radius[i] = fmax(b->bounding_radius[i], v3_norm(b->core[i].v[v]));
     b->radius[i] = r > 0.0 ? r : SHARP * b->bounding_radius[i];
     w->max_face_area[i] = fl_poly_largest_face_area(&b->core[i]);
+    if (w->quick_shape && b->core[i].nf > 0 &&
+        fl_quick_shape_make(&w->quick_shape[i], &b->core[i], b->radius[i], err))
+        return -1;
     w->q0[i] = b->q[i];
     fl_body_update_spin(b, i);
     fl_body_set_spin(b, i, field->spin[k]);
@@ -194,6 +197,7 @@ int fl_world_place_floe(fl_world *w, int32_t i, const fl_ice_field *field, int32
 {
     fl_poly outer = {0};
     fl_poly_free(&w->b.core[i]);
+    if (w->quick_shape) fl_quick_shape_free(&w->quick_shape[i]);
     w->b.bounding_radius[i] = 0.0;
     w->b.fixed_dof[i] = 0;
     w->b.is_isotropic[i] = 0;

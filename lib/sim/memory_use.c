@@ -124,12 +124,16 @@ fl_memory_use fl_memory_use_of(const fl_world *w)
                        .others = other_bytes(w),
                        .search_peak = w->search_bytes};
     b.shapes = ARRAY(w->b.core, w->b.total) + fl_topologies_bytes(&w->topologies);
-    for (int32_t k = 0; k < w->b.total; k++) b.shapes += fl_poly_bytes(&w->b.core[k]);
+    for (int32_t k = 0; k < w->b.total; k++) {
+        b.shapes += fl_poly_bytes(&w->b.core[k]);
+        if (w->quick_shape) b.shapes += fl_quick_shape_bytes(&w->quick_shape[k]);
+    }
     b.pairs = ARRAY(w->pair, w->n_pair) + ARRAY(w->pair_store.block, w->pair_store.cap) +
               (double)w->pair_store.blocks * FL_PAIR_SLOTS * (double)sizeof(fl_pair_slot);
     for (int32_t c = 0; c < w->n_pair; c++) {
         const fl_pair *p = w->pair[c].contact;
         if (p && p->feature_pairs) b.feature_pairs += fl_feature_pairs_bytes(p->feature_pairs);
+        if (p && p->quick_list) b.feature_pairs += fl_quick_list_bytes(p->quick_list);
         if (p && p->surrogate) b.pairs += sizeof *p->surrogate;
         if (p && p->rolling) b.pairs += sizeof *p->rolling;
     }

@@ -222,6 +222,10 @@ static int make_arrays(fl_world *w, fl_err *err)
     w->pair_share = fl_alloc(w->threads, sizeof *w->pair_share, err);
     w->block_share = fl_alloc(w->threads, sizeof *w->block_share, err);
     w->mesh_near = fl_alloc(w->threads, sizeof *w->mesh_near, err);
+    if (fl_pair_law_any_quick(w->scene)) {
+        w->quick_shape = fl_alloc(total, sizeof *w->quick_shape, err);
+        w->quick_scratch = fl_alloc(w->threads, sizeof *w->quick_scratch, err);
+    }
     return err->code ? -1 : 0;
 }
 
@@ -427,11 +431,14 @@ void fl_world_free(fl_world *w)
     for (int32_t k = 0; k < w->threads; k++) {
         if (w->scratch) fl_patch_points_free(&w->scratch[k]);
         if (w->mesh_near) fl_mesh_contact_work_free(&w->mesh_near[k]);
+        if (w->quick_scratch) fl_quick_scratch_free(&w->quick_scratch[k]);
     }
     for (int32_t i = 0; i < w->n; i++) {
         if (w->elastic_walls.hull) fl_hull_free(&w->elastic_walls.hull[i]);
         if (w->elastic_walls.outer) fl_poly_free(&w->elastic_walls.outer[i]);
     }
+    for (int32_t i = 0; w->quick_shape && i < w->b.total; i++) fl_quick_shape_free(&w->quick_shape[i]);
+    free(w->quick_shape), free(w->quick_scratch);
     free(w->elastic_walls.hull), free(w->elastic_walls.outer);
     free(w->driven_floes.is_driven), free(w->driven_floes.k), free(w->driven_floes.rest_height);
     fl_inflow_free(&w->inflow);

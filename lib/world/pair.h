@@ -10,6 +10,7 @@
 #include "narrow/contact.h"
 #include "narrow/gjk.h"
 #include "patch/feature_pairs.h"
+#include "patch/quick_list.h"
 #include "patch/surrogate.h"
 
 /* The contact law of a pair of materials. */
@@ -44,6 +45,7 @@ typedef struct {
     fl_friction_springs springs; /* memory of friction */
     fl_feature_pairs
         *feature_pairs;         /* pairs of features that may touch, or NULL; can be rebuilt at any time */
+    fl_quick_list *quick_list;  /* the same of the law `quick`, or NULL */
     fl_surrogate *surrogate;    /* NULL until there is one */
     fl_rolling_spring *rolling; /* of a sphere, rolling_pair.h; NULL without rolling resistance */
     fl_gjk_cache cache;         /* start of the distance query */

@@ -14,6 +14,7 @@
 #include "geom/topology.h"
 #include "narrow/penetration.h"
 #include "patch/patch_points.h"
+#include "patch/quick_rows.h"
 #include "scene/ice_field.h"
 #include "scene/scene.h"
 #include "structure/mesh_contact.h"
@@ -71,6 +72,8 @@ typedef struct {
     int32_t *id;           /* [n] number in the ice file */
     int32_t *material;     /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */
     double *max_face_area; /* [total] [m2] */
+    fl_quick_shape *quick_shape; /* [total] tables of the law `quick`, without faces where it does not apply;
+                                  * NULL if no pair has that law */
     fl_quat *q0; /* [n] body axes in the pose of the ice file: the reference of written orientations */
     fl_vec3 gravity;
     fl_pair_law *law; /* [materials][materials + 2] */
@@ -111,6 +114,7 @@ typedef struct {
 
     /* scratch */
     fl_patch_points *scratch;             /* [threads] */
+    fl_quick_scratch *quick_scratch;      /* [threads], NULL without the law `quick` */
     fl_surrogate_count *surrogate_counts; /* [threads], NULL without surrogates */
     fl_mesh_contact_work *mesh_near;      /* [threads] */
     int32_t threads;

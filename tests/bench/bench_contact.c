@@ -266,7 +266,8 @@ static int print_row(which c, const char *law)
     const double begun = thread_time();
     evaluate(&l, p, TIMES);
     const double ns = 1e9 * (thread_time() - begun) / TIMES;
-    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, p->feature_pairs ? p->feature_pairs->n : 0,
+    const int features = p->feature_pairs ? p->feature_pairs->n : p->quick_list ? p->quick_list->n : 0;
+    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, features,
            l.w.scratch[0].n, ns, off);
     if (p->j < l.w.n && strcmp(law, "patch") == 0) {
         double error[2], t[2];
@@ -281,14 +282,16 @@ static int print_row(which c, const char *law)
         printf(" %8.0f %8.3f %9.1e", 1e9 * t, exact_share, most);
     }
     printf("\n");
-    const int bad = p->touching == 0 || (strcmp(law, "patch") == 0 && !(off < 1e-5));
+    const int gradient = strcmp(law, "patch") == 0 || strcmp(law, "quick") == 0,
+              bad = p->touching == 0 || (gradient && !(off < 1e-5));
     lab_free(&l);
     return bad;
 }
 
 /* --- curves ------------------------------------------------------------------------------------------- */
 
-static const char *const LAW[4] = {"patch", "core", "manual-si", "manual"};
+enum { LAWS = 5 };
+static const char *const LAW[LAWS] = {"patch", "core", "manual-si", "manual", "quick"};
 
 /* A box of 2 by 2 by 0.5 m on one of 4 by 4 by 0.5 m, 1 mm deep, tilted or moved along x. */
 static fl_pair tilted_boxes(const char *law, double tilt, double slide)
@@ -315,7 +318,7 @@ static int write_curves(const char *dir)
     for (int k = -200; k <= 200; k++) {
         const double tilt = 1e-5 * k;
         fprintf(f, "%g", tilt);
-        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", tilted_boxes(LAW[c], tilt, 0.0).torque_i.y);
+        for (int c = 0; c < LAWS; c++) fprintf(f, "\t%g", tilted_boxes(LAW[c], tilt, 0.0).torque_i.y);
         fprintf(f, "\n");
     }
     int bad = fclose(f);
@@ -325,7 +328,7 @@ static int write_curves(const char *dir)
     for (int k = 0; k <= 440; k++) {
         const double slide = 0.8 + 0.005 * k;
         fprintf(f, "%g", slide);
-        for (int c = 0; c < 4; c++) fprintf(f, "\t%g", tilted_boxes(LAW[c], 0.0, slide).force.z);
+        for (int c = 0; c < LAWS; c++) fprintf(f, "\t%g", tilted_boxes(LAW[c], 0.0, slide).force.z);
         fprintf(f, "\n");
     }
     bad |= fclose(f);
@@ -351,6 +354,7 @@ int main(int argc, char **argv)
            "points", "ns", "F + grad W", "MPR[ns]", "depth off", "EPA[ns]", "depth off", "surr[ns]", "exact",
            "F off");
     for (int c = SPHERE_ON_FLOE; c < CASES; c++, rows++) bad += print_row((which)c, "patch");
+    for (int c = SIDE_ON_SIDE; c <= FLAT_TURNED; c++, rows++) bad += print_row((which)c, "quick");
     for (int k = 1; k < 3; k++) {
         bad += print_row(SIDE_TURNED, LAW[k]) + print_row(FLAT_TURNED, LAW[k]);
         rows += 2;

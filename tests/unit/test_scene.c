@@ -397,7 +397,8 @@ static void each_complaint_names_file_and_line(void **state)
                    ":2: material.poisson is 0.5, a value at least 0 and below 0.5 is expected");
     expect_refusal(
         "[contact]\nlaw = pach\n" ICE,
-        ":2: contact.law is \"pach\", one of patch manual manual-si core is expected, nearest is patch");
+        ":2: contact.law is \"pach\", one of patch manual manual-si core quick "
+        "is expected, nearest is patch");
     expect_refusal("[contact]\nexponent = 2\n" ICE,
                    ":2: contact.exponent is \"2\", one of 1 1.5 is expected, nearest is 1");
     expect_refusal("[group a]\nfixed = x x\n" ICE,
@@ -462,7 +463,7 @@ static void sections_are_checked_against_each_other(void **state)
     expect_accepted(ICE "[bond]\non = false\nshear_strength = 1 MPa\n");
     expect_refusal(ICE "[contact]\nexponent = 1.5\n", ":4: exponent applies to law = core only");
     expect_refusal(ICE "[contact]\nlaw = manual\nrolling = 0.1\n",
-                   ":5: rolling applies to law = patch and core only");
+                   ":5: rolling applies to law = patch and core and quick only");
     expect_accepted(ICE "[contact]\nlaw = core\nexponent = 1.5\n");
     expect_refusal(ICE "[boundary]\ntype = free\ndrive_width = 1\n",
                    ":5: boundary.drive has no direction along x or y: drive_edge is expected");
