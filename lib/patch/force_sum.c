@@ -122,26 +122,18 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
 FL_SIMD_VERSIONS static void sum_motion(point_four *t, int32_t lanes, fl_vec3 v, fl_vec3 spin,
                                         fl_force_sum *q)
 {
-    fl_simd approach = {0}, rate = {0};
+    fl_simd approach = {0}, rate = {0}, rate2 = {0};
     for (int32_t k = 0; k < lanes; k++, t++) {
         fl_simd c;
         approach_speed_of(&c, t->across, t->arm, v, spin);
         t->approach = c;
         approach += t->du * FL_SIMD_MASKED(c > 0.0, c);
-        rate += t->e * c;
+        const fl_simd ec = t->e * c;
+        rate += ec;
+        rate2 += ec * c;
     }
     q->du_approach = fl_simd_sum(&approach), q->pressure_rate = fl_simd_sum(&rate);
-}
-
-FL_SIMD_VERSIONS static void sum_sliding(const point_four *t, int32_t lanes, fl_vec3 v, double sum[2])
-{
-    fl_simd with = {0}, square = {0};
-    for (int32_t k = 0; k < lanes; k++, t++) {
-        const fl_simd s = -(t->across[0] * v.x + t->across[1] * v.y + t->across[2] * v.z), es = t->e * s;
-        with += es * t->approach;
-        square += es * s;
-    }
-    sum[0] = fl_simd_sum(&with), sum[1] = fl_simd_sum(&square);
+    q->pressure_rate2 = fl_simd_sum(&rate2);
 }
 
 FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, double chi, double still,
@@ -330,20 +322,15 @@ int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_su
     return 0;
 }
 
-void fl_force_sum_sliding(const fl_patch_points *s, fl_vec3 v, double *with_approach, double *square)
-{
-    double sum[2];
-    sum_sliding(s->point_lanes, count_lanes(s), v, sum);
-    *with_approach = sum[0], *square = sum[1];
-}
-
-void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, fl_force_sum *q)
+void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double mean_share,
+                          fl_force_sum *q)
 {
     if (s->n == 0) return;
     int32_t lanes;
-    const double still = 1.0 + chi * speed_offset;
-    const point_four *t = points_without_tension(s, chi, still, &lanes);
-    sum_damped(t, lanes, chi, still, q);
+    const double mean = mean_share > 0.0 ? mean_share * (q->pressure_rate / q->pressure) : 0.0,
+                 own = chi * (1.0 - mean_share), still = 1.0 + chi * (speed_offset + mean);
+    const point_four *t = points_without_tension(s, own, still, &lanes);
+    sum_damped(t, lanes, own, still, q);
 }
 
 void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q)

@@ -457,8 +457,6 @@ static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, const f
     const fl_pressure_shape shape =
         fl_pressure_shape_about(sums->pressure, sums->pressure_moment, sums->second, v3_unit(q->direction));
     s->arm = shape.arm, s->elongation = shape.elongation;
-    const double cos2 = v3_norm2(q->direction) / (q->pressure * q->pressure);
-    s->bend_share = 1.0 - cos2 > FL_FLAT_CONTACT ? fl_damping_bend_share(cos2) : 0.0;
 }
 
 /* Product of a symmetric matrix, given by its upper triangle, with x. */

@@ -124,7 +124,6 @@ typedef struct {
     /* Not packed. */
     fl_vec6 learnt[6];            /* learnt part of H, times p W over the force         [1/m] */
     fl_surrogate_record previous; /* the exact evaluation before the last one                 */
-    double bend_share;            /* fl_damping_bend_share(); 0 where all normals are one */
     double energy_defect;         /* sum of the jumps of W not yet returned               [J] */
     double defect_return;         /* b                                                 [1/m2] */
     double free_path;             /* path before another wall of B may carry load         [m] */

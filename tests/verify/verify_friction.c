@@ -294,10 +294,112 @@ static void off_centre_push(void)
     }
 }
 
+/* --- corners of meshes -------------------------------------------------------------------------------- */
+
+/* A ball of 0.3 m rolls in half a pipe of 2 m of n flat facets, from 45 degrees to where it turns round.  Every
+ * corner takes the speed across the next facet, m (v dphi)^2/2. */
+static void trough(int n, double restitution, double most)
+{
+    const double R = 2.0, r = 0.3, dphi = PI / n;
+    enum { MOST = 1000 };
+    static fl_vec3 outline_of[MOST + 5];
+    lab l;
+    char what[80];
+    int m = 0;
+    lab_start(&l);
+    lab_set(&l, "run.gravity=0 -9.81 0");
+    lab_set(&l, "contact.friction=0.3");
+    lab_setf(&l, "contact.restitution=%g", restitution);
+    lab_set(&l, "material.ice.young=1 GPa");
+    lab_set(&l, "material.steel.young=1 GPa");
+    lab_set(&l, "run.safety=0.2");
+    outline_of[m++] = v3(-R - 0.5, 0, 0), outline_of[m++] = v3(-R - 0.5, -R - 0.5, 0);
+    outline_of[m++] = v3(R + 0.5, -R - 0.5, 0), outline_of[m++] = v3(R + 0.5, 0, 0);
+    for (int k = n; k >= 0; k--) outline_of[m++] = v3(-R * cos(k * dphi), -R * sin(k * dphi), 0);
+    lab_prism(&l, m, outline_of, -2, 2);
+    int facet = n / 4;
+    const double middle = (facet + 0.5) * dphi, away = R * cos(0.5 * dphi) - r;
+    lab_sphere(&l, v3(-away * cos(middle), -away * sin(middle), 0), r, v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 0.0);
+    const fl_bodies *b = &l.w.b;
+    const double start = b->m[0] * G * (b->x[0].y + R - r);
+    double corners = 0.0;
+    for (;;) {
+        if (lab_run(&l, 1)) exit(1);
+        const fl_vec3 x = b->x[0], v = b->v[0];
+        const double at = atan2(-x.y, -x.x);
+        const int now = (int)floor(at / dphi);
+        if (now != facet) corners += 0.5 * b->m[0] * v3_norm2(v) * dphi * dphi * abs(now - facet);
+        facet = now;
+        if (at > 0.5 * PI && v.x * sin(at) - v.y * cos(at) < 0.0) break;
+    }
+    fl_energy_update(&l.w);
+    snprintf(what, sizeof what, "%d facets, restitution %g: loss (corners %.4f)", n, restitution, corners / start);
+    verify_below("FR7", what, l.w.ledger.damping / start, most * corners / start);
+    lab_free(&l);
+}
+
+/* A box of 1 m slides without friction over plates of 2 m that bend up by dphi each.  While it bridges a bend it
+ * pitches by v dphi/a: its front edge takes up (1/3) m (v dphi)^2/2 as it meets the next plate, and as much as its
+ * rear edge follows. */
+static void bent_plating(double dphi, double surrogate, double most)
+{
+    enum { PLATES = 5 };
+    const double length = 2.0;
+    fl_vec3 top[PLATES + 1], all[PLATES + 3];
+    lab l;
+    char what[80];
+    lab_start(&l);
+    lab_set(&l, "run.gravity=0 -9.81 0");
+    lab_set(&l, "contact.restitution=0.3");
+    lab_set(&l, "material.ice.young=1 GPa");
+    lab_set(&l, "material.steel.young=1 GPa");
+    lab_set(&l, "run.safety=0.4");
+    lab_setf(&l, "contact.surrogate=%g", surrogate);
+    double slope = -0.5 * (PLATES - 1) * dphi;
+    const fl_vec3 t = v3(cos(slope), sin(slope), 0), n = v3(-sin(slope), cos(slope), 0);
+    top[0] = v3(0, 0, 0);
+    for (int k = 0; k < PLATES; k++, slope += dphi)
+        top[k + 1] = v3_madd(top[k], length, v3(cos(slope), sin(slope), 0));
+    all[0] = v3(top[0].x, -2, 0), all[1] = v3(top[PLATES].x, -2, 0);
+    for (int k = 0; k <= PLATES; k++) all[2 + k] = top[PLATES - k];
+    lab_prism(&l, PLATES + 3, all, -2, 2);
+    lab_box(&l, v3_madd(v3_scale(0.75 * length, t), 0.1, n), v3(0.5, 0.1, 0.5), 0.02,
+            q_of_vector(v3(0, 0, -0.5 * (PLATES - 1) * dphi)), v3_scale(3.0, t), v3(0, 0, 0));
+    lab_make(&l, 0.0);
+    const fl_bodies *b = &l.w.b;
+    const double start = 0.5 * b->m[0] * 9.0;
+    double corners = 0.0;
+    for (int at = 0; at < PLATES - 1 || b->x[0].x < top[PLATES - 1].x + 0.45 * length;) {
+        if (lab_run(&l, 1)) exit(1);
+        if (b->x[0].x <= top[at + 1].x) continue;
+        corners += b->m[0] * v3_norm2(b->v[0]) * dphi * dphi / 3.0;
+        at++;
+    }
+    fl_energy_update(&l.w);
+    snprintf(what, sizeof what, "box over bends of %g rad%s: loss (corners %.4f)", dphi,
+             surrogate > 0.0 ? ", surrogates" : "", corners / start);
+    verify_below("FR8", what, l.w.ledger.damping / start, most * corners / start);
+    lab_free(&l);
+}
+
+static void corners_of_meshes(void)
+{
+    static const int FACETS[] = {60, 120, 240, 480, 30, 960};
+    verify_note("a ball in a trough of flat facets: at most 1.2 times what its corners take");
+    for (int k = 0; k < (verify_quick() ? 3 : 6); k++) trough(FACETS[k], 0.1, 1.2);
+    if (!verify_quick()) trough(120, 0.3, 1.2);
+    verify_note("a box on plating, the first touch included");
+    bent_plating(0.05, 0.0, 1.2);
+    bent_plating(0.05, 1e-3, 1.2);
+    if (!verify_quick()) bent_plating(0.1, 0.0, 1.2);
+}
+
 int main(void)
 {
     verify_begin("friction of faces");
     plates();
     off_centre_push();
+    corners_of_meshes();
     return verify_end();
 }
