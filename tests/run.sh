@@ -8,7 +8,7 @@
 #            surrogates, sleep, late jams, threads, peers, blocks and the ladder
 #   update   rewrite the expected files of the golden cases; CASE='name*' limits it to some of them
 # Prints one line per program, the output of those that failed, the ten longest, and at the end "N passed, N failed".
-# BUILD/durations.tsv has the seconds of all.
+# BUILD/durations.tsv has the seconds of all: of processor, which hardly depend on what else runs, and of the clock.
 # Status 0, or 1 when something failed.  A program that crashes, hangs (FLOE_TIMEOUT seconds, else 600; 3600 for
 # verify and bench) or prints no count has failed.  ONLY='unit/*' limits check and verify to some programs.
 set -u
@@ -52,7 +52,10 @@ if [ "${1-}" = job ]; then
     cat "$s.err" >>"$s.out" # separate until here, so that their lines do not mix
     [ $status -eq 124 ] && echo "stopped after $4 s" >>"$s.out"
     rm -rf "$s.tmp"
-    echo "$status $(($(date +%s) - start))" >"$s.fin"
+    # Seconds of the clock, and of processor for all that ran in the job (times: shell, then children, "1m2.5s 0m0.1s").
+    times >"$s.times" # not in a pipe: a subshell has no children yet
+    cpu=$(awk 'NR == 2 { split($1 "m" $2, t, /[ms]+/); print t[1] * 60 + t[2] + t[3] * 60 + t[4] }' "$s.times")
+    echo "$status $(($(date +%s) - start)) $cpu" >"$s.fin"
     mv "$s.fin" "$s.done"
     exit 0
 fi
@@ -181,7 +184,7 @@ while read -r k label; do
         }
         sleep 0.1
     done
-    read -r status seconds <"$scratch/$k.done"
+    read -r status seconds cpu <"$scratch/$k.done"
     if [ "$what" = bench ]; then # a benchmark passes if it completes
         grep -q '^[0-9]* passed, [0-9]* failed$' "$scratch/$k.out" ||
             [ "$status" -ne 0 ] || echo "1 passed, 0 failed" >>"$scratch/$k.out"
@@ -200,15 +203,15 @@ while read -r k label; do
         tail -n 60 "$scratch/$k.out"
     fi
     printf '%-32s %d passed, %d failed%s\n' "$label" "$1" "$2" "$note"
-    printf '%s\t%s\n' "$seconds" "$label" >>"$scratch/durations"
+    printf '%s\t%s\t%s\n' "$cpu" "$seconds" "$label" >>"$scratch/durations"
 done <"$scratch/list"
 wait $crew
-# All durations to BUILD/durations.tsv, the ten longest to stdout.
+# All durations to BUILD/durations.tsv, their sum and the ten longest to stdout.
 if [ -f "$scratch/durations" ]; then
-    sort -k1,1nr -k2 "$scratch/durations" >"$build/durations.tsv"
-    printf 'longest [s]:'
-    awk -F '\t' 'NR <= 10 && $1 > 1 { printf "%s %s %s", (NR > 1 ? "," : ""), $2, $1 }' "$build/durations.tsv"
-    printf '\n'
+    sort -k1,1nr -k3 "$scratch/durations" >"$build/durations.tsv"
+    printf 'seconds of processor:'
+    awk -F '\t' '{ sum += $1 } NR <= 10 && $1 > 1 { line = line sprintf("%s %s %.0f", (NR > 1 ? "," : ""), $3, $1) }
+        END { printf " %.0f in all, of which%s\n", sum, line }' "$build/durations.tsv"
 fi
 [ "$what" = verify ] && cat "$scratch"/*.out | awk -f tests/hard.awk
 echo "$passed passed, $failed failed"

@@ -130,7 +130,7 @@ static void compute_moments(int32_t n, const double *x, const double *w, double 
 static void moments_are_exact(void **state)
 {
     enum { N = 500 };
-    double x[N], w[N], out[4];
+    double x[N] = {0}, w[N], out[4];
     (void)state;
     compute_moments(0, x, NULL, out);
     for (int k = 0; k < 4; k++) assert_true(isnan(out[k]));

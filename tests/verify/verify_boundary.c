@@ -528,20 +528,22 @@ static void sheet_against_cylinder(void)
 {
     enum { STEPS = 3, NEIGHBOURS = 5 };
     double h[STEPS], err[STEPS];
+    const int steps = verify_quick() ? 2 : STEPS;
     const double seconds = verify_quick() ? 12.0 : 30.0;
-    for (int s = 0; s < STEPS; s++) {
+    for (int s = 0; s < steps; s++) {
         double sum = 0.0;
         for (int k = 0; k < NEIGHBOURS; k++) {
             const double off = residual_against_cylinder(0.003 * k, 0.2 / (1 << s), seconds,
-                                                         s == STEPS - 1 && k == 0, &h[s]);
+                                                         s == steps - 1 && k == 0, &h[s]);
             verify_true("B04", "it runs to its end", off >= 0.0);
             sum += off * off;
         }
         err[s] = sqrt(sum / NEIGHBOURS);
         verify_note("sheets against a cylinder, step %.3g s: residual %.2e of the throughput", h[s], err[s]);
     }
-    verify_below("B04", "residual at the smallest step over that of order 1/2",
-                 err[STEPS - 1] / (err[0] * sqrt(h[STEPS - 1] / h[0])), 1.0);
+    if (steps == STEPS)
+        verify_below("B04", "residual at the smallest step over that of order 1/2",
+                     err[STEPS - 1] / (err[0] * sqrt(h[STEPS - 1] / h[0])), 1.0);
     verify_below("B04", "residual at half of the default step", err[1], 8e-6);
 }
 

@@ -635,7 +635,7 @@ static void stack_of_blocks(int n, const char *young)
      * falls as 1/n: it decays within some n^2 steps, times 40. */
     const double m = l.w.b.m[0];
     double sum = 0.0, kinetic = 0.0;
-    double *down = calloc((size_t)n, sizeof *down);
+    double *down = calloc((uint32_t)n, sizeof *down);
     if (!down) exit(1);
     for (int k = 0; k < n; k++) down[k] = sum += equilibrium_overlap(&l, k, k ? k - 1 : n, (n - k) * m * G);
     for (int k = 0; k < n; k++) l.w.b.x[k].z -= 0.99 * down[k];

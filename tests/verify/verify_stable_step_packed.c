@@ -137,6 +137,11 @@ static void verify_packing(const char *id, const packing *h, double friction, do
     const double taken = automatic_step(&l, h, 0), most = automatic_step(&l, h, 1);
     double lo = 0.2 * taken, hi = l.w.dt_critical;
     lab_free(&l);
+    if (verify_quick()) { /* one step is tried where the full run looks for the largest */
+        const double dt = fmax(taken, most);
+        verify_true(id, "all modes decay at the automatic step", all_modes_decay(h, friction, e, dt));
+        return;
+    }
     while (hi > 1.02 * lo) {
         const double mid = sqrt(lo * hi);
         if (all_modes_decay(h, friction, e, mid)) lo = mid;
