@@ -645,9 +645,29 @@ static void a_written_scene_reads_back(void **state)
     fl_scene_free(&t);
 }
 
+/* Friction has one coefficient, from 0 to 1e6, wherever it is given. */
+static void friction_is_one_number(void **state)
+{
+    static const char *const OF[] = {"contact", "material.ice", "structure", "bond"};
+    (void)state;
+    for (size_t k = 0; k < sizeof OF / sizeof *OF; k++) {
+        char line[80];
+        snprintf(line, sizeof line, "%s.friction=0.4 0.3", OF[k]);
+        expect_set_refusal(line, "one number is expected: it holds at rest and in motion");
+        snprintf(line, sizeof line, "%s.friction=nan", OF[k]);
+        expect_set_refusal(line, "a number is expected");
+        snprintf(line, sizeof line, "%s.friction=-0.1", OF[k]);
+        expect_set_refusal(line, "at least 0 and at most 1000000 is expected");
+        snprintf(line, sizeof line, "%s.friction=1.1e6", OF[k]);
+        expect_set_refusal(line, "at least 0 and at most 1000000 is expected");
+    }
+    expect_set_refusal("contact.static_friction=0.4", "nearest is \"friction\"; it holds at rest and in motion");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(friction_is_one_number),
         cmocka_unit_test(every_default_reads_back),
         cmocka_unit_test(the_smallest_scene_has_the_stated_defaults),
         cmocka_unit_test(values_carry_units),
