@@ -104,8 +104,8 @@ static void add_pressure(point_sum *s, double elastic, double normal, fl_vec3 n,
     q->direction = v3_madd(q->direction, normal, n);
     const fl_vec3 a = v3_scale(normal, arm);
     s->moment = v3_add(s->moment, a);
-    s->second = s3_add(s->second, (fl_sym3){a.x * arm.x, a.x * arm.y, a.x * arm.z, a.y * arm.y, a.y * arm.z,
-                                            a.z * arm.z});
+    s->second = s3_add(
+        s->second, (fl_sym3){a.x * arm.x, a.x * arm.y, a.x * arm.z, a.y * arm.y, a.y * arm.z, a.z * arm.z});
 }
 
 /* The result of n points. */
@@ -126,8 +126,8 @@ typedef struct {
 } contact_compliance;
 
 /* Adds friction at the centre of pressure. */
-static void add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, double chi, const contact_compliance *at,
-                         const fl_relative_pose *r, const prediction *a)
+static void add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, double chi,
+                         const contact_compliance *at, const fl_relative_pose *r, const prediction *a)
 {
     const fl_bodies *b = &w->b;
     const fl_pair_law *law = p->law;
@@ -444,18 +444,20 @@ static fl_patch_result add_damping_and_friction(fl_world *w, fl_pair *p, const f
 }
 
 /* lambda of a patch.  elastic: the force; spin: relative spin, world axes. */
-static double laid_share_of_patch(const fl_world *w, fl_pair *p, const fl_patch_points *s, const fl_force_sum *q,
-                                  const fl_exact_contact *exact, fl_vec3 elastic, const fl_relative_pose *r,
-                                  const prediction *a, fl_vec3 spin, double mass)
+static double laid_share_of_patch(const fl_world *w, fl_pair *p, const fl_patch_points *s,
+                                  const fl_force_sum *q, const fl_exact_contact *exact, fl_vec3 elastic,
+                                  const fl_relative_pose *r, const prediction *a, fl_vec3 spin, double mass)
 {
     const fl_bodies *b = &w->b;
     if (!(q->pressure > 0.0)) return 0.0;
     const double each = 1.0 / q->pressure, mean = each * q->pressure_rate;
     const fl_vec3 n = v3_unit(elastic), aj = m3_mul(r->R, v3_madd(s->point[0].p, each, q->pressure_moment)),
-                  core = end_velocity(b, p, a, v3_madd(v3_add(aj, r->off), p->radius_factor * b->radius[p->i], n),
+                  core = end_velocity(b, p, a,
+                                      v3_madd(v3_add(aj, r->off), p->radius_factor * b->radius[p->i], n),
                                       v3_madd(aj, -p->radius_factor * b->radius[p->j], n));
-    return laid_share(w, p, exact->scale * q->pressure, exact->slope, mass, v3_madd(core, -v3_dot(core, n), n),
-                      v3_madd(spin, -v3_dot(spin, n), n), fmax(each * q->pressure_rate2 - mean * mean, 0.0));
+    return laid_share(w, p, exact->scale * q->pressure, exact->slope, mass,
+                      v3_madd(core, -v3_dot(core, n), n), v3_madd(spin, -v3_dot(spin, n), n),
+                      fmax(each * q->pressure_rate2 - mean * mean, 0.0));
 }
 
 /* --- exact evaluation -------------------------------------------------------------------------- */
@@ -497,7 +499,8 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const fl_vec3 v = m3_tmul(R, end_velocity(b, p, a, ai, aj)), turn = m3_tmul(R, spin);
     if (fl_force_sum_motion(s, v, turn, &q)) return -1;
     const double chi = damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass);
-    const double laid = is_on_facets(w, p) ? laid_share_of_patch(w, p, s, &q, &exact, elastic, r, a, spin, mass) : 0.0;
+    const double laid =
+        is_on_facets(w, p) ? laid_share_of_patch(w, p, s, &q, &exact, elastic, r, a, spin, mass) : 0.0;
     const double size = v3_norm(elastic),
                  more = fl_predictor_share(size, exact.scale * q.pressure) *
                         approach_correction(a, q.pressure_rate / q.pressure, size, chi * size, compliance);
@@ -526,8 +529,8 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     p->energy += p->spring_energy;
     if (fl_panels_need_points(w, p)) {
         for (int32_t k = 0; k < s->n; k++)
-            s->point[k].approach_speed =
-                (1.0 - laid) * fl_force_sum_approach_speed(s, k) + (laid * (q.pressure_rate / q.pressure) + more);
+            s->point[k].approach_speed = (1.0 - laid) * fl_force_sum_approach_speed(s, k) +
+                                         (laid * (q.pressure_rate / q.pressure) + more);
         fl_panels_record_points(w, p, s, exact.scale, chi);
     }
     return p->touching = 1;

@@ -29,7 +29,7 @@ typedef struct {
     /* damping; fd and md in the frame of B, for a force ratio of 1 */
     fl_lane chi, weight_y, growth, shift[3], fd[3], md[3];
     fl_lane laid, laid_spin[3], core_a, core_b; /* memory of fl_pair; radii */
-    fl_lane springs[SPRINGS]; /* fl_friction_springs; the last one is unused */
+    fl_lane springs[SPRINGS];                   /* fl_friction_springs; the last one is unused */
     fl_lane compliance[6];
     /* input of friction */
     fl_lane n[3], v[3], v_end[3], aj[3], elongation[3], k, g, limit, spin_mean, spin, spin_end;
@@ -48,8 +48,8 @@ FL_SIMD4_VERSIONS static void load_rows(fl_lane *row, const double *const *of, i
 FL_SIMD_INLINE fl_friction_springs springs_of(const batch *b, int k)
 {
     const fl_lane *s = b->springs;
-    return (fl_friction_springs){fl_lane3(s, k),   s[3].a[k],          s[4].a[k],  s[5].a[k],
-                                 s[6].a[k], fl_lane3(s + 7, k), s[10].a[k]};
+    return (fl_friction_springs){fl_lane3(s, k), s[3].a[k],          s[4].a[k], s[5].a[k],
+                                 s[6].a[k],      fl_lane3(s + 7, k), s[10].a[k]};
 }
 
 /* fl_previous_force_of() */
@@ -209,8 +209,8 @@ FL_SIMD_INLINE fl_vec3 rotated(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cr
 
 /* lambda of law/damping.h, as laid_share_of_patch() of pair_force.c.  v: of A against B at the centre of the
  * pressures; w: relative spin; force: on A; all in world axes or all in the frame of B. */
-FL_SIMD_INLINE double laid_share(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn, fl_vec3 before,
-                                 fl_vec3 force, double sigma2)
+FL_SIMD_INLINE double laid_share(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn,
+                                 fl_vec3 before, fl_vec3 force, double sigma2)
 {
     const double size2 = v3_norm2(force), each2 = size2 > 0.0 ? 1.0 / size2 : 0.0, each = sqrt(each2);
     const fl_vec3 core = v3_madd(v, each, v3_cross(core_turn, force)),
@@ -266,11 +266,13 @@ FL_SIMD_INLINE void find_damping_of(batch *restrict b, fl_predictor_step of, int
                 v3_add(v3_scale(b->core_a.a[k], v3_add(fl_lane3(b->wi, k), fl_lane3(b->dwi, k))),
                        v3_scale(b->core_b.a[k], v3_add(fl_lane3(b->wj, k), fl_lane3(b->dwj, k))));
             const double d2 = v3_norm2(D), eachd2 = d2 > 0.0 ? 1.0 / d2 : 0.0;
-            const fl_vec3 middle = r3_mul(R, v3_madd(v3_add(v3_add(first, by), fl_lane3(OF(centre_offset), k)),
-                                                     eachd2, v3_cross(D, T)));
-            const double laid = laid_share(b, k, v3_add(mean_velocity(b, k, middle), predicted_change(b, k, middle)),
-                                           v3_add(turns, more), core_turn, fl_lane3(b->laid_spin, k),
-                                           r3_mul(R, force), variance > 0.0 ? variance : 0.0);
+            const fl_vec3 middle =
+                r3_mul(R, v3_madd(v3_add(v3_add(first, by), fl_lane3(OF(centre_offset), k)), eachd2,
+                                  v3_cross(D, T)));
+            const double laid =
+                laid_share(b, k, v3_add(mean_velocity(b, k, middle), predicted_change(b, k, middle)),
+                           v3_add(turns, more), core_turn, fl_lane3(b->laid_spin, k), r3_mul(R, force),
+                           variance > 0.0 ? variance : 0.0);
             f = v3_madd(v3_scale(1.0 - laid, f), -laid * closing, D);
             m = v3_madd(v3_scale(1.0 - laid, m), -laid * closing, T);
             variance *= (1.0 - laid) * (1.0 - laid);
@@ -389,15 +391,9 @@ FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step 
         };
         const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
         const fl_friction_springs was = springs_of(b, k);
-        const fl_friction_motion by = {fl_lane3(b->v, k),
-                                       fl_lane3(b->v_end, k),
-                                       b->spin.a[k],
-                                       b->spin_end.a[k],
-                                       b->spin_mean.a[k],
-                                       was.damping,
-                                       was.damping_moment,
-                                       of.half_step,
-                                       of.at_start};
+        const fl_friction_motion by = {fl_lane3(b->v, k),  fl_lane3(b->v_end, k), b->spin.a[k],
+                                       b->spin_end.a[k],   b->spin_mean.a[k],     was.damping,
+                                       was.damping_moment, of.half_step,          of.at_start};
         const fl_friction_result to = fl_tangent_step(was, c, by, of.dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));

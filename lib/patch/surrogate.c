@@ -447,7 +447,8 @@ static double slope_of_energy(const fl_surrogate *s, const fl_exact_contact *see
 }
 
 /* Pressure sums times dW/dU. */
-static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, const fl_force_sum *sums, double scale)
+static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, const fl_force_sum *sums,
+                          double scale)
 {
     const fl_vec3 acts = fl_surrogate_force_centre(q->direction, q->torque);
     s->pressure = scale * q->pressure;

@@ -319,7 +319,8 @@ static void write_friction_rows(FILE *f, int n, const fl_vec3 *corner, double an
         const double a = 0.5 * PI * k / 200, v = sin(a) * rho, w = cos(a);
         const fl_vec3 way = v3(v * cos(angle), v * sin(angle), 0.0);
         const flat_wrench e = exact_polygon_friction(n, corner, way, w), q = law_friction(C, way, w);
-        fprintf(f, "%g\t%g\t%g\t%g\t%g\t%g\n", hypot(e.x, e.y), e.m / rho, hypot(q.x, q.y), q.m / rho, sin(a), cos(a));
+        fprintf(f, "%g\t%g\t%g\t%g\t%g\t%g\n", hypot(e.x, e.y), e.m / rho, hypot(q.x, q.y), q.m / rho, sin(a),
+                cos(a));
     }
     fprintf(f, "\n\n");
 }

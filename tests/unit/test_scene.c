@@ -648,20 +648,26 @@ static void a_written_scene_reads_back(void **state)
 /* Friction has one coefficient, from 0 to 1e6, wherever it is given. */
 static void friction_is_one_number(void **state)
 {
-    static const char *const OF[] = {"contact", "material.ice", "structure", "bond"};
+    static const char *const OF[4] = {"contact", "material.ice", "structure", "bond"},
+                             *const KEY[4] = {"contact", "material", "structure", "bond"},
+                             *const IS[4][2] = {
+                                 {"0.4 0.3",
+                                  "is \"0.4 0.3\", one number is expected: it holds at rest and in motion"},
+                                 {"nan", "is \"nan\", a number is expected"},
+                                 {"-0.1", "is -0.1, a value at least 0 and at most 1000000 is expected"},
+                                 {"1.1e6", "is 1.1e6, a value at least 0 and at most 1000000 is expected"}};
     (void)state;
-    for (size_t k = 0; k < sizeof OF / sizeof *OF; k++) {
-        char line[80];
-        snprintf(line, sizeof line, "%s.friction=0.4 0.3", OF[k]);
-        expect_set_refusal(line, "one number is expected: it holds at rest and in motion");
-        snprintf(line, sizeof line, "%s.friction=nan", OF[k]);
-        expect_set_refusal(line, "a number is expected");
-        snprintf(line, sizeof line, "%s.friction=-0.1", OF[k]);
-        expect_set_refusal(line, "at least 0 and at most 1000000 is expected");
-        snprintf(line, sizeof line, "%s.friction=1.1e6", OF[k]);
-        expect_set_refusal(line, "at least 0 and at most 1000000 is expected");
-    }
-    expect_set_refusal("contact.static_friction=0.4", "nearest is \"friction\"; it holds at rest and in motion");
+    for (int k = 0; k < 4; k++)
+        for (int m = 0; m < 4; m++) {
+            char set[80], says[160];
+            snprintf(set, sizeof set, "%s.friction=%s", OF[k], IS[m][0]);
+            snprintf(says, sizeof says, "--set: %s.friction %s", KEY[k], IS[m][1]);
+            expect_set_refusal(set, says);
+        }
+    expect_set_refusal(
+        "contact.static_friction=0.4",
+        "--set: unknown key \"static_friction\" in [contact], nearest is \"friction\"; it holds at rest and "
+        "in motion");
 }
 
 int main(void)

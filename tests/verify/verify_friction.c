@@ -36,7 +36,8 @@ static outline regular_outline(int n, double circumradius)
 
 static outline rectangle_outline(double a, double b)
 {
-    return (outline){4, {{-0.5 * a, -0.5 * b, 0}, {0.5 * a, -0.5 * b, 0}, {0.5 * a, 0.5 * b, 0}, {-0.5 * a, 0.5 * b, 0}}};
+    return (outline){
+        4, {{-0.5 * a, -0.5 * b, 0}, {0.5 * a, -0.5 * b, 0}, {0.5 * a, 0.5 * b, 0}, {-0.5 * a, 0.5 * b, 0}}};
 }
 
 /* --- plates on a floor -------------------------------------------------------------------------------- */
@@ -170,14 +171,16 @@ static void compare(const char *id, const char *what, double value, double exact
 static void slide_plate(const plate *p, double tol)
 {
     const plate_run r = run_plate(p, verify_quick() ? 0.4 : 0.1);
-    const plate_stop exact = stop_of_plate(exact_of, &p->face, MU * G, r.gyration2, p->v, p->w, p->look, 1e-4),
+    const plate_stop exact =
+                         stop_of_plate(exact_of, &p->face, MU * G, r.gyration2, p->v, p->w, p->look, 1e-4),
                      law = stop_of_plate(law_of, &p->face, MU * G, r.gyration2, p->v, p->w, p->look, 1e-4);
     verify_note("%s: %s", p->id, p->name);
     compare(p->id, "time of the stop [s]", r.stop.time, exact.time, law.time, tol);
     if (v3_norm(p->v) > 0.0)
         compare(p->id, "way [m]", hypot(r.stop.x.x, r.stop.x.y), v3_norm(exact.x), v3_norm(law.x), tol);
     if (p->look > 0.0) {
-        compare(p->id, "speed at 0.3 s [m/s]", hypot(r.stop.v.x, r.stop.v.y), v3_norm(exact.v), v3_norm(law.v), tol);
+        compare(p->id, "speed at 0.3 s [m/s]", hypot(r.stop.v.x, r.stop.v.y), v3_norm(exact.v),
+                v3_norm(law.v), tol);
         compare(p->id, "spin at 0.3 s [rad/s]", r.stop.w, exact.w, law.w, tol);
     }
     if (p->face.n != 48 || v3_norm(p->v) == 0.0)
@@ -223,20 +226,39 @@ static void last_ratio(const plate *p, double radius)
 static void plates(void)
 {
     const double R = 1.0;
-    const plate fr1 = {"FR1", "a round plate of 48 sides, 1 m, 1 m/s, 2 rad/s", regular_outline(48, R - RADIUS),
-                       RADIUS, HEIGHT, {1, 0, 0}, 2.0, 0.3};
+    const plate fr1 = {"FR1",
+                       "a round plate of 48 sides, 1 m, 1 m/s, 2 rad/s",
+                       regular_outline(48, R - RADIUS),
+                       RADIUS,
+                       HEIGHT,
+                       {1, 0, 0},
+                       2.0,
+                       0.3};
     slide_plate(&fr1, 0.01);
     const double side = 1.0 - 2.0 * RADIUS;
-    const plate fr2 = {"FR2", "a square plate of 1 m, 1 m/s, 3 rad/s", rectangle_outline(side, side),
-                       RADIUS, HEIGHT, {1, 0, 0}, 3.0, 0.0};
+    const plate fr2 = {"FR2",
+                       "a square plate of 1 m, 1 m/s, 3 rad/s",
+                       rectangle_outline(side, side),
+                       RADIUS,
+                       HEIGHT,
+                       {1, 0, 0},
+                       3.0,
+                       0.0};
     slide_plate(&fr2, 0.01);
-    plate fr3 = {"FR3", "a beam of 1 m, 1 m/s across it, 4 rad/s", rectangle_outline(0.998, 0.018),
-                 0.001, 0.004, {0, 1, 0}, 4.0, 0.0};
+    plate fr3 = {"FR3",
+                 "a beam of 1 m, 1 m/s across it, 4 rad/s",
+                 rectangle_outline(0.998, 0.018),
+                 0.001,
+                 0.004,
+                 {0, 1, 0},
+                 4.0,
+                 0.0};
     slide_beam(&fr3);
     fr3.v = v3(0, 0, 0), fr3.name = "the same, 4 rad/s alone";
     slide_beam(&fr3);
     plate fr4 = fr1;
-    fr4.id = "FR4", fr4.name = "the round plate, 3 rad/s alone", fr4.v = v3(0, 0, 0), fr4.w = 3.0, fr4.look = 0.0;
+    fr4.id = "FR4", fr4.name = "the round plate, 3 rad/s alone", fr4.v = v3(0, 0, 0), fr4.w = 3.0,
+    fr4.look = 0.0;
     slide_plate(&fr4, 0.005);
     plate fr6 = fr1;
     fr6.id = "FR6", fr6.name = "the round plate, 1 m/s, 2 rad/s", fr6.look = 0.0;
@@ -267,7 +289,8 @@ static double slip_of_step(const outline *o, double f)
     fl_vec3 centre;
     const fl_pressure_shape s =
         fl_pressure_shape_of(polygon_second_moments(o->n, o->corner, &centre), v3(0, 0, 1));
-    const fl_friction_contact c = {.n = v3(0, 0, 1), .k = 1e6, .limit = 1.0, .arm = s.arm, .elongation = s.elongation};
+    const fl_friction_contact c = {
+        .n = v3(0, 0, 1), .k = 1e6, .limit = 1.0, .arm = s.arm, .elongation = s.elongation};
     fl_friction_springs springs = {.k = c.k, .k_turn = c.k * s.arm * s.arm};
     double F = 0.0, w = 0.0, M = 0.0;
     for (int k = 0; k < 40000; k++) { /* to thirty times the elastic slip */
@@ -283,14 +306,17 @@ static double slip_of_step(const outline *o, double f)
 static void off_centre_push(void)
 {
     static const double AT[3] = {0.25, 0.5, 1.0};
-    outline disc = regular_outline(48, sqrt(2.0 * PI / 48.0 / sin(2.0 * PI / 48.0))), square = rectangle_outline(1, 1);
-    verify_note("slip under a push f off the centre: the disc (48 sides of its area), then a square along a side");
+    outline disc = regular_outline(48, sqrt(2.0 * PI / 48.0 / sin(2.0 * PI / 48.0))),
+            square = rectangle_outline(1, 1);
+    verify_note(
+        "slip under a push f off the centre: the disc (48 sides of its area), then a square along a side");
     for (int k = 0; k < 6; k++) {
         const outline *o = k < 3 ? &disc : &square;
         char what[80];
-        snprintf(what, sizeof what, "%s, f = %g m: F/(mu N) (law %.4f)", k < 3 ? "disc 1 m" : "square 1 m", AT[k % 3],
-                 slip_limit(law_of, o, AT[k % 3]));
-        verify_row("FR5", what, slip_of_step(o, AT[k % 3]), slip_limit(exact_of, o, AT[k % 3]), 0.01, VERIFY_REL);
+        snprintf(what, sizeof what, "%s, f = %g m: F/(mu N) (law %.4f)", k < 3 ? "disc 1 m" : "square 1 m",
+                 AT[k % 3], slip_limit(law_of, o, AT[k % 3]));
+        verify_row("FR5", what, slip_of_step(o, AT[k % 3]), slip_limit(exact_of, o, AT[k % 3]), 0.01,
+                   VERIFY_REL);
     }
 }
 
@@ -334,7 +360,8 @@ static void trough(int n, double restitution, double most)
         if (at > 0.5 * PI && v.x * sin(at) - v.y * cos(at) < 0.0) break;
     }
     fl_energy_update(&l.w);
-    snprintf(what, sizeof what, "%d facets, restitution %g: loss (corners %.4f)", n, restitution, corners / start);
+    snprintf(what, sizeof what, "%d facets, restitution %g: loss (corners %.4f)", n, restitution,
+             corners / start);
     verify_below("FR7", what, l.w.ledger.damping / start, most * corners / start);
     lab_free(&l);
 }
