@@ -504,7 +504,9 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const double size = v3_norm(elastic),
                  more = fl_predictor_share(size, exact.scale * q.pressure) *
                         approach_correction(a, q.pressure_rate / q.pressure, size, chi * size, compliance);
-    fl_force_sum_damping(s, chi, more, laid, &q);
+    const double whole = fl_damping_whole_approach(
+        q.pressure_rate / q.pressure, -(v3_dot(q.gradient.f, v) + v3_dot(q.gradient.m, turn)) / q.pressure);
+    fl_force_sum_damping(s, chi, more, laid, whole, &q);
     fl_stiffness si, sj;
     fl_spring_sums point_springs;
     if (survey || has_surrogate) fl_force_sum_springs(s, &point_springs);
@@ -529,8 +531,8 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     p->energy += p->spring_energy;
     if (fl_panels_need_points(w, p)) {
         for (int32_t k = 0; k < s->n; k++)
-            s->point[k].approach_speed = (1.0 - laid) * fl_force_sum_approach_speed(s, k) +
-                                         (laid * (q.pressure_rate / q.pressure) + more);
+            s->point[k].approach_speed =
+                (1.0 - laid) * fl_force_sum_approach_speed(s, k) + (laid * whole + more);
         fl_panels_record_points(w, p, s, exact.scale, chi);
     }
     return p->touching = 1;

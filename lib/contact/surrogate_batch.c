@@ -273,8 +273,15 @@ FL_SIMD_INLINE void find_damping_of(batch *restrict b, fl_predictor_step of, int
                 laid_share(b, k, v3_add(mean_velocity(b, k, middle), predicted_change(b, k, middle)),
                            v3_add(turns, more), core_turn, fl_lane3(b->laid_spin, k), r3_mul(R, force),
                            variance > 0.0 ? variance : 0.0);
-            f = v3_madd(v3_scale(1.0 - laid, f), -laid * closing, D);
-            m = v3_madd(v3_scale(1.0 - laid, m), -laid * closing, T);
+            const fl_vec3 acts = r3_mul(R, fl_lane3(b->s.point, k)),
+                          at = v3_add(mean_velocity(b, k, acts), predicted_change(b, k, acts));
+            const double rate = -(v3_dot(r3_mul(R, force), at) +
+                                  v3_dot(r3_mul(R, fl_lane3(b->s.m, k)), v3_add(turns, more))) /
+                                (b->s.force_ratio.a[k] * OF(pressure)->a[k]),
+                         same = closing * rate > 0.0 ? rate : 0.0,
+                         whole = same * same < closing * closing ? same : closing;
+            f = v3_madd(v3_scale(1.0 - laid, f), -laid * whole, D);
+            m = v3_madd(v3_scale(1.0 - laid, m), -laid * whole, T);
             variance *= (1.0 - laid) * (1.0 - laid);
         }
         /* the change by the contact itself */

@@ -47,11 +47,13 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
  * A body that rolls or slides over a corner of a surface hands its load from one face to the next: while the
  * points of one approach, those of the other part, and the load as a whole does not change.  Damped point by
  * point that costs far more than the corner itself, m (v dphi)^2/2, as the load is laid down once more at
- * every corner.  So of the approach speeds c of the points, with the mean C = sum e c/sum e over the pressures e,
+ * every corner.  So of the approach speeds c of the points, with C the approach of the contact as a whole,
  *
- *     c' = C + (1 - lambda) (c - C)
+ *     c' = c - lambda (c - C)
  *
- * are damped.  The approach of the contact as a whole is damped in full.  lambda is the product of
+ * are damped.  C is the mean sum e c/sum e over the pressures e, or the rate of the stored energy over sum e, or 0,
+ * whichever is between the other two: where pressures travel along the faces their mean approach is no rate of
+ * the load.  lambda is the product of
  *   - the share of the load that was there before, laid/F, with `laid` the load F behind a low pass of
  *     FL_LAID_PERIODS/omega, omega^2 = K/M: 1 for a load that rests, 0 in an impact, whose restitution stays;
  *   - u^2/(u^2 + (sigma/FL_LAID_SLOPE)^2), with u the speed across the normal of the points of the cores that
@@ -60,8 +62,15 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
  *   - w.w'/max(w^2, w'^2) >= 0, with w the spin across the normal and w' the same behind the low pass: 1 for a
  *     body that rolls or pitches steadily, 0 for one that rocks to and fro.
  * sum e c' c >= 0: it stays a dissipation. */
-#define FL_LAID_PERIODS 3.0
+#define FL_LAID_PERIODS 2.0
 #define FL_LAID_SLOPE 0.2
+
+/* C from the mean and from the rate of the energy over the load. */
+static inline double fl_damping_whole_approach(double mean, double rate)
+{
+    const double same = mean * rate > 0.0 ? rate : 0.0;
+    return same * same < mean * mean ? same : mean;
+}
 
 /* First factor of lambda. */
 static inline double fl_damping_laid_share(double laid, double load)

@@ -322,13 +322,12 @@ int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_su
     return 0;
 }
 
-void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double mean_share,
-                          fl_force_sum *q)
+void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double whole_share,
+                          double whole, fl_force_sum *q)
 {
     if (s->n == 0) return;
     int32_t lanes;
-    const double mean = mean_share > 0.0 ? mean_share * (q->pressure_rate / q->pressure) : 0.0,
-                 own = chi * (1.0 - mean_share), still = 1.0 + chi * (speed_offset + mean);
+    const double own = chi * (1.0 - whole_share), still = 1.0 + chi * (speed_offset + whole_share * whole);
     const point_four *t = points_without_tension(s, own, still, &lanes);
     sum_damped(t, lanes, own, still, q);
 }

@@ -62,9 +62,10 @@ int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_su
 /* Sets damped_pressure, direction, damped_moment and damping, after fl_force_sum_motion().
  *   chi            damping coefficient [s/m]
  *   speed_offset   added to the approach speed of every point [m/s]
- *   mean_share     lambda of law/damping.h: the share of the mean approach, in place of its own, that a point has */
-void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double mean_share,
-                          fl_force_sum *q);
+ *   whole_share    lambda of law/damping.h: the share of the approach `whole`, in place of its own, that a point has
+ */
+void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double whole_share,
+                          double whole, fl_force_sum *q);
 
 /* Springs ddu along the unit normal of each point, rim forces left out, after fl_force_sum_elastic() [m4]. */
 void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q);

@@ -371,7 +371,7 @@ static void trough(int n, double restitution, double most)
  * rear edge follows. */
 static void bent_plating(double dphi, double surrogate, double most)
 {
-    enum { PLATES = 5 };
+    enum { PLATES = 7 };
     const double length = 2.0;
     fl_vec3 top[PLATES + 1], all[PLATES + 3];
     lab l;
@@ -410,6 +410,91 @@ static void bent_plating(double dphi, double surrogate, double most)
     lab_free(&l);
 }
 
+/* --- floes along a wall and hulls ---------------------------------------------------------------------- */
+
+typedef struct {
+    int facets;
+    double length, bend;     /* of a facet [m]; from one to the next, > 0: hollow [rad] */
+    int from;                /* facet on whose middle the floe starts */
+    double yaw, speed, spin; /* of the floe against it */
+    double friction, duration;
+} voyage;
+
+typedef struct {
+    fl_vec3 x;
+    double heading, loss, corners; /* corners: what the edges of the floe take at hollow bends */
+} arrival;
+
+/* A floe 20 x 10 x 0.6 m is pushed with 0.5 m/s2 on a faceted hull along which it drags and yaws. */
+static arrival sail(const voyage *c, double step)
+{
+    enum { MOST = 20 };
+    const double a = 20.0, b = 10.0;
+    fl_vec3 top[MOST + 1], all[MOST + 3];
+    double slope = -0.5 * (c->facets - 1) * c->bend;
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "run.gravity=0 -0.5 0");
+    lab_setf(&l, "contact.friction=%g", c->friction);
+    lab_set(&l, "contact.restitution=0.3");
+    lab_set(&l, "material.ice.young=1 GPa");
+    lab_set(&l, "material.steel.young=1 GPa");
+    lab_set(&l, "run.safety=0.4");
+    top[0] = v3(0, 0, 0);
+    for (int k = 0; k < c->facets; k++, slope += c->bend)
+        top[k + 1] = v3_madd(top[k], c->length, v3(cos(slope), sin(slope), 0));
+    all[0] = v3(top[0].x, -20, 0), all[1] = v3(top[c->facets].x, -20, 0);
+    for (int k = 0; k <= c->facets; k++) all[2 + k] = top[c->facets - k];
+    lab_prism(&l, c->facets + 3, all, -3, 3);
+    slope = (c->from - 0.5 * (c->facets - 1)) * c->bend;
+    const fl_vec3 t = v3(cos(slope), sin(slope), 0), n = v3(-sin(slope), cos(slope), 0);
+    const fl_vec3 x = v3_madd(v3_lerp(top[c->from], top[c->from + 1], 0.5),
+                              0.5 * (b * cos(c->yaw) + a * sin(fabs(c->yaw))), n);
+    lab_box(&l, x, v3(0.5 * a, 0.5 * b, 0.3), 0.1, q_of_vector(v3(0, 0, slope + c->yaw)),
+            v3_scale(c->speed, t), v3(0, 0, c->spin));
+    lab_make(&l, 0.0);
+    l.w.dt *= step;
+    const fl_bodies *o = &l.w.b;
+    arrival r = {.heading = c->yaw};
+    /* (1/4 + k^2/a^2) m (v dphi)^2/2 as the front edge meets a facet and as the rear edge leaves the last */
+    const double each = 0.5 * o->m[0] * c->bend * c->bend * (0.25 + gyration2_of(o) / (a * a));
+    int front = -1, rear = -1;
+    for (int64_t s = (int64_t)(c->duration / l.w.dt + 0.5); s > 0; s--) {
+        if (lab_run(&l, 1)) exit(1);
+        r.heading += l.w.dt * o->w[0].z;
+        int now[2] = {0, 0};
+        for (int k = 1; k < c->facets; k++)
+            now[0] += o->x[0].x + 0.5 * a > top[k].x, now[1] += o->x[0].x - 0.5 * a > top[k].x;
+        if (front >= 0) r.corners += each * v3_norm2(o->v[0]) * (now[0] - front + now[1] - rear);
+        front = now[0], rear = now[1];
+    }
+    fl_energy_update(&l.w);
+    r.x = o->x[0];
+    r.loss = l.w.ledger.damping / (0.5 * o->m[0] * c->speed * c->speed);
+    r.corners /= 0.5 * o->m[0] * c->speed * c->speed;
+    lab_free(&l);
+    return r;
+}
+
+static void floes_along_hulls(void)
+{
+    const voyage wall = {1, 90.0, 0.0, 0, 0.1, 2.0, 0.1, 0.3, 3.0},
+                 hull = {14, 6.0, -0.03, 3, 0.0, 3.0, 0.0, 0.1, 8.0},
+                 hollow = {6, 30.0, 0.05, 0, 0.0, 3.0, 0.0, 0.0, 40.0};
+    verify_note("a floe 20 x 10 m drags and yaws along a wall, then over a hull of 14 facets: step halved");
+    for (int k = 0; k < (verify_quick() ? 1 : 2); k++) {
+        const voyage *c = k ? &hull : &wall;
+        const arrival one = sail(c, 1.0), half = sail(c, 0.5);
+        verify_row("FR9", "heading [rad]", one.heading, half.heading, 1e-4, VERIFY_ABS);
+        verify_row("FR9", "way [m]", one.x.x, half.x.x, 1e-3, VERIFY_ABS);
+    }
+    if (verify_quick()) return;
+    const arrival r = sail(&hollow, 1.0);
+    char what[80];
+    snprintf(what, sizeof what, "along a hollow hull, 0.05 rad: loss (corners %.4f)", r.corners);
+    verify_below("FR9", what, r.loss, 1.5 * r.corners);
+}
+
 static void corners_of_meshes(void)
 {
     static const int FACETS[] = {60, 120, 240, 480, 30, 960};
@@ -419,7 +504,7 @@ static void corners_of_meshes(void)
     verify_note("a box on plating, the first touch included");
     bent_plating(0.05, 0.0, 1.2);
     bent_plating(0.05, 1e-3, 1.2);
-    if (!verify_quick()) bent_plating(0.1, 0.0, 1.2);
+    if (!verify_quick()) bent_plating(0.1, 0.0, 1.2), bent_plating(0.02, 0.0, 1.2);
 }
 
 int main(void)
@@ -428,5 +513,6 @@ int main(void)
     plates();
     off_centre_push();
     corners_of_meshes();
+    floes_along_hulls();
     return verify_end();
 }
