@@ -457,7 +457,7 @@ static double laid_share_of_patch(const fl_world *w, fl_pair *p, const fl_patch_
                                       v3_madd(aj, -p->radius_factor * b->radius[p->j], n));
     return laid_share(w, p, exact->scale * q->pressure, exact->slope, mass,
                       v3_madd(core, -v3_dot(core, n), n), v3_madd(spin, -v3_dot(spin, n), n),
-                      fmax(each * q->pressure_rate2 - mean * mean, 0.0));
+                      fmax(each * fl_force_sum_square(s) - mean * mean, 0.0));
 }
 
 /* --- exact evaluation -------------------------------------------------------------------------- */
@@ -601,6 +601,9 @@ static int evaluate_features(fl_world *w, fl_pair *p, int32_t thread, const fl_r
         return 0;
     }
     const double overlap = -c.gap;
+    const fl_piece *piece = fl_world_piece(w, p->j);
+    if (piece && piece->several_parts)
+        p->load_part = fl_load_part_at(w, p->j, v3_add(b->x[p->j], m3_mul(r->R, c.p)));
     const fl_manual_contact mc = {.kind = (fl_manual_kind)(c.mode - FL_VV),
                                   .length = c.length,
                                   .area = c.area,
@@ -699,7 +702,10 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
         if (evaluate_features(w, p, thread, &r, &a, survey, &distance)) goto failed;
         if (p->touching) goto touches;
     } else {
+        const int shared = piece && piece->several_parts;
+        s->keep_features = w->panel_load.panels || shared;
         if (fl_pair_find_points(w, p, thread, &r, &distance)) goto failed;
+        if (shared && s->n) fl_load_find_part(w, p, s);
         const int touch = p->points == FL_POINTS_PATCH ? evaluate_patch(w, p, thread, t, &r, &a, survey)
                           : s->n                       ? evaluate_points(w, p, s, &r, &a, survey)
                                                        : 0;

@@ -133,6 +133,7 @@ static inline double fl_predictor_inverse_mass(const fl_world *w, int32_t k, dou
 {
     if (k < w->n) return fl_body_inverse_mass(&w->b, k);
     if (!fl_piece_is_free(w, k)) return 0.0;
+    if (fl_structure_has_members(w)) return w->b.invm[k];
     const double mass = w->moving.movers.motion[w->moving.mover_of_piece[k - w->n]].mass;
     return mass > 0.0 ? 1.0 / mass : y;
 }

@@ -54,10 +54,19 @@ static fl_vec3 sum_vector(const fl_simd a[3])
     return v3(fl_simd_sum(&a[0]), fl_simd_sum(&a[1]), fl_simd_sum(&a[2]));
 }
 
-static fl_sym3 sum_matrix(const fl_simd a[6])
+/* fl_simd_sum() of a[0] to a[3] and of a[4] and a[5], transposed in registers. */
+FL_SIMD_INLINE void sum_matrix(fl_sym3 *sum, const fl_simd a[6])
 {
-    return (fl_sym3){fl_simd_sum(&a[0]), fl_simd_sum(&a[1]), fl_simd_sum(&a[2]),
-                     fl_simd_sum(&a[3]), fl_simd_sum(&a[4]), fl_simd_sum(&a[5])};
+    const fl_simd low = __builtin_shufflevector(a[0], a[1], 0, 1, 4, 5) +
+                        __builtin_shufflevector(a[0], a[1], 2, 3, 6, 7),
+                  mid = __builtin_shufflevector(a[2], a[3], 0, 1, 4, 5) +
+                        __builtin_shufflevector(a[2], a[3], 2, 3, 6, 7),
+                  high = __builtin_shufflevector(a[4], a[5], 0, 1, 4, 5) +
+                         __builtin_shufflevector(a[4], a[5], 2, 3, 6, 7);
+    const fl_simd four =
+        __builtin_shufflevector(low, mid, 0, 2, 4, 6) + __builtin_shufflevector(low, mid, 1, 3, 5, 7);
+    sum->xx = four[0], sum->xy = four[1], sum->xz = four[2], sum->yy = four[3];
+    sum->yz = high[0] + high[1], sum->zz = high[2] + high[3];
 }
 
 /* Adds weight arm and weight arm arm^T. */
@@ -115,25 +124,30 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
     q->u = fl_simd_sum(&u), q->ddu = fl_simd_sum(&ddu);
     q->du = fl_simd_sum(&pressed), q->pressure = fl_simd_sum(&elastic);
     q->gradient = (fl_wrench){sum_vector(f), sum_vector(m)};
-    q->pressure_moment = sum_vector(mid), q->second = sum_matrix(second);
+    q->pressure_moment = sum_vector(mid);
+    sum_matrix(&q->second, second);
     q->overlap = largest_lane(&most);
 }
 
 FL_SIMD_VERSIONS static void sum_motion(point_four *t, int32_t lanes, fl_vec3 v, fl_vec3 spin,
                                         fl_force_sum *q)
 {
-    fl_simd approach = {0}, rate = {0}, rate2 = {0};
+    fl_simd approach = {0}, rate = {0};
     for (int32_t k = 0; k < lanes; k++, t++) {
         fl_simd c;
         approach_speed_of(&c, t->across, t->arm, v, spin);
         t->approach = c;
         approach += t->du * FL_SIMD_MASKED(c > 0.0, c);
-        const fl_simd ec = t->e * c;
-        rate += ec;
-        rate2 += ec * c;
+        rate += t->e * c;
     }
     q->du_approach = fl_simd_sum(&approach), q->pressure_rate = fl_simd_sum(&rate);
-    q->pressure_rate2 = fl_simd_sum(&rate2);
+}
+
+FL_SIMD_VERSIONS static void sum_squares(const point_four *t, int32_t lanes, double *sum)
+{
+    fl_simd rate2 = {0};
+    for (int32_t k = 0; k < lanes; k++, t++) rate2 += t->e * t->approach * t->approach;
+    *sum = fl_simd_sum(&rate2);
 }
 
 FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, double chi, double still,
@@ -320,6 +334,13 @@ int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_su
     if (find_areas(s)) return -1;
     q->du_approach += approach_correction(s);
     return 0;
+}
+
+double fl_force_sum_square(const fl_patch_points *s)
+{
+    double sum = 0.0;
+    sum_squares(s->point_lanes, count_lanes(s), &sum);
+    return sum;
 }
 
 void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double whole_share,

@@ -6,8 +6,7 @@
  * the unit normal; e = du n.t its share of the pressure; c its approach speed.
  *     gradient              sum of du n and of arm x du n: force and moment over dW/dU
  *     du, du_approach       sum of du, and of du c where c > 0: their ratio is the approach speed for damping
- *     pressure, .._moment   sums of e and of e arm;  second: of e arm arm^T;  pressure_rate, .._rate2: of e c
- *                           and e c^2
+ *     pressure, .._moment   sums of e and of e arm;  second: of e arm arm^T;  pressure_rate: of e c
  *     f                     max(0, e (1 + chi (c + speed_offset))): damped pressure of a point, never tension
  *     damped_pressure, ..   sums of f, f t and f arm
  *     damping               sum of (f - e) t and of arm x (f - e) t: what damping adds
@@ -43,7 +42,6 @@ typedef struct {
     fl_vec3 pressure_moment; /* sum of e arm                                        [m6] */
     fl_sym3 second;          /* sum of e arm arm^T                                  [m7] */
     double pressure_rate;    /* sum of e c                                        [m6/s] */
-    double pressure_rate2;   /* sum of e c^2                                     [m7/s2] */
     fl_wrench gradient;      /* force and moment                              [m5], [m6] */
     double damped_pressure;  /* sum of f                                            [m5] */
     fl_vec3 direction;       /* sum of f t                                          [m5] */
@@ -54,10 +52,13 @@ typedef struct {
 /* Sets the sums that do not depend on motion.  -1 when memory runs out. */
 int fl_force_sum_elastic(fl_patch_points *s, fl_force_sum *q);
 
-/* Sets du_approach, pressure_rate and pressure_rate2 of the same points.
+/* Sets du_approach and pressure_rate of the same points.
  *   v, spin   velocity and angular velocity of A relative to B at the first point [m/s], [rad/s]
  * -1 when memory runs out. */
 int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_sum *q);
+
+/* Sum of e c^2, after fl_force_sum_motion() [m7/s2]. */
+double fl_force_sum_square(const fl_patch_points *s);
 
 /* Sets damped_pressure, direction, damped_moment and damping, after fl_force_sum_motion().
  *   chi            damping coefficient [s/m]

@@ -180,6 +180,8 @@ void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
     fl_state_io_int(t, 0, 1, &p->touching);
     exchange_memory(t, p);
     if (p->touching) exchange_forces(t, p);
+    if (p->touching && j >= w->n && w->structure.piece[j - w->n].several_parts)
+        fl_state_io_int(t, FL_LOAD_SHARED, w->parts - 1, &p->load_part);
     exchange_pair_rolling(t, w, p);
     fl_surrogate surrogate = {0};
     if (t->f && p->surrogate) surrogate = *p->surrogate;

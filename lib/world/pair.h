@@ -16,6 +16,8 @@
 typedef struct {
     const fl_contact_law *law;  /* row of the table of laws */
     double exponent;            /* n of contact points of polyhedra */
+    double round_exponent;      /* n of those of spheres and ends of capsules: 3/2 or 1 */
+    double round_young;         /* E of a linear one [Pa] */
     double modulus;             /* E* [Pa] */
     double stiffness;           /* given by the scene [N/m^n]; 0: from the modulus */
     double stiffness_factor;    /* multiplies the stiffness that follows from the modulus */
@@ -70,7 +72,10 @@ typedef struct {
     double overlap;                                               /* largest [m] */
     double omega2_i, omega2_j; /* bounds of omega^2 of this contact for i and j, the other fixed [1/s2] */
     int32_t index;             /* into fl_world.pair */
+    int32_t load_part;         /* part that bears the load, FL_LOAD_SHARED: several; -1: a floe or wall */
 } fl_pair;
+
+enum { FL_LOAD_SHARED = -2 };
 
 /* The results of an evaluation are so many consecutive doubles, from force to omega2_j. */
 enum { FL_PAIR_RESULTS = 32 };

@@ -48,6 +48,7 @@ typedef struct {
     double radius, height;
     fl_vec3 v;
     double w, look; /* motion at the start; time at which the motion is compared */
+    double surrogate;
 } plate;
 
 static flat_wrench exact_of(const void *context, fl_vec3 v, double w)
@@ -116,6 +117,7 @@ static void start_plate(lab *l, const plate *p, double safety)
     lab_setf(l, "contact.friction=%g", MU);
     lab_set(l, "contact.restitution=0.3");
     lab_setf(l, "run.safety=%g", safety);
+    lab_setf(l, "contact.surrogate=%g", p->surrogate);
     make_prism(&p->face, p->height - 2.0 * p->radius, &core);
     fl_poly_to_frame(&core, v3(0, 0, -p->radius), q_matrix(q_one()));
     lab_poly(l, &core, p->radius, p->v, v3(0, 0, p->w));
@@ -233,7 +235,8 @@ static void plates(void)
                        HEIGHT,
                        {1, 0, 0},
                        2.0,
-                       0.3};
+                       0.3,
+                       0.0};
     slide_plate(&fr1, 0.01);
     const double side = 1.0 - 2.0 * RADIUS;
     const plate fr2 = {"FR2",
@@ -243,8 +246,12 @@ static void plates(void)
                        HEIGHT,
                        {1, 0, 0},
                        3.0,
+                       0.0,
                        0.0};
     slide_plate(&fr2, 0.01);
+    plate replaced = fr2;
+    replaced.name = "the same by surrogates of 1e-3", replaced.surrogate = 1e-3;
+    slide_plate(&replaced, 0.01);
     plate fr3 = {"FR3",
                  "a beam of 1 m, 1 m/s across it, 4 rad/s",
                  rectangle_outline(0.998, 0.018),
@@ -252,6 +259,7 @@ static void plates(void)
                  0.004,
                  {0, 1, 0},
                  4.0,
+                 0.0,
                  0.0};
     slide_beam(&fr3);
     fr3.v = v3(0, 0, 0), fr3.name = "the same, 4 rad/s alone";
