@@ -86,7 +86,7 @@ static void worst_errors(int n, const fl_vec3 *corner, double *force, double *mo
         }
 }
 
-/* FRICTION of `patch` under an even pressure: the figures of law/tangent.h. */
+/* The law under an even pressure: the figures of law/tangent.h. */
 static void the_law_is_near_coulombs(void **state)
 {
     fl_vec3 c[4];

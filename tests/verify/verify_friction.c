@@ -181,6 +181,7 @@ static void slide_plate(const plate *p, double tol)
     if (v3_norm(p->v) > 0.0)
         compare(p->id, "way [m]", hypot(r.stop.x.x, r.stop.x.y), v3_norm(exact.x), v3_norm(law.x), tol);
     if (p->look > 0.0) {
+        verify_note("aside of its path: %.2e m", r.stop.x.y);
         compare(p->id, "speed at 0.3 s [m/s]", hypot(r.stop.v.x, r.stop.v.y), v3_norm(exact.v),
                 v3_norm(law.v), tol);
         compare(p->id, "spin at 0.3 s [rad/s]", r.stop.w, exact.w, law.w, tol);
