@@ -256,15 +256,22 @@ static int is_on_facets(const fl_world *w, const fl_pair *p)
     return piece && piece->kind != FL_PIECE_PLANE;
 }
 
-/* Share of the load of p that was laid down before (law/damping.h), with load, slope and mass now; takes note
- * of the load.  cos2 as in fl_damping_bend_share(). */
-static double laid_share(const fl_world *w, fl_pair *p, double load, double slope, double mass, double cos2)
+/* lambda of law/damping.h; takes note of load and spin.
+ *   load, slope, mass   sum of the pressures, its stiffness, effective mass
+ *   u, spin             sliding speed of the cores and spin, both across the normal
+ *   sigma2              variance of the approach speeds */
+static double laid_share(const fl_world *w, fl_pair *p, double load, double slope, double mass, fl_vec3 u,
+                         fl_vec3 spin, double sigma2)
 {
-    const double now = fl_world_time(w), laid = p->touching ? p->laid_load : 0.0;
-    const double omega2 = slope > 0.0 && mass < INFINITY ? slope / mass : 0.0;
-    p->laid_load = fl_damping_laid_load(laid, load, p->touching ? now - p->laid_time : 0.0, omega2);
-    p->laid_time = now;
-    return fl_damping_laid_share(laid, load) * fl_damping_bend_share(cos2);
+    const double now = (double)w->step, laid = p->touching ? p->laid_load : 0.0;
+    const fl_vec3 before = p->touching ? p->laid_spin : v3(0, 0, 0);
+    const double omega2 = slope > 0.0 && mass < INFINITY ? slope / mass : 0.0,
+                 part = p->touching ? fl_damping_low_pass((now - p->laid_step) * w->dt, omega2) : 0.0;
+    p->laid_load = laid + part * (load - laid);
+    p->laid_spin = v3_lerp(before, spin, part);
+    p->laid_step = now;
+    return fl_damping_laid_share(laid, load) * fl_damping_passing_share(v3_norm2(u), sigma2) *
+           fl_damping_steady_share(v3_dot(spin, before), v3_norm2(spin), v3_norm2(before));
 }
 
 /* A contact point in world axes. */
@@ -339,23 +346,24 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
     const double mass = less > 0.0 ? fl_pair_mass(w, p, &ease, way, turn_i, turn_j) / less : INFINITY;
     const double first_approach = approach_speed_of(b, p, a, &first);
     double approach = first_approach, mean = 0.0, laid = 0.0;
-    if (s->n > 1) {
-        double load = k * fabs(first.weight),
-               stiff = k * s->point[0].du * fl_normal_slope(s->point[0].overlap, p->exponent);
-        mean = first.weight * first_approach;
-        for (int32_t c = 1; c < s->n; c++) {
+    if (is_on_facets(w, p)) { /* a sphere: its spin does not matter, and its core is its centre */
+        double load = 0.0, stiff = 0.0, square = 0.0;
+        for (int32_t c = 0; c < s->n; c++) {
             const fl_patch_point *q = &s->point[c];
-            const world_point t = world_point_of(p, q, r);
-            const double comes = approach_speed_of(b, p, a, &t);
-            mean += t.weight * comes;
+            const world_point t = c ? world_point_of(p, q, r) : first;
+            const double comes = c ? approach_speed_of(b, p, a, &t) : first_approach;
+            mean += t.weight * comes, square += t.weight * comes * comes;
             load += k * t.weight;
             stiff += k * q->du * fl_normal_slope(q->overlap, p->exponent);
-            if (q->du > 0.0) approach = fmax(approach, comes);
         }
         mean /= sum;
-        laid = laid_share(w, p, load, stiff, mass, less);
-    } else if (is_on_facets(w, p)) {
-        laid_share(w, p, k * first.weight, k * fl_normal_slope(s->point[0].overlap, p->exponent), mass, 1.0);
+        const fl_vec3 n = v3_unit(way), u = end_velocity(b, p, a, v3(0, 0, 0), v3_neg(r->off));
+        laid = laid_share(w, p, load, stiff, mass, v3_madd(u, -v3_dot(u, n), n), v3(0, 0, 0),
+                          fmax(square / sum - mean * mean, 0.0));
+    }
+    for (int32_t c = 1; c < s->n; c++) {
+        const world_point t = world_point_of(p, &s->point[c], r);
+        if (s->point[c].du > 0.0) approach = fmax(approach, approach_speed_of(b, p, a, &t));
     }
     const double chi = damping_factor(p, approach > 0.0 ? approach : 0.0, mass), push = k * first.weight,
                  more = one ? approach_correction(a, first_approach, push, chi * push,
@@ -367,8 +375,8 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
         const world_point t = c ? world_point_of(p, q, r) : first;
         const double elastic = k * t.weight, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
                      own = c ? approach_speed_of(b, p, a, &t) : first_approach,
-                     comes = laid > 0.0 ? own + laid * (mean - own) : own, /* all slide as one sphere */
-            normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes + more);
+                     comes = s->n > 1 ? own + laid * (mean - own) : own,
+                     normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes + more);
         add_wrench(&p->force, &p->torque_i, &p->torque_j, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping,
                    v3_scale(normal - elastic, t.n), t.ai, t.aj);
@@ -435,30 +443,21 @@ static fl_patch_result add_damping_and_friction(fl_world *w, fl_pair *p, const f
     return all;
 }
 
-/* Leaves the approach that sliding and rolling over faces of different normals give out of q and s, as far as
- * the load was laid down before (law/damping.h).  elastic: the force; v, spin: arguments of
- * fl_force_sum_motion().  -1 when memory runs out. */
-static int leave_out_sliding(const fl_world *w, fl_pair *p, fl_patch_points *s, fl_force_sum *q,
-                             const fl_exact_contact *exact, fl_vec3 elastic, const fl_relative_pose *r,
-                             const prediction *a, fl_vec3 v, fl_vec3 spin, double mass)
+/* lambda of a patch.  elastic: the force; spin: relative spin, world axes. */
+static double laid_share_of_patch(const fl_world *w, fl_pair *p, const fl_patch_points *s,
+                                  const fl_force_sum *q, const fl_exact_contact *exact, fl_vec3 elastic,
+                                  const fl_relative_pose *r, const prediction *a, fl_vec3 spin, double mass)
 {
     const fl_bodies *b = &w->b;
-    const double load = exact->scale * q->pressure, f2 = v3_norm2(elastic), cos2 = f2 / (load * load),
-                 laid = laid_share(w, p, load, exact->slope, mass, cos2);
-    if (!(laid > 0.0 && q->pressure > 0.0)) return 0;
-    const fl_vec3 n = v3_unit(elastic),
-                  aj = m3_mul(r->R, v3_madd(s->point[0].p, 1.0 / q->pressure, q->pressure_moment)),
+    if (!(q->pressure > 0.0)) return 0.0;
+    const double each = 1.0 / q->pressure, mean = each * q->pressure_rate;
+    const fl_vec3 n = v3_unit(elastic), aj = m3_mul(r->R, v3_madd(s->point[0].p, each, q->pressure_moment)),
                   core = end_velocity(b, p, a,
                                       v3_madd(v3_add(aj, r->off), p->radius_factor * b->radius[p->i], n),
-                                      v3_madd(aj, -p->radius_factor * b->radius[p->j], n)),
-                  slides = m3_tmul(r->R, v3_madd(core, -v3_dot(core, n), n));
-    double with, square;
-    fl_force_sum_sliding(s, slides, &with, &square);
-    if (!(with > 0.0 && square > FL_FLAT_CONTACT * q->pressure * v3_norm2(slides))) return 0;
-    const double share = laid * fmin(with / square, 1.0), approach = q->du_approach;
-    if (fl_force_sum_motion(s, v3_madd(v, -share, slides), spin, q)) return -1;
-    q->du_approach = approach;
-    return 0;
+                                      v3_madd(aj, -p->radius_factor * b->radius[p->j], n));
+    return laid_share(w, p, exact->scale * q->pressure, exact->slope, mass,
+                      v3_madd(core, -v3_dot(core, n), n), v3_madd(spin, -v3_dot(spin, n), n),
+                      fmax(each * fl_force_sum_square(s) - mean * mean, 0.0));
 }
 
 /* --- exact evaluation -------------------------------------------------------------------------- */
@@ -500,11 +499,14 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const fl_vec3 v = m3_tmul(R, end_velocity(b, p, a, ai, aj)), turn = m3_tmul(R, spin);
     if (fl_force_sum_motion(s, v, turn, &q)) return -1;
     const double chi = damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass);
-    if (is_on_facets(w, p) && leave_out_sliding(w, p, s, &q, &exact, elastic, r, a, v, turn, mass)) return -1;
+    const double laid =
+        is_on_facets(w, p) ? laid_share_of_patch(w, p, s, &q, &exact, elastic, r, a, spin, mass) : 0.0;
     const double size = v3_norm(elastic),
                  more = fl_predictor_share(size, exact.scale * q.pressure) *
                         approach_correction(a, q.pressure_rate / q.pressure, size, chi * size, compliance);
-    fl_force_sum_damping(s, chi, more, &q);
+    const double whole = fl_damping_whole_approach(
+        q.pressure_rate / q.pressure, -(v3_dot(q.gradient.f, v) + v3_dot(q.gradient.m, turn)) / q.pressure);
+    fl_force_sum_damping(s, chi, more, laid, whole, &q);
     fl_stiffness si, sj;
     fl_spring_sums point_springs;
     if (survey || has_surrogate) fl_force_sum_springs(s, &point_springs);
@@ -529,7 +531,8 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     p->energy += p->spring_energy;
     if (fl_panels_need_points(w, p)) {
         for (int32_t k = 0; k < s->n; k++)
-            s->point[k].approach_speed = fl_force_sum_approach_speed(s, k) + more;
+            s->point[k].approach_speed =
+                (1.0 - laid) * fl_force_sum_approach_speed(s, k) + (laid * whole + more);
         fl_panels_record_points(w, p, s, exact.scale, chi);
     }
     return p->touching = 1;
@@ -849,6 +852,8 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     if (p->rolling) *p->rolling = (fl_rolling_spring){.k = 0.0};
     p->touching = 0;
     p->max_approach_speed = 0.0;
+    p->laid_load = p->laid_step = 0.0;
+    p->laid_spin = v3(0, 0, 0);
     if (p->surrogate) p->surrogate->valid = 0;
     if (p->bond && p->radius_factor < 1.0) fl_bond_list_restore_radii(w, p, R, distance);
     fl_pair_set_free_travel(w, p, distance, R);

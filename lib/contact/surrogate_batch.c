@@ -28,13 +28,13 @@ typedef struct {
     fl_lane turn[3]; /* rotation of the force since the exact evaluation, frame of B */
     /* damping; fd and md in the frame of B, for a force ratio of 1 */
     fl_lane chi, weight_y, growth, shift[3], fd[3], md[3];
-    fl_lane laid, bend_share, core_a, core_b; /* load laid down before, if the normals differ; radii */
-    fl_lane springs[SPRINGS]; /* fl_friction_springs; the last one is unused */
+    fl_lane laid, laid_spin[3], core_a, core_b; /* memory of fl_pair; radii */
+    fl_lane springs[SPRINGS];                   /* fl_friction_springs; the last one is unused */
     fl_lane compliance[6];
     /* input of friction */
     fl_lane n[3], v[3], v_end[3], aj[3], elongation[3], k, g, limit, spin_mean, spin, spin_end;
     fl_lane results[FL_PAIR_RESULTS]; /* of fl_pair, from force on */
-    int bends;                        /* some contact has normals that differ */
+    int remembers;                    /* some contact has a load that was laid down */
 } batch;
 
 #define OF(member) (b->s.s + FL_SURROGATE_ROW(member))
@@ -48,8 +48,8 @@ FL_SIMD4_VERSIONS static void load_rows(fl_lane *row, const double *const *of, i
 FL_SIMD_INLINE fl_friction_springs springs_of(const batch *b, int k)
 {
     const fl_lane *s = b->springs;
-    return (fl_friction_springs){fl_lane3(s, k),   s[3].a[k],          s[4].a[k],  s[5].a[k],
-                                 s[6].a[k], fl_lane3(s + 7, k), s[10].a[k]};
+    return (fl_friction_springs){fl_lane3(s, k), s[3].a[k],          s[4].a[k], s[5].a[k],
+                                 s[6].a[k],      fl_lane3(s + 7, k), s[10].a[k]};
 }
 
 /* fl_previous_force_of() */
@@ -74,20 +74,20 @@ FL_SIMD_INLINE void set_compliance(fl_lane *a, int k, fl_sym3 K)
     a[3].a[k] = K.yy, a[4].a[k] = K.yz, a[5].a[k] = K.zz;
 }
 
-/* What find_damping_over_bends() needs besides. */
-static void load_bends(batch *b, const fl_world *w, fl_pair *const *p, int n)
+/* What find_damping_over_faces() needs besides. */
+static void load_memory(batch *b, const fl_world *w, fl_pair *const *p, int n)
 {
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         const fl_pair *c = p[k < n ? k : 0];
-        b->bend_share.a[k] = c->surrogate->bend_share;
         b->laid.a[k] = c->laid_load;
+        fl_lane3_set(b->laid_spin, k, c->laid_spin);
         b->core_a.a[k] = w->b.radius[c->i], b->core_b.a[k] = w->b.radius[c->j];
     }
 }
 
 static void load_batch(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt)
 {
-    b->bends = 0;
+    b->remembers = 0;
     const fl_surrogate *s[FL_SURROGATE_BATCH];
     const double *qi[FL_SURROGATE_BATCH], *qj[FL_SURROGATE_BATCH], *had[FL_SURROGATE_BATCH],
         *slip[FL_SURROGATE_BATCH];
@@ -112,7 +112,7 @@ static void load_batch(batch *b, const fl_world *w, fl_pair *const *p, int n, do
         b->mass.a[k] = b->reduced.a[k] = c->mass, b->max_approach.a[k] = c->max_approach_speed;
         b->slow_factor.a[k] = c->law->slow_damping_factor, b->impact_damping.a[k] = c->law->impact_damping;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential_ratio;
-        b->bends |= c->surrogate->bend_share > 0.0 && c->laid_load > 0.0;
+        b->remembers |= c->laid_load > 0.0;
     }
     fl_surrogate_pack(&b->s, s, FL_SURROGATE_BATCH);
     load_rows(b->qi, qi, 4);
@@ -207,29 +207,28 @@ FL_SIMD_INLINE double row_times(const fl_lane *A, int k, int r, fl_vec3 v, fl_ve
 /* a after a small rotation. */
 FL_SIMD_INLINE fl_vec3 rotated(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(turn, a)); }
 
-/* The part of the sliding velocity that is not damped, leave_out_sliding() of pair_force.c, in the frame of the
- * points.  v, w: motion of the first point; f: sum of e (n, t) (n, t)^T over it, forces only. */
-FL_SIMD_INLINE fl_vec3 undamped_sliding(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn, fl_vec3 f,
-                                        double load, double load_now)
+/* lambda of law/damping.h, as laid_share_of_patch() of pair_force.c.  v: of A against B at the centre of the
+ * pressures; w: relative spin; force: on A; all in world axes or all in the frame of B. */
+FL_SIMD_INLINE double laid_share(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn,
+                                 fl_vec3 before, fl_vec3 force, double sigma2)
 {
-    const fl_lane *A = OF(damping);
-    const fl_vec3 D = fl_lane3(OF(direction), k), centre = fl_lane3(OF(centre), k);
-    const double d2 = v3_norm2(D), each2 = d2 > 0.0 ? 1.0 / d2 : 0.0, each = sqrt(each2);
-    const fl_vec3 core = v3_add(v3_add(v, v3_cross(w, centre)), v3_scale(each, v3_cross(core_turn, D)));
-    const fl_vec3 slides = v3_madd(core, -each2 * v3_dot(core, D), D), none = v3(0, 0, 0);
-    const fl_vec3 N = v3(row_times(A, k, 0, slides, none), row_times(A, k, 1, slides, none),
-                         row_times(A, k, 2, slides, none));
-    const double with = v3_dot(f, slides), square = v3_dot(N, slides),
-                 ratio = with < square ? with / square : 1.0,
-                 laid = b->laid.a[k] < load_now ? b->laid.a[k] / load_now : 1.0;
-    const int does = b->laid.a[k] > 0.0 && with > 0.0 && square > FL_FLAT_CONTACT * load * v3_norm2(slides);
-    return v3_scale(does ? laid * b->bend_share.a[k] * ratio : 0.0, slides);
+    const double size2 = v3_norm2(force), each2 = size2 > 0.0 ? 1.0 / size2 : 0.0, each = sqrt(each2);
+    const fl_vec3 core = v3_madd(v, each, v3_cross(core_turn, force)),
+                  u = v3_madd(core, -each2 * v3_dot(core, force), force),
+                  turns = v3_madd(w, -each2 * v3_dot(w, force), force);
+    const double load = b->s.force_ratio.a[k] * OF(pressure)->a[k], u2 = v3_norm2(u),
+                 all = u2 + sigma2 * (1.0 / (FL_LAID_SLOPE * FL_LAID_SLOPE)), now2 = v3_norm2(turns),
+                 before2 = v3_norm2(before), product = v3_dot(turns, before),
+                 most = now2 > before2 ? now2 : before2;
+    const double laid = b->laid.a[k] < load ? b->laid.a[k] / load : 1.0, passing = all > 0.0 ? u2 / all : 0.0,
+                 steady = product > 0.0 ? product / most : 0.0;
+    return laid * passing * (most > 0.0 ? steady : 1.0);
 }
 
 /* Motion of A against B, and damping for a force ratio of 1: -chi times the sums over e (n, t) (n, t)^T.  The
- * pressures are rotated as the force has been since the last exact evaluation.  bends: 0 leaves out what is 0
- * where all normals of every lane are one. */
-FL_SIMD_INLINE void find_damping_of(batch *restrict b, fl_predictor_step of, int bends)
+ * pressures are rotated as the force has been since the last exact evaluation.  remembers: 0 leaves out
+ * lambda, which is then 0. */
+FL_SIMD_INLINE void find_damping_of(batch *restrict b, fl_predictor_step of, int remembers)
 {
     const fl_lane *A = OF(damping);
 #pragma omp simd
@@ -262,18 +261,28 @@ FL_SIMD_INLINE void find_damping_of(batch *restrict b, fl_predictor_step of, int
                      touch = mean > b->max_approach.a[k] ? mean : b->max_approach.a[k];
         const double chi = fl_damping_chi(b->impact_damping.a[k], b->slow_factor.a[k], touch,
                                           b->s.energy.a[k], b->mass.a[k]);
-        if (bends) {
-            const fl_vec3 core_turn = rotated(
-                back, r3_tmul(R, v3_add(v3_scale(b->core_a.a[k], v3_add(fl_lane3(b->wi, k), fl_lane3(b->dwi, k))),
-                                        v3_scale(b->core_b.a[k], v3_add(fl_lane3(b->wj, k), fl_lane3(b->dwj, k))))));
-            const fl_vec3 less = undamped_sliding(b, k, v, w, core_turn, f, OF(pressure)->a[k],
-                                                  b->s.force_ratio.a[k] * OF(pressure)->a[k]),
-                          u = v3_sub(v, less), none = v3(0, 0, 0);
-            f = v3_sub(f, v3(row_times(A, k, 0, less, none), row_times(A, k, 1, less, none),
-                             row_times(A, k, 2, less, none)));
-            m = v3_sub(m, v3(row_times(A, k, 3, less, none), row_times(A, k, 4, less, none),
-                             row_times(A, k, 5, less, none)));
-            variance = each * (v3_dot(f, u) + v3_dot(m, w)) - closing * closing;
+        if (remembers) {
+            const fl_vec3 core_turn =
+                v3_add(v3_scale(b->core_a.a[k], v3_add(fl_lane3(b->wi, k), fl_lane3(b->dwi, k))),
+                       v3_scale(b->core_b.a[k], v3_add(fl_lane3(b->wj, k), fl_lane3(b->dwj, k))));
+            const double d2 = v3_norm2(D), eachd2 = d2 > 0.0 ? 1.0 / d2 : 0.0;
+            const fl_vec3 middle =
+                r3_mul(R, v3_madd(v3_add(v3_add(first, by), fl_lane3(OF(centre_offset), k)), eachd2,
+                                  v3_cross(D, T)));
+            const double laid =
+                laid_share(b, k, v3_add(mean_velocity(b, k, middle), predicted_change(b, k, middle)),
+                           v3_add(turns, more), core_turn, fl_lane3(b->laid_spin, k), r3_mul(R, force),
+                           variance > 0.0 ? variance : 0.0);
+            const fl_vec3 acts = r3_mul(R, fl_lane3(b->s.point, k)),
+                          at = v3_add(mean_velocity(b, k, acts), predicted_change(b, k, acts));
+            const double rate = -(v3_dot(r3_mul(R, force), at) +
+                                  v3_dot(r3_mul(R, fl_lane3(b->s.m, k)), v3_add(turns, more))) /
+                                (b->s.force_ratio.a[k] * OF(pressure)->a[k]),
+                         same = closing * rate > 0.0 ? rate : 0.0,
+                         whole = same * same < closing * closing ? same : closing;
+            f = v3_madd(v3_scale(1.0 - laid, f), -laid * whole, D);
+            m = v3_madd(v3_scale(1.0 - laid, m), -laid * whole, T);
+            variance *= (1.0 - laid) * (1.0 - laid);
         }
         /* the change by the contact itself */
         const fl_previous_force before = previous_of(b, k);
@@ -304,7 +313,7 @@ FL_SIMD_VERSIONS static void find_damping(batch *restrict b, fl_predictor_step o
     find_damping_of(b, of, 0);
 }
 
-FL_SIMD_VERSIONS static void find_damping_over_bends(batch *restrict b, fl_predictor_step of)
+FL_SIMD_VERSIONS static void find_damping_over_faces(batch *restrict b, fl_predictor_step of)
 {
     find_damping_of(b, of, 1);
 }
@@ -389,15 +398,9 @@ FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step 
         };
         const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
         const fl_friction_springs was = springs_of(b, k);
-        const fl_friction_motion by = {fl_lane3(b->v, k),
-                                       fl_lane3(b->v_end, k),
-                                       b->spin.a[k],
-                                       b->spin_end.a[k],
-                                       b->spin_mean.a[k],
-                                       was.damping,
-                                       was.damping_moment,
-                                       of.half_step,
-                                       of.at_start};
+        const fl_friction_motion by = {fl_lane3(b->v, k),  fl_lane3(b->v_end, k), b->spin.a[k],
+                                       b->spin_end.a[k],   b->spin_mean.a[k],     was.damping,
+                                       was.damping_moment, of.half_step,          of.at_start};
         const fl_friction_result to = fl_tangent_step(was, c, by, of.dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
@@ -469,9 +472,9 @@ void fl_surrogate_batch_evaluate(const fl_world *w, fl_pair *const *p, int n, do
     find_poses(&b);
     fl_surrogate_evaluate(&b.s);
     find_masses(&b, w, p, n);
-    if (b.bends) {
-        load_bends(&b, w, p, n);
-        find_damping_over_bends(&b, of);
+    if (b.remembers) {
+        load_memory(&b, w, p, n);
+        find_damping_over_faces(&b, of);
     } else {
         find_damping(&b, of);
     }

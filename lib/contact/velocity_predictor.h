@@ -38,7 +38,7 @@ FL_SIMD_INLINE fl_wrench fl_wrench_about_middle(fl_vec3 f, fl_vec3 ti, fl_vec3 t
 
 /* Forces of the contact in the step before, about the midpoint, world axes; 0 if it did not touch. */
 typedef struct {
-    fl_wrench elastic, damping; /* normal forces */
+    fl_wrench elastic, damping;     /* normal forces */
     fl_vec3 friction_damping;       /* friction without its spring [N] */
     double friction_damping_moment; /* and its moment about the normal [N m] */
 } fl_previous_force;

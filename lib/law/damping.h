@@ -47,39 +47,56 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
  * A body that rolls or slides over a corner of a surface hands its load from one face to the next: while the
  * points of one approach, those of the other part, and the load as a whole does not change.  Damped point by
  * point that costs far more than the corner itself, m (v dphi)^2/2, as the load is laid down once more at
- * every corner.  So of the approach speeds c of the points
+ * every corner.  So of the approach speeds c of the points, with C the approach of the contact as a whole,
  *
- *     c' = c - lambda beta s,     s = -n.v_t,     beta = sum e s c / sum e s^2,   0 <= beta <= 1,
+ *     c' = c - lambda (c - C)
  *
- * is damped, with n the normal and e the pressure of a point, v_t the speed across the mean normal of the
- * points of the cores that touch.  s is the approach that sliding and rolling alone give to points of
- * different normals.  What is damped stays a dissipation, sum e c' c >= (sum e c)^2/sum e.  Normal approach and
- * rocking of a face are damped in full.
- *
- * lambda is the share of the load that was there before, laid/F, with `laid` the load F behind a low pass of
- * FL_LAID_PERIODS/omega: 1 for a load that rests, 0 in an impact, whose restitution stays.  It falls to 0 where
- * the normals spread as in a groove of 60 degrees, in which a sphere swings. */
-#define FL_LAID_PERIODS 10.0
-#define FL_FLAT_CONTACT 1e-10 /* 1 - cos2 of normals that are one */
+ * are damped.  C is the mean sum e c/sum e over the pressures e, or the rate of the stored energy over sum e, or 0,
+ * whichever is between the other two: where pressures travel along the faces their mean approach is no rate of
+ * the load.  lambda is the product of
+ *   - the share of the load that was there before, laid/F, with `laid` the load F behind a low pass of
+ *     FL_LAID_PERIODS/omega, omega^2 = K/M: 1 for a load that rests, 0 in an impact, whose restitution stays;
+ *   - u^2/(u^2 + (sigma/FL_LAID_SLOPE)^2), with u the speed across the normal of the points of the cores that
+ *     touch, and sigma the deviation of c: 1 for a body that moves along the surface over small bends, 0 for one
+ *     that rocks on the spot, and little in a groove;
+ *   - w.w'/max(w^2, w'^2) >= 0, with w the spin across the normal and w' the same behind the low pass: 1 for a
+ *     body that rolls or pitches steadily, 0 for one that rocks to and fro.
+ * sum e c' c >= 0: it stays a dissipation. */
+#define FL_LAID_PERIODS 2.0
+#define FL_LAID_SLOPE 0.2
 
-/* lambda, but for the normals. */
+/* C from the mean and from the rate of the energy over the load. */
+static inline double fl_damping_whole_approach(double mean, double rate)
+{
+    const double same = mean * rate > 0.0 ? rate : 0.0;
+    return same * same < mean * mean ? same : mean;
+}
+
+/* First factor of lambda. */
 static inline double fl_damping_laid_share(double laid, double load)
 {
     return laid < load ? laid / load : load > 0.0 ? 1.0 : 0.0;
 }
 
-/* `laid` after dt [s] under the load; omega2: stiffness over mass [1/s2]. */
-static inline double fl_damping_laid_load(double laid, double load, double dt, double omega2)
+/* Second factor, from u^2 and sigma^2. */
+static inline double fl_damping_passing_share(double u2, double sigma2)
 {
-    const double x = dt * sqrt(omega2) * (1.0 / FL_LAID_PERIODS);
-    return laid + (load - laid) * (x / (1.0 + x));
+    const double all = u2 + sigma2 * (1.0 / (FL_LAID_SLOPE * FL_LAID_SLOPE));
+    return all > 0.0 ? u2 / all : 0.0;
 }
 
-/* Factor of lambda: 1 where all normals are one, 0 from 30 degrees off their mean on.  cos2: |sum e n|^2 over
- * (sum e)^2. */
-static inline double fl_damping_bend_share(double cos2)
+/* Third factor, from w.w', w^2 and w'^2. */
+static inline double fl_damping_steady_share(double product, double now2, double before2)
 {
-    return cos2 >= 1.0 ? 1.0 : cos2 > 0.75 ? 4.0 * cos2 - 3.0 : 0.0;
+    const double most = now2 > before2 ? now2 : before2;
+    return !(most > 0.0) ? 1.0 : product > 0.0 ? product / most : 0.0;
+}
+
+/* Share of the new value in the low pass after dt [s]; omega2: stiffness over mass [1/s2]. */
+static inline double fl_damping_low_pass(double dt, double omega2)
+{
+    const double x = dt * sqrt(omega2) * (1.0 / FL_LAID_PERIODS);
+    return x / (1.0 + x);
 }
 
 /* Share of the largest step 2/omega that Hunt and Crossley leave when damping uses fl_damping_end_speed(): at

@@ -113,7 +113,7 @@ FL_SIMD_INLINE fl_friction_wrench fl_friction_wrench_madd(fl_friction_wrench a, 
 /* P of a contact, but for the pressure: the coefficients of the limit. */
 typedef struct {
     double a, c;
-    double even;  /* D y = even y + e (e.y) */
+    double even; /* D y = even y + e (e.y) */
     fl_vec3 elongation;
 } fl_friction_shape;
 
@@ -139,8 +139,8 @@ FL_SIMD_INLINE fl_friction_potential fl_friction_potential_of(const fl_friction_
                                                               fl_friction_wrench z)
 {
     const double v2 = v3_norm2(z.f), w2 = z.m * z.m, Q = fl_friction_quadratic(s, z.f, v2), cw = s->c * w2,
-                 size2 = v2 * v2 + cw * cw, i = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0, h = w2 * i, vi = v2 * i,
-                 j = Q * i * vi;
+                 size2 = v2 * v2 + cw * cw, i = size2 > 0.0 ? 1.0 / sqrt(size2) : 0.0, h = w2 * i,
+                 vi = v2 * i, j = Q * i * vi;
     return (fl_friction_potential){v2 + s->a * w2 - h * Q, h, j, s->a - j * vi};
 }
 
@@ -296,8 +296,9 @@ typedef struct {
     fl_friction_wrench from; /* z before the step */
     double size;             /* P(from) */
     fl_friction_potential old;
-    fl_friction_wrench change, change_end; /* of z if the contact sticks, by the mean motion and that of the end */
-    fl_friction_wrench damping;            /* before the limit */
+    fl_friction_wrench change,
+        change_end;             /* of z if the contact sticks, by the mean motion and that of the end */
+    fl_friction_wrench damping; /* before the limit */
     double limit;
 } fl_friction_trial;
 
@@ -312,9 +313,9 @@ FL_SIMD_INLINE fl_friction_face fl_tangent_face_limit(const fl_friction_shape *s
     const double stuck_size = sqrt(now.p2);
     const int sticks = !(stuck_size > limit);
     if (!branches || !sticks) {
-        const fl_friction_wrench flow = fl_tangent_slide(
-            t.from, fl_friction_wrench_of(shape, &t.old, t.from), t.size, limit,
-            fl_tangent_slide_path(t.size, limit, t.change, t.change_end));
+        const fl_friction_wrench flow =
+            fl_tangent_slide(t.from, fl_friction_wrench_of(shape, &t.old, t.from), t.size, limit,
+                             fl_tangent_slide_path(t.size, limit, t.change, t.change_end));
         const fl_friction_potential slid = fl_friction_potential_of(shape, flow);
         const double flow_size = sqrt(slid.p2), scale = flow_size > 0.0 ? limit / flow_size : 0.0;
         z = (fl_friction_wrench){v3(sticks ? z.f.x : scale * flow.f.x, sticks ? z.f.y : scale * flow.f.y,
@@ -367,9 +368,9 @@ FL_SIMD_INLINE fl_friction_result fl_tangent_step_of(fl_friction_springs s, fl_f
         fl_tangent_damping(c, motion, change, damped, by.half_step, by.at_start);
     if (branches && !(c.arm > 0.0)) {
         const double length_now = fl_friction_wrench_norm(held);
-        const fl_friction_forces point =
-            fl_tangent_limit(held, length_now, change,
-                             fl_tangent_slide_path(length_now, c.limit, change, change_end), c.limit, damping);
+        const fl_friction_forces point = fl_tangent_limit(
+            held, length_now, change, fl_tangent_slide_path(length_now, c.limit, change, change_end), c.limit,
+            damping);
         return (fl_friction_result){{.force = point.elastic.f,
                                      .k = k,
                                      .energy = k > 0.0 ? 0.5 * v3_norm2(point.elastic.f) / k : 0.0,
@@ -380,12 +381,12 @@ FL_SIMD_INLINE fl_friction_result fl_tangent_step_of(fl_friction_springs s, fl_f
     const fl_friction_shape shape =
         fl_friction_shape_of(v3_madd(c.elongation, -v3_dot(c.elongation, c.n), c.n));
     const fl_friction_potential old = fl_friction_potential_of(&shape, held);
-    const double most = 2.0 * k * s.energy, reduced = old.p2 > most && c.arm > 0.0 ? sqrt(most / old.p2) : 1.0,
+    const double most = 2.0 * k * s.energy,
+                 reduced = old.p2 > most && c.arm > 0.0 ? sqrt(most / old.p2) : 1.0,
                  size = reduced * sqrt(old.p2);
     const fl_friction_wrench from = fl_friction_wrench_scale(reduced, held);
-    const fl_friction_face now =
-        fl_tangent_face_limit(&shape, (fl_friction_trial){from, size, old, change, change_end, damping, c.limit},
-                              branches);
+    const fl_friction_face now = fl_tangent_face_limit(
+        &shape, (fl_friction_trial){from, size, old, change, change_end, damping, c.limit}, branches);
     return (fl_friction_result){{.force = now.z.f,
                                  .k = k,
                                  .moment = c.arm * now.z.m,

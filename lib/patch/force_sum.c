@@ -54,10 +54,19 @@ static fl_vec3 sum_vector(const fl_simd a[3])
     return v3(fl_simd_sum(&a[0]), fl_simd_sum(&a[1]), fl_simd_sum(&a[2]));
 }
 
-static fl_sym3 sum_matrix(const fl_simd a[6])
+/* fl_simd_sum() of a[0] to a[3] and of a[4] and a[5], transposed in registers. */
+FL_SIMD_INLINE void sum_matrix(fl_sym3 *sum, const fl_simd a[6])
 {
-    return (fl_sym3){fl_simd_sum(&a[0]), fl_simd_sum(&a[1]), fl_simd_sum(&a[2]),
-                     fl_simd_sum(&a[3]), fl_simd_sum(&a[4]), fl_simd_sum(&a[5])};
+    const fl_simd low = __builtin_shufflevector(a[0], a[1], 0, 1, 4, 5) +
+                        __builtin_shufflevector(a[0], a[1], 2, 3, 6, 7),
+                  mid = __builtin_shufflevector(a[2], a[3], 0, 1, 4, 5) +
+                        __builtin_shufflevector(a[2], a[3], 2, 3, 6, 7),
+                  high = __builtin_shufflevector(a[4], a[5], 0, 1, 4, 5) +
+                         __builtin_shufflevector(a[4], a[5], 2, 3, 6, 7);
+    const fl_simd four =
+        __builtin_shufflevector(low, mid, 0, 2, 4, 6) + __builtin_shufflevector(low, mid, 1, 3, 5, 7);
+    sum->xx = four[0], sum->xy = four[1], sum->xz = four[2], sum->yy = four[3];
+    sum->yz = high[0] + high[1], sum->zz = high[2] + high[3];
 }
 
 /* Adds weight arm and weight arm arm^T. */
@@ -115,7 +124,8 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
     q->u = fl_simd_sum(&u), q->ddu = fl_simd_sum(&ddu);
     q->du = fl_simd_sum(&pressed), q->pressure = fl_simd_sum(&elastic);
     q->gradient = (fl_wrench){sum_vector(f), sum_vector(m)};
-    q->pressure_moment = sum_vector(mid), q->second = sum_matrix(second);
+    q->pressure_moment = sum_vector(mid);
+    sum_matrix(&q->second, second);
     q->overlap = largest_lane(&most);
 }
 
@@ -133,15 +143,11 @@ FL_SIMD_VERSIONS static void sum_motion(point_four *t, int32_t lanes, fl_vec3 v,
     q->du_approach = fl_simd_sum(&approach), q->pressure_rate = fl_simd_sum(&rate);
 }
 
-FL_SIMD_VERSIONS static void sum_sliding(const point_four *t, int32_t lanes, fl_vec3 v, double sum[2])
+FL_SIMD_VERSIONS static void sum_squares(const point_four *t, int32_t lanes, double *sum)
 {
-    fl_simd with = {0}, square = {0};
-    for (int32_t k = 0; k < lanes; k++, t++) {
-        const fl_simd s = -(t->across[0] * v.x + t->across[1] * v.y + t->across[2] * v.z), es = t->e * s;
-        with += es * t->approach;
-        square += es * s;
-    }
-    sum[0] = fl_simd_sum(&with), sum[1] = fl_simd_sum(&square);
+    fl_simd rate2 = {0};
+    for (int32_t k = 0; k < lanes; k++, t++) rate2 += t->e * t->approach * t->approach;
+    *sum = fl_simd_sum(&rate2);
 }
 
 FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, double chi, double still,
@@ -330,20 +336,21 @@ int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_su
     return 0;
 }
 
-void fl_force_sum_sliding(const fl_patch_points *s, fl_vec3 v, double *with_approach, double *square)
+double fl_force_sum_square(const fl_patch_points *s)
 {
-    double sum[2];
-    sum_sliding(s->point_lanes, count_lanes(s), v, sum);
-    *with_approach = sum[0], *square = sum[1];
+    double sum = 0.0;
+    sum_squares(s->point_lanes, count_lanes(s), &sum);
+    return sum;
 }
 
-void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, fl_force_sum *q)
+void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double whole_share,
+                          double whole, fl_force_sum *q)
 {
     if (s->n == 0) return;
     int32_t lanes;
-    const double still = 1.0 + chi * speed_offset;
-    const point_four *t = points_without_tension(s, chi, still, &lanes);
-    sum_damped(t, lanes, chi, still, q);
+    const double own = chi * (1.0 - whole_share), still = 1.0 + chi * (speed_offset + whole_share * whole);
+    const point_four *t = points_without_tension(s, own, still, &lanes);
+    sum_damped(t, lanes, own, still, q);
 }
 
 void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q)

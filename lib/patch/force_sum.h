@@ -57,14 +57,16 @@ int fl_force_sum_elastic(fl_patch_points *s, fl_force_sum *q);
  * -1 when memory runs out. */
 int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_sum *q);
 
-/* Sums of e s c and of e s^2 of the approach s = -t.v that the velocity v alone gives, law/damping.h; after
- * fl_force_sum_motion(). */
-void fl_force_sum_sliding(const fl_patch_points *s, fl_vec3 v, double *with_approach, double *square);
+/* Sum of e c^2, after fl_force_sum_motion() [m7/s2]. */
+double fl_force_sum_square(const fl_patch_points *s);
 
 /* Sets damped_pressure, direction, damped_moment and damping, after fl_force_sum_motion().
  *   chi            damping coefficient [s/m]
- *   speed_offset   added to the approach speed of every point [m/s] */
-void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, fl_force_sum *q);
+ *   speed_offset   added to the approach speed of every point [m/s]
+ *   whole_share    lambda of law/damping.h: the share of the approach `whole`, in place of its own, that a point has
+ */
+void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double whole_share,
+                          double whole, fl_force_sum *q);
 
 /* Springs ddu along the unit normal of each point, rim forces left out, after fl_force_sum_elastic() [m4]. */
 void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q);

@@ -42,11 +42,15 @@ typedef struct {
  * is C turned by a right angle about n. */
 static inline fl_pressure_shape fl_pressure_shape_of(fl_sym3 C, fl_vec3 n)
 {
-    const fl_vec3 x = v3_normal_to(n), y = v3_cross(n, x), Cx = s3_mul(C, x);
+    /* x and y across n: Duff et al., J. Comput. Graph. Tech. 6 (2017) 1 */
+    const double sign = n.z < 0.0 ? -1.0 : 1.0, d = -1.0 / (sign + n.z), e = n.x * n.y * d;
+    const fl_vec3 x = v3(1.0 + sign * n.x * n.x * d, sign * e, -sign * n.x),
+                  y = v3(e, sign + n.y * n.y * d, -n.y), Cx = s3_mul(C, x);
     const double xx = v3_dot(x, Cx), yy = v3_dot(y, s3_mul(C, y)), xy = v3_dot(y, Cx), T = xx + yy;
     if (!(T > 0.0)) return (fl_pressure_shape){0.0, {0.0, 0.0, 0.0}};
-    const double a = (yy - xx) / T, b = -2.0 * xy / T, p = sqrt(a * a + b * b), part = p > 1.0 ? 1.0 / p : 1.0,
-                 along = sqrt(0.5 * part * (p + fabs(a))), aside = along > 0.0 ? 0.5 * part * b / along : 0.0;
+    const double each = 1.0 / T, a = each * (yy - xx), b = -2.0 * each * xy, p = sqrt(a * a + b * b),
+                 part = p > 1.0 ? 0.5 / p : 0.5, along = sqrt(part * (p + fabs(a))),
+                 aside = along > 0.0 ? part * b / along : 0.0;
     const double ex = a > 0.0 ? along : aside, ey = a > 0.0 ? aside : along;
     return (fl_pressure_shape){sqrt(T), v3_madd(v3_scale(ex, x), ey, y)};
 }

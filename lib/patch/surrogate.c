@@ -447,7 +447,8 @@ static double slope_of_energy(const fl_surrogate *s, const fl_exact_contact *see
 }
 
 /* Pressure sums times dW/dU. */
-static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, const fl_force_sum *sums, double scale)
+static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, const fl_force_sum *sums,
+                          double scale)
 {
     const fl_vec3 acts = fl_surrogate_force_centre(q->direction, q->torque);
     s->pressure = scale * q->pressure;
@@ -457,8 +458,6 @@ static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, const f
     const fl_pressure_shape shape =
         fl_pressure_shape_about(sums->pressure, sums->pressure_moment, sums->second, v3_unit(q->direction));
     s->arm = shape.arm, s->elongation = shape.elongation;
-    const double cos2 = v3_norm2(q->direction) / (q->pressure * q->pressure);
-    s->bend_share = 1.0 - cos2 > FL_FLAT_CONTACT ? fl_damping_bend_share(cos2) : 0.0;
 }
 
 /* Product of a symmetric matrix, given by its upper triangle, with x. */

@@ -157,6 +157,8 @@ const fl_section fl_section_table[FL_SECTIONS] = {
     }
 
 /* An omitted column is 0: any range, no choices, no special word, no old name, nothing needed. */
+#define ONE_FRICTION "it holds at rest and in motion"
+
 const fl_key fl_key_table[] = {
     {.section = FL_SEC_RUN,
      .key = "duration",
@@ -483,7 +485,8 @@ const fl_key fl_key_table[] = {
      .default_text = "0.3",
      .default_steel = "0.15",
      .range = "[0,1e6]",
-     .meaning = "coefficient of friction; a pair takes the smaller of its two",
+     .one_number = ONE_FRICTION,
+     .meaning = "coefficient of friction, at rest and in motion; a pair takes the smaller of its two",
      .source = "ice on ice 0.1 to 0.5; ice on steel 0.05 to 0.3"},
     {.section = FL_SEC_CONTACT,
      .key = "friction",
@@ -493,6 +496,7 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .special_value = -1,
      .range = "[0,1e6]",
+     .one_number = ONE_FRICTION,
      .meaning = "coefficient of friction of the pair; auto is the smaller value of the two "
                 "materials"},
     {.section = FL_SEC_CONTACT,
@@ -693,6 +697,7 @@ const fl_key fl_key_table[] = {
      .special = "auto",
      .special_value = -1,
      .range = "[0,1e6]",
+     .one_number = ONE_FRICTION,
      .meaning = "coefficient of friction against everything that touches the structure; auto is that of the "
                 "contact"},
     MOTION_KEYS(FL_SEC_STRUCTURE, structure),
@@ -1261,8 +1266,9 @@ const fl_key fl_key_table[] = {
      .type = FL_VALUE_F64,
      .offset = OFFSET(bond, friction),
      .default_text = "0.3",
-     .range = "[0,inf)",
+     .range = "[0,1e6]",
      .needs = {"on"},
+     .one_number = ONE_FRICTION,
      .meaning = "friction coefficient of a face: increase of the shear strength with "
                 "pressure unless internal_friction is given, and friction of the broken part",
      .source = "ice on ice 0.1 to 0.5"},

@@ -51,8 +51,9 @@ typedef struct {
     const char *default_steel; /* default in [material steel]; NULL: default_text */
     const char *special;       /* word that stands for special_value: auto, none; NULL: none */
     double special_value;
-    const char *range;   /* interval of a number, "(0,1]"; NULL: any */
-    const char *choices; /* "patch|manual"; of a number its values */
+    const char *range;      /* interval of a number, "(0,1]"; NULL: any */
+    const char *choices;    /* "patch|manual"; of a number its values */
+    const char *one_number; /* why it is one number where users may give two; NULL */
     enum fl_single_number single;
     const char *needs[2];         /* keys of the section, one of which must be given too (unused_keys.h) */
     const char *meaning, *source; /* source: NULL for a free choice of the user */

@@ -87,9 +87,14 @@ int fl_address_key(int section, const char *key, char *why, size_t why_size)
     const int first = fl_key_first(section), n = fl_key_first(section + 1) - first;
     const int k = fl_key_find(section, key);
     for (int i = 0; i < n; i++) list[i] = fl_key_table[first + i].key;
-    if (k < 0)
-        snprintf(why, why_size, "unknown key \"%.40s\" in [%s], nearest is \"%s\"", key,
-                 fl_section_table[section].name, fl_text_nearest(key, list, n));
+    if (k < 0) {
+        const char *nearest = fl_text_nearest(key, list, n), *one = NULL;
+        for (int i = 0; i < n; i++) /* static_friction for friction */
+            if (fl_key_table[first + i].one_number && strstr(key, list[i]))
+                nearest = list[i], one = fl_key_table[first + i].one_number;
+        snprintf(why, why_size, "unknown key \"%.40s\" in [%s], nearest is \"%s\"%s%s", key,
+                 fl_section_table[section].name, nearest, one ? "; " : "", one ? one : "");
+    }
     return k;
 }
 

@@ -156,6 +156,9 @@ static size_t number_length(const char *s)
 
 static int fail_number(const message *c, const char *text)
 {
+    const size_t first = number_length(text), blank = strspn(text + first, " \t/,");
+    if (c->key->one_number && first && blank && number_length(text + first + blank))
+        return fail_key(c, "is \"%.60s\", one number is expected: %s", text, c->key->one_number);
     const fl_key *key = c->key;
     const char *count = key->type == FL_VALUE_F64 ? "a number"
                         : key->single             ? "one number or three"

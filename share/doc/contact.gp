@@ -45,3 +45,22 @@ plot from."/slide.tsv" using 1:($2/1e3) with lines ls 1 title "patch", \
      "" using 1:($3/1e3) with lines ls 2 title "core", \
      "" using 1:($4/1e3) with lines ls 3 title "manual-si", \
      "" using 1:($5/1e3) with lines ls 4 title "manual"
+
+set output to."/contact-friction.png"
+set terminal pngcairo size 900,860 font "sans,11"
+set xrange [0:1.05]
+set yrange [0:1.05]
+unset key
+array FACE[4] = ["disc", "square", "line, moved along", "line, moved across"]
+set multiplot layout 2,2
+set xlabel "force over mu N"
+set ylabel "moment over mu N rho"
+set key bottom left reverse Left
+do for [k = 0:3] {
+    set title FACE[k + 1]
+    plot from."/friction.tsv" index k using 5:6 with lines ls 2 title "ellipse of before", \
+         "" index k using 1:2 with lines lc rgb "#000000" lw 4 title "Coulomb, even pressure", \
+         "" index k using 3:4 with lines ls 4 lw 3 title "law of now"
+    unset key
+}
+unset multiplot

@@ -6,7 +6,8 @@
  *     bench_contact CASE N [TOL]  N evaluations of one case, for instruction counts; with TOL, N of one of
  *                                 eight contacts by surrogates of that tolerance
  *     bench_contact curves DIR    DIR/tilt.tsv and DIR/slide.tsv: the torque of a face that tilts on another,
- *                                 and the forces of one that slides off it, by law
+ *                                 and the forces of one that slides off it, by law; DIR/friction.tsv: force and
+ *                                 moment of a disc, a square, along and across a line that slide and spin
  *
  * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm.  They move by 0.01 mm
  * between evaluations, as in a step of 0.1 ms at 0.1 m/s, so the cost of finding new features is included.
@@ -21,6 +22,7 @@
 #include "base/pi.h"
 #include "contact/active_pairs.h"
 #include "contact/pair_force.h"
+#include "support/exact_friction.h"
 #include "support/small_world.h"
 
 #define RADIUS 0.05
@@ -309,6 +311,42 @@ static fl_pair tilted_boxes(const char *law, double tilt, double slide)
     return p;
 }
 
+/* F/(mu N) and M/(mu N rho) of faces under an even pressure, v along `angle`: exact, law, and the ellipse of M0 =
+ * mu N rho. */
+static void write_friction_rows(FILE *f, int n, const fl_vec3 *corner, double angle)
+{
+    fl_vec3 centre;
+    const fl_sym3 C = polygon_second_moments(n, corner, &centre);
+    const double rho = sqrt(C.xx + C.yy);
+    for (int k = 0; k <= 200; k++) {
+        const double a = 0.5 * PI * k / 200, v = sin(a) * rho, w = cos(a);
+        const fl_vec3 way = v3(v * cos(angle), v * sin(angle), 0.0);
+        const flat_wrench e = exact_polygon_friction(n, corner, way, w), q = law_friction(C, way, w);
+        fprintf(f, "%g\t%g\t%g\t%g\t%g\t%g\n", hypot(e.x, e.y), e.m / rho, hypot(q.x, q.y), q.m / rho, sin(a),
+                cos(a));
+    }
+    fprintf(f, "\n\n");
+}
+
+static int write_friction(const char *dir)
+{
+    enum { DISC = 96 };
+    const double thin = 1e-3;
+    fl_vec3 disc[DISC];
+    const fl_vec3 square[4] = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}},
+                  line[4] = {{-0.5, -thin, 0}, {0.5, -thin, 0}, {0.5, thin, 0}, {-0.5, thin, 0}};
+    char name[512];
+    snprintf(name, sizeof name, "%s/friction.tsv", dir);
+    FILE *f = fopen(name, "w");
+    if (!f) return 1;
+    for (int k = 0; k < DISC; k++) disc[k] = v3(cos(2.0 * PI * k / DISC), sin(2.0 * PI * k / DISC), 0.0);
+    write_friction_rows(f, DISC, disc, 0.0);
+    write_friction_rows(f, 4, square, 0.0);
+    write_friction_rows(f, 4, line, 0.0);
+    write_friction_rows(f, 4, line, 0.5 * PI);
+    return fclose(f) != 0;
+}
+
 static int write_curves(const char *dir)
 {
     char name[512];
@@ -332,7 +370,7 @@ static int write_curves(const char *dir)
         fprintf(f, "\n");
     }
     bad |= fclose(f);
-    return bad != 0;
+    return bad != 0 || write_friction(dir);
 }
 
 int main(int argc, char **argv)

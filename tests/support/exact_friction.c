@@ -69,7 +69,8 @@ flat_wrench exact_polygon_friction(int n, const fl_vec3 *corner, fl_vec3 v, doub
         size = fmax(size, hypot(corner[k].x, corner[k].y));
         far = v3_add(far, v3_scale(1.0 / n, corner[k]));
     }
-    if (!(fabs(w) * size > 1e-7 * speed)) { /* the point at rest is too far away: F along v, M of its centre */
+    if (!(fabs(w) * size >
+          1e-7 * speed)) { /* the point at rest is too far away: F along v, M of its centre */
         if (speed == 0.0) return (flat_wrench){0.0, 0.0, 0.0};
         fl_vec3 centre;
         polygon_second_moments(n, corner, &centre);
@@ -148,8 +149,8 @@ static void step_plate(const plate_equation *q, double y[PLATE], double dt)
     for (int c = 0; c < PLATE; c++) y[c] += dt * sum[c];
 }
 
-plate_stop stop_of_plate(flat_wrench (*friction)(const void *context, fl_vec3 v, double w), const void *context,
-                         double mu_g, double gyration2, fl_vec3 v, double w, double look,
+plate_stop stop_of_plate(flat_wrench (*friction)(const void *context, fl_vec3 v, double w),
+                         const void *context, double mu_g, double gyration2, fl_vec3 v, double w, double look,
                          double slow)
 {
     const plate_equation q = {friction, context, mu_g, gyration2};

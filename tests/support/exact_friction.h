@@ -33,10 +33,10 @@ flat_wrench law_friction(fl_sym3 C, fl_vec3 v, double w);
 
 /* A plate on a floor that slides and spins until it stops. */
 typedef struct {
-    double time, angle;        /* of the stop [s], [rad] */
-    fl_vec3 x;                 /* way [m] */
-    double ratio;              /* v/w where sqrt(v^2 + w^2 I/m) falls to `slow` [m] */
-    fl_vec3 v;                 /* at the time `look` */
+    double time, angle; /* of the stop [s], [rad] */
+    fl_vec3 x;          /* way [m] */
+    double ratio;       /* v/w where sqrt(v^2 + w^2 I/m) falls to `slow` [m] */
+    fl_vec3 v;          /* at the time `look` */
     double w;
 } plate_stop;
 
@@ -44,8 +44,8 @@ typedef struct {
  *   friction   F and M of the motion in the axes of the plate, with `context`
  *   mu_g       mu g [m/s2]
  *   gyration2  I/m [m2] */
-plate_stop stop_of_plate(flat_wrench (*friction)(const void *context, fl_vec3 v, double w), const void *context,
-                         double mu_g, double gyration2, fl_vec3 v, double w, double look,
+plate_stop stop_of_plate(flat_wrench (*friction)(const void *context, fl_vec3 v, double w),
+                         const void *context, double mu_g, double gyration2, fl_vec3 v, double w, double look,
                          double slow);
 
 #endif

@@ -83,7 +83,7 @@ static void the_force_sum_matches_single_points(void **state)
         fill_points(&s, n, &g);
         assert_int_equal(fl_force_sum_elastic(&s, &q), 0);
         assert_int_equal(fl_force_sum_motion(&s, v, turn, &q), 0);
-        fl_force_sum_damping(&s, chi, 0.0, &q);
+        fl_force_sum_damping(&s, chi, 0.0, 0.0, 0.0, &q);
         for (int32_t k = 0; k < n; k++) {
             const fl_patch_point *p = &s.point[k];
             const fl_vec3 arm = v3_sub(p->p, s.point[0].p), pull = v3_scale(p->du, p->n);
@@ -148,7 +148,7 @@ static void the_choice_of_points_in_an_area_does_not_matter(void **state)
                 add_area(&s, e[a], at[a][0], at[a][1], at[a][2], 6.0 * fl_rng_unit(&g));
             assert_int_equal(fl_force_sum_elastic(&s, &q[way]), 0);
             assert_int_equal(fl_force_sum_motion(&s, v, turn, &q[way]), 0);
-            fl_force_sum_damping(&s, 0.3, 0.0, &q[way]);
+            fl_force_sum_damping(&s, 0.3, 0.0, 0.0, 0.0, &q[way]);
         }
         double size = 1.0;
         for (int32_t k = 0; k < s.n; k++) {
@@ -195,7 +195,7 @@ static void a_uniform_pressure_is_limited_as_a_whole(void **state)
             const fl_vec3 v = v3(0, 0, -sink - rate * s.point[0].p.x);
             assert_int_equal(fl_force_sum_elastic(&s, &q), 0);
             assert_int_equal(fl_force_sum_motion(&s, v, v3(0, rate, 0), &q), 0);
-            fl_force_sum_damping(&s, 1.0, 0.0, &q);
+            fl_force_sum_damping(&s, 1.0, 0.0, 0.0, 0.0, &q);
             const fl_vec3 m = v3_add(q.damped_moment, v3_scale(q.damped_pressure, s.point[0].p));
             const double size = 1.0 + sink + rate > 0.0 ? fabs(1.0 + sink) + rate : 1.0;
             assert_near_of(q.damped_pressure, all, rate < 1.0 + sink ? 1e-4 : 0.05, size);

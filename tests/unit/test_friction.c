@@ -11,8 +11,7 @@
 
 static void make_regular(int n, double r, fl_vec3 *corner)
 {
-    for (int k = 0; k < n; k++)
-        corner[k] = v3(r * cos(2.0 * PI * k / n), r * sin(2.0 * PI * k / n), 0.0);
+    for (int k = 0; k < n; k++) corner[k] = v3(r * cos(2.0 * PI * k / n), r * sin(2.0 * PI * k / n), 0.0);
 }
 
 static void make_rectangle(double a, double b, fl_vec3 corner[4])
@@ -57,8 +56,8 @@ static void a_polygon_is_its_integral(void **state)
         flat_wrench sum = {0, 0, 0};
         for (int i = 0; i < 3 * N; i++)
             for (int j = 0; j < N; j++) {
-                const double x = (i + 0.5) / N - 1.5, y = (j + 0.5) / N - 0.5, ux = v.x - w * y, uy = v.y + w * x,
-                             each = 1.0 / (sqrt(ux * ux + uy * uy) * 3.0 * N * N);
+                const double x = (i + 0.5) / N - 1.5, y = (j + 0.5) / N - 0.5, ux = v.x - w * y,
+                             uy = v.y + w * x, each = 1.0 / (sqrt(ux * ux + uy * uy) * 3.0 * N * N);
                 sum.x += each * ux, sum.y += each * uy, sum.m += each * (x * uy - y * ux);
             }
         assert_near_of(q.x, sum.x, 1e-5, 1.0);
@@ -87,7 +86,7 @@ static void worst_errors(int n, const fl_vec3 *corner, double *force, double *mo
         }
 }
 
-/* FRICTION of `patch` under an even pressure: the figures of law/tangent.h. */
+/* The law under an even pressure: the figures of law/tangent.h. */
 static void the_law_is_near_coulombs(void **state)
 {
     fl_vec3 c[4];
@@ -128,7 +127,8 @@ static fl_friction_contact random_contact(fl_rng *g)
         fl_pressure_shape_of(s3_add(s3_times(arm * arm, along), s3_times(thin * arm * arm, aside)), c.n);
     assert_near(s.arm, arm * sqrt(1.0 + thin), 1e-12);
     assert_near_of(v3_norm2(s.elongation), (1.0 - thin) / (1.0 + thin), 1e-12, 1.0);
-    assert_near_of(fabs(v3_dot(s.elongation, t)), v3_norm(s.elongation), 1e-7, 1.0); /* Theta: turned by 90 degrees */
+    assert_near_of(fabs(v3_dot(s.elongation, t)), v3_norm(s.elongation), 1e-7,
+                   1.0); /* Theta: turned by 90 degrees */
     c.arm = s.arm, c.elongation = s.elongation;
     c.k = exp(fl_rng_in(g, 0, 10)), c.limit = exp(fl_rng_in(g, -3, 6)), c.g = exp(fl_rng_in(g, -8, 8));
     c.contact_count = 1.0;
@@ -145,7 +145,8 @@ static fl_friction_wrench random_slip(fl_rng *g, const fl_friction_contact *c, d
 {
     const fl_vec3 x = v3_normal_to(c->n), y = v3_cross(c->n, x);
     return (fl_friction_wrench){
-        v3_add(v3_scale(size * fl_rng_normal(g), x), v3_scale(size * fl_rng_normal(g), y)), size * fl_rng_normal(g)};
+        v3_add(v3_scale(size * fl_rng_normal(g), x), v3_scale(size * fl_rng_normal(g), y)),
+        size * fl_rng_normal(g)};
 }
 
 /* Steps of random slip between contacts of random shape, stiffness, damping and limit: the wrench is inside the
@@ -174,8 +175,12 @@ static void no_step_creates_energy_or_leaves_the_limit(void **state)
             const fl_friction_wrench way = random_slip(&g, &c, c.limit / c.k * exp(fl_rng_in(&g, -4, 2)));
             const fl_vec3 v = v3_scale(1.0 / dt, way.f);
             const double spin = way.m / (dt * c.arm);
-            const fl_friction_motion by = {
-                .v = v, .v_end = v, .spin = spin, .spin_end = spin, .mean_spin = fl_rng_in(&g, -3, 3), .half_step = 0.5 * dt};
+            const fl_friction_motion by = {.v = v,
+                                           .v_end = v,
+                                           .spin = spin,
+                                           .spin_end = spin,
+                                           .mean_spin = fl_rng_in(&g, -3, 3),
+                                           .half_step = 0.5 * dt};
             const fl_friction_springs was = s;
             const fl_friction_result r = fl_tangent_step(s, c, by, dt);
             s = r.springs;
@@ -215,7 +220,8 @@ static void a_face_of_no_extent_is_a_point(void **state)
         double size = 0.0;
         for (int i = 0; i < 20; i++) {
             const fl_vec3 v = random_slip(&g, &c, c.limit / c.k * 300.0).f;
-            const fl_friction_motion by = {.v = v, .v_end = v, .spin = 3.0, .spin_end = 3.0, .half_step = 5e-4};
+            const fl_friction_motion by = {
+                .v = v, .v_end = v, .spin = 3.0, .spin_end = 3.0, .half_step = 5e-4};
             /* the law of spheres */
             const fl_tangent_spring point = {.k = c.k, .limit = c.limit, .contact_count = 1.0};
             const fl_friction_forces p =
@@ -233,13 +239,15 @@ static void a_face_of_no_extent_is_a_point(void **state)
 /* Half the step leaves a quarter of the error where a contact slides and turns under changing motion. */
 static void sliding_with_spin_is_of_order_two(void **state)
 {
-    fl_friction_contact c = {.n = v3(0, 0, 1), .k = 100.0, .limit = 1.0, .arm = 0.4, .elongation = v3(0.5, 0.3, 0)};
+    fl_friction_contact c = {
+        .n = v3(0, 0, 1), .k = 100.0, .limit = 1.0, .arm = 0.4, .elongation = v3(0.5, 0.3, 0)};
     double off[3], f[4][3];
     (void)state;
     for (int fine = 0; fine < 4; fine++) {
         const int steps = fine < 3 ? 50 << fine : 6400;
         const double dt = 0.2 / steps;
-        fl_friction_springs s = {.force = v3(0.6, -0.2, 0), .k = c.k, .k_turn = c.k * c.arm * c.arm, .moment = 0.1};
+        fl_friction_springs s = {
+            .force = v3(0.6, -0.2, 0), .k = c.k, .k_turn = c.k * c.arm * c.arm, .moment = 0.1};
         s.energy = 1.0;
         for (int i = 0; i < steps; i++) {
             const double mid = (i + 0.5) * dt, end = (i + 1) * dt;

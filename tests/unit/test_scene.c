@@ -696,9 +696,35 @@ static void a_written_scene_reads_back(void **state)
     fl_scene_free(&t);
 }
 
+/* Friction has one coefficient, from 0 to 1e6, wherever it is given. */
+static void friction_is_one_number(void **state)
+{
+    static const char *const OF[4] = {"contact", "material.ice", "structure", "bond"},
+                             *const KEY[4] = {"contact", "material", "structure", "bond"},
+                             *const IS[4][2] = {
+                                 {"0.4 0.3",
+                                  "is \"0.4 0.3\", one number is expected: it holds at rest and in motion"},
+                                 {"nan", "is \"nan\", a number is expected"},
+                                 {"-0.1", "is -0.1, a value at least 0 and at most 1000000 is expected"},
+                                 {"1.1e6", "is 1.1e6, a value at least 0 and at most 1000000 is expected"}};
+    (void)state;
+    for (int k = 0; k < 4; k++)
+        for (int m = 0; m < 4; m++) {
+            char set[80], says[160];
+            snprintf(set, sizeof set, "%s.friction=%s", OF[k], IS[m][0]);
+            snprintf(says, sizeof says, "--set: %s.friction %s", KEY[k], IS[m][1]);
+            expect_set_refusal(set, says);
+        }
+    expect_set_refusal(
+        "contact.static_friction=0.4",
+        "--set: unknown key \"static_friction\" in [contact], nearest is \"friction\"; it holds at rest and "
+        "in motion");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(friction_is_one_number),
         cmocka_unit_test(every_default_reads_back),
         cmocka_unit_test(the_smallest_scene_has_the_stated_defaults),
         cmocka_unit_test(values_carry_units),
