@@ -600,7 +600,8 @@ static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, dou
                                          p.z / (1.0 + s / (m + a.z)))));
     } else {
         b->v[i] = v3_madd(c, fl_drag_decay_factor(m, c_force, speed, h), u);
-        if (b->heave_mass) b->v[i].z = c.z + u.z * fl_drag_decay_factor(m + b->heave_mass[i], c_force, speed, h);
+        if (b->heave_mass)
+            b->v[i].z = c.z + u.z * fl_drag_decay_factor(m + b->heave_mass[i], c_force, speed, h);
     }
     const double turning = v3_dot(b->w[i], b->L[i]);
     if (turning > 0.0 && fluid->moment_coefficient > 0.0) {
