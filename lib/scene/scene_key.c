@@ -168,7 +168,7 @@ const fl_key fl_key_table[] = {
      .default_text = "60 s",
      .range = "(0,inf)",
      .meaning = "simulated time",
-     .source = "a demonstration's length: choose it for the case"},
+     .source = "length of a demonstration; depends on the case"},
     {.section = FL_SEC_RUN,
      .key = "dt",
      .type = FL_VALUE_F64,
@@ -477,7 +477,7 @@ const fl_key fl_key_table[] = {
      .meaning = "rebound speed over impact speed; a pair takes the smaller value of its "
                 "materials; values below 0.01 count as 0.01, since no damping is large "
                 "enough for 0",
-     .source = "ice on ice 0.2 to 0.5; the pair with steel is taken alike"},
+     .source = "ice on ice 0.2 to 0.5; ice on steel assumed equal"},
     {.section = FL_SEC_MATERIAL,
      .key = "friction",
      .type = FL_VALUE_F64,
@@ -750,7 +750,7 @@ const fl_key fl_key_table[] = {
      .needs = {"type"},
      .meaning = "stiffness of an elastic wall per contact area; the force is this times the "
                 "volume behind the wall, of the shape for mass",
-     .source = "a sheet of 1 GPa that goes on for 100 m behind the wall, E/L"},
+     .source = "E/L of a sheet of 1 GPa and a length of 100 m behind the wall"},
     {.section = FL_SEC_BOUNDARY,
      .key = "damping",
      .type = FL_VALUE_F64,
@@ -951,7 +951,7 @@ const fl_key fl_key_table[] = {
      .needs = {"profile"},
      .meaning = "depth d of the profiles power and linear, below which there is no current; "
                 "auto is the depth of the water",
-     .source = "currents of the wind reach 20 to 50 m down"},
+     .source = "wind-driven currents extend to depths of 20 to 50 m"},
     {.section = FL_SEC_WATER,
      .key = "profile_file",
      .type = FL_VALUE_PATH,
@@ -1260,7 +1260,7 @@ const fl_key fl_key_table[] = {
      .range = "(0,inf)",
      .needs = {"on"},
      .meaning = "shear strength of a bonded face without pressure; none: no shear failure",
-     .source = "taken alike"},
+     .source = "assumed equal to normal_strength"},
     {.section = FL_SEC_BOND,
      .key = "friction",
      .type = FL_VALUE_F64,

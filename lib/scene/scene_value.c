@@ -10,7 +10,7 @@
 #include "scene/scene_value.h"
 
 static const char *const fix_word[] = {"x", "y", "z", "rx", "ry", "rz"};
-enum { N_FIX = 6, N_CHOICE = 8, LINE_COPY = 256 };
+enum { N_FIX = 6, LINE_COPY = 256 };
 
 /* Where an error message about a key is written; the key stands before the sentence. */
 typedef struct {
@@ -75,45 +75,60 @@ static int fail_range(const message *c, const char *text)
                     fl_value_range(c->key, range, sizeof range), si[0] ? " " : "", si);
 }
 
-/* Split "a|b|c" into words.  Returns their number. */
-static int split_choices(const char *choices, char word[N_CHOICE][16])
+/* Word k of "a|b|c" and its length; NULL if there are fewer. */
+static const char *choice_at(const char *choices, int k, size_t *len)
 {
-    int n = 0;
-    while (*choices && n < N_CHOICE) {
-        const size_t len = strcspn(choices, "|");
-        snprintf(word[n++], sizeof *word, "%.*s", (int)len, choices);
-        choices += len + (choices[len] == '|');
+    for (; k > 0; k--) {
+        choices += strcspn(choices, "|");
+        if (*choices++ == '\0') return NULL;
     }
-    return n;
+    *len = strcspn(choices, "|");
+    return choices;
 }
 
-static int fail_choice(const message *c, const char *text, char word[N_CHOICE][16], int n)
+/* Index of a word among the choices, -1 if it is none. */
+static int find_choice(const char *choices, const char *text)
 {
-    char all[160];
-    const char *list[N_CHOICE];
-    size_t len = 0;
-    for (int k = 0; k < n; k++) {
-        len += (size_t)snprintf(all + len, sizeof all - len, " %s", word[k]);
-        list[k] = word[k];
-    }
-    return fail_key(c, "is \"%.60s\", one of%s is expected, nearest is %s", text, all,
-                    fl_text_nearest(text, list, n));
+    const char *word;
+    size_t len;
+    for (int k = 0; (word = choice_at(choices, k, &len)) != NULL; k++)
+        if (strlen(text) == len && strncmp(word, text, len) == 0) return k;
+    return -1;
+}
+
+/* Names all choices, and the nearest if there is memory to find it. */
+static int fail_choice(const message *c, const char *text)
+{
+    const char *choices = c->key->choices;
+    const size_t size = strlen(choices) + 1;
+    char *const all = malloc(size), *const cut = malloc(size);
+    int n = 1, rc;
+    for (const char *p = choices; *p; p++) n += *p == '|';
+    const char **const list = malloc((size_t)n * sizeof *list);
+    if (all && cut && list) {
+        for (size_t k = 0; k < size; k++) {
+            all[k] = choices[k] == '|' ? ' ' : choices[k];
+            cut[k] = choices[k] == '|' ? '\0' : choices[k];
+        }
+        for (int k = 0; k < n; k++) list[k] = k ? list[k - 1] + strlen(list[k - 1]) + 1 : cut;
+        rc = fail_key(c, "is \"%.60s\", one of %s is expected, nearest is %s", text, all,
+                      fl_text_nearest(text, list, n));
+    } else rc = fail_key(c, "is \"%.60s\", one of %s is expected", text, choices);
+    free(all), free(cut), free(list);
+    return rc;
 }
 
 static int read_word(const message *c, const char *text, int32_t *out)
 {
-    char word[N_CHOICE][16];
-    const int n = split_choices(c->key->choices, word);
-    if (strcmp(word[0], "false") == 0) { /* a switch; the manual writes 0 and 1 */
+    const char *choices = c->key->choices;
+    if (strncmp(choices, "false|", 6) == 0) { /* a switch; the manual writes 0 and 1 */
         if (!strcmp(text, "0") || !strcmp(text, "no") || !strcmp(text, "off")) text = "false";
         if (!strcmp(text, "1") || !strcmp(text, "yes") || !strcmp(text, "on")) text = "true";
     }
-    for (int k = 0; k < n; k++)
-        if (strcmp(text, word[k]) == 0) {
-            *out = k;
-            return 0;
-        }
-    return fail_choice(c, text, word, n);
+    const int k = find_choice(choices, text);
+    if (k < 0) return fail_choice(c, text);
+    *out = k;
+    return 0;
 }
 
 /* One word for x, y and z, or three words. */
@@ -232,11 +247,12 @@ static int read_f64(const message *c, const char *text, double *out)
     double x[3];
     if (read_numbers(c, text, x) < 0) return -1;
     if (c->key->choices) {
-        char word[N_CHOICE][16];
+        const char *word;
+        size_t len;
         int found = 0;
-        const int n = split_choices(c->key->choices, word);
-        for (int k = 0; k < n; k++) found |= strtod(word[k], NULL) == x[0];
-        if (!found) return fail_choice(c, text, word, n);
+        for (int k = 0; (word = choice_at(c->key->choices, k, &len)) != NULL; k++)
+            found |= strtod(word, NULL) == x[0];
+        if (!found) return fail_choice(c, text);
     }
     *out = x[0];
     return 0;
@@ -363,7 +379,8 @@ char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TE
 {
     const void *at = (const char *)section + key->offset;
     const char *si = fl_unit_si(key->unit);
-    char word[N_CHOICE][16];
+    const char *word;
+    size_t size;
     int len = 0, all_special = 0;
     double x[3] = {0};
     int32_t i, three[3];
@@ -389,13 +406,15 @@ char *fl_value_text(const fl_key *key, const void *section, char buf[FL_VALUE_TE
         break;
     case FL_VALUE_WORD:
         memcpy(&i, at, sizeof i);
-        if (i >= 0 && i < split_choices(key->choices, word)) snprintf(buf, FL_VALUE_TEXT, "%s", word[i]);
+        word = i >= 0 ? choice_at(key->choices, i, &size) : NULL;
+        if (word) snprintf(buf, FL_VALUE_TEXT, "%.*s", (int)size, word);
         break;
     case FL_VALUE_WORDS:
         memcpy(three, at, sizeof three);
-        split_choices(key->choices, word);
         for (int k = 0; k < (three[0] == three[1] && three[1] == three[2] ? 1 : 3); k++)
-            len += snprintf(buf + len, FL_VALUE_TEXT - (size_t)len, "%s%s", k ? " " : "", word[three[k]]);
+            if ((word = choice_at(key->choices, three[k], &size)) != NULL)
+                len +=
+                    snprintf(buf + len, FL_VALUE_TEXT - (size_t)len, "%s%.*s", k ? " " : "", (int)size, word);
         break;
     case FL_VALUE_FIXED:
         memcpy(&bits, at, sizeof bits);

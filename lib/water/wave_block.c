@@ -147,12 +147,12 @@ FL_SIMD_INLINE void pressure_at(const body_sample *b, double x, double y, double
 
 /* The same at a distance s along the only line from a node. */
 FL_SIMD_INLINE void pressure_near(const body_sample *b, double s, double z, double over,
-                                  const fl_wave_node_sample *node, point_pressure *out)
+                                  const fl_wave_taps *taps, const fl_wave_surface *at, point_pressure *out)
 {
     double rate;
     const double zeta = fl_wave_grid_stretch(b->sea->grid, z, over, &rate);
-    fl_wave_head_near(b->sea->grid, &node->taps, s, zeta, &out->head);
-    set_pressure(b, z, over, zeta, rate, &node->at, out);
+    fl_wave_head_near(b->sea->grid, taps, s, zeta, &out->head);
+    set_pressure(b, z, over, zeta, rate, at, out);
 }
 
 /* Adds the change of the load at offset r with a displacement of that point: dF_i = sum_j K_ij d_j. */
@@ -217,6 +217,12 @@ FL_SIMD_INLINE void add_column(body_sample *b, fl_vec3 r, fl_vec3 e, double w, d
     const fl_wave_grid *g0 = b->sea->grid;
     const double along = g0->line[0].x * e.x + g0->line[0].y * e.y;
     const int near = g0->lines == 1 && 0.5 * H * fabs(along) < NEAR * g0->h;
+    const fl_wave_taps *taps = &node->taps;
+    fl_wave_taps own = {0};
+    if (near && taps->outside) {
+        fl_wave_taps_at(&b->view, 0, b->x.x + mid.x, b->x.y + mid.y, &own);
+        taps = &own;
+    }
     const int wet = hi > lo, still = high > low, upright = fabs(e.z) > UPRIGHT;
     point_pressure end[3];
     fl_vec3 force = v3(0, 0, 0), first = force; /* integrals of -grad p, and of h times it */
@@ -224,7 +230,7 @@ FL_SIMD_INLINE void add_column(body_sample *b, fl_vec3 r, fl_vec3 e, double w, d
         const double len = hi - lo;
         for (int k = 0; k < 3; k++) {
             const double h = lo + 0.5 * k * len, off = h - 0.5 * H, part = (k == 1 ? 4.0 : 1.0) * len / 6.0;
-            if (near) pressure_near(b, off * along, z + off * e.z, at->eta + off * rise, node, &end[k]);
+            if (near) pressure_near(b, off * along, z + off * e.z, at->eta + off * rise, taps, at, &end[k]);
             else
                 pressure_at(b, b->x.x + mid.x + off * e.x, b->x.y + mid.y + off * e.y, z + off * e.z,
                             at->eta + off * rise, at, &end[k]);
@@ -536,7 +542,7 @@ FL_SIMD4_VERSIONS fl_vec3 fl_wave_flow_velocity(const fl_wave_flow *f, double x,
         fl_wave_taps p = {0};
         for (int k = 0; k < FL_WAVE_SAMPLES; k++) {
             const double *first = p.at;
-            if (k > 0 && f->view[k].slot >= 0 && f->view[0].slot >= 0 && p.stride > 3 * FL_WAVE_CHUNK)
+            if (k > 0 && f->view[k].slot >= 0 && !p.outside)
                 p.at = d->table[f->view[k].slot] + (first - d->table[f->view[k - 1].slot]);
             else fl_wave_taps_at(&f->view[k], c, x, y, &p);
             fl_wave_between(&p, &deep, 2, &one, &slope);

@@ -126,6 +126,7 @@ typedef struct {
     fl_simd w, dw, ddw;
     const double *at; /* the first of the four, depth 0 */
     int64_t stride;   /* to the next number */
+    int outside;      /* 1: `at` holds until the next place outside the window only */
 } fl_wave_taps;
 
 FL_SIMD_INLINE void fl_wave_taps_at(const fl_wave_view *v, int32_t line, double x, double y, fl_wave_taps *p)
@@ -142,9 +143,11 @@ FL_SIMD_INLINE void fl_wave_taps_at(const fl_wave_view *v, int32_t line, double 
     if (v->slot >= 0 && rel >= 0 && rel + 3 < (int64_t)FL_WAVE_CHUNK * d->chunks) {
         p->at = d->table[v->slot] + rel;
         p->stride = (int64_t)FL_WAVE_CHUNK * d->chunks;
+        p->outside = 0;
     } else {
         p->at = fl_wave_grid_outside(g, line, v->level, place);
         p->stride = 3 * FL_WAVE_CHUNK;
+        p->outside = 1;
     }
 }
 
