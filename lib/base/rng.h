@@ -16,7 +16,10 @@ enum fl_rng_purpose {
     FL_RNG_BOOTSTRAP,
     FL_RNG_LAYER,
     FL_RNG_OFFSET,
-    FL_RNG_STRENGTH
+    FL_RNG_STRENGTH,
+    FL_RNG_WAVE_DIRECTION,
+    FL_RNG_SCATTER,
+    FL_RNG_ORIENTATION
 };
 
 typedef struct {

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "base/simd.h"
+#include "contact/cone_blend.h"
 #include "contact/pair_geometry.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
@@ -168,50 +169,6 @@ static int find_separation(fl_world *w, fl_pair *p, const fl_poly *a, const fl_p
     return 0;
 }
 
-/* Weight of the exact cone in U; the rest is that of its polyhedron.  And the derivatives of the weight, by
- * the height z of the centre of A and by a rotation of A. */
-typedef struct {
-    double weight, slope; /* -, [1/m] */
-    fl_vec3 turn;         /* [1/rad] */
-} cone_weight;
-
-/* Upper bound of the extent of A along the axis of the cone, from its centre, and the derivative by a
- * rotation of A.  It is the norm (sum h^8)^(1/8) over the heights h of the vertices, which is smooth and
- * does not depend on the choice of A's axes. */
-static double extent_along(const fl_poly *a, const fl_mat3 *M, fl_vec3 *turn)
-{
-    const fl_vec3 axis = v3(M->m[2][0], M->m[2][1], M->m[2][2]);
-    double sum = 0.0;
-    fl_vec3 g = v3(0, 0, 0); /* sum of h^7 a */
-    for (int32_t v = 0; v < a->nv; v++) {
-        const double h = v3_dot(axis, a->v[v]), h2 = h * h, h7 = h2 * h2 * h2 * h;
-        sum += h7 * h;
-        g = v3_madd(g, h7, a->v[v]);
-    }
-    const double e4 = sqrt(sum), e2 = sqrt(e4), e = sqrt(e2), e7 = e4 * e2 * e;
-    *turn = v3_cross(v3_scale(e7 > 0.0 ? 1.0 / e7 : 0.0, m3_mul(*M, g)), v3(0, 0, 1));
-    return e;
-}
-
-/* The weight is 1 where both ends of the cone are farther from the centre of A than twice its extent plus
- * R, and 0 where one is nearer than once that. */
-static cone_weight cone_weight_of(const fl_piece *piece, const fl_poly *a, const fl_relative_pose *r,
-                                  double R)
-{
-    fl_vec3 turn;
-    const double z = r->o.z, size = extent_along(a, &r->M, &turn) + R;
-    double share[2], along[2], by_size[2];
-    for (int end = 0; end < 2; end++) {
-        const double t = (end ? piece->h - z : z) / size - 1.0, u = t <= 0.0 ? 0.0 : t >= 1.0 ? 1.0 : t;
-        const double bend = 30.0 * u * u * (1.0 - u) * (1.0 - u) / size;
-        share[end] = u * u * u * (10.0 + u * (6.0 * u - 15.0));
-        along[end] = end ? -bend : bend;
-        by_size[end] = -bend * (t + 1.0);
-    }
-    return (cone_weight){share[0] * share[1], along[0] * share[1] + share[0] * along[1],
-                         v3_scale(by_size[0] * share[1] + share[0] * by_size[1], turn)};
-}
-
 /* Adds the contact points with the exact cone.  Its polyhedron gives a separating direction, the cone the
  * distance along it.  An overlapping pair is computed anew every time. */
 static int add_cone_points(fl_pair *p, fl_patch_points *s, const fl_poly *a, const fl_poly *b,
@@ -231,25 +188,6 @@ static int add_cone_points(fl_pair *p, fl_patch_points *s, const fl_poly *a, con
         if (p->has_axis) p->axis = gap.n;
     }
     return *distance < ra ? fl_cone_evaluate(s, a, &cone, ra) : 0;
-}
-
-/* Blends U = (1 - weight) of the first n points + weight of the others.  A change of the weight adds a
- * force along the axis and a couple. */
-static int blend_points(fl_patch_points *s, int32_t n, fl_vec3 couple, const cone_weight *of, fl_vec3 centre)
-{
-    double u[2] = {0};
-    for (int32_t k = 0; k < s->n; k++) {
-        fl_patch_point *q = &s->point[k];
-        const double part = k < n ? 1.0 - of->weight : of->weight;
-        u[k >= n] += q->u;
-        q->u *= part, q->du *= part, q->ddu *= part;
-    }
-    const double more = u[1] - u[0], du = -of->slope * more;
-    s->couple = v3_add(v3_scale(1.0 - of->weight, couple), v3_scale(of->weight, s->couple));
-    s->couple = v3_madd(s->couple, -more, of->turn);
-    if (du == 0.0) return 0;
-    return fl_patch_points_add(
-        s, (fl_patch_point){.du = fabs(du), .n = v3(0, 0, du > 0.0 ? 1.0 : -1.0), .p = centre});
 }
 
 /* The feature pairs of p, allocated once the pair comes within reach.  NULL when memory runs out. */
@@ -340,14 +278,19 @@ int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
         return feature_pairs_of(p)
                    ? fl_mesh_contact_sphere(s, &w->mesh_near[thread], piece, ra, p->feature_pairs, distance)
                    : -1;
+    if (piece && piece->kind == FL_PIECE_MESH && piece->cones && A->nv > 1)
+        return feature_pairs_of(p) ? fl_joined_find_points(s, &w->mesh_near[thread], A, piece, &r->M, r->o,
+                                                           b->bounding_radius[p->i], ra, ra + w->skin,
+                                                           p->feature_pairs, distance)
+                                   : -1;
     if (piece && piece->kind == FL_PIECE_MESH)
         return feature_pairs_of(p) ? fl_mesh_contact_points(s, &w->mesh_near[thread], A, piece, ra,
                                                             ra + w->skin, p->feature_pairs, distance)
                                    : -1;
     double farther = INFINITY;
-    cone_weight of = {0};
+    fl_cone_blend of = {0};
     if (piece && piece->kind == FL_PIECE_CONE && p->points == FL_POINTS_PATCH)
-        of = cone_weight_of(piece, A, r, ra);
+        of = fl_cone_blend_of(piece, A, &r->M, r->o, ra);
     if (of.weight < 1.0 && find_convex_points(w, p, s, r, distance)) return -1;
     if (of.weight == 0.0) return 0;
     const int32_t n = s->n;
@@ -357,7 +300,7 @@ int fl_pair_find_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relati
     if (add_cone_points(p, s, A, B, piece, ra, &farther)) return -1;
     p->cores_overlap |= of.weight < 1.0 ? deep : 0;
     *distance = of.weight < 1.0 ? fmin(*distance, farther) : farther;
-    return of.weight < 1.0 ? blend_points(s, n, couple, &of, r->o) : 0;
+    return of.weight < 1.0 ? fl_cone_blend_points(s, 0, n, couple, &of, r->o) : 0;
 }
 
 /* The contact of features of two dilated cores; s holds the vertices of A. */

@@ -17,6 +17,7 @@ void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
     p->exponent = s.exponent;
     p->points = (int32_t)fl_pair_points(w, i, j, s);
     p->mass = mj > 0.0 ? mi * mj / (mi + mj) : mi;
+    p->load_part = j < w->n ? -1 : w->structure.piece[j - w->n].part;
 }
 
 void fl_pair_free(fl_pair *p)

@@ -10,17 +10,6 @@
 
 /* --- panels ------------------------------------------------------------------------------------ */
 
-static void add_panel(fl_panel_loads *s, int32_t part, const fl_vec3 *v, fl_vec3 middle, double area)
-{
-    const int32_t k = s->panels++;
-    s->panel[k] = (fl_load_panel){.part = part, .centroid = middle, .area = area};
-    s->box[k] = aabb_empty();
-    for (int c = 0; c < 3; c++) {
-        s->panel[k].v[c] = v ? v[c] : middle;
-        s->box[k] = aabb_add(s->box[k], s->panel[k].v[c]);
-    }
-}
-
 /* Area of a cone: its side and its ends. */
 static double cone_area(const fl_cone *c)
 {
@@ -28,47 +17,114 @@ static double cone_area(const fl_cone *c)
     return PI * ((c->r0 + c->r1) * slant + c->r0 * c->r0 + c->r1 * c->r1);
 }
 
+static fl_load_triangle triangle_of(const fl_part *p, int32_t t, int32_t panel)
+{
+    const int32_t *at = p->t[t].v;
+    const fl_vec3 a = p->v[at[0]], b = p->v[at[1]], c = p->v[at[2]];
+    return (fl_load_triangle){{a, b, c}, 0.5 * v3_norm(v3_cross(v3_sub(b, a), v3_sub(c, a))), panel};
+}
+
+static int make_panels(fl_panel_loads *s, const fl_surface *surface, fl_err *err)
+{
+    int64_t n = 0;
+    for (int32_t p = 0; p < surface->n; p++) n += surface->part[p].nt + surface->part[p].nc;
+    if (n > INT32_MAX) return fl_fail(err, FL_SYSTEM, "%.0f panels are too many", (double)n);
+    s->panel = fl_alloc(n, sizeof *s->panel, err);
+    s->first = fl_alloc((int64_t)surface->n + 1, sizeof *s->first, err);
+    if (!s->panel || !s->first) return -1;
+    for (int32_t p = 0; p < surface->n; p++) {
+        const fl_part *part = &surface->part[p];
+        for (int32_t t = 0; t < part->nt; t++) {
+            const fl_load_triangle q = triangle_of(part, t, s->all);
+            s->panel[s->all++] =
+                (fl_load_panel){v3_scale(1.0 / 3.0, v3_add(q.v[0], v3_add(q.v[1], q.v[2]))), q.area, p};
+        }
+        for (int32_t c = 0; c < part->nc; c++) {
+            const fl_cone *cone = &part->cone[c];
+            s->panel[s->all++] =
+                (fl_load_panel){v3_scale(0.5, v3_add(cone->p0, cone->p1)), cone_area(cone), p};
+        }
+        s->first[p + 1] = s->all;
+    }
+    return 0;
+}
+
+static int add_triangle(fl_panel_loads *s, int32_t *n, int32_t *cap, fl_load_triangle t, fl_err *err)
+{
+    int32_t boxes = *cap;
+    if (fl_grow(&s->box, &boxes, (int64_t)*n + 1, sizeof *s->box, err) ||
+        fl_grow(&s->triangle, cap, (int64_t)*n + 1, sizeof *s->triangle, err))
+        return -1;
+    s->triangle[*n] = t;
+    s->box[*n] = aabb_empty();
+    for (int c = 0; c < 3; c++) s->box[*n] = aabb_add(s->box[*n], t.v[c]);
+    ++*n;
+    return 0;
+}
+
+/* The facets of a cone, for a piece that it is joined in. */
+static int add_facets(fl_panel_loads *s, int32_t *n, int32_t *cap, const fl_cone *cone, int32_t panel,
+                      fl_err *err)
+{
+    fl_piece frustum = {.q = q_one()};
+    int rc = fl_cone_piece(&frustum, cone, err);
+    const fl_poly *p = &frustum.core;
+    for (int32_t f = 0; rc == 0 && f < p->nf; f++) {
+        const int32_t *loop = p->loop + p->first[f], m = p->first[f + 1] - p->first[f];
+        for (int32_t c = 2; rc == 0 && c < m; c++) {
+            fl_load_triangle t = {.panel = panel};
+            const int32_t at[3] = {loop[0], loop[c - 1], loop[c]};
+            for (int k = 0; k < 3; k++) t.v[k] = v3_add(frustum.x, q_rotate(frustum.q, p->v[at[k]]));
+            t.area = 0.5 * v3_norm(v3_cross(v3_sub(t.v[1], t.v[0]), v3_sub(t.v[2], t.v[0])));
+            rc = add_triangle(s, n, cap, t, err);
+        }
+    }
+    fl_piece_free(&frustum);
+    return rc;
+}
+
+/* The triangles of a piece. */
+static int add_piece_triangles(fl_panel_loads *s, const fl_surface *surface, const fl_piece *piece,
+                               int32_t *n, int32_t *cap, fl_err *err)
+{
+    const fl_piece_member own = {piece->part, piece->cone}, *member = piece->members ? piece->member : &own;
+    for (int32_t m = 0; m < (piece->members ? piece->members : 1); m++) {
+        const fl_part *part = &surface->part[member[m].part];
+        const int32_t first = s->first[member[m].part], cone = member[m].cone;
+        if (cone >= 0 && add_facets(s, n, cap, &part->cone[cone], first + part->nt + cone, err)) return -1;
+        for (int32_t t = 0; cone < 0 && t < part->nt; t++)
+            if (add_triangle(s, n, cap, triangle_of(part, t, first + t), err)) return -1;
+    }
+    return 0;
+}
+
 int fl_panels_make(fl_world *w, const fl_surface *surface, fl_err *err)
 {
     fl_panel_loads *s = &w->panel_load;
     const fl_scene_output *o = &w->scene->output;
-    int64_t n = 0;
-    if (!surface || (!o->panels[0] && !o->events[0])) return 0;
-    for (int32_t p = 0; p < surface->n; p++) n += surface->part[p].nt + surface->part[p].nc;
-    if (n > INT32_MAX) return fl_fail(err, FL_SYSTEM, "%.0f panels are too many", (double)n);
-    s->panel = fl_alloc(n, sizeof *s->panel, err);
-    s->box = fl_alloc(n, sizeof *s->box, err);
-    s->impulse = fl_alloc(n, sizeof *s->impulse, err);
-    s->first = fl_alloc(surface->n + 1, sizeof *s->first, err);
-    s->tree = fl_alloc(surface->n, sizeof *s->tree, err);
-    s->trees = surface->n;
+    int32_t n = 0, cap = 0;
+    for (int32_t k = 0; k < w->structure.n; k++) s->shared |= w->structure.piece[k].several_parts;
+    if (!surface || (!o->panels[0] && !o->events[0] && !s->shared)) return 0;
+    if (make_panels(s, surface, err)) return -1;
+    s->panels = o->panels[0] || o->events[0] ? s->all : 0;
+    s->pieces = w->structure.n, s->threads = w->threads;
+    s->impulse = fl_alloc(s->panels, sizeof *s->impulse, err);
+    s->first_triangle = fl_alloc((int64_t)s->pieces + 1, sizeof *s->first_triangle, err);
+    s->tree = fl_alloc(s->pieces, sizeof *s->tree, err);
+    s->cone = fl_alloc(s->pieces, sizeof *s->cone, err);
     s->by_thread = fl_alloc(w->threads, sizeof *s->by_thread, err);
-    s->threads = w->threads;
-    s->cone = fl_alloc(w->structure.n, sizeof *s->cone, err);
     if (err->code) return -1;
-    for (int32_t p = 0; p < surface->n; p++) {
-        const fl_part *part = &surface->part[p];
-        for (int32_t t = 0; t < part->nt; t++) {
-            const int32_t *at = part->t[t].v;
-            const fl_vec3 v[3] = {part->v[at[0]], part->v[at[1]], part->v[at[2]]};
-            const fl_vec3 middle = v3_scale(1.0 / 3.0, v3_add(v[0], v3_add(v[1], v[2])));
-            add_panel(s, p, v, middle, 0.5 * v3_norm(v3_cross(v3_sub(v[1], v[0]), v3_sub(v[2], v[0]))));
-        }
-        if (part->nt && fl_bvh_build(&s->tree[p], s->box + s->first[p], part->nt, err)) return -1;
-        for (int32_t c = 0; c < part->nc; c++) {
-            const fl_cone *cone = &part->cone[c];
-            add_panel(s, p, NULL, v3_scale(0.5, v3_add(cone->p0, cone->p1)), cone_area(cone));
-        }
-        s->first[p + 1] = s->panels;
-    }
-    for (int32_t t = 0; t < w->threads; t++) w->scratch[t].keep_features = 1;
-    /* the pieces of a part are that of its triangles, then its cones in their order */
-    for (int32_t k = 0, part = -1, c = 0; k < w->structure.n; k++) {
+    for (int32_t k = 0; k < s->pieces; k++) {
         const fl_piece *piece = &w->structure.piece[k];
-        s->cone[k] = -1;
-        if (piece->kind != FL_PIECE_CONE) continue;
-        if (piece->part != part) part = piece->part, c = 0;
-        s->cone[k] = s->first[part] + surface->part[part].nt + c++;
+        s->first_triangle[k] = s->first_triangle[k + 1] = n;
+        s->cone[k] =
+            piece->cone < 0 ? -1 : s->first[piece->part] + surface->part[piece->part].nt + piece->cone;
+        if (piece->kind == FL_PIECE_PLANE || piece->cone >= 0 || !(s->panels || piece->several_parts))
+            continue;
+        if (add_piece_triangles(s, surface, piece, &n, &cap, err) ||
+            fl_bvh_build(&s->tree[k], s->box + s->first_triangle[k], n - s->first_triangle[k], err))
+            return -1;
+        s->first_triangle[k + 1] = n;
     }
     return 0;
 }
@@ -76,9 +132,10 @@ int fl_panels_make(fl_world *w, const fl_surface *surface, fl_err *err)
 void fl_panels_free(fl_panel_loads *s)
 {
     for (int32_t t = 0; s->by_thread && t < s->threads; t++)
-        free(s->by_thread[t].point), free(s->by_thread[t].list);
-    for (int32_t p = 0; s->tree && p < s->trees; p++) fl_bvh_free(&s->tree[p]);
+        free(s->by_thread[t].point), free(s->by_thread[t].list), free(s->by_thread[t].share);
+    for (int32_t p = 0; s->tree && p < s->pieces; p++) fl_bvh_free(&s->tree[p]);
     free(s->panel), free(s->box), free(s->impulse), free(s->first), free(s->tree), free(s->by_thread);
+    free(s->triangle), free(s->first_triangle), free(s->share);
     free(s->cone), free(s->point), free(s->event);
     *s = (fl_panel_loads){0};
 }
@@ -105,29 +162,36 @@ static double triangle_distance2(const fl_vec3 v[3], fl_vec3 x)
     return best;
 }
 
-/* The panel of a part that is nearest to x, in the pose of the file; the first of several.  reach: first
+/* Lists the triangles of piece k in the box, from its first one on.  -1 when memory runs out. */
+static int32_t query_triangles(fl_panel_points *points, const fl_panel_loads *s, int32_t k, fl_aabb box)
+{
+    const fl_aabb *boxes = s->box + s->first_triangle[k];
+    const int32_t n = fl_bvh_query(&s->tree[k], boxes, box, points->list, points->list_cap);
+    if (n <= points->list_cap) return n;
+    if (fl_reserve(&points->list, &points->list_cap, n, sizeof *points->list)) return -1;
+    return fl_bvh_query(&s->tree[k], boxes, box, points->list, points->list_cap);
+}
+
+/* The panel of piece k that is nearest to x, in the pose of the file; the first of several.  reach: first
  * radius of the search [m].  -1 when memory runs out. */
-static int32_t find_nearest_panel(fl_panel_points *points, const fl_panel_loads *s, int32_t part, fl_vec3 x,
+static int32_t find_nearest_panel(fl_panel_points *points, const fl_panel_loads *s, int32_t k, fl_vec3 x,
                                   double reach)
 {
-    const int32_t first = s->first[part];
-    const fl_bvh *tree = &s->tree[part];
+    const int32_t first = s->first_triangle[k];
     for (;; reach *= 4.0) {
-        const fl_aabb box = aabb_grow((fl_aabb){x, x}, reach);
-        int32_t n = fl_bvh_query(tree, s->box + first, box, points->list, points->list_cap), best = -1;
-        if (n > points->list_cap) {
-            if (fl_reserve(&points->list, &points->list_cap, n, sizeof *points->list)) return -1;
-            n = fl_bvh_query(tree, s->box + first, box, points->list, points->list_cap);
-        }
+        const int32_t n = query_triangles(points, s, k, aabb_grow((fl_aabb){x, x}, reach));
+        int32_t best = -1;
+        if (n < 0) return -1;
         double least = INFINITY;
-        for (int32_t k = 0; k < n; k++) {
-            const int32_t t = points->list[k];
-            if (!(s->panel[first + t].area > 0.0)) continue; /* degenerate: it has no row in the table */
-            const double d2 = triangle_distance2(s->panel[first + t].v, x);
+        for (int32_t c = 0; c < n; c++) {
+            const int32_t t = points->list[c];
+            if (!(s->triangle[first + t].area > 0.0)) continue; /* degenerate: it has no row in the table */
+            const double d2 = triangle_distance2(s->triangle[first + t].v, x);
             if (d2 < least || (d2 == least && t < best)) least = d2, best = t;
         }
-        if (best >= 0 && (least <= reach * reach || n == tree->n)) return first + best;
-        if (!(reach < 1e30)) return first;
+        if (best >= 0 && (least <= reach * reach || n == s->tree[k].n))
+            return s->triangle[first + best].panel;
+        if (!(reach < 1e30)) return s->triangle[first].panel;
     }
 }
 
@@ -141,7 +205,7 @@ static fl_panel_point *append_point(fl_world *w, const fl_pair *p, fl_panel_poin
         return NULL;
     }
     fl_panel_point *m = &points->point[points->n++];
-    *m = (fl_panel_point){.pair = p->index, .i = p->i, .part = w->structure.piece[p->j - w->n].part};
+    *m = (fl_panel_point){.pair = p->index, .i = p->i};
     return m;
 }
 
@@ -152,8 +216,7 @@ static int32_t panel_of_point(fl_world *w, const fl_pair *p, fl_panel_points *po
     const fl_piece *piece = &w->structure.piece[k];
     const double reach = 2.0 * (p->overlap + w->b.radius[p->i]) + 1e-9 * piece->core.size;
     if (w->panel_load.cone[k] >= 0) return w->panel_load.cone[k];
-    return find_nearest_panel(points, &w->panel_load, piece->part, v3_add(piece->x, q_rotate(piece->q, at)),
-                              reach);
+    return find_nearest_panel(points, &w->panel_load, k, v3_add(piece->x, q_rotate(piece->q, at)), reach);
 }
 
 /* Appends a point at `at` with the normal n, both in the frame of the piece. */
@@ -168,6 +231,7 @@ static fl_panel_point *record_point(fl_world *w, const fl_pair *p, fl_panel_poin
         panel = 0;
     }
     m->panel = panel;
+    m->part = w->panel_load.panel[panel].part;
     const fl_mat3 R = fl_body_axes(&w->b, p->j);
     m->point = v3_add(w->b.x[p->j], m3_mul(R, at));
     m->n = m3_mul(R, n);
@@ -267,36 +331,30 @@ static void record_spread(fl_world *w, const fl_pair *p, fl_panel_points *points
     const fl_piece *piece = &w->structure.piece[p->j - w->n];
     const double far = q->n == 2 ? 1.7320508075688772 : 1.2247448713915890;
     const double near = 2.0 * (p->overlap + w->b.radius[p->i]) + 1e-9 * piece->core.size;
-    const int32_t first = s->first[piece->part], from = points->n;
+    const int32_t k = p->j - w->n, first = s->first_triangle[k], from = points->n;
     const fl_vec3 m = v3_add(piece->x, q_rotate(piece->q, q->middle)), n = q_rotate(piece->q, q->across);
     fl_vec3 e1 = q_rotate(piece->q, q->e1), e2 = q_rotate(piece->q, q->e2);
     if (q->n == 2) e2 = v3_scale(STRIP_WIDTH, v3_cross(n, e1));
     /* u = r1.(x - m), v = r2.(x - m) in the plane of e1 and e2 */
     const fl_vec3 c = v3_cross(e1, e2), r1 = v3_scale(1.0 / v3_norm2(c), v3_cross(e2, c)),
                   r2 = v3_scale(1.0 / v3_norm2(c), v3_cross(c, e1));
-    const int plate = piece->core.nf == 2; /* has two sides */
+    const int plate = piece->core.nf == 2 || piece->mesh.thin; /* has two sides */
     fl_aabb box = aabb_empty();
     double all = 0.0;
-    if (s->cone[p->j - w->n] >= 0 || q->n == 1 || !(v3_norm2(c) > 0.0)) {
+    if (s->cone[k] >= 0 || q->n == 1 || !(v3_norm2(c) > 0.0)) {
         record_at_panel(w, p, points, q);
         return;
     }
-    for (int k = 0; k < 4; k++)
-        box = aabb_add(box, v3_madd(v3_madd(m, k & 1 ? far : -far, e1), k & 2 ? far : -far, e2));
-    box = aabb_grow(box, near);
-    const fl_bvh *tree = &s->tree[piece->part];
-    int32_t found = fl_bvh_query(tree, s->box + first, box, points->list, points->list_cap);
-    if (found > points->list_cap) {
-        if (fl_reserve(&points->list, &points->list_cap, found, sizeof *points->list)) {
+    for (int corner = 0; corner < 4; corner++)
+        box = aabb_add(box, v3_madd(v3_madd(m, corner & 1 ? far : -far, e1), corner & 2 ? far : -far, e2));
+    const int32_t found = query_triangles(points, s, k, aabb_grow(box, near));
+    if (found < 0) {
 #pragma omp atomic write
-            w->failed = 1;
-            return;
-        }
-        found = fl_bvh_query(tree, s->box + first, box, points->list, points->list_cap);
+        w->failed = 1;
+        return;
     }
-    for (int32_t k = 0; k < found; k++) {
-        const int32_t panel = first + points->list[k];
-        const fl_load_panel *t = &s->panel[panel];
+    for (int32_t h = 0; h < found; h++) {
+        const fl_load_triangle *t = &s->triangle[first + points->list[h]];
         const fl_vec3 a = v3_sub(t->v[0], m), b = v3_sub(t->v[1], m), d = v3_sub(t->v[2], m);
         const fl_vec3 normal = v3_unit(v3_cross(v3_sub(b, a), v3_sub(d, a)));
         const double facing = plate ? fabs(v3_dot(normal, n)) : v3_dot(normal, n);
@@ -307,14 +365,14 @@ static void record_spread(fl_world *w, const fl_pair *p, fl_panel_points *points
         const double area = clipped_area(uv, far, &middle);
         if (!(area > 0.0)) continue;
         fl_panel_point *point = record_point(
-            w, p, points, panel, v3_madd(v3_madd(q->middle, middle.u, q->e1), middle.v, q->e2), q->across);
+            w, p, points, t->panel, v3_madd(v3_madd(q->middle, middle.u, q->e1), middle.v, q->e2), q->across);
         if (!point) return;
         point->normal_force = area;
         all += area;
     }
-    for (int32_t k = from; k < points->n; k++) {
-        points->point[k].normal_force *= q->normal / all;
-        points->point[k].area = q->area;
+    for (int32_t h = from; h < points->n; h++) {
+        points->point[h].normal_force *= q->normal / all;
+        points->point[h].area = q->area;
     }
     if (points->n == from) record_at_panel(w, p, points, q);
 }
@@ -335,6 +393,104 @@ static int32_t record_features(fl_world *w, const fl_pair *p, fl_panel_points *p
         record_spread(w, p, points, &one);
     }
     return n;
+}
+
+/* --- shares of parts ----------------------------------------------------------------------------- */
+
+static fl_load_share *share_of(fl_world *w, const fl_pair *p, fl_panel_points *points, int32_t from,
+                               int32_t part)
+{
+    for (int32_t k = from; k < points->shares; k++)
+        if (points->share[k].part == part) return &points->share[k];
+    if (fl_reserve(&points->share, &points->share_cap, (int64_t)points->shares + 1, sizeof *points->share)) {
+#pragma omp atomic write
+        w->failed = 1;
+        return NULL;
+    }
+    fl_load_share *new = &points->share[points->shares++];
+    *new = (fl_load_share){.pair = p->index, .i = p->i, .j = p->j, .part = part};
+    return new;
+}
+
+/* Splits the load of pair p between the parts of its points, from point[from] on.  The moment that the points
+ * leave over, of rolling or of the turn of faces, goes by the normal forces. */
+static void split_load(fl_world *w, const fl_pair *p, fl_panel_points *points, int32_t from)
+{
+    const int32_t first = points->shares;
+    fl_vec3 rest = v3_neg(p->torque_j);
+    double sum = 0.0;
+    for (int32_t k = from; k < points->n; k++) {
+        const fl_panel_point *m = &points->point[k];
+        fl_load_share *to = share_of(w, p, points, first, m->part);
+        if (!to) return;
+        const fl_vec3 moment = v3_cross(v3_sub(m->point, w->b.x[p->j]), m->force);
+        to->force = v3_sub(to->force, m->force);
+        to->torque = v3_sub(to->torque, moment);
+        rest = v3_sub(rest, moment);
+        sum += m->normal_force;
+    }
+    for (int32_t k = from; k < points->n; k++) {
+        const fl_panel_point *m = &points->point[k];
+        fl_load_share *to = share_of(w, p, points, first, m->part);
+        if (to)
+            to->torque =
+                v3_madd(to->torque, sum > 0.0 ? -m->normal_force / sum : -1.0 / (points->n - from), rest);
+    }
+}
+
+/* All points of pair p are recorded, from point[from] on: splits its load if parts share it, and drops the
+ * points if no table wants them. */
+static void end_of_pair(fl_world *w, const fl_pair *p, fl_panel_points *points, int32_t from)
+{
+    if (p->load_part == FL_LOAD_SHARED) split_load(w, p, points, from);
+    if (!w->panel_load.panels) points->n = from;
+}
+
+void fl_load_find_part(fl_world *w, fl_pair *p, const fl_patch_points *s)
+{
+    fl_panel_points *points = &w->panel_load.by_thread[omp_get_thread_num()];
+    const fl_panel_loads *l = &w->panel_load;
+    const int32_t k = p->j - w->n, first = l->first_triangle[k];
+    const fl_piece *piece = &w->structure.piece[k];
+    double overlap = 0.0;
+    fl_aabb box = aabb_empty();
+    for (int32_t c = 0; c < s->n; c++) {
+        box = aabb_add(box, v3_add(piece->x, q_rotate(piece->q, s->point[c].p)));
+        overlap = fmax(overlap, s->point[c].overlap);
+    }
+    for (int32_t c = 0; c < s->features; c++)
+        box = aabb_add(box, v3_add(piece->x, q_rotate(piece->q, s->feature[c].p)));
+    /* pressures reach farther than their points, record_spread() */
+    const fl_vec3 half = v3_scale(0.5, v3_sub(box.hi, box.lo));
+    box = aabb_join(box, (fl_aabb){v3_sub(box.lo, half), v3_add(box.hi, half)});
+    box = aabb_grow(box, 2.0 * (overlap + w->b.radius[p->i]) + 1e-9 * piece->core.size);
+    const int32_t n = query_triangles(points, l, k, box);
+    p->load_part = piece->part;
+    if (n < 0) {
+#pragma omp atomic write
+        w->failed = 1;
+    } else if (n == 0) {
+        p->load_part = FL_LOAD_SHARED; /* the nearest triangle decides */
+    }
+    for (int32_t c = 0; c < n; c++) {
+        const int32_t part = l->panel[l->triangle[first + points->list[c]].panel].part;
+        if (c > 0 && part != p->load_part) {
+            p->load_part = FL_LOAD_SHARED;
+            break;
+        }
+        p->load_part = part;
+    }
+}
+
+int32_t fl_load_part_at(fl_world *w, int32_t j, fl_vec3 x)
+{
+    const fl_piece *piece = &w->structure.piece[j - w->n];
+    if (!piece->several_parts) return piece->part;
+    const fl_vec3 at = m3_tmul(fl_body_axes(&w->b, j), v3_sub(x, w->b.x[j]));
+    const int32_t panel =
+        find_nearest_panel(&w->panel_load.by_thread[0], &w->panel_load, j - w->n,
+                           v3_add(piece->x, q_rotate(piece->q, at)), 1e-3 * piece->core.size);
+    return panel < 0 ? piece->part : w->panel_load.panel[panel].part;
 }
 
 void fl_panels_record_points(fl_world *w, const fl_pair *p, const fl_patch_points *s, double scale,
@@ -368,6 +524,7 @@ void fl_panels_record_points(fl_world *w, const fl_pair *p, const fl_patch_point
         else record_spread(w, p, points, &a);
     }
     if (points->n > from) distribute_rest(p, points->point + from, points->n - from);
+    end_of_pair(w, p, points, from);
 }
 
 void fl_panels_record_point(fl_world *w, const fl_pair *p, fl_vec3 at, fl_vec3 n, double area)
@@ -378,11 +535,13 @@ void fl_panels_record_point(fl_world *w, const fl_pair *p, fl_vec3 at, fl_vec3 n
     m->normal_force = v3_dot(p->force, m->n);
     m->area = area;
     m->force = p->force;
+    end_of_pair(w, p, points, points->n - 1);
 }
 
 void fl_panels_clear(fl_world *w)
 {
-    for (int32_t t = 0; t < w->threads; t++) w->panel_load.by_thread[t].n = 0;
+    for (int32_t t = 0; t < w->threads; t++)
+        w->panel_load.by_thread[t].n = w->panel_load.by_thread[t].shares = 0;
 }
 
 static int compare_points(const void *x, const void *y)
@@ -392,21 +551,35 @@ static int compare_points(const void *x, const void *y)
     return (a->order > b->order) - (a->order < b->order);
 }
 
-/* All points of a pair are of one thread, in their order. */
+static int compare_shares(const void *x, const void *y)
+{
+    const fl_load_share *a = x, *b = y;
+    if (a->pair != b->pair) return a->pair < b->pair ? -1 : 1;
+    return (a->order > b->order) - (a->order < b->order);
+}
+
+/* All points and shares of a pair are of one thread, in their order. */
 int fl_panels_sort(fl_world *w, fl_err *err)
 {
     fl_panel_loads *s = &w->panel_load;
-    int64_t n = 0;
-    for (int32_t t = 0; t < w->threads; t++) n += s->by_thread[t].n;
-    if (fl_grow(&s->point, &s->point_cap, n, sizeof *s->point, err)) return -1;
-    s->points = 0;
+    int64_t n = 0, shares = 0;
+    for (int32_t t = 0; t < w->threads; t++) n += s->by_thread[t].n, shares += s->by_thread[t].shares;
+    if (fl_grow(&s->point, &s->point_cap, n, sizeof *s->point, err) ||
+        fl_grow(&s->share, &s->share_cap, shares, sizeof *s->share, err))
+        return -1;
+    s->points = s->shares = 0;
     for (int32_t t = 0; t < w->threads; t++) {
+        for (int32_t k = 0; k < s->by_thread[t].shares; k++) {
+            s->by_thread[t].share[k].order = k;
+            s->share[s->shares++] = s->by_thread[t].share[k];
+        }
         for (int32_t k = 0; k < s->by_thread[t].n; k++) {
             s->by_thread[t].point[k].order = k;
             s->point[s->points++] = s->by_thread[t].point[k];
         }
     }
     if (s->points > 1) qsort(s->point, (size_t)s->points, sizeof *s->point, compare_points);
+    if (s->shares > 1) qsort(s->share, (size_t)s->shares, sizeof *s->share, compare_shares);
     return 0;
 }
 

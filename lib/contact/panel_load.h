@@ -10,7 +10,12 @@
  * So the panels of a part sum up to its load, to rounding.  The same points, summed over an interval for
  * each floe and part, are the events.
  *
- * Without output.panels and output.events, w->panel_load.panels is 0 and nothing here is called. */
+ * A piece joined of several parts (structure/region.h) has one contact with a floe.  If only triangles of one
+ * part are near, that part bears it.  Else the points are recorded in any case, and each part bears the forces
+ * of its points; what they leave of the moment goes by the normal forces.  Such a contact has no surrogate, and
+ * nothing rests on such a piece.
+ *
+ * Without output.panels, output.events and joined parts, w->panel_load.all is 0 and nothing here is called. */
 #ifndef FL_CONTACT_PANEL_LOAD_H
 #define FL_CONTACT_PANEL_LOAD_H
 #include "world/world.h"
@@ -26,15 +31,23 @@ struct fl_load_event {
     double max_overlap;     /* [m] */
 };
 
-/* Makes the panels of the surface if output.panels or output.events is set.  -1 with FL_SYSTEM. */
+/* Makes the panels of the surface if output.panels or output.events is set, or a piece is of several parts.
+ * -1 with FL_SYSTEM. */
 int fl_panels_make(fl_world *w, const fl_surface *surface, fl_err *err);
 void fl_panels_free(fl_panel_loads *s);
 
 /* True if the panels need the contact points of pair p. */
 static inline int fl_panels_need_points(const fl_world *w, const fl_pair *p)
 {
-    return w->panel_load.panels && p->j >= w->n && p->j < w->n + w->pieces;
+    return (w->panel_load.panels && p->j >= w->n && p->j < w->n + w->pieces) ||
+           p->load_part == FL_LOAD_SHARED;
 }
+
+/* Sets p->load_part of a pair with a piece of several parts, from its contact points. */
+void fl_load_find_part(fl_world *w, fl_pair *p, const fl_patch_points *s);
+
+/* The part of piece j that is nearest to x, world axes. */
+int32_t fl_load_part_at(fl_world *w, int32_t j, fl_vec3 x);
 
 /* Records the contact points of pair p of a floe and a piece, which the calling thread has just evaluated.
  *   scale  force of a point per unit of its weight: dW/dU of a patch, else the stiffness
@@ -46,7 +59,8 @@ void fl_panels_record_points(fl_world *w, const fl_pair *p, const fl_patch_point
 /* The same for a law with one contact of the area given [m2]; at, n in the frame of the piece. */
 void fl_panels_record_point(fl_world *w, const fl_pair *p, fl_vec3 at, fl_vec3 n, double area);
 
-/* Clears the points before the pairs are evaluated, and sorts them by pair afterwards.  -1 with FL_SYSTEM. */
+/* Clears points and shares before the pairs are evaluated, and sorts them by pair afterwards.  -1 with
+ * FL_SYSTEM. */
 void fl_panels_clear(fl_world *w);
 int fl_panels_sort(fl_world *w, fl_err *err);
 

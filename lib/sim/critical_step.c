@@ -294,8 +294,7 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
             }
             const double slope = tangent_stiffness(w, i, j, fl_pair_stiffness(w, i, j), hit);
             stiffest = fmax(stiffest, stiffer * slope);
-            if (w->moving.movers.n && w->moving.mover_of_piece[j - w->n] >= 0)
-                mover_slope = fmax(mover_slope, places * slope);
+            if (fl_piece_moves(w, j)) mover_slope = fmax(mover_slope, places * slope);
             const int in_concave_edge = round && w->structure.piece[j - w->n].kind == FL_PIECE_MESH;
             lower_shares(w, shares, law, in_concave_edge || fl_piece_is_free(w, j), times, few,
                          contacts_per_motion(w, round, times));
@@ -313,7 +312,8 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
             *body = i;
         }
     }
-    for (int32_t m = 0; m < w->moving.movers.n; m++) {
+    const int32_t movers = fl_structure_has_members(w) ? 1 : w->moving.movers.n;
+    for (int32_t m = 0; m < movers; m++) {
         const double omega2 = fl_mover_omega2(w, m, mover_slope);
         if (omega2 > largest) {
             largest = omega2;

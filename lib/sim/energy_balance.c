@@ -130,7 +130,7 @@ void fl_energy_update(fl_world *w)
     g->drag = drag;
     g->wind = wind;
     g->waves = waves;
-    if (w->moving.movers.n) {
+    if (fl_structure_moves(w)) {
         const fl_moving_energy r = fl_moving_structure_energy(w);
         g->structure = r.kinetic;
         g->spring = r.spring;
@@ -166,6 +166,14 @@ uint64_t fl_state_hash(const fl_world *w)
         h = fl_hash(h, &m->q[k], sizeof m->q[k]);
         h = fl_hash(h, &m->v[k], sizeof m->v[k]);
         h = fl_hash(h, &m->L[k], sizeof m->L[k]);
+    }
+    const fl_member_chain *c = &w->moving.members.dynamics.chain;
+    for (int32_t k = 0; k < c->balls; k++) {
+        const fl_member_ball *a = &c->ball[k];
+        h = fl_hash(h, &a->d, sizeof a->d);
+        h = fl_hash(h, &a->q, sizeof a->q);
+        h = fl_hash(h, &a->v, sizeof a->v);
+        h = fl_hash(h, &a->w, sizeof a->w);
     }
     return h;
 }

@@ -196,6 +196,11 @@ static int drop_pairs(fl_world *w, fl_err *err)
         if (!fl_body_absent(w, w->panel_load.point[k].i))
             w->panel_load.point[kept++] = w->panel_load.point[k];
     w->panel_load.points = kept;
+    kept = 0;
+    for (int32_t k = 0; k < w->panel_load.shares; k++)
+        if (!fl_body_absent(w, w->panel_load.share[k].i))
+            w->panel_load.share[kept++] = w->panel_load.share[k];
+    w->panel_load.shares = kept;
     if (fl_neighbour_list_index(w, err) || fl_contact_list_remove_absent(w, err)) return -1;
     for (int32_t k = 0; k < w->b.total; k++)
         if (k >= w->n || !fl_body_absent(w, k)) fl_body_sum_forces(w, k);

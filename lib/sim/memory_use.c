@@ -45,7 +45,10 @@ static double water_bytes(const fl_environment *s)
                  ARRAY(s->buoyancy, s->n) + ARRAY(s->flow_velocity, s->n) + ARRAY(s->drag_loss, s->n) +
                  ARRAY(s->wind_work, s->n) + ARRAY(s->drag_surface, s->n) + ARRAY(s->panels, s->n) +
                  ARRAY(s->cells, (double)s->threads * s->cells_per_thread) + ARRAY(s->water_force, s->n) +
-                 ARRAY(s->water_moment, s->n) + ARRAY(s->water_work, s->n) + ARRAY(s->sample, s->n);
+                 ARRAY(s->water_moment, s->n) + ARRAY(s->water_work, s->n) + ARRAY(s->sample, s->n) +
+                 ARRAY(s->nodes, s->n) + ARRAY(s->block, s->n) +
+                 ARRAY(s->node_scratch, (double)s->threads * s->scratch_per_thread) +
+                 fl_wave_grid_bytes(&s->grid);
     for (int32_t i = 0; i < s->n; i++) {
         sum += hull_bytes(&s->hull[i]);
         const fl_poly *const outer = fl_environment_outer(s, i);
@@ -53,8 +56,11 @@ static double water_bytes(const fl_environment *s)
         if (s->drag_surface)
             sum += fl_facets_bytes(&s->drag_surface[i].facets, &s->hull[i]) +
                    fl_facet_cut_bytes(&s->drag_surface[i].wet) + fl_facet_cut_bytes(&s->drag_surface[i].dry);
-        if (s->waves)
+        if (s->panels)
             sum += ARRAY(s->panels[i].face, s->panels[i].n) + ARRAY(s->panels[i].v, 3 * s->panels[i].n);
+        if (s->nodes)
+            sum += ARRAY(s->nodes[i].x, s->nodes[i].n) + ARRAY(s->nodes[i].w, s->nodes[i].n) +
+                   ARRAY(s->nodes[i].area, s->nodes[i].n);
     }
     return sum;
 }
@@ -83,9 +89,10 @@ static double other_bytes(const fl_world *w)
     sum += ARRAY(z->bond, z->n) + ARRAY(z->image, 3 * (double)z->n) + ARRAY(z->radius_factor, z->n) +
            ARRAY(z->omega2, 2 * (double)z->n) + ARRAY(z->of, 2 * (double)z->n) +
            ARRAY(z->max_omega2, w->b.total) + ARRAY(z->first, w->b.total + 1);
-    sum += ARRAY(q->panel, q->panels) + ARRAY(q->box, q->panels) + ARRAY(q->impulse, q->panels) +
-           ARRAY(q->point, q->point_cap);
-    for (int32_t k = 0; k < q->trees && q->tree; k++) sum += tree_bytes(&q->tree[k]);
+    const int32_t triangles = q->first_triangle ? q->first_triangle[q->pieces] : 0;
+    sum += ARRAY(q->panel, q->all) + ARRAY(q->triangle, triangles) + ARRAY(q->box, triangles) +
+           ARRAY(q->impulse, q->panels) + ARRAY(q->point, q->point_cap) + ARRAY(q->share, q->share_cap);
+    for (int32_t k = 0; k < q->pieces && q->tree; k++) sum += tree_bytes(&q->tree[k]);
     sum += ARRAY(w->elastic_walls.outer, n) + ARRAY(w->elastic_walls.hull, n);
     for (int32_t i = 0; i < n && w->elastic_walls.hull; i++)
         sum += fl_poly_bytes(&w->elastic_walls.outer[i]) + hull_bytes(&w->elastic_walls.hull[i]);

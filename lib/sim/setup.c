@@ -19,6 +19,7 @@
 #include "sim/sleep.h"
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
+#include "structure/region.h"
 #include "water/added_mass.h"
 #include "water/force_table.h"
 #include "world/access.h"
@@ -54,6 +55,7 @@ static int add_wall(fl_structure *s, int elastic, fl_vec3 x, fl_vec3 normal, fl_
     s->piece[s->n++] =
         (fl_piece){.kind = FL_PIECE_PLANE,
                    .part = -1,
+                   .cone = -1,
                    .elastic = elastic,
                    .x = x,
                    .q = q_of_matrix(
@@ -93,6 +95,26 @@ static void make_cell(fl_world *w)
         *length = b - a;
         w->cell.periodic = 1;
     }
+}
+
+/* The pieces of the structure; those that touch and do not move apart are one.  Cylinders that members carry
+ * move apart. */
+static int make_pieces(fl_world *w, const fl_surface *surface, int carried, fl_err *err)
+{
+    fl_err why = {0};
+    int32_t *mover = fl_alloc(surface->n, sizeof *mover, err);
+    int rc = -1;
+    if (mover) {
+        fl_mover_of_parts(w->scene, surface, mover);
+        rc = fl_structure_build(&w->structure, surface, &why) ||
+                     (!carried && fl_regions_join(&w->structure, surface, mover, w->cell.length, &why))
+                 ? -1
+                 : 0;
+        if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", w->scene->structure.file, why.text);
+        else if (rc) *err = why;
+    }
+    free(mover);
+    return rc;
 }
 
 static fl_vec3 normal_of(const fl_piece *wall) { return q_rotate(wall->q, v3(0, 0, 1)); }
@@ -336,14 +358,14 @@ static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *er
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_ice_field *field, const fl_surface *surface,
                   fl_err *err)
 {
-    return fl_world_make_with_inflow(w, scene, field, field, surface, err);
+    return fl_world_make_with_inflow(w, scene, field, field, surface, NULL, err);
 }
 
 int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_field *field,
-                              const fl_ice_field *feed, const fl_surface *surface, fl_err *err)
+                              const fl_ice_field *feed, const fl_surface *surface,
+                              const fl_member_model *members, fl_err *err)
 {
     double bound = 0.0;
-    fl_err why = {0};
     *w = (fl_world){.scene = scene, .n = field->n, .last_search_step = -1, .gravity = scene->run.gravity};
     fl_barrier_make(&w->barrier);
     w->threads = scene->run.threads > 0 ? scene->run.threads : omp_get_max_threads();
@@ -353,13 +375,8 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     w->dt_critical = w->dt_critical_contacts = INFINITY;
     w->max_overlap_i = w->max_overlap_j = w->critical_body = -1;
     w->parts = surface ? surface->n : 0;
-    if (surface && fl_structure_build(&w->structure, surface, &why)) {
-        if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", scene->structure.file, why.text);
-        else *err = why;
-        goto fail;
-    }
-    if (make_walls(w, err)) goto fail;
     make_cell(w);
+    if ((surface && make_pieces(w, surface, members != NULL, err)) || make_walls(w, err)) goto fail;
     if (check_groups(w, field, feed, err) || fl_inflow_make(w, field, feed, err) ||
         make_driven_floes(w, field, err))
         goto fail;
@@ -384,7 +401,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         w->inflow.absent[i] = 1;
         if (fl_world_place_floe(w, i, feed, w->inflow.source_floe[i], err)) goto fail;
     }
-    if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, err) ||
+    if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
         fl_panels_make(w, surface, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
         fl_bond_list_make(w, field, err))
         goto fail;

@@ -11,6 +11,7 @@
 #include "sim/energy_ledger.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
+#include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
 #include "sim/setup.h"
@@ -174,6 +175,19 @@ static void exchange_sleep(fl_state_io *t, fl_world *w, int32_t k)
                      (double)w->step);
 }
 
+/* The path of a body through a block of waves; the rest is evaluated again. */
+static void exchange_block(fl_state_io *t, fl_wave_block *c)
+{
+    fl_state_io_count(t, &c->level);
+    fl_state_io_int(t, 0, 2, &c->span);
+    fl_state_io_int(t, 0, INT32_MAX, &c->short_turns);
+    fl_state_io_quat(t, &c->q);
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++) fl_state_io_vec3(t, &c->x[k]), fl_state_io_vec3(t, &c->turn[k]);
+    if (t->in && !t->err->code && c->level != FL_WAVE_NO_BLOCK && (c->level < 0 || c->span < 1))
+        fl_text_fail(t->in, t->err, "a block of waves at level %lld in steps of %d does not exist",
+                     (long long)c->level, c->span);
+}
+
 static void exchange_water(fl_state_io *t, fl_environment *s, const fl_bodies *b, int32_t i)
 {
     double energy = s->water && !s->waves ? fl_environment_energy(s, b, i) : 0.0,
@@ -192,6 +206,7 @@ static void exchange_water(fl_state_io *t, fl_environment *s, const fl_bodies *b
         fl_state_io_pose(t, &h->x, &h->q);
         fl_state_io_real(t, &h->when);
     }
+    if (s->block) exchange_block(t, &s->block[i]);
     fl_state_io_close(t);
 }
 
@@ -218,6 +233,27 @@ static void exchange_mover(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_real(t, &m->damper_loss[k]);
     fl_state_io_real(t, &m->prescribed_work[k]);
     fl_state_io_close(t);
+}
+
+/* A structure of members: its balls.  Its forces follow from them and from those on the pieces. */
+static void exchange_members(fl_state_io *t, fl_world *w)
+{
+    fl_member_dynamics *d = &w->moving.members.dynamics;
+    int32_t balls = d->chain.balls;
+    fl_state_io_open(t, "members");
+    fl_state_io_int(t, balls, balls, &balls);
+    fl_state_io_real(t, &d->damped);
+    fl_state_io_close(t);
+    for (int32_t k = 0; k < d->chain.balls && !t->err->code; k++) {
+        fl_member_ball *a = &d->chain.ball[k];
+        fl_state_io_open(t, "chain");
+        fl_state_io_vec3(t, &a->d);
+        fl_state_io_vec3(t, &a->v);
+        fl_state_io_quat(t, &a->q);
+        fl_state_io_vec3(t, &a->w);
+        fl_state_io_close(t);
+    }
+    if (t->in && !t->err->code) fl_member_structure_refresh(w);
 }
 
 /* A contact point on the structure, of the last step. */
@@ -286,6 +322,29 @@ static void exchange_panel_loads(fl_state_io *t, fl_world *w)
         if (t->in) s->event[k] = (fl_load_event){0};
         exchange_event(t, w, &s->event[k]);
         s->events = k + 1;
+    }
+}
+
+/* The loads of the last step that several parts bear. */
+static void exchange_load_shares(fl_state_io *t, fl_world *w)
+{
+    fl_panel_loads *s = &w->panel_load;
+    fl_state_io_open(t, "shared");
+    fl_state_io_int(t, 0, INT32_MAX, &s->shares);
+    fl_state_io_close(t);
+    const int32_t shares = s->shares;
+    if (t->in) s->shares = 0;
+    for (int32_t k = 0; k < shares && !t->err->code; k++) {
+        if (t->in && fl_grow(&s->share, &s->share_cap, (int64_t)k + 1, sizeof *s->share, t->err)) return;
+        if (t->in) s->share[k] = (fl_load_share){0};
+        fl_state_io_open(t, "share");
+        fl_state_io_int(t, 0, w->n - 1, &s->share[k].i);
+        fl_state_io_int(t, w->n, w->b.total - 1, &s->share[k].j);
+        fl_state_io_int(t, 0, w->parts - 1, &s->share[k].part);
+        fl_state_io_vec3(t, &s->share[k].force);
+        fl_state_io_vec3(t, &s->share[k].torque);
+        fl_state_io_close(t);
+        s->shares = k + 1;
     }
 }
 
@@ -371,7 +430,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     fl_state_io_real(t, &w->skin);
     fl_state_io_real(t, &w->dt_critical);
     fl_state_io_real(t, &w->dt_critical_contacts);
-    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1, &w->critical_body);
+    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1 + fl_structure_has_members(w),
+                    &w->critical_body);
     fl_state_io_real(t, &w->dt_safe);
     fl_state_io_int(t, w->parts, w->parts, &parts);
     fl_state_io_int(t, w->b.total, w->b.total, &total);
@@ -401,12 +461,16 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         if (t->in) w->sleep.n_resting += w->sleep.phase[k] == FL_RESTING;
     }
     for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) exchange_mover(t, w, k);
+    if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
     if (w->discs.n && !t->err->code) exchange_discs(t, w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
+    if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;
     if (w->sea.current.n) exchange_current_hash(t, &w->sea.current);
+    if (t->in && !t->err->code && fl_environment_prepare(&w->sea, &w->b, w->inflow.absent, now, 1, t->err))
+        return pairs;
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         exchange_water(t, &w->sea, &w->b, i);
         if (t->in && !t->err->code && w->sea.sample && !fl_body_absent(w, i) &&
@@ -453,7 +517,7 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
     const int more = fl_text_row(in, err);
     if (more > 0) fl_text_fail(in, err, "unexpected \"%.40s\" after the last pair", in->field[0]);
     if (more) return -1;
-    if (w->moving.movers.n) fl_moving_structure_set_step(w);
+    if (fl_structure_moves(w)) fl_moving_structure_set_step(w);
     if ((fl_contact_list_size(w) || w->spheres.bodies) && fl_contact_list_index(w, err)) return -1;
     if (fl_neighbour_list_index(w, err)) return -1;
     fl_sleep_after_read(w);

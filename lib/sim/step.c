@@ -16,6 +16,7 @@
 #include "sim/energy_ledger.h"
 #include "sim/half_kicks.h"
 #include "sim/inflow.h"
+#include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
 #include "sim/sleep.h"
@@ -48,9 +49,8 @@ typedef struct {
 /* End of the drift: move pieces and walls without a mover, count the step, set the time of the water. */
 static void advance_time(fl_world *w)
 {
-    const int moves = w->moving.movers.n > 0;
     for (int32_t k = w->n; k < w->b.total; k++)
-        if (!moves || w->moving.mover_of_piece[k - w->n] < 0) fl_drift(&w->b, k, w->dt);
+        if (!fl_piece_moves(w, k)) fl_drift(&w->b, k, w->dt);
     w->step++;
     w->sea.time = fl_world_time(w);
     w->sea.sample_now = w->sea.sample_every < 2 || w->step % w->sea.sample_every == 0;
@@ -76,7 +76,7 @@ static void after_contacts(void *arg)
         w->last_search_step = -1;
         w->bonds.ended = 0;
     }
-    if (w->panel_load.panels && fl_panels_sort(w, q->err)) q->failed = 1;
+    if (w->panel_load.all && fl_panels_sort(w, q->err)) q->failed = 1;
     if (w->sleep.n_resting) fl_sleep_wake_touched(w);
 }
 
@@ -187,6 +187,12 @@ static void run_step_in_team(step_context *q)
     fl_barrier_wait(&w->barrier, threads, NULL, NULL);
 }
 
+/* Tables of the waves for time t. */
+static int prepare_waves(fl_world *w, double t, fl_err *err)
+{
+    return fl_environment_prepare(&w->sea, &w->b, w->inflow.absent, t, w->team.n, err);
+}
+
 /* A parallel region costs as much as a step of three floes, so a team of one runs without it. */
 static int run_step(step_context *q)
 {
@@ -226,7 +232,25 @@ static int check_state(fl_world *w, int update_stiffness, fl_err *err)
             !v3_finite(w->moving.movers.b.t[k]))
             return fl_fail(err, FL_NUMERIC, "%s: not a finite number in step %lld (t = %g s)",
                            fl_mover_name(w, k), (long long)w->step, fl_world_time(w));
-    return 0;
+    return fl_structure_has_members(w) ? fl_member_structure_check(w, err) : 0;
+}
+
+/* Adds a force and a torque about the origin of piece or wall j to part p. */
+static void load_part(fl_world *w, int32_t p, int32_t j, fl_vec3 force, fl_vec3 torque)
+{
+    const fl_vec3 arm = v3_sub(w->b.x[j], w->part_reference[p]);
+    w->part_force[p] = v3_add(w->part_force[p], force);
+    w->part_torque[p] = v3_add(w->part_torque[p], v3_add(torque, v3_cross(arm, force)));
+}
+
+/* Adds the contacts with a piece of several parts that one of them bears. */
+static void load_joined_parts(fl_world *w, int32_t j)
+{
+    for (int64_t c = w->first_pair_of_body[j]; c < w->first_pair_of_body[j + 1]; c++) {
+        const int32_t k = w->pairs_of_body[c];
+        const fl_pair *p = w->pair_touches[k] ? w->pair[k].contact : NULL;
+        if (p && p->load_part >= 0) load_part(w, p->load_part, j, v3_neg(p->force), p->torque_j);
+    }
 }
 
 /* Forces on the pieces summed per part; their impulses over the time h. */
@@ -235,10 +259,13 @@ static void load_parts(fl_world *w, double h)
     const fl_bodies *b = &w->b;
     for (int32_t p = 0; p < w->parts; p++) w->part_force[p] = w->part_torque[p] = v3(0, 0, 0);
     for (int32_t k = 0; k < w->pieces; k++) {
-        const int32_t j = w->n + k, p = w->structure.piece[k].part;
-        w->part_force[p] = v3_add(w->part_force[p], b->f[j]);
-        w->part_torque[p] = v3_add(w->part_torque[p],
-                                   v3_add(b->t[j], v3_cross(v3_sub(b->x[j], w->part_reference[p]), b->f[j])));
+        const fl_piece *piece = &w->structure.piece[k];
+        if (piece->several_parts) load_joined_parts(w, w->n + k);
+        else load_part(w, piece->part, w->n + k, b->f[w->n + k], b->t[w->n + k]);
+    }
+    for (int32_t k = 0; k < w->panel_load.shares; k++) {
+        const fl_load_share *s = &w->panel_load.share[k];
+        load_part(w, s->part, s->j, s->force, s->torque);
     }
     for (int32_t p = 0; p < w->parts; p++) {
         const double size = v3_norm(w->part_force[p]);
@@ -334,22 +361,23 @@ int fl_step_start(fl_world *w, fl_err *err)
     if (fl_check_wave_sampling(w, err)) return -1;
     w->dt_safe = fmin(fl_automatic_step(w, &body), SAFE_SHARE * fl_critical_step(w));
     w->sea.time = fl_world_time(w);
+    if (prepare_waves(w, w->sea.time, err)) return -1;
 
     /* neighbour list, contacts and forces */
     if (fl_neighbour_list_update(w, err)) return -1;
-    if (w->panel_load.panels) fl_panels_clear(w);
+    if (w->panel_load.all) fl_panels_clear(w);
     step_context q = {.w = w, .update_stiffness = 1, .err = err};
     if (run_step(&q)) return -1;
-    if (w->moving.movers.n) {
+    if (fl_structure_moves(w)) {
         fl_moving_structure_set_step(w);
         fl_moving_structure_second_half(w, 0.0, 0.0);
     }
     /* critical step */
     fl_stiffness_update(w);
     if (w->automatic_dt && fl_shorten_step_at_start(w)) { /* damping and friction depend on the step */
-        if (w->panel_load.panels) fl_panels_clear(w);
+        if (w->panel_load.all) fl_panels_clear(w);
         if (run_step(&q)) return -1;
-        if (w->moving.movers.n) {
+        if (fl_structure_moves(w)) {
             fl_moving_structure_set_step(w);
             fl_moving_structure_second_half(w, 0.0, 0.0);
         }
@@ -369,7 +397,7 @@ int fl_step_start(fl_world *w, fl_err *err)
 int fl_step(fl_world *w, fl_err *err)
 {
     const double dt = w->dt, h = 0.5 * dt;
-    const int moves = w->moving.movers.n > 0, update_stiffness = fl_stiffness_due(w, w->step + 1);
+    const int moves = fl_structure_moves(w), update_stiffness = fl_stiffness_due(w, w->step + 1);
 
     /* loads: half a step of the present forces on the structure */
     fl_thread_count_begin(&w->team);
@@ -379,8 +407,11 @@ int fl_step(fl_world *w, fl_err *err)
     fl_ledger_begin_step(w);
     if (moves) fl_moving_structure_first_half(w, fl_world_time(w));
 
+    /* tables of the waves */
+    if (w->sea.by_blocks && prepare_waves(w, w->t0 + (double)(w->step + 1 - w->step0) * dt, err)) return -1;
+
     /* bodies: first half; contacts; bodies: second half */
-    if (w->panel_load.panels) fl_panels_clear(w);
+    if (w->panel_load.all) fl_panels_clear(w);
     step_context q = {.w = w, .dt = dt, .update_stiffness = update_stiffness, .first_half = 1, .err = err};
     if (run_step(&q)) return -1;
     if (q.needs_search) { /* the skin is used up: update the neighbour list, then the contacts */
@@ -422,5 +453,5 @@ void fl_step_set_size(fl_world *w, double dt, double t)
     w->step0 = w->step;
     w->dt = dt;
     book_work_ahead(w, 1.0);
-    if (w->moving.movers.n) fl_moving_structure_set_step(w);
+    if (fl_structure_moves(w)) fl_moving_structure_set_step(w);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 #include "base/array.h"
+#include "structure/free_cone.h"
 #include "structure/mesh_contact.h"
 #include "structure/mesh_side.h"
 #include "narrow/closest_point.h"
@@ -42,7 +43,16 @@ typedef struct {
     double front; /* height of x in front of the face */
     double same;
     int32_t of; /* face */
+    int thin;   /* the mesh has sheets with two sides */
 } nearest_search;
+
+/* True if a face at height s decides the side rather than one at height `most`.  Of the two sides of a sheet,
+ * at equal heights, it is the one that x is in front of. */
+static inline int is_decisive(double s, double most, int thin)
+{
+    if (thin && fabs(s + most) <= 1e-9 * fabs(s)) return s > most;
+    return fabs(s) > fabs(most);
+}
 
 /* Among faces whose nearest points agree within rounding (a shared edge or corner), the one that x is most in
  * front of decides the side: its plane passes between x and the others. */
@@ -53,7 +63,7 @@ static inline void try_face(nearest_search *b, const fl_poly *p, int32_t f, fl_v
     const fl_closest_point q = fl_closest_on_face(p, f, x);
     if (q.d > most) return;
     if (q.d < b->least) b->least = q.d;
-    if (q.d < b->at.d - b->same || fabs(s) > fabs(b->front)) b->at = q, b->front = s, b->of = f;
+    if (q.d < b->at.d - b->same || is_decisive(s, b->front, b->thin)) b->at = q, b->front = s, b->of = f;
 }
 
 /* Normals that differ by less are of one plane: the tolerance of the planes over the smallest side of a tile
@@ -76,7 +86,7 @@ static double height_in_front(const nearest_search *b, const fl_poly *p, const f
     for (int32_t f; (f = fl_bvh_walk_next(&at, same)) >= 0;) {
         const double s = v3_dot(p->n[f], r);
         if (fl_closest_on_face(p, f, b->at.p).d > same) continue;
-        if (fabs(s) > fabs(most)) most = s;
+        if (is_decisive(s, most, b->thin)) most = s;
         low = fmin(low, s), high = fmax(high, s);
         if (v3_norm2(v3_sub(p->n[f], first)) <= SAME_NORMAL * SAME_NORMAL) continue;
         if (planes == 1) second = p->n[f], planes = 2;
@@ -98,24 +108,69 @@ static fl_closest_point with_sign(const nearest_search *b, const fl_poly *p, con
     return q;
 }
 
-static nearest_search empty_search(const fl_poly *p)
+static nearest_search empty_search(const fl_poly *p, const fl_piece_mesh *sh)
 {
-    return (nearest_search){.at.d = INFINITY, .least = INFINITY, .same = ROUNDING_TOL * p->size, .of = -1};
+    return (nearest_search){.at.d = INFINITY,
+                            .least = INFINITY,
+                            .same = ROUNDING_TOL * p->size,
+                            .of = -1,
+                            .thin = sh->thin != NULL};
 }
 
 static nearest_search find_nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
-    nearest_search b = empty_search(p);
+    nearest_search b = empty_search(p, sh);
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, x);
     for (int32_t f; (f = fl_bvh_walk_next(&at, b.at.d + b.same)) >= 0;) try_face(&b, p, f, x);
     return b;
 }
 
-/* Signed distance of x from the surface. */
-static fl_closest_point signed_nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+/* Signed distance of x from the surface, and the face it is of. */
+static fl_closest_point signed_nearest_face(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x, int32_t *of)
 {
     const nearest_search b = find_nearest(p, sh, x);
+    *of = b.of;
     return with_sign(&b, p, sh, x);
+}
+
+static fl_closest_point signed_nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+{
+    int32_t of;
+    return signed_nearest_face(p, sh, x, &of);
+}
+
+/* A part of a joined piece: the facets of one cone, or, with only = -1, all but those of the cones marked. */
+typedef struct {
+    const uint8_t *is_free;
+    int32_t only;
+} mesh_selection;
+
+/* True if something of that cone (-1: of none) counts; of: NULL for all of a mesh. */
+static int is_selected(const mesh_selection *of, int32_t cone)
+{
+    if (!of) return 1;
+    return of->only >= 0 ? cone == of->only : cone < 0 || !of->is_free[cone];
+}
+
+static int32_t cone_of_edge(const fl_poly *p, const fl_piece_mesh *sh, int32_t e)
+{
+    const int32_t l = p->edge[e].left, r = p->edge[e].right;
+    return l >= 0 && r >= 0 && sh->cone_of_face[l] == sh->cone_of_face[r] ? sh->cone_of_face[l] : -1;
+}
+
+/* Keeps the walls of a part of the piece. */
+static void keep_selected(fl_feature_set *r, const fl_poly *p, const fl_piece_mesh *sh,
+                          const mesh_selection *of)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < r->faces; k++)
+        if (is_selected(of, sh->cone_of_face[r->face[k]])) r->face[n++] = r->face[k];
+    r->faces = n;
+    n = 0;
+    for (int32_t k = 0; k < r->edges; k++)
+        if (is_selected(of, cone_of_edge(p, sh, r->edge[k]))) r->edge[n++] = r->edge[k];
+    r->edges = n;
+    if (of->only >= 0) r->vertices = 0;
 }
 
 /* True if x is behind the surface, or may pass behind when it moves by the margin. That is excluded if x is
@@ -207,19 +262,26 @@ static int leads_through(fl_feature_set *r, const fl_poly *p, const fl_piece_mes
     return r->faces < 0 ? -1 : 0;
 }
 
-/* Evaluates the vertices of the core that may be behind the surface. Adds the contact points of those behind,
+/* Evaluates the vertices of the core that may be behind the surface, or beyond a sheet. Adds the contact points of those behind,
  * and sets *behind if there are any. An open surface has gone into the core if it lies between its middle and
  * the vertex; else the vertex has come round the rim, or the core from the back. */
 static int add_vertices_behind(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
                                const fl_patch_core *B, const fl_piece_mesh *sh, const fl_feature_pairs *l,
-                               double ra, int *behind)
+                               double ra, const mesh_selection *of, int *behind)
 {
     *behind = 0;
     for (int32_t k = 0; k < l->candidates; k++) {
         const int32_t v = l->candidate[k];
-        const fl_closest_point q = signed_nearest(B->p, sh, w->va[v]);
+        int32_t face;
+        fl_closest_point q = signed_nearest_face(B->p, sh, w->va[v], &face);
+        if (of && !is_selected(of, sh->cone_of_face[face])) continue;
+        if (q.d >= 0.0 && sh->thin) { /* it may have passed a sheet */
+            const int through = leads_through(&near->of_mesh, B->p, sh, middle_of(w->va, A->p->nv), w->va[v]);
+            if (through < 0) return -1;
+            if (through) q.d = -q.d, q.n = v3_neg(q.n);
+        }
         if (q.d >= 0.0) continue;
-        if (!sh->closed) {
+        if (!sh->closed && !sh->thin) {
             const int through = leads_through(&near->of_mesh, B->p, sh, middle_of(w->va, A->p->nv), w->va[v]);
             if (through < 0) return -1;
             if (!through) continue;
@@ -265,11 +327,22 @@ static void keep_near(fl_feature_set *r, const fl_patch_core *A, const fl_patch_
     r->vertices = n;
 }
 
+/* Keeps of the sides of sheets those that face x. */
+static void keep_facing(fl_feature_set *r, const fl_poly *p, const fl_piece_mesh *mesh, fl_vec3 x)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < r->faces; k++) {
+        const int32_t f = r->face[k];
+        if (!mesh->thin[f] || v3_dot(p->n[f], x) > p->c[f]) r->face[n++] = f;
+    }
+    r->faces = n;
+}
+
 /* Lists the walls within reach, and the features of them and of the core that may have contact points, until
- * the pair has moved by the margin. */
+ * the pair has moved by the margin.  facing: of sheets only the sides that face the middle of the core. */
 static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
                               const fl_patch_core *B, const fl_piece_mesh *mesh, double ra, double reach,
-                              fl_feature_pairs *l)
+                              const mesh_selection *of, int facing, fl_feature_pairs *l)
 {
     const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * (A->p->size + B->p->size),
                  margin_behind = margin + EDGE_TOL * B->p->size;
@@ -277,6 +350,7 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
     if (list_near_features(walls, B->p, mesh, box, ra + margin, reach + margin)) return -1;
+    if (of) keep_selected(walls, B->p, mesh, of);
     l->out_of_reach = walls->faces == 0;
     l->stores_planes = 1;
     l->candidates = 0;
@@ -284,6 +358,7 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
     for (int32_t v = 0; v < A->p->nv && !l->out_of_reach; v++)
         if (may_pass_behind(B->p, mesh, w->va[v], margin_behind)) l->candidate[l->candidates++] = v;
     keep_near(walls, A, B, ra + margin + same);
+    if (facing) keep_facing(walls, B->p, mesh, middle_of(w->va, A->p->nv));
     return list_all_features(all, A->p) || fl_feature_pairs_build(l, w, A, all, B, walls, ra, ra, margin) ||
                    fl_mesh_under_face_list(l, A, B)
                ? -1
@@ -304,38 +379,96 @@ static int bound_distance(const fl_patch_points *w, fl_mesh_contact_work *near, 
     return 0;
 }
 
-int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                           const fl_piece *b, double ra, double reach, fl_feature_pairs *l, double *distance)
+static int add_listed_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
+                             const fl_patch_core *B, double ra, double far, const fl_feature_pairs *l)
+{
+    const double rim = FL_PATCH_RIM_WIDTH * ra;
+    fl_feature_pairs rest;
+    return fl_mesh_under_face_evaluate(w, l, &near->under_face, A, B, ra, far, rim, &rest) ||
+                   fl_feature_pairs_evaluate(w, &rest, A, B, ra, far, rim, 0.0)
+               ? -1
+               : 0;
+}
+
+/* True if some point, from `from` on, has the core itself touch the surface. */
+static int has_core_contact(const fl_patch_points *w, int32_t from, double ra)
+{
+    for (int32_t k = from; k < w->n; k++)
+        if (w->point[k].overlap >= ra * (1.0 - ROUNDING_TOL)) return 1;
+    return 0;
+}
+
+/* Adds the points of a mesh, or of a part of it.  l->out_of_reach is set if no face is near. */
+static int add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a, const fl_piece *b,
+                      double ra, double reach, const mesh_selection *of, fl_feature_pairs *l)
 {
     const fl_poly *core = &b->core;
     const fl_patch_core A = {a, w->va, w->na, ra, 1.0}, B = {core, core->v, core->n, 0.0, -1.0};
+    const int32_t before = w->n;
     int behind;
-    w->n = w->features = 0;
-    w->couple = v3(0, 0, 0);
-    *distance = reach;
-    if (!fl_feature_pairs_valid(l, &w->M, w->o) &&
-        list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, l))
+    if ((of || !fl_feature_pairs_valid(l, &w->M, w->o)) &&
+        list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, of, 0, l))
         return -1;
+    if (of) l->max_shift2 = 0.0; /* for now only */
     if (l->out_of_reach) {
         l->max_shift2 = 0.0; /* not near now: no list is kept */
         return 0;
     }
-    *distance = ra; /* a face is near: no bound is claimed */
-    if (add_vertices_behind(w, near, &A, &B, &b->mesh, l, ra, &behind)) return -1;
+    if (add_vertices_behind(w, near, &A, &B, &b->mesh, l, ra, of, &behind)) return -1;
     if (behind) { /* a vertex farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
         if (bound_distance(w, near, a, &b->mesh, ra, &beside)) return -1;
         if (beside == ra) {
-            w->n = 0;
-            return bound_distance(w, near, a, &b->mesh, reach, distance);
+            w->n = before;
+            return 0;
         }
     }
-    fl_feature_pairs rest;
-    const double far = behind ? ra : 0.0, rim = FL_PATCH_RIM_WIDTH * ra;
-    if (fl_mesh_under_face_evaluate(w, l, &near->under_face, &A, &B, ra, far, rim, &rest) ||
-        fl_feature_pairs_evaluate(w, &rest, &A, &B, ra, far, rim, 0.0))
-        return -1;
+    const double far = behind ? ra : 0.0;
+    const int32_t vertices = w->n, features = w->features;
+    const fl_vec3 couple = w->couple;
+    if (add_listed_points(w, near, &A, &B, ra, far, l)) return -1;
+    if (b->mesh.thin &&
+        (behind || has_core_contact(w, before, ra))) { /* the far side of the sheet is in the core */
+        w->n = vertices, w->features = features, w->couple = couple;
+        if (list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, of, 1, l) ||
+            add_listed_points(w, near, &A, &B, ra, far, l))
+            return -1;
+        l->max_shift2 = 0.0; /* for now only */
+    }
+    return 0;
+}
+
+int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
+                           const fl_piece *b, double ra, double reach, fl_feature_pairs *l, double *distance)
+{
+    w->n = w->features = 0;
+    w->couple = v3(0, 0, 0);
+    *distance = reach;
+    if (add_points(w, near, a, b, ra, reach, NULL, l)) return -1;
+    if (l->out_of_reach) return 0;
+    *distance = ra; /* a face is near: no bound is claimed */
     return w->n ? 0 : bound_distance(w, near, a, &b->mesh, reach, distance);
+}
+
+int fl_mesh_contact_add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
+                               const fl_piece *b, double ra, int32_t only, fl_feature_pairs *l)
+{
+    const mesh_selection of = {near->is_free, only};
+    return add_points(w, near, a, b, ra, ra, &of, l);
+}
+
+int fl_mesh_contact_reserve_cones(fl_mesh_contact_work *near, int32_t n)
+{
+    return fl_reserve(&near->is_free, &near->free_cap, n, 1);
+}
+
+int fl_mesh_contact_bound(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
+                          const fl_piece *b, double reach, double *distance)
+{
+    double far = 0.0;
+    if (bound_distance(w, near, a, &b->mesh, reach + b->facet_error, &far)) return -1;
+    if (far > 0.0) *distance = reach;
+    return 0;
 }
 
 /* Lists the faces that the point may meet until it has moved by the margin: those that can be the nearest if
@@ -344,7 +477,7 @@ static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, con
                              fl_feature_pairs *l, double *distance)
 {
     const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * b->core.size,
-                 far = ra + margin + same;
+                 far = ra + margin + same + b->facet_error;
     const fl_piece_mesh *sh = &b->mesh;
     const fl_vec3 x = w->va[0];
     fl_feature_set *walls = &near->of_mesh;
@@ -354,6 +487,7 @@ static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, con
     *distance = find_nearest(&b->core, sh, x).least;
     if (*distance > far) return 0;
     const double next = *distance + 2.0 * (margin + same);
+    *distance -= b->facet_error;
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, x);
     for (int32_t f; (f = fl_bvh_walk_next(&at, fmax(far, next))) >= 0;) {
         if (fabs(v3_dot(b->core.n[f], x) - b->core.c[f]) > fmax(far, next)) continue;
@@ -374,19 +508,35 @@ static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, con
     return 0;
 }
 
+/* Takes the distance of the exact cone with its weight, and that of its facet with the rest.  Returns 0 if it
+ * has none. */
+static int blend_with_cone(fl_closest_point *q, const fl_free_cone *c, fl_vec3 x, double ra)
+{
+    const fl_vec3 at = q_rotate(q_conj(c->q), v3_sub(x, c->x));
+    const double weight = fl_free_cone_weight(c, at.z, ra).weight;
+    if (weight == 0.0) return 0;
+    const fl_closest_point exact = fl_closest_on_cone(c->r0, c->r1, c->h, at);
+    q->d = (1.0 - weight) * q->d + weight * exact.d;
+    q->n = v3_unit(v3_madd(v3_scale(1.0 - weight, q->n), weight, q_rotate(c->q, exact.n)));
+    return 1;
+}
+
 int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
                            fl_feature_pairs *l, double *distance)
 {
     const fl_poly *core = &b->core;
     const fl_piece_mesh *sh = &b->mesh;
     const fl_vec3 x = w->va[0];
-    nearest_search best = empty_search(core);
+    nearest_search best = empty_search(core, sh);
     w->n = w->features = 0;
     w->couple = v3(0, 0, 0);
     if (!fl_feature_pairs_valid(l, &w->M, w->o) && list_sphere_tiles(w, near, b, ra, l, distance)) return -1;
     if (l->candidates == 0) return 0;
     for (int32_t c = 0; c < l->candidates; c++) try_face(&best, core, l->candidate[c], x);
-    const fl_closest_point q = with_sign(&best, core, sh, x);
+    fl_closest_point q = with_sign(&best, core, sh, x);
+    if (sh->cone_of_face && sh->cone_of_face[best.of] >= 0 &&
+        blend_with_cone(&q, &b->free_cone[sh->cone_of_face[best.of]], x, ra))
+        best.least = fabs(q.d);
     *distance = best.least;
     if (best.least >= ra) return 0; /* from behind as well */
     return l->single_wall
@@ -458,4 +608,5 @@ void fl_mesh_contact_work_free(fl_mesh_contact_work *near)
     fl_persistence_work_free(&near->persistence);
     fl_feature_set_free(&near->of_mesh), fl_feature_set_free(&near->of_core);
     fl_mesh_under_face_work_free(&near->under_face);
+    free(near->is_free);
 }

@@ -7,8 +7,9 @@
  * inner corner every wall acts independently. A vertex behind the surface has one distance, to the nearest
  * face. A point whose nearest point lies on the rim of an open surface is beside it, not behind. An open
  * surface is one-sided: a vertex is behind it if the surface lies between it and the middle of the core. One
- * that has come round the rim, or from the back, is not. Spheres have a law of their own
- * (persistence_contact.h). */
+ * that has come round the rim, or from the back, is not. A sheet with two sides (region.h) is a thin closed
+ * surface; a vertex is beyond it if the sheet lies between it and the middle of the core. Spheres have a law of
+ * their own (persistence_contact.h). */
 #ifndef FL_STRUCTURE_MESH_CONTACT_H
 #define FL_STRUCTURE_MESH_CONTACT_H
 #include "structure/structure.h"
@@ -20,6 +21,8 @@ typedef struct {
     fl_feature_set of_mesh, of_core;
     fl_persistence_work persistence;
     fl_mesh_under_face_work under_face;
+    uint8_t *is_free; /* set by the caller: 1 for the cones of a joined piece that do not count as facets */
+    int32_t free_cap;
 } fl_mesh_contact_work;
 
 /* Contact points of core a (radius ra) on the mesh of piece b, as fl_patch_points_find(), after
@@ -30,6 +33,19 @@ typedef struct {
  * Returns -1 when memory runs out. */
 int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
                            const fl_piece *b, double ra, double reach, fl_feature_pairs *l, double *distance);
+
+/* Adds the points of a part of a joined piece with cones to those of w: of the facets of cone `only`, or with
+ * only = -1 of all but the facets of cones marked in near->is_free.  l: of the pair, which loses its list.
+ * Returns -1 when memory runs out. */
+int fl_mesh_contact_add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
+                               const fl_piece *b, double ra, int32_t only, fl_feature_pairs *l);
+
+/* Reserves near->is_free[n].  Returns -1 when memory runs out. */
+int fl_mesh_contact_reserve_cones(fl_mesh_contact_work *near, int32_t n);
+
+/* Sets *distance to reach if nothing of the piece is within reach. */
+int fl_mesh_contact_bound(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
+                          const fl_piece *b, double reach, double *distance);
 
 /* The same for a core that is a point, for laws other than `patch`: the walls that the sphere touches. Needs
  * the seams of persistence_contact.h. *distance is that of the point if nothing touches. */

@@ -23,7 +23,7 @@ static fl_piece *add_piece(fl_structure *s, fl_err *err)
 {
     if (fl_grow(&s->piece, &s->cap, (int64_t)s->n + 1, sizeof *s->piece, err)) return NULL;
     fl_piece *piece = &s->piece[s->n];
-    *piece = (fl_piece){.q = q_one()};
+    *piece = (fl_piece){.q = q_one(), .cone = -1};
     return piece;
 }
 
@@ -123,6 +123,7 @@ static int make_plate(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err
 static void mesh_free(fl_piece_mesh *s)
 {
     free(s->corner), free(s->box), free(s->edge_box), free(s->concave_face), free(s->saddle);
+    free(s->thin), free(s->cone_of_face);
     fl_tile_seams_free(&s->seams);
     fl_bvh_free(&s->tree);
     fl_bvh_free(&s->edge_tree);
@@ -342,7 +343,29 @@ static int find_saddles(fl_piece *piece, fl_err *err)
     return 0;
 }
 
-static int make_mesh(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err)
+/* Marks the faces of sheets with two sides and of cones; of: of triangles, or NULL. */
+static int mark_joined(fl_piece *piece, const fl_merged_faces *tiles, int32_t nt,
+                       const fl_joined_triangle *of, fl_err *err)
+{
+    fl_piece_mesh *mesh = &piece->mesh;
+    int thin = 0, cones = 0;
+    for (int32_t t = 0; of && t < nt; t++) thin |= of[t].thin, cones |= of[t].cone >= 0;
+    if (thin && !(mesh->thin = fl_alloc(tiles->n, 1, err))) return -1;
+    if (cones && !(mesh->cone_of_face = fl_alloc(tiles->n, sizeof *mesh->cone_of_face, err))) return -1;
+    for (int32_t f = 0; cones && f < tiles->n; f++) mesh->cone_of_face[f] = INT32_MAX;
+    for (int32_t t = 0; of && t < nt; t++) {
+        const int32_t f = tiles->face_of_tri[t];
+        if (f >= 0 && of[t].thin) mesh->thin[f] = 1;
+        if (f < 0 || !cones) continue;
+        int32_t *cone = &mesh->cone_of_face[f]; /* of one cone as a whole, or of none */
+        *cone = *cone == INT32_MAX || *cone == of[t].cone ? of[t].cone : -1;
+    }
+    for (int32_t f = 0; cones && f < tiles->n; f++) /* one of several that a wide face was cut into */
+        if (mesh->cone_of_face[f] == INT32_MAX) mesh->cone_of_face[f] = -1;
+    return 0;
+}
+
+static int make_mesh(fl_piece *piece, const fl_coplanar_regions *f, const fl_joined_triangle *of, fl_err *err)
 {
     const fl_part *p = f->p;
     fl_poly *core = &piece->core;
@@ -355,7 +378,8 @@ static int make_mesh(fl_piece *piece, const fl_coplanar_regions *f, fl_err *err)
     if (!edge || !ends ||
         fl_merge_coplanar(&tiles, p->nv, p->v, p->nt, p->t, f->region, f->region_normal, f->neighbour, f->tol,
                           err) ||
-        lay_out_mesh(piece, f, &tiles, err) || find_concave_faces(piece, f, &tiles, err))
+        lay_out_mesh(piece, f, &tiles, err) || find_concave_faces(piece, f, &tiles, err) ||
+        mark_joined(piece, &tiles, p->nt, of, err))
         goto done;
     bent_edges(f, edge, &edges, ends);
     for (int32_t k = 0; k < edges; k++) { /* every straight run once, from its lower end */
@@ -446,25 +470,23 @@ static void find_solid_side(fl_piece *piece, const fl_part *p)
     for (int32_t e = 0; e < piece->core.ne; e++)
         if (piece->core.edge[e].left < 0 || piece->core.edge[e].right < 0) mesh->closed = 0;
     for (int32_t t = 0; t < p->nt; t++) volume += six_volumes(p, t, piece->x);
-    mesh->outer_winding = volume < 0.0 ? -1.0 : 0.0;
+    mesh->outer_winding = volume < 0.0 && !mesh->thin ? -1.0 : 0.0; /* sheets have no volume but rounding */
 }
 
-static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)
+/* Makes the piece of the triangles; of: NULL, or as in fl_structure_add_joined().  0, or -1. */
+static int make_piece(fl_piece *piece, const fl_part *p, const fl_joined_triangle *of, fl_err *err)
 {
     fl_coplanar_regions f = {0};
-    fl_piece *piece = add_piece(s, err);
     int rc = -1, plate = 0;
-    if (!piece || fl_coplanar_regions_find(&f, p, err)) goto done;
-    s->n++;
-    piece->part = part;
+    if (fl_coplanar_regions_find(&f, p, err)) goto done;
     const int flat = f.regions == 1 || fl_region_is_flat(p, f.region_normal[0], f.region_offset[0], f.tol);
     if (flat) plate = make_plate(piece, &f, err);
     if (plate) rc = plate < 0 ? -1 : 0;
     else if (check_orientation(&f, err)) goto done;
-    else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_mesh(piece, &f, err);
-    piece->one_sided = flat && !plate;
+    else rc = f.closed && !flat && is_convex(&f) ? make_solid(piece, &f, err) : make_mesh(piece, &f, of, err);
+    piece->one_sided = flat && !plate && !piece->mesh.thin;
     if (rc == 0 && piece->kind == FL_PIECE_MESH) find_solid_side(piece, p);
-    if (rc == 0 && f.closed && piece->kind == FL_PIECE_MESH &&
+    if (rc == 0 && f.closed && piece->kind == FL_PIECE_MESH && !of &&
         (piece->inward_triangle = find_inward_body(&f, err)) < 0)
         rc = -1;
 done:
@@ -472,7 +494,30 @@ done:
     return rc;
 }
 
-static int add_cone(fl_structure *s, const fl_cone *c, int32_t part, fl_err *err)
+static int add_triangles(fl_structure *s, const fl_part *p, int32_t part, fl_err *err)
+{
+    fl_piece *piece = add_piece(s, err);
+    if (!piece) return -1;
+    s->n++;
+    piece->part = part;
+    return make_piece(piece, p, NULL, err);
+}
+
+int fl_structure_add_joined(fl_structure *s, const fl_part *p, const fl_joined_triangle *of, int32_t part,
+                            fl_err *err)
+{
+    fl_piece *piece = add_piece(s, err);
+    if (!piece) return -1;
+    piece->part = part;
+    if (make_piece(piece, p, of, err)) {
+        fl_piece_free(piece);
+        return -1;
+    }
+    s->n++;
+    return 0;
+}
+
+int fl_cone_piece(fl_piece *piece, const fl_cone *c, fl_err *err)
 {
     const int n = FL_CONE_SIDES;
     /* corners at this radius give the polygon the area of the circle */
@@ -481,11 +526,7 @@ static int add_cone(fl_structure *s, const fl_cone *c, int32_t part, fl_err *err
     const int point0 = c->r0 == 0.0, point1 = c->r1 == 0.0;
     fl_vec3 v[2 * FL_CONE_SIDES];
     int32_t first[FL_CONE_SIDES + 3] = {0}, loop[6 * FL_CONE_SIDES], nf = 0, nv = 0, k = 0;
-    fl_piece *piece = add_piece(s, err);
-    if (!piece) return -1;
-    s->n++;
     piece->kind = FL_PIECE_CONE;
-    piece->part = part;
     piece->x = c->p0;
     piece->q = q_of_matrix((fl_mat3){{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}});
     piece->r0 = c->r0, piece->r1 = c->r1, piece->h = v3_norm(along);
@@ -513,6 +554,16 @@ static int add_cone(fl_structure *s, const fl_cone *c, int32_t part, fl_err *err
     return fl_poly_make(&piece->core, nv, v, nf, first, loop, err);
 }
 
+static int add_cone(fl_structure *s, const fl_cone *c, int32_t part, int32_t index, fl_err *err)
+{
+    fl_piece *piece = add_piece(s, err);
+    if (!piece) return -1;
+    s->n++;
+    piece->part = part;
+    piece->cone = index;
+    return fl_cone_piece(piece, c, err);
+}
+
 int fl_structure_prepare_spheres(fl_structure *s, fl_err *err)
 {
     for (int32_t k = 0; k < s->n; k++) {
@@ -530,17 +581,38 @@ int fl_structure_build(fl_structure *s, const fl_surface *surface, fl_err *err)
         const fl_part *p = &surface->part[k];
         if (p->nt && add_triangles(s, p, k, err)) return -1;
         for (int32_t c = 0; c < p->nc; c++)
-            if (add_cone(s, &p->cone[c], k, err)) return -1;
+            if (add_cone(s, &p->cone[c], k, c, err)) return -1;
     }
     return 0;
 }
 
+void fl_piece_free(fl_piece *p)
+{
+    fl_poly_free(&p->core);
+    mesh_free(&p->mesh);
+    for (int32_t k = 0; k < p->cones; k++) free(p->free_cone[k].free);
+    free(p->member), free(p->free_cone);
+    *p = (fl_piece){0};
+}
+
+fl_aabb fl_piece_face_box(const fl_piece *p, int32_t f)
+{
+    fl_aabb box = aabb_empty();
+    for (int32_t k = p->core.first[f]; k < p->core.first[f + 1]; k++)
+        box = aabb_add(box, v3_add(p->x, q_rotate(p->q, p->core.v[p->core.loop[k]])));
+    return box;
+}
+
+fl_aabb fl_piece_box(const fl_piece *p)
+{
+    fl_aabb box = aabb_empty();
+    for (int32_t f = 0; f < p->core.nf; f++) box = aabb_join(box, fl_piece_face_box(p, f));
+    return box;
+}
+
 void fl_structure_free(fl_structure *s)
 {
-    for (int32_t k = 0; k < s->n; k++) {
-        fl_poly_free(&s->piece[k].core);
-        mesh_free(&s->piece[k].mesh);
-    }
+    for (int32_t k = 0; k < s->n; k++) fl_piece_free(&s->piece[k]);
     free(s->piece);
     *s = (fl_structure){0};
 }

@@ -56,6 +56,8 @@ typedef struct {
     double exponent; /* n; 0 with FL_POINTS_PATCH */
     double mass;     /* reduced mass [kg] */
     double max_approach_speed; /* largest of this contact so far [m/s] */
+    double laid_load;          /* fl_damping_laid_load() [N] */
+    double laid_time;          /* its time [s] */
     int32_t points;            /* enum fl_contact_points: what is evaluated */
     int32_t bond;              /* 1 + index of the bond that was here, 0: none; bond_list.h */
     double radius_factor;      /* multiplies both radii: 1, but less after a bond */
@@ -69,7 +71,10 @@ typedef struct {
     double overlap;                                               /* largest [m] */
     double omega2_i, omega2_j; /* bounds of omega^2 of this contact for i and j, the other fixed [1/s2] */
     int32_t index;             /* into fl_world.pair */
+    int32_t load_part;         /* part that bears the load, FL_LOAD_SHARED: several; -1: a floe or wall */
 } fl_pair;
+
+enum { FL_LOAD_SHARED = -2 };
 
 /* The results of an evaluation are so many consecutive doubles, from force to omega2_j. */
 enum { FL_PAIR_RESULTS = 32 };

@@ -220,6 +220,31 @@ void scene_of_inflow_interval(lab *l, int32_t side, const char *law)
     lab_set(l, "water.every=5");
 }
 
+void scene_of_joined_parts(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"material.ice.young=10 MPa", "contact.friction=0.3",
+                                       "contact.restitution=0.4", "contact.surrogate=0.01",
+                                       "run.gravity=9.81"};
+    const double half = 0.5 * side + 1.0, low = -0.5 * (side - 1) - 0.368;
+    lab_start(l);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+    if (law) lab_setf(l, "contact.law=%s", law);
+    lab_wall(l, v3(-half, -half, low - 1.0), v3(0.3, half, low), 2);
+    lab_wall(l, v3(0.3, -half, low - 1.0), v3(half, half, low), 1);
+    lab_cone(l, (fl_cone){v3(half - 0.78, 0.1, low - 1.0), v3(half - 0.78, 0.1, low + 0.5), 0.2, 0.2});
+    lab_cone(l, (fl_cone){v3(half - 0.78, 0.1, low + 0.5), v3(half - 0.78, 0.1, low + side + 2.0), 0.2, 0.1});
+    for (int32_t k = 0; k < side * side * side; k++) {
+        fl_rng g = fl_rng_of(9, k, FL_RNG_TEST);
+        const double middle = 0.5 * (side - 1);
+        const fl_vec3 cell = v3(k % side - middle, k / side % side - middle, k / (side * side) - middle),
+                      v = v3_scale(0.4, normal3(&g)), spin = v3_scale(0.4, normal3(&g));
+        if (k % 5 == 3) lab_sphere(l, cell, 0.4, v, spin);
+        else
+            lab_box(l, cell, v3(0.37, 0.37, 0.37), 0.05, k < side * side ? q_one() : q_of_vector(spin), v,
+                    spin);
+    }
+}
+
 void scene_of_sheet(lab *l, int32_t side, const char *law)
 {
     static const char *const KEYS[] = {"material.ice.young=20 MPa",

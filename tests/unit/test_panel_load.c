@@ -74,9 +74,9 @@ static void the_nearest_triangle_takes_the_load(void **state)
         const fl_load_panel *p = &l.w.panel_load.panel[loaded];
         assert_near(p->area, 0.5, 1e-14);
         for (int c = 0; c < 3; c++) { /* the cell from (0, 0) to (1, 1), its upper half */
-            assert_true(p->v[c].x > -1e-9 && p->v[c].x < 1 + 1e-9 && p->v[c].y > -1e-9 &&
-                        p->v[c].y < 1 + 1e-9);
-            assert_near(p->v[c].z, 0, 0);
+            const fl_vec3 v = l.w.panel_load.triangle[loaded].v[c];
+            assert_true(v.x > -1e-9 && v.x < 1 + 1e-9 && v.y > -1e-9 && v.y < 1 + 1e-9);
+            assert_near(v.z, 0, 0);
         }
         assert_true(p->centroid.y > p->centroid.x);
         assert_near(v3_norm(v3_sub(l.w.panel_load.impulse[loaded], l.w.part_impulse[0])), 0.0, 0);

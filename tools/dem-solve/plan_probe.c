@@ -80,7 +80,7 @@ static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, cha
     print_stage(f, "weight", v3_norm(w->gravity) > 0.0, "");
     print_stage(f, "contacts", 1, "");
     print_stage(f, "structure", w->pieces > 0, "");
-    print_stage(f, "motion", w->moving.movers.n > 0,
+    print_stage(f, "motion", fl_structure_moves(w),
                 fl_structure_moves_freely(w) ? "of the structure, with free directions" : "");
     print_stage(f, "panels", w->panel_load.panels > 0, "");
     print_stage(f, "walls", w->walls > 0, "");

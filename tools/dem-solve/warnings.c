@@ -144,6 +144,18 @@ static void warn_sheets(const struct run *r)
                     r->surface->part[s->piece[k].part].name);
 }
 
+/* Parts that touch and yet are contacts of their own bear twice where they meet. */
+static void warn_unjoined(const struct run *r)
+{
+    const fl_structure *s = &r->w->structure;
+    if (s->unjoined)
+        fprintf(
+            stderr,
+            "dem-solve: warning: %d group%s of parts that touch could not be joined to one surface, the last "
+            "that of part %s: where they meet, bodies feel each of them\n",
+            s->unjoined, s->unjoined == 1 ? "" : "s", r->surface->part[s->unjoined_part].name);
+}
+
 /* A hull that does not float in its pose: its motion is one about that pose. */
 static void warn_hulls(const struct run *r)
 {
@@ -186,6 +198,16 @@ static void warn_waves(const struct run *r)
             "dem-solve: warning: waves of height over length %.3g, but waves break above %.3g: no such sea "
             "exists\n",
             steep, breaking);
+    if (!r->w->sea.by_blocks) return;
+    const double shortest = 2.0 * PI / r->w->sea.wave.max_k;
+    double least = INFINITY;
+    for (int32_t i = 0; i < r->w->n; i++) least = fmin(least, r->w->b.radius[i]);
+    if (shortest < 2.0 * least)
+        fprintf(
+            stderr,
+            "dem-solve: warning: the shortest waves are %.3g m, less than twice the dilation radius of the "
+            "smallest floe, %.3g m: its corners are rounder than they are\n",
+            shortest, least);
 }
 
 /* A material of the scene file itself that nothing uses is likely misspelt.  Included files may have more
@@ -216,6 +238,7 @@ void warn_at_start(const struct run *r)
     warn_waves(r);
     warn_hulls(r);
     warn_sheets(r);
+    warn_unjoined(r);
 }
 
 /* Thickness of a dilated body: smallest extent along the normals of its faces. */
