@@ -123,8 +123,8 @@ static void frequency(void)
         }
         was = now;
     }
-    verify_row("BS2", "free chain of 40, first bending frequency [Hz]", 2.0 / (last - first), expected, 1.5e-2,
-               VERIFY_REL);
+    verify_row("BS2", "free chain of 40, first bending frequency [Hz]", 2.0 / (last - first), expected,
+               1.5e-2, VERIFY_REL);
     lab_free(&l);
 }
 
@@ -223,8 +223,8 @@ static void floating_slab(void)
         fl_hull_submerged(&l.w.sea.hull[i], v3(0, 0, 1), -l.w.b.x[i].z, &wet);
         mass += l.w.b.m[i], buoyancy += rho * g * wet.volume, plane += wet.waterplane_area;
     }
-    verify_row("BS5", "slab of two layers, mass per area [kg/m2]", mass / (0.5 * n * sqrt(0.75) * 4.0 * r * r),
-               RHO * h, 1e-12, VERIFY_REL);
+    verify_row("BS5", "slab of two layers, mass per area [kg/m2]",
+               mass / (0.5 * n * sqrt(0.75) * 4.0 * r * r), RHO * h, 1e-12, VERIFY_REL);
     verify_row("BS5", "buoyancy over weight where voronoi-ice puts it", buoyancy / (mass * g), 1.0, 1e-9,
                VERIFY_REL);
     const double expected = 2.0 * PI * sqrt(4.0 * mass / (rho * g * plane)), step = l.w.dt;
