@@ -30,11 +30,11 @@ static double body_bytes(const fl_world *w)
            ARRAY(b->invm, total) + ARRAY(b->I, total) + ARRAY(b->invI, total) + ARRAY(b->radius, total) +
            ARRAY(b->bounding_radius, total) + ARRAY(b->fixed_dof, total) + ARRAY(b->is_isotropic, total) +
            ARRAY(b->work_of_constraints, total) + ARRAY(b->odometer, total) + ARRAY(b->added_mass, total) +
-           ARRAY(b->heave_mass, total) + ARRAY(b->heave_work, total) +
-           ARRAY(b->flow_velocity, total) + ARRAY(b->flow_work, total) + ARRAY(w->id, n) +
-           ARRAY(w->material, total) + ARRAY(w->max_face_area, total) + ARRAY(w->q0, n) +
-           ARRAY(w->blocks, n / FL_BODY_BLOCK + 1) + ARRAY(w->contact_sums.slot, total) +
-           ARRAY(w->previous_sums.slot, total) + ARRAY(w->contact_sums.sum, w->contact_sums.cap) +
+           ARRAY(b->heave_mass, total) + ARRAY(b->heave_work, total) + ARRAY(b->flow_velocity, total) +
+           ARRAY(b->flow_work, total) + ARRAY(w->id, n) + ARRAY(w->material, total) +
+           ARRAY(w->max_face_area, total) + ARRAY(w->q0, n) + ARRAY(w->blocks, n / FL_BODY_BLOCK + 1) +
+           ARRAY(w->contact_sums.slot, total) + ARRAY(w->previous_sums.slot, total) +
+           ARRAY(w->contact_sums.sum, w->contact_sums.cap) +
            ARRAY(w->previous_sums.sum, w->previous_sums.cap) + ARRAY(w->kick_change, w->change_cap) +
            ARRAY(w->predicted_change, w->change_cap);
 }

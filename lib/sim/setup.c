@@ -311,10 +311,10 @@ static int set_slab(fl_world *w, const fl_ice_field *field, fl_err *err)
         equal &= fabs(field->radius[k] - radius) <= EQUAL_RADII * radius;
         x[n++] = field->core[k].v[0];
     }
-    int rc = equal ? 0
-                   : fl_scene_fail(w->scene, "ice.slab", err,
-                                   "the spheres of %s are not equal: no slab is made of them",
-                                   w->scene->ice.file);
+    int rc =
+        equal ? 0
+              : fl_scene_fail(w->scene, "ice.slab", err,
+                              "the spheres of %s are not equal: no slab is made of them", w->scene->ice.file);
     fl_err why = {0};
     if (rc == 0 && fl_slab_fill(n, x, radius, h, &phi, &why))
         rc = why.code == FL_INPUT ? fl_fail(err, FL_INPUT, "%s: %s", w->scene->ice.file, why.text)
