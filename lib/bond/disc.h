@@ -8,9 +8,9 @@
  * world axes, turn with the mean rotation of the two spheres and grow by
  *     dS = k_s dt (u - (u.e) e),     u = v_j - v_i - (a w_i + (1 - a) w_j) x (d - dt/2 (v_j - v_i)),
  *     dM = dt (k_b (w - (w.e) e) + k_t (w.e) e),     w = w_j - w_i.
- * a is the share of i in |d|, and v, w are those of the middle of the step, like d - dt/2 (v_j - v_i). 
- * Neither needs the attitude of a sphere.  Force on i: F = N e + S; couples on i and j: a |d| e x F + M and
- * (1 - a) |d| e x F - M.  So forces and couples balance, and their power is that of N, S and M exactly.
+ * a is the share of i in |d|, and v, w are those of the middle of the step, like d - dt/2 (v_j - v_i).  Neither needs the attitude of a sphere.  Force on i: F = N e + S; couples on i
+ * and j: a |d| e x F + M and (1 - a) |d| e x F - M.  So forces and couples balance, and their power is that
+ * of N, S and M exactly.
  *
  * Strength, at the rim of the disc:
  *     sigma = N/A + beta |M_b| R/I,     tau = |S|/A + beta |M_t| R/J,

@@ -6,8 +6,8 @@
 #include "bond/disc.h"
 #include "geom/lanes.h"
 
-/* Memory of many discs, an array for each number; fl_disc_memory has their meaning.  Arrays hold a multiple
- * of FL_LANE_COUNT. */
+/* Memory of many discs, an array for each number; fl_disc_memory has their meaning.  Arrays hold a multiple of
+ * FL_LANE_COUNT. */
 typedef struct {
     int32_t *i, *j;                    /* bodies, i < j */
     double *S[3], *M[3];

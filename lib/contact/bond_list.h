@@ -9,8 +9,7 @@
  * cannot be reduced: the energy with which their contact begins is taken from the dissipated energy of the
  * bond.
  *
- * A sphere bonded by a face is not treated as isotropic: its rotation counts, and its pairs are in w->pair.
- * */
+ * A sphere bonded by a face is not treated as isotropic: its rotation counts, and its pairs are in w->pair. */
 #ifndef FL_CONTACT_BOND_LIST_H
 #define FL_CONTACT_BOND_LIST_H
 #include "contact/disc_list.h"
@@ -18,9 +17,9 @@
 
 /* Makes the bonds of the field if [bond] is on; body k of the field is body k, in its pose of the field.
  * The face of a bond is the common face of the sharp shapes at the record's centroid, with the record's
- * area.  Where there is none, as of a sphere and a box, it is a disc across the line of the centres.  The
- * length l is the distance of the centres along the normal.  -1 with FL_SYSTEM, or FL_INPUT for a field
- * without bonds or a bond without length. */
+ * area.  Where there is none, as of a sphere and a box, it is a disc across the line of the centres.  The length l is
+ * the distance of the centres along the normal.  -1 with FL_SYSTEM, or FL_INPUT for a field without bonds
+ * or a bond without length. */
 int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err);
 void fl_bond_list_free(fl_bond_list *s);
 

@@ -22,9 +22,8 @@ typedef struct {
 /* That of a cone by itself; M, o: pose of A in the frame of the cone, R its radius [m]. */
 fl_cone_blend fl_cone_blend_of(const fl_piece *cone, const fl_poly *a, const fl_mat3 *M, fl_vec3 o, double R);
 
-/* Blends the points from `exact` on, of the cone, with those from `first` on, of the polyhedron, and
- * s->couple, of the cone, with `couple`, of the polyhedron.  centre: of A.  Frame of the cone.  -1 when
- * memory runs out. */
+/* Blends the points from `exact` on, of the cone, with those from `first` on, of the polyhedron, and s->couple,
+ * of the cone, with `couple`, of the polyhedron.  centre: of A.  Frame of the cone.  -1 when memory runs out. */
 int fl_cone_blend_points(fl_patch_points *s, int32_t first, int32_t exact, fl_vec3 couple,
                          const fl_cone_blend *of, fl_vec3 centre);
 

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* disc_list.h -- the bonds between spheres of a world (bond/disc.h): their set-up, forces in a step, and
- * sums.
+/* disc_list.h -- the bonds between spheres of a world (bond/disc.h): their set-up, forces in a step, and sums.
  *
  * While a bond stands its two spheres have no contact.  In the step in which it breaks it still presses and
- * rubs; from the next one on the two are an ordinary pair, whose spring of friction begins with the shear
- * that friction held.  With contact.round_law = linear the stiffness is that of the bond, so no force
- * jumps; the difference of the energies, which is not 0 for Hertz, counts as fracture.
+ * rubs; from the next one on the two are an ordinary pair, whose spring of friction begins with the shear that
+ * friction held.  With contact.round_law = linear the stiffness is that of the bond, so no force jumps; the
+ * difference of the energies, which is not 0 for Hertz, counts as fracture.
  *
  * Bonded spheres stay isotropic: a disc does not need their attitude. */
 #ifndef FL_CONTACT_DISC_LIST_H
@@ -32,8 +31,7 @@ static inline int fl_body_has_discs(const fl_world *w, int32_t k)
     return s->n && k < w->n && (s->first_i[k] < s->first_i[k + 1] || s->first_j[k] < s->first_j[k + 1]);
 }
 
-/* Evaluates bonds [from, to) over a step of dt [s] at the present poses; from is a multiple of FL_DISC_RUN.
- * */
+/* Evaluates bonds [from, to) over a step of dt [s] at the present poses; from is a multiple of FL_DISC_RUN. */
 void fl_disc_list_evaluate(fl_world *w, int32_t from, int32_t to, double dt);
 
 /* Adds the forces of the bonds of body k, in their order. */

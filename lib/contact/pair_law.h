@@ -19,9 +19,9 @@ typedef struct {
 } fl_pair_spring;
 
 /* Stiffness of one contact point between i and j.  A point of a round core, and in `core` of a segment, is
- * Hertz's with n = 3/2, or linear by contact.round_law.  Between other cores the law decides: a patch, or n
- * of the scene in `core`.  A stiffness that the scene gives is kappa of a whole face, or of Hertz where one
- * of the two is round; a capsule in a patch gets the c that makes its end that stiff. */
+ * Hertz's with n = 3/2, or linear by contact.round_law.  Between other cores the law decides: a patch, or n of the scene in `core`.  A
+ * stiffness that the scene gives is kappa of a whole face, or of Hertz where one of the two is round; a
+ * capsule in a patch gets the c that makes its end that stiff. */
 fl_pair_spring fl_pair_stiffness(const fl_world *w, int32_t i, int32_t j);
 
 /* What is evaluated for the pair with that spring: features, where the law has them and they apply, else

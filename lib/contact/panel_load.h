@@ -11,12 +11,11 @@
  * each floe and part, are the events.
  *
  * A piece joined of several parts (structure/region.h) has one contact with a floe.  If only triangles of one
- * part are near, that part bears it.  Else the points are recorded in any case, and each part bears the
- * forces of its points; what they leave of the moment goes by the normal forces.  Such a contact has no
- * surrogate, and nothing rests on such a piece.
+ * part are near, that part bears it.  Else the points are recorded in any case, and each part bears the forces
+ * of its points; what they leave of the moment goes by the normal forces.  Such a contact has no surrogate, and
+ * nothing rests on such a piece.
  *
- * Without output.panels, output.events and joined parts, w->panel_load.all is 0 and nothing here is called.
- * */
+ * Without output.panels, output.events and joined parts, w->panel_load.all is 0 and nothing here is called. */
 #ifndef FL_CONTACT_PANEL_LOAD_H
 #define FL_CONTACT_PANEL_LOAD_H
 #include "world/world.h"

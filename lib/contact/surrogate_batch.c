@@ -207,8 +207,8 @@ FL_SIMD_INLINE double row_times(const fl_lane *A, int k, int r, fl_vec3 v, fl_ve
 /* a after a small rotation. */
 FL_SIMD_INLINE fl_vec3 rotated(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(turn, a)); }
 
-/* The part of the sliding velocity that is not damped, leave_out_sliding() of pair_force.c, in the frame of
- * the points.  v, w: motion of the first point; f: sum of e (n, t) (n, t)^T over it, forces only. */
+/* The part of the sliding velocity that is not damped, leave_out_sliding() of pair_force.c, in the frame of the
+ * points.  v, w: motion of the first point; f: sum of e (n, t) (n, t)^T over it, forces only. */
 FL_SIMD_INLINE fl_vec3 undamped_sliding(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn, fl_vec3 f,
                                         double load, double load_now)
 {

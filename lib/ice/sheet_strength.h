@@ -20,8 +20,8 @@ typedef struct {
     double flexural_spread; /* standard deviation over mean of samples with other scatter */
 } fl_sheet_strength;
 
-/* The ratios for stress along x.  across: rows of the lattice are across x.  -1 with FL_USAGE for a packing
- * or a number of layers that was not measured. */
+/* The ratios for stress along x.  across: rows of the lattice are across x.  -1 with FL_USAGE for a packing or
+ * a number of layers that was not measured. */
 int fl_sheet_strength_of(enum fl_packing_kind kind, int32_t layers, int across, fl_sheet_strength *out,
                          fl_err *err);
 

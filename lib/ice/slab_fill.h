@@ -8,16 +8,15 @@
  * Spheres with 1/phi of their mass, buoyancy and drag have weight, draft and heave stiffness of the slab.
  *
  * The layers are read from the heights of the centres, and the kind of layer from the neighbours of the
- * lowest sphere nearest to the middle: more than four at the distance D in its layer, and it is triangular.
- * */
+ * lowest sphere nearest to the middle: more than four at the distance D in its layer, and it is triangular. */
 #ifndef FL_ICE_SLAB_FILL_H
 #define FL_ICE_SLAB_FILL_H
 #include <stdint.h>
 #include "base/err.h"
 #include "geom/vec3.h"
 
-/* Sets *phi from the centres x[n] and the radius of all of them, thickness h > 0 [m].  -1 with FL_INPUT if
- * the spheres do not lie in layers or phi is not within 0.2 and 1.1, or FL_SYSTEM. */
+/* Sets *phi from the centres x[n] and the radius of all of them, thickness h > 0 [m].  -1 with FL_INPUT if the
+ * spheres do not lie in layers or phi is not within 0.2 and 1.1, or FL_SYSTEM. */
 int fl_slab_fill(int32_t n, const fl_vec3 *x, double radius, double h, double *phi, fl_err *err);
 
 #endif

@@ -53,12 +53,12 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
  *
  * is damped, with n the normal and e the pressure of a point, v_t the speed across the mean normal of the
  * points of the cores that touch.  s is the approach that sliding and rolling alone give to points of
- * different normals.  What is damped stays a dissipation, sum e c' c >= (sum e c)^2/sum e.  Normal approach
- * and rocking of a face are damped in full.
+ * different normals.  What is damped stays a dissipation, sum e c' c >= (sum e c)^2/sum e.  Normal approach and
+ * rocking of a face are damped in full.
  *
  * lambda is the share of the load that was there before, laid/F, with `laid` the load F behind a low pass of
- * FL_LAID_PERIODS/omega: 1 for a load that rests, 0 in an impact, whose restitution stays.  It falls to 0
- * where the normals spread as in a groove of 60 degrees, in which a sphere swings. */
+ * FL_LAID_PERIODS/omega: 1 for a load that rests, 0 in an impact, whose restitution stays.  It falls to 0 where
+ * the normals spread as in a groove of 60 degrees, in which a sphere swings. */
 #define FL_LAID_PERIODS 10.0
 #define FL_FLAT_CONTACT 1e-10 /* 1 - cos2 of normals that are one */
 

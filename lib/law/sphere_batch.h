@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sphere_batch.h -- contacts of two spheres, evaluated many at a time: Hertz or linear with the damping of
- * Hunt and Crossley along the normal (normal.h), and a friction spring for a contact that is a point
- * (tangent.h).
+/* sphere_batch.h -- contacts of two spheres, evaluated many at a time: Hertz or linear with the damping of Hunt and
+ * Crossley along the normal (normal.h), and a friction spring for a contact that is a point (tangent.h).
  *
  *     D = x_i - x_j,  n = D/|D|,  overlap s = r_i + r_j - |D| > 0,
  *     arms a_i = r_i - s/2, a_j = r_j - s/2 from the centres to the middle of the overlap,

@@ -10,16 +10,15 @@
 /* Bodies of a block of sums. */
 enum { BLOCK = 128 };
 
-/* Bodies with edges chatter about their rest: forces do not balance to the last digit.  They count as
- * balanced where the least energy has not fallen below STALLED of that STALL steps ago. */
+/* Bodies with edges chatter about their rest: forces do not balance to the last digit.  They count as balanced
+ * where the least energy has not fallen below STALLED of that STALL steps ago. */
 enum { STALL = 1000 };
 static const double STALLED = 0.95;
 
 /* Thickness of the skin over the smallest body, and growth of the scale that a list allows for. */
 static const double SKIN = 0.6, GROWTH = 1.03;
 
-/* Radius of gyration over the bounding radius; way of a step over the radius; neighbours of a body of mass
- * 1. */
+/* Radius of gyration over the bounding radius; way of a step over the radius; neighbours of a body of mass 1. */
 static const double ARM = 0.6, LONGEST = 0.2, CROWD = 16.0;
 
 /* Stiffness of a corner of a polyhedron over that of a sphere: a face has four or more. */

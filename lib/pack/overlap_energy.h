@@ -2,15 +2,13 @@
 /* overlap_energy.h -- the energy of the overlaps of a packing, its forces, and its minimum.
  *
  *     E = sum over contacts of k phi(delta),  phi(delta) = delta^2/2 for delta > 0 (law/normal.h, n = 1),
- * with k = 1 for all sizes, and 1/4 for the corners of polyhedra.  Lengths in m, so forces are in m, too. 
- * delta is
+ * with k = 1 for all sizes, and 1/4 for the corners of polyhedra.  Lengths in m, so forces are in m, too.  delta is
  *     of two spheres        r_i + r_j less the distance of their centres: one point;
  *     of two other bodies   r_i + r_j less the distance of their cores (narrow/gjk.h; of cores that overlap
  *                           their depth is added, narrow/penetration.h), and of polyhedra the same of each
  *                           corner of one core and the other core (narrow/closest_point.h), so that faces
  *                           touch at their corners, too;
- *     at the boundary       r_i less the distance (pack_region.h) of the centre of a sphere, or of each
- * corner
+ *     at the boundary       r_i less the distance (pack_region.h) of the centre of a sphere, or of each corner
  *                           of a core, and of each edge and corner of the boundary that points inwards.
  *
  * The minimum is found by FIRE (body/relaxation.h) with fictitious masses: 1, and more for bodies with many
@@ -102,8 +100,7 @@ enum fl_relaxed {
 
 /* Relax from rest.
  *   free     overlap over the smaller bounding radius that counts as none
- *   balance  root mean square of the forces on bodies, or where `strict` the largest, over the mean overlap
- * of
+ *   balance  root mean square of the forces on bodies, or where `strict` the largest, over the mean overlap of
  *            the contacts, that counts as balance
  *   steps    at most
  * Returns enum fl_relaxed, or -1 with FL_SYSTEM. */

@@ -79,15 +79,14 @@ typedef struct {
  * FL_SYSTEM; r is then freed. */
 int fl_region_make(fl_pack_region *r, const char *in, int dim, const char *periodic, fl_err *err);
 
-/* Mark the walls of a list with commas as helpers; "all" marks all.  -1 with FL_USAGE and the nearest name.
- * */
+/* Mark the walls of a list with commas as helpers; "all" marks all.  -1 with FL_USAGE and the nearest name. */
 int fl_region_set_helpers(fl_pack_region *r, const char *names, fl_err *err);
 
 /* g(x) [m]; exact within `reach`, else any number above it.  INFINITY: exact everywhere. */
 double fl_region_distance(const fl_pack_region *r, fl_vec3 x, double reach);
 
-/* Contacts of x with the boundary nearer than reach, in the order of walls or features.  Returns their
- * number, at most FL_REGION_CONTACTS. */
+/* Contacts of x with the boundary nearer than reach, in the order of walls or features.  Returns their number,
+ * at most FL_REGION_CONTACTS. */
 int fl_region_contacts(const fl_pack_region *r, fl_vec3 x, double reach,
                        fl_region_contact out[FL_REGION_CONTACTS]);
 

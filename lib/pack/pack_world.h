@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pack_world.h -- a packing moved by the steps of the library (sim/step.h): growth with friction, and rest
- * under gravity behind all walls of the region.
+/* pack_world.h -- a packing moved by the steps of the library (sim/step.h): growth with friction, and rest under
+ * gravity behind all walls of the region.
  *
  * The bodies get masses, Hertz contacts with damping and friction, and the region becomes the boundary of a
  * scene: a box its walls or periods, an outline or a surface a part whose normals point inward, a cylinder a
@@ -39,8 +39,7 @@ typedef struct {
 /* Called every 100 steps; 1 to stop. */
 typedef int fl_pack_motion_call(void *with, const fl_packing *p, const fl_pack_moved *m);
 
-/* Grow to s = 1, or until bodies jam.  o: of the packing, to measure overlaps.  -1 with FL_NUMERIC or
- * FL_SYSTEM. */
+/* Grow to s = 1, or until bodies jam.  o: of the packing, to measure overlaps.  -1 with FL_NUMERIC or FL_SYSTEM. */
 int fl_pack_grow_moving(fl_packing *p, const fl_pack_region *r, const fl_pack_motion *m, fl_overlaps *o,
                         fl_pack_motion_call *call, void *with, fl_pack_moved *out, fl_err *err);
 

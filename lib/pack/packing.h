@@ -55,8 +55,7 @@ typedef struct {
 int fl_packing_make(fl_packing *p, int dim, int32_t n, const double *size, const fl_pack_shapes *shapes,
                     uint64_t seed, fl_err *err);
 
-/* Put the bodies in an order in which neighbours in space are near each other in memory.  -1 with
- * FL_SYSTEM. */
+/* Put the bodies in an order in which neighbours in space are near each other in memory.  -1 with FL_SYSTEM. */
 int fl_packing_sort(fl_packing *p, fl_err *err);
 
 /* Solid volume at scale s [m3], in two dimensions the area [m2]; rounded: by Steiner's formula. */

@@ -143,8 +143,7 @@ FL_SIMD_VERSIONS static void kick_rows(sphere_rows *restrict q, int n, double h,
     }
 }
 
-/* Cap of each sphere below the water, as fl_environment_force(); its added mass, and the work of its
- * change. */
+/* Cap of each sphere below the water, as fl_environment_force(); its added mass, and the work of its change. */
 FL_SIMD_VERSIONS static void float_rows(sphere_rows *restrict q, int n, double level, double weight,
                                         double heave_factor, double gravity)
 {

@@ -262,10 +262,9 @@ static int leads_through(fl_feature_set *r, const fl_poly *p, const fl_piece_mes
     return r->faces < 0 ? -1 : 0;
 }
 
-/* Evaluates the vertices of the core that may be behind the surface, or beyond a sheet. Adds the contact
- * points of those behind, and sets *behind if there are any. An open surface has gone into the core if it
- * lies between its middle and the vertex; else the vertex has come round the rim, or the core from the
- * back. */
+/* Evaluates the vertices of the core that may be behind the surface, or beyond a sheet. Adds the contact points of those behind,
+ * and sets *behind if there are any. An open surface has gone into the core if it lies between its middle and
+ * the vertex; else the vertex has come round the rim, or the core from the back. */
 static int add_vertices_behind(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
                                const fl_patch_core *B, const fl_piece_mesh *sh, const fl_feature_pairs *l,
                                double ra, const mesh_selection *of, int *behind)

@@ -8,8 +8,8 @@
  * face. A point whose nearest point lies on the rim of an open surface is beside it, not behind. An open
  * surface is one-sided: a vertex is behind it if the surface lies between it and the middle of the core. One
  * that has come round the rim, or from the back, is not. A sheet with two sides (region.h) is a thin closed
- * surface; a vertex is beyond it if the sheet lies between it and the middle of the core. Spheres have a
- * law of their own (persistence_contact.h). */
+ * surface; a vertex is beyond it if the sheet lies between it and the middle of the core. Spheres have a law of
+ * their own (persistence_contact.h). */
 #ifndef FL_STRUCTURE_MESH_CONTACT_H
 #define FL_STRUCTURE_MESH_CONTACT_H
 #include "structure/structure.h"

@@ -9,8 +9,8 @@
  * floats, as in STL, are rounded by 6e-8 of the largest of them (coplanar_regions.c has the same). */
 #define TOUCH_TOL 1e-6
 
-/* Corners and edges of two members may lie within that of each other by chance, so that the cuts of one do
- * not fit those of the other.  Then smaller tolerances are tried, by tenths. */
+/* Corners and edges of two members may lie within that of each other by chance, so that the cuts of one do not
+ * fit those of the other.  Then smaller tolerances are tried, by tenths. */
 enum { FINER = 5 };
 
 /* Distance of the facets of a cone from it, over its radius: the facets are 1 - cos(pi/96) = 5.4e-4 deep, and

@@ -103,8 +103,8 @@ static int write_grading(struct picture *p, fl_err *err)
 
 /* --- the plan, or a section --------------------------------------------------------------------- */
 
-/* Corners of the section of body i with the plane y = at, in x and z; in two dimensions its disc.  Returns
- * their number, 0 for none. */
+/* Corners of the section of body i with the plane y = at, in x and z; in two dimensions its disc.  Returns their
+ * number, 0 for none. */
 static int section_of(const fl_packing *p, int32_t i, double at, fl_vec3 *corner, double out[POINTS][2])
 {
     const double r = p->s * p->radius[i];

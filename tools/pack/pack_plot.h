@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* pack_plot.h -- pictures of a packing: sieve curves asked and got, the plan or a section, the fabric rose.
- * */
+/* pack_plot.h -- pictures of a packing: sieve curves asked and got, the plan or a section, the fabric rose. */
 #ifndef PACK_PACK_PLOT_H
 #define PACK_PACK_PLOT_H
 #include "pack_run.h"

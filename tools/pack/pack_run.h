@@ -21,8 +21,7 @@ struct result {
     int stopped; /* by --until or a signal */
 };
 
-/* -1 with an error; FL_NO where the bodies jam before the porosity that was asked: all files are written
- * then. */
+/* -1 with an error; FL_NO where the bodies jam before the porosity that was asked: all files are written then. */
 int pack_run(const struct options *o, fl_err *err);
 
 #endif
