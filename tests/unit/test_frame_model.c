@@ -36,17 +36,15 @@ static moments count_squares(in_section *in, double h, double b)
 
 static int in_box(double y, double z) { return y < 20 || y > 280 || z < -90 || z > 90; }
 
-static int in_i(double y, double z)
-{
-    return y < 15 ? fabs(z) < 100 : y > 288 ? fabs(z) < 60 : fabs(z) < 5;
-}
+static int in_i(double y, double z) { return y < 15 ? fabs(z) < 100 : y > 288 ? fabs(z) < 60 : fabs(z) < 5; }
 
 static void boxes_and_i_have_their_moments(void **state)
 {
     (void)state;
     const fl_frame_section box = fl_frame_box(200, 300, 20, 10), i = fl_frame_i(300, 200, 120, 10, 15, 12);
     const moments b = count_squares(in_box, 300, 200), m = count_squares(in_i, 300, 200);
-    assert_true(relative(box.a, b.a) < 5e-3 && relative(box.iy, b.iy) < 5e-3 && relative(box.iz, b.iz) < 5e-3);
+    assert_true(relative(box.a, b.a) < 5e-3 && relative(box.iy, b.iy) < 5e-3 &&
+                relative(box.iz, b.iz) < 5e-3);
     assert_true(relative(i.a, m.a) < 5e-3 && relative(i.iy, m.iy) < 1e-2 && relative(i.iz, m.iz) < 5e-3);
     /* Bredt: a square box of wall t about a square of side c has J = t c3. */
     assert_true(relative(fl_frame_box(100, 100, 4, 4).j, 4.0 * 96.0 * 96.0 * 96.0) < 1e-12);
