@@ -3,14 +3,24 @@
 include config.mk
 
 B     = build$(if $(SAN),/san)
-TOOLS = voronoi-ice struct-import dem-solve loadstats arc-path
+TOOLS = voronoi-ice struct-import dem-solve loadstats arc-path ice-view pack
 FLAGS = $(OPT) -g $(FLOAT) -fopenmp -Ilib -MMD -MP $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all)
 CCALL  = $(CC) -std=c17 -D_POSIX_C_SOURCE=200809L $(CWARN) $(FLAGS) $(CFLAGS)
 CXXALL = $(CXX) -std=c++17 $(WARN) $(FLAGS) $(CXXFLAGS)
 LIBS  = -Wl,--as-needed -lccd -lgsl -lgslcblas -linih -lz -lm
 CGAL  = -lstdc++ -lgmp -lmpfr
+# What draws is built where the headers are: OpenGL by libepoxy and EGL (pictures, films), SDL2 (the window).  Without
+# them ice-view reads and converts, and says which package is missing.
+has = $(shell echo '\#include <$1>' | $(CC) -E -x c - >/dev/null 2>&1 && echo yes)
+GL  := $(call has,epoxy/egl.h)
+SDL := $(if $(GL),$(call has,SDL2/SDL.h))
+ifeq ($(GL),)
+$(info ice-view: built without pictures, epoxy/egl.h is not there (packages libepoxy-dev libegl-dev))
+else ifeq ($(SDL),)
+$(info ice-view: built without its window, SDL2/SDL.h is not there (package libsdl2-dev))
+endif
 
-LIBOBJ   = $(patsubst %.c,$B/%.o,$(wildcard lib/*/*.c))
+LIBOBJ   = $(patsubst %.c,$B/%.o,$(filter-out $(if $(GL),,lib/view/gl_%.c),$(wildcard lib/*/*.c)))
 SHIMOBJ  = $(patsubst %.cpp,$B/%.o,$(wildcard lib/shim/*.cpp))
 SHIM     = $B/libfloe-shim.a
 SUPPORT  = $B/libsupport.a
@@ -42,8 +52,11 @@ $(SUPPORT): $(HELPOBJ)
 	ar rcs $@ $^
 
 # A program is the .c files of its folder on the two libraries; what it does not use is not linked.
+VIEW = $(if $(GL),,%/shot.c) $(if $(SDL),,%/window.c)
+$B/tools/ice-view/%.o: CFLAGS += $(if $(GL),-DFL_HAVE_GL) $(if $(SDL),-DFL_HAVE_WINDOW)
+$B/bin/ice-view: LIBS += $(if $(GL),-lepoxy) $(if $(SDL),-lSDL2) -ldl
 define tool
-$B/bin/$1: $(patsubst %.c,$B/%.o,$(wildcard tools/$1/*.c)) $B/libfloe-shim.a $B/libfloe.a
+$B/bin/$1: $(patsubst %.c,$B/%.o,$(filter-out $(VIEW),$(wildcard tools/$1/*.c))) $B/libfloe-shim.a $B/libfloe.a
 	@mkdir -p $$(@D)
 	$$(CCALL) $$(LDFLAGS) -Wl,--start-group $$^ -Wl,--end-group $$(LIBS) $$(CGAL) -o $$@
 endef

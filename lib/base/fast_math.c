@@ -107,3 +107,39 @@ void fl_cos_sin(double x, double *c, double *s)
     *c = k == 1 || k == 2 ? -a : a;
     *s = k & 2 ? -b : b;
 }
+
+/* atan c for c = 0, 1/4, 1/2, 3/4, 1 */
+static const double ATAN[5] = {0.0, 0.24497866312686414, 0.46364760900080609, 0.64350110879328437,
+                               0.78539816339744828};
+
+/* t = c + the rest, c the nearest quarter: atan t = atan c + atan u, u = (t - c)/(1 + t c), |u| <= 1/8.
+ * Series of atan u to u^17; the next term is below 3e-18 of u. */
+static double atan_of_unit(double t)
+{
+    const int k = (int)(4.0 * t + 0.5);
+    const double c = 0.25 * k, u = (t - c) / (1.0 + t * c), v = u * u;
+    double p = 1.0 / 17;
+    p = p * v - 1.0 / 15;
+    p = p * v + 1.0 / 13;
+    p = p * v - 1.0 / 11;
+    p = p * v + 1.0 / 9;
+    p = p * v - 1.0 / 7;
+    p = p * v + 1.0 / 5;
+    p = p * v - 1.0 / 3;
+    return ATAN[k] + (u + u * v * p);
+}
+
+#define PI_HIGH 3.141592653589793116
+#define PI_LOW 1.2246467991473532e-16
+
+double fl_atan2(double y, double x)
+{
+    const double a = fabs(x), b = fabs(y),
+                 t = b > a     ? atan_of_unit(a / b)
+                     : b > 0.0 ? atan_of_unit(b / a)
+                               : 0.0;
+    double angle = t;
+    if (b > a) angle = 0.5 * PI_HIGH - ((signbit(x) ? -t : t) - 0.5 * PI_LOW);
+    else if (signbit(x)) angle = PI_HIGH - (t - PI_LOW);
+    return signbit(y) ? -angle : angle;
+}

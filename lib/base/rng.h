@@ -15,13 +15,23 @@ enum fl_rng_purpose {
     FL_RNG_WAVE,
     FL_RNG_BOOTSTRAP,
     FL_RNG_LAYER,
-    FL_RNG_OFFSET
+    FL_RNG_OFFSET,
+    FL_RNG_STRENGTH,
+    FL_RNG_WAVE_DIRECTION,
+    FL_RNG_SCATTER,
+    FL_RNG_ORIENTATION
 };
 
 typedef struct {
     uint32_t key[2], ctr[4], out[4];
     int left; /* unused words of out */
 } fl_rng;
+
+/* The entity of two ids. */
+static inline int64_t fl_rng_entity(int32_t i, int32_t j)
+{
+    return (int64_t)((uint64_t)(uint32_t)i << 32 | (uint32_t)j);
+}
 
 fl_rng fl_rng_of(uint64_t seed, int64_t entity, uint32_t purpose);
 uint64_t fl_rng_u64(fl_rng *g);

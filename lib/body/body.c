@@ -51,6 +51,13 @@ int fl_bodies_alloc_added_mass(fl_bodies *b, fl_err *err)
     return b->added_mass && b->flow_velocity && b->flow_work ? 0 : -1;
 }
 
+int fl_bodies_alloc_heave(fl_bodies *b, fl_err *err)
+{
+    b->heave_mass = fl_alloc(b->total, sizeof *b->heave_mass, err);
+    b->heave_work = fl_alloc(b->total, sizeof *b->heave_work, err);
+    return b->heave_mass && b->heave_work ? 0 : -1;
+}
+
 void fl_bodies_free(fl_bodies *b)
 {
     for (int32_t i = 0; b->core && i < b->total; i++) fl_poly_free(&b->core[i]);
@@ -59,7 +66,7 @@ void fl_bodies_free(fl_bodies *b)
         free(b->core), free(b->fixed_dof);
     free(b->is_isotropic), free(b->odometer), free(b->work_of_constraints), free(b->added_mass),
         free(b->flow_velocity);
-    free(b->flow_work);
+    free(b->flow_work), free(b->heave_mass), free(b->heave_work);
     *b = (fl_bodies){0};
 }
 

@@ -43,6 +43,9 @@ typedef struct {
     fl_vec3 *added_mass;    /* added mass per body axis [kg] */
     fl_vec3 *flow_velocity; /* velocity of the surrounding water [m/s] */
     double *flow_work;      /* work that flowing water has done by turning the added mass so far [J] */
+    /* of spheres that stand for a sheet, which have no added_mass; NULL without */
+    double *heave_mass; /* added mass along the vertical of the world, changes with the immersion [kg] */
+    double *heave_work; /* work that these changes have done so far [J] */
 } fl_bodies;
 
 /* Allocates arrays for `total` bodies, of which the first n move. All are zero but q = 1 and I = 1. Returns
@@ -52,6 +55,9 @@ void fl_bodies_free(fl_bodies *b);
 
 /* Allocates added_mass, flow_velocity and flow_work, all zero. Returns -1 with FL_SYSTEM. */
 int fl_bodies_alloc_added_mass(fl_bodies *b, fl_err *err);
+
+/* Allocates heave_mass and heave_work, all zero. Returns -1 with FL_SYSTEM. */
+int fl_bodies_alloc_heave(fl_bodies *b, fl_err *err);
 
 /* True if body i is isotropic: its core is one point at the centre, its moments are equal, and so are its
  * added masses. */
@@ -99,6 +105,7 @@ static inline fl_vec3 fl_body_apply_inverse_inertia(const fl_bodies *b, int32_t 
 /* R (m + M_a) R^T v: linear momentum of body i with its added mass at velocity v [kg m/s]. */
 static inline fl_vec3 fl_body_momentum(const fl_bodies *b, int32_t i, fl_vec3 v)
 {
+    if (b->heave_mass) return v3(b->m[i] * v.x, b->m[i] * v.y, (b->m[i] + b->heave_mass[i]) * v.z);
     if (!b->added_mass) return v3_scale(b->m[i], v);
     const fl_mat3 R = fl_body_axes(b, i);
     return v3_madd(m3_mul(R, v3_mul(b->added_mass[i], m3_tmul(R, v))), b->m[i], v);
@@ -107,6 +114,7 @@ static inline fl_vec3 fl_body_momentum(const fl_bodies *b, int32_t i, fl_vec3 v)
 /* Velocity of body i at linear momentum P: R (m + M_a)^-1 R^T P [m/s]. */
 static inline fl_vec3 fl_body_velocity_of_momentum(const fl_bodies *b, int32_t i, fl_vec3 P)
 {
+    if (b->heave_mass) return v3(b->invm[i] * P.x, b->invm[i] * P.y, P.z / (b->m[i] + b->heave_mass[i]));
     if (!b->added_mass) return v3_scale(b->invm[i], P);
     const fl_mat3 R = fl_body_axes(b, i);
     const fl_vec3 p = m3_tmul(R, P), a = b->added_mass[i];
@@ -118,7 +126,7 @@ static inline fl_vec3 fl_body_velocity_of_momentum(const fl_bodies *b, int32_t i
 static inline double fl_body_kinetic_energy(const fl_bodies *b, int32_t i)
 {
     const double turning = v3_dot(b->w[i], b->L[i]);
-    if (b->added_mass) return 0.5 * (v3_dot(b->v[i], fl_body_momentum(b, i, b->v[i])) + turning);
+    if (b->added_mass || b->heave_mass) return 0.5 * (v3_dot(b->v[i], fl_body_momentum(b, i, b->v[i])) + turning);
     return 0.5 * (b->m[i] * v3_norm2(b->v[i]) + turning);
 }
 

@@ -32,7 +32,7 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3
 void fl_kick(fl_bodies *b, int32_t i, double h)
 {
     const fl_vec3 v0 = b->v[i], w0 = b->w[i];
-    b->v[i] = b->added_mass ? v3_madd(v0, h, fl_body_velocity_of_momentum(b, i, b->f[i]))
+    b->v[i] = b->added_mass || b->heave_mass ? v3_madd(v0, h, fl_body_velocity_of_momentum(b, i, b->f[i]))
                             : v3_madd(v0, h * b->invm[i], b->f[i]);
     b->L[i] = v3_madd(b->L[i], h, b->t[i]);
     b->w[i] = fl_body_apply_inverse_inertia(b, i, b->L[i]);
@@ -219,7 +219,7 @@ void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *t
     if (b->added_mass) {
         *a = velocity_with_fixed_dof(b, i, rest, b->f[i]);
     } else {
-        *a = v3_scale(b->invm[i], b->f[i]);
+        *a = fl_body_velocity_of_momentum(b, i, b->f[i]);
         if (hold & FL_DOF_X) a->x = 0.0;
         if (hold & FL_DOF_Y) a->y = 0.0;
         if (hold & FL_DOF_Z) a->z = 0.0;
@@ -360,10 +360,10 @@ fl_mobility fl_body_mobility(const fl_bodies *b, int32_t i)
         e.linear =
             stands ? free_inverse(&R, m, stands) : s3_from_principal(&R, v3(1.0 / m.x, 1.0 / m.y, 1.0 / m.z));
     } else {
-        const double each = b->invm[i];
+        const double each = b->invm[i], up = b->heave_mass ? 1.0 / (b->m[i] + b->heave_mass[i]) : each;
         e.linear = (fl_sym3){.xx = stands & FL_DOF_X ? 0.0 : each,
                              .yy = stands & FL_DOF_Y ? 0.0 : each,
-                             .zz = stands & FL_DOF_Z ? 0.0 : each};
+                             .zz = stands & FL_DOF_Z ? 0.0 : up};
     }
     return e;
 }
@@ -385,6 +385,8 @@ void fl_body_apply_fixed_dof(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_
     if (hold & FL_DOF_Y) b->v[i].y = v_held.y;
     if (hold & FL_DOF_Z) b->v[i].z = v_held.z;
     if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) apply_fixed_rotation(b, i, hold, w_held);
-    b->work_of_constraints[i] += b->m[i] * v3_dot(v3_sub(b->v[i], v), v_held) +
+    const fl_vec3 change = v3_sub(b->v[i], v);
+    const double rising = b->heave_mass ? b->heave_mass[i] * change.z * v_held.z : 0.0;
+    b->work_of_constraints[i] += b->m[i] * v3_dot(change, v_held) + rising +
                                  angular_constraint_work(hold, v3_sub(b->L[i], L), w_held);
 }

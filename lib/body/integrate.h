@@ -41,7 +41,7 @@ void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, d
 /* True if body i has neither constraints nor added mass. */
 static inline int fl_body_is_free(const fl_bodies *b, int32_t i)
 {
-    return !b->fixed_dof[i] && !b->added_mass;
+    return !b->fixed_dof[i] && !b->added_mass && !b->heave_mass;
 }
 
 /* True if body i is free and isotropic. */

@@ -76,7 +76,7 @@ static double damage_of(const fl_bond *c, fl_bond_point *p, const double s[3])
     if (p->d == 1.0 || !(lambda2 > 0.0)) return p->d;
     if (p->lambda_c == 0.0) {
         const double sigma = c->kn * open / c->tensile_strength, tau2 = c->ks * c->ks * shear2,
-                     limit = c->cohesion + c->friction * c->kn * pressed;
+                     limit = c->cohesion + c->internal_friction * c->kn * pressed;
         const double over = sigma * sigma + tau2 / (limit * limit);
         if (!(over >= 1.0)) return 0.0;
         begin_damage(c, p, lambda2, c->ks * shear2, over);

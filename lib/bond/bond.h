@@ -13,7 +13,7 @@
  * force under a rigid motion of the pair, action equals reaction, and the moments about any point cancel.
  * Compression is never damaged.
  *
- * Damage d of a point begins where (<sigma>/sigma_t)^2 + (tau/tau_s)^2 = 1, tau_s = c + mu <-sigma>. With
+ * Damage d of a point begins where (<sigma>/sigma_t)^2 + (tau/tau_s)^2 = 1, tau_s = c + mu_i <-sigma>. With
  *     lambda^2 = k_n <s_n>^2 + k_s s_t^2,     B = k_s s_t^2/lambda^2,     G = G_I + (G_II - G_I) B^eta
  * at that moment it grows up to lambda_f = 2 G/lambda_c as
  *     d = lambda_f (lambda - lambda_c)/(lambda (lambda_f - lambda_c)).
@@ -94,6 +94,7 @@ typedef struct {
     double friction_spring_energy;                                /* stored in the springs of friction [J] */
     /* fracture and its history */
     double fracture_energy[2]; /* G_I, G_II; 0: breaks at once [J/m2] */
+    double internal_friction;  /* mu of the strength */
     double h0;                 /* h_0, 0 before failure */
     double dissipated;         /* removed by damage and wear so far [J] */
     double given_to_friction;  /* passed to the springs of friction so far [J] */

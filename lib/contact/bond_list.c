@@ -2,8 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
+#include "base/pi.h"
 #include "bond/bond_batch.h"
 #include "bond/common_face.h"
+#include "contact/bond_image.h"
 #include "contact/bond_list.h"
 #include "geom/clip.h"
 #include "patch/stiffness_bound.h"
@@ -23,16 +25,6 @@ static fl_vec3 image_offset(const fl_world *w, int32_t k)
     const int32_t *image = &w->bonds.image[3 * k];
     return w->cell.periodic ? fl_periodic_cell_offset(&w->cell, v3(image[0], image[1], image[2]))
                             : v3(0, 0, 0);
-}
-
-static double nearest_cell(double apart, double length) { return length > 0.0 ? round(apart / length) : 0.0; }
-
-/* Offset of x from body i in lengths of the cell. */
-static fl_vec3 cells_between(const fl_world *w, int32_t i, fl_vec3 x)
-{
-    const fl_vec3 L = w->cell.length, off = v3_sub(x, w->b.x[i]);
-    if (!w->cell.periodic) return v3(0, 0, 0);
-    return v3(nearest_cell(off.x, L.x), nearest_cell(off.y, L.y), nearest_cell(off.z, L.z));
 }
 
 /* The sharp shape of body k of the field; empty if its core has no faces. */
@@ -68,6 +60,7 @@ static void set_law(const fl_world *w, fl_bond *c, double l, double m)
     c->tensile_strength = s->normal_strength;
     c->cohesion = s->shear_strength;
     c->friction = s->friction;
+    c->internal_friction = s->internal_friction >= 0.0 ? s->internal_friction : s->friction;
     c->fracture_energy[0] = s->energy;
     c->fracture_energy[1] = s->shear_energy >= 0.0 ? s->shear_energy : s->energy;
     c->mixed_mode_exponent = s->mixing;
@@ -80,15 +73,14 @@ static void set_law(const fl_world *w, fl_bond *c, double l, double m)
     c->damping = 2.0 * s->damping / sqrt(c->kn * c->area / m);
 }
 
-/* Makes bond k from its record; shape[]: the sharp shapes of the field. */
-static int make_bond(fl_world *w, int32_t k, const fl_ice_field *field, const fl_poly *shape, fl_err *err)
+/* Makes bond k from the record d; shape[]: the sharp shapes of the field. */
+static int make_bond(fl_world *w, int32_t k, const fl_ice_field_bond *d, const fl_poly *shape, fl_err *err)
 {
-    const fl_ice_field_bond *d = &field->bond[k];
     const fl_bodies *b = &w->b;
     const int32_t i = d->i, j = d->j;
     fl_bond *c = &w->bonds.bond[k];
     fl_common_face face;
-    const fl_vec3 ci = cells_between(w, i, d->x), cells = v3_sub(cells_between(w, j, d->x), ci);
+    const fl_vec3 ci = fl_bond_cells_between(w, i, d->x), cells = v3_sub(fl_bond_cells_between(w, j, d->x), ci);
     w->bonds.image[3 * k] = (int32_t)cells.x;
     w->bonds.image[3 * k + 1] = (int32_t)cells.y;
     w->bonds.image[3 * k + 2] = (int32_t)cells.z;
@@ -114,11 +106,12 @@ static int make_all(fl_world *w, const fl_ice_field *field, fl_err *err)
 {
     fl_poly *shape = fl_alloc(field->n, sizeof *shape, err);
     int rc = shape ? 0 : -1;
-    for (int32_t k = 0; k < field->bonds && rc == 0; k++) {
+    for (int32_t k = 0, face = 0; k < field->bonds && rc == 0; k++) {
         const int32_t of[2] = {field->bond[k].i, field->bond[k].j};
+        if (fl_disc_list_takes(w, &field->bond[k])) continue;
         for (int e = 0; e < 2 && rc == 0; e++)
             if (shape[of[e]].nv == 0) rc = make_sharp_shape(field, of[e], &shape[of[e]], err);
-        if (rc == 0) rc = make_bond(w, k, field, shape, err);
+        if (rc == 0) rc = make_bond(w, face++, &field->bond[k], shape, err);
     }
     for (int32_t k = 0; shape && k < field->n; k++) fl_poly_free(&shape[k]);
     free(shape);
@@ -201,11 +194,14 @@ int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
         return fl_fail(err, FL_INPUT,
                        "%s: no bond in it, and [bond] is on: a field of voronoi-ice --bonded is expected",
                        w->scene->ice.file);
-    s->bond = fl_alloc(field->bonds, sizeof *s->bond, err);
-    s->image = fl_alloc(3 * (int64_t)field->bonds, sizeof *s->image, err);
-    s->radius_factor = fl_alloc(field->bonds, sizeof *s->radius_factor, err);
+    if (fl_disc_list_make(w, field, err)) return -1;
+    const int32_t faces = field->bonds - w->discs.n;
+    if (faces == 0) return 0;
+    s->bond = fl_alloc(faces, sizeof *s->bond, err);
+    s->image = fl_alloc(3 * (int64_t)faces, sizeof *s->image, err);
+    s->radius_factor = fl_alloc(faces, sizeof *s->radius_factor, err);
     if (!s->bond || !s->image || !s->radius_factor || make_all(w, field, err)) return -1;
-    s->n = field->bonds;
+    s->n = faces;
     for (int32_t k = 0; k < s->n; k++) {
         const int32_t of[2] = {s->bond[k].i, s->bond[k].j};
         for (int e = 0; e < 2; e++) w->b.is_isotropic[of[e]] = 0;
@@ -225,7 +221,7 @@ void fl_bond_list_free(fl_bond_list *s)
 int32_t fl_bond_list_find(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
 {
     const fl_bond_list *s = &w->bonds;
-    if (i >= w->n || j >= w->n) return -1;
+    if (i >= w->n || j >= w->n || !s->n) return -1;
     for (int64_t c = s->first[i]; c < s->first[i + 1]; c++) {
         const int32_t k = s->of[c];
         if (s->bond[k].j == j && s->bond[k].i == i && memcmp(&s->image[3 * k], image, 3 * sizeof *image) == 0)
@@ -309,6 +305,8 @@ static void add_sums(fl_contact_sum *sums, const fl_bond *c, int is_i)
 void fl_bond_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t, fl_contact_sum *sums)
 {
     const fl_bond_list *s = &w->bonds;
+    fl_disc_list_add_forces(w, k, f, t);
+    if (!fl_body_has_faces(w, k)) return;
     for (int64_t at = s->first[k]; at < s->first[k + 1]; at++) {
         const fl_bond *c = &s->bond[s->of[at]];
         if (c->state == FL_BOND_ENDED) continue;
@@ -321,6 +319,7 @@ void fl_bond_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *
 void fl_bond_list_add_sums(const fl_world *w, int32_t k, fl_contact_sum *sums)
 {
     const fl_bond_list *s = &w->bonds;
+    if (!fl_body_has_faces(w, k)) return;
     for (int64_t at = s->first[k]; at < s->first[k + 1]; at++) {
         const fl_bond *c = &s->bond[s->of[at]];
         if (c->state != FL_BOND_ENDED) add_sums(sums, c, c->i == k);
@@ -329,23 +328,24 @@ void fl_bond_list_add_sums(const fl_world *w, int32_t k, fl_contact_sum *sums)
 
 double fl_bond_list_max_omega2(const fl_world *w, int32_t k)
 {
-    return fl_body_has_bonds(w, k) ? w->bonds.max_omega2[k] : 0.0;
+    return (fl_body_has_faces(w, k) ? w->bonds.max_omega2[k] : 0.0) + fl_disc_list_max_omega2(w, k);
 }
 
 double fl_bond_list_omega2(const fl_world *w, int32_t k)
 {
     const fl_bond_list *s = &w->bonds;
     double sum = 0.0;
-    if (!fl_body_has_bonds(w, k)) return 0.0;
+    if (!fl_body_has_faces(w, k)) return fl_disc_list_omega2(w, k);
     for (int64_t at = s->first[k]; at < s->first[k + 1]; at++) {
         const fl_bond *c = &s->bond[s->of[at]];
         if (c->state != FL_BOND_ENDED) sum += s->omega2[2 * s->of[at] + (c->i != k)];
     }
-    return sum < s->max_omega2[k] ? sum : s->max_omega2[k];
+    return (sum < s->max_omega2[k] ? sum : s->max_omega2[k]) + fl_disc_list_omega2(w, k);
 }
 
 void fl_bond_list_end_absent(fl_world *w)
 {
+    fl_disc_list_end_absent(w);
     for (int32_t k = 0; k < w->bonds.n; k++) {
         fl_bond *c = &w->bonds.bond[k];
         if (c->state == FL_BOND_ENDED || !(fl_body_absent(w, c->i) || fl_body_absent(w, c->j))) continue;
@@ -378,13 +378,40 @@ fl_bond_energies fl_bond_list_energies(const fl_world *w)
         sum.spent += c->dissipated;
         sum.transferred += c->given_to_friction;
     }
+    const fl_disc_energies discs = fl_disc_list_energies(w);
+    sum.store += discs.store, sum.spent += discs.spent;
+    sum.damped = discs.damped, sum.rubbed = discs.rubbed;
     return sum;
+}
+
+/* Adds the discs. */
+static void count_discs(const fl_world *w, fl_bond_counts *n, double *area)
+{
+    const fl_disc_list *s = &w->discs;
+    const double G = w->scene->bond.energy;
+    for (int32_t k = 0; k < s->n; k++) {
+        const fl_disc_class *c = &s->classes[s->at.which[k]];
+        const double A = PI * c->radius * c->radius, T = c->weakening * s->law.tension,
+                     peak = 0.5 * T * T * A / c->kn, fracture = fmax(c->ductility, 1.0) * peak;
+        const enum fl_bond_state state = s->has_ended[k]     ? FL_BOND_ENDED
+                                         : s->at.is_whole[k] ? FL_BOND_INTACT
+                                                             : FL_BOND_DAMAGED;
+        n->state[state]++;
+        if (s->has_ended[k]) n->area += A;
+        n->longest = fmax(n->longest, c->length);
+        if (!isfinite(fracture)) continue;
+        n->energy += fracture * A, *area += A;
+        if (G > 0.0 && fracture > G * (1.0 + 1e-9)) n->coarse++;
+        const double limit = fl_bond_max_length(c->kn * c->length / A, G, T);
+        if (n->limit == 0.0 || limit < n->limit) n->limit = limit;
+    }
 }
 
 fl_bond_counts fl_bond_list_counts(const fl_world *w)
 {
     fl_bond_counts n = {0};
     double area = 0.0;
+    count_discs(w, &n, &area);
     for (int32_t k = 0; k < w->bonds.n; k++) {
         const fl_bond *c = &w->bonds.bond[k];
         const double fracture = fl_bond_fracture_energy(c);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bond_list.h -- the bonds of a world (bond/bond.h): their set-up, forces in a step, and sums.
+/* bond_list.h -- the bonds of a world: faces (bond/bond.h) and, in disc_list.h, discs of spheres; their
+ * set-up, forces in a step, and sums.
  *
  * While a bond stands its two bodies have no contact.  It ends when it bears no load; its bodies then are
  * an ordinary pair again.  Their radii are reduced at first so that they do not touch: the overlap at the
@@ -8,14 +9,15 @@
  * cannot be reduced: the energy with which their contact begins is taken from the dissipated energy of the
  * bond.
  *
- * A bonded sphere is not treated as isotropic: its rotation counts, and its pairs are in w->pair. */
+ * A sphere bonded by a face is not treated as isotropic: its rotation counts, and its pairs are in w->pair. */
 #ifndef FL_CONTACT_BOND_LIST_H
 #define FL_CONTACT_BOND_LIST_H
+#include "contact/disc_list.h"
 #include "world/world.h"
 
 /* Makes the bonds of the field if [bond] is on; body k of the field is body k, in its pose of the field.
  * The face of a bond is the common face of the sharp shapes at the record's centroid, with the record's
- * area.  Where there is none, as of spheres, it is a disc across the line of the centres.  The length l is
+ * area.  Where there is none, as of a sphere and a box, it is a disc across the line of the centres.  The length l is
  * the distance of the centres along the normal.  -1 with FL_SYSTEM, or FL_INPUT for a field without bonds
  * or a bond without length. */
 int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err);
@@ -27,6 +29,7 @@ int32_t fl_bond_list_find(const fl_world *w, int32_t i, int32_t j, const int32_t
 /* True if a bond stands between the two, which then have no contact. */
 static inline int fl_bond_list_is_bonded(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
 {
+    if (fl_disc_list_is_bonded(w, i, j, image)) return 1;
     if (!w->bonds.n) return 0;
     const int32_t k = fl_bond_list_find(w, i, j, image);
     return k >= 0 && w->bonds.bond[k].state != FL_BOND_ENDED;
@@ -45,10 +48,14 @@ void fl_bond_list_first_contact(fl_world *w, fl_pair *p);
 enum { FL_BOND_LIST_RUN = 64 };
 void fl_bond_list_evaluate(fl_world *w, int32_t from, int32_t to);
 
-/* True if body k has bonds. */
-static inline int fl_body_has_bonds(const fl_world *w, int32_t k)
+/* True if body k has bonded faces; if it has bonds of either kind. */
+static inline int fl_body_has_faces(const fl_world *w, int32_t k)
 {
     return w->bonds.n && k < w->n && w->bonds.first[k] < w->bonds.first[k + 1];
+}
+static inline int fl_body_has_bonds(const fl_world *w, int32_t k)
+{
+    return fl_body_has_faces(w, k) || fl_body_has_discs(w, k);
 }
 
 /* Adds the forces of the bonds of body k, in their order; or only to its sums of damping and friction. */
@@ -74,6 +81,7 @@ typedef struct {
     double spring;      /* of the friction springs */
     double spent;       /* dissipated */
     double transferred; /* from damage to the friction springs */
+    double damped, rubbed; /* by dashpots and friction of discs; those of faces are in the contact sums */
 } fl_bond_energies;
 fl_bond_energies fl_bond_list_energies(const fl_world *w);
 

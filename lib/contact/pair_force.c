@@ -17,6 +17,7 @@
 #include "law/normal.h"
 #include "patch/force_sum.h"
 #include "patch/patch_law.h"
+#include "patch/patch_result.h"
 #include "patch/stiffness_bound.h"
 
 /* An overlap below this fraction of the coordinates it results from is rounding error. */
@@ -87,26 +88,35 @@ INLINE fl_vec3 end_velocity(const fl_bodies *b, const fl_pair *p, const predicti
     return v3_add(mean_velocity(b, p, a, ai, aj), fl_predicted_change_at(&a->change, ai, aj));
 }
 
-/* Sums over the contact points that friction needs. */
+/* Sums over contact points, of which the result of a law of points is made. */
 typedef struct {
-    double normal;     /* sum of F with damping                                     [N] */
-    double elastic;    /* and without                                               [N] */
-    fl_vec3 direction; /* sum of F n                                                [N] */
-    fl_vec3 at;        /* a contact point, relative to B's centre                   [m] */
-    fl_vec3 moment;    /* sum of F (p - at)                                       [N m] */
-    double spread;     /* sum of F |p - at|^2, which stays exact for a far centre of B [N m^2] */
-    double slope;      /* dF/ds                                                   [N/m] */
-    int walls;         /* the sum is of several walls, each with its own friction */
-} pressure;
+    fl_patch_result result; /* centre: a contact point */
+    fl_vec3 moment;         /* sum of F (p - centre)                            [N m] */
+    fl_sym3 second;         /* sum of F (p - centre) (p - centre)^T            [N m2] */
+} point_sum;
 
-/* Adds a contact point at `arm` from q->at. */
-static void add_pressure(pressure *q, double elastic, double normal, fl_vec3 n, fl_vec3 arm)
+/* Adds a contact point at `arm` from the first one. */
+static void add_pressure(point_sum *s, double elastic, double normal, fl_vec3 n, fl_vec3 arm)
 {
+    fl_patch_result *const q = &s->result;
     q->elastic += elastic;
     q->normal += normal;
     q->direction = v3_madd(q->direction, normal, n);
-    q->moment = v3_madd(q->moment, normal, arm);
-    q->spread += normal * v3_norm2(arm);
+    const fl_vec3 a = v3_scale(normal, arm);
+    s->moment = v3_add(s->moment, a);
+    s->second = s3_add(s->second, (fl_sym3){a.x * arm.x, a.x * arm.y, a.x * arm.z, a.y * arm.y, a.y * arm.z,
+                                            a.z * arm.z});
+}
+
+/* The result of n points. */
+static fl_patch_result result_of_points(const point_sum *s, int32_t n)
+{
+    fl_patch_result q = s->result;
+    q.load = n > 1 ? q.normal : v3_norm(q.direction);
+    if (!(q.normal > 0.0)) return q;
+    q.centre = v3_add(q.centre, v3_scale(1.0 / q.normal, s->moment));
+    if (n > 1) q.shape = fl_pressure_shape_about(q.normal, s->moment, s->second, v3_unit(q.direction));
+    return q;
 }
 
 /* Compliance at the contact, as in fl_friction_contact. */
@@ -116,7 +126,7 @@ typedef struct {
 } contact_compliance;
 
 /* Adds friction at the centre of pressure. */
-static void add_friction(fl_world *w, fl_pair *p, const pressure *q, double chi, const contact_compliance *at,
+static void add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, double chi, const contact_compliance *at,
                          const fl_relative_pose *r, const prediction *a)
 {
     const fl_bodies *b = &w->b;
@@ -125,14 +135,13 @@ static void add_friction(fl_world *w, fl_pair *p, const pressure *q, double chi,
         p->springs = (fl_friction_springs){0};
         return;
     }
-    const fl_vec3 mean = v3_scale(1.0 / q->normal, q->moment), aj = v3_add(q->at, mean),
-                  ai = v3_add(aj, r->off);
-    const double arm2 = q->spread / q->normal - v3_norm2(mean);
+    const fl_vec3 aj = q->centre, ai = v3_add(aj, r->off);
     const fl_friction_contact c = {.n = v3_unit(q->direction),
                                    .k = law->tangential_ratio * q->slope,
                                    .g = law->tangential_ratio * chi * q->elastic,
-                                   .limit = law->friction * (q->walls ? q->normal : v3_norm(q->direction)),
-                                   .arm = arm2 > 0.0 ? sqrt(arm2) : 0.0,
+                                   .limit = law->friction * q->load,
+                                   .arm = q->shape.arm,
+                                   .elongation = q->shape.elongation,
                                    .compliance = at->matrix,
                                    .turn_compliance = at->turn,
                                    .contact_count = a->change.contact_count};
@@ -145,10 +154,10 @@ static void add_friction(fl_world *w, fl_pair *p, const pressure *q, double chi,
                                    wi - wj + turned,
                                    0.5 * (wi + wj),
                                    a->before.friction_damping,
-                                   fl_previous_damping_moment(a->before, c.n, ai, aj),
+                                   a->before.friction_damping_moment,
                                    a->step.half_step,
                                    a->step.at_start};
-    const fl_friction_result t = fl_tangent_step(p->springs, c, by, a->step.dt);
+    const fl_friction_result t = fl_tangent_step_of(p->springs, c, by, a->step.dt, 1);
     const fl_vec3 m = v3_scale(t.moment, c.n);
     p->springs = t.springs;
     add_wrench(&p->force_friction, &p->torque_i_friction, &p->torque_j_friction, t.force, ai, aj);
@@ -157,7 +166,7 @@ static void add_friction(fl_world *w, fl_pair *p, const pressure *q, double chi,
     p->force = v3_add(p->force, p->force_friction);
     p->torque_i = v3_add(p->torque_i, p->torque_i_friction);
     p->torque_j = v3_add(p->torque_j, p->torque_j_friction);
-    p->spring_energy = fl_tangent_energy(p->springs);
+    p->spring_energy = p->springs.energy;
 }
 
 /* Largest 1/I of body k, 0 if it cannot rotate [1/kg m2]. */
@@ -169,7 +178,7 @@ static double max_inverse_inertia(const fl_world *w, int32_t k)
 }
 
 /* Adds the rolling resistance of a sphere, a moment on both, if its law has one.  -1 when memory runs out. */
-static int add_rolling(fl_world *w, fl_pair *p, const pressure *q, double chi, const prediction *a)
+static int add_rolling(fl_world *w, fl_pair *p, const fl_patch_result *q, double chi, const prediction *a)
 {
     const fl_bodies *b = &w->b;
     fl_err lost = {0};
@@ -197,12 +206,12 @@ static int add_rolling(fl_world *w, fl_pair *p, const pressure *q, double chi, c
 }
 
 /* Adds the springs of friction and rolling to the stiffness and bounds omega^2. */
-static void bound_stiffness(const fl_world *w, fl_pair *p, const pressure *q, const fl_relative_pose *r,
-                            fl_stiffness *si, fl_stiffness *sj)
+static void bound_stiffness(const fl_world *w, fl_pair *p, const fl_patch_result *q,
+                            const fl_relative_pose *r, fl_stiffness *si, fl_stiffness *sj)
 {
     const fl_bodies *b = &w->b;
     if (p->springs.k > 0.0) {
-        const fl_vec3 n = v3_unit(q->direction), aj = v3_madd(q->at, 1.0 / q->normal, q->moment);
+        const fl_vec3 n = v3_unit(q->direction), aj = q->centre;
         const fl_vec3 ai = v3_add(aj, r->off), none = v3(0, 0, 0);
         fl_stiffness_add_tangential(si, b, p->i, p->springs.k, n, ai);
         fl_stiffness_add_tangential(sj, b, p->j, p->springs.k, n, aj);
@@ -219,12 +228,12 @@ static void bound_stiffness(const fl_world *w, fl_pair *p, const pressure *q, co
 }
 
 /* The same for a contact that pushes along n at one point. */
-static void bound_stiffness_of_point(const fl_world *w, fl_pair *p, const pressure *q, fl_vec3 n,
+static void bound_stiffness_of_point(const fl_world *w, fl_pair *p, const fl_patch_result *q, fl_vec3 n,
                                      const fl_relative_pose *r)
 {
     fl_stiffness si = {0}, sj = {0};
-    fl_stiffness_add_force(&si, &w->b, p->i, q->slope, n, v3_cross(v3_add(q->at, r->off), n));
-    fl_stiffness_add_force(&sj, &w->b, p->j, q->slope, n, v3_cross(q->at, n));
+    fl_stiffness_add_force(&si, &w->b, p->i, q->slope, n, v3_cross(v3_add(q->centre, r->off), n));
+    fl_stiffness_add_force(&sj, &w->b, p->j, q->slope, n, v3_cross(q->centre, n));
     bound_stiffness(w, p, q, r, &si, &sj);
 }
 
@@ -238,6 +247,24 @@ static double damping_factor(fl_pair *p, double now, double mass)
     p->max_approach_speed = p->touching && p->max_approach_speed > now ? p->max_approach_speed : now;
     return fl_damping_chi(p->law->impact_damping, p->law->slow_damping_factor, p->max_approach_speed,
                           p->energy, mass);
+}
+
+/* True if the other body is a piece of the structure that may have several faces, which bodies pass. */
+static int is_on_facets(const fl_world *w, const fl_pair *p)
+{
+    const fl_piece *piece = fl_world_piece(w, p->j);
+    return piece && piece->kind != FL_PIECE_PLANE;
+}
+
+/* Share of the load of p that was laid down before (law/damping.h), with load, slope and mass now; takes note
+ * of the load.  cos2 as in fl_damping_bend_share(). */
+static double laid_share(const fl_world *w, fl_pair *p, double load, double slope, double mass, double cos2)
+{
+    const double now = fl_world_time(w), laid = p->touching ? p->laid_load : 0.0;
+    const double omega2 = slope > 0.0 && mass < INFINITY ? slope / mass : 0.0;
+    p->laid_load = fl_damping_laid_load(laid, load, p->touching ? now - p->laid_time : 0.0, omega2);
+    p->laid_time = now;
+    return fl_damping_laid_share(laid, load) * fl_damping_bend_share(cos2);
 }
 
 /* A contact point in world axes. */
@@ -256,7 +283,7 @@ static world_point world_point_of(const fl_pair *p, const fl_patch_point *q, con
 
 /* The same for points that push along their normals; points of negative weight take nothing off. */
 static void bound_stiffness_of_points(const fl_world *w, fl_pair *p, const fl_patch_points *s,
-                                      const pressure *all, const fl_relative_pose *r)
+                                      const fl_patch_result *all, const fl_relative_pose *r)
 {
     fl_stiffness si = {0}, sj = {0};
     for (int32_t c = 0; c < s->n; c++) {
@@ -311,28 +338,43 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
     if (one || !fl_pair_has_reduced_mass(w, p)) ease = fl_pair_mobility_of(w, p);
     const double mass = less > 0.0 ? fl_pair_mass(w, p, &ease, way, turn_i, turn_j) / less : INFINITY;
     const double first_approach = approach_speed_of(b, p, a, &first);
-    double approach = first_approach;
-    for (int32_t c = 1; c < s->n; c++) {
-        const world_point t = world_point_of(p, &s->point[c], r);
-        if (s->point[c].du > 0.0) approach = fmax(approach, approach_speed_of(b, p, a, &t));
+    double approach = first_approach, mean = 0.0, laid = 0.0;
+    if (s->n > 1) {
+        double load = k * fabs(first.weight), stiff = k * s->point[0].du * fl_normal_slope(s->point[0].overlap, p->exponent);
+        mean = first.weight * first_approach;
+        for (int32_t c = 1; c < s->n; c++) {
+            const fl_patch_point *q = &s->point[c];
+            const world_point t = world_point_of(p, q, r);
+            const double comes = approach_speed_of(b, p, a, &t);
+            mean += t.weight * comes;
+            load += k * t.weight;
+            stiff += k * q->du * fl_normal_slope(q->overlap, p->exponent);
+            if (q->du > 0.0) approach = fmax(approach, comes);
+        }
+        mean /= sum;
+        laid = laid_share(w, p, load, stiff, mass, less);
+    } else if (is_on_facets(w, p)) {
+        laid_share(w, p, k * first.weight, k * fl_normal_slope(s->point[0].overlap, p->exponent), mass, 1.0);
     }
     const double chi = damping_factor(p, approach > 0.0 ? approach : 0.0, mass), push = k * first.weight,
                  more = one ? approach_correction(a, first_approach, push, chi * push,
                                                   fl_pair_compliance(&ease, way, turn_i, turn_j, 1.0))
                             : 0.0;
-    pressure all = {.at = first.aj, .walls = s->n > 1};
+    point_sum sums = {.result.centre = first.aj};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_patch_point *q = &s->point[c];
         const world_point t = c ? world_point_of(p, q, r) : first;
         const double elastic = k * t.weight, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
-                     comes = c ? approach_speed_of(b, p, a, &t) : first_approach,
+                     own = c ? approach_speed_of(b, p, a, &t) : first_approach,
+                     comes = laid > 0.0 ? own + laid * (mean - own) : own, /* all slide as one sphere */
                      normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes + more);
         add_wrench(&p->force, &p->torque_i, &p->torque_j, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping,
                    v3_scale(normal - elastic, t.n), t.ai, t.aj);
-        add_pressure(&all, elastic, normal, t.n, v3_sub(t.aj, first.aj));
-        all.slope += slope;
+        add_pressure(&sums, elastic, normal, t.n, v3_sub(t.aj, first.aj));
+        sums.result.slope += slope;
     }
+    const fl_patch_result all = result_of_points(&sums, s->n);
     contact_compliance at_contact = {.turn = 0.0};
     if (one && chi > 0.0 && p->law->friction > 0.0)
         at_contact.matrix = fl_pair_compliance_matrix(&ease, first.ai, first.aj);
@@ -376,9 +418,9 @@ static void stabilise_damping(fl_pair *p, double total_pressure, double chi, con
 
 /* Adds damping and friction to the elastic force of a patch.  q: sums over the points, to be multiplied by
  * scale, about the point at aj from B's centre; slope: dF/ds. */
-static pressure add_damping_and_friction(fl_world *w, fl_pair *p, const fl_force_sum *q, double scale,
-                                         double slope, double chi, const contact_compliance *at,
-                                         const fl_relative_pose *r, fl_vec3 aj, const prediction *a)
+static fl_patch_result add_damping_and_friction(fl_world *w, fl_pair *p, const fl_force_sum *q, double scale,
+                                                double slope, double chi, const contact_compliance *at,
+                                                const fl_relative_pose *r, fl_vec3 aj, const prediction *a)
 {
     const fl_mat3 *R = &r->R;
     add_scaled_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping, &q->damping, scale, R,
@@ -387,15 +429,34 @@ static pressure add_damping_and_friction(fl_world *w, fl_pair *p, const fl_force
     p->force = v3_add(p->force, p->force_damping);
     p->torque_i = v3_add(p->torque_i, p->torque_i_damping);
     p->torque_j = v3_add(p->torque_j, p->torque_j_damping);
-    const pressure all = {.normal = scale * q->damped_pressure,
-                          .elastic = scale * q->pressure,
-                          .direction = v3_scale(scale, m3_mul(*R, q->direction)),
-                          .at = aj,
-                          .moment = v3_scale(scale, m3_mul(*R, q->damped_moment)),
-                          .spread = scale * q->damped_spread,
-                          .slope = slope};
+    const fl_patch_result all = fl_patch_result_of(q, p->energy, scale, slope, R, aj);
     add_friction(w, p, &all, chi, at, r, a);
     return all;
+}
+
+/* Leaves the approach that sliding and rolling over faces of different normals give out of q and s, as far as
+ * the load was laid down before (law/damping.h).  elastic: the force; v, spin: arguments of
+ * fl_force_sum_motion().  -1 when memory runs out. */
+static int leave_out_sliding(const fl_world *w, fl_pair *p, fl_patch_points *s, fl_force_sum *q,
+                             const fl_exact_contact *exact, fl_vec3 elastic, const fl_relative_pose *r,
+                             const prediction *a, fl_vec3 v, fl_vec3 spin, double mass)
+{
+    const fl_bodies *b = &w->b;
+    const double load = exact->scale * q->pressure, f2 = v3_norm2(elastic), cos2 = f2 / (load * load),
+                 laid = laid_share(w, p, load, exact->slope, mass, cos2);
+    if (!(laid > 0.0 && q->pressure > 0.0)) return 0;
+    const fl_vec3 n = v3_unit(elastic),
+                  aj = m3_mul(r->R, v3_madd(s->point[0].p, 1.0 / q->pressure, q->pressure_moment)),
+                  core = end_velocity(b, p, a, v3_madd(v3_add(aj, r->off), p->radius_factor * b->radius[p->i], n),
+                                      v3_madd(aj, -p->radius_factor * b->radius[p->j], n)),
+                  slides = m3_tmul(r->R, v3_madd(core, -v3_dot(core, n), n));
+    double with, square;
+    fl_force_sum_sliding(s, slides, &with, &square);
+    if (!(with > 0.0 && square > FL_FLAT_CONTACT * q->pressure * v3_norm2(slides))) return 0;
+    const double share = laid * fmin(with / square, 1.0), approach = q->du_approach;
+    if (fl_force_sum_motion(s, v3_madd(v, -share, slides), spin, q)) return -1;
+    q->du_approach = approach;
+    return 0;
 }
 
 /* --- exact evaluation -------------------------------------------------------------------------- */
@@ -437,6 +498,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const fl_vec3 v = m3_tmul(R, end_velocity(b, p, a, ai, aj)), turn = m3_tmul(R, spin);
     if (fl_force_sum_motion(s, v, turn, &q)) return -1;
     const double chi = damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass);
+    if (is_on_facets(w, p) && leave_out_sliding(w, p, s, &q, &exact, elastic, r, a, v, turn, mass)) return -1;
     const double size = v3_norm(elastic),
                  more = fl_predictor_share(size, exact.scale * q.pressure) *
                         approach_correction(a, q.pressure_rate / q.pressure, size, chi * size, compliance);
@@ -448,7 +510,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     if (survey) add_patch_stiffness(w, p, &point_springs, R, ai, aj, exact.scale, q.u, &si, &sj);
     if (t && fl_surrogate_in_double_range(p->surrogate, t) && fabs(exact.slope - t->slope) < 0.5 * t->slope)
         fl_tangent_rescale(&p->springs, exact.slope / t->slope, exact.slope < p->surrogate->slope);
-    const pressure all =
+    const fl_patch_result all =
         add_damping_and_friction(w, p, &q, exact.scale, exact.slope, chi, &at_contact, r, aj, a);
     if (survey) bound_stiffness(w, p, &all, r, &si, &sj);
     if (has_surrogate) {
@@ -501,11 +563,12 @@ static int evaluate_elastic_wall(fl_world *w, fl_pair *p, const fl_relative_pose
                  approach = predicted + approach_correction(a, predicted, elastic, damping, compliance);
     double normal = elastic + damping * approach;
     if (normal < 0.0) normal = 0.0;
-    pressure all = {.slope = w->elastic_walls.stiffness * wet.waterplane_area, .at = aj};
+    point_sum sums = {.result = {.slope = w->elastic_walls.stiffness * wet.waterplane_area, .centre = aj}};
     add_wrench(&p->force, &p->torque_i, &p->torque_j, v3_scale(normal, n), ai, aj);
     add_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping, v3_scale(normal - elastic, n),
                ai, aj);
-    add_pressure(&all, elastic, normal, n, v3(0, 0, 0));
+    add_pressure(&sums, elastic, normal, n, v3(0, 0, 0));
+    const fl_patch_result all = result_of_points(&sums, 1);
     add_friction(w, p, &all, 0.0, &(contact_compliance){0}, r, a);
     if (add_rolling(w, p, &all, 0.0, a)) return -1;
     if (survey) { /* the section rotates with the body: take its farthest point */
@@ -558,14 +621,15 @@ static int evaluate_features(fl_world *w, fl_pair *p, int32_t thread, const fl_r
     double normal = elastic + fl_manual_damping(k, exponent, overlap, mass, law->zeta, law->alpha, approach);
     if (normal < 0.0) normal = 0.0;
     const double slope = k * fl_normal_slope(overlap, exponent);
-    pressure all = {.slope = slope, .at = aj};
+    point_sum sums = {.result = {.slope = slope, .centre = aj}};
     p->overlap = overlap;
     p->energy = k * fl_normal_phi(overlap, exponent);
     p->mode = c.mode;
     add_wrench(&p->force, &p->torque_i, &p->torque_j, v3_scale(normal, nw), ai, aj);
     add_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping, v3_scale(normal - elastic, nw),
                ai, aj);
-    add_pressure(&all, elastic, normal, nw, v3(0, 0, 0));
+    add_pressure(&sums, elastic, normal, nw, v3(0, 0, 0));
+    const fl_patch_result all = result_of_points(&sums, 1);
     add_friction(w, p, &all, 0.0, &(contact_compliance){0}, r, a);
     if (survey) bound_stiffness_of_point(w, p, &all, nw, r);
     p->energy += p->spring_energy;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include "base/array.h"
+#include "base/pi.h"
 #include "contact/pair_law.h"
 #include "law/damping.h"
 #include "law/material.h"
@@ -19,6 +20,23 @@ static int32_t column_of(const fl_world *w, int32_t material)
     return material >= 0 ? material : material == FL_SCENE_STRUCTURE ? w->materials : w->materials + 1;
 }
 
+/* Exponent of contacts of round cores. */
+static double round_exponent(const fl_world *w, const fl_scene_contact *t)
+{
+    const fl_scene_bond *b = &w->scene->bond;
+    const int bonded = w->has_points && b->head.present && b->on;
+    return t->round_law == FL_ROUND_LINEAR || (t->round_law == FL_ROUND_AUTO && bonded) ? 1.0 : 1.5;
+}
+
+/* E of a linear contact of materials a and b: that of the bonds, or of the materials. */
+static double round_young(const fl_world *w, int32_t a, int32_t b)
+{
+    const fl_scene *s = w->scene;
+    const double own = s->material[a].young, other = b >= 0 ? s->material[b].young : own;
+    return s->bond.head.present && s->bond.on && s->bond.young > 0.0 ? s->bond.young
+                                                                     : 2.0 / (1.0 / own + 1.0 / other);
+}
+
 int fl_pair_law_make_table(fl_world *w, fl_err *err)
 {
     const fl_scene *s = w->scene;
@@ -32,6 +50,9 @@ int fl_pair_law_make_table(fl_world *w, fl_err *err)
                               : c == w->materials ? FL_SCENE_STRUCTURE
                                                   : FL_SCENE_BOUNDARY;
             const fl_scene_contact t = fl_scene_pair(s, a, b);
+            if (t.round_law != fl_scene_pair(s, 0, 0).round_law)
+                return fl_scene_fail(s, "contact.round_law", err,
+                                     "one law of round contacts for all pairs is expected");
             const double given = t.damping;
             const double D = given >= 0.0 ? given : fl_damping_hunt_crossley(t.restitution);
             const double zeta = given >= 0.0 ? given : fl_damping_linear(t.restitution);
@@ -40,6 +61,8 @@ int fl_pair_law_make_table(fl_world *w, fl_err *err)
             w->law[a * (w->materials + 2) + c] = (fl_pair_law){
                 .law = row,
                 .exponent = t.exponent,
+                .round_exponent = round_exponent(w, &t),
+                .round_young = round_young(w, a, b),
                 .modulus = fl_material_modulus(elastic_of(s, a), elastic_of(s, b)),
                 .stiffness = t.stiffness,
                 .stiffness_factor = t.stiffness_factor,
@@ -82,6 +105,17 @@ static double patch_stiffness_of(const fl_world *w, int32_t i, int32_t j, double
     return 0.5 * fl_material_punch(modulus, 1.0);
 }
 
+/* Stiffness of a linear contact of a round core: that of a bond of the same two; the whole half bond on a
+ * thing that is not round. */
+static double round_stiffness(const fl_world *w, int32_t i, int32_t j)
+{
+    const double E = fl_pair_law_of(w, i, j)->round_young, ri = w->b.radius[i], rj = w->b.radius[j];
+    if (w->b.core[i].nv > 2) return E * PI * rj;
+    if (j >= w->n || w->b.core[j].nv > 2) return E * PI * ri;
+    const double r = ri < rj ? ri : rj;
+    return E * PI * r * r / (ri + rj);
+}
+
 fl_pair_spring fl_pair_stiffness(const fl_world *w, int32_t i, int32_t j)
 {
     const fl_bodies *b = &w->b;
@@ -94,12 +128,13 @@ fl_pair_spring fl_pair_stiffness(const fl_world *w, int32_t i, int32_t j)
                             ? w->max_face_area[j]
                             : w->max_face_area[i];
     fl_pair_spring s = {.points = round || nearest ? FL_POINTS_NEAREST : FL_POINTS_PATCH,
-                        .exponent = round     ? 1.5
+                        .exponent = round     ? law->round_exponent
                                     : nearest ? law->exponent
                                               : 0.0};
     const int patch = s.points == FL_POINTS_PATCH;
     if (law->stiffness > 0.0) s.k = patch ? patch_stiffness_of(w, i, j, area) : law->stiffness;
     else if (patch) s.k = 0.5 * law->stiffness_factor * fl_material_punch(law->modulus, 1.0);
+    else if (s.exponent == 1.0 && round) s.k = law->stiffness_factor * round_stiffness(w, i, j);
     else if (s.exponent == 1.0)
         s.k = law->stiffness_factor * fl_material_punch(law->modulus, area) / law->law->face_ratio;
     else

@@ -4,7 +4,8 @@
 #define FL_CONTACT_PAIR_LAW_H
 #include "world/world.h"
 
-/* Makes the table w->law of all pairs of materials in the scene.  -1 with FL_SYSTEM. */
+/* Makes the table w->law of all pairs of materials in the scene.  -1 with FL_SYSTEM, or FL_INPUT where
+ * contact.round_law is not the same for all pairs. */
 int fl_pair_law_make_table(fl_world *w, fl_err *err);
 
 /* The law of bodies i and j. */
@@ -18,7 +19,7 @@ typedef struct {
 } fl_pair_spring;
 
 /* Stiffness of one contact point between i and j.  A point of a round core, and in `core` of a segment, is
- * Hertz's with n = 3/2.  Between other cores the law decides: a patch, or n of the scene in `core`.  A
+ * Hertz's with n = 3/2, or linear by contact.round_law.  Between other cores the law decides: a patch, or n of the scene in `core`.  A
  * stiffness that the scene gives is kappa of a whole face, or of Hertz where one of the two is round; a
  * capsule in a patch gets the c that makes its end that stiff. */
 fl_pair_spring fl_pair_stiffness(const fl_world *w, int32_t i, int32_t j);

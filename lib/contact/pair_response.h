@@ -55,7 +55,7 @@ static inline fl_vec3 fl_pair_rotation_lag(const fl_bodies *b, const fl_pair *p,
 /* True if M is the reduced mass for every force. */
 static inline int fl_pair_has_reduced_mass(const fl_world *w, const fl_pair *p)
 {
-    return !w->b.added_mass && !fl_body_fixed_translations(&w->b, p->i) &&
+    return !w->b.added_mass && !w->b.heave_mass && !fl_body_fixed_translations(&w->b, p->i) &&
            !fl_body_fixed_translations(&w->b, p->j);
 }
 

@@ -11,8 +11,8 @@
 #include "law/damping.h"
 #include "patch/no_tension.h"
 
-/* Numbers of rows: force to torque_j_friction of fl_pair and one more; fl_friction_springs and two more. */
-enum { PREVIOUS = 28, SPRINGS = 8 };
+/* Numbers of rows: force to torque_j_friction of fl_pair and one more; fl_friction_springs and one more. */
+enum { PREVIOUS = 28, SPRINGS = 12 };
 
 /* State and results of the contacts of a batch.  World axes unless a comment says "frame of B". */
 typedef struct {
@@ -28,11 +28,13 @@ typedef struct {
     fl_lane turn[3]; /* rotation of the force since the exact evaluation, frame of B */
     /* damping; fd and md in the frame of B, for a force ratio of 1 */
     fl_lane chi, weight_y, growth, shift[3], fd[3], md[3];
-    fl_lane springs[SPRINGS]; /* fl_friction_springs; the last two are unused */
+    fl_lane laid, bend_share, core_a, core_b; /* load laid down before, if the normals differ; radii */
+    fl_lane springs[SPRINGS]; /* fl_friction_springs; the last one is unused */
     fl_lane compliance[6];
     /* input of friction */
-    fl_lane n[3], v[3], v_end[3], aj[3], k, g, limit, arm, spin_mean, spin, spin_end;
+    fl_lane n[3], v[3], v_end[3], aj[3], elongation[3], k, g, limit, spin_mean, spin, spin_end;
     fl_lane results[FL_PAIR_RESULTS]; /* of fl_pair, from force on */
+    int bends;                        /* some contact has normals that differ */
 } batch;
 
 #define OF(member) (b->s.s + FL_SURROGATE_ROW(member))
@@ -45,8 +47,9 @@ FL_SIMD4_VERSIONS static void load_rows(fl_lane *row, const double *const *of, i
 
 FL_SIMD_INLINE fl_friction_springs springs_of(const batch *b, int k)
 {
-    return (fl_friction_springs){fl_lane3(b->springs, k), b->springs[3].a[k], b->springs[4].a[k],
-                                 b->springs[5].a[k]};
+    const fl_lane *s = b->springs;
+    return (fl_friction_springs){fl_lane3(s, k),   s[3].a[k],          s[4].a[k],  s[5].a[k],
+                                 s[6].a[k], fl_lane3(s + 7, k), s[10].a[k]};
 }
 
 /* fl_previous_force_of() */
@@ -71,8 +74,20 @@ FL_SIMD_INLINE void set_compliance(fl_lane *a, int k, fl_sym3 K)
     a[3].a[k] = K.yy, a[4].a[k] = K.yz, a[5].a[k] = K.zz;
 }
 
+/* What find_damping_over_bends() needs besides. */
+static void load_bends(batch *b, const fl_world *w, fl_pair *const *p, int n)
+{
+    for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
+        const fl_pair *c = p[k < n ? k : 0];
+        b->bend_share.a[k] = c->surrogate->bend_share;
+        b->laid.a[k] = c->laid_load;
+        b->core_a.a[k] = w->b.radius[c->i], b->core_b.a[k] = w->b.radius[c->j];
+    }
+}
+
 static void load_batch(batch *b, const fl_world *w, fl_pair *const *p, int n, double dt)
 {
+    b->bends = 0;
     const fl_surrogate *s[FL_SURROGATE_BATCH];
     const double *qi[FL_SURROGATE_BATCH], *qj[FL_SURROGATE_BATCH], *had[FL_SURROGATE_BATCH],
         *slip[FL_SURROGATE_BATCH];
@@ -97,6 +112,7 @@ static void load_batch(batch *b, const fl_world *w, fl_pair *const *p, int n, do
         b->mass.a[k] = b->reduced.a[k] = c->mass, b->max_approach.a[k] = c->max_approach_speed;
         b->slow_factor.a[k] = c->law->slow_damping_factor, b->impact_damping.a[k] = c->law->impact_damping;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential_ratio;
+        b->bends |= c->surrogate->bend_share > 0.0 && c->laid_load > 0.0;
     }
     fl_surrogate_pack(&b->s, s, FL_SURROGATE_BATCH);
     load_rows(b->qi, qi, 4);
@@ -191,9 +207,29 @@ FL_SIMD_INLINE double row_times(const fl_lane *A, int k, int r, fl_vec3 v, fl_ve
 /* a after a small rotation. */
 FL_SIMD_INLINE fl_vec3 rotated(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(turn, a)); }
 
+/* The part of the sliding velocity that is not damped, leave_out_sliding() of pair_force.c, in the frame of the
+ * points.  v, w: motion of the first point; f: sum of e (n, t) (n, t)^T over it, forces only. */
+FL_SIMD_INLINE fl_vec3 undamped_sliding(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn, fl_vec3 f,
+                                        double load, double load_now)
+{
+    const fl_lane *A = OF(damping);
+    const fl_vec3 D = fl_lane3(OF(direction), k), centre = fl_lane3(OF(centre), k);
+    const double d2 = v3_norm2(D), each2 = d2 > 0.0 ? 1.0 / d2 : 0.0, each = sqrt(each2);
+    const fl_vec3 core = v3_add(v3_add(v, v3_cross(w, centre)), v3_scale(each, v3_cross(core_turn, D)));
+    const fl_vec3 slides = v3_madd(core, -each2 * v3_dot(core, D), D), none = v3(0, 0, 0);
+    const fl_vec3 N = v3(row_times(A, k, 0, slides, none), row_times(A, k, 1, slides, none),
+                         row_times(A, k, 2, slides, none));
+    const double with = v3_dot(f, slides), square = v3_dot(N, slides),
+                 ratio = with < square ? with / square : 1.0,
+                 laid = b->laid.a[k] < load_now ? b->laid.a[k] / load_now : 1.0;
+    const int does = b->laid.a[k] > 0.0 && with > 0.0 && square > FL_FLAT_CONTACT * load * v3_norm2(slides);
+    return v3_scale(does ? laid * b->bend_share.a[k] * ratio : 0.0, slides);
+}
+
 /* Motion of A against B, and damping for a force ratio of 1: -chi times the sums over e (n, t) (n, t)^T.  The
- * pressures are rotated as the force has been since the last exact evaluation. */
-FL_SIMD_VERSIONS static void find_damping(batch *restrict b, fl_predictor_step of)
+ * pressures are rotated as the force has been since the last exact evaluation.  bends: 0 leaves out what is 0
+ * where all normals of every lane are one. */
+FL_SIMD_INLINE void find_damping_of(batch *restrict b, fl_predictor_step of, int bends)
 {
     const fl_lane *A = OF(damping);
 #pragma omp simd
@@ -215,16 +251,30 @@ FL_SIMD_VERSIONS static void find_damping(batch *restrict b, fl_predictor_step o
         const fl_vec3 v =
             rotated(back, r3_tmul(R, v3_add(mean_velocity(b, k, aj), predicted_change(b, k, aj))));
         const fl_vec3 w = rotated(back, r3_tmul(R, v3_add(turns, more)));
-        const fl_vec3 f = v3(row_times(A, k, 0, v, w), row_times(A, k, 1, v, w), row_times(A, k, 2, v, w)),
-                      m = v3(row_times(A, k, 3, v, w), row_times(A, k, 4, v, w), row_times(A, k, 5, v, w));
+        fl_vec3 f = v3(row_times(A, k, 0, v, w), row_times(A, k, 1, v, w), row_times(A, k, 2, v, w)),
+                m = v3(row_times(A, k, 3, v, w), row_times(A, k, 4, v, w), row_times(A, k, 5, v, w));
         const double each = 1.0 / OF(pressure)->a[k], closing = -each * (v3_dot(D, v) + v3_dot(T, w));
         /* approach speed for damping: the mean over the approaching points, with evenly distributed speeds */
-        const double c2 = each * (v3_dot(f, v) + v3_dot(m, w)), variance = c2 - closing * closing,
-                     wide = sqrt(3.0 * (variance > 0.0 ? variance : 0.0)),
+        const double c2 = each * (v3_dot(f, v) + v3_dot(m, w));
+        double variance = c2 - closing * closing;
+        const double wide = sqrt(3.0 * (variance > 0.0 ? variance : 0.0)),
                      mean = mean_approach(closing, wide),
                      touch = mean > b->max_approach.a[k] ? mean : b->max_approach.a[k];
         const double chi = fl_damping_chi(b->impact_damping.a[k], b->slow_factor.a[k], touch,
                                           b->s.energy.a[k], b->mass.a[k]);
+        if (bends) {
+            const fl_vec3 core_turn = rotated(
+                back, r3_tmul(R, v3_add(v3_scale(b->core_a.a[k], v3_add(fl_lane3(b->wi, k), fl_lane3(b->dwi, k))),
+                                        v3_scale(b->core_b.a[k], v3_add(fl_lane3(b->wj, k), fl_lane3(b->dwj, k))))));
+            const fl_vec3 less = undamped_sliding(b, k, v, w, core_turn, f, OF(pressure)->a[k],
+                                                  b->s.force_ratio.a[k] * OF(pressure)->a[k]),
+                          u = v3_sub(v, less), none = v3(0, 0, 0);
+            f = v3_sub(f, v3(row_times(A, k, 0, less, none), row_times(A, k, 1, less, none),
+                             row_times(A, k, 2, less, none)));
+            m = v3_sub(m, v3(row_times(A, k, 3, less, none), row_times(A, k, 4, less, none),
+                             row_times(A, k, 5, less, none)));
+            variance = each * (v3_dot(f, u) + v3_dot(m, w)) - closing * closing;
+        }
         /* the change by the contact itself */
         const fl_previous_force before = previous_of(b, k);
         const double size = v3_norm(force), pressure = b->s.force_ratio.a[k] * OF(pressure)->a[k],
@@ -247,6 +297,16 @@ FL_SIMD_VERSIONS static void find_damping(batch *restrict b, fl_predictor_step o
         fl_lane3_set(b->md, k,
                      rotated(turn, v3_madd(v3_scale(unmoved, T), factor, v3_madd(m, -correction, T))));
     }
+}
+
+FL_SIMD_VERSIONS static void find_damping(batch *restrict b, fl_predictor_step of)
+{
+    find_damping_of(b, of, 0);
+}
+
+FL_SIMD_VERSIONS static void find_damping_over_bends(batch *restrict b, fl_predictor_step of)
+{
+    find_damping_of(b, of, 1);
 }
 
 /* The force of W with damping, and the input of friction. */
@@ -303,7 +363,7 @@ FL_SIMD_VERSIONS static void find_normal_forces(batch *restrict b)
         b->k.a[k] = springs * b->s.slope.a[k];
         b->g.a[k] = springs * b->chi.a[k] * (share * OF(pressure)->a[k]);
         b->limit.a[k] = mu * (share * size);
-        b->arm.a[k] = OF(radius)->a[k];
+        fl_lane3_set(b->elongation, k, r3_mul(R, rotated(turn, fl_lane3(OF(elongation), k))));
         b->spin.a[k] = wi - wj;
         b->spin_end.a[k] = wi - wj + more;
         b->spin_mean.a[k] = 0.5 * (wi + wj);
@@ -321,30 +381,32 @@ FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step 
             .k = b->k.a[k],
             .g = b->g.a[k],
             .limit = b->limit.a[k],
-            .arm = b->arm.a[k],
+            .arm = OF(arm)->a[k],
+            .elongation = fl_lane3(b->elongation, k),
             .compliance = compliance_of(b->compliance, k),
             .turn_compliance = OF(turn_compliance)->a[k],
             .contact_count = b->count.a[k],
         };
         const fl_vec3 aj = fl_lane3(b->aj, k), ai = v3_add(aj, fl_lane3(b->off, k));
         const fl_friction_springs was = springs_of(b, k);
-        const fl_previous_force before = previous_of(b, k);
         const fl_friction_motion by = {fl_lane3(b->v, k),
                                        fl_lane3(b->v_end, k),
                                        b->spin.a[k],
                                        b->spin_end.a[k],
                                        b->spin_mean.a[k],
-                                       before.friction_damping,
-                                       fl_previous_damping_moment(before, c.n, ai, aj),
+                                       was.damping,
+                                       was.damping_moment,
                                        of.half_step,
                                        of.at_start};
         const fl_friction_result to = fl_tangent_step(was, c, by, of.dt);
         const fl_vec3 t = to.force, si = v3_madd(v3_cross(ai, t), to.moment, c.n),
                       sj = v3_neg(v3_madd(v3_cross(aj, t), to.moment, c.n));
-        const double spring = fl_tangent_energy(to.springs), slope = surveyed * b->s.slope.a[k];
+        const double spring = to.springs.energy, slope = surveyed * b->s.slope.a[k];
         fl_lane3_set(b->springs, k, to.springs.force);
         b->springs[3].a[k] = to.springs.k, b->springs[4].a[k] = to.springs.moment,
-        b->springs[5].a[k] = to.springs.k_turn;
+        b->springs[5].a[k] = to.springs.k_turn, b->springs[6].a[k] = spring;
+        fl_lane3_set(b->springs + 7, k, to.springs.damping);
+        b->springs[10].a[k] = to.springs.damping_moment;
         fl_lane3_set(TO(force_friction), k, t);
         fl_lane3_set(TO(torque_i_friction), k, si);
         fl_lane3_set(TO(torque_j_friction), k, sj);
@@ -361,7 +423,7 @@ FL_SIMD_VERSIONS static void find_friction(batch *restrict b, fl_predictor_step 
 
 /* --- contact by contact ------------------------------------------------------------------------- */
 
-static_assert(offsetof(fl_friction_springs, k_turn) == 5 * sizeof(double), "six in a row");
+static_assert(offsetof(fl_friction_springs, damping_moment) == 10 * sizeof(double), "eleven in a row");
 
 /* Stores the results in the pairs that are done. */
 FL_SIMD4_VERSIONS static void store_results(const batch *restrict b, fl_pair *const *p, const uint8_t *done,
@@ -377,8 +439,11 @@ FL_SIMD4_VERSIONS static void store_results(const batch *restrict b, fl_pair *co
             slip[l] = c ? (double *)(void *)&c->springs : nowhere;
             end[l] = last[l];
         }
-        fl_lanes_store(slip, b->springs, k);
-        fl_lanes_store(end, b->springs + FL_SIMD_WIDTH, k);
+        for (int row = 0; row < SPRINGS - FL_SIMD_WIDTH; row += FL_SIMD_WIDTH) {
+            double *const at[FL_SIMD_WIDTH] = {slip[0] + row, slip[1] + row, slip[2] + row, slip[3] + row};
+            fl_lanes_store(at, b->springs + row, k);
+        }
+        fl_lanes_store(end, b->springs + SPRINGS - FL_SIMD_WIDTH, k);
         for (int row = 0; row < FL_PAIR_RESULTS; row += FL_SIMD_WIDTH) {
             double *const at[FL_SIMD_WIDTH] = {to[0] + row, to[1] + row, to[2] + row, to[3] + row};
             fl_lanes_store(at, b->results + row, k);
@@ -386,7 +451,8 @@ FL_SIMD4_VERSIONS static void store_results(const batch *restrict b, fl_pair *co
         for (int l = 0; l < FL_SIMD_WIDTH && k + l < n; l++) {
             fl_pair *const c = p[k + l];
             if (!done[k + l]) continue;
-            c->springs.moment = last[l][0], c->springs.k_turn = last[l][1];
+            c->springs.damping.y = last[l][0], c->springs.damping.z = last[l][1],
+            c->springs.damping_moment = last[l][2];
             c->surrogate->used = 1;
             c->max_approach_speed = b->max_approach.a[k + l];
         }
@@ -403,7 +469,12 @@ void fl_surrogate_batch_evaluate(const fl_world *w, fl_pair *const *p, int n, do
     find_poses(&b);
     fl_surrogate_evaluate(&b.s);
     find_masses(&b, w, p, n);
-    find_damping(&b, of);
+    if (b.bends) {
+        load_bends(&b, w, p, n);
+        find_damping_over_bends(&b, of);
+    } else {
+        find_damping(&b, of);
+    }
     for (int k = 0; k < n; k++) {
         done[k] = fl_surrogate_in_range(p[k]->surrogate, b.s.path.a[k], b.s.turn.a[k], b.s.z.a[k], 1.0) &&
                   b.s.force_ratio.a[k] > 0.0;

@@ -39,9 +39,8 @@ FL_SIMD_INLINE fl_wrench fl_wrench_about_middle(fl_vec3 f, fl_vec3 ti, fl_vec3 t
 /* Forces of the contact in the step before, about the midpoint, world axes; 0 if it did not touch. */
 typedef struct {
     fl_wrench elastic, damping; /* normal forces */
-    fl_wrench friction;
-    fl_vec3 friction_damping; /* friction without its spring [N]   */
-    double spring_moment;     /* of the friction spring      [N m] */
+    fl_vec3 friction_damping;       /* friction without its spring [N] */
+    double friction_damping_moment; /* and its moment about the normal [N m] */
 } fl_previous_force;
 
 /* From the total, damping and friction of fl_pair, about the midpoint. */
@@ -51,9 +50,8 @@ FL_SIMD_INLINE fl_previous_force fl_previous_force_from(fl_wrench total, fl_wren
     return (fl_previous_force){.elastic =
                                    fl_wrench_madd(fl_wrench_madd(total, -1.0, damping), -1.0, friction),
                                .damping = damping,
-                               .friction = friction,
-                               .friction_damping = v3_sub(friction.f, springs.force),
-                               .spring_moment = springs.moment};
+                               .friction_damping = springs.damping,
+                               .friction_damping_moment = springs.damping_moment};
 }
 
 static inline fl_previous_force fl_previous_force_of(const fl_pair *p)
@@ -122,13 +120,6 @@ FL_SIMD_INLINE fl_wrench fl_stabilised_damping(fl_wrench elastic, fl_wrench damp
     return fl_wrench_madd(damping, part, fl_wrench_madd(change, -along, elastic));
 }
 
-/* Moment about n of the previous friction without its spring, for a contact at the arms ai and aj [N m]. */
-FL_SIMD_INLINE double fl_previous_damping_moment(fl_previous_force before, fl_vec3 n, fl_vec3 ai, fl_vec3 aj)
-{
-    const fl_vec3 arm = v3_scale(0.5, v3_add(ai, aj));
-    return v3_dot(n, v3_sub(before.friction.m, v3_cross(arm, before.friction.f))) - before.spring_moment;
-}
-
 /* Number of contacts of body or piece k in the step before: n pair contacts and its sphere contacts
  * (world/sphere_contacts.h), which count once each. */
 static inline int32_t fl_previous_contact_count(const fl_world *w, int32_t k, int32_t n)
@@ -142,6 +133,7 @@ static inline double fl_predictor_inverse_mass(const fl_world *w, int32_t k, dou
 {
     if (k < w->n) return fl_body_inverse_mass(&w->b, k);
     if (!fl_piece_is_free(w, k)) return 0.0;
+    if (fl_structure_has_members(w)) return w->b.invm[k];
     const double mass = w->moving.movers.motion[w->moving.mover_of_piece[k - w->n]].mass;
     return mass > 0.0 ? 1.0 / mass : y;
 }

@@ -20,6 +20,12 @@ FL_SIMD_INLINE fl_sym3 s3_add(fl_sym3 a, fl_sym3 b)
     return (fl_sym3){a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
 }
 
+/* s a */
+FL_SIMD_INLINE fl_sym3 s3_times(double s, fl_sym3 a)
+{
+    return (fl_sym3){s * a.xx, s * a.xy, s * a.xz, s * a.yy, s * a.yz, s * a.zz};
+}
+
 /* d times the unit matrix. */
 FL_SIMD_INLINE fl_sym3 s3_isotropic(double d) { return (fl_sym3){.xx = d, .yy = d, .zz = d}; }
 

@@ -42,6 +42,46 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
     return speed > 0.0 ? D / speed : 0.0;
 }
 
+/* --- a load that has been laid down ---------------------------------------------------------------------
+ *
+ * A body that rolls or slides over a corner of a surface hands its load from one face to the next: while the
+ * points of one approach, those of the other part, and the load as a whole does not change.  Damped point by
+ * point that costs far more than the corner itself, m (v dphi)^2/2, as the load is laid down once more at
+ * every corner.  So of the approach speeds c of the points
+ *
+ *     c' = c - lambda beta s,     s = -n.v_t,     beta = sum e s c / sum e s^2,   0 <= beta <= 1,
+ *
+ * is damped, with n the normal and e the pressure of a point, v_t the speed across the mean normal of the
+ * points of the cores that touch.  s is the approach that sliding and rolling alone give to points of
+ * different normals.  What is damped stays a dissipation, sum e c' c >= (sum e c)^2/sum e.  Normal approach and
+ * rocking of a face are damped in full.
+ *
+ * lambda is the share of the load that was there before, laid/F, with `laid` the load F behind a low pass of
+ * FL_LAID_PERIODS/omega: 1 for a load that rests, 0 in an impact, whose restitution stays.  It falls to 0 where
+ * the normals spread as in a groove of 60 degrees, in which a sphere swings. */
+#define FL_LAID_PERIODS 10.0
+#define FL_FLAT_CONTACT 1e-10 /* 1 - cos2 of normals that are one */
+
+/* lambda, but for the normals. */
+static inline double fl_damping_laid_share(double laid, double load)
+{
+    return laid < load ? laid / load : load > 0.0 ? 1.0 : 0.0;
+}
+
+/* `laid` after dt [s] under the load; omega2: stiffness over mass [1/s2]. */
+static inline double fl_damping_laid_load(double laid, double load, double dt, double omega2)
+{
+    const double x = dt * sqrt(omega2) * (1.0 / FL_LAID_PERIODS);
+    return laid + (load - laid) * (x / (1.0 + x));
+}
+
+/* Factor of lambda: 1 where all normals are one, 0 from 30 degrees off their mean on.  cos2: |sum e n|^2 over
+ * (sum e)^2. */
+static inline double fl_damping_bend_share(double cos2)
+{
+    return cos2 >= 1.0 ? 1.0 : cos2 > 0.75 ? 4.0 * cos2 - 3.0 : 0.0;
+}
+
 /* Share of the largest step 2/omega that Hunt and Crossley leave when damping uses fl_damping_end_speed(): at
  * the start of an impact the stiffness is 1 + D times that of the springs. */
 static inline double fl_damping_impact_share(double D) { return 1.0 / sqrt(1.0 + D); }

@@ -14,17 +14,18 @@ static int32_t padded_count(int32_t m) { return (m + REGISTER - 1) / REGISTER * 
 
 FL_SIMD_VERSIONS static void find_geometry(fl_sphere_batch *restrict b, int32_t m)
 {
+    const int linear = b->exponent == 1.0;
     SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const double x = b->d[0][c], y = b->d[1][c], z = b->d[2][c];
         const double d = sqrt(x * x + y * y + z * z), inverse = d > 0.0 ? 1.0 / d : 0.0;
-        const double s = b->ri[c] + b->rj[c] - d, root = sqrt(s > 0.0 ? s : 0.0);
+        const double s = b->ri[c] + b->rj[c] - d, root = linear ? (s > 0.0 ? 1.0 : 0.0) : sqrt(s > 0.0 ? s : 0.0);
         b->n[0][c] = inverse * x;
         b->n[1][c] = inverse * y;
         b->n[2][c] = d > 0.0 ? inverse * z : 1.0;
         b->overlap[c] = s;
         b->elastic[c] = b->k[c] * (s * root);
-        b->slope[c] = b->k[c] * (1.5 * root);
+        b->slope[c] = b->k[c] * ((linear ? 1.0 : 1.5) * root);
     }
 }
 
@@ -40,19 +41,21 @@ FL_SIMD_INLINE fl_vec3 tangential_velocity(fl_vec3 u, fl_vec3 turn, fl_vec3 n)
 FL_SIMD_VERSIONS static void find_normal_forces(fl_sphere_batch *restrict b, int32_t m, double dt, double h,
                                                 double at_start)
 {
+    const int linear = b->exponent == 1.0;
+    const double part = linear ? 0.5 : 0.4; /* of s F_e, the stored energy */
     SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
         const fl_vec3 n = VECTOR(n), u = VECTOR(u);
         const double s = b->overlap[c], elastic = b->elastic[c], last = b->max_approach_speed[c];
         const double approach = -v3_dot(n, u), closing = approach - v3_dot(n, VECTOR(du));
         const double now = closing > last ? closing : last, touch = now > 0.0 ? now : 0.0;
-        const double stored2 = 2.0 * (0.4 * s * elastic) * b->slow_inv_mass[c], touch2 = touch * touch;
+        const double stored2 = 2.0 * (part * s * elastic) * b->slow_inv_mass[c], touch2 = touch * touch;
         const double speed = sqrt(stored2 > touch2 ? stored2 : touch2);
         const double chi = speed > 0.0 ? b->impact_damping[c] / speed : 0.0;
         const double from = s - dt * approach, previous = from > 0.0 ? from : 0.0;
         const double end_speed = fl_damping_end_speed(
             closing, chi * elastic, h * b->inv_mass[c], b->contact_count[c],
-            elastic - b->k[c] * (previous * sqrt(previous)), b->normal_damping[c], at_start);
+            elastic - b->k[c] * (previous * (linear ? 1.0 : sqrt(previous))), b->normal_damping[c], at_start);
         const double damping = elastic * (chi * end_speed);
         b->max_approach_speed[c] = touch;
         b->damping_factor[c] = chi;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sphere_batch.h -- contacts of two spheres, evaluated many at a time: Hertz with the damping of Hunt and
+/* sphere_batch.h -- contacts of two spheres, evaluated many at a time: Hertz or linear with the damping of Hunt and
  * Crossley along the normal (normal.h), and a friction spring for a contact that is a point (tangent.h).
  *
  *     D = x_i - x_j,  n = D/|D|,  overlap s = r_i + r_j - |D| > 0,
  *     arms a_i = r_i - s/2, a_j = r_j - s/2 from the centres to the middle of the overlap,
- *     F_e = k s^(3/2),  W = 2/5 k s^(5/2),  chi = D_0 / max(v_touch, c sqrt(2 W / M)),
+ *     F_e = k s^n, n = 3/2 or 1,  W = k s^(n+1)/(n+1),  chi = D_0 / max(v_touch, c sqrt(2 W / M)),
  *     F_n = F_e (1 + chi d) >= 0,  d the approach speed,
  *     v_t = (v_i - v_j) - (a_i w_i + a_j w_j) x n,
- *     k_t = c_t 3/2 k sqrt(s),  g = c_t chi F_e,  F_t by tangent.h with the spin 1/2 n.(w_i + w_j);
+ *     k_t = c_t dF_e/ds,  g = c_t chi F_e,  F_t by tangent.h with the spin 1/2 n.(w_i + w_j);
  *     force on i F_n n + F_t, torques -a_i n x F_t and -a_j n x F_t.
  *
  * Damping uses the speeds at the end of the step: d by fl_damping_end_speed(), friction as
@@ -27,6 +27,7 @@ enum { FL_SPHERE_BATCH = 24 };
 /* One array for each quantity; vectors are x, y, z. */
 typedef struct {
     /* in */
+    double exponent; /* n of F_e = k s^n: 3/2, or 1 */
     alignas(64) double d[3][FL_SPHERE_BATCH]; /* D                             [m]     */
     double u[3][FL_SPHERE_BATCH];             /* v_i - v_j                                [m/s]   */
     double wi[3][FL_SPHERE_BATCH];            /* angular velocities                       [rad/s] */
@@ -53,7 +54,7 @@ typedef struct {
     /* out */
     double n[3][FL_SPHERE_BATCH];             /* n; (0, 0, 1) where the centres coincide          */
     double overlap[FL_SPHERE_BATCH];          /* s                                        [m]     */
-    double slope[FL_SPHERE_BATCH];            /* 3/2 k sqrt(s)                            [N/m]   */
+    double slope[FL_SPHERE_BATCH];            /* dF_e/ds                                  [N/m]   */
     double elastic[FL_SPHERE_BATCH];          /* F_e                                      [N]     */
     double damping_factor[FL_SPHERE_BATCH];   /* chi                                      [s/m]   */
     double elastic_force[3][FL_SPHERE_BATCH]; /* F_e n                                    [N]     */

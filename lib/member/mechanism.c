@@ -2,30 +2,26 @@
 #include "member/mechanism.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "base/array.h"
+#include "member/profile_matrix.h"
 
 /* Pivot of a motion without stiffness, over its diagonal element; size of a displacement of its mode, over
  * the largest one. */
 static const double PIVOT = 1e-9, MOVED = 1e-4;
 
 typedef struct {
+    fl_profile k;
     int32_t n;       /* unknowns */
     int32_t *number; /* [6 nodes], -1 where held or without stiffness */
     int32_t *dof;    /* [n] 6 node + freedom */
-    int64_t *start;  /* [n + 1] of row i in k */
-    int32_t *low;    /* [n] first column of row i */
-    double *k, *diagonal, *mode;
+    double *mode;
 } profile;
 
 static void free_profile(profile *p)
 {
+    fl_profile_free(&p->k);
     free(p->number);
     free(p->dof);
-    free(p->start);
-    free(p->low);
-    free(p->k);
-    free(p->diagonal);
     free(p->mode);
 }
 
@@ -52,40 +48,30 @@ static int number_freedoms(profile *p, const fl_member_model *m, fl_err *err)
     return err->code ? -1 : 0;
 }
 
+static void unknowns_of(const profile *p, const fl_member *b, int32_t which[12])
+{
+    for (int d = 0; d < 12; d++) which[d] = p->number[6 * b->end[d / 6] + d % 6];
+}
+
 /* 1 where the profile is too large to be tested. */
 static int make_profile(profile *p, const fl_member_model *m, fl_err *err)
 {
-    p->low = fl_alloc(p->n, sizeof *p->low, err);
-    p->start = fl_alloc((int64_t)p->n + 1, sizeof *p->start, err);
-    if (err->code) return -1;
-    for (int32_t i = 0; i < p->n; i++) p->low[i] = i;
+    if (fl_profile_begin(&p->k, p->n, err)) return -1;
     for (int32_t k = 0; k < m->member_name.n; k++) {
-        int32_t least = p->n;
-        for (int d = 0; d < 12; d++) {
-            const int32_t i = p->number[6 * m->member[k].end[d / 6] + d % 6];
-            if (i >= 0 && i < least) least = i;
-        }
-        for (int d = 0; d < 12; d++) {
-            const int32_t i = p->number[6 * m->member[k].end[d / 6] + d % 6];
-            if (i >= 0 && least < p->low[i]) p->low[i] = least;
-        }
+        int32_t which[12];
+        unknowns_of(p, &m->member[k], which);
+        fl_profile_join(&p->k, 12, which);
     }
-    for (int32_t i = 0; i < p->n; i++) p->start[i + 1] = p->start[i] + i - p->low[i] + 1;
-    if (p->start[p->n] > FL_MECHANISM_MOST) return 1;
-    p->k = fl_alloc(p->start[p->n], sizeof *p->k, err);
-    p->diagonal = fl_alloc(p->n, sizeof *p->diagonal, err);
     p->mode = fl_alloc(p->n, sizeof *p->mode, err);
-    return err->code ? -1 : 0;
+    return p->mode ? fl_profile_allocate(&p->k, FL_MECHANISM_MOST, err) : -1;
 }
 
 /* Adds stiff (g.u)2/2 for a linear form g over the 12 freedoms of a member. */
 static void add_form(profile *p, const fl_member *b, const double g[12], double stiff)
 {
-    for (int r = 0; r < 12; r++)
-        for (int c = 0; c < 12; c++) {
-            const int32_t i = p->number[6 * b->end[r / 6] + r % 6], j = p->number[6 * b->end[c / 6] + c % 6];
-            if (i >= 0 && j >= 0 && j <= i) p->k[p->start[i] + j - p->low[i]] += stiff * g[r] * g[c];
-        }
+    int32_t which[12];
+    unknowns_of(p, b, which);
+    fl_profile_add_form(&p->k, 12, which, g, stiff);
 }
 
 static void put_vector(double *g, double s, fl_vec3 a)
@@ -145,25 +131,23 @@ static int add_members(profile *p, const fl_member_model *m, fl_err *err)
     return 0;
 }
 
-static double *row_of(const profile *p, int32_t i) { return p->k + p->start[i] - p->low[i]; }
-
 /* Motion that pivot i leaves without resistance: L11^T x = -row i of L, x_i = 1.  The freedom that moves a
  * node most, -1 where it only turns nodes. */
 static int32_t find_motion(profile *p, int32_t i)
 {
-    const double *at = row_of(p, i);
+    const double *at = fl_profile_row(&p->k, i);
     double most = 0.0, moved = 0.0;
     int32_t which = -1;
-    for (int32_t j = 0; j < i; j++) p->mode[j] = j >= p->low[i] ? -at[j] : 0.0;
+    for (int32_t j = 0; j < i; j++) p->mode[j] = j >= p->k.low[i] ? -at[j] : 0.0;
     for (int32_t j = i - 1; j >= 0; j--) {
-        const double *l = row_of(p, j);
-        for (int32_t c = p->low[j]; c < j; c++) p->mode[c] -= l[c] * p->mode[j];
+        const double *l = fl_profile_row(&p->k, j);
+        for (int32_t c = p->k.low[j]; c < j; c++) p->mode[c] -= l[c] * p->mode[j];
     }
     p->mode[i] = 1.0;
-    if (p->diagonal[i] == 0.0) return p->dof[i] % 6 < 3 ? p->dof[i] : -1;
+    if (p->k.diagonal[i] == 0.0) return p->dof[i] % 6 < 3 ? p->dof[i] : -1;
     for (int32_t j = 0; j <= i; j++) {
         /* Times the root of the diagonal element, so that lengths and angles compare. */
-        const double size = fabs(p->mode[j]) * sqrt(p->diagonal[j]);
+        const double size = fabs(p->mode[j]) * sqrt(p->k.diagonal[j]);
         if (size > most) most = size;
         if (p->dof[j] % 6 < 3 && size > moved) {
             moved = size;
@@ -173,33 +157,17 @@ static int32_t find_motion(profile *p, int32_t i)
     return moved > MOVED * most ? which : -1;
 }
 
-/* L D L^T in place, row by row: below the diagonal L, on it D. */
-static int factor(profile *p, const fl_member_model *m, fl_err *err)
+static int factor_rows(profile *p, const fl_member_model *m, fl_err *err)
 {
     static const char *const axis[] = {"x", "y", "z"};
     for (int32_t i = 0; i < p->n; i++) {
-        double *a = row_of(p, i);
-        p->diagonal[i] = a[i];
-        for (int32_t j = p->low[i]; j < i; j++) { /* a[j] becomes L_ij D_j */
-            const double *l = row_of(p, j);
-            double sum = a[j];
-            for (int32_t c = p->low[i] > p->low[j] ? p->low[i] : p->low[j]; c < j; c++) sum -= a[c] * l[c];
-            a[j] = sum;
-        }
-        double pivot = a[i];
-        for (int32_t j = p->low[i]; j < i; j++) {
-            const double scaled = a[j] / row_of(p, j)[j];
-            pivot -= a[j] * scaled;
-            a[j] = scaled;
-        }
-        a[i] = pivot;
-        if (pivot > PIVOT * p->diagonal[i]) continue;
+        if (fl_profile_factor_row(&p->k, i, PIVOT)) continue;
         const int32_t d = find_motion(p, i);
         if (d >= 0)
             return fl_fail(err, FL_INPUT,
                            "%s:%lld: the structure is a mechanism: node %s moves along %s without resistance",
                            m->file, (long long)m->node[d / 6].line, m->node_name.name[d / 6], axis[d % 6]);
-        a[i] = p->diagonal[i] > 0.0 ? p->diagonal[i] : 1.0; /* a spin: held */
+        fl_profile_hold(&p->k, i); /* a spin */
     }
     return 0;
 }
@@ -209,7 +177,7 @@ int fl_member_check_mechanism(const fl_member_model *m, fl_err *err)
     profile p = {0};
     int rc = number_freedoms(&p, m, err);
     if (rc == 0) rc = make_profile(&p, m, err);
-    if (rc == 0) rc = add_members(&p, m, err) ? -1 : factor(&p, m, err);
+    if (rc == 0) rc = add_members(&p, m, err) ? -1 : factor_rows(&p, m, err);
     free_profile(&p);
     return rc < 0 ? -1 : 0;
 }

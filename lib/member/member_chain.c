@@ -161,12 +161,6 @@ void fl_member_chain_masses(fl_member_chain *c, double margin)
     }
 }
 
-/* The parts of a vector along freedoms that are free; bits: x y z in the lowest three. */
-static inline fl_vec3 free_part(fl_vec3 a, int bits)
-{
-    return bits == 0 ? a : v3(bits & 1 ? 0.0 : a.x, bits & 2 ? 0.0 : a.y, bits & 4 ? 0.0 : a.z);
-}
-
 static void sum_scales(fl_member_chain *c)
 {
     double length = 0.0, load2 = 0.0;
@@ -174,8 +168,8 @@ static void sum_scales(fl_member_chain *c)
     c->length = length / c->contacts;
     for (int32_t k = 0; k < c->loads; k++) {
         fl_member_load *p = &c->load[k];
-        p->force = free_part(p->force, c->ball[p->ball].fixed & FL_MEMBER_TRANSLATIONS);
-        p->moment = free_part(p->moment, c->ball[p->ball].fixed >> 3);
+        p->force = fl_member_free_part(p->force, c->ball[p->ball].fixed & FL_MEMBER_TRANSLATIONS);
+        p->moment = fl_member_free_part(p->moment, c->ball[p->ball].fixed >> 3);
         load2 += v3_norm2(p->force) + v3_norm2(p->moment) / (c->length * c->length);
     }
     c->load_norm = sqrt(load2);
@@ -329,8 +323,8 @@ static inline fl_member_resist unbalanced(const fl_member_chain *c, int32_t b, d
         m = v3_madd(m, lambda, c->load[a->load].moment);
     }
     if (a->fixed) {
-        f = free_part(f, a->fixed & FL_MEMBER_TRANSLATIONS);
-        m = free_part(m, a->fixed >> 3);
+        f = fl_member_free_part(f, a->fixed & FL_MEMBER_TRANSLATIONS);
+        m = fl_member_free_part(m, a->fixed >> 3);
     }
     if (a->over_m == 0.0) f = v3(0, 0, 0);
     if (a->over_i == 0.0) m = v3(0, 0, 0);
@@ -375,21 +369,13 @@ fl_member_state fl_member_chain_state(const fl_member_chain *c, double lambda)
 
 /* --- a step ------------------------------------------------------------------------------------ */
 
-/* q <- exp(dt w) q.  What rounding adds to its length is taken away to first order. */
-static inline void turn_ball(fl_member_ball *a, double dt)
-{
-    const fl_quat q = q_mul(q_of_vector(v3_scale(dt, a->w)), a->q);
-    const double k = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    a->q = (fl_quat){k * q.w, k * q.x, k * q.y, k * q.z};
-}
-
 /* Free translations are those of balls with over_m > 0 along freedoms that are not held. */
 static inline fl_vec3 counted(const fl_member_chain *c, int32_t b, const fl_vec3 *from)
 {
     const fl_member_ball *a = &c->ball[b];
     if (a->over_m == 0.0) return v3(0, 0, 0);
     const fl_vec3 d = from ? v3_sub(a->d, from[b]) : a->d;
-    return a->fixed ? free_part(d, a->fixed & FL_MEMBER_TRANSLATIONS) : d;
+    return a->fixed ? fl_member_free_part(d, a->fixed & FL_MEMBER_TRANSLATIONS) : d;
 }
 
 static void free_group(fl_member_chain *c, int32_t begin, int32_t end, double c1, double c2,
@@ -401,7 +387,7 @@ static void free_group(fl_member_chain *c, int32_t begin, int32_t end, double c1
         fl_member_ball *a = &c->ball[b];
         if (a->over_m > 0.0) {
             fl_vec3 f = c->resist[b].f;
-            if (a->fixed) f = free_part(f, a->fixed & FL_MEMBER_TRANSLATIONS);
+            if (a->fixed) f = fl_member_free_part(f, a->fixed & FL_MEMBER_TRANSLATIONS);
             a->v = v3_madd(v3_scale(c1, a->v), -c2 * dt * a->over_m, f);
             aa += v3_norm2(v3_madd(counted(c, b, from), dt, a->v));
             if (a->load < 0) {
@@ -411,10 +397,10 @@ static void free_group(fl_member_chain *c, int32_t begin, int32_t end, double c1
         }
         if (a->over_i > 0.0) {
             fl_vec3 m = c->resist[b].m;
-            if (a->fixed) m = free_part(m, a->fixed >> 3);
+            if (a->fixed) m = fl_member_free_part(m, a->fixed >> 3);
             a->w = v3_madd(v3_scale(c1, a->w), -c2 * dt * a->over_i, m);
             if (a->load < 0) {
-                turn_ball(a, dt);
+                fl_member_ball_turn(a, dt);
                 kinetic += v3_norm2(a->w) / a->over_i;
             }
         }
@@ -470,7 +456,7 @@ double fl_member_chain_loaded_step(fl_member_chain *c, double c2, double lambda)
         if (a->over_i > 0.0) {
             a->w = v3_madd(a->w, c2 * dt * a->over_i * lambda, p->moment);
             p->turned = v3_madd(p->turned, dt, a->w);
-            turn_ball(a, dt);
+            fl_member_ball_turn(a, dt);
             kinetic += v3_norm2(a->w) / a->over_i;
         }
     }

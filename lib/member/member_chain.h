@@ -65,6 +65,20 @@ typedef struct {
     int threads;                  /* that share a step */
 } fl_member_chain;
 
+/* The parts of a vector along freedoms that are free; held: x y z in the lowest three bits. */
+static inline fl_vec3 fl_member_free_part(fl_vec3 a, int held)
+{
+    return held == 0 ? a : v3(held & 1 ? 0.0 : a.x, held & 2 ? 0.0 : a.y, held & 4 ? 0.0 : a.z);
+}
+
+/* q <- exp(dt w) q.  What rounding adds to its length is taken away to first order. */
+static inline void fl_member_ball_turn(fl_member_ball *a, double dt)
+{
+    const fl_quat q = q_mul(q_of_vector(v3_scale(dt, a->w)), a->q);
+    const double k = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    a->q = (fl_quat){k * q.w, k * q.x, k * q.y, k * q.z};
+}
+
 /* -1 with FL_INPUT or FL_SYSTEM. */
 int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt, fl_err *err);
 void fl_member_chain_free(fl_member_chain *c); /* accepts a zeroed struct, leaves one */

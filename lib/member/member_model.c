@@ -40,5 +40,6 @@ void fl_member_model_free(fl_member_model *m)
     free(m->section);
     free(m->member);
     free(m->file);
+    free(m->history);
     *m = (fl_member_model){0};
 }

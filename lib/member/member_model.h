@@ -5,9 +5,11 @@
 #ifndef FL_MEMBER_MEMBER_MODEL_H
 #define FL_MEMBER_MEMBER_MODEL_H
 #include <stdint.h>
+#include <stdio.h>
 #include "base/err.h"
 #include "base/string_table.h"
 #include "base/text.h"
+#include "base/tool.h"
 #include "geom/vec3.h"
 #include "member/member_section.h"
 
@@ -20,6 +22,7 @@ typedef struct {
     fl_vec3 x;
     fl_vec3 offset;        /* imperfection without stress */
     fl_vec3 force, moment; /* reference load: times the load factor */
+    double mass;           /* without inertia of its own, besides that of the members */
     fl_vec3 move, turn;    /* imposed displacement and rotation vector, times the load factor */
     int hinge;             /* no member is clamped to the node */
     int fixed;             /* freedoms that are held, bits */
@@ -31,9 +34,10 @@ typedef struct {
     int32_t end[2], section, pieces, part;
     int released[2]; /* the end transmits no moment */
     int has_ref;
-    fl_vec3 ref;  /* lies in the plane of e1 and e3 */
-    double bow;   /* amplitude of a half sine wave without stress */
-    int bow_axis; /* 1: along e2, 2: along e3 */
+    fl_vec3 ref;       /* lies in the plane of e1 and e3 */
+    double bow;        /* amplitude of a half sine wave without stress */
+    int bow_axis;      /* 1: along e2, 2: along e3 */
+    int32_t cylinders; /* that ice meets, each rigid and of equal length; 0: one */
     int64_t line;
 } fl_member;
 
@@ -43,7 +47,8 @@ typedef struct {
     fl_member_section *section;
     fl_member *member;
     int32_t node_cap, section_cap, member_cap;
-    char *file; /* that it was read from, for messages */
+    char *file;    /* that it was read from, for messages */
+    char *history; /* its "#by" lines, NULL for none */
 } fl_member_model;
 
 /* Frame of a member from end to end: e[0] along it, e[2] the part of `ref` at right angles to it, which is z
@@ -54,6 +59,12 @@ int fl_member_frame(const fl_member_model *m, int32_t k, fl_vec3 e[3], double *l
 /* Reads a model.  -1 with FL_INPUT or FL_SYSTEM; the model is then free. */
 int fl_member_model_read(fl_member_model *m, const char *path, fl_err *err);
 int fl_member_model_read_text(fl_member_model *m, fl_text *in, fl_err *err);
+
+/* True if the file begins as one of kind `members`; it is closed again. Standard input is none. */
+int fl_member_model_is(const char *path);
+
+/* Writes a model with its history and, unless by is NULL, that of this run; it reads back as it is. */
+void fl_member_model_write(FILE *f, const fl_member_model *m, const fl_history_line *by);
 
 void fl_member_model_free(fl_member_model *m); /* accepts a zeroed struct, leaves one */
 

@@ -74,7 +74,8 @@ static int read_general(fl_member_section *s, fl_text *in, fl_err *err)
     if (read_positive(in, "EA", &s->ea, err) || read_positive(in, "EIy", &s->eiy, err) ||
         read_positive(in, "EIz", &s->eiz, err) || read_positive(in, "GJ", &s->gj, err))
         return -1;
-    return in->next < in->n ? read_number(in, "mass per length", 0.0, &s->mass, err) : 0;
+    if (in->next < in->n && read_number(in, "mass per length", 0.0, &s->mass, err)) return -1;
+    return in->next < in->n ? read_number(in, "radius", 0.0, &s->radius, err) : 0;
 }
 
 static int read_shape(fl_member_section *s, const char *shape, fl_text *in, fl_err *err)
@@ -120,7 +121,7 @@ static int read_section(fl_member_model *m, fl_text *in, fl_err *err)
     return 0;
 }
 
-/* What may follow the pieces of a member: hinge-i, hinge-j, ref X Y Z, bow A y|z. */
+/* What may follow the pieces of a member: hinge-i, hinge-j, ref X Y Z, bow A y|z, cylinders N. */
 static int read_member_word(fl_member *b, fl_text *in, fl_err *err)
 {
     static const char *const xyz[3] = {"x of ref", "y of ref", "z of ref"};
@@ -142,7 +143,9 @@ static int read_member_word(fl_member *b, fl_text *in, fl_err *err)
         b->bow_axis = axis[0] == 'y' ? 1 : 2;
         return 0;
     }
-    return fl_text_fail(in, err, "\"%s\" found, expected hinge-i, hinge-j, ref or bow", word);
+    if (strcmp(word, "cylinders") == 0)
+        return fl_text_i32(in, "cylinders", 1, FL_MEMBER_PIECES_MAX, &b->cylinders, err);
+    return fl_text_fail(in, err, "\"%s\" found, expected hinge-i, hinge-j, ref, bow or cylinders", word);
 }
 
 static int read_member(fl_member_model *m, fl_text *in, fl_err *err)
@@ -240,6 +243,16 @@ static int read_offset(fl_member_model *m, fl_text *in, fl_err *err)
     return 0;
 }
 
+static int read_mass(fl_member_model *m, fl_text *in, fl_err *err)
+{
+    int32_t k;
+    double mass;
+    if (read_known_name(&m->node_name, in, "node", &k, err) || read_number(in, "mass", 0.0, &mass, err))
+        return -1;
+    m->node[k].mass += mass;
+    return 0;
+}
+
 static int read_part(fl_member_model *m, fl_text *in, fl_err *err)
 {
     int32_t k;
@@ -249,8 +262,9 @@ static int read_part(fl_member_model *m, fl_text *in, fl_err *err)
 static const struct {
     const char *word;
     int (*read)(fl_member_model *m, fl_text *in, fl_err *err);
-} RECORD[] = {{"part", read_part}, {"node", read_node}, {"section", read_section}, {"member", read_member},
-              {"fix", read_fix},   {"load", read_load}, {"move", read_move},       {"offset", read_offset}};
+} RECORD[] = {{"part", read_part},     {"node", read_node},     {"section", read_section},
+              {"member", read_member}, {"fix", read_fix},       {"load", read_load},
+              {"move", read_move},     {"offset", read_offset}, {"mass", read_mass}};
 enum { RECORDS = sizeof RECORD / sizeof *RECORD };
 
 static int read_record(fl_member_model *m, fl_text *in, fl_err *err)
@@ -300,6 +314,7 @@ int fl_member_model_read_text(fl_member_model *m, fl_text *in, fl_err *err)
     rc = m->file ? fl_text_magic(in, "members", FL_MEMBERS_VERSION, err) : -1;
     while (rc == 0 && (more = fl_text_row(in, err)) > 0) rc = read_record(m, in, err);
     if (rc == 0 && more < 0) rc = -1;
+    if (rc == 0 && in->history && !(m->history = fl_alloc_text(in->history, err))) rc = -1;
     if (rc == 0) rc = check_nodes(m, err);
     for (int32_t k = 0; k < m->member_name.n && rc == 0; k++) {
         fl_vec3 e[3];
@@ -308,6 +323,16 @@ int fl_member_model_read_text(fl_member_model *m, fl_text *in, fl_err *err)
     }
     if (rc) fl_member_model_free(m);
     return rc;
+}
+
+int fl_member_model_is(const char *path)
+{
+    fl_text in = {0};
+    fl_err no = {0};
+    const int is = strcmp(path, "-") != 0 && fl_text_open(&in, path, &no) == 0 &&
+                   fl_text_magic(&in, "members", FL_MEMBERS_VERSION, &no) == 0;
+    fl_text_close(&in);
+    return is;
 }
 
 int fl_member_model_read(fl_member_model *m, const char *path, fl_err *err)

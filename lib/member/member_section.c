@@ -7,8 +7,14 @@ fl_member_section fl_member_section_pipe(double d, double t, double e, double g,
 {
     const double in = d - 2.0 * t, area = PI * t * (d - t),
                  i = PI / 64.0 * (d * d * d * d - in * in * in * in);
-    return (fl_member_section){
-        .ea = e * area, .eiy = e * i, .eiz = e * i, .gj = 2.0 * g * i, .mass = rho * area, .radius = 0.5 * d};
+    return (fl_member_section){.ea = e * area,
+                               .eiy = e * i,
+                               .eiz = e * i,
+                               .gj = 2.0 * g * i,
+                               .mass = rho * area,
+                               .radius = 0.5 * d,
+                               .form = FL_MEMBER_PIPE,
+                               .given = {d, t, e, g, rho}};
 }
 
 fl_member_section fl_member_section_rectangle(double b, double h, double e, double g, double rho)
@@ -23,10 +29,17 @@ fl_member_section fl_member_section_rectangle(double b, double h, double e, doub
                                .eiz = e * h * b * b * b / 12.0,
                                .gj = g * j,
                                .mass = rho * b * h,
-                               .radius = 0.5 * sqrt(b * b + h * h)};
+                               .radius = 0.5 * sqrt(b * b + h * h),
+                               .form = FL_MEMBER_RECTANGLE,
+                               .given = {b, h, e, g, rho}};
 }
 
 fl_member_section fl_member_section_bar(double area, double e, double rho)
 {
-    return (fl_member_section){.ea = e * area, .mass = rho * area, .radius = sqrt(area / PI), .bar = 1};
+    return (fl_member_section){.ea = e * area,
+                               .mass = rho * area,
+                               .radius = sqrt(area / PI),
+                               .bar = 1,
+                               .form = FL_MEMBER_BAR_FORM,
+                               .given = {area, e, rho}};
 }

@@ -9,6 +9,8 @@
 #ifndef FL_MEMBER_MEMBER_SECTION_H
 #define FL_MEMBER_MEMBER_SECTION_H
 
+enum fl_member_form { FL_MEMBER_GENERAL, FL_MEMBER_PIPE, FL_MEMBER_RECTANGLE, FL_MEMBER_BAR_FORM };
+
 typedef struct {
     double ea;       /* axial stiffness EA [force] */
     double eiy, eiz; /* bending about local y (deflection along z), about local z (along y) [force length2] */
@@ -16,6 +18,8 @@ typedef struct {
     double mass;     /* per length, 0: none was given */
     double radius;   /* of the circle round the section, 0: not known */
     int bar;         /* transmits axial force alone */
+    int form;        /* enum fl_member_form */
+    double given[5]; /* of pipe D T E G rho, rectangle B H E G rho, bar A E rho */
 } fl_member_section;
 
 fl_member_section fl_member_section_pipe(double d, double t, double e, double g, double rho);

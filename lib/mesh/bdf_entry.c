@@ -156,8 +156,11 @@ static int split_line(fl_bdf_entry *r, fl_err *err)
 }
 
 /* True if a reader uses the fields of this entry.  Other entries, mostly loads, are not split. */
-static int is_used(const char *name)
+static int is_used(const char *name, int frame)
 {
+    if (frame && (strcmp(name, "MAT1") == 0 || strncmp(name, "SPC", 3) == 0 || strcmp(name, "FORCE") == 0 ||
+                  strcmp(name, "MOMENT") == 0))
+        return 1;
     return *name == 'C' || *name == 'G' || strncmp(name, "PB", 2) == 0 || strncmp(name, "PTUBE", 5) == 0 ||
            strncmp(name, "PROD", 4) == 0 || strncmp(name, "PSOLID", 6) == 0;
 }
@@ -192,7 +195,7 @@ int fl_bdf_next(fl_bdf_entry *r, fl_err *err)
         r->name[n] = '\0';
         r->fields = r->text_len = 0;
         if (strcmp(r->name, "BEGIN") == 0) r->bulk = 1;
-        if (!is_used(r->name)) return 1;
+        if (!is_used(r->name, r->frame)) return 1;
         if (split_line(r, err)) return -1;
         while ((more = next_line(r, err)) > 0 && is_continuation(r->deck.line))
             if (split_line(r, err)) return -1;

@@ -19,6 +19,7 @@ typedef struct {
     int32_t text_len, text_cap;
     int32_t at[FL_BDF_FIELDS]; /* offsets into text */
     int bulk;                  /* BEGIN BULK has been read */
+    int frame;                 /* split also what frame_bdf.h reads */
     int missing;               /* files that could not be included before BEGIN BULK */
     fl_err first_missing;      /* why, of the first */
     /* called with the text behind $ of each comment line; may be NULL */

@@ -101,6 +101,9 @@ int fl_cdb_add_element(fl_cdb *c, int64_t id, int64_t type, int64_t section, int
     if (!t)
         return fl_deck_fail(&c->d, err, "element %lld is of type %lld, which no ET or ETBLOCK defines",
                             (long long)id, (long long)type);
+    if (c->frame &&
+        fl_frame_cdb_element(c->frame, id, t->routine, c->material, section, real, n, c->node, err))
+        return -1;
     if (t->family == FL_CDB_NONE) {
         char name[32];
         snprintf(name, sizeof name, "routine %d", t->routine);
@@ -197,6 +200,7 @@ static int read_solid_row(fl_cdb *c, const fl_columns *f, fl_err *err)
     line = c->e.line;
     if (read_nodes(c, f, SOLID_HEAD, col[8], err) || read_more_nodes(c, f, col[10], col[8], err)) return -1;
     c->e.line = line;
+    c->material = col[0];
     return fl_cdb_add_element(c, col[10], col[1], col[3], col[2], err);
 }
 
@@ -217,6 +221,7 @@ static int read_bare_row(fl_cdb *c, const fl_columns *f, fl_err *err)
     if (slot >= 0 && c->type[slot].family == FL_CDB_BRICK && read_more_nodes(c, f, col[0], 20, err))
         return -1;
     c->e.line = line;
+    c->material = col[3];
     return fl_cdb_add_element(c, col[0], col[1], col[1], col[2], err);
 }
 
@@ -283,12 +288,23 @@ int fl_cdb_rlblock(fl_cdb *c, fl_err *err)
         if (integer_at(c, &head, 0, &id, err) || integer_at(c, &head, 1, &n, err) ||
             real_at(c, &head, 2, &first, err) || fl_cdb_section_real(&c->sections, id, first, err))
             return -1;
+        for (int k = 2; c->frame && k < head.n && k < 2 + n; k++) {
+            double x;
+            if (real_at(c, &head, k, &x, err) || fl_frame_cdb_constant(c->frame, id, k - 2, x, err))
+                return -1;
+        }
+        int at = head.n - 2;
         for (n -= head.n - 2; n > 0; n -= tail.n) {
             more = open_row(c, err);
             if (more < 0) return -1;
             if (more == 0)
                 return fl_deck_fail(&c->d, err, "real constants %lld end with %lld values missing",
                                     (long long)id, (long long)n);
+            for (int k = 0; c->frame && k < tail.n && k < n; k++) {
+                double x;
+                if (real_at(c, &tail, k, &x, err) || fl_frame_cdb_constant(c->frame, id, at++, x, err))
+                    return -1;
+            }
         }
     }
     return more;

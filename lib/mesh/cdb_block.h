@@ -7,6 +7,7 @@
 #include "mesh/cdb_routine.h"
 #include "mesh/cdb_section.h"
 #include "mesh/deck_lines.h"
+#include "mesh/frame_cdb.h"
 
 enum {
     FL_CDB_WORDS = 64, /* per command */
@@ -29,6 +30,8 @@ typedef struct {
     int64_t node[FL_CDB_NODES]; /* nodes of the current element */
     int32_t nodes;              /* their number */
     fl_cdb_sections sections;
+    fl_frame_cdb *frame; /* NULL: beams are not asked for */
+    int64_t material;    /* current */
     fl_cdb_components components;
     int32_t node_sets, other_sets, type_cap; /* components skipped: of nodes, of the solid model */
 } fl_cdb;

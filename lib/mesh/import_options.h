@@ -7,11 +7,13 @@
 #include "base/string_table.h"
 
 typedef struct {
-    const char *const *pattern; /* [patterns] borrowed; a part whose name matches one of them is selected */
-    int32_t patterns;           /* 0 selects every part */
-    char *matched;              /* [patterns] out: 1 if a name matched; may be NULL */
-    fl_string_table *available; /* out: names that can be selected; may be NULL */
-    int subdivide;              /* split quadratic faces into triangles through their mid-side nodes */
+    const char *const *pattern;   /* [patterns] borrowed; a part whose name matches one of them is selected */
+    int32_t patterns;             /* 0 selects every part */
+    char *matched;                /* [patterns] out: 1 if a name matched; may be NULL */
+    fl_string_table *available;   /* out: names that can be selected; may be NULL */
+    struct fl_frame_model *frame; /* NULL, or what beams and trusses of a deck become (frame_model.h); its
+                                   * reader then adds no parts */
+    int subdivide;                /* split quadratic faces into triangles through their mid-side nodes */
 } fl_import_options;
 
 /* True if name matches the pattern.  "*" stands for any bytes, "?" for any one byte, all else for itself.

@@ -26,8 +26,9 @@ typedef struct {
     fl_inp_part *part;       /* [parts] */
     fl_inp_section *section; /* [sections] */
     int32_t parts, part_cap, sections, section_cap, scopes, generated;
-    int32_t extra_nodes; /* elements with more nodes than their type has */
-    const char *name;    /* of elements without a set; borrowed */
+    int32_t extra_nodes;        /* elements with more nodes than their type has */
+    struct fl_frame_inp *frame; /* frame_inp.h; NULL: beams are not asked for */
+    const char *name;           /* of elements without a set; borrowed */
     /* target of the next lines */
     fl_elements *store; /* &e or &part_defs */
     int32_t scope, instance;

@@ -9,6 +9,7 @@
 #include "base/pi.h"
 #include "geom/affine.h"
 #include "mesh/element_surface.h"
+#include "mesh/frame_bdf.h"
 #include "mesh/bdf_entry.h"
 #include "mesh/read_bdf.h"
 
@@ -36,6 +37,7 @@ typedef struct {
 } grid_ref;
 
 typedef struct {
+    fl_frame_model *beams; /* or NULL */
     fl_bdf_entry at;
     fl_elements e;
     fl_id_map frames; /* numbers of coordinate systems */
@@ -501,6 +503,24 @@ done:
     return rc;
 }
 
+/* Positions of the grids of the frame, and orientations by a grid. */
+static void place_frame(bdf_reader *r)
+{
+    fl_frame_model *f = r->beams;
+    for (int32_t k = 0; k < f->node_id.n; k++) {
+        const int32_t at = fl_id_map_find(&r->e.node_id, 0, f->node_id.id[k]);
+        if (at < 0 || isnan(r->e.x[at].x)) continue;
+        f->node[k].x = r->e.x[at];
+        f->node[k].defined = 1;
+    }
+    for (int32_t k = 0; k < f->element_id.n; k++) {
+        fl_frame_element *e = &f->element[k];
+        if (e->has_y != 2) continue;
+        e->across = v3_sub(f->node[(int32_t)e->across.x].x, f->node[e->node[0]].x);
+        e->has_y = 1;
+    }
+}
+
 static void free_reader(bdf_reader *r)
 {
     for (int32_t k = 0; k < r->pids.n; k++) free(r->name[k]);
@@ -523,8 +543,10 @@ int fl_bdf_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     r.at.context = &r;
     if (fl_elements_start(&r.e, fl_in_name(b->in), err)) goto done;
     fl_deck_start(&r.at.deck, &r.e, b);
+    if (opt) r.beams = opt->frame;
+    r.at.frame = r.beams != NULL;
     while ((more = fl_bdf_next(&r.at, err)) > 0)
-        if (read_entry(&r, err)) goto done;
+        if (read_entry(&r, err) || (r.beams && fl_frame_bdf_entry(r.beams, &r.at, err))) goto done;
     if (more < 0) goto done;
     if (r.at.missing)
         fl_bytes_note(b, "%d INCLUDE before BEGIN BULK could not be read and were skipped", r.at.missing);
@@ -532,7 +554,13 @@ int fl_bdf_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     free(b->data);
     b->data = NULL;
     b->n = b->cap = 0;
-    if (resolve_grids(&r, err) || name_parts(&r, err)) goto done;
+    if (resolve_grids(&r, err)) goto done;
+    if (r.beams) {
+        place_frame(&r);
+        rc = 0;
+        goto done;
+    }
+    if (name_parts(&r, err)) goto done;
     rc = fl_elements_surface(&r.e, s, b, opt, err);
 done:
     free_reader(&r);

@@ -10,11 +10,12 @@
 #include "mesh/read_cdb.h"
 
 typedef struct {
-    fl_cdb k;                    /* state shared with the blocks */
-    fl_string_table parameter;   /* of *SET */
-    int64_t *value;              /* [parameter.n] */
-    int64_t type, real, section; /* current values of TYPE, REAL and SECNUM */
-    int64_t made;                /* number of the element that EMORE would continue */
+    fl_cdb k;                  /* state shared with the blocks */
+    fl_string_table parameter; /* of *SET */
+    int64_t *value;            /* [parameter.n] */
+    int64_t type, real, section,
+        constants; /* constants: those that RMORE continues; current values of TYPE, REAL and SECNUM */
+    int64_t made;  /* number of the element that EMORE would continue */
     int32_t made_line, system, unread, value_cap;
 } cdb_reader;
 
@@ -105,6 +106,9 @@ static int read_sectype(cdb_reader *c)
 
 static int read_secdata(cdb_reader *c, fl_err *err)
 {
+    const fl_cdb_sections *s = &c->k.sections;
+    if (c->k.frame && fl_frame_cdb_section(c->k.frame, s->current, s->type, s->subtype, c->k.word, err))
+        return -1;
     double x[2] = {0.0, 0.0};
     for (int k = 0; k < 2; k++)
         if (*c->k.word[k + 1] && fl_deck_real(c->k.word[k + 1], &x[k])) return 0;
@@ -116,6 +120,12 @@ static int read_r(cdb_reader *c, fl_err *err)
     int64_t id;
     double x = 0.0;
     if (parse_number(c, c->k.word[1], &id) || (*c->k.word[2] && fl_deck_real(c->k.word[2], &x))) return 0;
+    c->constants = id;
+    for (int k = 0; c->k.frame && k < 6; k++)
+        if (*c->k.word[k + 2] && fl_deck_real(c->k.word[k + 2], &x) == 0 &&
+            fl_frame_cdb_constant(c->k.frame, id, k, x, err))
+            return -1;
+    if (fl_deck_real(c->k.word[2], &x)) x = 0.0;
     return fl_cdb_section_real(&c->k.sections, id, x, err);
 }
 
@@ -269,6 +279,9 @@ static int run_command(cdb_reader *c, fl_err *err)
         c->system =
             parse_number(c, c->k.word[1], &k) || k != 0 ? (int32_t)(k > 0 && k < INT32_MAX ? k : 1) : 0;
     }
+    if (c->k.frame && is_command(c, "MAT")) return set_current(c, &c->k.material, 1);
+    if (c->k.frame && strchr(c->k.word[0], '=') == NULL)
+        return fl_frame_cdb_command(c->k.frame, c->k.word, c->constants, err);
     equals = strchr(c->k.word[0], '=');
     if (equals) {
         *equals = '\0';
@@ -294,11 +307,25 @@ int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
 {
     cdb_reader c = {.type = 1, .real = 1, .section = 1};
     fl_cdb *k = &c.k;
+    fl_frame_cdb frame = {.model = opt ? opt->frame : NULL};
     int rc = -1;
+    k->material = 1;
+    if (frame.model) k->frame = &frame;
     if (fl_elements_start(&k->e, fl_in_name(b->in), err)) return -1;
     fl_deck_start(&k->d, &k->e, b);
     k->part = fl_string_table_add(&k->e.parts, name, err);
-    if (k->part < 0 || read_commands(&c, err) || fl_cdb_section_apply(&k->sections, &k->e, err) ||
+    if (k->part < 0 || read_commands(&c, err)) goto done;
+    if (k->frame) {
+        for (int32_t v = 0; v < frame.model->node_id.n; v++) {
+            const int32_t at = fl_id_map_find(&k->e.node_id, 0, frame.model->node_id.id[v]);
+            if (at < 0 || k->e.x[at].x != k->e.x[at].x) continue;
+            frame.model->node[v].x = k->e.x[at];
+            frame.model->node[v].defined = 1;
+        }
+        rc = fl_frame_cdb_finish(&frame, err);
+        goto done;
+    }
+    if (fl_cdb_section_apply(&k->sections, &k->e, err) ||
         fl_cdb_component_assign(&k->components, &k->e, fl_import_by_name(opt), err))
         goto done;
     if (k->other_sets)
@@ -307,6 +334,7 @@ int fl_cdb_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     if (c.unread) fl_bytes_note(b, "%d commands with parameters that are not numbers were skipped", c.unread);
     rc = fl_elements_surface(&k->e, s, b, opt, err);
 done:
+    fl_frame_cdb_free(&frame);
     fl_deck_free(&k->d);
     fl_elements_free(&k->e);
     fl_id_map_free(&k->slot);

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <strings.h>
 #include "mesh/element_surface.h"
+#include "mesh/frame_inp.h"
 #include "mesh/inp_assembly.h"
 #include "mesh/inp_elements.h"
 #include "mesh/inp_nodes.h"
@@ -89,7 +90,13 @@ static int read_keywords(fl_inp_model *r, fl_err *err)
         size_t k = 0;
         if (kind == 2) continue; /* data of an ignored keyword */
         if (fl_inp_split_keyword(&r->line, err)) return -1;
+        if (r->frame) {
+            const int used = fl_frame_inp_keyword(r, err);
+            if (used < 0) return -1;
+            if (used) continue;
+        }
         while (k < sizeof KEYWORD / sizeof *KEYWORD && strcmp(r->line.word, KEYWORD[k].word) != 0) k++;
+        if (k == sizeof KEYWORD / sizeof *KEYWORD && r->frame && fl_frame_inp_leave(r)) return -1;
         if (k < sizeof KEYWORD / sizeof *KEYWORD && KEYWORD[k].read(r, err)) return -1;
     }
     if (kind == 0 && r->store == &r->part_defs)
@@ -102,6 +109,8 @@ int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     fl_inp_model r = {.name = name};
     const char *path = fl_in_name(b->in);
     int rc = -1;
+    fl_frame_inp frame = {.model = opt ? opt->frame : NULL};
+    if (frame.model) r.frame = &frame;
     fl_inp_leave_part(&r);
     if (fl_elements_start(&r.e, path, err) || fl_elements_start(&r.part_defs, path, err) ||
         fl_element_sets_add_instance(&r.sets, (fl_instance){-1, 0, -1, 0, 0}, err) < 0)
@@ -115,9 +124,14 @@ int fl_inp_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options 
     free(b->data);
     b->data = NULL;
     b->n = b->cap = 0;
+    if (r.frame) {
+        rc = fl_frame_inp_finish(&r, err);
+        goto done;
+    }
     if (fl_inp_apply_sections(&r, err) || fl_element_sets_export(&r.sets, &r.e, opt, err)) goto done;
     rc = fl_elements_surface(&r.e, s, b, opt, err);
 done:
+    fl_frame_inp_free(&frame);
     fl_inp_model_free(&r);
     return rc;
 }

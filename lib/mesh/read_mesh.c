@@ -189,7 +189,7 @@ int fl_mesh_read(fl_surface *s, const char *path, fl_import_options *opt, char *
     drop_empty_parts(&got, &b);
     check_precision(&got, &b);
     memcpy(note, b.note, FL_MESH_NOTE);
-    if (got.n == 0 && !fl_import_by_name(opt)) {
+    if (got.n == 0 && !fl_import_by_name(opt) && !(opt && opt->frame)) {
         fl_fail(err, FL_INPUT, "%s: no triangles", strcmp(path, "-") == 0 ? "<stdin>" : path);
         goto done;
     }

@@ -39,9 +39,9 @@ void fl_frames_shape(FILE *f, const fl_poses *s, int32_t i)
 }
 
 void fl_frames_header(FILE *f, const char *history, const fl_history_line *by, const fl_poses *s,
-                      const fl_surface *surface)
+                      const fl_surface *surface, const fl_packed_writer *packed)
 {
-    fl_write_file_header(f, "animation", 1, history, by);
+    fl_write_file_header(f, "animation", packed ? 2 : 1, history, by);
     for (int32_t c = 0; c < s->b->n; c++)
         if (fl_poses_body(s, c) >= 0) fl_frames_shape(f, s, fl_poses_body(s, c));
     for (int32_t k = 0; surface && k < surface->n; k++) {
@@ -59,6 +59,19 @@ void fl_frames_header(FILE *f, const char *history, const fl_history_line *by, c
             putc('\n', f);
         }
     }
+    if (packed) fl_packed_frames_begin(f, packed);
+}
+
+int fl_frames_packed_bodies(fl_packed_writer *w, const fl_poses *s, fl_err *err)
+{
+    for (int32_t c = 0; c < s->b->n; c++) {
+        const int32_t i = fl_poses_body(s, c);
+        if (i < 0) continue;
+        if (fl_packed_frame_body(w, s->id[i], fl_poses_position(s, i), q_mul(s->b->q[i], q_conj(s->q0[i])),
+                                 err))
+            return -1;
+    }
+    return 0;
 }
 
 void fl_frames_frame(FILE *f, double t, const fl_poses *s, fl_vec3 displacement, int ice)

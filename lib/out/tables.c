@@ -65,6 +65,16 @@ static const fl_column PANELS[] = {
 };
 const fl_table_format fl_panels_table = {"panels", FL_TABLE_COLUMNS(PANELS)};
 
+static const fl_column MEMBER_FORCES[] = {
+    {"member", "", FL_COLUMN_TEXT, 0, offsetof(fl_member_forces_row, member)},
+    {"piece", "", FL_COLUMN_INT, 0, offsetof(fl_member_forces_row, piece)},
+    {"s", "m", FL_COLUMN_REAL, 0, offsetof(fl_member_forces_row, at)},
+    {"f", "N", FL_COLUMN_VEC3, 0, offsetof(fl_member_forces_row, force)},
+    {"m", "N.m", FL_COLUMN_VEC3, 0, offsetof(fl_member_forces_row, moment)},
+    {"u", "m", FL_COLUMN_VEC3, 0, offsetof(fl_member_forces_row, u)},
+};
+const fl_table_format fl_member_forces_table = {"member_forces", FL_TABLE_COLUMNS(MEMBER_FORCES)};
+
 static const fl_column HASH[] = {{"hash", "", FL_COLUMN_HASH, 0, offsetof(fl_hash_row, hash)}};
 const fl_table_format fl_hash_table = {"hash", FL_TABLE_COLUMNS(HASH)};
 

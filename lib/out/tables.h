@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tables.h -- the tables that a run writes: loads(5), state(5), contacts(5), bonds(5), panels(5),
- * hash(5).
+ * member_forces(5), hash(5).
  *
  * A table is a list of columns.  A column is one row of that list: its name, its unit, when the table has
  * it, and the member of the row struct that it prints.  Header and rows are written from the list, and
@@ -122,6 +122,18 @@ typedef struct {
     fl_vec3 force; /* mean over the interval that ends at t */
 } fl_panels_row;
 extern const fl_table_format fl_panels_table;
+
+/* --- member_forces(5) --------------------------------------------------------------------------- */
+
+/* Section forces at the middle of a piece of a member, in its axes: (N, Qy, Qz) and (T, My, Mz). */
+typedef struct {
+    const char *member;
+    int32_t piece;         /* of the member, from 1 */
+    double at;             /* distance from its first node [m] */
+    fl_vec3 force, moment; /* [N], [N m] */
+    fl_vec3 u;             /* displacement from the unstrained state [m] */
+} fl_member_forces_row;
+extern const fl_table_format fl_member_forces_table;
 
 /* --- hash(5) ------------------------------------------------------------------------------------ */
 

@@ -54,6 +54,21 @@ static fl_vec3 sum_vector(const fl_simd a[3])
     return v3(fl_simd_sum(&a[0]), fl_simd_sum(&a[1]), fl_simd_sum(&a[2]));
 }
 
+static fl_sym3 sum_matrix(const fl_simd a[6])
+{
+    return (fl_sym3){fl_simd_sum(&a[0]), fl_simd_sum(&a[1]), fl_simd_sum(&a[2]),
+                     fl_simd_sum(&a[3]), fl_simd_sum(&a[4]), fl_simd_sum(&a[5])};
+}
+
+/* Adds weight arm and weight arm arm^T. */
+FL_SIMD_INLINE void add_moments(fl_simd sum[3], fl_simd all[6], const fl_simd *weight, const fl_simd arm[3])
+{
+    const fl_simd x = *weight * arm[0], y = *weight * arm[1], z = *weight * arm[2];
+    sum[0] += x, sum[1] += y, sum[2] += z;
+    all[0] += x * arm[0], all[1] += x * arm[1], all[2] += x * arm[2];
+    all[3] += y * arm[1], all[4] += y * arm[2], all[5] += z * arm[2];
+}
+
 static double largest_lane(const fl_simd *a)
 {
     double most = 0.0;
@@ -67,7 +82,8 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
     const fl_vec3 at = point[0].p;
     const fl_simd zero = {0};
     fl_simd u = zero, ddu = zero, most = zero, pressed = zero, elastic = zero;
-    fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero}, mid[3] = {zero, zero, zero};
+    fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero}, mid[3] = {zero, zero, zero},
+            second[6] = {zero, zero, zero, zero, zero, zero};
     for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH, t++) {
         const fl_patch_point *p = point + k;
         fl_patch_point last[FL_SIMD_WIDTH];
@@ -89,7 +105,7 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
         for (int c = 0; c < 3; c++) f[c] += pull[c], m[c] += moment[c];
         const fl_simd e = du * (nx * across[0] + ny * across[1] + nz * across[2]);
         t->e = e, t->du = du, t->curve = bent;
-        for (int c = 0; c < 3; c++) mid[c] += e * arm[c];
+        add_moments(mid, second, &e, arm);
         u += ux;
         ddu += bent;
         pressed += du;
@@ -99,7 +115,7 @@ FL_SIMD_VERSIONS static void sum_elastic(const fl_patch_point *point, int32_t n,
     q->u = fl_simd_sum(&u), q->ddu = fl_simd_sum(&ddu);
     q->du = fl_simd_sum(&pressed), q->pressure = fl_simd_sum(&elastic);
     q->gradient = (fl_wrench){sum_vector(f), sum_vector(m)};
-    q->pressure_moment = sum_vector(mid);
+    q->pressure_moment = sum_vector(mid), q->second = sum_matrix(second);
     q->overlap = largest_lane(&most);
 }
 
@@ -117,11 +133,22 @@ FL_SIMD_VERSIONS static void sum_motion(point_four *t, int32_t lanes, fl_vec3 v,
     q->du_approach = fl_simd_sum(&approach), q->pressure_rate = fl_simd_sum(&rate);
 }
 
+FL_SIMD_VERSIONS static void sum_sliding(const point_four *t, int32_t lanes, fl_vec3 v, double sum[2])
+{
+    fl_simd with = {0}, square = {0};
+    for (int32_t k = 0; k < lanes; k++, t++) {
+        const fl_simd s = -(t->across[0] * v.x + t->across[1] * v.y + t->across[2] * v.z), es = t->e * s;
+        with += es * t->approach;
+        square += es * s;
+    }
+    sum[0] = fl_simd_sum(&with), sum[1] = fl_simd_sum(&square);
+}
+
 FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, double chi, double still,
                                         fl_force_sum *q)
 {
     const fl_simd zero = {0};
-    fl_simd normal = zero, spread = zero, way[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
+    fl_simd normal = zero, way[3] = {zero, zero, zero}, at[3] = {zero, zero, zero};
     fl_simd f[3] = {zero, zero, zero}, m[3] = {zero, zero, zero};
     for (int32_t k = 0; k < lanes; k++, t++) {
         const fl_simd e = t->e, to = e * (still + chi * t->approach), p = FL_SIMD_MASKED(to > 0.0, to);
@@ -136,9 +163,8 @@ FL_SIMD_VERSIONS static void sum_damped(const point_four *t, int32_t lanes, doub
             f[c] += pull[c];
             m[c] += moment[c];
         }
-        spread += p * (arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
     }
-    q->damped_pressure = fl_simd_sum(&normal), q->damped_spread = fl_simd_sum(&spread);
+    q->damped_pressure = fl_simd_sum(&normal);
     q->direction = sum_vector(way), q->damped_moment = sum_vector(at);
     q->damping = (fl_wrench){sum_vector(f), sum_vector(m)};
 }
@@ -238,15 +264,6 @@ static fl_vec3 arm_of(const point_four *t, uint32_t k)
     return v3(arm[0][k % FL_SIMD_WIDTH], arm[1][k % FL_SIMD_WIDTH], arm[2][k % FL_SIMD_WIDTH]);
 }
 
-/* Sum of off |arm - middle|^2 over the three points; it is 0 for the four. */
-static double third_moment(const point_four *t, const area_motion *a)
-{
-    const fl_vec3 p0 = arm_of(t, a->k), p1 = v3_sub(arm_of(t, a->k + 1), p0),
-                  p2 = v3_sub(arm_of(t, a->k + 2), p0), mid = v3_scale(1.0 / AREA_POINTS, v3_add(p1, p2));
-    return a->off[0] * v3_norm2(mid) + a->off[1] * v3_norm2(v3_sub(p1, mid)) +
-           a->off[2] * v3_norm2(v3_sub(p2, mid));
-}
-
 /* Four points with the sum, mean and second moments of the three: from the middle forwards and backwards
  * along the direction in which the approach speed rises, and along one in which it is that of the middle.
  * They depend on the area only, whichever three points represent it. */
@@ -272,19 +289,16 @@ static point_four four_point_area(const point_four *t, const area_motion *a)
 
 /* Points in which no area pulls in part: s->point_lanes, or a copy behind it in which areas with part of
  * still + chi c < 0 have their four points.
- *     lanes   out: number of fours;  skew: sum of e off |arm - middle|^2 of the other areas */
+ *     lanes   out: number of fours */
 static const point_four *points_without_tension(const fl_patch_points *s, double chi, double still,
-                                                int32_t *lanes, double *skew)
+                                                int32_t *lanes)
 {
     point_four *const own = s->point_lanes, *copy = NULL;
     const int32_t n = *lanes = count_lanes(s);
-    *skew = 0.0;
     const area_motion *a = s->area_motion;
     for (int32_t k = 0; k < s->areas; k++, a++) {
         const uint32_t at = a->k;
-        if (still + chi * (a->mean - a->amplitude) >= 0.0)
-            *skew += own[at / FL_SIMD_WIDTH].e[at % FL_SIMD_WIDTH] * third_moment(own, a);
-        else if (still + chi * (a->mean + a->amplitude) > 0.0) {
+        if (still + chi * (a->mean - a->amplitude) < 0.0 && still + chi * (a->mean + a->amplitude) > 0.0) {
             if (!copy) copy = memcpy(own + n, own, (size_t)n * sizeof *own);
             for (uint32_t c = at; c < at + AREA_POINTS; c++)
                 copy[c / FL_SIMD_WIDTH].e[c % FL_SIMD_WIDTH] = 0.0;
@@ -316,15 +330,20 @@ int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_su
     return 0;
 }
 
+void fl_force_sum_sliding(const fl_patch_points *s, fl_vec3 v, double *with_approach, double *square)
+{
+    double sum[2];
+    sum_sliding(s->point_lanes, count_lanes(s), v, sum);
+    *with_approach = sum[0], *square = sum[1];
+}
+
 void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, fl_force_sum *q)
 {
     if (s->n == 0) return;
     int32_t lanes;
-    double skew;
     const double still = 1.0 + chi * speed_offset;
-    const point_four *t = points_without_tension(s, chi, still, &lanes, &skew);
+    const point_four *t = points_without_tension(s, chi, still, &lanes);
     sum_damped(t, lanes, chi, still, q);
-    q->damped_spread -= chi * skew;
 }
 
 void fl_force_sum_springs(const fl_patch_points *s, fl_spring_sums *q)

@@ -6,19 +6,20 @@
  * the unit normal; e = du n.t its share of the pressure; c its approach speed.
  *     gradient              sum of du n and of arm x du n: force and moment over dW/dU
  *     du, du_approach       sum of du, and of du c where c > 0: their ratio is the approach speed for damping
- *     pressure, .._moment   sums of e and of e arm;  pressure_rate: of e c
+ *     pressure, .._moment   sums of e and of e arm;  second: of e arm arm^T;  pressure_rate: of e c
  *     f                     max(0, e (1 + chi (c + speed_offset))): damped pressure of a point, never tension
- *     damped_pressure, ..   sums of f, f t, f arm and f |arm|^2
+ *     damped_pressure, ..   sums of f, f t and f arm
  *     damping               sum of (f - e) t and of arm x (f - e) t: what damping adds
  * Rim forces (u = 0) count in `gradient` alone.
  *
  * An area is represented by three points, any three with its sum, mean and second moments.  Sums that are
  * linear in c are the same for all such points.  The others must not depend on the choice.  So du_approach,
  * where an area approaches only in part, and f, where it would pull in part, use four points: two with the
- * largest and the least c, two with the mean.  The third moment in damped_spread is left out. */
+ * largest and the least c, two with the mean. */
 #ifndef FL_PATCH_FORCE_SUM_H
 #define FL_PATCH_FORCE_SUM_H
 #include "base/simd.h"
+#include "geom/sym3.h"
 #include "patch/patch_types.h"
 #include "patch/stiffness_bound.h"
 
@@ -39,12 +40,12 @@ typedef struct {
     double du, du_approach;  /* sum of du, and of du c where c > 0          [m5], [m6/s] */
     double pressure;         /* sum of e                                            [m5] */
     fl_vec3 pressure_moment; /* sum of e arm                                        [m6] */
+    fl_sym3 second;          /* sum of e arm arm^T                                  [m7] */
     double pressure_rate;    /* sum of e c                                        [m6/s] */
     fl_wrench gradient;      /* force and moment                              [m5], [m6] */
     double damped_pressure;  /* sum of f                                            [m5] */
     fl_vec3 direction;       /* sum of f t                                          [m5] */
     fl_vec3 damped_moment;   /* sum of f arm                                        [m6] */
-    double damped_spread;    /* sum of f |arm|^2                                    [m7] */
     fl_wrench damping;       /* what damping adds                             [m5], [m6] */
 } fl_force_sum;
 
@@ -56,7 +57,11 @@ int fl_force_sum_elastic(fl_patch_points *s, fl_force_sum *q);
  * -1 when memory runs out. */
 int fl_force_sum_motion(fl_patch_points *s, fl_vec3 v, fl_vec3 spin, fl_force_sum *q);
 
-/* Sets damped_pressure, direction, damped_moment, damped_spread and damping, after fl_force_sum_motion().
+/* Sums of e s c and of e s^2 of the approach s = -t.v that the velocity v alone gives, law/damping.h; after
+ * fl_force_sum_motion(). */
+void fl_force_sum_sliding(const fl_patch_points *s, fl_vec3 v, double *with_approach, double *square);
+
+/* Sets damped_pressure, direction, damped_moment and damping, after fl_force_sum_motion().
  *   chi            damping coefficient [s/m]
  *   speed_offset   added to the approach speed of every point [m/s] */
 void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, fl_force_sum *q);

@@ -3,6 +3,7 @@
 #include <string.h>
 #include "base/simd.h"
 #include "patch/no_tension.h"
+#include "patch/patch_result.h"
 #include "patch/surrogate.h"
 
 #define FIRST_REACH 0.3 /* reach of a new contact over the root of the tolerance */
@@ -446,14 +447,18 @@ static double slope_of_energy(const fl_surrogate *s, const fl_exact_contact *see
 }
 
 /* Pressure sums times dW/dU. */
-static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, double scale)
+static void set_pressures(fl_surrogate *s, const fl_pressure_moments *q, const fl_force_sum *sums, double scale)
 {
     const fl_vec3 acts = fl_surrogate_force_centre(q->direction, q->torque);
     s->pressure = scale * q->pressure;
     s->direction = v3_scale(scale, q->direction), s->torque = v3_scale(scale, q->torque);
     s->centre_offset = v3_sub(q->centre, acts);
     for (int k = 0; k < FL_PRESSURE_MATRIX; k++) s->damping[k] = scale * q->damping[k];
-    s->radius = q->radius;
+    const fl_pressure_shape shape =
+        fl_pressure_shape_about(sums->pressure, sums->pressure_moment, sums->second, v3_unit(q->direction));
+    s->arm = shape.arm, s->elongation = shape.elongation;
+    const double cos2 = v3_norm2(q->direction) / (q->pressure * q->pressure);
+    s->bend_share = 1.0 - cos2 > FL_FLAT_CONTACT ? fl_damping_bend_share(cos2) : 0.0;
 }
 
 /* Product of a symmetric matrix, given by its upper triangle, with x. */
@@ -527,7 +532,7 @@ static void set_from_evaluation(fl_surrogate *s, const fl_exact_contact *seen,
     s->compliance = seen->compliance, s->turn_compliance = seen->turn_compliance;
     set_free_travel(s, seen);
     compute_curvature(s, seen, slope, v3_sub(s->first_point, s->point), last);
-    set_pressures(s, pressing, seen->scale);
+    set_pressures(s, pressing, seen->sums, seen->scale);
     s->other_force = v3_sub(v3_scale(seen->scale, q->gradient.f), s->direction);
     s->centre = fl_surrogate_force_centre(q->gradient.f, q->gradient.m);
     s->valid = s->force > MIN_NET_FORCE * s->pressure && v3_norm2(s->direction) > 0.0;

@@ -110,7 +110,9 @@ typedef struct {
     fl_sym3 compliance;
     double turn_compliance;                     /*                              [1/(kg m2)] */
     fl_vec3 direction, torque;                  /* as in fl_pressure_moments, times dW/dU  */
-    double damping[FL_PRESSURE_MATRIX], radius; /* likewise                                */
+    double damping[FL_PRESSURE_MATRIX];         /* likewise                                */
+    double arm;                                 /* shape of the pressures, patch_result.h, [m] */
+    fl_vec3 elongation;                         /* in the frame of B                           */
     fl_vec3 centre_offset;       /* of the mean of the pressures from where they act      [m] */
     double half_width, skewness; /* of no_tension.h; half width over the standard deviation */
     /* Since the bodies touched. */
@@ -122,6 +124,7 @@ typedef struct {
     /* Not packed. */
     fl_vec6 learnt[6];            /* learnt part of H, times p W over the force         [1/m] */
     fl_surrogate_record previous; /* the exact evaluation before the last one                 */
+    double bend_share;            /* fl_damping_bend_share(); 0 where all normals are one */
     double energy_defect;         /* sum of the jumps of W not yet returned               [J] */
     double defect_return;         /* b                                                 [1/m2] */
     double free_path;             /* path before another wall of B may carry load         [m] */

@@ -8,6 +8,9 @@
 #include "scene/unused_keys.h"
 #include "scene/scene_section.h"
 
+/* Of the force of the waves, where none is given. */
+#define DEFAULT_WAVE_ERROR 0.003
+
 static int add_missing_material(fl_scene *s, const char *name, fl_err *err)
 {
     if (fl_scene_find_material(s, name) >= 0) return 0;
@@ -32,6 +35,7 @@ static void set_default_intervals(fl_scene *s)
     copy_unless_given(o, "contacts_every", &o->contacts_every, o->loads_every);
     copy_unless_given(o, "hash_every", &o->hash_every, o->loads_every);
     copy_unless_given(o, "bonds_every", &o->bonds_every, o->loads_every);
+    copy_unless_given(o, "members_every", &o->members_every, o->loads_every);
 }
 
 /* Check that a material exists; place: "structure" and "boundary" are accepted too.  key is the whole
@@ -51,7 +55,7 @@ static int check_inputs(const fl_scene *s, fl_err *err)
     if (!s->ice.head.present || s->ice.file[0] == '\0')
         return fl_scene_fail(s, "ice.file", err,
                              "the scene has no ice: [ice] file = FILE, or --ice FILE, is expected");
-    if (s->structure.head.present && s->structure.file[0] == '\0')
+    if (s->structure.head.present && !s->structure.file[0] && !s->structure.members[0])
         return fl_scene_fail(s, "structure.file", err,
                              "[structure] has no file: file = FILE, or --structure FILE, is expected");
     if (std_scene + std_ice + std_structure > 1)
@@ -65,12 +69,12 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames",   "output.state", "output.energy",
-                               "output.contacts", "output.hash",  "output.panels",
-                               "output.events",   "output.bonds", "output.checkpoint"};
-    const char *const path[] = {s->output.frames,   s->output.state, s->output.energy,
-                                s->output.contacts, s->output.hash,  s->output.panels,
-                                s->output.events,   s->output.bonds, s->output.checkpoint};
+    const char *const key[] = {"output.frames",  "output.state",     "output.energy", "output.contacts",
+                               "output.hash",    "output.panels",    "output.events", "output.bonds",
+                               "output.members", "output.checkpoint"};
+    const char *const path[] = {s->output.frames,  s->output.state,     s->output.energy, s->output.contacts,
+                                s->output.hash,    s->output.panels,    s->output.events, s->output.bonds,
+                                s->output.members, s->output.checkpoint};
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
@@ -80,7 +84,8 @@ static int check_outputs(const fl_scene *s, fl_err *err)
             if (strcmp(path[j], path[k]) == 0)
                 return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is %s already", key[k], path[k],
                                      key[j]);
-        if (path[k][0] && (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0))
+        if (path[k][0] && (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0 ||
+                           strcmp(path[k], s->structure.members) == 0))
             return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is an input", key[k], path[k]);
     }
     return 0;
@@ -256,6 +261,10 @@ static int check_waves(const fl_scene *s, fl_err *err)
     const fl_scene_water *w = &s->water;
     const fl_vec3 g = s->run.gravity;
     if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
+    if (s->ice.slab > 0.0)
+        return fl_scene_fail(s, "ice.slab", err,
+                             "spheres that stand for a slab float in still water: either ice.slab or "
+                             "water.wave is expected");
     if (w->height == 0.0)
         return fl_scene_fail(s, "water.wave", err, "the waves have no height: water.height is expected");
     if (w->period == 0.0)
@@ -273,6 +282,66 @@ static int check_waves(const fl_scene *s, fl_err *err)
                                  "waves that run along %c do not repeat with a periodic boundary: another "
                                  "boundary or water.direction is expected",
                                  'x' + c);
+    return 0;
+}
+
+static int water_key_given(const fl_scene_water *w, const char *key)
+{
+    return w->head.key[fl_key_find(FL_SEC_WATER, key) - fl_key_first(FL_SEC_WATER)].line != 0;
+}
+
+/* The default: a number for several trains, none with what evaluates the waves otherwise. */
+static void set_default_wave_error(fl_scene *s)
+{
+    fl_scene_water *w = &s->water;
+    const int trains = w->wave == FL_WAVE_JONSWAP && w->components != 1,
+              needed = w->spread > 0.0 || w->ice_decay != FL_ICE_DECAY_NONE;
+    if (water_key_given(w, "wave_error")) return;
+    w->wave_error = needed || (trains && w->every == 1 && s->run.sleep == 0.0) ? DEFAULT_WAVE_ERROR : 0.0;
+}
+
+/* Waves by error, directions, decay. */
+static int check_wave_error(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_water *w = &s->water;
+    if (!w->head.present || w->wave == FL_WAVE_NONE) return 0;
+    if (w->spread > 0.0 && w->wave == FL_WAVE_AIRY)
+        return fl_scene_fail(s, "water.spread", err,
+                             "a regular wave has one direction: water.wave = jonswap is expected");
+    if (w->ice_decay != FL_ICE_DECAY_NONE && !isfinite(w->ice_edge))
+        return fl_scene_fail(s, "water.ice_decay", err,
+                             "the decay needs the edge of the ice: water.ice_edge is expected");
+    if (w->ice_decay != FL_ICE_DECAY_NONE && w->spread > 0.0)
+        return fl_scene_fail(s, "water.ice_decay", err,
+                             "the decay is along one direction: either water.ice_decay or water.spread is "
+                             "expected");
+    if ((w->ice_decay == FL_ICE_DECAY_ROGERS || w->ice_decay == FL_ICE_DECAY_MEYLAN) &&
+        w->ice_thickness == 0.0)
+        return fl_scene_fail(s, "water.ice_decay", err,
+                             "the decay needs the thickness of the ice: water.ice_thickness is expected");
+    if (w->ice_decay == FL_ICE_DECAY_OWN && !(w->ice_decay_law.x > 0.0))
+        return fl_scene_fail(s, "water.ice_decay", err,
+                             "the decay has no law: water.ice_decay_law with C above 0 is expected");
+    if (w->ice_decay == FL_ICE_DECAY_OWN && w->ice_decay_law.y != 0.0 && w->ice_thickness == 0.0)
+        return fl_scene_fail(s, "water.ice_decay", err,
+                             "the decay needs the thickness of the ice: water.ice_thickness is expected");
+    if (w->wave_error == 0.0 && (w->spread > 0.0 || w->ice_decay != FL_ICE_DECAY_NONE))
+        return fl_scene_fail(s, "water.wave_error", err,
+                             "with %s the waves are evaluated by error only: a number is expected",
+                             w->spread > 0.0 ? "water.spread" : "water.ice_decay");
+    if (w->wave_error > 0.0 && w->every > 1)
+        return fl_scene_fail(s, "water.every", err,
+                             "water.wave_error chooses when the waves are evaluated: either water.every or "
+                             "water.wave_error is expected");
+    if (w->wave_error > 0.0 && s->run.sleep > 0.0)
+        return fl_scene_fail(s, "run.sleep", err,
+                             "sleeping floes evaluate the waves when they wake: water.wave_error = none is "
+                             "expected");
+    for (int c = 0; c < 2; c++)
+        if (w->spread > 0.0 && s->boundary.head.present && s->boundary.type[c] == FL_BOUNDARY_PERIODIC)
+            return fl_scene_fail(s, "water.spread", err,
+                                 "waves of all directions do not repeat with a periodic boundary: another "
+                                 "boundary or water.spread = none is expected");
     return 0;
 }
 
@@ -308,9 +377,9 @@ static int check_bonds(const fl_scene *s, fl_err *err)
     if (s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
         return fl_scene_fail(s, "boundary.inflow", err,
                              "inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
-    if (b->softening != FL_SOFTENING_KEEP && b->energy == 0.0)
+    if (b->softening == FL_SOFTENING_WEAKEN && b->energy == 0.0)
         return fl_scene_fail(s, "bond.softening", err,
-                             "softening needs a fracture energy: bond.energy is expected");
+                             "softening = weaken needs a fracture energy: bond.energy is expected");
     if (b->softening == FL_SOFTENING_WEAKEN && (isinf(b->normal_strength) || isinf(b->shear_strength)))
         return fl_scene_fail(
             s, "bond.softening", err,
@@ -422,6 +491,30 @@ static int check_motions(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+/* A structure of members has no other motion, and no other pieces. */
+static int check_members(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_structure *t = &s->structure;
+    const fl_scene_motion *m = &t->motion;
+    if (!t->head.present || !t->members[0]) {
+        if (s->output.members[0])
+            return fl_scene_fail(s, "output.members", err,
+                                 "there are no members: structure.members is expected");
+        return 0;
+    }
+    if (t->file[0])
+        return fl_scene_fail(s, "structure.members", err,
+                             "structure.file is given as well: one of the two is expected");
+    if (strcmp(t->members, "-") == 0)
+        return fl_scene_fail(s, "structure.members", err,
+                             "structure.members is \"-\": a file is expected, as it is read twice");
+    if (m->free || m->track[0] || v3_nonzero(m->velocity) || v3_nonzero(m->spin) || s->n_part)
+        return fl_scene_fail(s, s->n_part ? "part" : "structure.members", err,
+                             "a structure of members moves by its own masses and supports: no %s is expected",
+                             s->n_part ? "[part NAME]" : "velocity, spin, track or free");
+    return 0;
+}
+
 int fl_scene_check(fl_scene *s, fl_err *err)
 {
     if (add_missing_material(s, "ice", err) || add_missing_material(s, "steel", err)) return -1;
@@ -443,8 +536,9 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     if (fl_scene_check_unused(s, err) || check_inputs(s, err) || check_outputs(s, err) ||
         check_contacts(s, err))
         return -1;
+    set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
-                   check_wind(s, err) || check_bonds(s, err) ||
+                   check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) || check_members(s, err) ||
                    check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)

@@ -112,7 +112,7 @@ static int convert_manual_value(enum fl_word_map map, const char **text, char bu
 }
 
 /* Room for one section of any kind. */
-enum { SECTION_MAX = 10240 };
+enum { SECTION_MAX = 65536 };
 _Static_assert(sizeof(fl_scene_run) <= SECTION_MAX, "[run]");
 _Static_assert(sizeof(fl_scene_output) <= SECTION_MAX, "[output]");
 _Static_assert(sizeof(fl_scene_material) <= SECTION_MAX, "[material]");

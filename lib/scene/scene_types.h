@@ -44,7 +44,9 @@ enum fl_error_of {
     FL_ERROR_OF_MZ
 };
 enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
+enum fl_frames_form { FL_FRAMES_TEXT, FL_FRAMES_PACKED };
 enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
+enum fl_ice_decay { FL_ICE_DECAY_NONE, FL_ICE_DECAY_ROGERS, FL_ICE_DECAY_MEYLAN, FL_ICE_DECAY_OWN };
 enum { FL_FIX_X = 1, FL_FIX_Y = 2, FL_FIX_Z = 4, FL_FIX_RX = 8, FL_FIX_RY = 16, FL_FIX_RZ = 32 };
 
 typedef struct {
@@ -66,11 +68,12 @@ typedef struct {
     double loads_every;
     double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
     int32_t files;                         /* number of files the frames are split over */
-    double state_every, energy_every, contacts_every, hash_every, bonds_every;
+    int32_t frames_form;                   /* text, packed: enum fl_frames_form */
+    double state_every, energy_every, contacts_every, hash_every, bonds_every, members_every;
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
         hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        checkpoint[FL_SCENE_PATH]; /* "": none */
+        members[FL_SCENE_PATH], checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
 typedef struct {
@@ -83,6 +86,9 @@ typedef struct {
     double friction;
 } fl_scene_material;
 
+/* Law of a point of a round core. */
+enum fl_round_law { FL_ROUND_AUTO, FL_ROUND_HERTZ, FL_ROUND_LINEAR };
+
 /* Contact parameters of a pair.  In scene.contact a member counts only where its key was given;
  * fl_scene_pair() returns a struct with every member set. */
 typedef struct {
@@ -90,6 +96,7 @@ typedef struct {
     char a[FL_SCENE_NAME], b[FL_SCENE_NAME]; /* both empty: the defaults of all pairs */
     int32_t law;                             /* row of fl_contact_laws, law/contact_law.h */
     double exponent;                         /* n of F = kappa delta^n: 1 or 1.5 */
+    int32_t round_law;                       /* enum fl_round_law */
     double stiffness;                        /* kappa [N/m^n]; 0: auto, from the moduli, notation(7) */
     double stiffness_factor;                 /* s_k, 0 < s_k <= 1, multiplies the automatic kappa */
     double tangential_ratio;                 /* kt / kn */
@@ -106,6 +113,7 @@ typedef struct {
     char file[FL_SCENE_PATH];     /* g-polys; "-" is standard input, "" not given */
     char material[FL_SCENE_NAME]; /* of bodies whose record names none */
     int32_t shape;                /* enum fl_shape */
+    double slab;                  /* thickness that spheres stand for [m]; 0: none */
 } fl_scene_ice;
 
 /* Motion of the structure, or of one part.  Free directions follow forces; the others follow the
@@ -132,7 +140,9 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    char file[FL_SCENE_PATH]; /* g_struct */
+    char file[FL_SCENE_PATH];    /* g_struct; "" not given */
+    char members[FL_SCENE_PATH]; /* members; "" not given */
+    double member_damping;       /* ratio of the lowest modes */
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */
     fl_scene_motion motion;
@@ -178,14 +188,20 @@ typedef struct {
     char profile_file[FL_SCENE_PATH]; /* of table; "": none */
     int32_t wave;                     /* enum fl_wave_kind */
     double height, period, direction, gamma; /* [m], [s], [deg]; height and period 0: not given */
-    int32_t seed, components;
-    double drag_force_coef;      /* C of equation (8) */
-    fl_vec3 added_mass;          /* over the displaced mass, per body axis; -1: auto */
-    fl_vec3 added_inertia;       /* over the moments of inertia of the body; -1: auto */
-    int32_t drag;                /* manual, facet: enum fl_drag_law of water/environment.h */
-    double skin_coef, form_coef; /* C_s and C_f of facet */
-    double drag_moment_coef;     /* C of equation (9) */
-    int32_t every;               /* steps between two evaluations of the wave load */
+    int32_t seed, components;                /* components 0: auto */
+    double drag_force_coef;                  /* C of equation (8) */
+    fl_vec3 added_mass;                      /* over the displaced mass, per body axis; -1: auto */
+    fl_vec3 added_inertia;                   /* over the moments of inertia of the body; -1: auto */
+    int32_t drag;                            /* manual, facet: enum fl_drag_law of water/environment.h */
+    double skin_coef, form_coef;             /* C_s and C_f of facet */
+    double drag_moment_coef;                 /* C of equation (9) */
+    int32_t every;                           /* steps between two evaluations of the wave load */
+    double wave_error;     /* asked for, over rho g A Hs/4; 0: none, waves evaluated in each step */
+    double spread;         /* n of cos^n; 0: one direction */
+    int32_t ice_decay;     /* enum fl_ice_decay */
+    fl_vec3 ice_decay_law; /* C, m, n of own */
+    double ice_edge;       /* of the ice along the waves [m]; INFINITY: not given */
+    double ice_thickness;  /* for the decay [m]; 0: not given */
 } fl_scene_water;
 
 typedef struct {
@@ -213,6 +229,11 @@ typedef struct {
     int32_t softening; /* enum fl_softening */
     double stretch;    /* least ratio of final to peak separation, of stretch */
     double damping;    /* fraction of critical of the two bodies on their bond */
+    double internal_friction; /* mu_i of the shear strength; negative: auto */
+    double moment_factor;     /* beta of discs */
+    double radius_factor;     /* of discs over the smaller sphere */
+    double scatter;           /* standard deviation over mean of their strengths */
+    int32_t seed;
 } fl_scene_bond;
 
 typedef struct {

@@ -9,10 +9,11 @@
 #include "world/access.h"
 
 int fl_companion_make(fl_companion *s, const fl_scene *scene, const fl_ice_field *field,
-                      const fl_ice_field *feed, const fl_surface *surface, fl_err *err)
+                      const fl_ice_field *feed, const fl_surface *surface, const fl_member_model *members,
+                      fl_err *err)
 {
     *s = (fl_companion){.exceeded_since = -1.0};
-    if (fl_world_make_with_inflow(&s->world, scene, field, feed, surface, err)) return -1;
+    if (fl_world_make_with_inflow(&s->world, scene, field, feed, surface, members, err)) return -1;
     s->run_load = fl_alloc(s->world.parts, sizeof *s->run_load, err);
     s->own_load = s->run_load ? fl_alloc(s->world.parts, sizeof *s->own_load, err) : NULL;
     if (s->own_load) return 0;

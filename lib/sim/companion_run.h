@@ -55,7 +55,8 @@ typedef struct {
 
 /* Build the second world of the scene, which has not started.  -1 as fl_world_make_with_inflow(). */
 int fl_companion_make(fl_companion *s, const fl_scene *scene, const fl_ice_field *field,
-                      const fl_ice_field *feed, const fl_surface *surface, fl_err *err);
+                      const fl_ice_field *feed, const fl_surface *surface, const fl_member_model *members,
+                      fl_err *err);
 void fl_companion_free(fl_companion *s); /* accepts a zeroed struct, leaves one */
 
 /* After a step of the run w, before the loads of its row are cleared: follow in whole steps, and compare

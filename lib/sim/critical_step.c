@@ -294,8 +294,7 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
             }
             const double slope = tangent_stiffness(w, i, j, fl_pair_stiffness(w, i, j), hit);
             stiffest = fmax(stiffest, stiffer * slope);
-            if (w->moving.movers.n && w->moving.mover_of_piece[j - w->n] >= 0)
-                mover_slope = fmax(mover_slope, places * slope);
+            if (fl_piece_moves(w, j)) mover_slope = fmax(mover_slope, places * slope);
             const int in_concave_edge = round && w->structure.piece[j - w->n].kind == FL_PIECE_MESH;
             lower_shares(w, shares, law, in_concave_edge || fl_piece_is_free(w, j), times, few,
                          contacts_per_motion(w, round, times));
@@ -313,7 +312,8 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
             *body = i;
         }
     }
-    for (int32_t m = 0; m < w->moving.movers.n; m++) {
+    const int32_t movers = fl_structure_has_members(w) ? 1 : w->moving.movers.n;
+    for (int32_t m = 0; m < movers; m++) {
         const double omega2 = fl_mover_omega2(w, m, mover_slope);
         if (omega2 > largest) {
             largest = omega2;
@@ -322,6 +322,11 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
     }
     for (int32_t k = 0; k < w->bonds.n; k++) {
         const double one = fl_damping_stable_share(0.5 * w->bonds.bond[k].damping * sqrt(largest));
+        shares->one = fmin(shares->one, one), shares->bonds_alone = fmin(shares->bonds_alone, 0.5 * one);
+        shares->bonds_measured = fmin(shares->bonds_measured, 0.8 * one);
+    }
+    for (int32_t k = 0; k < w->discs.n_class; k++) {
+        const double one = fl_damping_stable_share(0.5 * w->discs.classes[k].damping * sqrt(largest));
         shares->one = fmin(shares->one, one), shares->bonds_alone = fmin(shares->bonds_alone, 0.5 * one);
         shares->bonds_measured = fmin(shares->bonds_measured, 0.8 * one);
     }
@@ -360,7 +365,7 @@ double fl_automatic_step(const fl_world *w, int32_t *body)
     double largest = find_stiffest(w, 0, 1.0, body, &shares);
     if (largest == 0.0) return INFINITY;
     const double contacts = share_of(w, &shares), ratio = contacts / share_of_bonds(w, &shares);
-    if (w->bonds.n && ratio != 1.0) largest = find_stiffest(w, 0, ratio * ratio, body, &same);
+    if (fl_world_bonds(w) && ratio != 1.0) largest = find_stiffest(w, 0, ratio * ratio, body, &same);
     return contacts * 2.0 / sqrt(largest);
 }
 
@@ -373,7 +378,7 @@ fl_predicted_limit fl_predict_step_limit(const fl_world *w)
         return (fl_predicted_limit){.critical = INFINITY, .contact_share = share_of(w, &shares)};
     fl_predicted_limit f = {.critical = 2.0 / sqrt(largest), .contact_share = share_of(w, &shares)};
     const double same = f.contact_share * f.critical, dt = fl_automatic_step(w, &body);
-    if (w->bonds.n) f.bond_relief = 1.0 / (same * same) - 1.0 / (dt * dt);
+    if (fl_world_bonds(w)) f.bond_relief = 1.0 / (same * same) - 1.0 / (dt * dt);
     return f;
 }
 
@@ -457,7 +462,7 @@ static double ratio_of(double dt, double critical) { return isfinite(critical) ?
 static double max_late_damping(const fl_world *w, double r)
 {
     const double all = ratio_of(w->dt, w->dt_critical), D = max_damping(w, 1);
-    return w->bonds.n && all > 0.0 ? fmax(D, 2.0 * w->scene->bond.damping * r / all) : D;
+    return fl_world_bonds(w) && all > 0.0 ? fmax(D, 2.0 * w->scene->bond.damping * r / all) : D;
 }
 
 double fl_peak_error(const fl_world *w)

@@ -41,7 +41,7 @@ const fl_table_format fl_energy_table = {"energy", FL_TABLE_COLUMNS(COLUMNS)};
 unsigned fl_energy_table_options(const fl_world *w)
 {
     return (fl_structure_moves_freely(w) ? MOVING : 0u) | (w->sea.waves ? WAVES : 0u) |
-           (w->bonds.n ? BONDS : 0u);
+           (fl_world_bonds(w) ? BONDS : 0u);
 }
 
 double fl_energy_stored(const fl_world *w)
@@ -124,12 +124,12 @@ void fl_energy_update(fl_world *w)
     g->gravity = gravity;
     g->elastic = elastic;
     g->hydrostatic = hydro;
-    g->damping_now = g->damping - ahead.damping;
-    g->friction_now = g->friction - ahead.friction - spring; /* the friction springs can give it back */
+    g->damping_now = g->damping - ahead.damping + bonds.damped;
+    g->friction_now = g->friction - ahead.friction - spring + bonds.rubbed; /* the friction springs can give it back */
     g->drag = drag;
     g->wind = wind;
     g->waves = waves;
-    if (w->moving.movers.n) {
+    if (fl_structure_moves(w)) {
         const fl_moving_energy r = fl_moving_structure_energy(w);
         g->structure = r.kinetic;
         g->spring = r.spring;
@@ -165,6 +165,14 @@ uint64_t fl_state_hash(const fl_world *w)
         h = fl_hash(h, &m->q[k], sizeof m->q[k]);
         h = fl_hash(h, &m->v[k], sizeof m->v[k]);
         h = fl_hash(h, &m->L[k], sizeof m->L[k]);
+    }
+    const fl_member_chain *c = &w->moving.members.dynamics.chain;
+    for (int32_t k = 0; k < c->balls; k++) {
+        const fl_member_ball *a = &c->ball[k];
+        h = fl_hash(h, &a->d, sizeof a->d);
+        h = fl_hash(h, &a->q, sizeof a->q);
+        h = fl_hash(h, &a->v, sizeof a->v);
+        h = fl_hash(h, &a->w, sizeof a->w);
     }
     return h;
 }

@@ -154,6 +154,8 @@ static fl_velocity_change acceleration_of(const fl_world *w, int32_t k)
     fl_velocity_change g = {0};
     if (k < w->n) {
         fl_body_accelerations(&w->b, k, &g.v, &g.w);
+    } else if (fl_structure_has_members(w)) {
+        if (fl_piece_moves(w, k)) fl_member_motion_push(&w->moving.members, k - w->n, w->b.x[k], &g.v, &g.w);
     } else if (w->moving.movers.n) {
         const fl_bodies *mb = &w->moving.movers.b;
         const int32_t m = w->moving.mover_of_piece[k - w->n];
@@ -179,7 +181,7 @@ void fl_ledger_begin_step(fl_world *w)
     w->spheres.previous_sum = w->spheres.sum;
     w->spheres.sum = sum;
     memset(w->predicted_change, 0, (size_t)w->change_cap * sizeof *w->predicted_change);
-    for (int32_t k = w->n; k < w->b.total && w->moving.movers.n; k++) {
+    for (int32_t k = w->n; k < w->b.total && fl_structure_moves(w); k++) {
         fl_velocity_change *const change = fl_kick_change(w, k);
         if (change) *change = change_of(w, k);
     }
@@ -204,7 +206,7 @@ void fl_ledger_book_step(fl_world *w)
     fl_work sum = {0};
     for (int32_t k = 0; k < fl_block_count(w); k++)
         sum.damping += w->blocks[k].damping_work, sum.friction += w->blocks[k].friction_work;
-    for (int32_t k = w->n; k < w->b.total && w->moving.movers.n; k++) {
+    for (int32_t k = w->n; k < w->b.total && fl_structure_moves(w); k++) {
         const fl_velocity_change back = change_of(w, k);
         const fl_work q = fl_work_of_step(w, k, fl_kick_change(w, k), &back);
         sum.damping += q.damping, sum.friction += q.friction;

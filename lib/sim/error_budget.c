@@ -583,7 +583,8 @@ double fl_error_budget_run_error(const fl_error_budget *g, double *difference)
 /* --- set-up and checkpoint ----------------------------------------------------------------------- */
 
 int fl_error_budget_make(fl_error_budget *g, const fl_scene *scene, const fl_ice_field *field,
-                         const fl_ice_field *feed, const fl_surface *surface, fl_err *err)
+                         const fl_ice_field *feed, const fl_surface *surface, const fl_member_model *members,
+                         fl_err *err)
 {
     int32_t body;
     *g = (fl_error_budget){.goal = scene->run.error,
@@ -591,8 +592,8 @@ int fl_error_budget_make(fl_error_budget *g, const fl_scene *scene, const fl_ice
                            .row_interval = scene->output.loads_every,
                            .latest_window = -1,
                            .last_search_step = -1};
-    if (fl_world_make_with_inflow(&g->trial, scene, field, feed, surface, err) ||
-        fl_companion_make(&g->companion, scene, field, feed, surface, err)) {
+    if (fl_world_make_with_inflow(&g->trial, scene, field, feed, surface, members, err) ||
+        fl_companion_make(&g->companion, scene, field, feed, surface, members, err)) {
         fl_error_budget_free(g);
         return -1;
     }

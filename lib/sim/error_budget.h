@@ -89,7 +89,8 @@ typedef struct {
 
 /* Build the second world of the scene; no window yet.  -1 as fl_world_make_with_inflow(). */
 int fl_error_budget_make(fl_error_budget *g, const fl_scene *scene, const fl_ice_field *field,
-                         const fl_ice_field *feed, const fl_surface *surface, fl_err *err);
+                         const fl_ice_field *feed, const fl_surface *surface, const fl_member_model *members,
+                         fl_err *err);
 void fl_error_budget_free(fl_error_budget *g); /* accepts a zeroed struct, leaves one */
 
 /* The step to start with: the largest allowed [s]. */

@@ -2,6 +2,7 @@
 #include "sim/floe_setup.h"
 #include <math.h>
 #include <stdio.h>
+#include "base/pi.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "water/added_mass.h"
@@ -58,9 +59,10 @@ static int make_body(fl_world *w, int32_t i, const fl_ice_field *field, int32_t 
     if (fl_mass_of(&mass, sharp ? outer : core, sharp ? 0.0 : r, &why)) goto bad;
 
     const double rho = s->material[w->material[i]].density;
-    b->m[i] = rho * mass.volume;
+    const double solid = core->nv == 1 ? w->slab_fill * rho : rho;
+    b->m[i] = solid * mass.volume;
     b->invm[i] = 1.0 / b->m[i];
-    fl_body_set_inertia(b, i, v3_scale(rho, mass.inertia));
+    fl_body_set_inertia(b, i, v3_scale(solid, mass.inertia));
     b->x[i] = mass.centre;
     b->q[i] = q_of_matrix(mass.axes);
     b->v[i] = field->velocity[k];
@@ -112,12 +114,15 @@ static int make_hull(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
                        w->scene->ice.file, w->id[i]);
     if (!round && fl_topologies_share(&w->topologies, outer, FL_KEEP_OFFSETS, err)) return -1;
     if (fl_environment_set_hull(&w->sea, i, round ? NULL : outer, core, w->b.radius[i], err)) return -1;
+    if (core->nv == 1) fl_hull_fill(&w->sea.hull[i], w->slab_fill);
     if (w->b.added_mass || v3_nonzero(w->scene->water.added_inertia))
         set_added_mass(w, i,
                        round                              ? core
                        : fl_environment_outer(&w->sea, i) ? fl_environment_outer(&w->sea, i)
                                                           : outer);
-    return fl_environment_fit_hull(&w->sea, i, err);
+    if (fl_environment_fit_hull(&w->sea, i, err)) return -1;
+    if (w->b.heave_mass) fl_environment_refresh(&w->sea, &w->b, i);
+    return 0;
 }
 
 /* Set up body i for elastic walls.  Its sharp corners are outside the dilated core, which enlarges the
@@ -173,6 +178,7 @@ static void drive_body(fl_world *w, int32_t i)
     fl_bodies *b = &w->b;
     const fl_vec3 spin = b->w[i];
     const unsigned driven = s->drive_fixed, fixed = driven | b->fixed_dof[i];
+    const double area = b->core[i].nv == 1 ? PI * b->radius[i] * b->radius[i] : w->max_face_area[i];
     b->fixed_dof[i] = (uint8_t)fixed;
     if (driven & FL_DOF_X) b->v[i].x = s->drive.x;
     if (driven & FL_DOF_Y) b->v[i].y = s->drive.y;
@@ -181,7 +187,7 @@ static void drive_body(fl_world *w, int32_t i)
                      v3(fixed & FL_DOF_RX ? 0.0 : spin.x, fixed & FL_DOF_RY ? 0.0 : spin.y,
                         fixed & FL_DOF_RZ ? 0.0 : spin.z));
     w->driven_floes.k[i] =
-        fixed & FL_DOF_Z ? 0.0 : s->drive_spring + s->drive_foundation * w->max_face_area[i];
+        fixed & FL_DOF_Z ? 0.0 : s->drive_spring + s->drive_foundation * area;
     w->driven_floes.rest_height[i] = b->x[i].z;
 }
 

@@ -11,6 +11,7 @@
 #include "sim/sleep.h"
 #include "sphere/contact_force.h"
 #include "sphere/contact_list.h"
+#include "sphere/floating_batch.h"
 #include "sphere/free_batch.h"
 #include "water/still_water_batch.h"
 
@@ -38,7 +39,7 @@ static int32_t run_end(const uint8_t *a, uint8_t x, int32_t k, int32_t to)
  * Returns k if k is not such a body. */
 static int32_t simple_run_end(const fl_world *w, int32_t k, int32_t to)
 {
-    if (w->b.is_isotropic[k] && (w->b.added_mass || w->sea.waves)) return k;
+    if (w->b.is_isotropic[k] && (w->b.added_mass || w->b.heave_mass || w->sea.waves)) return k;
     to = run_end(w->b.is_isotropic, w->b.is_isotropic[k], k, run_end(w->b.fixed_dof, 0, k, to));
     return w->inflow.absent ? run_end(w->inflow.absent, 0, k, to) : to;
 }
@@ -112,7 +113,7 @@ static fl_velocity_change sphere_change(const fl_bodies *b, int32_t k, double h)
 static fl_velocity_change body_change(const fl_bodies *b, int32_t k, double h)
 {
     const fl_vec3 f = b->f[k], turn = fl_body_apply_inverse_inertia(b, k, v3_scale(h, b->t[k]));
-    return (fl_velocity_change){b->added_mass ? v3_scale(h, fl_body_velocity_of_momentum(b, k, f))
+    return (fl_velocity_change){b->added_mass || b->heave_mass ? v3_scale(h, fl_body_velocity_of_momentum(b, k, f))
                                               : v3_scale(h * b->invm[k], f),
                                 turn};
 }
@@ -233,7 +234,13 @@ static void begin_body(fl_world *w, int32_t k, double h)
 static void begin_bodies(fl_world *w, int32_t from, int32_t to, double h, batch_list *c)
 {
     int32_t end;
+    const int floating = fl_floating_batch_applies(w);
     for (int32_t k = from; k < to; k = end) {
+        end = floating ? fl_floating_run_end(w, k, k + FL_BODY_BLOCK < to ? k + FL_BODY_BLOCK : to, 0) : k;
+        if (end > k) {
+            fl_floating_batch_begin(w, k, end, h);
+            continue;
+        }
         end = simple_run_end(w, k, to);
         if (end == k) begin_body(w, end++, h);
         else if (w->b.is_isotropic[k]) begin_spheres(w, k, end, h);
@@ -534,7 +541,7 @@ static int end_sphere_block(fl_world *w, int32_t from, int32_t to, double h, fl_
     const int32_t *slot = w->contact_sums.slot, *previous = w->previous_sums.slot;
     fl_free_batch_work works;
     int32_t touched = 0;
-    if (!w->spheres.bodies || !w->b.is_isotropic[from] || w->sea.n || w->driven_floes.n ||
+    if (!w->spheres.bodies || !w->b.is_isotropic[from] || w->sea.n || w->driven_floes.n || w->discs.n ||
         w->contact_sums.one_each || !(h > 0.0))
         return 0;
     for (int32_t k = from; k < to; k++) touched |= slot[k] | previous[k];
@@ -589,6 +596,24 @@ static void start_block(fl_world *w, int32_t g)
     fl_sphere_sums_collect(w, from, to);
 }
 
+/* Second half for the run of spheres from k on that floating_batch.h handles; returns its end. */
+static int32_t end_floating_spheres(fl_world *w, int32_t k, int32_t to, double h, fl_body_block *own)
+{
+    fl_floating_result r;
+    const int32_t end =
+        h > 0.0 && fl_floating_batch_applies(w) ? fl_floating_run_end(w, k, to, 1) : k;
+    if (end == k) return k;
+    fl_floating_batch_end(w, k, end, h, &r);
+    for (int32_t i = k; i < end; i++) {
+        const int32_t at = i - k;
+        if (has_contact(w, i)) own->contact_force = v3_add(own->contact_force, r.contact_force[at]);
+        if (!w->spheres.bodies || !(w->spheres.contact_count[i] | w->spheres.previous_contact_count[i])) continue;
+        const fl_velocity_change first = {r.first_v[at], r.first_w[at]}, back = {r.back_v[at], r.back_w[at]};
+        add_works(own, fl_work_of_step(w, i, &first, &back));
+    }
+    return end;
+}
+
 /* Second half for the run of spheres from k on that need the same operations, within one block [k, to);
  * returns its end.  *finite = 0 unless their numbers are known to be finite. */
 static int32_t end_sphere_run(fl_world *w, int32_t k, int32_t to, double h, int *finite)
@@ -597,6 +622,8 @@ static int32_t end_sphere_run(fl_world *w, int32_t k, int32_t to, double h, int 
     int32_t end = end_batched_spheres(w, k, to, h, own, finite);
     if (end > k) return end;
     *finite = 0;
+    end = end_floating_spheres(w, k, to, h, own);
+    if (end > k) return end;
     end = h > 0.0 ? simple_run_end(w, k, to) : k;
     if (end == k) {
         end_body(w, k, h, own);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/memory_use.h"
+#include "contact/disc_list.h"
 #include "sim/sleep.h"
 #include "sphere/contact_list.h"
 
@@ -29,6 +30,7 @@ static double body_bytes(const fl_world *w)
            ARRAY(b->invm, total) + ARRAY(b->I, total) + ARRAY(b->invI, total) + ARRAY(b->radius, total) +
            ARRAY(b->bounding_radius, total) + ARRAY(b->fixed_dof, total) + ARRAY(b->is_isotropic, total) +
            ARRAY(b->work_of_constraints, total) + ARRAY(b->odometer, total) + ARRAY(b->added_mass, total) +
+           ARRAY(b->heave_mass, total) + ARRAY(b->heave_work, total) +
            ARRAY(b->flow_velocity, total) + ARRAY(b->flow_work, total) + ARRAY(w->id, n) +
            ARRAY(w->material, total) + ARRAY(w->max_face_area, total) + ARRAY(w->q0, n) +
            ARRAY(w->blocks, n / FL_BODY_BLOCK + 1) + ARRAY(w->contact_sums.slot, total) +
@@ -43,7 +45,10 @@ static double water_bytes(const fl_environment *s)
                  ARRAY(s->buoyancy, s->n) + ARRAY(s->flow_velocity, s->n) + ARRAY(s->drag_loss, s->n) +
                  ARRAY(s->wind_work, s->n) + ARRAY(s->drag_surface, s->n) + ARRAY(s->panels, s->n) +
                  ARRAY(s->cells, (double)s->threads * s->cells_per_thread) + ARRAY(s->water_force, s->n) +
-                 ARRAY(s->water_moment, s->n) + ARRAY(s->water_work, s->n) + ARRAY(s->sample, s->n);
+                 ARRAY(s->water_moment, s->n) + ARRAY(s->water_work, s->n) + ARRAY(s->sample, s->n) +
+                 ARRAY(s->nodes, s->n) + ARRAY(s->block, s->n) +
+                 ARRAY(s->node_scratch, (double)s->threads * s->scratch_per_thread) +
+                 fl_wave_grid_bytes(&s->grid);
     for (int32_t i = 0; i < s->n; i++) {
         sum += hull_bytes(&s->hull[i]);
         const fl_poly *const outer = fl_environment_outer(s, i);
@@ -51,8 +56,11 @@ static double water_bytes(const fl_environment *s)
         if (s->drag_surface)
             sum += fl_facets_bytes(&s->drag_surface[i].facets, &s->hull[i]) +
                    fl_facet_cut_bytes(&s->drag_surface[i].wet) + fl_facet_cut_bytes(&s->drag_surface[i].dry);
-        if (s->waves)
+        if (s->panels)
             sum += ARRAY(s->panels[i].face, s->panels[i].n) + ARRAY(s->panels[i].v, 3 * s->panels[i].n);
+        if (s->nodes)
+            sum += ARRAY(s->nodes[i].x, s->nodes[i].n) + ARRAY(s->nodes[i].w, s->nodes[i].n) +
+                   ARRAY(s->nodes[i].area, s->nodes[i].n);
     }
     return sum;
 }
@@ -77,7 +85,7 @@ static double other_bytes(const fl_world *w)
     if (t->feed) sum += ARRAY(t->lag, t->feed->n) + ARRAY(t->next_copy, t->feed->n);
     sum += ARRAY(w->driven_floes.is_driven, w->driven_floes.n) + ARRAY(w->driven_floes.k, w->driven_floes.n) +
            ARRAY(w->driven_floes.rest_height, w->driven_floes.n);
-    sum += fl_sleep_bytes(w);
+    sum += fl_sleep_bytes(w) + fl_disc_list_bytes(w);
     sum += ARRAY(z->bond, z->n) + ARRAY(z->image, 3 * (double)z->n) + ARRAY(z->radius_factor, z->n) +
            ARRAY(z->omega2, 2 * (double)z->n) + ARRAY(z->of, 2 * (double)z->n) +
            ARRAY(z->max_omega2, w->b.total) + ARRAY(z->first, w->b.total + 1);

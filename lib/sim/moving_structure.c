@@ -4,6 +4,7 @@
 #include "base/array.h"
 #include "base/pi.h"
 #include "sim/energy_ledger.h"
+#include "sim/member_structure.h"
 
 static int has_motion(const fl_scene_motion *m)
 {
@@ -164,11 +165,13 @@ static void set_piece_velocity(fl_world *w, int32_t k)
     w->b.w[j] = mb->w[m];
 }
 
-int fl_moving_structure_make(fl_world *w, const fl_surface *surface, fl_err *err)
+int fl_moving_structure_make(fl_world *w, const fl_surface *surface, const fl_member_model *members,
+                             fl_err *err)
 {
     fl_moving_structure *r = &w->moving;
     const int32_t pieces = w->structure.n; /* walls have an entry, too */
     for (int32_t p = 0; p < w->parts; p++) w->part_reference[p] = w->scene->structure.motion.reference;
+    if (members) return fl_member_structure_make(w, members, err);
     if (!surface || (!has_motion(&w->scene->structure.motion) && w->scene->n_part == 0)) return 0;
     r->mover_of_part = fl_alloc(w->parts, sizeof *r->mover_of_part, err);
     r->mover_of_piece = fl_alloc(pieces, sizeof *r->mover_of_piece, err);
@@ -197,6 +200,7 @@ int fl_moving_structure_make(fl_world *w, const fl_surface *surface, fl_err *err
 
 void fl_moving_structure_free(fl_moving_structure *r)
 {
+    fl_member_motion_free(&r->members);
     fl_rigid_motions_free(&r->movers);
     free(r->mover_of_piece), free(r->mover_of_part), free(r->arm), free(r->rotation), free(r->contact_omega2),
         free(r->hydrostatics);
@@ -212,6 +216,10 @@ static void move_reference_points(fl_world *w)
 
 void fl_moving_structure_set_step(fl_world *w)
 {
+    if (fl_structure_has_members(w)) {
+        fl_member_dynamics_set_step(&w->moving.members.dynamics, w->dt);
+        return;
+    }
     fl_rigid_motions_set_step(&w->moving.movers, w->dt);
     move_reference_points(w);
 }
@@ -219,6 +227,10 @@ void fl_moving_structure_set_step(fl_world *w)
 void fl_moving_structure_first_half(fl_world *w, double t)
 {
     fl_moving_structure *r = &w->moving;
+    if (fl_structure_has_members(w)) {
+        fl_member_structure_first_half(w);
+        return;
+    }
     for (int32_t m = 0; m < r->movers.n; m++) fl_rigid_motion_first_half(&r->movers, m, t, w->dt);
     for (int32_t k = 0; k < w->structure.n; k++) {
         if (r->mover_of_piece[k] < 0) continue;
@@ -239,6 +251,10 @@ void fl_moving_structure_second_half(fl_world *w, double t, double h)
 {
     fl_moving_structure *r = &w->moving;
     fl_bodies *mb = &r->movers.b;
+    if (fl_structure_has_members(w)) {
+        fl_member_structure_second_half(w, h);
+        return;
+    }
     for (int32_t m = 0; m < r->movers.n; m++) mb->f[m] = mb->t[m] = v3(0, 0, 0);
     for (int32_t k = 0; k < w->structure.n; k++) {
         const int32_t m = r->mover_of_piece[k], j = w->n + k;
@@ -263,9 +279,22 @@ static double max_arm_of(const fl_world *w, int32_t k)
     return v3_norm(w->moving.arm[k]) + w->b.bounding_radius[w->n + k];
 }
 
+static void lower_critical(fl_world *w, double limit, int32_t mover)
+{
+    w->dt_critical_contacts = fmin(w->dt_critical_contacts, limit);
+    if (limit < w->dt_critical) {
+        w->dt_critical = limit;
+        w->critical_body = w->b.total + mover;
+    }
+}
+
 void fl_moving_structure_limit(fl_world *w)
 {
     fl_moving_structure *r = &w->moving;
+    if (fl_structure_has_members(w)) {
+        lower_critical(w, fl_member_structure_limit(w), 0);
+        return;
+    }
     for (int32_t m = 0; m < r->movers.n; m++) r->contact_omega2[m] = 0.0;
     for (int32_t k = 0; k < w->pieces; k++) {
         const int32_t m = r->mover_of_piece[k], j = w->n + k;
@@ -280,18 +309,13 @@ void fl_moving_structure_limit(fl_world *w)
     }
     for (int32_t m = 0; m < r->movers.n; m++) {
         const double sum = 2.0 * r->contact_omega2[m] + fl_rigid_motion_max_omega2(&r->movers.motion[m]);
-        if (!(sum > 0.0)) continue;
-        const double limit = 2.0 / sqrt(sum);
-        w->dt_critical_contacts = fmin(w->dt_critical_contacts, limit);
-        if (limit < w->dt_critical) {
-            w->dt_critical = limit;
-            w->critical_body = w->b.total + m;
-        }
+        if (sum > 0.0) lower_critical(w, 2.0 / sqrt(sum), m);
     }
 }
 
 double fl_mover_omega2(const fl_world *w, int32_t k, double stiffest)
 {
+    if (fl_structure_has_members(w)) return fl_member_structure_omega2(w, stiffest);
     const fl_rigid_motion *m = &w->moving.movers.motion[k];
     double arm = 0.0;
     if (!m->free_dof) return 0.0;
@@ -304,6 +328,13 @@ fl_moving_energy fl_moving_structure_energy(const fl_world *w)
 {
     const fl_rigid_motions *v = &w->moving.movers;
     fl_moving_energy all = {0};
+    if (fl_structure_has_members(w)) {
+        const fl_member_dynamics *d = &w->moving.members.dynamics;
+        all.kinetic = fl_member_dynamics_kinetic(d);
+        all.spring = fl_member_dynamics_energy(d);
+        all.damper_work = d->damped;
+        return all;
+    }
     for (int32_t m = 0; m < v->n; m++) {
         all.kinetic += fl_rigid_motion_kinetic_energy(v, m);
         all.spring += v->spring_energy[m];
@@ -315,7 +346,7 @@ fl_moving_energy fl_moving_structure_energy(const fl_world *w)
 
 enum fl_loads_motion_kind fl_motion_columns(const fl_world *w)
 {
-    enum fl_loads_motion_kind kind = w->moving.movers.n ? FL_LOADS_TRANSLATION : FL_LOADS_FIXED;
+    enum fl_loads_motion_kind kind = fl_structure_moves(w) ? FL_LOADS_TRANSLATION : FL_LOADS_FIXED;
     for (int32_t m = 0; m < w->moving.movers.n; m++) {
         const fl_rigid_motion *motion = &w->moving.movers.motion[m];
         if (motion->free_dof >> 3 || v3_nonzero(motion->spin)) kind = FL_LOADS_ROTATION;
@@ -334,6 +365,7 @@ fl_vec3 fl_part_point(const fl_world *w, int32_t part, fl_vec3 x)
 
 int fl_structure_moves_freely(const fl_world *w)
 {
+    if (fl_structure_has_members(w)) return 1;
     for (int32_t m = 0; m < w->moving.movers.n; m++)
         if (w->moving.movers.motion[m].free_dof) return 1;
     return 0;
@@ -350,8 +382,12 @@ static fl_vec3 rotation_vector(fl_quat q)
 void fl_part_motion(const fl_world *w, int32_t part, double t, fl_loads_motion *out)
 {
     const fl_rigid_motions *v = &w->moving.movers;
-    const int32_t m = w->moving.mover_of_part[part];
     *out = (fl_loads_motion){0};
+    if (fl_structure_has_members(w)) {
+        fl_member_structure_part_motion(w, part, out);
+        return;
+    }
+    const int32_t m = w->moving.mover_of_part[part];
     if (m < 0) return;
     out->u = v3_sub(v->b.x[m], v->motion[m].reference);
     out->v = v->b.v[m];
@@ -363,6 +399,7 @@ void fl_part_motion(const fl_world *w, int32_t part, double t, fl_loads_motion *
 const char *fl_mover_name(const fl_world *w, int32_t k)
 {
     const fl_scene *s = w->scene;
+    if (fl_structure_has_members(w)) return "structure";
     int32_t next = has_motion(&s->structure.motion) ? 1 : 0;
     if (k < next) return "structure";
     for (int32_t i = 0; i < s->n_part; i++)

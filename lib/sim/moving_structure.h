@@ -2,8 +2,8 @@
 /* moving_structure.h -- the motion of the parts of the structure, and of the pieces that belong to them.
  *
  * Section [structure] gives one mover to all parts without a [part NAME] of their own, and each [part NAME]
- * gives one to its part; a section without any motion gives none.  Without movers w->moving.movers.n is 0 and
- * no other function of this header is called. */
+ * gives one to its part; a section without any motion gives none.  Or the structure is one of members
+ * (member_structure.h).  Where fl_structure_moves() is 0, no other function of this header is called. */
 #ifndef FL_SIM_MOVING_STRUCTURE_H
 #define FL_SIM_MOVING_STRUCTURE_H
 #include "out/tables.h"
@@ -12,10 +12,11 @@
 /* The mover of each part, mover[surface->n]; -1: it stands still.  Names without a part are skipped. */
 void fl_mover_of_parts(const fl_scene *s, const fl_surface *surface, int32_t *mover);
 
-/* Build w->moving from the scene, after the pieces have been placed, and move the pieces to the pose of t
- * = 0. Sets w->part_reference too.  -1 with FL_INPUT (a part that does not exist, a track that cannot be
- * read, a mesh that does not float) or FL_SYSTEM. */
-int fl_moving_structure_make(fl_world *w, const fl_surface *surface, fl_err *err);
+/* Build w->moving from the scene and from the model of members, NULL: none, after the pieces have been
+ * placed, and move the pieces to the pose of t = 0. Sets w->part_reference too.  -1 with FL_INPUT (a part
+ * that does not exist, a track that cannot be read, a mesh that does not float) or FL_SYSTEM. */
+int fl_moving_structure_make(fl_world *w, const fl_surface *surface, const fl_member_model *members,
+                             fl_err *err);
 void fl_moving_structure_free(fl_moving_structure *r);
 
 /* Prepare for steps of w->dt: factors of the dampers, positions of the reference points. */
@@ -53,7 +54,7 @@ fl_vec3 fl_part_point(const fl_world *w, int32_t part, fl_vec3 x);
 /* 1 if a mover has free directions. */
 int fl_structure_moves_freely(const fl_world *w);
 
-/* Name of mover k for messages: of its part, or "structure". */
+/* Name of mover k for messages: of its part, or "structure"; "structure" of members. */
 const char *fl_mover_name(const fl_world *w, int32_t k);
 
 #endif

@@ -219,6 +219,7 @@ static int find_pairs(fl_world *w, fl_err *err)
     int64_t n, to = 0;
     free_boxes(w);
     if (fl_contact_list_build(w, image_of, &n, err)) return -1;
+    fl_disc_list_forget_ended(w);
     fl_neighbour_pair *list = fl_alloc(n, sizeof *list, err);
     if (!list) return -1;
     int32_t next = 0;

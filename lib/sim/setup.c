@@ -11,6 +11,7 @@
 #include "contact/panel_load.h"
 #include "geom/clip.h"
 #include "geom/mass.h"
+#include "ice/slab_fill.h"
 #include "sim/energy_ledger.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
@@ -28,6 +29,9 @@
 enum { BODIES_PER_THREAD = 32 };
 
 /* --- surroundings ------------------------------------------------------------------------------ */
+
+/* Radii that differ by less than this fraction are equal. */
+#define EQUAL_RADII 1e-6
 
 static int make_elastic_walls(fl_world *w, fl_err *err)
 {
@@ -93,8 +97,9 @@ static void make_cell(fl_world *w)
     }
 }
 
-/* The pieces of the structure; those that touch and do not move apart are one. */
-static int make_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
+/* The pieces of the structure; those that touch and do not move apart are one.  Cylinders that members carry
+ * move apart. */
+static int make_pieces(fl_world *w, const fl_surface *surface, int carried, fl_err *err)
 {
     fl_err why = {0};
     int32_t *mover = fl_alloc(surface->n, sizeof *mover, err);
@@ -102,7 +107,7 @@ static int make_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
     if (mover) {
         fl_mover_of_parts(w->scene, surface, mover);
         rc = fl_structure_build(&w->structure, surface, &why) ||
-                     fl_regions_join(&w->structure, surface, mover, w->cell.length, &why)
+                     (!carried && fl_regions_join(&w->structure, surface, mover, w->cell.length, &why))
                  ? -1
                  : 0;
         if (why.code == FL_INPUT) fl_fail(err, FL_INPUT, "%s: %s", w->scene->structure.file, why.text);
@@ -268,11 +273,48 @@ static int make_driven_floes(fl_world *w, const fl_ice_field *field, fl_err *err
                    w->scene->ice.file, s->drive_width);
 }
 
+static int only_points(const fl_ice_field *f)
+{
+    for (int32_t k = 0; k < f->n; k++)
+        if (f->core[k].nv != 1) return 0;
+    return 1;
+}
+
 static int has_points(const fl_ice_field *f)
 {
     for (int32_t k = 0; k < f->n; k++)
         if (f->core[k].nv == 1) return 1;
     return 0;
+}
+
+/* Set how much more than its own volume a sphere stands for. */
+static int set_slab(fl_world *w, const fl_ice_field *field, fl_err *err)
+{
+    const double h = w->scene->ice.slab;
+    double phi, radius = 0.0;
+    int32_t n = 0;
+    w->slab_fill = 1.0;
+    if (h == 0.0) return 0;
+    fl_vec3 *x = fl_alloc(field->n, sizeof *x, err);
+    if (!x) return -1;
+    int equal = 1;
+    for (int32_t k = 0; k < field->n; k++) {
+        if (field->core[k].nv != 1) continue;
+        if (n == 0) radius = field->radius[k];
+        equal &= fabs(field->radius[k] - radius) <= EQUAL_RADII * radius;
+        x[n++] = field->core[k].v[0];
+    }
+    int rc = equal ? 0
+                   : fl_scene_fail(w->scene, "ice.slab", err,
+                                   "the spheres of %s are not equal: no slab is made of them",
+                                   w->scene->ice.file);
+    fl_err why = {0};
+    if (rc == 0 && fl_slab_fill(n, x, radius, h, &phi, &why))
+        rc = why.code == FL_INPUT ? fl_fail(err, FL_INPUT, "%s: %s", w->scene->ice.file, why.text)
+                                  : (*err = why, -1);
+    if (rc == 0) w->slab_fill = 1.0 / phi;
+    free(x);
+    return rc;
 }
 
 /* Winding number of a surface about x: 1 inside a surface with outward normals, 0 in its cavities. */
@@ -316,11 +358,12 @@ static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *er
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_ice_field *field, const fl_surface *surface,
                   fl_err *err)
 {
-    return fl_world_make_with_inflow(w, scene, field, field, surface, err);
+    return fl_world_make_with_inflow(w, scene, field, field, surface, NULL, err);
 }
 
 int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_field *field,
-                              const fl_ice_field *feed, const fl_surface *surface, fl_err *err)
+                              const fl_ice_field *feed, const fl_surface *surface,
+                              const fl_member_model *members, fl_err *err)
 {
     double bound = 0.0;
     *w = (fl_world){.scene = scene, .n = field->n, .last_search_step = -1, .gravity = scene->run.gravity};
@@ -333,16 +376,18 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     w->max_overlap_i = w->max_overlap_j = w->critical_body = -1;
     w->parts = surface ? surface->n : 0;
     make_cell(w);
-    if ((surface && make_pieces(w, surface, err)) || make_walls(w, err)) goto fail;
+    if ((surface && make_pieces(w, surface, members != NULL, err)) || make_walls(w, err)) goto fail;
     if (check_groups(w, field, feed, err) || fl_inflow_make(w, field, feed, err) ||
         make_driven_floes(w, field, err))
         goto fail;
     w->pieces = w->structure.n - w->walls;
+    w->sea.only_spheres = only_points(field) && only_points(feed);
     if (fl_bodies_alloc(&w->b, w->n, w->n + w->structure.n, err) || make_arrays(w, err) ||
         fl_contact_sums_make(w, err) || make_elastic_walls(w, err) ||
         fl_environment_set_up(&w->sea, &w->b, w->scene, w->n, w->threads, err))
         goto fail;
     w->has_points = has_points(field) || has_points(feed);
+    if (set_slab(w, field, err)) goto fail;
     if (w->has_points && fl_structure_prepare_spheres(&w->structure, err)) goto fail;
     if (w->has_points && w->sea.n && !(w->drag_change = fl_alloc(w->n, sizeof *w->drag_change, err)))
         goto fail;
@@ -356,7 +401,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         w->inflow.absent[i] = 1;
         if (fl_world_place_floe(w, i, feed, w->inflow.source_floe[i], err)) goto fail;
     }
-    if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, err) ||
+    if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
         fl_panels_make(w, surface, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
         fl_bond_list_make(w, field, err))
         goto fail;
@@ -400,6 +445,7 @@ void fl_world_free(fl_world *w)
     fl_moving_structure_free(&w->moving);
     fl_sleep_free(&w->sleep);
     fl_bond_list_free(&w->bonds);
+    fl_disc_list_free(&w->discs);
     fl_panels_free(&w->panel_load);
     fl_pairs_free(&w->candidates);
     fl_environment_free(&w->sea);

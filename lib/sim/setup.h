@@ -11,10 +11,12 @@
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_ice_field *field, const fl_surface *surface,
                   fl_err *err);
 
-/* The same where the inflow is another field than the ice: boundary.inflow = file.  With an inflow both
- * fields are borrowed until fl_world_free(). */
+/* The same where the inflow is another field than the ice: boundary.inflow = file, or the structure one of
+ * members, whose surface is that of fl_member_motion_surface().  With an inflow both fields are borrowed
+ * until fl_world_free(), and members always. */
 int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_field *field,
-                              const fl_ice_field *feed, const fl_surface *surface, fl_err *err);
+                              const fl_ice_field *feed, const fl_surface *surface,
+                              const fl_member_model *members, fl_err *err);
 
 void fl_world_free(fl_world *w);
 

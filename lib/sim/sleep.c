@@ -200,8 +200,8 @@ void fl_sleep_find_waking(fl_world *w, int thread, int threads)
         }
         mark_pairs(w, k);
     }
-    for (int32_t k = w->n + thread; k < w->b.total && w->moving.movers.n; k += threads)
-        if (w->moving.mover_of_piece[k - w->n] >= 0) mark_pairs(w, k);
+    for (int32_t k = w->n + thread; k < w->b.total && fl_structure_moves(w); k += threads)
+        if (fl_piece_moves(w, k)) mark_pairs(w, k);
 }
 
 /* Book a skip of floe k with this error, and choose the length of the next; the error goes with its third

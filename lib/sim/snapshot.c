@@ -11,6 +11,7 @@
 #include "sim/energy_ledger.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
+#include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
 #include "sim/setup.h"
@@ -136,6 +137,7 @@ static void exchange_body(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_open(t, "body");
     exchange_motion(t, b, k);
     if (b->added_mass) fl_state_io_real(t, &b->flow_work[k]);
+    if (b->heave_mass) fl_state_io_real(t, &b->heave_work[k]);
     fl_state_io_real(t, &b->odometer[k]);
     fl_state_io_real(t, &w->odometer_at_search[k]);
     fl_state_io_close(t);
@@ -173,6 +175,19 @@ static void exchange_sleep(fl_state_io *t, fl_world *w, int32_t k)
                      (double)w->step);
 }
 
+/* The path of a body through a block of waves; the rest is evaluated again. */
+static void exchange_block(fl_state_io *t, fl_wave_block *c)
+{
+    fl_state_io_count(t, &c->level);
+    fl_state_io_int(t, 0, 2, &c->span);
+    fl_state_io_int(t, 0, INT32_MAX, &c->short_turns);
+    fl_state_io_quat(t, &c->q);
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++) fl_state_io_vec3(t, &c->x[k]), fl_state_io_vec3(t, &c->turn[k]);
+    if (t->in && !t->err->code && c->level != FL_WAVE_NO_BLOCK && (c->level < 0 || c->span < 1))
+        fl_text_fail(t->in, t->err, "a block of waves at level %lld in steps of %d does not exist",
+                     (long long)c->level, c->span);
+}
+
 static void exchange_water(fl_state_io *t, fl_environment *s, const fl_bodies *b, int32_t i)
 {
     double energy = s->water && !s->waves ? fl_environment_energy(s, b, i) : 0.0,
@@ -191,6 +206,7 @@ static void exchange_water(fl_state_io *t, fl_environment *s, const fl_bodies *b
         fl_state_io_pose(t, &h->x, &h->q);
         fl_state_io_real(t, &h->when);
     }
+    if (s->block) exchange_block(t, &s->block[i]);
     fl_state_io_close(t);
 }
 
@@ -217,6 +233,27 @@ static void exchange_mover(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_real(t, &m->damper_loss[k]);
     fl_state_io_real(t, &m->prescribed_work[k]);
     fl_state_io_close(t);
+}
+
+/* A structure of members: its balls.  Its forces follow from them and from those on the pieces. */
+static void exchange_members(fl_state_io *t, fl_world *w)
+{
+    fl_member_dynamics *d = &w->moving.members.dynamics;
+    int32_t balls = d->chain.balls;
+    fl_state_io_open(t, "members");
+    fl_state_io_int(t, balls, balls, &balls);
+    fl_state_io_real(t, &d->damped);
+    fl_state_io_close(t);
+    for (int32_t k = 0; k < d->chain.balls && !t->err->code; k++) {
+        fl_member_ball *a = &d->chain.ball[k];
+        fl_state_io_open(t, "chain");
+        fl_state_io_vec3(t, &a->d);
+        fl_state_io_vec3(t, &a->v);
+        fl_state_io_quat(t, &a->q);
+        fl_state_io_vec3(t, &a->w);
+        fl_state_io_close(t);
+    }
+    if (t->in && !t->err->code) fl_member_structure_refresh(w);
 }
 
 /* A contact point on the structure, of the last step. */
@@ -346,6 +383,38 @@ static void exchange_bond(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_close(t);
 }
 
+/* A bond of spheres: its memory.  The forces of a step follow from it in the next one alone. */
+static void exchange_disc(fl_state_io *t, fl_world *w, int32_t k)
+{
+    fl_disc_list *s = &w->discs;
+    fl_disc_memory m = fl_disc_list_memory(s, k);
+    fl_disc_wrench *f = &s->at.out[k];
+    fl_state_io_open(t, "disc");
+    fl_state_io_byte(t, FL_DISC_ENDED, &s->has_ended[k]);
+    fl_state_io_vec3(t, &m.S), fl_state_io_vec3(t, &m.M);
+    fl_state_io_real(t, &m.lambda);
+    fl_state_io_real(t, &m.dissipated), fl_state_io_real(t, &m.rubbed);
+    fl_state_io_real(t, &s->pending[k]);
+    fl_state_io_vec3(t, &f->force), fl_state_io_vec3(t, &f->couple_i), fl_state_io_vec3(t, &f->couple_j);
+    if (s->at.damped) {
+        fl_state_io_vec3(t, &m.damping_force), fl_state_io_vec3(t, &m.damping_couple);
+        fl_state_io_real(t, &m.damped);
+    }
+    fl_state_io_close(t);
+    if (!t->in || t->err->code) return;
+    if (!(m.lambda >= 0.0)) fl_text_fail(t->in, t->err, "lambda = %g is not possible in a bond", m.lambda);
+    else fl_disc_list_set_memory(s, k, &m);
+}
+
+static void exchange_discs(fl_state_io *t, fl_world *w)
+{
+    fl_disc_list *s = &w->discs;
+    for (int32_t k = 0; k < s->n && !t->err->code; k++) exchange_disc(t, w, k);
+    if (!t->in) return;
+    s->ended = 0;
+    for (int32_t k = 0; k < s->n; k++) s->ended += s->has_ended[k] == FL_DISC_JUST_ENDED;
+}
+
 /* Everything but the pairs; returns their number. */
 static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *spheres)
 {
@@ -361,7 +430,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     fl_state_io_real(t, &w->skin);
     fl_state_io_real(t, &w->dt_critical);
     fl_state_io_real(t, &w->dt_critical_contacts);
-    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1, &w->critical_body);
+    fl_state_io_int(t, -1, w->b.total + w->moving.movers.n - 1 + fl_structure_has_members(w),
+                    &w->critical_body);
     fl_state_io_real(t, &w->dt_safe);
     fl_state_io_int(t, w->parts, w->parts, &parts);
     fl_state_io_int(t, w->b.total, w->b.total, &total);
@@ -391,12 +461,16 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         if (t->in) w->sleep.n_resting += w->sleep.phase[k] == FL_RESTING;
     }
     for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) exchange_mover(t, w, k);
+    if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
+    if (w->discs.n && !t->err->code) exchange_discs(t, w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
     if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;
     if (w->sea.current.n) exchange_current_hash(t, &w->sea.current);
+    if (t->in && !t->err->code && fl_environment_prepare(&w->sea, &w->b, w->inflow.absent, now, 1, t->err))
+        return pairs;
     for (int32_t i = 0; i < w->sea.n && !t->err->code; i++) {
         exchange_water(t, &w->sea, &w->b, i);
         if (t->in && !t->err->code && w->sea.sample && !fl_body_absent(w, i) &&
@@ -443,7 +517,7 @@ int fl_snapshot_read(fl_world *w, fl_text *in, fl_err *err)
     const int more = fl_text_row(in, err);
     if (more > 0) fl_text_fail(in, err, "unexpected \"%.40s\" after the last pair", in->field[0]);
     if (more) return -1;
-    if (w->moving.movers.n) fl_moving_structure_set_step(w);
+    if (fl_structure_moves(w)) fl_moving_structure_set_step(w);
     if ((fl_contact_list_size(w) || w->spheres.bodies) && fl_contact_list_index(w, err)) return -1;
     if (fl_neighbour_list_index(w, err)) return -1;
     fl_sleep_after_read(w);

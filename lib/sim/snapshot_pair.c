@@ -39,10 +39,15 @@ static void exchange_memory(fl_state_io *t, fl_pair *p)
     }
     fl_state_io_real(t, &p->free_travel);
     fl_state_io_real(t, &p->max_approach_speed);
+    fl_state_io_real(t, &p->laid_load);
+    fl_state_io_real(t, &p->laid_time);
     fl_state_io_vec3(t, &p->springs.force);
     fl_state_io_real(t, &p->springs.k);
     fl_state_io_real(t, &p->springs.moment);
     fl_state_io_real(t, &p->springs.k_turn);
+    fl_state_io_real(t, &p->springs.energy);
+    fl_state_io_vec3(t, &p->springs.damping);
+    fl_state_io_real(t, &p->springs.damping_moment);
 }
 
 static void exchange_rolling(fl_state_io *t, fl_rolling_spring *r)

@@ -16,6 +16,7 @@
 #include "sim/energy_ledger.h"
 #include "sim/half_kicks.h"
 #include "sim/inflow.h"
+#include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
 #include "sim/sleep.h"
@@ -48,9 +49,8 @@ typedef struct {
 /* End of the drift: move pieces and walls without a mover, count the step, set the time of the water. */
 static void advance_time(fl_world *w)
 {
-    const int moves = w->moving.movers.n > 0;
     for (int32_t k = w->n; k < w->b.total; k++)
-        if (!moves || w->moving.mover_of_piece[k - w->n] < 0) fl_drift(&w->b, k, w->dt);
+        if (!fl_piece_moves(w, k)) fl_drift(&w->b, k, w->dt);
     w->step++;
     w->sea.time = fl_world_time(w);
     w->sea.sample_now = w->sea.sample_every < 2 || w->step % w->sea.sample_every == 0;
@@ -72,7 +72,7 @@ static void after_contacts(void *arg)
     fl_work_share_split(w->block_share, w->team.n, fl_block_count(w));
     fl_collect_touching(w);
     fl_contact_sums_assign(w);
-    if (w->bonds.ended) { /* the neighbour list must take up the pair of an ended bond */
+    if (w->bonds.ended || w->discs.ended) { /* the neighbour list must take up the pair of an ended bond */
         w->last_search_step = -1;
         w->bonds.ended = 0;
     }
@@ -114,6 +114,9 @@ static void evaluate_pairs(fl_world *w, double dt, int update_stiffness)
 #pragma omp for schedule(static) nowait
     for (int32_t k = 0; k < w->bonds.n; k += FL_BOND_LIST_RUN)
         fl_bond_list_evaluate(w, k, k + FL_BOND_LIST_RUN < w->bonds.n ? k + FL_BOND_LIST_RUN : w->bonds.n);
+#pragma omp for schedule(static) nowait
+    for (int32_t k = 0; k < w->discs.n; k += FL_DISC_RUN)
+        fl_disc_list_evaluate(w, k, k + FL_DISC_RUN < w->discs.n ? k + FL_DISC_RUN : w->discs.n, dt);
     fl_evaluate_active_pairs(w, dt, update_stiffness);
 }
 
@@ -184,6 +187,12 @@ static void run_step_in_team(step_context *q)
     fl_barrier_wait(&w->barrier, threads, NULL, NULL);
 }
 
+/* Tables of the waves for time t. */
+static int prepare_waves(fl_world *w, double t, fl_err *err)
+{
+    return fl_environment_prepare(&w->sea, &w->b, w->inflow.absent, t, w->team.n, err);
+}
+
 /* A parallel region costs as much as a step of three floes, so a team of one runs without it. */
 static int run_step(step_context *q)
 {
@@ -223,7 +232,7 @@ static int check_state(fl_world *w, int update_stiffness, fl_err *err)
             !v3_finite(w->moving.movers.b.t[k]))
             return fl_fail(err, FL_NUMERIC, "%s: not a finite number in step %lld (t = %g s)",
                            fl_mover_name(w, k), (long long)w->step, fl_world_time(w));
-    return 0;
+    return fl_structure_has_members(w) ? fl_member_structure_check(w, err) : 0;
 }
 
 /* Adds a force and a torque about the origin of piece or wall j to part p. */
@@ -331,6 +340,7 @@ static void gather_overlaps(fl_world *w, double dt)
         w->contact_steps += all.touching;
     }
     for (int32_t k = 0; k < w->bonds.n; k++) w->impulse_sum += dt * v3_norm(w->bonds.bond[k].force);
+    if (w->discs.n) w->impulse_sum += dt * fl_disc_list_force_sum(w);
     record_deepest(w, &d);
     for (int32_t g = 0; g < fl_block_count(w); g++) balance = v3_add(balance, w->blocks[g].contact_force);
     for (int32_t k = w->n; k < b->total; k++) balance = v3_add(balance, b->f[k]);
@@ -351,13 +361,14 @@ int fl_step_start(fl_world *w, fl_err *err)
     if (fl_check_wave_sampling(w, err)) return -1;
     w->dt_safe = fmin(fl_automatic_step(w, &body), SAFE_SHARE * fl_critical_step(w));
     w->sea.time = fl_world_time(w);
+    if (prepare_waves(w, w->sea.time, err)) return -1;
 
     /* neighbour list, contacts and forces */
     if (fl_neighbour_list_update(w, err)) return -1;
     if (w->panel_load.all) fl_panels_clear(w);
     step_context q = {.w = w, .update_stiffness = 1, .err = err};
     if (run_step(&q)) return -1;
-    if (w->moving.movers.n) {
+    if (fl_structure_moves(w)) {
         fl_moving_structure_set_step(w);
         fl_moving_structure_second_half(w, 0.0, 0.0);
     }
@@ -366,7 +377,7 @@ int fl_step_start(fl_world *w, fl_err *err)
     if (w->automatic_dt && fl_shorten_step_at_start(w)) { /* damping and friction depend on the step */
         if (w->panel_load.all) fl_panels_clear(w);
         if (run_step(&q)) return -1;
-        if (w->moving.movers.n) {
+        if (fl_structure_moves(w)) {
             fl_moving_structure_set_step(w);
             fl_moving_structure_second_half(w, 0.0, 0.0);
         }
@@ -386,7 +397,7 @@ int fl_step_start(fl_world *w, fl_err *err)
 int fl_step(fl_world *w, fl_err *err)
 {
     const double dt = w->dt, h = 0.5 * dt;
-    const int moves = w->moving.movers.n > 0, update_stiffness = fl_stiffness_due(w, w->step + 1);
+    const int moves = fl_structure_moves(w), update_stiffness = fl_stiffness_due(w, w->step + 1);
 
     /* loads: half a step of the present forces on the structure */
     fl_thread_count_begin(&w->team);
@@ -395,6 +406,9 @@ int fl_step(fl_world *w, fl_err *err)
     /* moving structure: first half */
     fl_ledger_begin_step(w);
     if (moves) fl_moving_structure_first_half(w, fl_world_time(w));
+
+    /* tables of the waves */
+    if (w->sea.by_blocks && prepare_waves(w, w->t0 + (double)(w->step + 1 - w->step0) * dt, err)) return -1;
 
     /* bodies: first half; contacts; bodies: second half */
     if (w->panel_load.all) fl_panels_clear(w);
@@ -439,5 +453,5 @@ void fl_step_set_size(fl_world *w, double dt, double t)
     w->step0 = w->step;
     w->dt = dt;
     book_work_ahead(w, 1.0);
-    if (w->moving.movers.n) fl_moving_structure_set_step(w);
+    if (fl_structure_moves(w)) fl_moving_structure_set_step(w);
 }

@@ -88,5 +88,5 @@ void fl_stiffness_update(fl_world *w)
         w->dt_critical = least.all;
         w->critical_body = body;
     }
-    if (w->moving.movers.n) fl_moving_structure_limit(w);
+    if (fl_structure_moves(w)) fl_moving_structure_limit(w);
 }

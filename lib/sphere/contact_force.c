@@ -60,7 +60,7 @@ static int test_contact(const fl_world *w, batch *t, int32_t c)
 /* Inverse mass of body k if it is the same in all directions, else NAN. */
 static double isotropic_inverse_mass(const fl_bodies *b, int32_t k)
 {
-    if (fl_body_fixed_translations(b, k)) return NAN;
+    if (fl_body_fixed_translations(b, k) || b->heave_mass) return NAN;
     return b->added_mass ? 1.0 / (b->m[k] + b->added_mass[k].x) : b->invm[k];
 }
 
@@ -525,6 +525,7 @@ void fl_sphere_chunk_evaluate(fl_world *w, int32_t a, double dt, int survey)
     memset(t.law, -1, sizeof t.law);
     for (int32_t m = 0; s->one_law >= 0 && m < FL_SPHERE_BATCH; m++) load_law(w, &t, m, s->one_law);
     t.m = 0;
+    t.at.exponent = fl_round_exponent(w);
     s->totals[a] = (fl_chunk_totals){.max_overlap_contact = -1};
     clear_sums(&s->sum[begin], end - begin);
     clear_sums(&s->slot[slot_begin], s->slot_first[a + 1] - slot_begin);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include "base/array.h"
+#include "contact/disc_list.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -194,6 +195,7 @@ static void fill_contacts(const fl_world *w, fl_sphere_contacts *s, const uint8_
             s->contact[c] = old->contact[at++];
         } else {
             s->contact[c].k = fl_pair_stiffness(w, i, j).k;
+            if (w->discs.n) fl_disc_list_init_contact(w, i, j, cells, &s->contact[c]);
         }
         c++;
     }
@@ -214,7 +216,7 @@ int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl
             walls += fl_sphere_pair_kind(w, i, j) == FL_SPHERE_WALL;
             if (fl_sphere_pair_kind(w, i, j) != FL_SPHERE_SPHERE) continue;
             image(w, k, i, j, cells);
-            listed[k] = (uint8_t)may_touch(w, i, j, cells);
+            listed[k] = (uint8_t)(may_touch(w, i, j, cells) && !fl_disc_list_is_bonded(w, i, j, cells));
             at[i + 1] += listed[k];
             near++;
         }
@@ -316,7 +318,7 @@ void fl_contact_list_energy(const fl_world *w, double *elastic, double *spring)
         for (int32_t c = s->first[a * FL_SPHERE_CHUNK]; c < s->first[fl_chunk_end(s, a)]; c++) {
             if (!s->touches[c]) continue;
             const double held = fl_sphere_spring_energy(&s->contact[c], s->rolling ? &s->rolling[c] : NULL);
-            all += s->contact[c].k * fl_normal_phi(overlap_of(w, c), 1.5) + held;
+            all += s->contact[c].k * fl_normal_phi(overlap_of(w, c), fl_round_exponent(w)) + held;
             springs += held;
         }
         fl_wall_chunk_energy(w, a, &all, &springs);
@@ -391,7 +393,7 @@ static void convert_contact(const fl_world *w, int32_t c, fl_pair *p)
     if (!p->touching) return;
     p->torque_j_friction = p->torque_j =
         v3_madd(v3_neg(fl_rolling_moment(roll)), -arm, v3_cross(n, r->friction_force));
-    p->omega2_j = fl_stiffness_of_point(b, j, r->k * fl_normal_slope(over, 1.5), r->spring_stiffness, arm,
+    p->omega2_j = fl_stiffness_of_point(b, j, r->k * fl_normal_slope(over, fl_round_exponent(w)), r->spring_stiffness, arm,
                                         roll ? fl_rolling_turn_stiffness(roll) : 0.0);
 }
 

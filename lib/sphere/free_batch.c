@@ -8,7 +8,7 @@
 
 int fl_is_free_sphere(const fl_world *w, int32_t k)
 {
-    return w->spheres.bodies && !w->sea.n && !w->driven_floes.n &&
+    return w->spheres.bodies && !w->sea.n && !w->driven_floes.n && !w->discs.n &&
            w->first_pair_of_body[k] == w->first_pair_of_body[k + 1] && !fl_sums_before(w, k)->contacts &&
            fl_body_is_free_isotropic(&w->b, k) && !fl_body_absent(w, k);
 }

@@ -6,7 +6,7 @@
 #include "world/world.h"
 
 /* True if body k < n is a free sphere: fl_body_is_free_isotropic(), in the domain, without water, not
- * driven, without pairs in w->pair, and without such contacts at the start of the step. */
+ * driven, in a world without bonded spheres, without pairs in w->pair, and without such contacts at the start of the step. */
 int fl_is_free_sphere(const fl_world *w, int32_t k);
 
 /* Energy dissipated by damping and friction of each body in the step [J]. */

@@ -29,11 +29,11 @@ void fl_sphere_contact_to_pair(const fl_world *w, int32_t i, int32_t j, const fl
     p->overlap = over;
     p->force_damping = v3_scale(r->normal_damping, n);
     p->force_friction = r->friction_force;
-    p->force = v3_madd(r->friction_force, r->k * fl_normal_power(over, 1.5) + r->normal_damping, n);
+    p->force = v3_madd(r->friction_force, r->k * fl_normal_power(over, fl_round_exponent(w)) + r->normal_damping, n);
     p->torque_i_friction = p->torque_i =
         v3_madd(fl_rolling_moment(roll), -arm, v3_cross(n, r->friction_force));
     p->spring_energy = fl_sphere_spring_energy(r, roll);
-    p->energy = r->k * fl_normal_phi(over, 1.5) + p->spring_energy;
-    p->omega2_i = fl_stiffness_of_point(b, i, r->k * fl_normal_slope(over, 1.5), r->spring_stiffness, arm,
+    p->energy = r->k * fl_normal_phi(over, fl_round_exponent(w)) + p->spring_energy;
+    p->omega2_i = fl_stiffness_of_point(b, i, r->k * fl_normal_slope(over, fl_round_exponent(w)), r->spring_stiffness, arm,
                                         roll ? fl_rolling_turn_stiffness(roll) : 0.0);
 }

@@ -11,6 +11,9 @@ enum fl_sphere_kind { FL_SPHERE_NONE, FL_SPHERE_SPHERE, FL_SPHERE_WALL };
 /* Kind of the pair i < n, j < total. */
 enum fl_sphere_kind fl_sphere_pair_kind(const fl_world *w, int32_t i, int32_t j);
 
+/* Exponent of all sphere contacts. */
+static inline double fl_round_exponent(const fl_world *w) { return w->law[0].round_exponent; }
+
 /* Adds to the number of contacts that touch body i; any thread. */
 static inline void fl_sphere_add_contact_count(fl_sphere_contacts *s, int32_t i, int32_t by)
 {

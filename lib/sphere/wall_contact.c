@@ -260,6 +260,7 @@ void fl_wall_chunk_evaluate(fl_world *w, int32_t a, double dt, int survey)
     batch q; /* large: not cleared */
     fl_vec3 up = v3(0, 0, 0);
     q.m = 0;
+    q.at.exponent = fl_round_exponent(w);
     for (int32_t k = 0; k < w->walls; k++) s->wall_load[a * w->walls + k] = (fl_wall_load){0};
     for (int32_t c = s->wall_first[a], wall = -1; c < s->wall_first[a + 1]; c++) {
         fl_wall_contact *const l = &s->wall[c];
@@ -297,7 +298,7 @@ void fl_wall_chunk_energy(const fl_world *w, int32_t a, double *all, double *spr
         const fl_wall_contact *const l = &s->wall[c];
         if (!l->touches) continue;
         const double held = fl_sphere_spring_energy(&l->contact, roll_of(s, c));
-        *all += l->contact.k * fl_normal_phi(overlap_of(w, l, normal_of(w, l->j)), 1.5) + held;
+        *all += l->contact.k * fl_normal_phi(overlap_of(w, l, normal_of(w, l->j)), fl_round_exponent(w)) + held;
         *springs += held;
     }
 }

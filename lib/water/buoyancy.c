@@ -2,14 +2,22 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
+#include "base/fast_math.h"
 #include "base/pi.h"
 #include "geom/dilate.h"
 #include "water/buoyancy.h"
 
+void fl_hull_fill(fl_hull *h, double fill)
+{
+    h->fill = fill;
+    h->volume *= fill;
+    h->surface_area *= fill;
+}
+
 int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err)
 {
     const int round = p->nv <= 2;
-    fl_hull out = {.shape = p, .radius = round ? radius : 0.0};
+    fl_hull out = {.shape = p, .radius = round ? radius : 0.0, .fill = 1.0};
     fl_mass m;
     if (fl_mass_of(&m, p, out.radius, err)) return -1;
     out.volume = m.volume;
@@ -275,10 +283,10 @@ static void submerge_sphere(const fl_hull *h, fl_vec3 up, double water, fl_subme
         *wet = (fl_submerged){.volume = h->volume, .centre = h->centre, .wetted_area = h->surface_area};
         return;
     }
-    wet->volume = PI * t * t * (3.0 * r - t) / 3.0;
+    wet->volume = h->fill * (PI * t * t * (3.0 * r - t) / 3.0);
     wet->centre = v3_madd(o, -0.75 * (2.0 * r - t) * (2.0 * r - t) / (3.0 * r - t), up);
-    wet->wetted_area = 2.0 * PI * r * t;
-    wet->waterplane_area = PI * t * (2.0 * r - t);
+    wet->wetted_area = h->fill * (2.0 * PI * r * t);
+    wet->waterplane_area = h->fill * (PI * t * (2.0 * r - t));
 }
 
 /* Sums over the parts of a capsule: first moments about its middle, along the axis and along w, the direction
@@ -315,12 +323,12 @@ static void add_cap(struct capsule_sums *t, const struct capsule *c, int side)
 {
     const double r = c->r, g = c->cosine, sp = side * c->sine, at = c->level - sp * c->half;
     const double d = clamp(at, -r, r), qq = (g * r - d) * (g * r + d), q = qq > 0.0 ? sqrt(qq) : 0.0;
-    const double rho2 = (r - d) * (r + d), t1 = atan2(q, -d * sp), t2 = atan2(q, -d);
+    const double rho2 = (r - d) * (r + d), t1 = fl_atan2(q, -d * sp), t2 = fl_atan2(q, -d);
     const double rho = sqrt(rho2), s1 = rho > 0.0 ? q / (g * rho) : 0.0,
                  c1 = rho > 0.0 ? -d * sp / (g * rho) : 0.0;
     const double s2 = q / (g * r),
                  c2 = -d / (g * r); /* sine and cosine hold for q > 0 only; else they multiply 0 */
-    const double a0 = r * r * (2.0 * atan2(q, sp * r) + 2.0 * (d / r) * t1);
+    const double a0 = r * r * (2.0 * fl_atan2(q, sp * r) + 2.0 * (d / r) * t1);
     const double a1 = rho2 * (q > 0.0 ? t1 - s1 * c1 : t1), a2 = r * r * (q > 0.0 ? t2 - s2 * c2 : t2);
     const double m1 = -0.5 * rho2 * rho2 * (q > 0.0 ? segment4(t1, s1, c1) : 0.5 * t1);
     const double m2 = 0.5 * r * r * r * r * (q > 0.0 ? segment4(t2, s2, c2) : 0.5 * t2);
@@ -343,7 +351,7 @@ static const double GAUSS[8][2] = {
 static double wet_angle(const struct capsule *c, double s)
 {
     const double x = (c->level - c->sine * s) / (c->cosine * c->r), u = x > 1.0 ? 1.0 : x < -1.0 ? -1.0 : x;
-    return atan2(sqrt((1.0 - u) * (1.0 + u)), -u);
+    return fl_atan2(sqrt((1.0 - u) * (1.0 + u)), -u);
 }
 
 /* Up to here x / sin x, 1 + x^2/6, is 1 to rounding [rad]. */
@@ -352,6 +360,13 @@ static double wet_angle(const struct capsule *c, double s)
 #define FAR_STATION 1e300
 /* Least cosine of the axis: its square is still a normal number. */
 #define MIN_COSINE 1e-140
+
+static double sine_of(double x)
+{
+    double c, s;
+    fl_cos_sin(x, &c, &s);
+    return s;
+}
 
 /* The cylinder: whole discs up to station a, segments up to b, nothing beyond. The half angle theta of a
  * segment has cos theta linear in s. Over theta instead of s all integrands are entire functions: sixteen
@@ -372,14 +387,16 @@ static void add_cylinder(struct capsule_sums *t, const struct capsule *c)
     if (!(b > a)) return;
     const double ta = wet_angle(c, a), tb = wet_angle(c, b), mid = 0.5 * (ta + tb), part = 0.5 * (ta - tb);
     if (!(mid > 0.0)) return;
+    const double sine_part = sine_of(part), sine_mid = sine_of(mid);
     for (int g = 0; g < 16; g++) {
         const double y = g < 8 ? -GAUSS[g][0] : GAUSS[g - 8][0], weight = GAUSS[g % 8][1];
         const double theta = mid + y * part, rest = 0.5 * (1.0 - y) * part; /* rest = (ta - theta) / 2 */
-        const double sine = sin(theta), cosine = cos(theta);
-        const double narrow = part > SMALL_ANGLE ? part / sin(part) : 1.0;
-        const double done = (part > SMALL_ANGLE ? sin(rest) / sin(part) : 0.5 * (1.0 - y)) *
-                            sin(0.5 * (ta + theta)) / sin(mid);
-        const double s = a + (b - a) * done, ds = 0.5 * (b - a) * weight * narrow * sine / sin(mid);
+        double sine, cosine;
+        fl_cos_sin(theta, &cosine, &sine);
+        const double narrow = part > SMALL_ANGLE ? part / sine_part : 1.0;
+        const double done = (part > SMALL_ANGLE ? sine_of(rest) / sine_part : 0.5 * (1.0 - y)) *
+                            sine_of(0.5 * (ta + theta)) / sine_mid;
+        const double s = a + (b - a) * done, ds = 0.5 * (b - a) * weight * narrow * sine / sine_mid;
         const double area = r * r * (theta - sine * cosine);
         t->volume += ds * area;
         t->along += ds * area * s;

@@ -33,6 +33,7 @@ typedef struct {
     /* [4 nf] area of each face, then 3 numbers of each centroid; NULL for a sphere or capsule and after
      * fl_hull_borrow_core() [m^2], [m] */
     double *face_area;
+    double fill;    /* of a sphere: the volume it stands for over its own, fl_hull_fill(); else 1 */
     fl_prism prism; /* the shape as a right prism, if it is one */
 } fl_hull;
 
@@ -46,6 +47,8 @@ static inline fl_vec3 *fl_hull_face_centroids(const fl_hull *h)
  * = 2), both with radius > 0. Returns 0; or -1 and h untouched, with FL_INPUT (a flat polygon; a sphere or
  * capsule without radius) or FL_SYSTEM. */
 int fl_hull_make(fl_hull *h, const fl_poly *p, double radius, fl_err *err);
+/* Multiplies volume, wetted surface and water plane of a sphere. */
+void fl_hull_fill(fl_hull *h, double fill);
 void fl_hull_free(fl_hull *h); /* accepts a zeroed struct, leaves one */
 
 /* Lets the hull of a right prism compute its corners from a core whose faces lie r further in: a corner of

@@ -42,11 +42,19 @@ int fl_environment_alloc(fl_environment *s, int32_t n, int threads, fl_err *err)
         for (int32_t i = 0; i < n; i++) s->sample[i] = no_sample;
         s->sample_now = 1;
     }
-    s->panels = fl_alloc(n, sizeof *s->panels, err);
+    if (s->by_blocks) {
+        s->nodes = fl_alloc(n, sizeof *s->nodes, err);
+        s->block = fl_alloc(n, sizeof *s->block, err);
+        if (!s->nodes || !s->block) return -1;
+        for (int32_t i = 0; i < n; i++) s->block[i].level = FL_WAVE_NO_BLOCK;
+    } else {
+        s->panels = fl_alloc(n, sizeof *s->panels, err);
+        if (!s->panels) return -1;
+    }
     s->water_force = fl_alloc(n, sizeof *s->water_force, err);
     s->water_moment = fl_alloc(n, sizeof *s->water_moment, err);
     s->water_work = fl_alloc(n, sizeof *s->water_work, err);
-    return s->panels && s->water_force && s->water_moment && s->water_work ? 0 : -1;
+    return s->water_force && s->water_moment && s->water_work ? 0 : -1;
 }
 
 static void free_surface(fl_drag_surface *skin)
@@ -73,11 +81,27 @@ static int fit_surface(fl_environment *s, int32_t i, fl_err *err)
     return 0;
 }
 
+/* Nodes of body i, and scratch for them. */
+static int fit_nodes(fl_environment *s, int32_t i, fl_err *err)
+{
+    s->block[i].level = FL_WAVE_NO_BLOCK;
+    s->block[i].short_turns = 0;
+    if (fl_wave_nodes_make(&s->nodes[i], &s->hull[i], &s->wave, s->grid.error, err)) return -1;
+    if (s->nodes[i].n <= s->scratch_per_thread) return 0;
+    fl_wave_surface *room = fl_alloc((int64_t)s->threads * s->nodes[i].n, sizeof *room, err);
+    if (!room) return -1;
+    free(s->node_scratch);
+    s->node_scratch = room;
+    s->scratch_per_thread = s->nodes[i].n;
+    return 0;
+}
+
 int fl_environment_fit_hull(fl_environment *s, int32_t i, fl_err *err)
 {
     if (s->sample) s->sample[i] = no_sample;
     if (s->drag_surface && fit_surface(s, i, err)) return -1;
     if (!s->waves) return 0;
+    if (s->by_blocks) return fit_nodes(s, i, err);
     const int32_t want = fl_wave_field_cells(&s->wave, s->drag_radius[i] + s->wave.four_sigma);
     if (want > MAX_CELLS)
         return fl_fail(err, FL_INPUT,
@@ -128,12 +152,15 @@ void fl_environment_free(fl_environment *s)
     for (int32_t i = 0; i < s->n; i++) {
         if (s->hull) fl_environment_clear_hull(s, i);
         if (s->panels) fl_hull_panels_free(&s->panels[i]);
+        if (s->nodes) fl_wave_nodes_free(&s->nodes[i]);
         if (s->drag_surface) free_surface(&s->drag_surface[i]);
     }
     free(s->hull), free(s->drag_radius), free(s->wetted_area), free(s->buoyancy);
     free(s->flow_velocity), free(s->drag_loss), free(s->wind_work);
     free(s->cells), free(s->water_force), free(s->water_moment), free(s->water_work);
     free(s->panels), free(s->drag_surface), free(s->sample);
+    free(s->nodes), free(s->block), free(s->node_scratch);
+    fl_wave_grid_free(&s->grid);
     fl_waves_free(&s->wave);
     fl_current_free(&s->current);
     *s = (fl_environment){0};
@@ -214,6 +241,14 @@ double fl_environment_energy(const fl_environment *s, const fl_bodies *b, int32_
     return fl_buoyancy_force(&wet, up, level, s->specific_weight, &f, &turn);
 }
 
+/* The added mass of a sphere in a sheet follows its immersion; v is constant meanwhile. */
+static void update_heave_mass(const fl_environment *s, fl_bodies *b, int32_t i)
+{
+    const double now = s->heave_factor * (s->buoyancy[i] / s->gravity), change = now - b->heave_mass[i];
+    b->heave_work[i] += 0.5 * change * b->v[i].z * b->v[i].z;
+    b->heave_mass[i] = now;
+}
+
 /* Evaluates still water at body i: force and moment about its centre, world axes. */
 static void evaluate_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
@@ -227,6 +262,7 @@ static void evaluate_still(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *
     s->buoyancy[i] = s->specific_weight * wet.volume;
     if (s->flow_velocity) s->flow_velocity[i] = fl_current_at(&s->current, v3_dot(up, wet.centre) - level);
     if (b->added_mass) b->flow_velocity[i] = fl_environment_flow(s, i);
+    if (b->heave_mass) update_heave_mass(s, b, i);
     if (s->drag_surface) fl_environment_update_surface(s, b, i, up, level);
     *f = v3(0, 0, s->buoyancy[i]); /* R up is e_z */
     *t = m3_mul(R, turn);
@@ -386,9 +422,107 @@ static void store_sample(fl_environment *s, const fl_bodies *b, int32_t i, fl_ve
     h->x = b->x[i], h->q = b->q[i], h->when = s->time;
 }
 
+/* --- waves in blocks of time ---------------------------------------------------------------------- */
+
+int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t *absent, double t,
+                           int threads, fl_err *err)
+{
+    fl_wave_extent at;
+    int shorter = 0;
+    if (!s->by_blocks) return 0;
+    const int64_t first = fl_wave_group(&s->grid, t);
+    if (fl_wave_grid_view(&s->grid, first).slot >= 0 &&
+        fl_wave_grid_view(&s->grid, first + FL_WAVE_GROUP).slot >= 0)
+        return 0;
+    for (int32_t c = 0; c < s->grid.lines; c++) at.lo[c] = INFINITY, at.hi[c] = -INFINITY;
+    for (int32_t i = 0; i < s->n; i++) {
+        if ((absent && absent[i]) || !v3_finite(b->x[i])) continue;
+        shorter |= s->block[i].short_turns > 0;
+        for (int32_t c = 0; c < s->grid.lines; c++) {
+            const double x = s->grid.line[c].x * b->x[i].x + s->grid.line[c].y * b->x[i].y,
+                         r = s->drag_radius[i];
+            at.lo[c] = fmin(at.lo[c], x - r);
+            at.hi[c] = fmax(at.hi[c], x + r);
+        }
+    }
+    for (int32_t c = 0; c < s->grid.lines; c++) {
+        if (at.lo[c] > at.hi[c]) return 0; /* no body */
+        if (at.hi[c] - at.lo[c] > FL_WAVE_GRID_MAX)
+            return fl_fail(err, FL_INPUT,
+                           "water.wave_error: bodies are %.4g km apart along the waves, at most %g km are "
+                           "expected",
+                           1e-3 * (at.hi[c] - at.lo[c]), 1e-3 * FL_WAVE_GRID_MAX);
+    }
+    return fl_wave_grid_fill(&s->grid, &at, first, shorter ? 1 : 2, shorter ? 7 : 4, threads, err);
+}
+
+static fl_wave_body wave_body(const fl_environment *s, int32_t i)
+{
+    return (fl_wave_body){&s->hull[i], &s->nodes[i], s->drag_radius[i],
+                          s->node_scratch + (int64_t)omp_get_thread_num() * s->scratch_per_thread};
+}
+
+/* Velocity of the water at all wet pieces of body i, under the plane. */
+static void update_block_flow(fl_environment *s, const fl_bodies *b, int32_t i, const fl_wave_values *v)
+{
+    const fl_mat3 R = fl_body_axes(b, i);
+    const fl_vec3 x = v3(b->x[i].x, b->x[i].y, b->x[i].z - s->level);
+    fl_facet_cut *wet = &s->drag_surface[i].wet;
+    int32_t k = 0;
+    for (const fl_facet_group *f = wet->group; f < wet->group + wet->groups; f++)
+        for (const int32_t end = k + f->pieces; k < end; k++)
+            for (int l = 0; l < FL_SIMD_WIDTH; l++) {
+                fl_vec3 u = v3(0, 0, 0);
+                if (wet->piece[k].area[l] > 0.0) {
+                    const fl_vec3 r = m3_mul(R, fl_facet_piece_position(f, &wet->piece[k], l));
+                    const double eta = v->z + v->slope[0] * r.x + v->slope[1] * r.y;
+                    u = v3_add(fl_current_at(&s->current, x.z + r.z),
+                               fl_wave_block_velocity(&s->block[i], &s->grid, s->time, x.x + r.x, x.y + r.y,
+                                                      x.z + r.z, eta));
+                    u = fl_facet_group_to_local(f, l, m3_tmul(R, v3_sub(u, fl_environment_flow(s, i))));
+                }
+                wet->flow[k].u[0][l] = u.x, wet->flow[k].u[1][l] = u.y, wet->flow[k].u[2][l] = u.z;
+            }
+}
+
+/* Evaluates the waves at body i from its block, which is begun anew when due. */
+static void evaluate_block(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
+{
+    fl_wave_values v;
+    fl_submerged wet;
+    const fl_wave_body body = wave_body(s, i);
+    fl_wave_block *const c = &s->block[i];
+    const fl_quat q = *fl_body_attitude(b, i);
+    if (fl_wave_block_due(c, &s->sea, body.reach, s->time, b->x[i], q))
+        fl_wave_block_begin(c, &s->sea, &body, b, i, s->time);
+    fl_wave_block_load(c, &s->sea, &body, s->time, b->x[i], q, &v, &wet, f, t);
+    s->wetted_area[i] = wet.wetted_area;
+    s->buoyancy[i] = s->specific_weight * wet.volume;
+    s->flow_velocity[i] = v.flow;
+    if (b->added_mass) {
+        const fl_mat3 R = fl_body_axes(b, i);
+        if (wet.volume > 0.0)
+            *f = v3_add(*f, m3_mul(R, v3_mul(b->added_mass[i], m3_tmul(R, v.acceleration))));
+        b->flow_velocity[i] = v.flow;
+    }
+    if (s->drag_surface) {
+        const fl_mat3 R = fl_body_axes(b, i);
+        const double n = 1.0 / sqrt(1.0 + v.slope[0] * v.slope[0] + v.slope[1] * v.slope[1]);
+        fl_drag_surface *skin = &s->drag_surface[i];
+        const fl_vec3 up = m3_tmul(R, v3(-n * v.slope[0], -n * v.slope[1], n));
+        const double level = wet.volume > 0.0 ? n * (v.z + s->level - b->x[i].z) : -INFINITY;
+        if (skin->dry.group) fl_facet_cut_update(&skin->dry, &skin->facets, &s->hull[i], up, level);
+        if (skin->wet.group) fl_facet_cut_update(&skin->wet, &skin->facets, &s->hull[i], up, level);
+        if (skin->wet.group && skin->wet.flow) update_block_flow(s, b, i, &v);
+    }
+    s->water_force[i] = *f;
+    s->water_moment[i] = *t;
+}
+
 static void evaluate_water(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *f, fl_vec3 *t)
 {
-    if (s->waves) evaluate_waves(s, b, i, f, t);
+    if (s->by_blocks) evaluate_block(s, b, i, f, t);
+    else if (s->waves) evaluate_waves(s, b, i, f, t);
     else evaluate_still(s, b, i, f, t);
     if (s->sample) store_sample(s, b, i, *f, *t);
 }
@@ -420,7 +554,13 @@ void fl_environment_refresh(fl_environment *s, fl_bodies *b, int32_t i)
     fl_vec3 f, t;
     if (!s->water) return;
     if (!s->sample) {
+        const double work = b->heave_mass ? b->heave_work[i] : 0.0;
+        if (s->block && s->block[i].level != FL_WAVE_NO_BLOCK) {
+            const fl_wave_body body = wave_body(s, i);
+            fl_wave_block_fill(&s->block[i], &s->sea, &body);
+        }
         evaluate_water(s, b, i, &f, &t);
+        if (b->heave_mass) b->heave_work[i] = work;
         return;
     }
     const fl_vec3 x = b->x[i];
@@ -459,6 +599,7 @@ static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, dou
                                          p.z / (1.0 + s / (m + a.z)))));
     } else {
         b->v[i] = v3_madd(c, fl_drag_decay_factor(m, c_force, speed, h), u);
+        if (b->heave_mass) b->v[i].z = c.z + u.z * fl_drag_decay_factor(m + b->heave_mass[i], c_force, speed, h);
     }
     const double turning = v3_dot(b->w[i], b->L[i]);
     if (turning > 0.0 && fluid->moment_coefficient > 0.0) {

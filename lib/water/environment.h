@@ -12,6 +12,7 @@
 #include "water/drag.h"
 #include "water/facet_drag.h"
 #include "water/froude_krylov.h"
+#include "water/wave_path.h"
 #include "water/water_force.h"
 
 /* In the order of the choices of water.drag and wind.drag. */
@@ -52,6 +53,9 @@ enum { FL_WATER_FORCES_MAX = 16 };
 
 struct fl_environment {
     int water, wind;        /* 1 if there is water, wind; with neither nothing below is allocated or used */
+    int only_spheres;       /* 1: all bodies are spheres; set before fl_environment_set_up() */
+    double gravity;         /* |g| [m/s2] */
+    double heave_factor;    /* added mass along the vertical over displaced mass, of b->heave_mass */
     double level;           /* z of the still water [m] */
     double specific_weight; /* rho g [N/m3] */
     fl_fluid seawater, air;
@@ -83,6 +87,15 @@ struct fl_environment {
     int sample_every;       /* steps between two samples; above 1: */
     int sample_now;         /* 1: the next fl_environment_force() samples the waves; set by the step */
     fl_wave_sample *sample; /* [n], or NULL */
+    /* with water.wave_error: waves from tables, in blocks of time (wave_block.h); panels and cells are
+     * unused */
+    int by_blocks;
+    fl_wave_grid grid;
+    fl_wave_water sea;             /* what all bodies have in common */
+    fl_wave_nodes *nodes;          /* [n] */
+    fl_wave_block *block;          /* [n] */
+    fl_wave_surface *node_scratch; /* [threads][scratch_per_thread] */
+    int32_t scratch_per_thread;
     /* rows of the table of forces that are present and have an `impulse` */
     const fl_water_force *impulse[FL_WATER_FORCES_MAX];
     int32_t impulses;
@@ -146,6 +159,14 @@ static inline fl_facet_drag_law fl_environment_wind_law(const fl_environment *s)
  * present velocities: h (F.(v0 + v) + T.(w0 + w)) / 2, which is exact. */
 void fl_environment_add_work(fl_environment *s, const fl_bodies *b, int32_t i, double h, fl_vec3 v0,
                              fl_vec3 w0);
+
+/* Fills the tables of the waves that the step to time t needs. Called before the step, by one thread; without
+ * it each body computes its own part, to the same bits.
+ *   absent   [n] 1: the body is not there; or NULL
+ *   threads  how many fill them
+ * Returns -1 with FL_SYSTEM, or FL_NUMERIC if the bodies are too far apart. */
+int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t *absent, double t,
+                           int threads, fl_err *err);
 
 /* Adds buoyancy, or in waves the Froude-Krylov force and the inertia force on the added mass, to b->f[i],
  * b->t[i]. Updates wetted_area[i], buoyancy[i] and flow_velocity[i]; between samples flow_velocity[i] alone.

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "water/force_table.h"
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include "base/pi.h"
 
 /* --- buoyancy of still water ------------------------------------------------------------------- */
@@ -10,7 +12,8 @@ static int set_up_buoyancy(fl_environment *s, fl_bodies *b, const fl_scene *scen
 {
     (void)b, (void)err;
     s->level = scene->water.level;
-    s->specific_weight = scene->water.density * v3_norm(scene->run.gravity);
+    s->gravity = v3_norm(scene->run.gravity);
+    s->specific_weight = scene->water.density * s->gravity;
     return 0;
 }
 
@@ -43,6 +46,49 @@ static double buoyancy_energy(const fl_environment *s, const fl_bodies *b, int32
 
 /* --- waves ------------------------------------------------------------------------------------- */
 
+/* Trains of components = auto: those at the peak are one cycle of the run apart. */
+enum { LEAST_TRAINS = 100, MOST_TRAINS = 2000 };
+
+static int32_t train_count(const fl_scene *scene)
+{
+    const fl_scene_water *w = &scene->water;
+    if (w->components > 0) return w->components;
+    const double peak = fl_jonswap_spectrum(1.0 / w->period, w->height, w->period, w->gamma),
+                 n = scene->run.duration * w->height * w->height / (16.0 * peak);
+    return n < LEAST_TRAINS ? LEAST_TRAINS : n > MOST_TRAINS ? MOST_TRAINS : (int32_t)ceil(n);
+}
+
+/* C, m, n of the decay in ice. */
+static void decay_law(const fl_scene_water *w, double law[3])
+{
+    static const double LAW[FL_ICE_DECAY_OWN][3] = {{0, 0, 0}, {2.9, 1.25, 4.5}, {0.059, 1.0, 3.0}};
+    const fl_vec3 own = w->ice_decay_law;
+    law[0] = own.x, law[1] = own.y, law[2] = own.z;
+    if (w->ice_decay != FL_ICE_DECAY_OWN) memcpy(law, LAW[w->ice_decay], sizeof LAW[0]);
+}
+
+/* Waves by error; the scratch is for `threads`. */
+static int set_up_grid(fl_environment *s, const fl_scene *scene, fl_err *err)
+{
+    const fl_scene_water *w = &scene->water;
+    fl_wave_grid_form f = {.error = w->wave_error,
+                           .spread = w->spread,
+                           .seed = (uint64_t)w->seed,
+                           .edge = w->ice_edge,
+                           .thickness = w->ice_thickness};
+    decay_law(w, f.decay);
+    if (fl_wave_grid_make(&s->grid, &s->wave, &f, s->threads, err)) return -1;
+    s->by_blocks = 1;
+    s->sea = (fl_wave_water){.grid = &s->grid,
+                             .current = &s->current,
+                             .level = s->level,
+                             .weight = s->specific_weight,
+                             .max_crest = s->wave.max_crest,
+                             .deviation = 0.25 * s->wave.four_sigma,
+                             .k95 = s->wave.k95};
+    return 0;
+}
+
 static int set_up_waves(fl_environment *s, fl_bodies *b, const fl_scene *scene, fl_err *err)
 {
     const fl_scene_water *w = &scene->water;
@@ -52,11 +98,11 @@ static int set_up_waves(fl_environment *s, fl_bodies *b, const fl_scene *scene, 
     if (!s->water || w->wave == FL_WAVE_NONE) return 0;
     if (w->wave == FL_WAVE_AIRY
             ? fl_waves_airy(&s->wave, w->height, w->period, w->direction, w->depth, g, err)
-            : fl_waves_jonswap(&s->wave, w->height, w->period, w->gamma, w->components, (uint64_t)w->seed,
-                               w->direction, w->depth, g, err))
+            : fl_waves_jonswap(&s->wave, w->height, w->period, w->gamma, train_count(scene),
+                               (uint64_t)w->seed, w->direction, w->depth, g, err))
         return -1;
     s->waves = 1;
-    return 0;
+    return w->wave_error > 0.0 ? set_up_grid(s, scene, err) : 0;
 }
 
 static int has_waves(const fl_environment *s, const fl_bodies *b)
@@ -74,6 +120,12 @@ static void describe_waves(const fl_environment *s, char text[FL_FORCE_TEXT])
              w->wave == FL_WAVE_AIRY ? "airy" : "jonswap", w->height, w->period, s->wave.n,
              s->wave.n == 1 ? "" : "s", w->height / steep, steep,
              steep > breaking ? ": they would break" : "");
+    if (!s->by_blocks) return;
+    int64_t points = 0;
+    for (int32_t i = 0; i < s->n; i++) points += s->nodes[i].n;
+    const size_t used = strlen(text);
+    snprintf(text + used, FL_FORCE_TEXT - used, "; to %g %%: %.3g points a floe each %.3g s",
+             100.0 * s->grid.error, (double)points / (s->n > 0 ? s->n : 1), 2.0 * s->grid.step);
 }
 
 static double wave_work(const fl_environment *s, const fl_bodies *b, int32_t i)
@@ -113,20 +165,25 @@ static void describe_current(const fl_environment *s, char text[FL_FORCE_TEXT])
 
 static int set_up_added_mass(fl_environment *s, fl_bodies *b, const fl_scene *scene, fl_err *err)
 {
-    return s->water && v3_nonzero(scene->water.added_mass) ? fl_bodies_alloc_added_mass(b, err) : 0;
+    const fl_vec3 a = scene->water.added_mass;
+    if (!s->water || !v3_nonzero(a)) return 0;
+    if (!s->only_spheres || s->waves || a.x != 0.0 || a.y != 0.0 || !(a.z > 0.0) || !(s->gravity > 0.0))
+        return fl_bodies_alloc_added_mass(b, err);
+    s->heave_factor = a.z; /* of a sheet: along the vertical, whichever way its spheres have turned */
+    return fl_bodies_alloc_heave(b, err);
 }
 
 static int has_added_mass(const fl_environment *s, const fl_bodies *b)
 {
     (void)s;
-    return b->added_mass != NULL;
+    return b->added_mass || b->heave_mass;
 }
 
 /* Work that the flow has taken out of a body with added mass. */
 static double flow_loss(const fl_environment *s, const fl_bodies *b, int32_t i)
 {
     (void)s;
-    return -b->flow_work[i];
+    return b->heave_mass ? -b->heave_work[i] : -b->flow_work[i];
 }
 
 /* --- drag of water and wind -------------------------------------------------------------------- */
@@ -211,6 +268,7 @@ int fl_environment_set_up(fl_environment *s, fl_bodies *b, const fl_scene *scene
     s->scene = scene;
     s->water = scene->water.head.present;
     s->wind = scene->wind.head.present;
+    s->threads = threads;
     for (const fl_water_force *f = fl_water_forces; f < fl_water_forces + fl_water_force_count; f++) {
         if (f->set_up && f->set_up(s, b, scene, err)) return -1;
         if (f->impulse && f->present(s, b)) s->impulse[s->impulses++] = f;

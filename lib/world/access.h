@@ -10,6 +10,9 @@
 /* Time now [s].  dt changes only at times that are known exactly, so no rounding accumulates. */
 static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(w->step - w->step0) * w->dt; }
 
+/* Number of bonds, of faces and of spheres. */
+static inline int32_t fl_world_bonds(const fl_world *w) { return w->bonds.n + w->discs.n; }
+
 /* Heave spring of driven floe i: returns its stiffness [N/m], 0 without a spring; *drawn is its extension
  * upwards [m]. */
 static inline double fl_driven_floe_spring(const fl_world *w, int32_t i, double *drawn)
@@ -71,9 +74,26 @@ static inline enum fl_sleep_phase fl_sleep_phase_of(const fl_world *w, int32_t k
     return w->sleep.state && k < w->n ? (enum fl_sleep_phase)w->sleep.phase[k] : FL_AWAKE;
 }
 
-/* 1 if contact forces move piece or wall j: its mover has free directions. */
+/* 1 if the structure is one of members. */
+static inline int fl_structure_has_members(const fl_world *w) { return w->moving.members.cylinders > 0; }
+
+/* 1 if some part of the structure moves. */
+static inline int fl_structure_moves(const fl_world *w)
+{
+    return w->moving.movers.n > 0 || fl_structure_has_members(w);
+}
+
+/* 1 if piece or wall j moves, by a mover or as a member. */
+static inline int fl_piece_moves(const fl_world *w, int32_t j)
+{
+    if (fl_structure_has_members(w)) return j < w->n + w->pieces;
+    return w->moving.movers.n > 0 && w->moving.mover_of_piece[j - w->n] >= 0;
+}
+
+/* 1 if contact forces move piece or wall j: it is of a member, or its mover has free directions. */
 static inline int fl_piece_is_free(const fl_world *w, int32_t j)
 {
+    if (fl_structure_has_members(w)) return j < w->n + w->pieces;
     const int32_t m = w->moving.movers.n ? w->moving.mover_of_piece[j - w->n] : -1;
     return m >= 0 && w->moving.movers.motion[m].free_dof != 0;
 }
@@ -82,8 +102,8 @@ static inline int fl_piece_is_free(const fl_world *w, int32_t j)
  * are not written. */
 static inline int fl_thing_is_still(const fl_world *w, int32_t j)
 {
-    return j >= w->n && (w->moving.movers.n == 0 || w->moving.mover_of_piece[j - w->n] < 0) &&
-           !(w->panel_load.panels && j < w->n + w->pieces) && !w->structure.piece[j - w->n].several_parts;
+    return j >= w->n && !fl_piece_moves(w, j) && !(w->panel_load.panels && j < w->n + w->pieces) &&
+           !w->structure.piece[j - w->n].several_parts;
 }
 
 /* 1 if near pair p is not evaluated: the two touch and both rest, or one rests and the other stands still. */

@@ -16,6 +16,8 @@
 typedef struct {
     const fl_contact_law *law;  /* row of the table of laws */
     double exponent;            /* n of contact points of polyhedra */
+    double round_exponent;      /* n of those of spheres and ends of capsules: 3/2 or 1 */
+    double round_young;         /* E of a linear one [Pa] */
     double modulus;             /* E* [Pa] */
     double stiffness;           /* given by the scene [N/m^n]; 0: from the modulus */
     double stiffness_factor;    /* multiplies the stiffness that follows from the modulus */
@@ -54,6 +56,8 @@ typedef struct {
     double exponent; /* n; 0 with FL_POINTS_PATCH */
     double mass;     /* reduced mass [kg] */
     double max_approach_speed; /* largest of this contact so far [m/s] */
+    double laid_load;          /* fl_damping_laid_load() [N] */
+    double laid_time;          /* its time [s] */
     int32_t points;            /* enum fl_contact_points: what is evaluated */
     int32_t bond;              /* 1 + index of the bond that was here, 0: none; bond_list.h */
     double radius_factor;      /* multiplies both radii: 1, but less after a bond */

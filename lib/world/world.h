@@ -22,6 +22,7 @@
 #include "world/body_block.h"
 #include "world/bond_state.h"
 #include "world/contact_sums.h"
+#include "world/disc_state.h"
 #include "world/driven_floes.h"
 #include "world/elastic_walls.h"
 #include "world/inflow_state.h"
@@ -53,6 +54,7 @@ typedef struct {
     /* bodies and their surroundings */
     fl_bodies b;
     fl_topologies topologies; /* of cores and outer shapes */
+    double slab_fill;          /* mass of a sphere over that of its volume, ice.slab; 1 without */
     int has_points;           /* some core is a point, whose contacts need face offsets of the other cores */
     int32_t n, pieces, walls;
     fl_structure structure;
@@ -63,7 +65,8 @@ typedef struct {
     fl_inflow_state inflow;
     fl_driven_floes driven_floes;
     fl_sleep sleep;
-    fl_bond_list bonds;
+    fl_bond_list bonds; /* faces */
+    fl_disc_list discs; /* of spheres */
     fl_environment sea;    /* water and wind; n = 0 without them */
     int32_t *id;           /* [n] number in the ice file */
     int32_t *material;     /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */

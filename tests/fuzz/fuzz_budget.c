@@ -26,7 +26,7 @@ int main(int argc, char **argv)
     lab_set(&world_of, "run.error=0.01");
     if (fl_scene_check(&world_of.scene, &err) ||
         fl_error_budget_make(&into, &world_of.scene, &world_of.field, &world_of.field, &world_of.surface,
-                             &err))
+                             NULL, &err))
         return 1;
     const int rc = fuzz_main(argc, argv, "budget", fuzz_one);
     fl_error_budget_free(&into);

@@ -124,7 +124,7 @@ static void compare(const variant *how, int ways, const case_of_run *it, int64_t
     /* the numbers of searches must differ, except for searches that every inflowing floe and every broken
      * bond causes */
     assert_true(most > (it->scene == scene_of_inflow || it->scene == scene_of_inflow_interval ||
-                                it->scene == scene_of_bonds
+                                it->scene == scene_of_bonds || it->scene == scene_of_sheet
                             ? 1
                             : 4) *
                            fewest);
@@ -142,10 +142,12 @@ static void threads_and_searches(void **state)
                               {scene_of_periodic_cell, 8, "patch"},
                               {scene_of_inflow, 8, "patch"},
                               {scene_of_spheres, 8, "patch"},
-                              {scene_of_bonds, 8, "patch"}};
+                              {scene_of_bonds, 8, "patch"},
+                              {scene_of_sheet, 6, "patch"}};
     (void)state;
     compare(how, sizeof how / sizeof *how, &it[0], 10, 2000);
     for (int k = 1; k < 5; k++) compare(few, sizeof few / sizeof *few, &it[k], 10, k < 4 ? 2000 : 200);
+    compare(few, sizeof few / sizeof *few, &it[5], 200, 100);
 }
 
 static void laws(void **state)
@@ -157,7 +159,8 @@ static void laws(void **state)
         {scene_of_inflow, 3, "patch"},          {scene_of_spheres, 3, "patch"},
         {scene_of_bonds, 3, "patch"},           {scene_of_bonds, 3, "manual"},
         {scene_of_water_interval, 3, "patch"},  {scene_of_sea_interval, 3, "patch"},
-        {scene_of_inflow_interval, 3, "patch"}, {scene_of_surrogates, 3, "patch"}};
+        {scene_of_inflow_interval, 3, "patch"}, {scene_of_surrogates, 3, "patch"},
+        {scene_of_sheet, 3, "patch"}};
     const variant how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                            {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                            {1, 0, 1.0, 0, 0, 1}};
@@ -176,6 +179,7 @@ static void changing_thread_counts(void **state)
               {scene_of_everything, "run.sleep=none"},
               {scene_of_spheres, "contact.law=patch"},
               {scene_of_bonds, "contact.law=patch"},
+              {scene_of_sheet, "contact.law=patch"},
               {scene_of_surrogates, "contact.law=patch"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/rng.h"
+#include "ice/sphere_packing.h"
 #include "support/scenes.h"
 #include "support/shapes.h"
 
@@ -242,4 +243,50 @@ void scene_of_joined_parts(lab *l, int32_t side, const char *law)
             lab_box(l, cell, v3(0.37, 0.37, 0.37), 0.05, k < side * side ? q_one() : q_of_vector(spin), v,
                     spin);
     }
+}
+
+void scene_of_sheet(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"material.ice.young=20 MPa",
+                                       "contact.friction=0.3",
+                                       "contact.restitution=0.4",
+                                       "run.gravity=9.81",
+                                       "ice.slab=0.33 m",
+                                       "bond.on=true",
+                                       "bond.normal_strength=30 kPa",
+                                       "bond.shear_strength=30 kPa",
+                                       "bond.softening=stretch",
+                                       "bond.damping=0.1",
+                                       "water.density=1025",
+                                       "water.current=1 0 0",
+                                       "water.added_mass=0 0 3",
+                                       "boundary.type=free",
+                                       "boundary.drive=1 0 0",
+                                       "boundary.drive_width=0.15",
+                                       "boundary.drive_fixed=x y rx rz",
+                                       "boundary.drive_foundation=10 kN/m3"};
+    const double r = 0.1;
+    fl_sphere_packing a;
+    fl_err err = {0};
+    lab_start(l);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+    if (law) lab_setf(l, "contact.law=%s", law);
+    const double long_side = 4.01 * r * side, wide = 6.01 * r * side;
+    if (fl_sphere_packing_make(&a, FL_PACKING_HCP, 2.0 * r, 2, (fl_vec2){-long_side, -0.5 * wide},
+                               (fl_vec2){0.0, 0.5 * wide}, &err))
+        exit(1);
+    const double draft = fl_sphere_packing_draft(&a, 900.0 / 1025.0);
+    for (int32_t k = 0; k < a.n; k++) {
+        fl_rng g = fl_rng_of(8, k, FL_RNG_TEST);
+        lab_sphere(l, v3(a.x[k].x, a.x[k].y, a.x[k].z - draft), r,
+                   v3_add(v3(1, 0, 0), v3_scale(0.4, normal3(&g))), v3_scale(1.0, normal3(&g)));
+    }
+    for (int32_t k = 0; k < a.pairs; k++) {
+        const int32_t i = a.pair[k][0], j = a.pair[k][1];
+        if (fl_ice_field_add_bond(&l->field, i, j, 0.03, 0.2, v3_lerp(l->field.core[i].v[0], l->field.core[j].v[0], 0.5),
+                                  &err))
+            exit(1);
+    }
+    fl_sphere_packing_free(&a);
+    lab_cone(l, (fl_cone){.p0 = v3(0.85, 0, -0.6), .p1 = v3(0.85, 0, 0.6), .r0 = 0.9, .r1 = 0.3});
 }

@@ -29,7 +29,10 @@ void scene_of_spheres(lab *l, int32_t side, const char *law);
 /* side + 1 by side by side - 1 boxes and spheres bonded and breaking apart at once; periodic along x. */
 void scene_of_bonds(lab *l, int32_t side, const char *law);
 
-/* The same without boundaries along x: floes leave there at once, and copies of the field flow in. */
+/* A floating sheet of 2 side by 3 side by 2 bonded spheres that breaks on a cone at once; its last row is driven. */
+void scene_of_sheet(lab *l, int32_t side, const char *law);
+
+/* scene_of_bonds() without boundaries along x: floes leave there at once, and copies of the field flow in. */
 void scene_of_inflow(lab *l, int32_t side, const char *law);
 /* The same with water evaluated in few steps. */
 void scene_of_inflow_interval(lab *l, int32_t side, const char *law);

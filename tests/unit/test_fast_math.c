@@ -57,9 +57,29 @@ static void cosine_and_sine(void **state)
     }
 }
 
+static void arc_tangent(void **state)
+{
+    static const double ZERO[2] = {0.0, -0.0};
+    (void)state;
+    fl_rng g = fl_rng_of(test_seed(), 4, FL_RNG_TEST);
+    for (long k = 0; k < test_times(100000); k++) {
+        const double size = pow(10.0, fl_rng_in(&g, -30.0, 30.0)), turn = fl_rng_in(&g, -4.0, 4.0);
+        const double x = size * cos(turn), y = size * sin(turn) * (k % 2 ? 1.0 : 1e-7);
+        assert_near_of(fl_atan2(y, x), atan2(y, x), 1.0, 4.5e-16);
+        if (x > 0.0) assert_near(fl_atan2(y, x), atan2(y, x), 2 * EPS);
+    }
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) {
+            const double got = fl_atan2(ZERO[i], ZERO[j]), want = atan2(ZERO[i], ZERO[j]);
+            assert_true(got == want && signbit(got) == signbit(want));
+            assert_true(fl_atan2(ZERO[i], -2.0) == atan2(ZERO[i], -2.0));
+            assert_true(fl_atan2(1.0, ZERO[j]) == atan2(1.0, ZERO[j]));
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(exponential), cmocka_unit_test(logarithm_and_power),
-                                       cmocka_unit_test(cosine_and_sine)};
+                                       cmocka_unit_test(cosine_and_sine), cmocka_unit_test(arc_tangent)};
     return cmocka_run_group_tests_name("fast_math", tests, NULL, NULL);
 }

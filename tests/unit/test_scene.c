@@ -271,6 +271,56 @@ static void keys_of_the_manual_are_read(void **state)
     expect_refusal("gravity\n" ICE, ":1: run.gravity has no value");
 }
 
+/* Waves by error, directions and decay in ice. */
+static void complaints_about_waves(void **state)
+{
+#define SEA "[run]\ngravity = 9.81\n[water]\nwave = jonswap\nheight = 1\nperiod = 6\n"
+    fl_scene s;
+    (void)state;
+    load_good(&s, SEA ICE);
+    assert_near(s.water.wave_error, 0.003, 0); /* the default of a sea */
+    fl_scene_free(&s);
+    load_good(&s, SEA "every = 4\n" ICE); /* without it */
+    assert_near(s.water.wave_error, 0, 0);
+    fl_scene_free(&s);
+    load_good(&s,
+              "[run]\nsleep = 1e-5\ngravity = 9.81\n[water]\nwave = jonswap\nheight = 1\nperiod = 6\n" ICE);
+    assert_near(s.water.wave_error, 0, 0);
+    fl_scene_free(&s);
+    load_good(&s, "[run]\ngravity = 9.81\n[water]\nwave = airy\nheight = 1\nperiod = 6\n" ICE);
+    assert_near(s.water.wave_error, 0, 0);
+    fl_scene_free(&s);
+    load_good(&s, SEA "components = auto\nspread = 2\n" ICE);
+    assert_int_equal(s.water.components, 0);
+    fl_scene_free(&s);
+    expect_refusal(SEA "wave_error = 1e-5\n" ICE,
+                   ":7: water.wave_error is 1e-5, a value at least 0.0001 and at most 0.05 is expected");
+    expect_refusal(SEA "wave_error = 0.01\nevery = 2\n" ICE,
+                   ":8: water.wave_error chooses when the waves are evaluated: either water.every or "
+                   "water.wave_error is expected");
+    expect_refusal(
+        SEA "wave_error = 0.01\n[run]\nsleep = 1e-5\n" ICE,
+        ":9: sleeping floes evaluate the waves when they wake: water.wave_error = none is expected");
+    expect_refusal("[run]\ngravity = 9.81\n[water]\nwave = airy\nheight = 1\nperiod = 6\nspread = 2\n" ICE,
+                   ":7: a regular wave has one direction: water.wave = jonswap is expected");
+    expect_refusal(SEA "spread = 2\nwave_error = none\n" ICE,
+                   ":8: with water.spread the waves are evaluated by error only: a number is expected");
+    expect_refusal(SEA "ice_decay = rogers\n" ICE,
+                   ":7: the decay needs the edge of the ice: water.ice_edge is expected");
+    expect_refusal(SEA "ice_decay = rogers\nice_edge = 10 m\n" ICE,
+                   ":7: the decay needs the thickness of the ice: water.ice_thickness is expected");
+    expect_refusal(SEA "ice_decay = own\nice_edge = 10 m\n" ICE,
+                   ":7: the decay has no law: water.ice_decay_law with C above 0 is expected");
+    expect_refusal(
+        SEA "ice_decay = meylan\nice_edge = 10 m\nice_thickness = 1 m\nspread = 2\n" ICE,
+        ":7: the decay is along one direction: either water.ice_decay or water.spread is expected");
+    expect_refusal(SEA
+                   "spread = 2\n[boundary]\ntype = rigid periodic free\nmin = 0 0 none\nmax = 9 9 none\n" ICE,
+                   ":7: waves of all directions do not repeat with a periodic boundary: another boundary or "
+                   "water.spread = none is expected");
+#undef SEA
+}
+
 static void each_complaint_names_file_and_line(void **state)
 {
     (void)state;
@@ -617,8 +667,8 @@ static void bonds_are_checked(void **state)
         ICE "[bond]\non = true\n[boundary]\ntype = free\nmin = 0 none none\nmax = 9 none none\ninflow = "
             "ice\ninflow_speed = 1\n",
         ":9: inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
-    expect_refusal(ICE "[bond]\non = true\nsoftening = stretch\n",
-                   ":5: softening needs a fracture energy: bond.energy is expected");
+    expect_refusal(ICE "[bond]\non = true\nsoftening = weaken\n",
+                   ":5: softening = weaken needs a fracture energy: bond.energy is expected");
     expect_refusal(ICE "[bond]\non = true\nenergy = 10\nnormal_strength = none\nsoftening = weaken\n",
                    ":7: softening = weaken lowers both strengths, but one is none: a number is expected");
 }
@@ -654,6 +704,7 @@ int main(void)
         cmocka_unit_test(vectors_take_one_number_or_three),
         cmocka_unit_test(the_grammar_is_that_of_scene_5),
         cmocka_unit_test(keys_of_the_manual_are_read),
+        cmocka_unit_test(complaints_about_waves),
         cmocka_unit_test(each_complaint_names_file_and_line),
         cmocka_unit_test(sections_are_checked_against_each_other),
         cmocka_unit_test(set_overrides_the_file),

@@ -14,11 +14,10 @@
  * periodic domain or not, or with the last. With surrogates a touching pair states whether it has been
  * evaluated, and then its surrogate. A bond has its points once it is damaged. */
 static const char LAYOUT[] =
-    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|books 34|borne 15|budget 15|event "
-    "15|known "
-    "6|mark 16|"
-    "mover 40|nap 13|next 2|pair 19|pair 20|pair 21|pair 22|pair 27|pair 30|pair 91|pair 92|panel 5|part 8|"
-    "place 6|pressed 5|sea 26|sea 6|sea 7|share 10|shared 2|told 5|traffic 14|window 9|world 17|";
+    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|books 34|borne 15|budget 15|"
+    "disc 28|event 15|known 6|mark 16|mover 40|nap 13|next 2|pair 26|pair 27|pair 28|pair 29|pair 34|"
+    "pair 37|pair 98|pair 99|panel 5|part 8|place 6|pressed 5|sea 26|sea 38|sea 6|share 10|shared 2|"
+    "told 5|traffic 14|window 9|world 17|";
 enum { LAYOUT_IS_OF = 14, KINDS = 64 };
 
 typedef struct {
@@ -132,6 +131,7 @@ static void each_layout_has_a_version_number(void **state)
     scene_of_spheres(&l, 3, NULL), collect_state(&all, &l, 1);
     scene_of_spheres(&l, 3, NULL), lab_set(&l, "boundary.type=rigid rigid rigid"), collect_state(&all, &l, 0);
     scene_of_bonds(&l, 3, NULL), collect_state(&all, &l, 1);
+    scene_of_sheet(&l, 3, NULL), collect_state(&all, &l, 0);
     scene_of_surrogates(&l, 2, NULL), collect_state(&all, &l, 0);
     scene_of_joined_parts(&l, 2, NULL), collect_state(&all, &l, 0);
     collect_budget(&all);

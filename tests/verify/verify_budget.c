@@ -202,7 +202,7 @@ static result run(const scene *s, double goal, const char *of, int64_t m)
     if (m == 0) {
         lab_set(&l, "structure.file=lab"); /* the same options as lab_make() sets */
         if (fl_scene_check(&l.scene, &err) ||
-            fl_error_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, &err))
+            fl_error_budget_make(&g, &l.scene, &l.field, &l.field, &l.surface, NULL, &err))
             exit(1);
         r.least = (int32_t)lround(g.row_interval / fl_error_budget_first_step(&g));
     }
@@ -463,7 +463,7 @@ static void make_grazing_floes(lab *l, fl_error_budget *g)
     lab_box(l, v3(0, 6, 1), v3(0.55, 0.55, 0.25), 0.05, q_about_axis(2, 0), v3(1, 0, 0), v3(0.7, 0.3, 0.2));
     lab_set(l, "structure.file=lab");
     if (fl_scene_check(&l->scene, &err) ||
-        fl_error_budget_make(g, &l->scene, &l->field, &l->field, &l->surface, &err))
+        fl_error_budget_make(g, &l->scene, &l->field, &l->field, &l->surface, NULL, &err))
         exit(1);
     lab_make(l, fl_error_budget_first_step(g));
 }
@@ -570,7 +570,7 @@ static double reported_horizon(fl_error_budget *g, int neighbour, double seconds
     make_billiards(&l, neighbour, seconds, goal);
     lab_set(&l, "structure.file=lab");
     if (fl_scene_check(&l.scene, &err) ||
-        fl_error_budget_make(g, &l.scene, &l.field, &l.field, &l.surface, &err))
+        fl_error_budget_make(g, &l.scene, &l.field, &l.field, &l.surface, NULL, &err))
         exit(1);
     lab_make(&l, fl_error_budget_first_step(g));
     for (int64_t row = 0; row < (int64_t)lround(seconds / EVERY); row++) {

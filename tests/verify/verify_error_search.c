@@ -20,7 +20,7 @@ static void make_world(lab *l, fl_error_budget *g)
     lab_set(l, "structure.file=lab");
     *g = (fl_error_budget){0};
     if (fl_scene_check(&l->scene, &err) ||
-        fl_error_budget_make(g, &l->scene, &l->field, &l->field, &l->surface, &err))
+        fl_error_budget_make(g, &l->scene, &l->field, &l->field, &l->surface, NULL, &err))
         exit(1);
     lab_make(l, fl_error_budget_first_step(g));
 }

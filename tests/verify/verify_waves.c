@@ -226,6 +226,7 @@ static void pressure_on_panels(void)
         lab_set(&l, "run.gravity=9.81");
         lab_set(&l, cases[c].n > 1 ? "water.wave=jonswap" : "water.wave=airy");
         lab_set(&l, "water.height=1e-5");
+        lab_set(&l, "water.wave_error=none");
         lab_setf(&l, "water.period=%g", cases[c].Tp);
         for (int k = 0; k < 40; k++)
             lab_box(&l, v3(137.3 * k, 6 * k, REST), v3(0.5 * L, 0.5 * B, 0.5), 0.05, q_one(), v3(0, 0, 0),
@@ -343,15 +344,15 @@ static void energy_in_waves(void)
 static void interval_of_evaluations(void)
 {
     enum { MOST = 400, STEPS = 8000 };
-    const char *KEYS[] = {"water.current=0.3 0 0", "water.wave=jonswap", "water.height=0.5", "water.period=5",
-                          "water.components=20"};
+    const char *KEYS[] = {"water.current=0.3 0 0", "water.wave=jonswap",  "water.height=0.5",
+                          "water.period=5",        "water.components=20", "water.wave_error=none"};
     static fl_vec3 path[STEPS / MOST];
     double h[4], off[4], opened[4];
     for (int c = -1; c < 4; c++) {
         const int every = c < 0 ? 1 : MOST >> (c + 1);
         lab l;
         double still = 0.0;
-        make_floe(&l, KEYS, 5);
+        make_floe(&l, KEYS, 6);
         lab_set(&l, "water.drag_force_coef=0.005");
         lab_set(&l, "water.drag_moment_coef=0.002");
         lab_setf(&l, "water.every=%d", every);
@@ -379,12 +380,12 @@ static void interval_of_evaluations(void)
 static void long_interval_run(void)
 {
     enum { TENTH = 10000 };
-    const char *KEYS[] = {"water.wave=jonswap", "water.height=0.001", "water.period=8",
-                          "water.components=20"};
+    const char *KEYS[] = {"water.wave=jonswap", "water.height=0.001", "water.period=8", "water.components=20",
+                          "water.wave_error=none"};
     double swing[2][2] = {{0}};
     for (int seldom = 0; seldom < 2; seldom++) {
         lab l;
-        make_floe(&l, KEYS, 4);
+        make_floe(&l, KEYS, 5);
         lab_setf(&l, "water.every=%d", seldom ? 20 : 1);
         lab_box(&l, v3(0, 0, REST + 0.03), v3(2, 1.5, 0.5), 0.05, q_of_vector(v3(0.02, 0.04, 0)), v3(0, 0, 0),
                 v3(0, 0, 0));

@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "base/number_text.h"
 #include "base/option.h"
+#include "member/member_modes.h"
 
 static const char USAGE[] =
     "usage: arc-path [options] MODEL\n"
@@ -276,6 +277,21 @@ static const fl_option OPTION[] = {
      .help = "go on from such a state, with the same model and options",
      .kind = FL_OPTION_FILE,
      .at = AT(resume)},
+    {.word = "modes",
+     .argument = "N",
+     .help = "write the N lowest modes about the start, in place of the path",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(modes),
+     .lo = 1,
+     .hi = FL_MEMBER_MODES_MOST},
+    {.word = "ratio",
+     .argument = "Z",
+     .help = "damping ratio in the table of modes (0)",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(ratio),
+     .lo = 0.0,
+     .hi = 1.0,
+     .expected = "a number from 0 to 1"},
     FL_COMMON_OPTIONS(struct options, "write the table to FILE (standard output)", "compress it",
                       "threads of models with thousands of balls (those of OMP_NUM_THREADS, or all)",
                       "no summary on standard error", "a line for each point on standard error"),
@@ -296,6 +312,12 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     for (int k = 0; k < o->untils; k++)
         if (strcmp(o->until[k].name, "lambda") == 0) o->path.last = o->until[k].value;
     if (!o->model) return fl_fail(err, FL_USAGE, "no model, expected a file of kind members");
+    if (o->ratio > 0.0 && !o->modes)
+        return fl_fail(err, FL_USAGE, "--ratio needs --modes, of whose table it is a column");
+    if (o->modes && (o->plot || o->checkpoint || o->resume || o->watches || o->untils))
+        return fl_fail(
+            err, FL_USAGE,
+            "--modes follows no path: --plot, --checkpoint, --resume, --watch and --until are not for it");
     if (o->reference && !o->plot)
         return fl_fail(err, FL_USAGE, "--reference needs --plot, the folder of the picture");
     if (o->shapes && !o->plot)
@@ -338,6 +360,8 @@ void options_by(const struct options *o, fl_history_line *by)
     add_option(by, "--tolerance", p->chi, usual.chi);
     add_option(by, "--scatter", o->scatter, 0.0);
     if (o->scatter > 0.0) fl_history_line_add(by, "--seed %llu", (unsigned long long)o->seed);
+    if (o->modes) fl_history_line_add(by, "--modes %d", (int)o->modes);
+    add_option(by, "--ratio", o->ratio, 0.0);
     if (o->shape) {
         fl_history_line_word(by, "--shape ", o->shape);
         add_option(by, "--amplitude", o->amplitude, 0.0);

@@ -29,6 +29,8 @@ struct options {
     int32_t shape_at[SHAPES_MAX]; /* points whose shape is written */
     int shapes;
     const char *checkpoint, *resume;
+    int32_t modes; /* number of modes, in place of the path; 0: the path */
+    double ratio;  /* damping ratio of their table */
     const char *out;
     int gzip, quiet, verbose, threads;
     int ended;

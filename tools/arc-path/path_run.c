@@ -5,10 +5,12 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/array.h"
 #include "base/output_guard.h"
 #include "base/stream.h"
 #include "member/imperfection.h"
 #include "member/mechanism.h"
+#include "member/member_modes.h"
 #include "member/path_state.h"
 #include "path_plot.h"
 
@@ -145,7 +147,7 @@ static int check_files(const struct options *o, fl_err *err)
     return fl_output_guard_check(out, 2, in, 3, err);
 }
 
-static int prepare(struct run *r, fl_err *err)
+static int read_model(struct run *r, fl_err *err)
 {
     const struct options *o = r->o;
     if (check_files(o, err) || fl_member_model_read(&r->model, o->model, err) || find_columns(r, err))
@@ -153,7 +155,13 @@ static int prepare(struct run *r, fl_err *err)
     if (o->scatter > 0.0) fl_member_scatter(&r->model, o->scatter, o->seed);
     if (o->shape && fl_member_add_shape(&r->model, o->shape, o->amplitude, err)) return -1;
     if (fl_member_check_mechanism(&r->model, err)) return -1;
-    if (fl_member_chain_make(&r->chain, &r->model, 1.0, err)) return -1;
+    return fl_member_chain_make(&r->chain, &r->model, 1.0, err);
+}
+
+static int prepare(struct run *r, fl_err *err)
+{
+    const struct options *o = r->o;
+    if (read_model(r, err)) return -1;
     r->chain.threads = omp_get_max_threads();
     if (!(r->chain.load_norm > 0.0) && r->chain.moves == 0)
         return fl_fail(err, FL_INPUT, "%s: no load acts on a free node", o->model);
@@ -164,11 +172,47 @@ static int prepare(struct run *r, fl_err *err)
     return fl_path_start(&r->path, &r->chain, &o->path, err);
 }
 
+/* The table of modes in place of a path. */
+static int write_modes(struct run *r, fl_err *err)
+{
+    const struct options *o = r->o;
+    fl_member_stiffness k = {0};
+    fl_member_modes modes = {0};
+    fl_history_line by;
+    fl_out out = {0};
+    int rc = read_model(r, err);
+    double *mass = fl_alloc(r->chain.balls, sizeof *mass, err),
+           *inertia = fl_alloc(r->chain.balls, sizeof *inertia, err);
+    if (rc == 0 && err->code) rc = -1;
+    if (rc == 0) rc = fl_member_masses(&r->chain, &r->model, mass, inertia, err);
+    if (rc == 0) rc = fl_member_stiffness_make(&k, &r->chain, r->model.file, err);
+    if (rc == 0) rc = fl_member_modes_find(&modes, &k, r->chain.balls, mass, inertia, o->modes, err);
+    if (rc == 0) rc = fl_out_open(&out, o->out, o->gzip, err);
+    if (rc == 0) {
+        options_by(o, &by);
+        fl_member_modes_write(out.f, &modes, &r->model, o->ratio, &by);
+        rc = fl_out_close(&out, err);
+    }
+    if (rc == 0 && modes.n < o->modes && !o->quiet)
+        fprintf(stderr, "arc-path: note: the structure has %d modes, fewer than %d\n", (int)modes.n,
+                (int)o->modes);
+    fl_member_modes_free(&modes);
+    fl_member_stiffness_free(&k);
+    free(mass), free(inertia);
+    return rc;
+}
+
 int path_run(const struct options *o, fl_err *err)
 {
     struct run r = {.o = o};
     fl_history_line by;
     fl_out out = {0};
+    if (o->modes) {
+        const int bad = write_modes(&r, err);
+        fl_member_chain_free(&r.chain);
+        fl_member_model_free(&r.model);
+        return bad;
+    }
     int rc = prepare(&r, err);
     if (rc == 0) rc = fl_out_open(&out, o->out, o->gzip, err);
     if (rc == 0) {

@@ -35,8 +35,11 @@ static int read_scene(fl_scene *s, const struct options *o, fl_err *err)
         if (fl_scene_set(s, key, err)) return -1;
     }
     if (o->structure) {
-        snprintf(key, sizeof key, "structure.file=%s", o->structure);
-        if (fl_scene_set(s, key, err)) return -1;
+        const int members = fl_member_model_is(o->structure);
+        snprintf(key, sizeof key, "structure.%s=%s", members ? "members" : "file", o->structure);
+        if (fl_scene_set(s, key, err) ||
+            fl_scene_set(s, members ? "structure.file=none" : "structure.members=none", err))
+            return -1;
     }
     if (o->threads) s->run.threads = o->threads;
     return fl_scene_check(s, err);
@@ -96,8 +99,9 @@ static int run_or_print(struct run *r, fl_err *err)
 /* The inputs of a run. */
 struct inputs {
     fl_scene scene;
-    fl_ice_field field, feed; /* feed: the field of inflow_file */
-    fl_surface surface;
+    fl_ice_field field, feed;           /* feed: the field of inflow_file */
+    fl_surface surface, frames_surface; /* frames_surface: of members alone */
+    fl_member_model members;            /* file is NULL where there are none */
     fl_restart saved;
     fl_restart_part input_text[INPUT_TEXTS];
     char *text[INPUT_TEXTS]; /* of input_text, where it is owned */
@@ -122,6 +126,7 @@ static int check_files(const fl_scene *s, fl_err *err)
     char key[128];
     if (check_file(s, "ice.file", s->ice.file, err) ||
         check_file(s, "structure.file", s->structure.file, err) ||
+        check_file(s, "structure.members", s->structure.members, err) ||
         check_file(s, "structure.track", s->structure.motion.track, err) ||
         check_file(s, "boundary.inflow_file", s->boundary.inflow_file, err) ||
         check_file(s, "water.profile_file", s->water.profile_file, err))
@@ -133,13 +138,25 @@ static int check_files(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+/* What ice meets of a structure of members, and what is drawn. */
+static int make_surfaces(struct inputs *in, fl_err *err)
+{
+    const fl_scene *s = &in->scene;
+    const double level = s->water.head.present ? s->water.level : 0.0;
+    if (!in->members.file) return 0;
+    return fl_member_motion_surface(&in->surface, &in->members, level, err) ||
+                   fl_member_motion_frames_surface(&in->frames_surface, &in->members, err)
+               ? -1
+               : 0;
+}
+
 static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
 {
     if (o->resume)
         return fl_restart_read(&in->saved, o->resume, err) || fl_restart_current(&in->saved, err) ||
                        save_read_inputs(&in->saved, o, &in->scene, &in->field, &in->feed, &in->surface,
-                                        err) ||
-                       save_read_history(&in->saved, &in->history, &in->by, err)
+                                        &in->members, err) ||
+                       save_read_history(&in->saved, &in->history, &in->by, err) || make_surfaces(in, err)
                    ? -1
                    : 0;
     if (read_scene(&in->scene, o, err)) return -1;
@@ -152,8 +169,13 @@ static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
     if (in->scene.structure.head.present && in->scene.structure.file[0] &&
         fl_gstruct_read(&in->surface, in->scene.structure.file, err))
         return -1;
+    if (in->scene.structure.head.present && in->scene.structure.members[0] &&
+        fl_member_model_read(&in->members, in->scene.structure.members, err))
+        return -1;
+    if (make_surfaces(in, err)) return -1;
     options_by(o, &in->by);
-    return join_history(&in->history, in->field.history, in->surface.history, err);
+    return join_history(&in->history, in->field.history,
+                        in->members.file ? in->members.history : in->surface.history, err);
 }
 
 /* The input texts for checkpoints: those of the checkpoint that is resumed, or the inputs just read. */
@@ -162,7 +184,8 @@ static int make_input_texts(struct inputs *in, const fl_surface *surface, fl_err
     static const char *const NAME[INPUT_TEXTS] = {"ice", "structure", "inflow"};
     if (!in->scene.output.checkpoint[0]) return 0;
     if (!in->saved.data) {
-        const int rc = save_inputs_as_text(in->input_text, &in->field, surface, &in->feed, &in->by, err);
+        const int rc = save_inputs_as_text(in->input_text, &in->field, surface,
+                                           in->members.file ? &in->members : NULL, &in->feed, &in->by, err);
         for (int k = 0; k < INPUT_TEXTS; k++)
             memcpy(&in->text[k], &in->input_text[k].text, sizeof in->text[k]);
         return rc;
@@ -221,6 +244,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
         goto done;
     }
     const fl_surface *surface = in.surface.n ? &in.surface : NULL;
+    const fl_member_model *members = in.members.file ? &in.members : NULL;
     if (in.field.n == 0) {
         fl_fail(err, FL_INPUT, "%s: the file has no body; an ice field expected", in.scene.ice.file);
         goto done;
@@ -229,16 +253,19 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     if (make_input_texts(&in, surface, err) || sort_field(&in.field, &order, err) ||
         (in.feed.n && sort_field(&in.feed, NULL, err)) ||
         fl_world_make_with_inflow(&world, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface,
-                                  err) ||
+                                  members, err) ||
         (!o->resume && fl_world_check_walls(&world, err)) || extend_order(&order, in.field.n, world.n, err) ||
         (in.scene.run.error > 0.0 &&
-         fl_error_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface, err)))
+         fl_error_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface,
+                              members, err)))
         goto done;
     if (!has_inflow) fl_ice_field_free(&in.field);
     struct run r = {.o = o,
                     .scene = &in.scene,
                     .order = order,
                     .surface = surface,
+                    .frames_surface = members ? &in.frames_surface : surface,
+                    .members = members,
                     .history = in.history,
                     .by = &in.by,
                     .resumed = o->resume ? &in.saved : NULL,
@@ -257,7 +284,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     if (targets_check(&in.scene, o, r.loads_path, err)) goto done;
     choose_step(&r);
     if (check_step_count(&r, err)) goto done;
-    if (!o->quiet && world.bonds.n) note_long_bonds(&world, stderr);
+    if (!o->quiet && fl_world_bonds(&world)) note_long_bonds(&world, stderr);
     rc = run_or_print(&r, err);
     *stopped = r.stopped;
     if (r.stopped && !o->quiet) print_stop(&r);
@@ -269,6 +296,8 @@ done:
     fl_world_free(&world);
     fl_error_budget_free(&budget);
     fl_surface_free(&in.surface);
+    fl_surface_free(&in.frames_surface);
+    fl_member_model_free(&in.members);
     fl_ice_field_free(&in.field);
     fl_ice_field_free(&in.feed);
     fl_scene_free(&in.scene);

@@ -50,6 +50,8 @@ static const struct table TABLE[TABLES] = {
                       WITH_LOADS, 0, 0},
     [TABLE_BONDS] = {"bonds", PATH(bonds), PATH(bonds_every), &fl_bonds_table, NULL, write_bonds, ALONE, 0,
                      1},
+    [TABLE_MEMBERS] = {"members", PATH(members), PATH(members_every), &fl_member_forces_table, NULL,
+                       write_members, ALONE, 0, 0},
 };
 
 const char *table_name(int table) { return TABLE[table].name; }
@@ -107,12 +109,23 @@ static double row_time(const struct run *r, double due)
 
 /* --- open and close ---------------------------------------------------------------------------- */
 
+/* NULL: frames are text. */
+static fl_packed_writer *packed_writer(const struct run *r, struct outputs *u)
+{
+    if (r->scene->output.frames_form != FL_FRAMES_PACKED) return NULL;
+    if (!u->packed.key_every)
+        u->packed = fl_packed_writer_make(FL_PACKED_BOUND_X, FL_PACKED_BOUND_Q, FL_PACKED_KEY_EVERY);
+    return &u->packed;
+}
+
 void write_header(struct run *r, struct outputs *u, int table)
 {
     const struct table *a = &TABLE[table];
     if (!a->format) {
         const fl_poses now = poses_of(r);
-        fl_frames_header(u->table[table].f, r->history, r->by, &now, r->surface);
+        fl_packed_writer *const packed = packed_writer(r, u);
+        if (packed) fl_packed_writer_restart(packed);
+        fl_frames_header(u->table[table].f, r->history, r->by, &now, r->frames_surface, packed);
         return;
     }
     fl_table_write_header(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history, r->by,
@@ -145,12 +158,14 @@ int close_outputs(struct outputs *u, fl_err *err)
 {
     int rc = 0;
     for (int k = 0; k < TABLES; k++) rc |= fl_out_close(&u->table[k], err);
+    fl_packed_writer_free(&u->packed);
     return rc;
 }
 
 void abort_outputs(struct outputs *u)
 {
     for (int k = 0; k < TABLES; k++) fl_out_abort(&u->table[k]);
+    fl_packed_writer_free(&u->packed);
 }
 
 /* --- rows -------------------------------------------------------------------------------------- */
@@ -198,7 +213,9 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
         write_header(r, u, TABLE_FRAMES);
         keep_outputs(u);
     }
-    write_frame(r, u->table[TABLE_FRAMES].f, t, ice, ice ? first_new_shape(r, u) : -1);
+    if (write_frame(r, u->table[TABLE_FRAMES].f, packed_writer(r, u), t, ice,
+                    ice ? first_new_shape(r, u) : -1, err))
+        return -1;
     if (ice) move_timer(&u->timer[TIMER_ICE], u->timer[TIMER_ICE].k + 1, r->w);
     return 0;
 }

@@ -6,6 +6,7 @@
 #ifndef DEM_SOLVE_OUTPUTS_H
 #define DEM_SOLVE_OUTPUTS_H
 #include "base/stream.h"
+#include "out/packed_frames.h"
 #include "run_context.h"
 
 /* The order is that of a checkpoint(5). */
@@ -19,6 +20,7 @@ enum table_id {
     TABLE_PANELS,
     TABLE_EVENTS,
     TABLE_BONDS,
+    TABLE_MEMBERS,
     TABLES,
     TIMER_ICE = TABLES, /* frames with ice */
     TIMER_SAVE,         /* checkpoints */
@@ -34,8 +36,9 @@ struct timer {
 struct outputs {
     fl_out table[TABLES]; /* f is NULL for a table that the scene does not write */
     struct timer timer[TIMERS];
-    int32_t frame_file; /* number of the open file of frames */
-    double last_row;    /* of the loads [s] */
+    int32_t frame_file;      /* number of the open file of frames */
+    double last_row;         /* of the loads [s] */
+    fl_packed_writer packed; /* of frames, output.frames_form = packed */
 };
 
 /* Name of a table, as in its key output.NAME. */

@@ -72,14 +72,14 @@ static void print_bodies(const fl_world *w, FILE *f, const struct bodies *n)
 static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, char water[][FL_FORCE_TEXT])
 {
     char bonds[160] = "";
-    if (w->bonds.n)
-        snprintf(bonds, sizeof bonds, "%d bonded faces, %d bonds per body", w->bonds.n,
-                 (2 * w->bonds.n + n->present / 2) / n->present);
+    if (fl_world_bonds(w))
+        snprintf(bonds, sizeof bonds, "%d bonded faces, %d bonds per body", fl_world_bonds(w),
+                 (2 * fl_world_bonds(w) + n->present / 2) / n->present);
     fprintf(f, "stages\n");
     print_stage(f, "weight", v3_norm(w->gravity) > 0.0, "");
     print_stage(f, "contacts", 1, "");
     print_stage(f, "structure", w->pieces > 0, "");
-    print_stage(f, "motion", w->moving.movers.n > 0,
+    print_stage(f, "motion", fl_structure_moves(w),
                 fl_structure_moves_freely(w) ? "of the structure, with free directions" : "");
     print_stage(f, "panels", w->panel_load.panels > 0, "");
     print_stage(f, "walls", w->walls > 0, "");
@@ -88,7 +88,7 @@ static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, cha
     print_stage(f, "inflow", w->inflow.feed != NULL, "");
     for (int32_t k = 0; k < fl_water_force_count; k++)
         print_stage(f, fl_water_forces[k].name, fl_water_forces[k].present(&w->sea, &w->b), water[k]);
-    print_stage(f, "bonds", w->bonds.n > 0, bonds);
+    print_stage(f, "bonds", fl_world_bonds(w) > 0, bonds);
     print_stage(f, "fixed", n->fixed > 0, "");
     print_stage(f, "sleep", w->sleep.state != NULL, "steps of inactive floes are skipped");
 }

@@ -52,7 +52,7 @@ static void report_budget(const struct run *r, FILE *f)
 
 static int has_failed_bonds(const fl_world *w)
 {
-    return w->bonds.n && fl_bond_list_counts(w).state[FL_BOND_INTACT] < w->bonds.n;
+    return fl_world_bonds(w) && fl_bond_list_counts(w).state[FL_BOND_INTACT] < fl_world_bonds(w);
 }
 
 static void report_bonds(const fl_world *w, FILE *f)
@@ -60,7 +60,7 @@ static void report_bonds(const fl_world *w, FILE *f)
     const fl_bond_counts n = fl_bond_list_counts(w);
     const int32_t broken = n.state[FL_BOND_BROKEN] + n.state[FL_BOND_ENDED];
     fprintf(f, "bonds              %d whole, %d damaged, %d broken of %d: %.4g m2 of crack, %.4g J\n",
-            n.state[FL_BOND_INTACT], n.state[FL_BOND_DAMAGED], broken, w->bonds.n, n.area,
+            n.state[FL_BOND_INTACT], n.state[FL_BOND_DAMAGED], broken, fl_world_bonds(w), n.area,
             w->ledger.fracture);
 }
 
@@ -72,7 +72,7 @@ void note_long_bonds(const fl_world *w, FILE *f)
     fprintf(f,
             "dem-solve: note: %d of %d bonds store more than the %.4g J/m2 of bond.energy at their strength: "
             "the longest is %.3g m, and the limit is %.3g m; a crack takes %.4g J/m2 in the mean%s\n",
-            n.coarse, w->bonds.n, s->energy, n.longest, n.limit, n.energy,
+            n.coarse, fl_world_bonds(w), s->energy, n.longest, n.limit, n.energy,
             s->softening == FL_SOFTENING_STRETCH ? "" : " (see bond.softening)");
 }
 
@@ -217,7 +217,7 @@ void write_report(const struct run *r, FILE *f)
                 r->save_wall, fl_world_time(w));
     report_energy(w, f);
     report_momentum(w, f);
-    if (w->bonds.n) report_bonds(w, f);
+    if (fl_world_bonds(w)) report_bonds(w, f);
     if (w->inflow.absent) report_inflow(w, f);
     report_overlaps(w, f);
     fprintf(f, "state hash         %016" PRIx64 "\n", fl_state_hash(w));

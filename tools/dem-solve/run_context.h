@@ -12,9 +12,11 @@ enum { INPUT_TEXTS = 3 };
 struct run {
     const struct options *o;
     const fl_scene *scene;
-    const int32_t *order;      /* [n] index in the world of the k-th body of the ice file */
-    const fl_surface *surface; /* NULL: none */
-    const char *history;       /* of the inputs; NULL: none */
+    const int32_t *order;             /* [n] index in the world of the k-th body of the ice file */
+    const fl_surface *surface;        /* NULL: none */
+    const fl_surface *frames_surface; /* the same, or of members each piece of the chain as a part */
+    const fl_member_model *members;   /* NULL: none */
+    const char *history;              /* of the inputs; NULL: none */
     const fl_history_line *by;
     const fl_restart *resumed;         /* the checkpoint that the run continues; NULL: a new run */
     const fl_restart_part *input_text; /* [INPUT_TEXTS] for checkpoints */

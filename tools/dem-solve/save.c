@@ -33,8 +33,8 @@ static int close_text(FILE *f, fl_restart_part *part, const size_t *n, fl_err *e
 }
 
 int save_inputs_as_text(fl_restart_part input[INPUT_TEXTS], const fl_ice_field *field,
-                        const fl_surface *surface, const fl_ice_field *feed, const fl_history_line *by,
-                        fl_err *err)
+                        const fl_surface *surface, const fl_member_model *members, const fl_ice_field *feed,
+                        const fl_history_line *by, fl_err *err)
 {
     static const char *const NAME[INPUT_TEXTS] = {"ice", "structure", "inflow"};
     const int present[INPUT_TEXTS] = {1, surface != NULL, feed->n > 0};
@@ -46,7 +46,8 @@ int save_inputs_as_text(fl_restart_part input[INPUT_TEXTS], const fl_ice_field *
         snprintf(input[k].name, sizeof input[k].name, "%s", NAME[k]);
         FILE *f = open_memstream(&text, &n);
         if (!f) return fl_fail(err, FL_SYSTEM, "out of memory for a checkpoint");
-        if (k == 1) fl_gstruct_write(f, surface, by);
+        if (k == 1 && members) fl_member_model_write(f, members, by);
+        else if (k == 1) fl_gstruct_write(f, surface, by);
         else fl_ice_field_write(f, k ? feed : field, by);
         const int bad = close_text(f, &input[k], &n, err);
         input[k].text = text;
@@ -93,6 +94,7 @@ int save_write(struct run *r, struct outputs *u, fl_err *err)
     scene.run.threads = 0; /* the only byte that would depend on the machine */
     for (int k = 0; k < TABLES; k++)
         if (u->table[k].f && fl_out_mark(&u->table[k], &mark[k], err)) return -1;
+    fl_packed_writer_restart(&u->packed); /* the next frame does not refer to one before the mark */
     for (int k = 0; k < PARTS; k++) {
         if (part[k].text || !part[k].name[0]) continue;
         FILE *f = open_memstream(&text[k], &n[k]);
@@ -160,7 +162,7 @@ static int change_key(fl_scene *scene, const char *set, fl_err *err)
 }
 
 int save_read_inputs(const fl_restart *saved, const struct options *o, fl_scene *scene, fl_ice_field *field,
-                     fl_ice_field *feed, fl_surface *surface, fl_err *err)
+                     fl_ice_field *feed, fl_surface *surface, fl_member_model *members, fl_err *err)
 {
     fl_text text = {0};
     if (fl_restart_open(saved, "scene", &text, err) || fl_scene_read_text(scene, &text, err)) return -1;
@@ -176,8 +178,11 @@ int save_read_inputs(const fl_restart *saved, const struct options *o, fl_scene 
         (fl_restart_open(saved, "inflow", &text, err) || fl_ice_field_read_text(feed, &text, err)))
         return -1;
     if (!fl_restart_find(saved, "structure")) return 0;
-    return fl_restart_open(saved, "structure", &text, err) || fl_gstruct_read_text(surface, &text, err) ? -1
-                                                                                                        : 0;
+    if (fl_restart_open(saved, "structure", &text, err)) return -1;
+    if (!scene->structure.members[0]) return fl_gstruct_read_text(surface, &text, err) ? -1 : 0;
+    const int rc = fl_member_model_read_text(members, &text, err);
+    fl_text_close(&text);
+    return rc;
 }
 
 int save_read_history(const fl_restart *saved, char **history, fl_history_line *by, fl_err *err)

@@ -57,7 +57,7 @@ static void describe_step(struct run *r, double automatic)
     else if (s->dt > 0.0) snprintf(to, n, "run.dt");
     else if (automatic >= fmin(every, s->duration))
         snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
-    else if (r->w->bonds.n &&
+    else if (fl_world_bonds(r->w) &&
              automatic / r->critical > fl_predict_step_limit(r->w).contact_share * (1.0 + TIME_ROUNDING))
         snprintf(to, n, "bonds and contacts, %.3g of the critical %.4g s", automatic / r->critical,
                  r->critical);

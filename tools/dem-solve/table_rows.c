@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "table_rows.h"
+#include <stdlib.h>
+#include "base/pi.h"
 #include "contact/bond_list.h"
 #include "contact/pair_geometry.h"
 #include "contact/panel_load.h"
 #include "out/frames.h"
 #include "out/tables.h"
 #include "sim/energy_balance.h"
+#include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sphere/contact_list.h"
 
@@ -55,6 +58,13 @@ void write_loads(struct run *r, FILE *f, double t, double interval)
     }
 }
 
+/* Middle of the cylinder of panel k: all panels are cylinders, in the order of the pieces. */
+static fl_vec3 middle_of_piece(const fl_world *w, int32_t k)
+{
+    const int32_t j = w->n + k;
+    return v3_add(w->b.x[j], q_rotate(w->b.q[j], v3(0, 0, 0.5 * w->structure.piece[k].h)));
+}
+
 /* Panels are numbered within their part; their centroids move with it. */
 void write_panels(struct run *r, FILE *f, double t, double interval)
 {
@@ -67,7 +77,8 @@ void write_panels(struct run *r, FILE *f, double t, double interval)
                              .centroid = p->centroid,
                              .area = p->area,
                              .force = v3_scale(1.0 / interval, s->impulse[k])};
-        if (w->moving.movers.n && w->moving.mover_of_part[p->part] >= 0)
+        if (fl_structure_has_members(w)) row.centroid = middle_of_piece(w, k);
+        else if (w->moving.movers.n && w->moving.mover_of_part[p->part] >= 0)
             row.centroid = fl_part_point(w, p->part, p->centroid);
         fl_table_write_row(f, &fl_panels_table, 0, t, &row);
     }
@@ -161,9 +172,32 @@ void write_hash(struct run *r, FILE *f, double t, double interval)
     fl_table_write_row(f, &fl_hash_table, 0, t, &row);
 }
 
+static const char *const BOND_STATE[] = {"whole", "damaged", "broken", "ended"};
+
+/* Row of the bond k of two spheres. */
+static void write_disc(const fl_world *w, FILE *f, double t, int32_t k)
+{
+    const fl_disc_list *s = &w->discs;
+    const fl_disc_class *c = &s->classes[s->at.which[k]];
+    const fl_disc_load q = fl_disc_list_load(w, k);
+    const int32_t i = s->at.i[k], j = s->at.j[k];
+    if (fl_body_absent(w, i) || fl_body_absent(w, j)) return;
+    const fl_bonds_row row = {.i = w->id[i],
+                              .j = w->id[j],
+                              .state = BOND_STATE[s->has_ended[k]     ? FL_BOND_ENDED
+                                                  : s->at.is_whole[k] ? FL_BOND_INTACT
+                                                                      : FL_BOND_DAMAGED],
+                              .damage = 1.0 - fl_disc_remainder(c, s->at.lambda[k]),
+                              .tension = q.tension,
+                              .shear = q.shear,
+                              .moment = q.moment,
+                              .area = PI * c->radius * c->radius,
+                              .x = q.x};
+    fl_table_write_row(f, &fl_bonds_table, 0, t, &row);
+}
+
 void write_bonds(struct run *r, FILE *f, double t, double interval)
 {
-    static const char *const STATE[] = {"whole", "damaged", "broken", "ended"};
     const fl_world *w = r->w;
     (void)interval;
     for (int32_t k = 0; k < w->bonds.n; k++) {
@@ -172,7 +206,7 @@ void write_bonds(struct run *r, FILE *f, double t, double interval)
         if (fl_body_absent(w, c->i) || fl_body_absent(w, c->j)) continue;
         const fl_bonds_row row = {.i = w->id[c->i],
                                   .j = w->id[c->j],
-                                  .state = STATE[c->state],
+                                  .state = BOND_STATE[c->state],
                                   .damage = fl_bond_mean_damage(c),
                                   .tension = q.tension,
                                   .shear = q.shear,
@@ -180,6 +214,17 @@ void write_bonds(struct run *r, FILE *f, double t, double interval)
                                   .area = c->area,
                                   .x = q.x};
         fl_table_write_row(f, &fl_bonds_table, 0, t, &row);
+    }
+    for (int32_t k = 0; k < w->discs.n; k++) write_disc(w, f, t, k);
+}
+
+void write_members(struct run *r, FILE *f, double t, double interval)
+{
+    const fl_world *w = r->w;
+    (void)interval;
+    for (int32_t k = 0; k < w->moving.members.dynamics.chain.contacts; k++) {
+        const fl_member_forces_row row = fl_member_structure_row(w, k);
+        fl_table_write_row(f, &fl_member_forces_table, 0, t, &row);
     }
 }
 
@@ -195,26 +240,76 @@ static fl_vec3 displacement_of(const fl_world *w)
     return v3_sub(w->moving.movers.b.x[0], w->moving.movers.motion[0].reference);
 }
 
-static void write_part_poses(const struct run *r, FILE *f)
+/* packed NULL: as text. */
+static int write_part_pose(FILE *f, fl_packed_writer *packed, int32_t id, fl_vec3 x, fl_quat q, fl_err *err)
+{
+    if (packed) return fl_packed_frame_part(packed, id, x, q, err);
+    fl_frames_part_pose(f, id, x, q);
+    return 0;
+}
+
+/* Each part with a motion of its own. */
+static int write_part_poses(const struct run *r, FILE *f, fl_packed_writer *packed, fl_err *err)
 {
     const fl_rigid_motions *v = &r->w->moving.movers;
-    if (v->n == 0 || only_translates(r->w)) return;
+    const fl_member_motion *members = &r->w->moving.members;
+    for (int32_t k = 0; k < members->dynamics.chain.contacts; k++) {
+        fl_vec3 x;
+        fl_quat q;
+        if (r->frames_surface->part[k].nc == 0) continue;
+        fl_member_motion_piece_pose(members, k, &x, &q);
+        if (write_part_pose(f, packed, r->frames_surface->part[k].id, x, q, err)) return -1;
+    }
+    if (v->n == 0 || only_translates(r->w)) return 0;
     for (int32_t p = 0; p < r->w->parts; p++) {
         const int32_t m = r->w->moving.mover_of_part[p];
         if (m < 0) continue;
-        fl_frames_part_pose(f, r->surface->part[p].id,
-                            v3_sub(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v->motion[m].reference)),
-                            v->b.q[m]);
+        const fl_vec3 x = v3_sub(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v->motion[m].reference));
+        if (write_part_pose(f, packed, r->surface->part[p].id, x, v->b.q[m], err)) return -1;
     }
+    return 0;
 }
 
-void write_frame(const struct run *r, FILE *f, double t, int ice, int64_t since)
+/* Shapes of floes that came in from step `since` on. */
+static void write_new_shapes(const struct run *r, FILE *f, const fl_poses *now, int64_t since)
 {
     const fl_inflow_state *in = &r->w->inflow;
-    const fl_poses now = poses_of(r);
     for (int32_t i = 0; i < r->w->n && since >= 0; i++)
-        if (!in->absent[i] && in->entry_step[i] > 0 && in->entry_step[i] >= since)
-            fl_frames_shape(f, &now, i);
-    fl_frames_frame(f, t, &now, displacement_of(r->w), ice);
-    write_part_poses(r, f);
+        if (!in->absent[i] && in->entry_step[i] > 0 && in->entry_step[i] >= since) fl_frames_shape(f, now, i);
+}
+
+static int write_packed_shapes(const struct run *r, FILE *f, fl_packed_writer *packed, const fl_poses *now,
+                               int64_t since, fl_err *err)
+{
+    char *text = NULL;
+    size_t n = 0;
+    FILE *records = since >= 0 ? open_memstream(&text, &n) : NULL;
+    if (since < 0) return 0;
+    if (!records) return fl_fail(err, FL_SYSTEM, "out of memory for frames");
+    write_new_shapes(r, records, now, since);
+    const int lost = fclose(records) != 0;
+    const int rc = lost ? fl_fail(err, FL_SYSTEM, "out of memory for frames")
+                        : fl_packed_frames_text(f, packed, text, (int64_t)n, err);
+    free(text);
+    return rc;
+}
+
+int write_frame(const struct run *r, FILE *f, fl_packed_writer *packed, double t, int ice, int64_t since,
+                fl_err *err)
+{
+    const fl_poses now = poses_of(r);
+    const fl_vec3 displacement = displacement_of(r->w);
+    if (!packed) {
+        write_new_shapes(r, f, &now, since);
+        fl_frames_frame(f, t, &now, displacement, ice);
+        return write_part_poses(r, f, NULL, err);
+    }
+    fl_packed_frame_clear(packed);
+    return write_packed_shapes(r, f, packed, &now, since, err) ||
+                   (ice && fl_frames_packed_bodies(packed, &now, err)) ||
+                   write_part_poses(r, f, packed, err) ||
+                   fl_packed_frame_write(f, packed, t, ice, v3_nonzero(displacement) ? &displacement : NULL,
+                                         err)
+               ? -1
+               : 0;
 }

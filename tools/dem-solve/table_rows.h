@@ -2,6 +2,7 @@
 /* table_rows.h -- the rows of each table, from the state of the world at time t. */
 #ifndef DEM_SOLVE_TABLE_ROWS_H
 #define DEM_SOLVE_TABLE_ROWS_H
+#include "out/packed_frames.h"
 #include "out/poses.h"
 #include "run_context.h"
 
@@ -18,11 +19,14 @@ void write_energy(struct run *r, FILE *f, double t, double interval);
 void write_contacts(struct run *r, FILE *f, double t, double interval);
 void write_hash(struct run *r, FILE *f, double t, double interval);
 void write_bonds(struct run *r, FILE *f, double t, double interval);
+void write_members(struct run *r, FILE *f, double t, double interval);
 
 /* The contacts of all pairs nearer than `within` [m], with force 0: --probe. */
 void write_near_pairs(struct run *r, FILE *f, double within);
 
-/* One frame; shapes of floes that came in from step `since` on first, -1: none. */
-void write_frame(const struct run *r, FILE *f, double t, int ice, int64_t since);
+/* One frame, as text where packed is NULL; shapes of floes that came in from step `since` on first, -1: none.
+ * Returns -1 with FL_SYSTEM, or FL_INPUT for a place beyond what packed frames hold. */
+int write_frame(const struct run *r, FILE *f, fl_packed_writer *packed, double t, int ice, int64_t since,
+                fl_err *err);
 
 #endif

@@ -58,6 +58,7 @@ int targets_check(const fl_scene *s, const struct options *o, const char *loads,
                                o->scene,
                                s->ice.file,
                                s->structure.file,
+                               s->structure.members,
                                s->structure.motion.track,
                                s->boundary.inflow_file,
                                s->water.profile_file};

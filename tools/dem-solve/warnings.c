@@ -2,6 +2,7 @@
 #include "warnings.h"
 #include <inttypes.h>
 #include <string.h>
+#include "base/pi.h"
 #include "sim/energy_balance.h"
 #include "sim/moving_structure.h"
 #include "sim/sudden_contact.h"
@@ -133,6 +134,16 @@ static void warn_waves(const struct run *r)
             "dem-solve: warning: waves of height over length %.3g, but waves break above %.3g: no such sea "
             "exists\n",
             steep, breaking);
+    if (!r->w->sea.by_blocks) return;
+    const double shortest = 2.0 * PI / r->w->sea.wave.max_k;
+    double least = INFINITY;
+    for (int32_t i = 0; i < r->w->n; i++) least = fmin(least, r->w->b.radius[i]);
+    if (shortest < 2.0 * least)
+        fprintf(
+            stderr,
+            "dem-solve: warning: the shortest waves are %.3g m, less than twice the dilation radius of the "
+            "smallest floe, %.3g m: its corners are rounder than they are\n",
+            shortest, least);
 }
 
 /* A material of the scene file itself that nothing uses is likely misspelt.  Included files may have more

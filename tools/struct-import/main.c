@@ -16,6 +16,7 @@
 #include "mesh/write_stl.h"
 #include "mesh/write_vtp.h"
 #include "part_names.h"
+#include "members_import.h"
 #include "options.h"
 #include "views.h"
 #include "quality_report.h"
@@ -201,6 +202,7 @@ static int run(const struct options *o, fl_err *err)
     struct cleanup *m = NULL;
     int rc = -1;
     if (check_output(o, err)) return -1;
+    if (o->members) return import_members(o, err);
     if (o->threads) omp_set_num_threads(o->threads);
     if (collect_parts(o, &s, err)) goto done;
     m = fl_alloc(s.n, sizeof *m, err);

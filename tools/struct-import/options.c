@@ -261,6 +261,16 @@ static const fl_option OPTION[] = {
     {.word = "subdivide",
      .help = "split quadratic faces into 4, 6 or 8 triangles instead of 1 or 2",
      .at = AT(subdivide)},
+    {.word = "members",
+     .help = "write beams, trusses and pipes of a deck as a members file",
+     .at = AT(members)},
+    {.word = "pieces",
+     .argument = "N",
+     .help = "pieces of a beam, with --members (4)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(pieces),
+     .lo = 1,
+     .hi = 100000},
     {.word = "facets",
      .letter = 'f',
      .argument = "N",
@@ -379,6 +389,12 @@ static int finish(struct options *o, fl_err *err)
     for (int32_t k = 0; k < o->items; k++)
         streams += o->item[k].kind == ITEM_FILE && !strcmp(o->item[k].path, "-");
     if (streams > 1) return fl_fail(err, FL_USAGE, "standard input is named %d times", streams);
+    if (o->members && (o->items != 1 || o->item[0].kind != ITEM_FILE))
+        return fl_fail(err, FL_USAGE, "--members reads one deck");
+    if (o->members && (o->turns || o->mirror || o->y_up || o->parts || o->aliases || o->plot || o->to ||
+                       o->repair || o->raw || o->item[0].name))
+        return fl_fail(err, FL_USAGE,
+                       "--members goes with --pieces, --unit, --scale, --translate and --strict alone");
     if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes exclude each other");
     if (o->raw && (o->fill > 0.0 || o->repair || o->simplify > 0.0 || o->remesh > 0.0))
         return fl_fail(err, FL_USAGE, "--raw excludes --fill, --repair, --simplify and --remesh");
@@ -389,7 +405,7 @@ static int finish(struct options *o, fl_err *err)
 
 int options_parse(struct options *o, int argc, char **argv, fl_err *err)
 {
-    *o = (struct options){.out = "-", .map = fl_affine_identity(), .factor = 1.0, .weld = -1.0};
+    *o = (struct options){.out = "-", .map = fl_affine_identity(), .factor = 1.0, .weld = -1.0, .pieces = 4};
     if (fl_options_read(&TABLE, o, NULL, argc, argv, err)) return -1;
     return o->ended ? 0 : finish(o, err);
 }
@@ -409,6 +425,8 @@ void options_by(const struct options *o, fl_history_line *by)
     fl_history_line_start(by, "struct-import");
     for (int32_t k = 0; k < o->parts; k++) fl_history_line_word(by, "--part ", o->part[k]);
     for (int32_t k = 0; k < o->aliases; k++) fl_history_line_word(by, "--rename ", o->alias[k].text);
+    if (o->members) fl_history_line_add(by, "--members");
+    if (o->members && o->pieces != 4) fl_history_line_add(by, "--pieces %d", (int)o->pieces);
     if (o->subdivide) fl_history_line_add(by, "--subdivide");
     if (o->facets) fl_history_line_add(by, "--facets %d", o->facets);
     if (o->unit) fl_history_line_add(by, "--unit %s", o->unit);

@@ -49,6 +49,8 @@ struct options {
     const char *rotate[TURNS]; /* [turns] borrowed, as given */
     int turns, mirror;         /* bits 0, 1, 2 of mirror: x, y, z */
     double weld;               /* [m]; < 0: automatic */
+    int members;               /* write a model of members */
+    int32_t pieces;            /* of a member */
     int y_up, strict, raw, subdivide;
     int gzip, quiet, verbose, threads;
     int ended; /* --help or --version was answered */

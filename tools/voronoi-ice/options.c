@@ -4,6 +4,7 @@
 #include <string.h>
 #include "base/number_text.h"
 #include "base/option.h"
+#include "scene/scene_unit.h"
 #include "base/tool.h"
 #include "ice/pancakes.h"
 #include "generator_table.h"
@@ -230,6 +231,46 @@ static int set_seed(void *options, const char *text, fl_err *err)
     return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", expected a whole number from 0 to 2^64 - 1", text);
 }
 
+/* A stress above 0, with a unit or in Pa. */
+static int parse_stress(const char *option, const char *text, double *x, fl_err *err)
+{
+    char number[64], units[200];
+    const size_t n = strcspn(text, "PpkMGN");
+    const char *unit = text + n;
+    size_t end = n;
+    while (end > 0 && text[end - 1] == ' ') end--;
+    if (end > 0 && end < sizeof number) {
+        memcpy(number, text, end);
+        number[end] = '\0';
+        if (fl_number_f64(number, x) == 0 && *x > 0.0 &&
+            (*unit == '\0' || fl_unit_convert(FL_UNIT_STRESS, unit, x) == 0))
+            return 0;
+    }
+    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a stress above 0 is expected, in Pa or with one of %s",
+                   option, text, fl_unit_list(FL_UNIT_STRESS, units, sizeof units));
+}
+
+static int set_flexural(void *options, const char *text, fl_err *err)
+{
+    return parse_stress("flexural", text, &((struct recipe *)options)->flexural, err);
+}
+
+static int set_compressive(void *options, const char *text, fl_err *err)
+{
+    return parse_stress("compressive", text, &((struct recipe *)options)->compressive, err);
+}
+
+static int set_young(void *options, const char *text, fl_err *err)
+{
+    return parse_stress("young", text, &((struct recipe *)options)->young, err);
+}
+
+static int set_rows(void *options, const char *text, fl_err *err)
+{
+    static const char *const WAYS[] = {"along", "across", NULL};
+    return fl_option_choice("rows", text, WAYS, &((struct recipe *)options)->rows_across, err);
+}
+
 static int set_format(void *options, const char *text, fl_err *err)
 {
     static const char *const FORMATS[] = {"svg", "png", NULL};
@@ -400,12 +441,44 @@ static const fl_option OUTPUT_OPTION[] = {
      .hi = 1000},
     {.word = "diameter",
      .argument = "D",
-     .help = "of the spheres of the lattice (0.25)",
+     .help = "of the spheres of the lattice (0.25, or from --thickness)",
      .kind = FL_OPTION_NUMBER,
      .at = AT(diameter),
      .lo = SHORTEST,
      .hi = LONGEST,
      .expected = "a length"},
+    {.word = "rows",
+     .argument = "WAY",
+     .help = "of the lattice, along or across x (along)",
+     .kind = FL_OPTION_CALL,
+     .call = set_rows},
+    {.word = "edges",
+     .argument = "N",
+     .help = "rows of spheres at the sides and behind that get the group edge (0)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(edges),
+     .lo = 0,
+     .hi = 1000},
+    {.word = "flexural",
+     .argument = "S",
+     .help = "strength in bending of a bonded sheet, as 0.7MPa: sets the bonds of --scene",
+     .kind = FL_OPTION_CALL,
+     .call = set_flexural},
+    {.word = "compressive",
+     .argument = "S",
+     .help = "or its strength in compression in the plane",
+     .kind = FL_OPTION_CALL,
+     .call = set_compressive},
+    {.word = "young",
+     .argument = "E",
+     .help = "its modulus in bending, as 1GPa",
+     .kind = FL_OPTION_CALL,
+     .call = set_young},
+    {.word = "scene",
+     .argument = "FILE",
+     .help = "sections of a scene for the sheet: slab, densities, bonds, contacts",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(scene)},
     {.word = "certificate",
      .argument = "FILE",
      .help = "requested and achieved values as a table, - is standard output",
@@ -575,6 +648,8 @@ int options_parse(struct recipe *o, int *ended, int argc, char **argv, fl_err *e
     o->has_origin = is_given(&c, "origin");
     o->has_floes = is_given(&c, "floes");
     o->has_concentration = is_given(&c, "concentration");
+    o->has_thickness = is_given(&c, "thickness");
+    if (o->has_thickness && !is_given(&c, "diameter")) o->diameter = 0.0;
     if (o->certificate && strcmp(o->certificate, "-") == 0 && strcmp(o->out, "-") == 0)
         return fl_fail(err, FL_USAGE,
                        "--certificate - and the field both go to standard output: expected -o");

@@ -54,9 +54,13 @@ struct recipe {
     int32_t pancakes;       /* sides of round floes, 0: not round */
     int bonded;
     int32_t layers;
-    double diameter; /* of the spheres of a lattice [m] */
+    double diameter; /* of the spheres of a lattice [m]; 0: from the thickness of the sheet */
+    int rows_across; /* rows of the lattice along y */
+    int32_t edges;   /* rows at the sides and behind that get the group edge */
+    double flexural, compressive, young; /* of the sheet [Pa]; 0: not given */
+    const char *scene;                   /* file for the bonds that give these, NULL: none */
     int gzip, quiet, verbose, threads, ended;
-    int has_origin, has_floes, has_concentration; /* given on the command line */
+    int has_origin, has_floes, has_concentration, has_thickness; /* given on the command line */
     const char *sizes; /* full name of a law, or a file; NULL: areas of Voronoi cells */
     int sizes_file;    /* sizes is a file */
     char sizes_name[FL_SIZES_LAW_LEN];

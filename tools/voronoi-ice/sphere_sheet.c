@@ -2,11 +2,13 @@
 #include "sphere_sheet.h"
 #include <math.h>
 #include <string.h>
+#include "base/number_text.h"
 #include "base/pi.h"
 #include "base/stream.h"
 #include "ice/sphere_packing.h"
 #include "scene/ice_field.h"
 #include "certificate_table.h"
+#include "sheet_scene.h"
 
 /* In the order of enum fl_packing_kind. */
 static const char *const KINDS[] = {"hcp", "hex", "square"};
@@ -29,7 +31,73 @@ int sphere_sheet_check(const char *kind, fl_err *err)
 void sphere_sheet_history(const struct recipe *o, fl_history_line *by)
 {
     fl_history_line_add(by, "--lattice %s --layers %d", o->generator_argument, o->layers);
+    if (o->has_thickness) fl_history_line_word(by, "--thickness ", o->thickness_law);
     recipe_history_numbers(by, "--diameter ", ',', 1, &o->diameter);
+    if (o->rows_across) fl_history_line_add(by, "--rows across");
+    if (o->edges) fl_history_line_add(by, "--edges %d", o->edges);
+}
+
+/* Thickness of a layer over the diameter; one alone is as thick as its spheres. */
+static double layer_ratio(const struct recipe *o, enum fl_packing_kind kind)
+{
+    return kind == FL_PACKING_HCP && o->layers > 1 ? sqrt(2.0 / 3.0) : 1.0;
+}
+
+/* Sets the diameter where it follows from the thickness; *slab: thickness of the sheet [m]. */
+static int set_thickness(struct recipe *o, enum fl_packing_kind kind, double *slab, fl_err *err)
+{
+    *slab = o->layers * layer_ratio(o, kind) * o->diameter;
+    if (!o->has_thickness) return 0;
+    if (fl_number_f64(o->thickness_law, slab) || !(*slab > 0.0))
+        return fl_fail(err, FL_USAGE, "--thickness is \"%.60s\", a length is expected beside --lattice",
+                       o->thickness_law);
+    if (o->diameter == 0.0) o->diameter = *slab / (o->layers * layer_ratio(o, kind));
+    return 0;
+}
+
+/* The packing over the field; with rows across x the one along it with x and y exchanged. */
+static int make_packing(const struct recipe *o, enum fl_packing_kind kind, fl_sphere_packing *a, fl_err *err)
+{
+    const fl_vec2 lo = o->origin, hi = {lo.x + o->size.x, lo.y + o->size.y};
+    if (!o->rows_across) return fl_sphere_packing_make(a, kind, o->diameter, o->layers, lo, hi, err);
+    if (fl_sphere_packing_make(a, kind, o->diameter, o->layers, (fl_vec2){lo.y, lo.x}, (fl_vec2){hi.y, hi.x},
+                               err))
+        return -1;
+    for (int32_t i = 0; i < a->n; i++) a->x[i] = v3(a->x[i].y, a->x[i].x, a->x[i].z);
+    return 0;
+}
+
+/* The box of the centres. */
+typedef struct {
+    fl_vec3 lo, hi;
+} extent;
+
+static extent extent_of(const fl_sphere_packing *a)
+{
+    extent e = {a->x[0], a->x[0]};
+    for (int32_t i = 1; i < a->n; i++) {
+        const fl_vec3 x = a->x[i];
+        e.lo = v3(fmin(e.lo.x, x.x), fmin(e.lo.y, x.y), fmin(e.lo.z, x.z));
+        e.hi = v3(fmax(e.hi.x, x.x), fmax(e.hi.y, x.y), fmax(e.hi.z, x.z));
+    }
+    return e;
+}
+
+/* Rows at an edge that are offset lie up to D/2 inside it. */
+#define ROW_OFFSET 0.6
+
+/* True if the sphere is in the rows at the sides or behind; ahead is where the field moves, +x at rest. */
+static int is_at_edge(const struct recipe *o, const extent *e, fl_vec3 x)
+{
+    const double near = (o->edges - 1 + ROW_OFFSET) * o->diameter;
+    const int along_y = fabs(o->velocity.y) > fabs(o->velocity.x),
+              backwards = along_y ? o->velocity.y < 0.0 : o->velocity.x < 0.0;
+    const double left = x.x - e->lo.x, right = e->hi.x - x.x, front = x.y - e->lo.y, back = e->hi.y - x.y;
+    const int beyond[4] = {left <= near, right <= near, front <= near, back <= near};
+    const int ahead = along_y ? (backwards ? 2 : 3) : (backwards ? 0 : 1);
+    int at = 0;
+    for (int k = 0; k < 4; k++) at |= k != ahead && beyond[k];
+    return o->edges > 0 && at;
 }
 
 static fl_vec3 centre_of(const fl_sphere_packing *a, int32_t i, double draft)
@@ -41,11 +109,13 @@ static int add_spheres(const struct recipe *o, const fl_sphere_packing *a, doubl
                        fl_err *err)
 {
     const double r = 0.5 * o->diameter;
+    const extent all = extent_of(a);
     for (int32_t i = 0; i < a->n; i++) {
         const fl_vec3 x = centre_of(a, i, draft);
+        const char *group = is_at_edge(o, &all, a->x[i]) ? "edge" : NULL;
         fl_poly core = {0};
         if (fl_poly_make(&core, 1, &x, 0, NULL, NULL, err)) return -1;
-        if (fl_ice_field_add(out, i, r, &core, o->material, NULL, v3(o->velocity.x, o->velocity.y, 0.0),
+        if (fl_ice_field_add(out, i, r, &core, o->material, group, v3(o->velocity.x, o->velocity.y, 0.0),
                              v3(0, 0, 0), err)) {
             fl_poly_free(&core);
             return -1;
@@ -74,6 +144,32 @@ static void measure(const struct recipe *o, const fl_sphere_packing *a, double *
             fmax(*max_overlap, 2.0 * r - v3_norm(v3_sub(a->x[a->pair[k][0]], a->x[a->pair[k][1]])));
 }
 
+/* What the spheres stand for, and the bonds that were chosen. */
+static void add_sheet_rows(const struct recipe *o, enum fl_packing_kind kind, double slab,
+                           const struct sheet_bonds *b, struct certificate_table *t)
+{
+    const double D = o->diameter, cell = kind == FL_PACKING_SQUARE ? D * D : sqrt(0.75) * D * D,
+                 phi = o->layers * fl_spherical_cap_volume(0.5 * D, D) / (cell * slab), none = NOT_REQUESTED;
+    if (o->has_thickness || o->scene) {
+        certificate_add(t, "slab the spheres stand for [m]", o->has_thickness ? slab : none, slab,
+                        NO_DISTANCE, 6, NULL);
+        certificate_add(t, "solid part of that slab", none, phi, NO_DISTANCE, 6, NULL);
+    }
+    if (b->strength > 0.0) {
+        const double f = b->strength * b->ratio.flexural, c = b->strength * b->ratio.compressive;
+        certificate_add(t, "strength of the bonds [Pa]", none, b->strength, NO_DISTANCE, 6, NULL);
+        certificate_add(t, "flexural strength [Pa]", o->flexural > 0.0 ? o->flexural : none, f, NO_DISTANCE, 6,
+                        "+- %.0f %% of it", 100.0 * b->ratio.flexural_spread);
+        certificate_add(t, "compressive strength [Pa]", o->compressive > 0.0 ? o->compressive : none, c,
+                        NO_DISTANCE, 6, NULL);
+    }
+    if (b->young > 0.0) {
+        certificate_add(t, "modulus of the bonds [Pa]", none, b->young, NO_DISTANCE, 6, NULL);
+        certificate_add(t, "modulus in bending [Pa]", o->young, b->young * b->ratio.young, NO_DISTANCE, 6,
+                        NULL);
+    }
+}
+
 static void add_certificate_rows(const struct recipe *o, const fl_sphere_packing *a, double draft,
                                  struct certificate_table *t)
 {
@@ -95,16 +191,17 @@ static void add_certificate_rows(const struct recipe *o, const fl_sphere_packing
 
 int sphere_sheet_make(struct recipe *o, fl_err *err)
 {
-    const fl_vec2 hi = {o->origin.x + o->size.x, o->origin.y + o->size.y};
+    const enum fl_packing_kind kind = (enum fl_packing_kind)find_kind(o->generator_argument);
     struct certificate_table table = {0};
+    struct sheet_bonds bonds;
     fl_sphere_packing a = {0};
     fl_ice_field out = {0};
     fl_out file = {0};
     fl_history_line by;
-    double draft;
+    double draft, slab;
     int rc = -1;
-    if (fl_sphere_packing_make(&a, (enum fl_packing_kind)find_kind(o->generator_argument), o->diameter,
-                               o->layers, o->origin, hi, err))
+    if (set_thickness(o, kind, &slab, err) || sheet_bonds_choose(&bonds, o, kind, err) ||
+        make_packing(o, kind, &a, err))
         return -1;
     draft = fl_sphere_packing_draft(&a, o->ice_density / o->water_density);
     if (add_spheres(o, &a, draft, &out, err)) goto done;
@@ -113,7 +210,9 @@ int sphere_sheet_make(struct recipe *o, fl_err *err)
     if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
     fl_ice_field_write(file.f, &out, &by);
     if (fl_out_close(&file, err)) goto done;
+    if (o->scene && sheet_scene_write(o, &bonds, slab, &by, err)) goto done;
     add_certificate_rows(o, &a, draft, &table);
+    add_sheet_rows(o, kind, slab, &bonds, &table);
     if (o->certificate && certificate_write(&table, o->certificate, &by, err)) goto done;
     if (!o->quiet) certificate_print(&table);
     rc = 0;

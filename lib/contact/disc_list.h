@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* disc_list.h -- the bonds between spheres of a world (bond/disc.h): their set-up, forces in a step, and sums.
+ *
+ * While a bond stands its two spheres have no contact.  In the step in which it breaks it still presses and
+ * rubs; from the next one on the two are an ordinary pair, whose spring of friction begins with the shear that
+ * friction held.  With contact.round_law = linear the stiffness is that of the bond, so no force jumps; the
+ * difference of the energies, which is not 0 for Hertz, counts as fracture.
+ *
+ * Bonded spheres stay isotropic: a disc does not need their attitude. */
+#ifndef FL_CONTACT_DISC_LIST_H
+#define FL_CONTACT_DISC_LIST_H
+#include "scene/ice_field.h"
+#include "world/world.h"
+
+/* True if the bond of the field is a disc: of two spheres that touch or are apart, not one that overlaps by
+ * more than FL_DISC_OVERLAP of the sum of their radii, whose contact would begin with a force. */
+#define FL_DISC_OVERLAP 1e-3
+int fl_disc_list_takes(const fl_world *w, const fl_ice_field_bond *d);
+
+/* Makes the discs of the field, body k of the field being body k, in its pose of the field.  -1 with
+ * FL_SYSTEM, or FL_INPUT for a bond without length. */
+int fl_disc_list_make(fl_world *w, const fl_ice_field *field, fl_err *err);
+void fl_disc_list_free(fl_disc_list *s);
+
+/* The bond of i < j with that image of j (NULL: no periodic cell), -1: none. */
+int32_t fl_disc_list_find(const fl_world *w, int32_t i, int32_t j, const int32_t image[3]);
+
+static inline int fl_body_has_discs(const fl_world *w, int32_t k)
+{
+    const fl_disc_list *s = &w->discs;
+    return s->n && k < w->n && (s->first_i[k] < s->first_i[k + 1] || s->first_j[k] < s->first_j[k + 1]);
+}
+
+/* Evaluates bonds [from, to) over a step of dt [s] at the present poses; from is a multiple of FL_DISC_RUN. */
+void fl_disc_list_evaluate(fl_world *w, int32_t from, int32_t to, double dt);
+
+/* Adds the forces of the bonds of body k, in their order. */
+void fl_disc_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t);
+
+/* True if a bond stands between the two. */
+static inline int fl_disc_list_is_bonded(const fl_world *w, int32_t i, int32_t j, const int32_t image[3])
+{
+    if (!w->discs.n) return 0;
+    const int32_t k = fl_disc_list_find(w, i, j, image);
+    return k >= 0 && !w->discs.has_ended[k];
+}
+
+/* Sets the spring of friction of a new contact whose bond has ended in the last step. */
+void fl_disc_list_init_contact(const fl_world *w, int32_t i, int32_t j, const int32_t image[3],
+                               fl_sphere_contact *c);
+
+/* After the neighbour list has taken up the pairs of all bonds that have ended. */
+void fl_disc_list_forget_ended(fl_world *w);
+
+/* Bounds of omega^2 of body k by all of its bonds at the start, and by those that stand [1/s2]. */
+double fl_disc_list_max_omega2(const fl_world *w, int32_t k);
+double fl_disc_list_omega2(const fl_world *w, int32_t k);
+
+/* Ends the bonds of bodies that have left the domain. */
+void fl_disc_list_end_absent(fl_world *w);
+
+/* Memory of bond k, and back. */
+fl_disc_memory fl_disc_list_memory(const fl_disc_list *s, int32_t k);
+void fl_disc_list_set_memory(fl_disc_list *s, int32_t k, const fl_disc_memory *m);
+
+/* From the centre of i to that of j [m]. */
+fl_vec3 fl_disc_list_separation(const fl_world *w, int32_t k);
+
+/* The section load of bond k; the point is inside the periodic cell. */
+fl_disc_load fl_disc_list_load(const fl_world *w, int32_t k);
+
+/* Energies of all bonds [J]: stored, dissipated by damage, dashpots and friction. */
+typedef struct {
+    double store, spent, damped, rubbed;
+} fl_disc_energies;
+fl_disc_energies fl_disc_list_energies(const fl_world *w);
+
+/* Sum of |F| of the last evaluation [N]. */
+double fl_disc_list_force_sum(const fl_world *w);
+
+/* Memory of all arrays [B]. */
+double fl_disc_list_bytes(const fl_world *w);
+
+#endif

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stddef.h>
+#include <stdlib.h>
+#include "view/edge_smoothing.h"
+
+/* An edge: luminance differs by more than this among the neighbours, and by more than an eighth of the
+ * largest. */
+enum { CONTRAST = 10, CONTRAST_SHARE = 8, REACH = 6 * 256 };
+
+/* Adds the colour between pixels; x, y with 8 bits of fraction, centres at whole numbers. */
+static inline void add_tap(const unsigned char *p, int w, int h, int x, int y, int c[3])
+{
+    const int fx = x & 255, fy = y & 255;
+    int i = x >> 8, j = y >> 8;
+    i = i < 0 ? 0 : i > w - 2 ? w - 2 : i;
+    j = j < 0 ? 0 : j > h - 2 ? h - 2 : j;
+    const unsigned char *a = p + 4 * ((size_t)j * (size_t)w + (size_t)i), *b = a + 4 * (size_t)w;
+    for (int k = 0; k < 3; k++)
+        c[k] += ((a[k] * (256 - fx) + a[k + 4] * fx) * (256 - fy) + (b[k] * (256 - fx) + b[k + 4] * fx) * fy +
+                 32768) >>
+                16;
+}
+
+static inline int luminance_of(const int c[3], int shift)
+{
+    return (77 * c[0] + 150 * c[1] + 29 * c[2]) >> (8 + shift);
+}
+
+static inline int lesser(int a, int b) { return a < b ? a : b; }
+static inline int greater(int a, int b) { return a > b ? a : b; }
+static inline int within(int x, int most) { return x > most ? most : x < -most ? -most : x; }
+
+static void smooth_pixel(const unsigned char *p, int w, int h, const unsigned char *m, int x, int y,
+                         unsigned char *d)
+{
+    const int a = m[x - 1 - w], b = m[x + 1 - w], c = m[x - 1 + w], e = m[x + 1 + w];
+    const int lo = lesser(m[x], lesser(lesser(a, b), lesser(c, e))),
+              hi = greater(m[x], greater(greater(a, b), greater(c, e)));
+    int gx = -((a + b) - (c + e)), gy = (a + c) - (b + e), near[3] = {0}, wide[3] = {0};
+    const int divisor = lesser(abs(gx), abs(gy)) + (a + b + c + e) / 32 + 1;
+    if (hi - lo <= CONTRAST || hi - lo <= hi / CONTRAST_SHARE) return;
+    gx = within(256 * gx / divisor, REACH);
+    gy = within(256 * gy / divisor, REACH);
+    const int px = x << 8, py = y << 8;
+    add_tap(p, w, h, px - gx / 6, py - gy / 6, near);
+    add_tap(p, w, h, px + gx / 6, py + gy / 6, near);
+    add_tap(p, w, h, px - gx / 2, py - gy / 2, wide);
+    add_tap(p, w, h, px + gx / 2, py + gy / 2, wide);
+    for (int k = 0; k < 3; k++) wide[k] += near[k];
+    const int l = luminance_of(wide, 2), far = l < lo || l > hi;
+    for (int k = 0; k < 3; k++) d[k] = (unsigned char)(far ? (near[k] + 1) / 2 : (wide[k] + 2) / 4);
+}
+
+void fl_smooth_edges(const unsigned char *restrict from, int w, int h, unsigned char *restrict luminance,
+                     unsigned char *restrict to)
+{
+    const size_t n = (size_t)w * (size_t)h;
+    for (size_t i = 0; i < n; i++)
+        luminance[i] =
+            (unsigned char)((77 * from[4 * i] + 150 * from[4 * i + 1] + 29 * from[4 * i + 2]) >> 8);
+    for (int y = 0; y < h; y++) {
+        const unsigned char *s = from + 4 * (size_t)y * (size_t)w, *m = luminance + (size_t)y * (size_t)w;
+        unsigned char *d = to + 4 * (size_t)y * (size_t)w;
+        for (int i = 0; i < 4 * w; i++) d[i] = s[i];
+        if (y == 0 || y == h - 1) continue;
+        for (int x = 1; x < w - 1; x++) smooth_pixel(from, w, h, m, x, y, d + 4 * x);
+    }
+}
+
+void fl_picture_to_yuv(const unsigned char *restrict from, int w, int h, unsigned char *restrict to)
+{
+    unsigned char *u = to + (size_t)w * (size_t)h, *v = u + (size_t)(w / 2) * (size_t)(h / 2);
+    for (size_t i = 0; i < (size_t)w * (size_t)h; i++)
+        to[i] = (unsigned char)((47 * from[4 * i] + 157 * from[4 * i + 1] + 16 * from[4 * i + 2] + 128 +
+                                 16 * 256) >>
+                                8);
+    for (int y = 0; y < h / 2; y++) {
+        const unsigned char *restrict a = from + 8 * (size_t)y * (size_t)w, *restrict b = a + 4 * (size_t)w;
+        for (int x = 0; x < w / 2; x++) {
+            const int r = a[8 * x] + a[8 * x + 4] + b[8 * x] + b[8 * x + 4];
+            const int g = a[8 * x + 1] + a[8 * x + 5] + b[8 * x + 1] + b[8 * x + 5];
+            const int c = a[8 * x + 2] + a[8 * x + 6] + b[8 * x + 2] + b[8 * x + 6];
+            *u++ = (unsigned char)((-26 * r - 87 * g + 113 * c + 512 + 128 * 1024) >> 10);
+            *v++ = (unsigned char)((112 * r - 102 * g - 10 * c + 512 + 128 * 1024) >> 10);
+        }
+    }
+}

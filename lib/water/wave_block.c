@@ -1,0 +1,497 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "water/wave_block.h"
+#include <math.h>
+
+/* Places of the numbers in a row. */
+enum { AT_Z, AT_SLOPE, AT_FORCE = 3, AT_MOMENT = 6, AT_FLOW = 9, AT_ACCELERATION = 12 };
+
+/* Distance from the path, over 1/k95, beyond which a new block begins. */
+#define KNOCK 0.1
+/* Largest rotation within a block [rad]: beyond it the path stops turning. */
+#define MAX_TURN 1.0
+/* Cosine of the tilt of columns below which pressure is not integrated by its ends, and G is 0. */
+#define UPRIGHT 0.5
+/* A column whose ends are at the same distance from the wave is wholly wet or dry. */
+#define LEVEL_COLUMN 1e-9
+
+/* --- time ---------------------------------------------------------------------------------------- */
+
+static int64_t floor_level(double x)
+{
+    const int64_t k = (int64_t)x;
+    return (double)k > x ? k - 1 : k;
+}
+
+int64_t fl_wave_group(const fl_wave_grid *g, double t)
+{
+    return FL_WAVE_GROUP * floor_level(t / (FL_WAVE_GROUP * g->step));
+}
+
+int64_t fl_wave_block_level(const fl_wave_grid *g, double t, int span)
+{
+    const int64_t each = 3 * (int64_t)span;
+    return each * floor_level(t / ((double)each * g->step));
+}
+
+double fl_wave_sample_time(const fl_wave_block *c, const fl_wave_grid *g, int k)
+{
+    return (double)(c->level + (int64_t)k * c->span) * g->step;
+}
+
+/* Weights of the cubic through the four samples; u = 0 .. 3 from the first to the last. Beyond the last the
+ * cubic goes on along its tangent. */
+static void cubic_weights(const fl_wave_block *c, const fl_wave_grid *g, double t, double w[FL_WAVE_SAMPLES],
+                          double *u)
+{
+    const double x = (t / g->step - (double)c->level) / c->span, a = x - 1.0, b = x - 2.0, d = x - 3.0;
+    *u = x;
+    if (d > 0.0) {
+        *u = 3.0;
+        w[0] = -d / 3.0, w[1] = 1.5 * d, w[2] = -3.0 * d, w[3] = 1.0 + 11.0 / 6.0 * d;
+        return;
+    }
+    w[0] = -a * b * d / 6.0, w[1] = 0.5 * x * b * d, w[2] = -0.5 * x * a * d, w[3] = x * a * b / 6.0;
+}
+
+/* --- the path ------------------------------------------------------------------------------------ */
+
+static fl_vec3 combine(const double w[FL_WAVE_SAMPLES], const fl_vec3 x[FL_WAVE_SAMPLES])
+{
+    return v3_add(v3_madd(v3_scale(w[0], x[0]), w[1], x[1]), v3_madd(v3_scale(w[2], x[2]), w[3], x[3]));
+}
+
+fl_quat fl_wave_block_attitude(const fl_wave_block *c, fl_vec3 turn)
+{
+    const double size = v3_norm(turn);
+    const fl_vec3 r = size > MAX_TURN ? v3_scale(MAX_TURN / size, turn) : turn;
+    const fl_quat p = {sqrt(1.0 - 0.25 * v3_norm2(r)), 0.5 * r.x, 0.5 * r.y, 0.5 * r.z};
+    return q_mul(p, c->q);
+}
+
+static fl_wave_deviation deviation(const fl_wave_block *c, const double w[FL_WAVE_SAMPLES], fl_vec3 x,
+                                   fl_quat q)
+{
+    const fl_quat p = q_mul(q, q_conj(c->q));
+    const double sign = p.w < 0.0 ? -2.0 : 2.0; /* q and -q are one rotation */
+    return (fl_wave_deviation){v3_sub(x, combine(w, c->x)),
+                               v3_sub(v3_scale(sign, v3(p.x, p.y, p.z)), combine(w, c->turn))};
+}
+
+fl_wave_deviation fl_wave_block_deviation(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_vec3 x,
+                                          fl_quat q)
+{
+    double w[FL_WAVE_SAMPLES], u;
+    cubic_weights(c, g, t, w, &u);
+    return deviation(c, w, x, q);
+}
+
+int fl_wave_block_due(const fl_wave_block *c, const fl_wave_water *sea, double reach, double t, fl_vec3 x,
+                      fl_quat q)
+{
+    if (c->level == FL_WAVE_NO_BLOCK || c->level != fl_wave_block_level(sea->grid, t, c->span)) return 1;
+    const fl_wave_deviation d = fl_wave_block_deviation(c, sea->grid, t, x, q);
+    const double far = KNOCK / sea->k95, turned = reach * reach * v3_norm2(d.turn);
+    return !(v3_norm2(d.x) <= far * far && turned <= far * far); /* written so that a NaN begins one */
+}
+
+/* --- a sample -------------------------------------------------------------------------------------- */
+
+/* The plane under a body: height over its centre, slopes; heights above still water. */
+typedef struct {
+    double z, x, y;
+} water_plane;
+
+typedef struct {
+    const fl_wave_water *sea;
+    const fl_wave_body *body;
+    fl_wave_view view;
+    fl_vec3 x; /* centre */
+    double z;  /* of the centre, above still water */
+    fl_mat3 R;
+    water_plane plane;
+    int changes; /* 1: G too */
+    fl_vec3 force, moment;
+    double (*change)[6];
+} body_sample;
+
+/* Gradient of p/(rho g) and its parts. */
+typedef struct {
+    fl_vec3 g; /* of p */
+    double p;
+    fl_wave_head head;
+} point_pressure;
+
+/* Pressure at a point z above still water, under the elevation `over` with the slopes of `at`. */
+FL_SIMD_INLINE void pressure_at(const body_sample *b, double x, double y, double z, double over,
+                                const fl_wave_surface *at, point_pressure *out)
+{
+    const double depth = b->sea->grid->water;
+    double rate;
+    const double zeta = fl_wave_grid_stretch(b->sea->grid, z, over, &rate);
+    fl_wave_head_at(&b->view, x, y, zeta, &out->head);
+    const double moved = depth < INFINITY ? rate * (1.0 + zeta / (rate * (depth + over))) : 1.0,
+                 down = out->head.zeta * moved;
+    out->p = out->head.p - z;
+    out->g = v3(out->head.x - at->x * down, out->head.y - at->y * down, out->head.zeta * rate - 1.0);
+}
+
+/* Adds the change of the load at offset r with a displacement of that point: dF_i = sum_j K_ij d_j. */
+FL_SIMD_INLINE void add_change(body_sample *b, fl_vec3 r, const fl_mat3 *K)
+{
+    const fl_vec3 shift[FL_WAVE_CHANGES] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -r.z, r.y}, {r.z, 0, -r.x}};
+    for (int k = 0; k < FL_WAVE_CHANGES; k++) {
+        const fl_vec3 f = m3_mul(*K, shift[k]), m = v3_cross(r, f);
+        b->change[k][0] += f.x, b->change[k][1] += f.y, b->change[k][2] += f.z;
+        b->change[k][3] += m.x, b->change[k][4] += m.y, b->change[k][5] += m.z;
+    }
+}
+
+/* Wet part [lo, hi] of a column of length H, whose middle is `above` the water and whose height above it
+ * grows by `rate` along it. */
+FL_SIMD_INLINE void wet_part(double H, double above, double rate, double *lo, double *hi)
+{
+    *lo = 0.0, *hi = H;
+    if (fabs(rate) < LEVEL_COLUMN) {
+        if (above > 0.0) *hi = 0.0;
+        return;
+    }
+    const double cut = 0.5 * H - above / rate, in = cut < 0.0 ? 0.0 : cut > H ? H : cut;
+    if (rate > 0.0) *hi = in;
+    else *lo = in;
+}
+
+/* Mean of max(p, 0) over a part of the vertical half extent d, and of the wet share. */
+FL_SIMD_INLINE double positive_part(double p, double d, double *share)
+{
+    *share = p >= d ? 1.0 : p > -d ? 0.5 * (p + d) / d : 0.0;
+    return p >= d ? p : p > -d ? 0.25 * (p + d) * (p + d) / d : 0.0;
+}
+
+/* What the mean of max(depth, 0) over the part of the section of a column has more than the value at its
+ * middle, where the water line of an end crosses that part. depth: of the middle of the column, growing by
+ * `rate` along it; g: gradient of the depth; half: half the width of the part. Upper end counted negative. */
+FL_SIMD_INLINE double cut_ends(double H, double depth, double rate, fl_vec3 g, double half)
+{
+    const double one = depth - 0.5 * H * rate, two = depth + 0.5 * H * rate,
+                 least = fabs(one) < fabs(two) ? fabs(one) : fabs(two);
+    const double across2 = v3_norm2(g) - rate * rate;
+    if (least * least >= half * half * across2 || !(across2 > 0.0)) return 0.0;
+    const double d = half * sqrt(across2);
+    double share;
+    return (positive_part(one, d, &share) - (one > 0.0 ? one : 0.0)) -
+           (positive_part(two, d, &share) - (two > 0.0 ? two : 0.0));
+}
+
+/* One column: its lower end at offset r, of the unit direction e, weight w. */
+FL_SIMD_INLINE void add_column(body_sample *b, fl_vec3 r, fl_vec3 e, double w, double half,
+                               const fl_wave_surface *at)
+{
+    const double H = b->body->nodes->length;
+    const fl_vec3 mid = v3_madd(r, 0.5 * H, e);
+    const double z = b->z + mid.z, rise = at->x * e.x + at->y * e.y;
+    const water_plane *q = &b->plane;
+    double lo, hi, low, high;
+    wet_part(H, z - at->eta, e.z - rise, &lo, &hi);
+    wet_part(H, z - (q->z + q->x * mid.x + q->y * mid.y), e.z - (q->x * e.x + q->y * e.y), &low, &high);
+    const int wet = hi > lo, still = high > low, upright = fabs(e.z) > UPRIGHT;
+    point_pressure end[3];
+    fl_vec3 force = v3(0, 0, 0), first = force; /* integrals of -grad p, and of h times it */
+    if (wet) {
+        const double len = hi - lo;
+        for (int k = 0; k < 3; k++) {
+            const double h = lo + 0.5 * k * len, off = h - 0.5 * H, part = (k == 1 ? 4.0 : 1.0) * len / 6.0;
+            pressure_at(b, b->x.x + mid.x + off * e.x, b->x.y + mid.y + off * e.y, z + off * e.z,
+                        at->eta + off * rise, at, &end[k]);
+            force = v3_madd(force, -part, end[k].g);
+            first = v3_madd(first, -part * h, end[k].g);
+        }
+        if (upright) /* dp/dh = e . grad p */
+            force.z = -(end[2].p - end[0].p + e.x * force.x + e.y * force.y) / e.z;
+    }
+    if (still) {
+        const fl_vec3 g = v3(-q->x, -q->y, 1.0);
+        force = v3_madd(force, low - high, g);
+        first = v3_madd(first, 0.5 * (low * low - high * high), g);
+    }
+    const fl_vec3 wave = v3(at->x, at->y, -1.0), flat = v3(q->x, q->y, -1.0);
+    const double cut = cut_ends(H, at->eta - z, v3_dot(wave, e), wave, half) -
+                       cut_ends(H, q->z + q->x * mid.x + q->y * mid.y - z, v3_dot(flat, e), flat, half);
+    force = v3_madd(force, cut, e);
+    force = v3_scale(w, force), first = v3_scale(w, first);
+    b->force = v3_add(b->force, force);
+    b->moment = v3_add(b->moment, v3_add(v3_cross(r, force), v3_cross(e, first)));
+    if (!b->changes || !upright || !(wet || still)) return;
+    const int up = e.z > 0.0, bottom = up ? 0 : 2;
+    const int reaches = up ? hi < H : lo > 0.0, still_reaches = up ? high < H : low > 0.0;
+    fl_vec3 g = v3(0, 0, 0);
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    if (wet) {
+        const point_pressure *deep = &end[bottom], *top = &end[2 - bottom];
+        g = reaches ? deep->g : v3_sub(deep->g, top->g);
+        xx = top->head.xx - deep->head.xx, xy = top->head.xy - deep->head.xy,
+        yy = top->head.yy - deep->head.yy;
+        if (reaches) xx -= at->x * top->g.x, xy -= at->x * top->g.y, yy -= at->y * top->g.y;
+    }
+    if (still && still_reaches) {
+        g = v3_sub(g, v3(q->x, q->y, -1.0));
+        xx += q->x * q->x, xy += q->x * q->y, yy += q->y * q->y;
+    }
+    const double W = w / fabs(e.z);
+    const fl_mat3 K = {{{W * xx, W * xy, W * g.x}, {W * xy, W * yy, W * g.y}, {W * g.x, W * g.y, W * g.z}}};
+    add_change(b, v3_madd(r, wet ? (up ? lo : hi) : (up ? low : high), e), &K);
+}
+
+FL_SIMD4_VERSIONS static void add_columns(body_sample *b)
+{
+    const fl_wave_nodes *a = b->body->nodes;
+    const fl_vec3 e = m3_mul(b->R, a->along);
+    for (int32_t k = 0; k < a->n; k++)
+        add_column(b, m3_mul(b->R, a->x[k]), e, a->w[k], a->half[k], &b->body->scratch[k]);
+}
+
+FL_SIMD4_VERSIONS static void add_faces(body_sample *b)
+{
+    const fl_wave_nodes *a = b->body->nodes;
+    const water_plane *q = &b->plane;
+    for (int32_t k = 0; k < a->n; k++) {
+        const fl_wave_surface *at = &b->body->scratch[k];
+        const fl_vec3 r = m3_mul(b->R, a->x[k]), A = m3_mul(b->R, a->area[k]);
+        const double z = b->z + r.z, size = v3_norm(A), level2 = A.x * A.x + A.y * A.y,
+                     half = size > 0.0 ? 0.5 * sqrt(level2 / size) : 0.0;
+        point_pressure here = {.p = at->eta - z, .g = v3(at->x, at->y, -1.0)};
+        double wet, still;
+        if (here.p > 0.0) pressure_at(b, b->x.x + r.x, b->x.y + r.y, z, at->eta, at, &here);
+        const double p = positive_part(here.p, half, &wet) -
+                         positive_part(q->z + q->x * r.x + q->y * r.y - z, half, &still);
+        const fl_vec3 f = v3_scale(-p, A);
+        b->force = v3_add(b->force, f);
+        b->moment = v3_add(b->moment, v3_cross(r, f));
+        if (!b->changes) continue;
+        const fl_vec3 g = v3_madd(v3_scale(wet, here.g), -still, v3(q->x, q->y, -1.0));
+        const fl_mat3 K = {{{-A.x * g.x, -A.x * g.y, -A.x * g.z},
+                            {-A.y * g.x, -A.y * g.y, -A.y * g.z},
+                            {-A.z * g.x, -A.z * g.y, -A.z * g.z}}};
+        add_change(b, r, &K);
+    }
+}
+
+/* The surface over all nodes. */
+FL_SIMD4_VERSIONS static void survey_surface(const body_sample *b)
+{
+    const fl_wave_nodes *a = b->body->nodes;
+    const fl_vec3 up = v3_scale(0.5 * a->length, m3_mul(b->R, a->along));
+    for (int32_t k = 0; k < a->n; k++) {
+        const fl_vec3 r = v3_add(m3_mul(b->R, a->x[k]), up);
+        fl_wave_surface_at(&b->view, b->x.x + r.x, b->x.y + r.y, &b->body->scratch[k]);
+    }
+}
+
+/* Least variance of positions, over the square of the size, for a fitted slope. */
+#define LEAST_SPREAD 1e-4
+
+/* Weighted least squares: z + a s along one line of propagation, or z + x r.x + y r.y with several. Where the
+ * nodes have no extent the slope is the mean one. */
+static void fit_plane(body_sample *b)
+{
+    const fl_wave_nodes *a = b->body->nodes;
+    const fl_wave_line *line = &b->sea->grid->line[0];
+    const int one = b->sea->grid->lines == 1;
+    const fl_vec3 up = v3_scale(0.5 * a->length, m3_mul(b->R, a->along));
+    double all = 0.0, mean[2] = {0}, eta = 0.0, slope[2] = {0}, xx = 0.0, xy = 0.0, yy = 0.0, xe = 0.0,
+           ye = 0.0;
+    for (int32_t k = 0; k < a->n; k++) {
+        const fl_wave_surface *at = &b->body->scratch[k];
+        const fl_vec3 r = v3_add(m3_mul(b->R, a->x[k]), up);
+        const double w = a->w ? a->w[k]
+                              : fabs(v3_dot(a->area[k], v3(b->R.m[2][0], b->R.m[2][1], b->R.m[2][2]))),
+                     x = one ? line->x * r.x + line->y * r.y : r.x, y = one ? 0.0 : r.y;
+        all += w, eta += w * at->eta, slope[0] += w * at->x, slope[1] += w * at->y;
+        mean[0] += w * x, mean[1] += w * y;
+        xx += w * x * x, xy += w * x * y, yy += w * y * y;
+        xe += w * x * at->eta, ye += w * y * at->eta;
+    }
+    if (!(all > 0.0)) {
+        b->plane = (water_plane){0};
+        return;
+    }
+    const double per = 1.0 / all, small = LEAST_SPREAD * b->body->reach * b->body->reach;
+    mean[0] *= per, mean[1] *= per, eta *= per;
+    xx = per * xx - mean[0] * mean[0], xy = per * xy - mean[0] * mean[1], yy = per * yy - mean[1] * mean[1];
+    xe = per * xe - mean[0] * eta, ye = per * ye - mean[1] * eta;
+    double x = per * slope[0], y = per * slope[1];
+    if (one) {
+        const double s = xx > small ? xe / xx : line->x * x + line->y * y;
+        x = s * line->x, y = s * line->y;
+        b->plane = (water_plane){eta - s * mean[0], x, y};
+        return;
+    }
+    const double det = xx * yy - xy * xy;
+    if (det > small * small) {
+        x = (yy * xe - xy * ye) / det;
+        y = (xx * ye - xy * xe) / det;
+    }
+    b->plane = (water_plane){eta - x * mean[0] - y * mean[1], x, y};
+}
+
+void fl_wave_body_submerged(const fl_wave_body *body, fl_vec3 up, double level, fl_submerged *wet)
+{
+    const fl_hull *h = body->hull;
+    *wet = (fl_submerged){0};
+    if (level >= body->reach)
+        *wet = (fl_submerged){.volume = h->volume, .centre = h->centre, .wetted_area = h->surface_area};
+    else if (level > -body->reach) fl_hull_submerged(h, up, level, wet);
+}
+
+/* The wet part of the hull under the plane, body axes. */
+static fl_submerged submerge(const body_sample *b)
+{
+    const double c = 1.0 / sqrt(1.0 + b->plane.x * b->plane.x + b->plane.y * b->plane.y);
+    fl_submerged wet;
+    fl_wave_body_submerged(b->body, m3_tmul(b->R, v3(-c * b->plane.x, -c * b->plane.y, c)),
+                           c * (b->plane.z - b->z), &wet);
+    return wet;
+}
+
+/* Tangent plane over the centre of a sphere or capsule. */
+static void set_tangent(body_sample *b)
+{
+    fl_wave_surface at;
+    fl_wave_surface_at(&b->view, b->x.x, b->x.y, &at);
+    b->plane = (water_plane){at.eta, at.x, at.y};
+}
+
+/* Load of a sphere or capsule, at the centre r of its wet part: rho V times the acceleration, less the slope
+ * of the plane. */
+static void add_round(body_sample *b, fl_vec3 r, double volume, double zeta)
+{
+    fl_wave_depth deep;
+    double x = 0.0, y = 0.0, z = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, xz = 0.0, yz = 0.0;
+    fl_wave_depth_at(b->sea->grid, zeta, &deep);
+    for (int32_t c = 0; c < b->sea->grid->lines; c++) {
+        const fl_wave_line *d = &b->sea->grid->line[c];
+        fl_wave_taps p = {0};
+        fl_simd value, dz;
+        fl_wave_taps_at(&b->view, c, b->x.x + r.x, b->x.y + r.y, &p);
+        fl_wave_between(&p, &deep, 0, &value, &dz);
+        const double s = fl_wave_dot(&value, &p.dw), ss = fl_wave_dot(&value, &p.ddw),
+                     sz = fl_wave_dot(&dz, &p.dw);
+        x += d->x * s, y += d->y * s, z += fl_wave_dot(&dz, &p.w);
+        xx += d->x * d->x * ss, xy += d->x * d->y * ss, yy += d->y * d->y * ss;
+        xz += d->x * sz, yz += d->y * sz;
+    }
+    const double V = volume;
+    b->force = v3(V * (b->plane.x - x), V * (b->plane.y - y), -V * z);
+    b->moment = v3_cross(r, b->force);
+    if (!b->changes) return;
+    /* P is harmonic: its second derivative along z is -(xx + yy) */
+    const fl_mat3 K = {
+        {{-V * xx, -V * xy, -V * xz}, {-V * xy, -V * yy, -V * yz}, {-V * xz, -V * yz, V * (xx + yy)}}};
+    add_change(b, r, &K);
+}
+
+/* Velocity and acceleration of the water at the centre of the wet part, and the current there. */
+static void survey_flow(const body_sample *b, fl_vec3 r, double zeta, double *row)
+{
+    const fl_vec3 u = v3_add(fl_wave_velocity(&b->view, b->x.x + r.x, b->x.y + r.y, zeta),
+                             fl_current_at(b->sea->current, b->z + r.z));
+    fl_wave_head head;
+    fl_wave_head_at(&b->view, b->x.x + r.x, b->x.y + r.y, zeta, &head);
+    const double g = b->sea->grid->gravity;
+    row[AT_FLOW] = u.x, row[AT_FLOW + 1] = u.y, row[AT_FLOW + 2] = u.z;
+    row[AT_ACCELERATION] = -g * head.x, row[AT_ACCELERATION + 1] = -g * head.y,
+    row[AT_ACCELERATION + 2] = -g * head.zeta;
+}
+
+/* Fills a row of samples. */
+static void evaluate_sample(body_sample *b, double *row)
+{
+    const fl_wave_nodes *a = b->body->nodes;
+    const double weight = b->sea->weight;
+    for (int k = 0; k < FL_WAVE_ROW; k++) row[k] = 0.0;
+    if (b->z - b->body->reach >= b->sea->max_crest) { /* out of the water */
+        const fl_vec3 u = fl_current_at(b->sea->current, b->z);
+        row[AT_FLOW] = u.x, row[AT_FLOW + 1] = u.y, row[AT_FLOW + 2] = u.z;
+        return;
+    }
+    b->force = b->moment = v3(0, 0, 0);
+    if (a->kind == FL_WAVE_ROUND) {
+        set_tangent(b);
+    } else {
+        survey_surface(b);
+        fit_plane(b);
+    }
+    row[AT_Z] = b->plane.z, row[AT_SLOPE] = b->plane.x, row[AT_SLOPE + 1] = b->plane.y;
+    const fl_submerged wet = submerge(b);
+    const fl_vec3 r = m3_mul(b->R, wet.centre);
+    fl_wave_surface at;
+    double rate;
+    fl_wave_surface_at(&b->view, b->x.x + r.x, b->x.y + r.y, &at);
+    const double zeta = fl_wave_grid_stretch(b->sea->grid, b->z + r.z, at.eta, &rate);
+    survey_flow(b, r, zeta, row);
+    if (a->kind == FL_WAVE_ROUND) add_round(b, r, wet.volume, zeta);
+    else if (a->kind == FL_WAVE_COLUMNS) add_columns(b);
+    else add_faces(b);
+    row[AT_FORCE] = weight * b->force.x, row[AT_FORCE + 1] = weight * b->force.y;
+    row[AT_FORCE + 2] = weight * b->force.z;
+    row[AT_MOMENT] = weight * b->moment.x, row[AT_MOMENT + 1] = weight * b->moment.y;
+    row[AT_MOMENT + 2] = weight * b->moment.z;
+}
+
+void fl_wave_block_fill(fl_wave_block *c, const fl_wave_water *sea, const fl_wave_body *body)
+{
+    for (int e = 0; e < 2; e++)
+        for (int k = 0; k < FL_WAVE_CHANGES; k++)
+            for (int i = 0; i < 6; i++) c->change[e][k][i] = 0.0;
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++) {
+        const int64_t level = c->level + (int64_t)k * c->span;
+        body_sample b = {.sea = sea,
+                         .body = body,
+                         .view = fl_wave_grid_view(sea->grid, level),
+                         .x = c->x[k],
+                         .R = q_matrix(fl_wave_block_attitude(c, c->turn[k])),
+                         .changes = k == 0 || k == FL_WAVE_SAMPLES - 1,
+                         .change = c->change[k > 0]};
+        b.z = b.x.z - sea->level;
+        evaluate_sample(&b, c->sample[k]);
+    }
+    for (int e = 0; e < 2; e++)
+        for (int k = 0; k < FL_WAVE_CHANGES; k++)
+            for (int i = 0; i < 6; i++) c->change[e][k][i] *= sea->weight;
+}
+
+/* --- between the samples --------------------------------------------------------------------------- */
+
+void fl_wave_block_values(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_vec3 x, fl_quat q,
+                          fl_wave_values *out)
+{
+    double w[FL_WAVE_SAMPLES], u, row[FL_WAVE_ROW], load[6];
+    cubic_weights(c, g, t, w, &u);
+    for (int k = 0; k < FL_WAVE_ROW; k++)
+        row[k] = (w[0] * c->sample[0][k] + w[1] * c->sample[1][k]) +
+                 (w[2] * c->sample[2][k] + w[3] * c->sample[3][k]);
+    const fl_wave_deviation d = deviation(c, w, x, q);
+    const double off[FL_WAVE_CHANGES] = {d.x.x, d.x.y, d.x.z, d.turn.x, d.turn.y}, late = u / 3.0;
+    for (int i = 0; i < 6; i++) load[i] = row[AT_FORCE + i];
+    for (int k = 0; k < FL_WAVE_CHANGES; k++)
+        for (int i = 0; i < 6; i++)
+            load[i] += off[k] * (c->change[0][k][i] + late * (c->change[1][k][i] - c->change[0][k][i]));
+    out->slope[0] = row[AT_SLOPE], out->slope[1] = row[AT_SLOPE + 1];
+    out->z = row[AT_Z] + out->slope[0] * d.x.x + out->slope[1] * d.x.y;
+    out->f = v3(load[0], load[1], load[2]), out->t = v3(load[3], load[4], load[5]);
+    out->flow = v3(row[AT_FLOW], row[AT_FLOW + 1], row[AT_FLOW + 2]);
+    out->acceleration = v3(row[AT_ACCELERATION], row[AT_ACCELERATION + 1], row[AT_ACCELERATION + 2]);
+}
+
+fl_vec3 fl_wave_block_velocity(const fl_wave_block *c, const fl_wave_grid *g, double t, double x, double y,
+                               double z, double eta)
+{
+    double w[FL_WAVE_SAMPLES], u, rate;
+    fl_vec3 sum = v3(0, 0, 0);
+    const double zeta = fl_wave_grid_stretch(g, z, eta, &rate);
+    cubic_weights(c, g, t, w, &u);
+    for (int k = 0; k < FL_WAVE_SAMPLES; k++) {
+        const fl_wave_view v = fl_wave_grid_view(g, c->level + (int64_t)k * c->span);
+        sum = v3_madd(sum, w[k], fl_wave_velocity(&v, x, y, zeta));
+    }
+    return sum;
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* subject.h -- what is looked at: frames or a still, and the tables that go with it. */
+#ifndef ICE_VIEW_SUBJECT_H
+#define ICE_VIEW_SUBJECT_H
+#include "options.h"
+#include "scene/scene.h"
+#include "view/camera.h"
+#include "view/legend.h"
+#include "view/playback.h"
+#include "view/sea_surface.h"
+#include "view/time_rows.h"
+#include "view/view_frame.h"
+#include "water/wave.h"
+
+struct subject {
+    fl_frame_file *file;
+    fl_frame_data own; /* of a still */
+    fl_playback play;
+    fl_view_frame shown;
+    int32_t *group; /* [rows] of --ice, by row; -1: none */
+    int32_t groups;
+    fl_time_rows contacts, bonds, table, panels;
+    fl_load_curve curve;
+    char curve_title[80], column_title[160];
+    fl_waves waves;
+    int has_waves;
+    float *sea_height;
+    fl_sea_surface sea; /* the waves at the time shown; height NULL: still water */
+    fl_aabb box;        /* what `auto` of the camera shows: all times, or that of the picture */
+    double from, to;    /* ends of the colour bar */
+    int bar;            /* a colour bar belongs to the picture */
+    double most_force;
+};
+
+/* Opens all that the options name.  A warning goes to standard error.  -1 with FL_INPUT or FL_SYSTEM. */
+int subject_open(struct subject *s, struct options *o, fl_err *err);
+
+/* Chooses colours anew after the look has changed: ends of the bar.  -1 with FL_INPUT or FL_SYSTEM. */
+int subject_range(struct subject *s, const fl_look *l, fl_err *err);
+
+/* Poses, colours, tubes and waves at a time.  -1 with FL_INPUT or FL_SYSTEM. */
+int subject_at(struct subject *s, const fl_look *l, double t, fl_err *err);
+
+/* `auto` of the camera shows the present time. */
+void subject_frame(struct subject *s);
+
+/* The camera of a look: `auto` is resolved by the extent; spun by view.spin from `start`. */
+fl_camera subject_camera(const struct subject *s, const fl_look *l, double aspect, double spin_seconds);
+
+/* Height of the strip of the load curve at the lower edge of a picture; 0: none. */
+int subject_strip(const struct subject *s, const fl_look *l, int w, int h);
+
+/* Draws bar, time and curve. */
+void subject_legend(const struct subject *s, const fl_look *l, fl_picture *p);
+
+/* Sentences about a body for a click; text has 200 bytes. */
+void subject_tell(const struct subject *s, int32_t row, char text[200]);
+
+void subject_close(struct subject *s);
+
+#endif

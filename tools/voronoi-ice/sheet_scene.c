@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sheet_scene.h"
+#include "base/number_text.h"
+#include "base/stream.h"
+
+/* Strength and stiffness where none is asked for, as in the table of keys. */
+#define DEFAULT_STRENGTH 0.7e6
+
+int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_packing_kind kind, fl_err *err)
+{
+    *out = (struct sheet_bonds){0};
+    if (o->flexural > 0.0 && o->compressive > 0.0)
+        return fl_fail(err, FL_USAGE,
+                       "--flexural and --compressive both set the strength of the bonds, one of them expected");
+    if (o->flexural == 0.0 && o->compressive == 0.0 && o->young == 0.0) return 0;
+    if (!o->bonded || !o->scene)
+        return fl_fail(err, FL_USAGE,
+                       "--flexural, --compressive and --young set the bonds of --scene FILE, which is expected "
+                       "with --bonded");
+    if (fl_sheet_strength_of(kind, o->layers, o->rows_across, &out->ratio, err)) return -1;
+    if (o->flexural > 0.0) out->strength = o->flexural / out->ratio.flexural;
+    if (o->compressive > 0.0) out->strength = o->compressive / out->ratio.compressive;
+    if (o->young > 0.0) out->young = o->young / out->ratio.young;
+    return 0;
+}
+
+static void write_value(FILE *f, const char *key, double x, const char *unit)
+{
+    char text[FL_NUMBER_LEN];
+    fprintf(f, "%s = %s%s%s\n", key, fl_number_text(x, text), *unit ? " " : "", unit);
+}
+
+int sheet_scene_write(const struct recipe *o, const struct sheet_bonds *bonds, double slab,
+                      const fl_history_line *by, fl_err *err)
+{
+    fl_out file = {0};
+    if (fl_out_open(&file, o->scene, 0, err)) return -1;
+    FILE *const f = file.f;
+    fprintf(f, "%s\n[ice]\n", by->text);
+    write_value(f, "slab", slab, "m");
+    fprintf(f, "\n[material %s]\n", o->material);
+    write_value(f, "density", o->ice_density, "kg/m3");
+    if (bonds->young > 0.0) write_value(f, "young", bonds->young, "Pa");
+    fprintf(f, "\n[water]\n");
+    write_value(f, "density", o->water_density, "kg/m3");
+    if (o->bonded) {
+        const double c = bonds->strength > 0.0 ? bonds->strength : DEFAULT_STRENGTH;
+        fprintf(f, "\n[bond]\non = true\n");
+        if (bonds->young > 0.0) write_value(f, "young", bonds->young, "Pa");
+        write_value(f, "poisson", FL_SHEET_POISSON, "");
+        write_value(f, "normal_strength", c, "Pa");
+        write_value(f, "shear_strength", c, "Pa");
+        fprintf(f, "softening = stretch\nstretch = 1.5\ndamping = 0.1\n");
+        write_value(f, "scatter", FL_SHEET_SCATTER, "");
+    }
+    fprintf(f, "\n[contact]\nround_law = linear\n");
+    write_value(f, "tangential_ratio", 0.5 / (1.0 + FL_SHEET_POISSON), "");
+    return fl_out_close(&file, err);
+}
