@@ -180,7 +180,7 @@ static int place_pieces(fl_world *w, const fl_surface *surface, fl_err *err)
         if (piece->kind ==
             FL_PIECE_MESH) { /* its core has the corners of its box, for the neighbour search */
             fl_vec3 corner[8];
-            const fl_aabb box = piece->mesh.tree.node[0].box;
+            const fl_aabb box = aabb_grow(piece->mesh.tree.node[0].box, piece->facet_error);
             for (int c = 0; c < 8; c++)
                 corner[c] =
                     v3(c & 1 ? box.hi.x : box.lo.x, c & 2 ? box.hi.y : box.lo.y, c & 4 ? box.hi.z : box.lo.z);

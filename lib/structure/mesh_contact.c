@@ -598,7 +598,8 @@ double fl_mesh_contact_free_travel(fl_mesh_contact_work *near, const fl_vec3 *v,
     r->faces = query_boxes(&b->mesh.tree, b->mesh.box, aabb_grow(box, ra + most), &r->face, &r->face_cap);
     for (int32_t k = 0; k < r->faces; k++) {
         const int32_t f = r->face[k];
-        const double low = lowest_above(core->n[f], core->v[core->loop[core->first[f]]], v, a->nv, known);
+        const double low =
+            lowest_above(core->n[f], core->v[core->loop[core->first[f]]], v, a->nv, known) - b->facet_error;
         if (low > known) most = fmin(most, fmax(low - ra + part * part * overlap, part * (ra - low)));
     }
     return r->faces < 0 ? -1.0 : most;

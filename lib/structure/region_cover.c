@@ -33,7 +33,8 @@ static double left_of(fl_vec2 a, fl_vec2 b, fl_vec2 c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* Convex hull of sorted corners, counter-clockwise, into out, which has room for one more than there are.
+/* Convex hull of sorted corners, counter-clockwise, into out, which has room for twice as many: what overflows
+ * is no hull.
  * Source: Andrew, Inf. Process. Lett. 9 (1979) 216. */
 static int32_t hull_of(int32_t n, const corner *c, corner *out)
 {
@@ -42,7 +43,7 @@ static int32_t hull_of(int32_t n, const corner *c, corner *out)
         const int32_t start = m;
         for (int32_t k = 0; k < n; k++) {
             const corner *at = &c[turn ? n - 1 - k : k];
-            while (m >= start + 2 && left_of(out[m - 2].at, out[m - 1].at, at->at) <= 0.0) m--;
+            while (m >= start + 2 && !(left_of(out[m - 2].at, out[m - 1].at, at->at) > 0.0)) m--;
             out[m++] = *at;
         }
         m--; /* the upper chain begins with it */
@@ -92,8 +93,8 @@ static void areas_of(const fl_part *p, fl_vec3 n, flat_triangle *all, double are
 int fl_region_covers_hull(const fl_part *p, fl_vec3 n, double tol, int32_t *loop, int32_t *count, fl_err *err)
 {
     const fl_vec3 x = v3_normal_to(n), y = v3_cross(n, x), from = p->v[p->t[0].v[0]];
-    corner *all = fl_alloc(p->nv, sizeof *all, err), *rim = fl_alloc((int64_t)p->nv + 1, sizeof *rim, err);
-    fl_vec2 *at = fl_alloc(p->nv, sizeof *at, err);
+    corner *all = fl_alloc(p->nv, sizeof *all, err), *rim = fl_alloc(2 * (int64_t)p->nv + 1, sizeof *rim, err);
+    fl_vec2 *at = fl_alloc(2 * (int64_t)p->nv + 1, sizeof *at, err);
     flat_triangle *faces = fl_alloc(p->nt, sizeof *faces, err);
     uint8_t *used = fl_alloc(p->nv, 1, err);
     int found = -1;
@@ -109,6 +110,7 @@ int fl_region_covers_hull(const fl_part *p, fl_vec3 n, double tol, int32_t *loop
             if (k == 0 || all[k].at.x != all[kept - 1].at.x || all[k].at.y != all[kept - 1].at.y)
                 all[kept++] = all[k];
         *count = hull_of(kept, all, rim);
+        if (*count > kept) *count = 0; /* overflow */
         for (int32_t k = 0; k < *count; k++) at[k] = rim[k].at, loop[k] = rim[k].v;
         double area[2];
         const double whole = fl_polygon_area(*count, at), off = tol * fl_polygon_perimeter(*count, at);
