@@ -34,8 +34,8 @@ FL_SIMD_INLINE void taper_of(fl_simd *value, fl_simd *slope, const fl_simd *x, c
     const fl_simd z = FL_SIMD_SELECT(first, *x, rest), most = FL_SIMD_MIN(width + zero, half);
     fl_simd t = z / most;
     t = FL_SIMD_MIN(FL_SIMD_MAX(t, zero), one);
-    *value = t * t * (3.0 - 2.0 * t);
-    *slope = 6.0 * t * (1.0 - t) / FL_SIMD_SELECT(first, most, -most);
+    *value = FL_QUICK_STEP(t);
+    *slope = FL_QUICK_SLOPE(t) / FL_SIMD_SELECT(first, most, -most);
 }
 
 /* The term depends on s, on the feet t and u by the tapers, and on the cosine C of the edges.  With the
@@ -71,8 +71,8 @@ FL_SIMD_VERSIONS static void add_four(const crossing_lanes *c, double reach, dou
     fl_simd et, dt, eu, du;
     taper_of(&et, &dt, &t, &c->la, FL_QUICK_TAPER * R), taper_of(&eu, &du, &u, &c->lb, FL_QUICK_TAPER * R);
     const fl_simd past = (D - FL_QUICK_ALONG * FL_QUICK_ALONG) * (1.0 / FL_QUICK_PARALLEL),
-                  z = FL_SIMD_MIN(FL_SIMD_MAX(past, zero), one), gS = z * z * (3.0 - 2.0 * z) / S,
-                  dg = (6.0 * z * (1.0 - z) * (1.0 / FL_QUICK_PARALLEL) / S - 0.5 * gS * i) * (-2.0 * C);
+                  z = FL_SIMD_MIN(FL_SIMD_MAX(past, zero), one), gS = FL_QUICK_STEP(z) / S,
+                  dg = (FL_QUICK_SLOPE(z) * (1.0 / FL_QUICK_PARALLEL) / S - 0.5 * gS * i) * (-2.0 * C);
     const fl_simd k4 = factor * c->weight * s2 * s2, k5 = k4 * s, all = gS * et * eu;
     const fl_simd kt = gS * dt * eu * k5, ku = gS * et * du * k5, kC = dg * et * eu * k5;
     const fl_simd by_b = i * (C * kt + ku), by_a = -i * (kt + C * ku),

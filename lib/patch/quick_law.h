@@ -26,7 +26,7 @@
  *           its own.
  *     S     sine of the angle of two edges;  g = h((S^2 - FL_QUICK_ALONG^2)/FL_QUICK_PARALLEL)
  *     z     distance of a foot from the nearer end of its edge;  t = h(z/min(0.3 R, l/2))
- *     h(x)  x^2 (3 - 2x) between 0 and 1
+ *     h(x)  x^3 (10 - 15x + 6x^2) between 0 and 1
  *
  * Force and torque are the exact gradient.  With the motion u(x) of A a point has dU = -dU/ds n.u, and a face
  *     (m/C) [-4 int s^3 n_k.u dP - sum over sides of f_k on the border int s^4 q.u dl]

@@ -103,12 +103,15 @@ static inline void fl_quick_add_wrench(fl_quick_total *to, double s, fl_wrench g
     a[FL_QUICK_M] += s * g.m.x, a[FL_QUICK_M + 1] += s * g.m.y, a[FL_QUICK_M + 2] += s * g.m.z;
 }
 
-/* h(x) = x^2 (3 - 2x) between 0 and 1, and its derivative. */
+/* h(x) = x^3 (10 - 15x + 6x^2), for x between 0 and 1, and its derivative. */
+#define FL_QUICK_STEP(x) ((x) * (x) * (x) * (10.0 + (x) * (6.0 * (x)-15.0)))
+#define FL_QUICK_SLOPE(x) (30.0 * ((x) * (1.0 - (x))) * ((x) * (1.0 - (x))))
+
 static inline double fl_quick_step(double x, double *slope)
 {
     const double t = x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
-    *slope = 6.0 * t * (1.0 - t);
-    return t * t * (3.0 - 2.0 * t);
+    *slope = FL_QUICK_SLOPE(t);
+    return FL_QUICK_STEP(t);
 }
 
 /* How much of an edge the face pair bears, v of quick_law.h; 0 if none. */
