@@ -11,8 +11,9 @@
 #include "patch/force_sum.h"
 #include "patch/quick_list.h"
 
-#define FL_QUICK_PARALLEL 0.01  /* sin^2 of the angle of edges from which on they cross */
-#define FL_QUICK_TAPER 0.3      /* over R: from the end of an edge to where a crossing counts whole */
+#define FL_QUICK_PARALLEL 0.01 /* sin^2 of the angle of edges from which on they cross */
+#define FL_QUICK_TAPER                                                                                       \
+    0.3 /* over R, across the other edge: from the end of an edge to where a crossing counts whole */
 #define FL_QUICK_FLAT 0.004     /* sine of the angle of two faces up to which they bear their edges */
 #define FL_QUICK_TILTED 0.025   /* from which on edges bear beside them */
 #define FL_QUICK_NEARNESS 0.6   /* over R, of D: see v */

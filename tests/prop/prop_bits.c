@@ -138,12 +138,9 @@ static void threads_and_searches(void **state)
                            {16, 1, 1.0, 7, 3, 0}, {3, 0, 0.3, 1, 8, 0},  {8, 0, 1.0, 0, 0, 1}};
     const variant few[] = {
         {1, 0, 1.0, 0, 0, 0}, {16, 0, 0.2, 0, 0, 0}, {16, 1, 1.0, 7, 3, 0}, {3, 0, 1.0, 0, 0, 1}};
-    const case_of_run it[] = {{scene_of_everything, 8, "patch"},
-                              {scene_of_periodic_cell, 8, "patch"},
-                              {scene_of_inflow, 8, "patch"},
-                              {scene_of_spheres, 8, "patch"},
-                              {scene_of_bonds, 8, "patch"},
-                              {scene_of_sheet, 6, "patch"}};
+    const case_of_run it[] = {{scene_of_everything, 8, "patch"}, {scene_of_periodic_cell, 8, "patch"},
+                              {scene_of_inflow, 8, "patch"},     {scene_of_spheres, 8, "patch"},
+                              {scene_of_bonds, 8, "patch"},      {scene_of_sheet, 6, "patch"}};
     (void)state;
     compare(how, sizeof how / sizeof *how, &it[0], 10, 2000);
     for (int k = 1; k < 5; k++) compare(few, sizeof few / sizeof *few, &it[k], 10, k < 4 ? 2000 : 200);
@@ -153,14 +150,15 @@ static void threads_and_searches(void **state)
 static void laws(void **state)
 {
     static const case_of_run IT[] = {
-        {scene_of_everything, 3, "patch"},      {scene_of_everything, 3, "core"},
-        {scene_of_everything, 3, "manual"},     {scene_of_everything, 3, "manual-si"},
-        {scene_of_periodic_cell, 3, "patch"},   {scene_of_seas, 3, "patch"},
-        {scene_of_inflow, 3, "patch"},          {scene_of_spheres, 3, "patch"},
-        {scene_of_bonds, 3, "patch"},           {scene_of_bonds, 3, "manual"},
-        {scene_of_water_interval, 3, "patch"},  {scene_of_sea_interval, 3, "patch"},
-        {scene_of_inflow_interval, 3, "patch"}, {scene_of_surrogates, 3, "patch"},
-        {scene_of_sheet, 3, "patch"}};
+        {scene_of_everything, 3, "patch"},   {scene_of_everything, 3, "core"},
+        {scene_of_everything, 3, "manual"},  {scene_of_everything, 3, "manual-si"},
+        {scene_of_everything, 3, "quick"},   {scene_of_bonds, 3, "quick"},
+        {scene_of_inflow, 3, "quick"},       {scene_of_periodic_cell, 3, "patch"},
+        {scene_of_seas, 3, "patch"},         {scene_of_inflow, 3, "patch"},
+        {scene_of_spheres, 3, "patch"},      {scene_of_bonds, 3, "patch"},
+        {scene_of_bonds, 3, "manual"},       {scene_of_water_interval, 3, "patch"},
+        {scene_of_sea_interval, 3, "patch"}, {scene_of_inflow_interval, 3, "patch"},
+        {scene_of_surrogates, 3, "patch"},   {scene_of_sheet, 3, "patch"}};
     const variant how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                            {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                            {1, 0, 1.0, 0, 0, 1}};
@@ -175,12 +173,9 @@ static void changing_thread_counts(void **state)
     static const struct {
         void (*scene)(lab *l, int32_t side, const char *law);
         const char *key;
-    } IT[] = {{scene_of_everything, "run.sleep=1e-3"},
-              {scene_of_everything, "run.sleep=none"},
-              {scene_of_spheres, "contact.law=patch"},
-              {scene_of_bonds, "contact.law=patch"},
-              {scene_of_sheet, "contact.law=patch"},
-              {scene_of_surrogates, "contact.law=patch"}};
+    } IT[] = {{scene_of_everything, "run.sleep=1e-3"}, {scene_of_everything, "run.sleep=none"},
+              {scene_of_spheres, "contact.law=patch"}, {scene_of_bonds, "contact.law=patch"},
+              {scene_of_sheet, "contact.law=patch"},   {scene_of_surrogates, "contact.law=patch"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
         uint64_t bits[2];

@@ -44,8 +44,8 @@ void lab_start(lab *l)
     if (getenv("FLOE_LAW")) lab_set(l, "contact.law=patch");
 }
 
-/* FLOE_LAW of the environment stands in for the law patch: what patch is held to runs for another law, without
- * surrogates where it has none. */
+/* FLOE_LAW of the environment stands in for the law patch: what patch is held to runs for another law, and
+ * without surrogates. */
 void lab_set(lab *l, const char *assignment)
 {
     static const char SURROGATE[] = "contact.surrogate=";
