@@ -52,7 +52,7 @@ void lab_set(lab *l, const char *assignment)
     const char *law = getenv("FLOE_LAW");
     char other[64];
     fl_err err = {0};
-    if (law && strncmp(assignment, SURROGATE, strlen(SURROGATE)) == 0) return;
+    if (law && strcmp(law, "patch") != 0 && strncmp(assignment, SURROGATE, strlen(SURROGATE)) == 0) return;
     if (law && strcmp(assignment, "contact.law=patch") == 0) {
         snprintf(other, sizeof other, "contact.law=%s", law);
         assignment = other;
