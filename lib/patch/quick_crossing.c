@@ -26,16 +26,20 @@ static void load_crossing(crossing_lanes *to, int k, const fl_quick_way *d, int3
 
 #define DOT(a, b) ((a)[0] * (b)[0] + (a)[1] * (b)[1] + (a)[2] * (b)[2])
 
-/* t(z) of a foot at x on an edge of length l, and its derivative by x. */
-FL_SIMD_INLINE void taper_of(fl_simd *value, fl_simd *slope, const fl_simd *x, const fl_simd *l, double width)
+/* t(z) of a foot at x on an edge of length l, and its derivatives by x and by the cosine C of the edges,
+ * S their sine. */
+FL_SIMD_INLINE void taper_of(fl_simd *value, fl_simd *slope, fl_simd *by_C, const fl_simd *x,
+                             const fl_simd *l, const fl_simd *S, const fl_simd *C, double width)
 {
-    const fl_simd zero = {0}, one = 1.0 + zero, rest = *l - *x, half = 0.5 * *l;
-    const fl_simd_mask first = *x < rest;
-    const fl_simd z = FL_SIMD_SELECT(first, *x, rest), most = FL_SIMD_MIN(width + zero, half);
+    const fl_simd zero = {0}, one = 1.0 + zero, rest = *l - *x, half = 0.5 * *l, wide = width / *S;
+    const fl_simd_mask first = *x < rest, turns = wide < half;
+    const fl_simd z = FL_SIMD_SELECT(first, *x, rest), most = FL_SIMD_SELECT(turns, wide, half);
     fl_simd t = z / most;
     t = FL_SIMD_MIN(FL_SIMD_MAX(t, zero), one);
-    *value = t * t * (3.0 - 2.0 * t);
-    *slope = 6.0 * t * (1.0 - t) / FL_SIMD_SELECT(first, most, -most);
+    const fl_simd steep = FL_QUICK_SLOPE(t);
+    *value = FL_QUICK_STEP(t);
+    *slope = steep / FL_SIMD_SELECT(first, most, -most);
+    *by_C = FL_SIMD_MASKED(turns, -steep * z * *C / (*S * width));
 }
 
 /* The term depends on s, on the feet t and u by the tapers, and on the cosine C of the edges.  With the
@@ -68,13 +72,15 @@ FL_SIMD_VERSIONS static void add_four(const crossing_lanes *c, double reach, dou
     FL_SIMD_UNROLL
     for (int k = 0; k < 3; k++) n[k] = FL_SIMD_SELECT(near, each * turn[k], per * n[k]);
     const fl_simd s = FL_SIMD_MASKED(on, reach - d), s2 = s * s;
-    fl_simd et, dt, eu, du;
-    taper_of(&et, &dt, &t, &c->la, FL_QUICK_TAPER * R), taper_of(&eu, &du, &u, &c->lb, FL_QUICK_TAPER * R);
+    fl_simd et, dt, eu, du, et_C, eu_C;
+    taper_of(&et, &dt, &et_C, &t, &c->la, &S, &C, FL_QUICK_TAPER * R);
+    taper_of(&eu, &du, &eu_C, &u, &c->lb, &S, &C, FL_QUICK_TAPER * R);
     const fl_simd past = (D - FL_QUICK_ALONG * FL_QUICK_ALONG) * (1.0 / FL_QUICK_PARALLEL),
-                  z = FL_SIMD_MIN(FL_SIMD_MAX(past, zero), one), gS = z * z * (3.0 - 2.0 * z) / S,
-                  dg = (6.0 * z * (1.0 - z) * (1.0 / FL_QUICK_PARALLEL) / S - 0.5 * gS * i) * (-2.0 * C);
+                  z = FL_SIMD_MIN(FL_SIMD_MAX(past, zero), one), gS = FL_QUICK_STEP(z) / S,
+                  dg = (FL_QUICK_SLOPE(z) * (1.0 / FL_QUICK_PARALLEL) / S - 0.5 * gS * i) * (-2.0 * C);
     const fl_simd k4 = factor * c->weight * s2 * s2, k5 = k4 * s, all = gS * et * eu;
-    const fl_simd kt = gS * dt * eu * k5, ku = gS * et * du * k5, kC = dg * et * eu * k5;
+    const fl_simd kt = gS * dt * eu * k5, ku = gS * et * du * k5,
+                  kC = (dg * et * eu + gS * (et_C * eu + et * eu_C)) * k5;
     const fl_simd by_b = i * (C * kt + ku), by_a = -i * (kt + C * ku),
                   by_C = kC + i * (kt * (wb + 2.0 * C * t) - ku * (wa - 2.0 * C * u));
     fl_quick_lanes row;

@@ -16,8 +16,8 @@
  *     w     weight of a blunt edge or corner, as in `patch`;  rho, L as there
  *     l_i   Gauss weights of four points in each part of the edge, at most FL_QUICK_SEGMENT rho long [m]
  *     v     share of the edge that its faces do not bear: product of 1 - f h(A/A_0) h(D/0.6 R)
- *           over the pairs of a face of the edge; f = 1 - h of the sine of the angle of the two faces, 1 below
- *           FL_QUICK_FLAT and 0 from FL_QUICK_TILTED on; A area of the common part on face j,
+ *           over the pairs of a face of the edge; f = 1 - h of the sine of the angle of the two faces, 1
+ *           below FL_QUICK_FLAT and 0 from FL_QUICK_TILTED on; A area of the common part on face j,
  *           A_0 = min(R sqrt(a), a/2) of the smaller face a, D = int z^4/int z^3 over the part within 2R,
  *           z = s + R: at least 2R/3 where the faces touch
  *     o_i   1 over a face.  Beyond its rim o = H + (1 - H) (1 - g(S^2)) t(z): H falls to 0 where the
@@ -25,8 +25,8 @@
  *           share of edges that are parallel to the nearest edge.  What is left crosses, and is a term of
  *           its own.
  *     S     sine of the angle of two edges;  g = h((S^2 - FL_QUICK_ALONG^2)/FL_QUICK_PARALLEL)
- *     z     distance of a foot from the nearer end of its edge;  t = h(z/min(0.3 R, l/2))
- *     h(x)  x^2 (3 - 2x) between 0 and 1
+ *     z     distance of a foot from the nearer end of its edge;  t = h(z/min(0.3 R/S, l/2)); S = 1 at points
+ *     h(x)  x^3 (10 - 15x + 6x^2) between 0 and 1
  *
  * Force and torque are the exact gradient.  With the motion u(x) of A a point has dU = -dU/ds n.u, and a face
  *     (m/C) [-4 int s^3 n_k.u dP - sum over sides of f_k on the border int s^4 q.u dl]

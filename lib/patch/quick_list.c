@@ -21,7 +21,8 @@ typedef struct {
     double rho, R, margin;
     fl_vec3 *at;    /* [own->vertices] in the frame of other */
     double *height; /* [own->vertices * other->faces] */
-    uint8_t *near;  /* [own->edges] */
+    uint8_t *near;  /* [own->edges] near the other core, and [other->edges] near the own one: */
+    const uint8_t *other_near;
 } direction;
 
 static int append_index(fl_quick_list *l, int32_t k)
@@ -84,6 +85,12 @@ static double least_distance(const direction *d, const int32_t *end, double t, d
     return most;
 }
 
+static void find_near_edges(const direction *d)
+{
+    for (int32_t e = 0; e < d->own->edges; e++)
+        d->near[e] = least_distance(d, d->own->edge[e].end, 0.0, 1.0) <= d->R + d->margin;
+}
+
 static int append_points(fl_quick_list *l, direction *d, int section)
 {
     const double near = d->R + d->margin;
@@ -95,7 +102,6 @@ static int append_points(fl_quick_list *l, direction *d, int section)
     l->first[section + 1] = l->n;
     for (int32_t e = 0; e < d->own->edges; e++) {
         const fl_quick_edge *edge = &d->own->edge[e];
-        d->near[e] = least_distance(d, edge->end, 0.0, 1.0) <= near;
         if (!d->near[e] || !(edge->weight > 0.0)) continue;
         const int32_t n = fl_quick_segments(edge, d->rho);
         for (int32_t k = 0; k < n; k++)
@@ -186,13 +192,12 @@ static int may_be_by(const direction *d, const fl_quick_list *l, int section, in
 
 static int append_direction(fl_quick_list *l, direction *d, int section)
 {
-    measure_heights(d);
     if (append_points(l, d, section) || append_faces(l, d, section + FL_QUICK_PAIR)) return -1;
     for (int32_t f = 0; f < d->other->faces; f++)
         if (may_be_over(d, l, section, f) && append_index(l, f)) return -1;
     l->first[section + FL_QUICK_EDGE] = l->n;
     for (int32_t f = 0; f < d->other->edges; f++)
-        if (may_be_by(d, l, section, f) && append_index(l, f)) return -1;
+        if (d->other_near[f] && may_be_by(d, l, section, f) && append_index(l, f)) return -1;
     l->first[section + FL_QUICK_KINDS] = l->n;
     return 0;
 }
@@ -241,24 +246,22 @@ int fl_quick_list_build(fl_quick_list *l, const fl_quick_shape *a, const fl_quic
     const fl_mat3 N = {{{M.m[0][0], M.m[1][0], M.m[2][0]},
                         {M.m[0][1], M.m[1][1], M.m[2][1]},
                         {M.m[0][2], M.m[1][2], M.m[2][2]}}};
-    const int32_t vertices = a->vertices > b->vertices ? a->vertices : b->vertices,
-                  faces = a->faces > b->faces ? a->faces : b->faces;
+    const int64_t room_a = (int64_t)a->vertices * (b->faces + 3),
+                  room_b = (int64_t)b->vertices * (a->faces + 3);
     fl_err lost = {0};
     l->max_shift2 = 0.0; /* invalid until complete */
     l->n = 0, l->separated = 0;
-    double *const block =
-        fl_alloc((int64_t)vertices * (faces + 3) + (a->edges + b->edges) / 8 + 2, sizeof *block, &lost);
+    double *const block = fl_alloc(room_a + room_b + (a->edges + b->edges) / 8 + 1, sizeof *block, &lost);
     if (!block) return -1;
+    uint8_t *const near = (uint8_t *)(void *)(block + room_a + room_b);
     direction d[2] = {{a, b, M, o, fl_quick_feature_radius(ra, rb), R, wide, (fl_vec3 *)(void *)block,
-                       block + 3 * vertices, (uint8_t *)(void *)(block + (int64_t)vertices * (faces + 3))},
+                       block + 3 * a->vertices, near, near + a->edges},
                       {b, a, N, v3_neg(m3_mul(N, o)), fl_quick_feature_radius(rb, ra), R, wide,
-                       (fl_vec3 *)(void *)block, block + 3 * vertices, NULL}};
-    d[1].near = d[0].near + a->edges;
-    int failed = append_direction(l, &d[0], 0) || append_direction(l, &d[1], FL_QUICK_KINDS);
-    if (!failed) {
-        for (int32_t v = 0; v < a->vertices; v++) d[0].at[v] = v3_add(m3_mul(M, a->vertex[v]), o);
-        failed = append_crossings(l, &d[0], d[1].near);
-    }
+                       (fl_vec3 *)(void *)(block + room_a), block + room_a + 3 * b->vertices, near + a->edges,
+                       near}};
+    for (int k = 0; k < 2; k++) measure_heights(&d[k]), find_near_edges(&d[k]);
+    const int failed = append_direction(l, &d[0], 0) || append_direction(l, &d[1], FL_QUICK_KINDS) ||
+                       append_crossings(l, &d[0], d[1].near);
     l->first[FL_QUICK_SECTIONS] = l->n;
     free(block);
     if (failed) return -1;

@@ -165,9 +165,9 @@ FL_SIMD_VERSIONS static void add_segment(const fl_quick_way *d, const nearest_fe
         const fl_simd_mask some = z0 > 0.0;
         if (!fl_simd_any(&some)) continue;
         const fl_simd z = FL_SIMD_MIN(FL_SIMD_MAX(z0, zero), one), rest = 1.0 - z,
-                      less = rest * rest * (1.0 + 2.0 * z);
+                      less = rest * rest * rest * (1.0 + z * (3.0 + 6.0 * z));
         const fl_simd_mask known = (less > 0.0) & some;
-        const fl_simd slope = FL_SIMD_MASKED(known, 6.0 * z * rest * (1.0 / (1.0 - FL_QUICK_FACE_ONLY)) /
+        const fl_simd slope = FL_SIMD_MASKED(known, FL_QUICK_SLOPE(z) * (1.0 / (1.0 - FL_QUICK_FACE_ONLY)) /
                                                         FL_SIMD_SELECT(known, less, one));
         const fl_vec3 n = of->s->face[of->face[k]].n;
         none *= less;
@@ -178,13 +178,13 @@ FL_SIMD_VERSIONS static void add_segment(const fl_quick_way *d, const nearest_fe
     /* share of the nearest edge that is parallel, (1 - g) t */
     const fl_simd C = along.x * q.b[0] + along.y * q.b[1] + along.z * q.b[2],
                   past = (1.0 - FL_QUICK_ALONG * FL_QUICK_ALONG - C * C) * (1.0 / FL_QUICK_PARALLEL);
-    const fl_simd z = FL_SIMD_MIN(FL_SIMD_MAX(past, zero), one), parallel = 1.0 - z * z * (3.0 - 2.0 * z),
-                  bends = 12.0 * z * (1.0 - z) * (1.0 / FL_QUICK_PARALLEL) * C; /* d parallel/dC */
+    const fl_simd z = FL_SIMD_MIN(FL_SIMD_MAX(past, zero), one), parallel = 1.0 - FL_QUICK_STEP(z),
+                  bends = FL_QUICK_SLOPE(z) * (2.0 / FL_QUICK_PARALLEL) * C; /* d parallel/dC */
     const fl_simd end = q.length - q.t, half = 0.5 * q.length;
     const fl_simd_mask first = q.t < end;
     const fl_simd width = FL_SIMD_SELECT(beside, FL_SIMD_MIN(FL_QUICK_TAPER * d->R + zero, half), one),
-                  v = FL_SIMD_MIN(FL_SIMD_SELECT(first, q.t, end) / width, one), t = v * v * (3.0 - 2.0 * v),
-                  dt = 6.0 * v * (1.0 - v) / FL_SIMD_SELECT(first, width, -width);
+                  v = FL_SIMD_MIN(FL_SIMD_SELECT(first, q.t, end) / width, one), t = FL_QUICK_STEP(v),
+                  dt = FL_QUICK_SLOPE(v) / FL_SIMD_SELECT(first, width, -width);
     const fl_simd o = 1.0 - none * (1.0 - parallel * t);
     FL_QUICK_SET_POINT(&row, all * o, 4.5 * k3 * o, 15.75 * k3 * per_s * o, q.n, p);
     /* do = (1 - parallel t) none sum slope (n_k - y n).u/d + none (t bends dC + parallel dt b.u) */

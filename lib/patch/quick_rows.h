@@ -11,8 +11,9 @@
 #include "patch/force_sum.h"
 #include "patch/quick_list.h"
 
-#define FL_QUICK_PARALLEL 0.01  /* sin^2 of the angle of edges from which on they cross */
-#define FL_QUICK_TAPER 0.3      /* over R: from the end of an edge to where a crossing counts whole */
+#define FL_QUICK_PARALLEL 0.01 /* sin^2 of the angle of edges from which on they cross */
+#define FL_QUICK_TAPER                                                                                       \
+    0.3 /* over R, across the other edge: from the end of an edge to where a crossing counts whole */
 #define FL_QUICK_FLAT 0.004     /* sine of the angle of two faces up to which they bear their edges */
 #define FL_QUICK_TILTED 0.025   /* from which on edges bear beside them */
 #define FL_QUICK_NEARNESS 0.6   /* over R, of D: see v */
@@ -103,12 +104,15 @@ static inline void fl_quick_add_wrench(fl_quick_total *to, double s, fl_wrench g
     a[FL_QUICK_M] += s * g.m.x, a[FL_QUICK_M + 1] += s * g.m.y, a[FL_QUICK_M + 2] += s * g.m.z;
 }
 
-/* h(x) = x^2 (3 - 2x) between 0 and 1, and its derivative. */
+/* h(x) = x^3 (10 - 15x + 6x^2), for x between 0 and 1, and its derivative. */
+#define FL_QUICK_STEP(x) ((x) * (x) * (x) * (10.0 + (x) * (6.0 * (x)-15.0)))
+#define FL_QUICK_SLOPE(x) (30.0 * ((x) * (1.0 - (x))) * ((x) * (1.0 - (x))))
+
 static inline double fl_quick_step(double x, double *slope)
 {
     const double t = x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
-    *slope = 6.0 * t * (1.0 - t);
-    return t * t * (3.0 - 2.0 * t);
+    *slope = FL_QUICK_SLOPE(t);
+    return FL_QUICK_STEP(t);
 }
 
 /* How much of an edge the face pair bears, v of quick_law.h; 0 if none. */

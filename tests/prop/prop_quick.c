@@ -6,8 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/pi.h"
 #include "geom/quat.h"
 #include "narrow/gjk.h"
+#include "patch/patch_law.h"
 #include "patch/quick_law.h"
 #include "support/shapes.h"
 
@@ -205,11 +207,79 @@ static void a_and_b_may_be_exchanged(void **state)
     fl_quick_list_free(&t.l), fl_quick_scratch_free(&t.w);
 }
 
+/* A box with its half sides, of the radius rho. */
+static void make_box(body *b, fl_vec3 half, double rho)
+{
+    fl_err err = {0};
+    assert_int_equal(fl_poly_box(&b->p, half, &err), 0);
+    assert_int_equal(fl_quick_shape_make(&b->s, &b->p, rho, &err), 0);
+}
+
+static void free_body(body *b)
+{
+    fl_quick_shape_free(&b->s);
+    fl_poly_free(&b->p);
+}
+
+/* At 0.1 rad g is 1 - 4e-5. */
+#define ALMOST_PARALLEL 1e-4
+
+/* Two edges that cross at any angle are crossed cylinders, and a corner on a face is a sphere on a plane:
+ * W = (8/15) E* sqrt(r) s^(5/2) of Hertz, with r = rho/sin of the angle for cylinders of radius rho.  So
+ * U = L (2 pi/5) r s^5.  That leaves out the mild dependence of the elliptic
+ * contact on the angle. */
+static void edges_that_cross_and_corners_are_hertz(void **state)
+{
+    const double rho = 0.05, s = 0.002, R = 2.0 * rho,
+                 one = FL_PATCH_ROUND_FACTOR * 0.4 * PI * rho * pow(s, 5.0);
+    tool t = {0};
+    body a = {.s = {0}}, b = {.s = {0}};
+    fl_quick_sums sums;
+    (void)state;
+    make_box(&a, v3(0.5, 0.1, 0.1), rho), make_box(&b, v3(0.5, 0.1, 0.1), rho);
+    for (int k = 0; k <= 8; k++) {
+        const double angle = 0.1 + 0.18 * k, high = 2.0 * 0.1 * sqrt(2.0);
+        const fl_quat edge = q_of_vector(v3(PI / 4, 0, 0)),
+                      q = q_mul(q_conj(edge), q_mul(q_of_vector(v3(0, 0, angle)), edge));
+        evaluate(&t, &a, &b, q, q_rotate(q_conj(edge), v3(0.02, 0, high + R - s)), &sums);
+        assert_near(sums.u, one / sin(angle), k ? 1e-9 : ALMOST_PARALLEL);
+    }
+    free_body(&a), free_body(&b);
+    make_box(&a, v3(0.4, 0.4, 0.4), rho), make_box(&b, v3(3, 3, 0.5), rho);
+    const fl_vec3 down = v3_unit(v3(1, 1, 1)), axis = v3_cross(down, v3(0, 0, -1));
+    const fl_quat q = q_of_vector(v3_scale(acos(-down.z) / v3_norm(axis), axis));
+    evaluate(&t, &a, &b, q, v3(0.1, 0.2, 0.5 + 0.4 * sqrt(3.0) + R - s), &sums);
+    assert_near(sums.u, one, 1e-9);
+    free_body(&a), free_body(&b);
+    free(t.va), free(t.na);
+    fl_quick_list_free(&t.l), fl_quick_scratch_free(&t.w);
+}
+
+/* A face on a larger one is the flat punch of its area, less the inset of the larger one's terms. */
+static void a_face_is_the_flat_punch(void **state)
+{
+    const double rho = 0.05, s = 0.001, R = 2.0 * rho, side = 2.0, in = side - 2.0 * FL_QUICK_INSET * rho;
+    tool t = {0};
+    body a = {.s = {0}}, b = {.s = {0}};
+    fl_quick_sums sums;
+    (void)state;
+    make_box(&a, v3(1, 1, 0.2), rho), make_box(&b, v3(3, 3, 0.5), rho);
+    evaluate(&t, &a, &b, q_one(), v3(0.1, 0.2, 0.7 + R - s), &sums);
+    const double corners = 4.0 * FL_PATCH_ROUND_FACTOR * 0.4 * PI * rho * pow(s, 5.0),
+                 area = 0.5 * (side * side + in * in) * pow(s, 4.0);
+    assert_near(sums.u, area + corners, 1e-9);
+    assert_near(sums.pressure, (4.0 * area + 5.0 * corners) / s, 1e-9);
+    free_body(&a), free_body(&b);
+    free(t.va), free(t.na);
+    fl_quick_list_free(&t.l), fl_quick_scratch_free(&t.w);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(force_is_the_gradient),
-                                       cmocka_unit_test(force_is_the_gradient_of_overlapping_cores),
-                                       cmocka_unit_test(a_and_b_may_be_exchanged)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(force_is_the_gradient), cmocka_unit_test(force_is_the_gradient_of_overlapping_cores),
+        cmocka_unit_test(a_and_b_may_be_exchanged), cmocka_unit_test(edges_that_cross_and_corners_are_hertz),
+        cmocka_unit_test(a_face_is_the_flat_punch)};
     for (int k = 0; k < SHAPES; k++) make_body(&bodies[k], k);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     for (int k = 0; k < SHAPES; k++) fl_quick_shape_free(&bodies[k].s), fl_poly_free(&bodies[k].p);

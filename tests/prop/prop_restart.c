@@ -72,6 +72,7 @@ static void a_run_resumes_at_any_step(void **state)
         const char *law;
     } IT[] = {{scene_of_everything, "patch"},    {scene_of_everything, "core"},
               {scene_of_everything, "manual"},   {scene_of_everything, "manual-si"},
+              {scene_of_everything, "quick"},    {scene_of_bonds, "quick"},
               {scene_of_periodic_cell, "patch"}, {scene_of_seas, "patch"},
               {scene_of_spheres, "patch"},       {scene_of_inflow, "patch"},
               {scene_of_bonds, "patch"},         {scene_of_sheet, "patch"},

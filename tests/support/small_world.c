@@ -44,15 +44,15 @@ void lab_start(lab *l)
     if (getenv("FLOE_LAW")) lab_set(l, "contact.law=patch");
 }
 
-/* FLOE_LAW of the environment stands in for the law patch: what patch is held to runs for another law, without
- * surrogates where it has none. */
+/* FLOE_LAW of the environment stands in for the law patch: what patch is held to runs for another law, and
+ * without surrogates. */
 void lab_set(lab *l, const char *assignment)
 {
     static const char SURROGATE[] = "contact.surrogate=";
     const char *law = getenv("FLOE_LAW");
     char other[64];
     fl_err err = {0};
-    if (law && strncmp(assignment, SURROGATE, strlen(SURROGATE)) == 0) return;
+    if (law && strcmp(law, "patch") != 0 && strncmp(assignment, SURROGATE, strlen(SURROGATE)) == 0) return;
     if (law && strcmp(assignment, "contact.law=patch") == 0) {
         snprintf(other, sizeof other, "contact.law=%s", law);
         assignment = other;

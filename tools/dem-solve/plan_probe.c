@@ -66,7 +66,10 @@ static void print_bodies(const fl_world *w, FILE *f, const struct bodies *n)
             kind[FL_PIECE_SOLID], kind[FL_PIECE_CONE], kind[FL_PIECE_MESH], w->walls);
     if (w->inflow.feed) fprintf(f, "capacity       %d more floes\n", w->n - n->present);
     fprintf(f, "near pairs     %d, next search after %.3g m\n", w->n_pair + fl_contact_list_size(w), w->skin);
-    fprintf(f, "law            %s between like bodies\n", w->n ? fl_pair_law_of(w, 0, 0)->law->name : "none");
+    fprintf(f, "law            %s between like bodies%s\n",
+            w->n ? fl_pair_law_of(w, 0, 0)->law->name : "none",
+            w->quick_shape ? "; patch stands in for quick on structures and walls, for capsules and spheres"
+                           : "");
 }
 
 static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, char water[][FL_FORCE_TEXT])
