@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Packings: gradings against their closed forms, jammed densities against published and independently computed
- * ones, the law of walls, porosity asked and got, isotropy, regions with corners, shapes.
+/* Packings: gradings against their closed forms, jammed densities against published and independently
+ * computed ones, the law of walls, porosity asked and got, isotropy, regions with corners, shapes.
  *
- * Sources: jammed density and contacts of discs and spheres: O'Hern et al., Phys. Rev. E 68 (2003) 011306; the
- * same, and the constants of walls, by another code. */
+ * Sources: jammed density and contacts of discs and spheres: O'Hern et al., Phys. Rev. E 68 (2003) 011306;
+ * the same, and the constants of walls, by another code. */
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A slope of discs packed behind three helper walls, trimmed, at rest, and released (P8); without trimming it bursts
- * (P8b).  The case of Yellow River 2015(11), 110-113, with numbers of an independent computation.
+/* A slope of discs packed behind three helper walls, trimmed, at rest, and released (P8); without trimming
+ * it bursts (P8b).  The case of Yellow River 2015(11), 110-113, with numbers of an independent computation.
  *
  * Quick: discs three times as large, released for a short time. */
 #include <math.h>

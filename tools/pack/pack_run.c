@@ -295,8 +295,9 @@ static int run_all(const struct options *o, struct result *r, fl_err *err)
                                      o->checkpoint ? ", the checkpoint is written" : "")
                            : 0;
     }
-    if (o->gravity > 0.0 && come_to_rest(o, r, err)) return -1;
+    if (o->gravity > 0.0 && !stop_signal && come_to_rest(o, r, err)) return -1;
     end_progress(o);
+    if (stop_signal) return fl_fail(err, FL_NO, "stopped by a signal after growth");
     return write_all(o, r, err) || answer(r, err) ? -1 : 0;
 }
 
