@@ -163,6 +163,9 @@ static int grow_moving(const struct options *o, struct result *r, fl_err *err)
 {
     const fl_pack_motion m = motion_of(o);
     struct moving w = {o, r, "growth"};
+    /* bodies that were thrown onto each other would burst apart */
+    if (o->throwing == FL_THROW_POISSON && fl_overlaps_relax(&r->overlaps, 1e-3, 1e-4, 20000, err) < 0)
+        return -1;
     if (fl_pack_grow_moving(&r->packing, &r->region, &m, &r->overlaps, note_motion, &w, &r->moved, err))
         return -1;
     if (r->moved.jammed && o->friction > 0.0) {
