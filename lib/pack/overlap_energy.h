@@ -96,7 +96,7 @@ int fl_overlaps_evaluate(fl_overlaps *o, fl_err *err);
 
 enum fl_relaxed {
     FL_RELAXED_FREE,   /* no overlap above `free` of the smaller body */
-    FL_RELAXED_JAMMED, /* forces balance, or of bodies with edges the energy no longer falls; overlaps remain */
+    FL_RELAXED_JAMMED, /* forces balance (of bodies with edges the energy stalls), overlaps remain */
     FL_RELAXED_SLOW    /* neither, after the given steps */
 };
 

@@ -18,7 +18,8 @@
 enum { FACETS = 180, CHECK = 100, QUIET = 10, STAGE_STEPS = 25, PAUSE = 1000 };
 
 /* See pack_world.h. */
-static const double RATE = 1e-4, STAGE = 5e-3, DAMPING = 0.01, JAM = 5e-3, HELD = 0.5, PLATE = 0.2;
+static const double RATE = 1e-4, STAGE = 5e-3, DAMPING = 0.01, JAM = 5e-3, HELD = 0.5, PLATE = 0.2,
+                    DRAG = 5.0;
 
 typedef struct {
     fl_packing *p;
@@ -195,7 +196,8 @@ static int make_motion(motion *q, fl_packing *p, const fl_pack_region *r, const 
     int32_t body;
     *q = (motion){.p = p, .region = r, .m = m};
     if (grows && !p->q) p->s = 1.0;
-    if (make_scene(q, grows, err) || fl_packing_field(p, NULL, p->dim == 2 ? "plane" : NULL, &q->field, err) ||
+    if (make_scene(q, grows, err) ||
+        fl_packing_field(p, NULL, p->dim == 2 ? "plane" : NULL, &q->field, err) ||
         fl_scene_check(&q->scene, err))
         goto bad;
     if (fl_world_make(&q->w, &q->scene, &q->field, q->surface.n ? &q->surface : NULL, err)) goto bad;
@@ -241,9 +243,10 @@ static double mean_speed(const motion *q)
     return sqrt(sum / q->w.n);
 }
 
-static void damp_velocities(motion *q)
+/* c: velocity lost in a step. */
+static void damp_velocities(motion *q, double c)
 {
-    const fl_relaxation viscous = fl_relaxation_start(FL_RELAXATION_VISCOUS, DAMPING);
+    const fl_relaxation viscous = fl_relaxation_start(FL_RELAXATION_VISCOUS, c);
     const double keep = fl_relaxation_c1(&viscous);
     for (int32_t i = 0; i < q->w.n; i++) {
         q->w.b.v[i] = v3_scale(keep, q->w.b.v[i]);
@@ -277,7 +280,7 @@ static int run_stage(motion *q, int64_t steps, int grows, fl_pack_moved *out, fl
     for (int64_t k = 0; k < steps; k++) {
         if (grows && q->p->s < 1.0) set_scale(q, fmin(1.0, q->p->s * (1.0 + RATE)));
         if (fl_step(&q->w, err)) return -1;
-        damp_velocities(q);
+        damp_velocities(q, DAMPING);
         out->steps++;
         out->time += q->w.dt;
     }
@@ -333,6 +336,7 @@ int fl_pack_settle(fl_packing *p, const fl_pack_region *r, const fl_pack_motion 
     while (rc == 0 && quiet < QUIET && out->time < longest) {
         for (int k = 0; rc == 0 && k < CHECK; k++) {
             rc = fl_step(&q.w, err);
+            damp_velocities(&q, DRAG * sqrt(m->gravity / d) * q.w.dt);
             out->steps++;
             out->time += q.w.dt;
         }

@@ -13,9 +13,9 @@
  * + 1)/2 contacts each and the mean overlap passes JAM of the mean distance, also after a pause of growth;
  * radii then shrink by that.
  *
- * Rest.  Steps under gravity until the root mean square speed is below `rest` of sqrt(g d), d the mean size,
- * ten times in a row 100 steps apart.
- * Limits: a region sphere:... has no walls here; energies are not booked. */
+ * Rest.  Steps under gravity with a drag of DRAG sqrt(g/d) m v, near the critical damping of a heap, until
+ * the root mean square speed is below `rest` of sqrt(g d), d the mean size, ten times in a row 100 steps
+ * apart. Limits: a region sphere:... has no walls here; energies are not booked. */
 #ifndef FL_PACK_PACK_WORLD_H
 #define FL_PACK_PACK_WORLD_H
 #include "pack/overlap_energy.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Packings of random regions and gradings: nobody outside, no overlap below jamming, the solid part asked, the same
- * bits for any number of threads and after a state was written and read. */
+/* Packings of random regions and gradings: nobody outside, no overlap below jamming, the solid part asked,
+ * the same bits for any number of threads and after a state was written and read. */
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Growth and its parts on configurations with a known answer: the pressure of a row of discs, its jamming scale, the
- * gradient of the energy, FIRE on a quadratic valley. */
+/* Growth and its parts on configurations with a known answer: the pressure of a row of discs, its jamming
+ * scale, the gradient of the energy, FIRE on a quadratic valley. */
 #include <math.h>
 #include <stdlib.h>
 #include "support/near.h"
@@ -85,7 +85,8 @@ static void a_row_of_discs_shares_its_overlap(void **state)
     free_sample(&s);
 }
 
-/* Force and torque are minus the gradient of the energy, by central differences, of spheres and of capsules. */
+/* Force and torque are minus the gradient of the energy, by central differences, of spheres and of
+ * capsules. */
 static void forces_are_the_gradient_of_the_energy(void **state)
 {
     (void)state;

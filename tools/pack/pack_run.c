@@ -163,6 +163,9 @@ static int grow_moving(const struct options *o, struct result *r, fl_err *err)
 {
     const fl_pack_motion m = motion_of(o);
     struct moving w = {o, r, "growth"};
+    /* bodies that were thrown onto each other would burst apart */
+    if (o->throwing == FL_THROW_POISSON && fl_overlaps_relax(&r->overlaps, 1e-3, 1e-4, 20000, err) < 0)
+        return -1;
     if (fl_pack_grow_moving(&r->packing, &r->region, &m, &r->overlaps, note_motion, &w, &r->moved, err))
         return -1;
     if (r->moved.jammed && o->friction > 0.0) {
@@ -295,8 +298,9 @@ static int run_all(const struct options *o, struct result *r, fl_err *err)
                                      o->checkpoint ? ", the checkpoint is written" : "")
                            : 0;
     }
-    if (o->gravity > 0.0 && come_to_rest(o, r, err)) return -1;
+    if (o->gravity > 0.0 && !stop_signal && come_to_rest(o, r, err)) return -1;
     end_progress(o);
+    if (stop_signal) return fl_fail(err, FL_NO, "stopped by a signal after growth");
     return write_all(o, r, err) || answer(r, err) ? -1 : 0;
 }
 
