@@ -6,6 +6,7 @@
 #include <string.h>
 #include "base/number_text.h"
 #include "base/option.h"
+#include "base/output_guard.h"
 #include "out/packed_frames.h"
 
 static const char USAGE[] =
@@ -202,8 +203,21 @@ static const fl_option OPTION[] = {
      .call = set_bounds},
     {.word = "info", .help = "print what the file holds", .at = AT(info)},
     FL_COMMON_OPTIONS(struct options, "write a picture at --at: .png, .bmp or .jpg", "compress --text",
-                      "threads that draw (all)", "no progress, no warnings", "say what takes how long"),
+                      "threads that draw (all)", "no progress, no warnings",
+                      "say the keys and clicks of the window"),
 };
+
+/* No output over an input, or over another output. */
+static int check_files(const struct options *o, fl_err *err)
+{
+    const fl_named_path out[] = {{"--output", o->out},    {"--movie", o->movie},
+                                 {"--html", o->html},     {"--text", o->text},
+                                 {"--packed", o->packed}, {"--save-look", o->save_look}};
+    const fl_named_path in[] = {{NULL, o->in},    {NULL, o->ice},   {NULL, o->structure},
+                                {NULL, o->table}, {NULL, o->loads}, {NULL, o->contacts},
+                                {NULL, o->bonds}, {NULL, o->scene}, {NULL, o->panels}};
+    return fl_output_guard_check(out, sizeof out / sizeof out[0], in, sizeof in / sizeof in[0], err);
+}
 
 static const fl_option_table TABLE = {"ice-view", USAGE, OPTION, set_input, 1};
 
