@@ -249,6 +249,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->look.colour.by == FL_BY_GROUP && !o->ice)
         return fl_fail(err, FL_USAGE, "--by group needs --ice FILE");
     if (o->from > o->to) return fl_fail(err, FL_USAGE, "--from %g is after --to %g", o->from, o->to);
+    if (check_files(o, err)) return -1;
     o->window =
         !o->out && !o->movie && !o->html && !o->vtk && !o->text && !o->packed && !o->info && !o->save_look;
     return 0;
