@@ -290,8 +290,12 @@ static int add_piece(fl_frame_file *f, const char *path, int unfinished, fl_err 
     *p = (struct piece){.in = fl_seekable_open(path, err), .unfinished = unfinished};
     if (!p->in) return -1;
     f->pieces++;
+    const int packed_before = f->pieces > 1 && f->text.packed;
     begin_piece(f, fl_seekable_name(p->in));
     const int within = scan_piece(f, p->in, err);
+    if (within >= 0 && f->pieces > 1 && f->text.packed != packed_before)
+        return fl_fail(err, FL_INPUT, "%s: the files of a run are of two forms, text and packed",
+                       f->text.name);
     return within < 0 || end_piece(f, p, within, err) ? -1 : 0;
 }
 

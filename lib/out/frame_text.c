@@ -224,7 +224,8 @@ static int on_frame(fl_frame_text *s, struct cursor *c, int64_t offset)
 
 static int on_packed(fl_frame_text *s, struct cursor *c)
 {
-    if (s->d->frames) return fail_at(c, "the line \"packed\" stands after frames");
+    if (s->d->frames && s->d->frame[s->d->frames - 1].piece == s->piece)
+        return fail_at(c, "the line \"packed\" stands after frames");
     if (read_real(c, "the bound of places", 1e6, &s->bound_x) ||
         read_real(c, "the bound of rotations", 0.1, &s->bound_q) ||
         read_whole(c, "the number of frames between keys", 1, 1 << 20, &s->key_every) || read_end(c))

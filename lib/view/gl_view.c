@@ -16,6 +16,8 @@ enum { HAS_SHADOW = 1, HAS_OCCLUSION = 2, HAS_WAVES = 4 };
 enum { UNIT_SHADE = 2, UNIT_GRAIN = 3, UNIT_WAVES = 4, UNIT_OCCLUSION = 1 };
 /* Golden angle [rad]. */
 #define SPIRAL_TURN 2.39996f
+/* Ambient occlusion that reaches less far than this only darkens a picture evenly, and is left out [pixels]. */
+#define OCCLUSION_PIXELS 1.5
 /* Radius of a scene whose noise and haze have the unit 1 m. */
 #define UNIT_RADIUS 35.0
 
@@ -485,10 +487,11 @@ int fl_gl_view_draw(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, con
 {
     fl_camera c = *camera;
     const int ice = l->ice.opacity > 0.0, structure = l->structure.opacity > 0.0;
-    if (need_targets(g, q, err)) return -1;
     c.at = v3_sub(c.at, v->origin);
     set_light_and_cut(g, v, l);
     g->eye = fl_camera_eye(&c, q.w, q.h, v->centre, v->radius);
+    if (g->reach < OCCLUSION_PIXELS * g->eye.pixel * (c.parallel ? 1.0 : c.distance)) q.occlusion = 0;
+    if (need_targets(g, q, err)) return -1;
     const int which = (q.shadow ? HAS_SHADOW : 0) | (q.occlusion ? HAS_OCCLUSION : 0) | (sea ? HAS_WAVES : 0);
     if (fl_gl_bodies_load(g->bodies, v, &g->eye, err) || need_variant(g, which, err)) return -1;
     if (sea) send_waves(g, sea);

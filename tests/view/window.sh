@@ -38,6 +38,7 @@ for _ in $(seq 50); do [ -s display ] && break; sleep 0.1; done
 [ -s display ] || skip "Xvfb does not start"
 DISPLAY=:$(cat display)
 export DISPLAY
+: >log
 ice-view -v --size 640x400 --by speed --set colour.from=0 --set colour.to=2.5 frames.dat 2>log &
 viewer=$!
 for _ in $(seq 200); do

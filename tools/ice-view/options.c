@@ -6,6 +6,7 @@
 #include <string.h>
 #include "base/number_text.h"
 #include "base/option.h"
+#include "base/output_guard.h"
 #include "out/packed_frames.h"
 
 static const char USAGE[] =
@@ -202,8 +203,21 @@ static const fl_option OPTION[] = {
      .call = set_bounds},
     {.word = "info", .help = "print what the file holds", .at = AT(info)},
     FL_COMMON_OPTIONS(struct options, "write a picture at --at: .png, .bmp or .jpg", "compress --text",
-                      "threads that draw (all)", "no progress, no warnings", "say what takes how long"),
+                      "threads that draw (all)", "no progress, no warnings",
+                      "say the keys and clicks of the window"),
 };
+
+/* No output over an input, or over another output. */
+static int check_files(const struct options *o, fl_err *err)
+{
+    const fl_named_path out[] = {{"--output", o->out},    {"--movie", o->movie},
+                                 {"--html", o->html},     {"--text", o->text},
+                                 {"--packed", o->packed}, {"--save-look", o->save_look}};
+    const fl_named_path in[] = {{NULL, o->in},    {NULL, o->ice},   {NULL, o->structure},
+                                {NULL, o->table}, {NULL, o->loads}, {NULL, o->contacts},
+                                {NULL, o->bonds}, {NULL, o->scene}, {NULL, o->panels}};
+    return fl_output_guard_check(out, sizeof out / sizeof out[0], in, sizeof in / sizeof in[0], err);
+}
 
 static const fl_option_table TABLE = {"ice-view", USAGE, OPTION, set_input, 1};
 
@@ -235,6 +249,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->look.colour.by == FL_BY_GROUP && !o->ice)
         return fl_fail(err, FL_USAGE, "--by group needs --ice FILE");
     if (o->from > o->to) return fl_fail(err, FL_USAGE, "--from %g is after --to %g", o->from, o->to);
+    if (check_files(o, err)) return -1;
     o->window =
         !o->out && !o->movie && !o->html && !o->vtk && !o->text && !o->packed && !o->info && !o->save_look;
     return 0;

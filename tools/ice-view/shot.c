@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "base/array.h"
 #include "base/stream.h"
 #include "view/edge_smoothing.h"
 #include "view/film.h"
@@ -43,22 +44,6 @@ int shot_write(const char *path, const fl_picture *p, fl_err *err)
     return fl_out_close(&out, err);
 }
 
-/* Edges of a picture of one sample a pixel. */
-static int smooth_picture(fl_picture *p, fl_err *err)
-{
-    fl_picture to = {0};
-    unsigned char *luminance = malloc((size_t)p->w * (size_t)p->h);
-    if (!luminance || fl_picture_make(&to, p->w, p->h, err)) {
-        free(luminance);
-        return fl_fail(err, FL_SYSTEM, "out of memory for a picture");
-    }
-    fl_smooth_edges(p->px, p->w, p->h, luminance, to.px);
-    free(luminance);
-    fl_picture_free(p);
-    *p = to;
-    return 0;
-}
-
 static const fl_sea_surface *sea_of(const struct subject *s) { return s->sea.height ? &s->sea : NULL; }
 
 /* The picture under way: what is drawn, without the strip of the load curve, and the whole. */
@@ -66,6 +51,7 @@ struct canvas {
     fl_gl_view *gl;
     fl_gl_quality q;
     fl_picture seen, whole;
+    unsigned char *luminance; /* [w h of seen] */
 };
 
 static int canvas_open(struct canvas *k, const struct subject *s, const fl_look *l, int moving, fl_err *err)
@@ -74,8 +60,10 @@ static int canvas_open(struct canvas *k, const struct subject *s, const fl_look 
     k->q = fl_gl_view_quality(l, w, seen, moving);
     if (fl_gl_context_open(err)) return -1;
     k->gl = fl_gl_view_open(err);
-    return !k->gl || fl_picture_make(&k->seen, w, seen, err) || fl_picture_make(&k->whole, w, h, err) ? -1
-                                                                                                      : 0;
+    if (k->gl) k->luminance = fl_alloc((int64_t)w * seen, 1, err);
+    return !k->luminance || fl_picture_make(&k->seen, w, seen, err) || fl_picture_make(&k->whole, w, h, err)
+               ? -1
+               : 0;
 }
 
 static void canvas_close(struct canvas *k)
@@ -83,6 +71,7 @@ static void canvas_close(struct canvas *k)
     fl_gl_view_close(k->gl);
     fl_picture_free(&k->seen);
     fl_picture_free(&k->whole);
+    free(k->luminance);
     fl_gl_context_close();
 }
 
@@ -94,12 +83,12 @@ static int canvas_draw(struct canvas *k, const struct subject *s, const fl_look 
 }
 
 /* Edges, bar, time and curve on what has been read. */
-static int canvas_finish(struct canvas *k, const struct subject *s, const fl_look *l, double t, fl_err *err)
+static void canvas_finish(struct canvas *k, const struct subject *s, const fl_look *l, double t)
 {
-    if (k->q.samples == 1 && l->picture.smooth && smooth_picture(&k->seen, err)) return -1;
-    memcpy(k->whole.px, k->seen.px, 4 * (size_t)k->seen.w * (size_t)k->seen.h);
+    if (k->q.samples == 1 && l->picture.smooth)
+        fl_smooth_edges(k->seen.px, k->seen.w, k->seen.h, k->luminance, k->whole.px);
+    else memcpy(k->whole.px, k->seen.px, 4 * (size_t)k->seen.w * (size_t)k->seen.h);
     subject_legend(s, l, t, &k->whole);
-    return 0;
 }
 
 int shot_picture(struct subject *s, const struct options *o, fl_err *err)
@@ -114,8 +103,10 @@ int shot_picture(struct subject *s, const struct options *o, fl_err *err)
                        fl_playback_start(&s->play), fl_playback_end(&s->play));
     if (subject_range(s, l, err) || subject_at(s, l, t, err) || subject_fit_now(s, err)) return -1;
     if (canvas_open(&k, s, l, 0, err) == 0 && canvas_draw(&k, s, l, 0.0, err) == 0 &&
-        fl_gl_view_read(k.gl, &k.seen, err) == 0 && canvas_finish(&k, s, l, subject_time(s), err) == 0)
+        fl_gl_view_read(k.gl, &k.seen, err) == 0) {
+        canvas_finish(&k, s, l, subject_time(s));
         rc = shot_write(o->out, &k.whole, err);
+    }
     canvas_close(&k);
     return rc;
 }
@@ -163,7 +154,8 @@ int shot_movie(struct subject *s, const struct options *o, fl_err *err)
         }
         if (i == 0) continue;
         fl_gl_view_end_read(k.gl, (int)((i - 1) & 1), &k.seen);
-        if (canvas_finish(&k, s, l, t[(i - 1) & 1], err) || fl_film_add(&film, &k.whole, err)) goto done;
+        canvas_finish(&k, s, l, t[(i - 1) & 1]);
+        if (fl_film_add(&film, &k.whole, err)) goto done;
         show_progress(o, i, n);
     }
     if (stopped) fl_fail(err, FL_SYSTEM, "%s: stopped by a signal; nothing is left of the film", o->movie);

@@ -117,7 +117,8 @@ static int read_groups(struct subject *s, const char *path, fl_err *err)
     fl_ice_field ice = {0};
     if (fl_ice_field_read(&ice, path, err)) return -1;
     s->group = fl_alloc(d->rows, sizeof *s->group, err);
-    for (int32_t r = 0; s->group && r < d->rows; r++) s->group[r] = -1;
+    s->group_rows = s->group ? d->rows : 0;
+    for (int32_t r = 0; r < s->group_rows; r++) s->group[r] = -1;
     for (int32_t i = 0; s->group && i < ice.n; i++) {
         const int32_t r = fl_frame_data_row(d, ice.id[i]);
         if (r >= 0) s->group[r] = ice.group[i];
@@ -254,8 +255,8 @@ static void paint_bodies(struct subject *s, const fl_look *l)
         else if (l->colour.by == FL_BY_ONE) set_colour(p, l->ice.colour, FL_PAINT_VALUE);
         else if (l->colour.by == FL_BY_GROUP)
             set_colour(p,
-                       s->group && s->group[r] >= 0 ? fl_colour_of_number(s->group[r])
-                                                    : (fl_rgb){{200, 205, 210}},
+                       r < s->group_rows && s->group[r] >= 0 ? fl_colour_of_number(s->group[r])
+                                                             : (fl_rgb){{200, 205, 210}},
                        FL_PAINT_VALUE);
         else
             set_colour(p, fl_colour_map_at(l->colour.map, (s->play.value[r] - s->from) * scale),

@@ -18,7 +18,8 @@ struct subject {
     fl_frame_data own; /* of a still */
     fl_playback play;
     fl_view_frame shown;
-    int32_t *group; /* [rows] of --ice, by row; -1: none */
+    int32_t *group;     /* [group_rows] of --ice, by row; -1: none */
+    int32_t group_rows; /* rows of a run under way may become more */
     fl_string_table groups;
     fl_time_rows contacts, bonds, table, panels;
     fl_load_curve curve;
