@@ -11,7 +11,7 @@
 enum { OWN_SIDE = -1, CUT = -2, PAD = FL_SIMD_WIDTH };
 
 /* P in the plane of the other face: plane coordinates and overlap of its corners, and the side of the
- * other face that begins there.  [n + PAD]; the first is repeated behind the last when it is complete. */
+ * other face that begins there.  [n + PAD]; the first is repeated behind the last. */
 typedef struct {
     double *x, *y, *s;
     int32_t *side;
@@ -22,30 +22,32 @@ typedef struct {
     const fl_quick_way *d;
     const fl_quick_face *f; /* of the other core */
     const fl_quick_side *side;
-    fl_vec3 n;         /* normal of the own face, in the frame of other */
-    double C, m, dm;   /* C = -n.n_f, m and dm/dC */
-    double s0, sx, sy; /* s = s0 + sx x + sy y */
-    outline p, spare;
-    double *g; /* scratch */
+    fl_vec3 n;           /* normal of the own face, in the frame of other */
+    double C, m, dm;     /* C = -n.n_f, m and dm/dC */
+    double s0, sx, sy;   /* s = s0 + sx x + sy y */
+    fl_simd *at, *spare; /* x, y, s, side of each corner, [corners + PAD] */
+    outline p;           /* the same by numbers, after close_polygon() */
+    double *g;           /* scratch */
     int32_t corners;
 } face_pair;
 
 /* Keeps the part of the polygon with g >= 0, given at its corners. */
-static void clip_polygon(face_pair *q, int32_t side)
+FL_SIMD_INLINE void clip_polygon(face_pair *q, int32_t side)
 {
-    const outline p = q->p, to = q->spare;
+    const fl_simd *p = q->at;
+    fl_simd *const to = q->spare;
     const double *g = q->g;
     int32_t m = 0;
     for (int32_t k = 0; k < q->corners; k++) {
         const int32_t next = k + 1 < q->corners ? k + 1 : 0;
         const int in = g[k] >= 0.0, then = g[next] >= 0.0;
-        if (in) to.x[m] = p.x[k], to.y[m] = p.y[k], to.s[m] = p.s[k], to.side[m++] = p.side[k];
+        if (in) to[m++] = p[k];
         if (in == then) continue;
-        const double t = g[k] / (g[k] - g[next]);
-        to.x[m] = p.x[k] + t * (p.x[next] - p.x[k]), to.y[m] = p.y[k] + t * (p.y[next] - p.y[k]);
-        to.s[m] = p.s[k] + t * (p.s[next] - p.s[k]), to.side[m++] = in ? side : p.side[k];
+        const fl_simd step = p[next] - p[k], cut = p[k] + g[k] / (g[k] - g[next]) * step;
+        to[m] = cut;
+        to[m++][3] = in ? (double)side : p[k][3];
     }
-    q->spare = p, q->p = to, q->corners = m;
+    q->spare = q->at, q->at = to, q->corners = m;
 }
 
 /* Clips to c - qx x - qy y >= 0.  Returns 0 when nothing is left. */
@@ -54,7 +56,9 @@ FL_SIMD_INLINE int clip_side(face_pair *q, double c, double qx, double qy, int32
     const fl_simd zero = {0};
     fl_simd_mask out = zero != 0.0, in = out;
     for (int32_t k = 0; k < q->corners; k += FL_SIMD_WIDTH) {
-        const fl_simd g = c - qx * FL_SIMD_LOAD(q->p.x + k) - qy * FL_SIMD_LOAD(q->p.y + k);
+        fl_simd r[FL_SIMD_WIDTH] = {q->at[k], q->at[k + 1], q->at[k + 2], q->at[k + 3]};
+        fl_simd_transpose(r);
+        const fl_simd g = c - qx * r[0] - qy * r[1];
         const fl_simd_mask some = FL_SIMD_MASK_BELOW(q->corners - k);
         FL_SIMD_STORE(q->g + k) = g;
         out |= (g < 0.0) & some, in |= (g >= 0.0) & some;
@@ -65,12 +69,17 @@ FL_SIMD_INLINE int clip_side(face_pair *q, double c, double qx, double qy, int32
     return q->corners >= 3;
 }
 
-/* Repeats the first corner behind the last, up to a full register. */
+/* Repeats the first corner behind the last, up to a full register, and sorts the corners by numbers. */
 FL_SIMD_INLINE void close_polygon(face_pair *q)
 {
-    const outline p = q->p;
-    for (int32_t k = q->corners; k < q->corners + PAD; k++)
-        p.x[k] = p.x[0], p.y[k] = p.y[0], p.s[k] = p.s[0], p.side[k] = k == q->corners ? p.side[0] : CUT;
+    const int32_t n = q->corners;
+    q->at[n] = q->at[n + 1] = q->at[n + 2] = q->at[n + 3] = q->at[0];
+    for (int32_t k = 0; k < n + 1; k += FL_SIMD_WIDTH) {
+        fl_simd r[FL_SIMD_WIDTH] = {q->at[k], q->at[k + 1], q->at[k + 2], q->at[k + 3]};
+        fl_simd_transpose(r);
+        FL_SIMD_STORE(q->p.x + k) = r[0], FL_SIMD_STORE(q->p.y + k) = r[1], FL_SIMD_STORE(q->p.s + k) = r[2];
+        for (int i = 0; i < FL_SIMD_WIDTH; i++) q->p.side[k + i] = (int32_t)r[3][i];
+    }
 }
 
 /* Point of the own face over (x, y). */
@@ -140,10 +149,12 @@ static double find_nearness(const face_pair *q, fl_wrench *rise)
 /* Area of the polygon on the own face. */
 FL_SIMD_INLINE double find_area(const face_pair *q)
 {
-    const outline p = q->p;
+    const fl_simd *p = q->at;
     double area = 0.0;
-    for (int32_t k = 1; k + 1 < q->corners; k++)
-        area += (p.x[k] - p.x[0]) * (p.y[k + 1] - p.y[0]) - (p.x[k + 1] - p.x[0]) * (p.y[k] - p.y[0]);
+    for (int32_t k = 1; k + 1 < q->corners; k++) {
+        const fl_simd a = p[k] - p[0], b = p[k + 1] - p[0];
+        area += a[0] * b[1] - b[0] * a[1];
+    }
     return 0.5 * area / q->C;
 }
 
@@ -327,15 +338,15 @@ FL_SIMD_INLINE int project_face(face_pair *q, const fl_quick_face *j)
                       z = FL_SIMD_LOAD(v[2] + j->first + k);
         const fl_simd s = oc - (c.x * x + c.y * y + c.z * z);
         const fl_simd_mask some = FL_SIMD_MASK_BELOW(j->sides - k) & (s > most);
-        FL_SIMD_STORE(q->p.x + k) = a.x * x + a.y * y + a.z * z + oa;
-        FL_SIMD_STORE(q->p.y + k) = b.x * x + b.y * y + b.z * z + ob;
-        FL_SIMD_STORE(q->p.s + k) = s;
+        fl_simd row[FL_SIMD_WIDTH] = {a.x * x + a.y * y + a.z * z + oa, b.x * x + b.y * y + b.z * z + ob, s,
+                                      FL_SIMD_SPLAT((double)OWN_SIDE)};
+        fl_simd_transpose(row);
         most = FL_SIMD_SELECT(some, s, most);
-        for (int i = 0; i < FL_SIMD_WIDTH; i++) q->p.side[k + i] = OWN_SIDE;
+        for (int i = 0; i < FL_SIMD_WIDTH; i++) q->at[k + i] = row[i];
     }
     q->corners = j->sides;
     q->sx = -per * v3_dot(q->n, f->t1), q->sy = -per * v3_dot(q->n, f->t2);
-    q->s0 = q->p.s[0] - q->sx * q->p.x[0] - q->sy * q->p.y[0];
+    q->s0 = q->at[0][2] - q->sx * q->at[0][0] - q->sy * q->at[0][1];
     const fl_simd_mask near = most > -d->R;
     return fl_simd_any(&near);
 }
@@ -356,7 +367,7 @@ FL_SIMD_INLINE int add_pair(face_pair *q, int32_t own, int32_t other, fl_quick_t
     const double most = d->reach + ON_PLANE_TOL * (d->own->bound + d->other->bound);
     double low = INFINITY, high = -INFINITY;
     for (int32_t k = 0; k < q->corners; k++) {
-        const double s = q->p.s[k];
+        const double s = q->at[k][2];
         low = s < low ? s : low, high = s > high ? s : high;
     }
     if (high > most && !clip_side(q, most - q->s0, q->sx, q->sy, CUT)) return 0;
@@ -366,7 +377,7 @@ FL_SIMD_INLINE int add_pair(face_pair *q, int32_t own, int32_t other, fl_quick_t
     if (!(high > 0.0)) return bears;
     if (low < 0.0) {
         if (!clip_side(q, q->s0, -q->sx, -q->sy, CUT)) return bears;
-        for (int32_t k = 0; k < q->corners; k++) q->p.s[k] = q->p.s[k] > 0.0 ? q->p.s[k] : 0.0;
+        for (int32_t k = 0; k < q->corners; k++) q->at[k][2] = q->at[k][2] > 0.0 ? q->at[k][2] : 0.0;
     }
     close_polygon(q);
     add_area(q, to);
@@ -395,13 +406,14 @@ int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_way *d, fl_quick_tota
         const int32_t corners = d->own->face[at[k]].sides + d->other->face[at[k + 1]].sides + 3 + 2 * PAD;
         most = corners > most ? corners : most;
     }
-    if (fl_reserve(&w->polygon, &w->polygon_cap, 8 * most, sizeof(double)) ||
+    most = (most + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH * FL_SIMD_WIDTH;
+    if (fl_reserve(&w->polygon, &w->polygon_cap, 13 * most, sizeof(double)) ||
         fl_reserve(&w->borne, &w->borne_cap, pairs / 2, sizeof(fl_quick_borne)))
         return -1;
     double *x = w->polygon;
-    face_pair q = {.d = d, .g = x + 7 * most};
-    q.p = (outline){x, x + most, x + 2 * most, (int32_t *)(void *)(x + 6 * most)};
-    q.spare = (outline){x + 3 * most, x + 4 * most, x + 5 * most, (int32_t *)(void *)(x + 6 * most) + most};
+    face_pair q = {.d = d, .g = x + 3 * most, .at = (fl_simd *)(void *)(x + 4 * most)};
+    q.p = (outline){x, x + most, x + 2 * most, (int32_t *)(void *)(x + 12 * most)};
+    q.spare = q.at + most;
     *borne = w->borne;
     *n = add_pairs(&q, at, pairs, to, w->borne, overlap);
     return 0;
