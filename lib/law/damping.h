@@ -51,15 +51,16 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
  *
  *     c' = c - lambda (c - C)
  *
- * are damped.  C is the mean sum e c/sum e over the pressures e, or the rate of the stored energy over sum e, or 0,
- * whichever is between the other two: where pressures travel along the faces their mean approach is no rate of
- * the load.  lambda is the product of
+ * are damped.  C is the mean sum e c/sum e over the pressures e, or the rate of the stored energy over sum e,
+ * or 0, whichever is between the other two: where pressures travel along the faces their mean approach is no
+ * rate of the load.  lambda is the product of
  *   - the share of the load that was there before, laid/F, with `laid` the load F behind a low pass of
  *     FL_LAID_PERIODS/omega, omega^2 = K/M: 1 for a load that rests, 0 in an impact, whose restitution stays;
  *   - u^2/(u^2 + (sigma/FL_LAID_SLOPE)^2), with u the speed across the normal of the points of the cores that
- *     touch, and sigma the deviation of c: 1 for a body that moves along the surface over small bends, 0 for one
- *     that rocks on the spot, and little in a groove;
- *   - w.w'/max(w^2, w'^2) >= 0, with w the spin across the normal and w' the same behind the low pass: 1 for a
+ *     touch, and sigma the deviation of c: 1 for a body that moves along the surface over small bends, 0 for
+ *     one that rocks on the spot, and little in a groove;
+ *   - w.w'/max(w^2, w'^2) >= 0, with w the spin across the normal and w' the same behind the low pass: 1 for
+ *   a
  *     body that rolls or pitches steadily, 0 for one that rocks to and fro.
  * sum e c' c >= 0: it stays a dissipation. */
 #define FL_LAID_PERIODS 2.0

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* tangent.h -- friction of one contact: an elastic spring of slip and spin with memory, damping, and Coulomb's
- * limit for force and moment together.
+/* tangent.h -- friction of one contact: an elastic spring of slip and spin with memory, damping, and
+ * Coulomb's limit for force and moment together.
  *
  *   F, M   tangential force and moment about the normal n on body A         [N], [N m]
  *   v, w   tangential velocity and spin about n, A against B                [m/s], [rad/s]
@@ -11,8 +11,8 @@
  *   rho    root mean square distance of the pressure from its centre,
  *          rho^2 = tr Theta; 0 for a point                                  [m]
  *
- * Coulomb's law at every point, u = v + w n x (x - x_c), f_t = -mu f u/|u|, has the potential mu sum f |u|.  It
- * is replaced by L P,
+ * Coulomb's law at every point, u = v + w n x (x - x_c), f_t = -mu f u/|u|, has the potential mu sum f |u|.
+ * It is replaced by L P,
  *     P^2 = v2 + a w2 - h Q,   v2 = z_f.z_f,  w2 = z_m^2,  Q = z_f.D z_f,  h = w2/sqrt(v2^2 + (c w2)^2)
  *     a = 0.75 + 0.135 q,   c = a (2 - 0.6 q^2),   D y = (a - 1) y + Theta y/rho^2
  *     q = 2 (1 - Theta:Theta/rho^4)      1 for a round contact, 0 for a line
@@ -33,8 +33,9 @@
  *
  * Limits.  An even stress under partial slip is not resolved: a contact sticks as a whole up to the limit.
  *
- * Sources: Goyal, Ruina & Papadopoulos, Wear 143 (1991) 307 (limit surface, normality); Farkas, Bartels, Unger
- * & Wolf, Phys. Rev. Lett. 90 (2003) 248302 (disc).  The exact integrals are in tests/support/exact_friction.h.
+ * Sources: Goyal, Ruina & Papadopoulos, Wear 143 (1991) 307 (limit surface, normality); Farkas, Bartels,
+ * Unger & Wolf, Phys. Rev. Lett. 90 (2003) 248302 (disc).  The exact integrals are in
+ * tests/support/exact_friction.h.
  *
  * A force and a moment over rho are handled together as one wrench. */
 #ifndef FL_LAW_TANGENT_H
@@ -156,10 +157,10 @@ FL_SIMD_INLINE fl_friction_wrench fl_friction_wrench_of(const fl_friction_shape 
 /* Direction of z of a sliding contact after a step; the length of the result has no meaning.
  *
  * Sliding follows z = limit e, P(e) = 1, e' = s' - (dP.s') e/limit.  The step starts from z0 of the wrench
- * F0 and the given size P(z0), and the mean of size and limit stands for it in the step.  With s = -k v dt and
- * r = F0.s/2P^2 the direction is that of z0 + (1 + r) s to order 2 for |s| << P, and that of s for |s| >> P.
- * Where r < 0, 1/(1 - r) replaces 1 + r, which keeps the direction from reversing.  r is kept as a quotient,
- * and the result is multiplied by the denominators. */
+ * F0 and the given size P(z0), and the mean of size and limit stands for it in the step.  With s = -k v dt
+ * and r = F0.s/2P^2 the direction is that of z0 + (1 + r) s to order 2 for |s| << P, and that of s for |s| >>
+ * P. Where r < 0, 1/(1 - r) replaces 1 + r, which keeps the direction from reversing.  r is kept as a
+ * quotient, and the result is multiplied by the denominators. */
 FL_SIMD_INLINE fl_friction_wrench fl_tangent_slide(fl_friction_wrench from, fl_friction_wrench wrench,
                                                    double size, double limit, fl_friction_wrench s)
 {
@@ -341,8 +342,8 @@ FL_SIMD_INLINE fl_friction_face fl_tangent_face_limit(const fl_friction_shape *s
  *    fallen, z falls with it first (Thornton, J. Appl. Mech. 64 (1997) 363), since it would else hold more
  *    energy than was put in; then z/k -= v dt.  Both are of order 2.
  * 3. Where P(z) > L the contact slides: P becomes L and the direction that of fl_tangent_slide().
- * 4. Damping by fl_tangent_damping(), -g v and -g rho^2 w of the end of the step, is added to the wrench, up to
- *    the share (L - P)/(|d_f| + |d_m|/sqrt(a)), which stays within the limit surface.  A sliding contact has
+ * 4. Damping by fl_tangent_damping(), -g v and -g rho^2 w of the end of the step, is added to the wrench, up
+ *    to the share (L - P)/(|d_f| + |d_m|/sqrt(a)), which stays within the limit surface.  A sliding contact has
  *    none, as Coulomb's law says (V04 of verify_spheres), and the force does not jump as sliding begins or
  *    ends. */
 FL_SIMD_INLINE fl_friction_result fl_tangent_step_of(fl_friction_springs s, fl_friction_contact c,

@@ -63,7 +63,8 @@ double fl_force_sum_square(const fl_patch_points *s);
 /* Sets damped_pressure, direction, damped_moment and damping, after fl_force_sum_motion().
  *   chi            damping coefficient [s/m]
  *   speed_offset   added to the approach speed of every point [m/s]
- *   whole_share    lambda of law/damping.h: the share of the approach `whole`, in place of its own, that a point has
+ *   whole_share    lambda of law/damping.h: the share of the approach `whole`, in place of its own, that a
+ *   point has
  */
 void fl_force_sum_damping(const fl_patch_points *s, double chi, double speed_offset, double whole_share,
                           double whole, fl_force_sum *q);

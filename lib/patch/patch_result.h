@@ -11,8 +11,8 @@
  *          elongation e of law/tangent.h,
  *          Theta = rho^2 ((1 - e^2)/2 (1 - n n^T) + e e^T)
  *
- * A law with faces fills all of it: `patch` by fl_patch_result_of() from its sums, a surrogate lane by lane in
- * contact/surrogate_batch.c from the shape of the last exact evaluation, turned with the force.  A law of
+ * A law with faces fills all of it: `patch` by fl_patch_result_of() from its sums, a surrogate lane by lane
+ * in contact/surrogate_batch.c from the shape of the last exact evaluation, turned with the force.  A law of
  * points has rho = 0 unless several points carry. */
 #ifndef FL_PATCH_PATCH_RESULT_H
 #define FL_PATCH_PATCH_RESULT_H

@@ -538,8 +538,8 @@ int fl_scene_check(fl_scene *s, fl_err *err)
         return -1;
     set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
-                   check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) || check_members(s, err) ||
-                   check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
+                   check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) ||
+                   check_members(s, err) || check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)
                ? -1

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Intersecting triangles, distance, sides, remeshing and simplification of surfaces.  One file, since most of its
- * compile time is that of CGAL's kernel and meshes.  The headers are plain C; no C++ name and no exception
- * leaves it. */
+/* Intersecting triangles, distance, sides, remeshing and simplification of surfaces.  One file, since most of
+ * its compile time is that of CGAL's kernel and meshes.  The headers are plain C; no C++ name and no
+ * exception leaves it. */
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -33,8 +33,8 @@ static double left_of(fl_vec2 a, fl_vec2 b, fl_vec2 c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* Convex hull of sorted corners, counter-clockwise, into out, which has room for twice as many: what overflows
- * is no hull.
+/* Convex hull of sorted corners, counter-clockwise, into out, which has room for twice as many: what
+ * overflows is no hull.
  * Source: Andrew, Inf. Process. Lett. 9 (1979) 216. */
 static int32_t hull_of(int32_t n, const corner *c, corner *out)
 {
@@ -93,7 +93,8 @@ static void areas_of(const fl_part *p, fl_vec3 n, flat_triangle *all, double are
 int fl_region_covers_hull(const fl_part *p, fl_vec3 n, double tol, int32_t *loop, int32_t *count, fl_err *err)
 {
     const fl_vec3 x = v3_normal_to(n), y = v3_cross(n, x), from = p->v[p->t[0].v[0]];
-    corner *all = fl_alloc(p->nv, sizeof *all, err), *rim = fl_alloc(2 * (int64_t)p->nv + 1, sizeof *rim, err);
+    corner *all = fl_alloc(p->nv, sizeof *all, err),
+           *rim = fl_alloc(2 * (int64_t)p->nv + 1, sizeof *rim, err);
     fl_vec2 *at = fl_alloc(2 * (int64_t)p->nv + 1, sizeof *at, err);
     flat_triangle *faces = fl_alloc(p->nt, sizeof *faces, err);
     uint8_t *used = fl_alloc(p->nv, 1, err);

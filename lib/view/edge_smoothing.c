@@ -51,7 +51,8 @@ static void smooth_pixel(const unsigned char *p, int w, int h, const unsigned ch
     for (int k = 0; k < 3; k++) d[k] = (unsigned char)(far ? (near[k] + 1) / 2 : (wide[k] + 2) / 4);
 }
 
-/* Marks pixels 1 .. n - 2 that are at edges; m: luminance from there on, rows of w.  Bytes alone, so that compilers make vectors of it. */
+/* Marks pixels 1 .. n - 2 that are at edges; m: luminance from there on, rows of w.  Bytes alone, so that
+ * compilers make vectors of it. */
 static void mark_edges(const unsigned char *restrict m, int n, int w, unsigned char *restrict at)
 {
     const unsigned char *restrict u = m - w, *restrict l = m + w;

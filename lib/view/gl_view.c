@@ -16,7 +16,8 @@ enum { HAS_SHADOW = 1, HAS_OCCLUSION = 2, HAS_WAVES = 4 };
 enum { UNIT_SHADE = 2, UNIT_GRAIN = 3, UNIT_WAVES = 4, UNIT_OCCLUSION = 1 };
 /* Golden angle [rad]. */
 #define SPIRAL_TURN 2.39996f
-/* Ambient occlusion that reaches less far than this only darkens a picture evenly, and is left out [pixels]. */
+/* Ambient occlusion that reaches less far than this only darkens a picture evenly, and is left out [pixels].
+ * */
 #define OCCLUSION_PIXELS 1.5
 /* Radius of a scene whose noise and haze have the unit 1 m. */
 #define UNIT_RADIUS 35.0

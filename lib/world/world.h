@@ -66,12 +66,12 @@ typedef struct {
     fl_inflow_state inflow;
     fl_driven_floes driven_floes;
     fl_sleep sleep;
-    fl_bond_list bonds;    /* faces */
-    fl_disc_list discs;    /* of spheres */
-    fl_environment sea;    /* water and wind; n = 0 without them */
-    int32_t *id;           /* [n] number in the ice file */
-    int32_t *material;     /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */
-    double *max_face_area; /* [total] [m2] */
+    fl_bond_list bonds;          /* faces */
+    fl_disc_list discs;          /* of spheres */
+    fl_environment sea;          /* water and wind; n = 0 without them */
+    int32_t *id;                 /* [n] number in the ice file */
+    int32_t *material;           /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */
+    double *max_face_area;       /* [total] [m2] */
     fl_quick_shape *quick_shape; /* [total] tables of the law `quick`, without faces where it does not apply;
                                   * NULL if no pair has that law */
     fl_quat *q0; /* [n] body axes in the pose of the ice file: the reference of written orientations */

@@ -6,8 +6,8 @@
  *     bench_contact CASE N [TOL]  N evaluations of one case, for instruction counts; with TOL, N of one of
  *                                 eight contacts by surrogates of that tolerance
  *     bench_contact curves DIR    DIR/tilt.tsv and DIR/slide.tsv: the torque of a face that tilts on another,
- *                                 and the forces of one that slides off it, by law; DIR/friction.tsv: force and
- *                                 moment of a disc, a square, along and across a line that slide and spin
+ *                                 and the forces of one that slides off it, by law; DIR/friction.tsv: force
+ *                                 and moment of a disc, a square, along and across a line that slide and spin
  *
  * Floes: octagonal prisms of 3 m, 0.4 m thick, radius 50 mm, overlapping by 4 mm.  They move by 0.01 mm
  * between evaluations, as in a step of 0.1 ms at 0.1 m/s, so the cost of finding new features is included.
@@ -269,8 +269,7 @@ static int print_row(which c, const char *law)
     evaluate(&l, p, TIMES);
     const double ns = 1e9 * (thread_time() - begun) / TIMES;
     const int features = p->feature_pairs ? p->feature_pairs->n : p->quick_list ? p->quick_list->n : 0;
-    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, features,
-           l.w.scratch[0].n, ns, off);
+    printf("%-20s %-10s %8d %8d %10.0f %12.1e", NAME[c], law, features, l.w.scratch[0].n, ns, off);
     if (p->j < l.w.n && strcmp(law, "patch") == 0) {
         double error[2], t[2];
         for (int k = 0; k < 2; k++) t[k] = ask_ccd(&l, p, k, &error[k]);
@@ -311,8 +310,8 @@ static fl_pair tilted_boxes(const char *law, double tilt, double slide)
     return p;
 }
 
-/* F/(mu N) and M/(mu N rho) of faces under an even pressure, v along `angle`: exact, law, and the ellipse of M0 =
- * mu N rho. */
+/* F/(mu N) and M/(mu N rho) of faces under an even pressure, v along `angle`: exact, law, and the ellipse of
+ * M0 = mu N rho. */
 static void write_friction_rows(FILE *f, int n, const fl_vec3 *corner, double angle)
 {
     fl_vec3 centre;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_frames.c -- frames of 10 000 floes that drift and spin: bytes and time a body and frame, text and packed,
- * written and read, beside the largest error of places and rotations.  Seconds are those of the processor. */
+/* bench_frames.c -- frames of 10 000 floes that drift and spin: bytes and time a body and frame, text and
+ * packed, written and read, beside the largest error of places and rotations.  Seconds are those of the
+ * processor. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

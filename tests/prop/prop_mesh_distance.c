@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a floe is to a structure that is not convex: which side, how far, how deep, against CGAL (crossings of
- * a ray, exact distances of triangles) and against winding numbers and brute force. */
+/* Where a floe is to a structure that is not convex: which side, how far, how deep, against CGAL (crossings
+ * of a ray, exact distances of triangles) and against winding numbers and brute force. */
 #include <stdio.h>
 #include <stdlib.h>
 #include "geom/mass.h"

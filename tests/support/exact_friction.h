@@ -2,10 +2,11 @@
 /* exact_friction.h -- Coulomb's friction of a flat face under an even pressure, and motion under it: what
  * law/tangent.h is compared with.
  *
- *     u(x) = v + w z x x,     F = mu int p u/|u| dA,     M = mu int p (x x u/|u|)_z dA,     P = mu int p |u| dA
+ *     u(x) = v + w z x x,     F = mu int p u/|u| dA,     M = mu int p (x x u/|u|)_z dA,     P = mu int p |u|
+ *     dA
  *
- * F and M oppose the motion; the signs here are those of v and w.  The gradient of P over (v, w) is (F, M), so
- * P = F.v + M w.  All three are over mu N. */
+ * F and M oppose the motion; the signs here are those of v and w.  The gradient of P over (v, w) is (F, M),
+ * so P = F.v + M w.  All three are over mu N. */
 #ifndef FL_TESTS_EXACT_FRICTION_H
 #define FL_TESTS_EXACT_FRICTION_H
 #include "geom/sym3.h"
@@ -15,8 +16,8 @@ typedef struct {
     double x, y, m;
 } flat_wrench;
 
-/* Disc of radius 1 at the ratio e = v/w, by elliptic integrals (Farkas, Bartels, Unger & Wolf, Phys. Rev. Lett.
- * 90 (2003) 248302): F along v and M. */
+/* Disc of radius 1 at the ratio e = v/w, by elliptic integrals (Farkas, Bartels, Unger & Wolf, Phys. Rev.
+ * Lett. 90 (2003) 248302): F along v and M. */
 void exact_disc_friction(double e, double *F, double *M);
 
 /* Polygon of n corners, counter-clockwise, z ignored; v, w about the origin. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Friction of faces: the closed forms of Coulomb's law, the law of law/tangent.h beside them, its limit and its
- * dissipation. */
+/* Friction of faces: the closed forms of Coulomb's law, the law of law/tangent.h beside them, its limit and
+ * its dissipation. */
 #include <math.h>
 #include "base/pi.h"
 #include "base/rng.h"
@@ -149,9 +149,9 @@ static fl_friction_wrench random_slip(fl_rng *g, const fl_friction_contact *c, d
         size * fl_rng_normal(g)};
 }
 
-/* Steps of random slip between contacts of random shape, stiffness, damping and limit: the wrench is inside the
- * limit surface, F.v + M w <= L P(v, rho w) for all motions; the springs never hold more than they held and
- * than the slip has put in, so what is lost is not negative. */
+/* Steps of random slip between contacts of random shape, stiffness, damping and limit: the wrench is inside
+ * the limit surface, F.v + M w <= L P(v, rho w) for all motions; the springs never hold more than they held
+ * and than the slip has put in, so what is lost is not negative. */
 static void no_step_creates_energy_or_leaves_the_limit(void **state)
 {
     const long cases = test_times(2000);

@@ -110,8 +110,8 @@ static void damping_of_many_is_stable(void **state)
         }
 }
 
-/* A load that rests is not damped anew where a body moves along steadily: each factor of lambda alone, and the
- * approach of the whole, whose product with the mean is never negative. */
+/* A load that rests is not damped anew where a body moves along steadily: each factor of lambda alone, and
+ * the approach of the whole, whose product with the mean is never negative. */
 static void a_load_that_was_laid_down_is_left_alone(void **state)
 {
     (void)state;
@@ -588,8 +588,8 @@ static void sliding_follows_the_path_to_order_two(void **state)
     assert_near_of(off[1] / off[2], 4.0, 0.1, 4.0);
 }
 
-/* Rotation on the spot: a torsional spring of a k rho^2 about the normal up to sqrt(a) rho L; with slip the two
- * share the limit. */
+/* Rotation on the spot: a torsional spring of a k rho^2 about the normal up to sqrt(a) rho L; with slip the
+ * two share the limit. */
 static void torsion_and_sliding_share_the_limit(void **state)
 {
     const double k = 1000.0, dt = 1e-3, arm = 0.2, limit = 5.0, spin = 3.0, a = 0.885;

@@ -395,10 +395,9 @@ static void each_complaint_names_file_and_line(void **state)
         ":2: run.gravity is \"1 2\", one number or three in m/s2 are expected (units: m/s2 m/s^2)");
     expect_refusal("[material ice]\npoisson = 0.5\n" ICE,
                    ":2: material.poisson is 0.5, a value at least 0 and below 0.5 is expected");
-    expect_refusal(
-        "[contact]\nlaw = pach\n" ICE,
-        ":2: contact.law is \"pach\", one of patch manual manual-si core quick "
-        "is expected, nearest is patch");
+    expect_refusal("[contact]\nlaw = pach\n" ICE,
+                   ":2: contact.law is \"pach\", one of patch manual manual-si core quick "
+                   "is expected, nearest is patch");
     expect_refusal("[contact]\nexponent = 2\n" ICE,
                    ":2: contact.exponent is \"2\", one of 1 1.5 is expected, nearest is 1");
     expect_refusal("[group a]\nfixed = x x\n" ICE,

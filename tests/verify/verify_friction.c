@@ -331,8 +331,8 @@ static void off_centre_push(void)
 
 /* --- corners of meshes -------------------------------------------------------------------------------- */
 
-/* A ball of 0.3 m rolls in half a pipe of 2 m of n flat facets, from 45 degrees to where it turns round.  Every
- * corner takes the speed across the next facet, m (v dphi)^2/2. */
+/* A ball of 0.3 m rolls in half a pipe of 2 m of n flat facets, from 45 degrees to where it turns round.
+ * Every corner takes the speed across the next facet, m (v dphi)^2/2. */
 static void trough(int n, double restitution, double most)
 {
     const double R = 2.0, r = 0.3, dphi = PI / n;
@@ -375,9 +375,9 @@ static void trough(int n, double restitution, double most)
     lab_free(&l);
 }
 
-/* A box of 1 m slides without friction over plates of 2 m that bend up by dphi each.  While it bridges a bend it
- * pitches by v dphi/a: its front edge takes up (1/3) m (v dphi)^2/2 as it meets the next plate, and as much as its
- * rear edge follows. */
+/* A box of 1 m slides without friction over plates of 2 m that bend up by dphi each.  While it bridges a bend
+ * it pitches by v dphi/a: its front edge takes up (1/3) m (v dphi)^2/2 as it meets the next plate, and as
+ * much as its rear edge follows. */
 static void bent_plating(double dphi, double surrogate, double most)
 {
     enum { PLATES = 7 };

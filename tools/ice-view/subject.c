@@ -327,7 +327,8 @@ static int add_bonds(struct subject *s, double t, fl_err *err)
     return 0;
 }
 
-/* A side of the boundary as a frame that stands on the water: a rail along its top and its bottom, and posts. */
+/* A side of the boundary as a frame that stands on the water: a rail along its top and its bottom, and posts.
+ * */
 static int add_wall(struct subject *s, const fl_look *l, int axis, double at, fl_err *err)
 {
     const fl_scene_boundary *b = &s->walls;
