@@ -343,9 +343,9 @@ FL_SIMD_INLINE fl_friction_face fl_tangent_face_limit(const fl_friction_shape *s
  *    energy than was put in; then z/k -= v dt.  Both are of order 2.
  * 3. Where P(z) > L the contact slides: P becomes L and the direction that of fl_tangent_slide().
  * 4. Damping by fl_tangent_damping(), -g v and -g rho^2 w of the end of the step, is added to the wrench, up
- *    to the share (L - P)/(|d_f| + |d_m|/sqrt(a)), which stays within the limit surface.  A sliding contact has
- *    none, as Coulomb's law says (V04 of verify_spheres), and the force does not jump as sliding begins or
- *    ends. */
+ *    to the share (L - P)/(|d_f| + |d_m|/sqrt(a)), which stays within the limit surface.  A sliding contact
+ *    has none, as Coulomb's law says (V04 of verify_spheres), and the force does not jump as sliding begins
+ *    or ends. */
 FL_SIMD_INLINE fl_friction_result fl_tangent_step_of(fl_friction_springs s, fl_friction_contact c,
                                                      fl_friction_motion by, double dt, int branches)
 {
