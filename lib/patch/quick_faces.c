@@ -69,12 +69,13 @@ FL_SIMD_INLINE int clip_side(face_pair *q, double c, double qx, double qy, int32
     return q->corners >= 3;
 }
 
-/* Repeats the first corner behind the last, up to a full register, and sorts the corners by numbers. */
+/* Repeats the first corner behind the last, for registers that begin at any corner, and sorts the corners by
+ * numbers. */
 FL_SIMD_INLINE void close_polygon(face_pair *q)
 {
     const int32_t n = q->corners;
-    q->at[n] = q->at[n + 1] = q->at[n + 2] = q->at[n + 3] = q->at[0];
-    for (int32_t k = 0; k < n + 1; k += FL_SIMD_WIDTH) {
+    for (int32_t k = n; k < n + 2 * FL_SIMD_WIDTH - 1; k++) q->at[k] = q->at[0];
+    for (int32_t k = 0; k < n + FL_SIMD_WIDTH; k += FL_SIMD_WIDTH) {
         fl_simd r[FL_SIMD_WIDTH] = {q->at[k], q->at[k + 1], q->at[k + 2], q->at[k + 3]};
         fl_simd_transpose(r);
         FL_SIMD_STORE(q->p.x + k) = r[0], FL_SIMD_STORE(q->p.y + k) = r[1], FL_SIMD_STORE(q->p.s + k) = r[2];

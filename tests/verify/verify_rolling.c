@@ -177,7 +177,7 @@ static void bonded_pair_rolls(enum ground on, int ended)
     lab_sphere(&l, v3(0, 2 * R, R - depth_of(on, 0.0)), R, v3(v, 0, 0), v3(0, v / R, 0));
     if (fl_ice_field_add_bond(&l.field, 0, 1, PI * R * R, 2 * R, v3(0, R, R), &err)) exit(1);
     lab_make(&l, 2e-4);
-    if (ended) l.w.bonds.bond[0].state = FL_BOND_ENDED;
+    if (ended) l.w.discs.has_ended[0] = FL_DISC_JUST_ENDED, l.w.discs.ended++;
     lab_run(&l, lround(0.5 / l.w.dt));
     const double was = l.w.b.v[0].x;
     lab_run(&l, lround(0.5 / l.w.dt));
