@@ -225,7 +225,7 @@ static void spheres(void)
                0.3, VERIFY_REL);
     verify_below("P4", "order Q6: no crystal", q6, 0.1);
     /* P5: the law of walls */
-    const double sizes[] = {7.7, 15.0};
+    const double sizes[] = {verify_quick() ? 5.0 : 7.7, 15.0};
     for (int c = 0; c < (verify_quick() ? 1 : 2); c++) {
         const int tries = verify_quick() ? 1 : 3;
         const double L = sizes[c];
