@@ -142,7 +142,7 @@ int fl_member_dynamics_make(fl_member_dynamics *d, const fl_member_model *m, dou
         fl_member_dynamics_free(d);
         return -1;
     }
-    d->parted = fl_member_chain_commit(&d->chain);
+    d->ruptured = fl_member_chain_commit(&d->chain);
     for (int32_t b = 0; b < d->chain.balls; b++) d->equilibrium[b] = d->chain.ball[b].d;
     d->plastic_at_start = fl_member_chain_plastic(&d->chain);
     d->energy_at_start = fl_member_dynamics_energy(d);
@@ -252,8 +252,8 @@ void fl_member_dynamics_drift(fl_member_dynamics *d)
         own_kick(c, 1);
         fl_member_chain_forces(c);
         own_kick(c, 0);
-        if (c->yielding) d->parted += fl_member_chain_commit(c);
-        if (!(c->largest_rotation2 <= FL_MEMBER_ROTATION_MAX * FL_MEMBER_ROTATION_MAX)) d->too_far = 1;
+        if (c->yielding) d->ruptured += fl_member_chain_commit(c);
+        if (!(c->largest_rotation2 <= FL_MEMBER_ROTATION_MAX * FL_MEMBER_ROTATION_MAX)) d->over_rotated = 1;
     }
 }
 
