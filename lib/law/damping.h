@@ -59,9 +59,8 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
  *   - u^2/(u^2 + (sigma/FL_LAID_SLOPE)^2), with u the speed across the normal of the points of the cores that
  *     touch, and sigma the deviation of c: 1 for a body that moves along the surface over small bends, 0 for
  *     one that rocks on the spot, and little in a groove;
- *   - w.w'/max(w^2, w'^2) >= 0, with w the spin across the normal and w' the same behind the low pass: 1 for
- *   a
- *     body that rolls or pitches steadily, 0 for one that rocks to and fro.
+ *   - w.w'/max(w^2, w'^2) >= 0, with w the spin across the normal and w' the same behind the low pass: 1
+ *     for a body that rolls or pitches steadily, 0 for one that rocks to and fro.
  * sum e c' c >= 0: it stays a dissipation. */
 #define FL_LAID_PERIODS 2.0
 #define FL_LAID_SLOPE 0.2

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* frame_model.h -- beams, trusses and pipes of a finite element deck as it states them: nodes, materials,
- * sections, elements with orientations, releases and offsets, supports, masses, loads; and a list of what was
- * read over.
+ * sections, elements with orientations, releases and offsets, supports, masses, loads; and a list of entries
+ * that were skipped.
  *
  * Units are those of the deck. The axes of an element are x along it, y and z across; iz resists deflection
  * along y, iy along z. Readers fill it where import_options.h asks for it; member/member_import.h makes a
@@ -67,7 +67,7 @@ int32_t fl_frame_section_of(fl_frame_model *f, const char *name, fl_err *err);
 int32_t fl_frame_part_of(fl_frame_model *f, const char *name, fl_err *err);
 
 /* Counts an entry that is not carried over; `what` is its card and, where it helps, why.  Returns 0; sets
- * failed without memory, which the importer tells. */
+ * failed without memory, which the importer reports. */
 int fl_frame_leave(fl_frame_model *f, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 
 /* Constants of sections that have no form of their own.
