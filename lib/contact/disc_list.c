@@ -17,7 +17,7 @@ enum { ALL_FIXED = 63 };
 /* Lengths that differ by less than this fraction are equal: a lattice then has one class. */
 #define SAME_LENGTH 1e-9
 
-/* Classes looked at before a new one is made. */
+/* Number of classes that are compared before a new one is made. */
 enum { CLASSES_TRIED = 16 };
 
 /* Least scatter of a strength: a normal law has a tail below 0. */

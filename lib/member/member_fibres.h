@@ -10,8 +10,8 @@
  *     e0p = sum a p/A,   kyp = sum a p z/Iy,   kzp = -sum a p y/Iz,
  * so that the forces of member_contact.h follow with these subtracted. Shear and torsion stay elastic.
  *
- * p depends on the history: each evaluation starts from the strains of the last commit, so that the iterations
- * of a relaxation leave no trace.  A point of a path, or a substep of a motion, is committed.
+ * p depends on the history: each evaluation starts from the strains of the last commit, so that the
+ * iterations of a relaxation leave no trace.  A point of a path, or a substep of a motion, is committed.
  * A piece ruptures at the commit after the strain of a fibre was above the limit.
  * Fibres have area and both second moments of the section exactly. A pipe has 40 about its circumference,
  * in one layer where its wall is thin; a rectangle 16 x 16. Fully plastic moments are within 0.5 %.

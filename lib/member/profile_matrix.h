@@ -26,7 +26,7 @@ void fl_profile_free(fl_profile *p); /* accepts a zeroed struct, leaves one */
 /* Adds the unknowns of one element to the profile; a number below 0 is none. */
 void fl_profile_join(fl_profile *p, int count, const int32_t *which);
 
-/* Allocates the profile, all zero.  Returns 1 if it would have more than `most` numbers; -1 with FL_SYSTEM. */
+/* Allocates the profile, all zero.  1 if it would have more than `most` numbers; -1 with FL_SYSTEM. */
 int fl_profile_allocate(fl_profile *p, int64_t most, fl_err *err);
 
 /* Adds stiff (g.u)2/2. */

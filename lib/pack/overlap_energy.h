@@ -10,15 +10,16 @@
  *                           corner of one core and the other core (narrow/closest_point.h), so that faces
  *                           touch at their corners, too;
  *     at the boundary       r_i less the distance (pack_region.h) of the centre of a sphere, or of
- *                           each corner of a core, and of each edge and corner of the boundary that points inwards.
+ *                           each corner of a core, and of each edge and corner of the boundary that points
+ *                           inwards.
  *
  * The minimum is found by FIRE (body/relaxation.h) with fictitious masses: 1, and more for bodies with many
  * neighbours, so that a body between hundreds of small ones does not set the step; of rotation m rho^2 with
  * rho = ARM of the bounding radius.  No body moves more than a fifth of its radius in a step.
  *
  * Lists of neighbours hold all pairs up to the scale `reach` and a skin of SKIN of the smallest body; they
- * last while the scale and the paths of the bodies stay below these.  Each body sums its own contacts in the order of the
- * list, and totals go by blocks of bodies in order: the same bits for any number of threads. */
+ * last while the scale and the paths of the bodies stay below these.  Each body sums its own contacts in the
+ * order of the list, and totals go by blocks of bodies in order: the same bits for any number of threads. */
 #ifndef FL_PACK_OVERLAP_ENERGY_H
 #define FL_PACK_OVERLAP_ENERGY_H
 #include "body/relaxation.h"

@@ -37,8 +37,8 @@ typedef struct {
     double *contact_stiffness;    /* [balls] of the contacts at cylinders that use the ball [N/m] */
 } fl_member_motion;
 
-/* Makes a surface of the parts and the cylinders of their members. waterline: height at which the piece of a cylinder
- * is chosen [m]. -1 with FL_INPUT (no section has a radius) or FL_SYSTEM. */
+/* Makes a surface of the parts and the cylinders of their members. waterline: height at which the piece of a
+ * cylinder is chosen [m]. -1 with FL_INPUT (no section has a radius) or FL_SYSTEM. */
 int fl_member_motion_surface(fl_surface *s, const fl_member_model *m, double waterline, fl_err *err);
 
 /* Makes a surface of the pieces of the chain, a part with a cylinder each, in the order of the contacts, for

@@ -20,8 +20,8 @@ typedef struct {
 /* True if ffmpeg is on the PATH. */
 int fl_film_possible(void);
 
-/* Starts a film of w x h pixels, both even.  -1 with FL_USAGE (an ending that is not known, odd sizes) or FL_SYSTEM (no ffmpeg: the
- * package). */
+/* Starts a film of w x h pixels, both even.  -1 with FL_USAGE (an ending that is not known, odd sizes) or
+ * FL_SYSTEM (no ffmpeg: the package). */
 int fl_film_open(fl_film *f, const char *path, int w, int h, double fps, fl_err *err);
 
 /* Writes the next frame.  -1 with FL_SYSTEM. */

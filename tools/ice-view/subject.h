@@ -37,7 +37,7 @@ struct subject {
     double most_force;
 };
 
-/* Opens all files that the options name.  A warning goes to standard error.  -1 with FL_INPUT or FL_SYSTEM. */
+/* Opens the files of the options.  A warning goes to standard error.  -1 with FL_INPUT or FL_SYSTEM. */
 int subject_open(struct subject *s, struct options *o, fl_err *err);
 
 /* Chooses colours anew after the look has changed: ends of the bar.  -1 with FL_INPUT or FL_SYSTEM. */
