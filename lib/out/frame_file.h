@@ -31,7 +31,7 @@ const char *fl_frame_file_history(const fl_frame_file *f); /* the "#by" lines; N
 int fl_frame_file_read(fl_frame_file *f, int32_t k, fl_frame *out, fl_err *err);
 
 /* Extends the index of a file that has grown.  Returns the number of new frames, or -1. */
-int32_t fl_frame_file_more(fl_frame_file *f, fl_err *err);
+int32_t fl_frame_file_extend(fl_frame_file *f, fl_err *err);
 
 void fl_frame_file_close(fl_frame_file *f); /* NULL is accepted */
 

@@ -18,7 +18,7 @@ typedef struct {
 } fl_film;
 
 /* True if ffmpeg is on the PATH. */
-int fl_film_possible(void);
+int fl_film_has_ffmpeg(void);
 
 /* Starts a film of w x h pixels, both even.  -1 with FL_USAGE (an ending that is not known, odd sizes) or
  * FL_SYSTEM (no ffmpeg: the package). */
