@@ -60,9 +60,9 @@ static void what_is_left_is_counted_by_name(void **state)
     fl_err err = {0};
     for (int k = 0; k < 3; k++) fl_frame_count_skipped(&f, "CELAS%d", 2);
     fl_frame_count_skipped(&f, "GRAV");
-    assert_int_equal(f.left_name.n, 2);
-    assert_string_equal(f.left_name.name[0], "CELAS2");
-    assert_true(f.left[0] == 3 && f.left[1] == 1 && !f.failed);
+    assert_int_equal(f.skipped_name.n, 2);
+    assert_string_equal(f.skipped_name.name[0], "CELAS2");
+    assert_true(f.skipped[0] == 3 && f.skipped[1] == 1 && !f.failed);
     /* A node, a material and a section are the same when asked for again, and what they hold stays. */
     const int32_t n = fl_frame_node_of(&f, 0, 7, &err);
     f.node[n].mass = 5.0;
