@@ -3,7 +3,7 @@
 #include "base/pi.h"
 #include "bond/disc_kernel.h"
 
-double fl_disc_remainder(const fl_disc_class *c, double lambda)
+double fl_disc_integrity(const fl_disc_class *c, double lambda)
 {
     if (fl_disc_is_broken(c, lambda)) return 0.0;
     if (lambda <= 1.0) return 1.0;
@@ -58,16 +58,16 @@ fl_disc_wrench fl_disc_force(const fl_disc_law *law, const fl_disc_class *c, dou
 {
     const fl_disc_motion q = fl_disc_motion_of(at->d, at->vi, at->vj, at->wi, at->wj, m->S, m->M, c->length,
                                                c->kn, c->shear_ratio, c->radius, c->share, dt);
-    const double lambda = lambda_of(law, c, scatter, &q), before = fl_disc_remainder(c, m->lambda);
+    const double lambda = lambda_of(law, c, scatter, &q), before = fl_disc_integrity(c, m->lambda);
     const fl_vec3 then = v3_madd(at->d, -dt, v3_sub(at->vj, at->vi));
     const double N0 = c->kn * (v3_norm(then) - c->length);
     if (lambda > m->lambda) m->lambda = lambda;
-    const double g = fl_disc_remainder(c, m->lambda);
+    const double g = fl_disc_integrity(c, m->lambda);
     const double share0 = shear_share(law, before, N0, q.S0), share = shear_share(law, g, q.N, q.S);
     if (g < before)
         m->dissipated += 0.5 * (before - g) * spring_product(c, q.e, N0, q.S0, q.M0, q.N, q.S, q.M);
     if (g < 1.0)
-        m->rubbed +=
+        m->friction_loss +=
             0.5 * dt * ((share0 - before) * v3_dot(q.S0, q.slip) + (share - g) * v3_dot(q.S, q.slip));
     const fl_vec3 drag = v3_scale(g, fl_disc_damping_force(q, c->kn, c->shear_ratio, c->damping)),
                   brake =
@@ -84,7 +84,7 @@ fl_disc_wrench fl_disc_force(const fl_disc_law *law, const fl_disc_class *c, dou
 
 double fl_disc_energy(const fl_disc_class *c, const fl_disc_memory *m, fl_vec3 d)
 {
-    const double r = v3_norm(d), N = c->kn * (r - c->length), g = fl_disc_remainder(c, m->lambda),
+    const double r = v3_norm(d), N = c->kn * (r - c->length), g = fl_disc_integrity(c, m->lambda),
                  press = positive_part(-N);
     return 0.5 * (press * press / c->kn +
                   g * spring_product(c, v3_scale(1.0 / r, d), N, m->S, m->M, N, m->S, m->M));
@@ -93,7 +93,7 @@ double fl_disc_energy(const fl_disc_class *c, const fl_disc_memory *m, fl_vec3 d
 fl_disc_load fl_disc_section_load(const fl_disc_law *law, const fl_disc_class *c, const fl_disc_memory *m,
                                   fl_vec3 d)
 {
-    const double N = c->kn * (v3_norm(d) - c->length), g = fl_disc_remainder(c, m->lambda);
+    const double N = c->kn * (v3_norm(d) - c->length), g = fl_disc_integrity(c, m->lambda);
     return (fl_disc_load){.tension = N > 0.0 ? g * N : N,
                           .shear = shear_share(law, g, N, m->S) * v3_norm(m->S),
                           .moment = g * v3_norm(m->M),

@@ -39,7 +39,7 @@
 #include <stdint.h>
 #include "geom/vec3.h"
 
-/* What all discs of a run have in common. */
+/* Strength and friction of all discs of a run. */
 typedef struct {
     double tension, cohesion; /* sigma_t, c; INFINITY: unlimited [Pa] */
     double internal_friction; /* mu_i */
@@ -60,23 +60,23 @@ typedef struct {
 } fl_disc_class;
 enum { FL_DISC_CLASS_NUMBERS = 8 };
 
-/* What a disc remembers. */
+/* State of a disc, kept from step to step. */
 typedef struct {
-    fl_vec3 S, M;                      /* before damage [N], [N m] */
-    double lambda;                     /* L; at most 1 while the disc is whole */
-    fl_vec3 damping_force;             /* of the last step [N] */
-    fl_vec3 damping_couple;            /* [N m] */
-    double damped, dissipated, rubbed; /* energy taken by dashpots, damage and friction so far [J] */
+    fl_vec3 S, M;                             /* before damage [N], [N m] */
+    double lambda;                            /* L; at most 1 while the disc is whole */
+    fl_vec3 damping_force;                    /* of the last step [N] */
+    fl_vec3 damping_couple;                   /* [N m] */
+    double damped, dissipated, friction_loss; /* energy taken by dashpots, damage and friction so far [J] */
 } fl_disc_memory;
 
-/* The two spheres as the bond sees them. */
+/* Position and motion of the two spheres, relative to each other. */
 typedef struct {
     fl_vec3 d;      /* from the centre of i to that of j [m] */
     fl_vec3 vi, vj; /* mean velocities of the step [m/s] */
     fl_vec3 wi, wj; /* [rad/s] */
 } fl_disc_pose;
 
-/* On i, and the couple on j; the force on j is opposite. */
+/* Force and couple on i, and the couple on j; the force on j is opposite to that on i. */
 typedef struct {
     fl_vec3 force, couple_i, couple_j;
 } fl_disc_wrench;
@@ -87,8 +87,8 @@ typedef struct {
 fl_disc_wrench fl_disc_force(const fl_disc_law *law, const fl_disc_class *c, double scatter,
                              const fl_disc_pose *at, double dt, fl_disc_memory *m);
 
-/* Factor g of what tension, shear and moments have left. */
-double fl_disc_remainder(const fl_disc_class *c, double lambda);
+/* Integrity g of the disc: the factor of tension, shear and moments, 1 without damage. */
+double fl_disc_integrity(const fl_disc_class *c, double lambda);
 
 /* True if the disc is broken. */
 static inline int fl_disc_is_broken(const fl_disc_class *c, double lambda)

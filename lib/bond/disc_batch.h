@@ -13,7 +13,7 @@ typedef struct {
     double *S[3], *M[3];
     double *damping_force[3], *damping_couple[3], *damped; /* NULL without dashpots */
     double *scatter;                                       /* s; NULL: 1 */
-    double *lambda, *dissipated, *rubbed;
+    double *lambda, *dissipated, *friction_loss;
     uint8_t *is_whole;   /* not damaged */
     uint16_t *which;     /* class */
     fl_disc_wrench *out; /* of the last evaluation */

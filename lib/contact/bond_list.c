@@ -109,7 +109,7 @@ static int make_all(fl_world *w, const fl_ice_field *field, fl_err *err)
     int rc = shape ? 0 : -1;
     for (int32_t k = 0, face = 0; k < field->bonds && rc == 0; k++) {
         const int32_t of[2] = {field->bond[k].i, field->bond[k].j};
-        if (fl_disc_list_takes(w, &field->bond[k])) continue;
+        if (fl_disc_list_includes(w, &field->bond[k])) continue;
         for (int e = 0; e < 2 && rc == 0; e++)
             if (shape[of[e]].nv == 0) rc = make_sharp_shape(field, of[e], &shape[of[e]], err);
         if (rc == 0) rc = make_bond(w, face++, &field->bond[k], shape, err);
@@ -377,12 +377,12 @@ fl_bond_energies fl_bond_list_energies(const fl_world *w)
         const fl_bond *c = &w->bonds.bond[k];
         sum.store += c->elastic_energy + c->friction_spring_energy;
         sum.spring += c->friction_spring_energy;
-        sum.spent += c->dissipated;
+        sum.dissipated += c->dissipated;
         sum.transferred += c->given_to_friction;
     }
     const fl_disc_energies discs = fl_disc_list_energies(w);
-    sum.store += discs.store, sum.spent += discs.spent;
-    sum.damped = discs.damped, sum.rubbed = discs.rubbed;
+    sum.store += discs.store, sum.dissipated += discs.dissipated;
+    sum.damped = discs.damped, sum.friction_loss = discs.friction_loss;
     return sum;
 }
 

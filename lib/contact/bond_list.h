@@ -78,11 +78,12 @@ void fl_bond_list_refresh(fl_world *w);
 
 /* Energies of all bonds [J]. */
 typedef struct {
-    double store;          /* elastic, with the friction springs */
-    double spring;         /* of the friction springs */
-    double spent;          /* dissipated */
-    double transferred;    /* from damage to the friction springs */
-    double damped, rubbed; /* by dashpots and friction of discs; those of faces are in the contact sums */
+    double store;       /* elastic, with the friction springs */
+    double spring;      /* of the friction springs */
+    double dissipated;  /* by damage */
+    double transferred; /* from damage to the friction springs */
+    double damped,
+        friction_loss; /* by dashpots and friction of discs; those of faces are in the contact sums */
 } fl_bond_energies;
 fl_bond_energies fl_bond_list_energies(const fl_world *w);
 

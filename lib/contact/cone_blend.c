@@ -86,7 +86,7 @@ static void points_to_piece(fl_patch_points *s, int32_t first, const fl_free_con
     s->couple = m3_mul(Q, s->couple);
 }
 
-/* And back. */
+/* The inverse: from the frame of the piece to that of the cone. */
 static void points_to_cone(fl_patch_points *s, int32_t first, const fl_free_cone *c)
 {
     const fl_mat3 Q = q_matrix(c->q);

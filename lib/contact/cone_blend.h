@@ -19,7 +19,7 @@ typedef struct {
     fl_vec3 turn;
 } fl_cone_blend;
 
-/* That of a cone by itself; M, o: pose of A in the frame of the cone, R its radius [m]. */
+/* Weight of a cone that is a piece by itself; M, o: pose of A in the frame of the cone, R its radius [m]. */
 fl_cone_blend fl_cone_blend_of(const fl_piece *cone, const fl_poly *a, const fl_mat3 *M, fl_vec3 o, double R);
 
 /* Blends the points from `exact` on, of the cone, with those from `first` on, of the polyhedron, and

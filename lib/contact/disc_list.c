@@ -17,7 +17,7 @@ enum { ALL_FIXED = 63 };
 /* Lengths that differ by less than this fraction are equal: a lattice then has one class. */
 #define SAME_LENGTH 1e-9
 
-/* Classes looked at before a new one is made. */
+/* Number of classes that are compared before a new one is made. */
 enum { CLASSES_TRIED = 16 };
 
 /* Least scatter of a strength: a normal law has a tail below 0. */
@@ -31,7 +31,7 @@ static fl_vec3 field_separation(const fl_world *w, const fl_ice_field_bond *d)
                   fl_periodic_cell_offset(&w->cell, fl_bond_image_of(w, d->i, d->j, d->x)));
 }
 
-int fl_disc_list_takes(const fl_world *w, const fl_ice_field_bond *d)
+int fl_disc_list_includes(const fl_world *w, const fl_ice_field_bond *d)
 {
     const fl_bodies *b = &w->b;
     return b->core[d->i].nv == 1 && b->core[d->j].nv == 1 &&
@@ -97,8 +97,8 @@ static int alloc_arrays(fl_world *w, int64_t n, fl_err *err)
     fl_disc_list *s = &w->discs;
     fl_disc_arrays *a = &s->at;
     const int64_t full = (n + FL_LANE_COUNT - 1) / FL_LANE_COUNT * FL_LANE_COUNT;
-    double **const reals[] = {&a->S[0], &a->S[1],   &a->S[2],       &a->M[0],   &a->M[1],
-                              &a->M[2], &a->lambda, &a->dissipated, &a->rubbed, &s->pending};
+    double **const reals[] = {&a->S[0], &a->S[1],   &a->S[2],       &a->M[0],          &a->M[1],
+                              &a->M[2], &a->lambda, &a->dissipated, &a->friction_loss, &s->pending};
     double **const dampers[] = {&a->damping_force[0],
                                 &a->damping_force[1],
                                 &a->damping_force[2],
@@ -217,7 +217,7 @@ int fl_disc_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
     fl_disc_list *s = &w->discs;
     int64_t n = 0;
     if (!b->head.present || !b->on) return 0;
-    for (int32_t k = 0; k < field->bonds; k++) n += fl_disc_list_takes(w, &field->bond[k]);
+    for (int32_t k = 0; k < field->bonds; k++) n += fl_disc_list_includes(w, &field->bond[k]);
     if (n == 0) return 0;
     s->law = (fl_disc_law){.tension = b->normal_strength,
                            .cohesion = b->shear_strength,
@@ -226,7 +226,7 @@ int fl_disc_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
                            .moment_factor = b->moment_factor};
     if (alloc_arrays(w, n, err)) return -1;
     for (int32_t k = 0; k < field->bonds; k++)
-        if (fl_disc_list_takes(w, &field->bond[k]) && add_disc(w, &field->bond[k], err)) return -1;
+        if (fl_disc_list_includes(w, &field->bond[k]) && add_disc(w, &field->bond[k], err)) return -1;
     return index_discs(w, err) || bound_stiffness(w, err) ? -1 : 0;
 }
 
@@ -235,7 +235,7 @@ void fl_disc_list_free(fl_disc_list *s)
     fl_disc_arrays *a = &s->at;
     for (int e = 0; e < 3; e++)
         free(a->S[e]), free(a->M[e]), free(a->damping_force[e]), free(a->damping_couple[e]);
-    free(a->damped), free(a->scatter), free(a->lambda), free(a->dissipated), free(a->rubbed);
+    free(a->damped), free(a->scatter), free(a->lambda), free(a->dissipated), free(a->friction_loss);
     free(a->i), free(a->j), free(a->is_whole), free(a->which), free(a->out);
     free(s->classes), free(s->shift), free(s->image), free(s->has_ended), free(s->pending), free(s->omega2);
     free(s->max_omega2), free(s->first_i), free(s->first_j), free(s->of), free(s->force_sum);
@@ -268,7 +268,7 @@ fl_disc_memory fl_disc_list_memory(const fl_disc_list *s, int32_t k)
                         .M = vector_of(a->M, k),
                         .lambda = a->lambda[k],
                         .dissipated = a->dissipated[k],
-                        .rubbed = a->rubbed[k]};
+                        .friction_loss = a->friction_loss[k]};
     if (!a->damped) return m;
     m.damping_force = vector_of(a->damping_force, k), m.damping_couple = vector_of(a->damping_couple, k);
     m.damped = a->damped[k];
@@ -279,8 +279,8 @@ void fl_disc_list_set_memory(fl_disc_list *s, int32_t k, const fl_disc_memory *m
 {
     fl_disc_arrays *a = &s->at;
     set_vector(a->S, k, m->S), set_vector(a->M, k, m->M);
-    a->lambda[k] = m->lambda, a->dissipated[k] = m->dissipated, a->rubbed[k] = m->rubbed;
-    a->is_whole[k] = !s->has_ended[k] && fl_disc_remainder(&s->classes[a->which[k]], m->lambda) == 1.0;
+    a->lambda[k] = m->lambda, a->dissipated[k] = m->dissipated, a->friction_loss[k] = m->friction_loss;
+    a->is_whole[k] = !s->has_ended[k] && fl_disc_integrity(&s->classes[a->which[k]], m->lambda) == 1.0;
     if (!a->damped) return;
     set_vector(a->damping_force, k, m->damping_force), set_vector(a->damping_couple, k, m->damping_couple);
     a->damped[k] = m->damped;
@@ -445,7 +445,7 @@ fl_disc_energies fl_disc_list_energies(const fl_world *w)
         sum.store += s->has_ended[k]
                          ? s->pending[k]
                          : fl_disc_energy(&s->classes[s->at.which[k]], &m, fl_disc_list_separation(w, k));
-        sum.spent += m.dissipated, sum.damped += m.damped, sum.rubbed += m.rubbed;
+        sum.dissipated += m.dissipated, sum.damped += m.damped, sum.friction_loss += m.friction_loss;
     }
     return sum;
 }

@@ -16,7 +16,7 @@
 /* True if the bond of the field is a disc: of two spheres that touch or are apart, not one that overlaps by
  * more than FL_DISC_OVERLAP of the sum of their radii, whose contact would begin with a force. */
 #define FL_DISC_OVERLAP 1e-3
-int fl_disc_list_takes(const fl_world *w, const fl_ice_field_bond *d);
+int fl_disc_list_includes(const fl_world *w, const fl_ice_field_bond *d);
 
 /* Makes the discs of the field, body k of the field being body k, in its pose of the field.  -1 with
  * FL_SYSTEM, or FL_INPUT for a bond without length. */
@@ -51,7 +51,7 @@ static inline int fl_disc_list_is_bonded(const fl_world *w, int32_t i, int32_t j
 void fl_disc_list_init_contact(const fl_world *w, int32_t i, int32_t j, const int32_t image[3],
                                fl_sphere_contact *c);
 
-/* After the neighbour list has taken up the pairs of all bonds that have ended. */
+/* Marks all ended bonds as listed.  Called after the neighbour list has taken up their pairs. */
 void fl_disc_list_forget_ended(fl_world *w);
 
 /* Bounds of omega^2 of body k by all of its bonds at the start, and by those that stand [1/s2]. */
@@ -61,11 +61,11 @@ double fl_disc_list_omega2(const fl_world *w, int32_t k);
 /* Ends the bonds of bodies that have left the domain. */
 void fl_disc_list_end_absent(fl_world *w);
 
-/* Memory of bond k, and back. */
+/* Reads and writes the memory of bond k. */
 fl_disc_memory fl_disc_list_memory(const fl_disc_list *s, int32_t k);
 void fl_disc_list_set_memory(fl_disc_list *s, int32_t k, const fl_disc_memory *m);
 
-/* From the centre of i to that of j [m]. */
+/* Vector from the centre of i to that of j of bond k [m]. */
 fl_vec3 fl_disc_list_separation(const fl_world *w, int32_t k);
 
 /* The section load of bond k; the point is inside the periodic cell. */
@@ -73,7 +73,7 @@ fl_disc_load fl_disc_list_load(const fl_world *w, int32_t k);
 
 /* Energies of all bonds [J]: stored, dissipated by damage, dashpots and friction. */
 typedef struct {
-    double store, spent, damped, rubbed;
+    double store, dissipated, damped, friction_loss;
 } fl_disc_energies;
 fl_disc_energies fl_disc_list_energies(const fl_world *w);
 

@@ -256,21 +256,21 @@ static int is_on_facets(const fl_world *w, const fl_pair *p)
     return piece && piece->kind != FL_PIECE_PLANE;
 }
 
-/* lambda of law/damping.h; takes note of load and spin.
+/* lambda of law/damping.h; updates the sustained load and spin.
  *   load, slope, mass   sum of the pressures, its stiffness, effective mass
  *   u, spin             sliding speed of the cores and spin, both across the normal
  *   sigma2              variance of the approach speeds */
-static double laid_share(const fl_world *w, fl_pair *p, double load, double slope, double mass, fl_vec3 u,
-                         fl_vec3 spin, double sigma2)
+static double sustained_share(const fl_world *w, fl_pair *p, double load, double slope, double mass,
+                              fl_vec3 u, fl_vec3 spin, double sigma2)
 {
-    const double now = (double)w->step, laid = p->touching ? p->laid_load : 0.0;
-    const fl_vec3 before = p->touching ? p->laid_spin : v3(0, 0, 0);
+    const double now = (double)w->step, sustained = p->touching ? p->sustained_load : 0.0;
+    const fl_vec3 before = p->touching ? p->sustained_spin : v3(0, 0, 0);
     const double omega2 = slope > 0.0 && mass < INFINITY ? slope / mass : 0.0,
-                 part = p->touching ? fl_damping_low_pass((now - p->laid_step) * w->dt, omega2) : 0.0;
-    p->laid_load = laid + part * (load - laid);
-    p->laid_spin = v3_lerp(before, spin, part);
-    p->laid_step = now;
-    return fl_damping_laid_share(laid, load) * fl_damping_passing_share(v3_norm2(u), sigma2) *
+                 part = p->touching ? fl_damping_low_pass((now - p->sustained_step) * w->dt, omega2) : 0.0;
+    p->sustained_load = sustained + part * (load - sustained);
+    p->sustained_spin = v3_lerp(before, spin, part);
+    p->sustained_step = now;
+    return fl_damping_sustained_share(sustained, load) * fl_damping_passing_share(v3_norm2(u), sigma2) *
            fl_damping_steady_share(v3_dot(spin, before), v3_norm2(spin), v3_norm2(before));
 }
 
@@ -345,7 +345,7 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
     if (one || !fl_pair_has_reduced_mass(w, p)) ease = fl_pair_mobility_of(w, p);
     const double mass = less > 0.0 ? fl_pair_mass(w, p, &ease, way, turn_i, turn_j) / less : INFINITY;
     const double first_approach = approach_speed_of(b, p, a, &first);
-    double approach = first_approach, mean = 0.0, laid = 0.0;
+    double approach = first_approach, mean = 0.0, sustained = 0.0;
     if (is_on_facets(w, p)) { /* a sphere: its spin does not matter, and its core is its centre */
         double load = 0.0, stiff = 0.0, square = 0.0;
         for (int32_t c = 0; c < s->n; c++) {
@@ -358,8 +358,8 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
         }
         mean /= sum;
         const fl_vec3 n = v3_unit(way), u = end_velocity(b, p, a, v3(0, 0, 0), v3_neg(r->off));
-        laid = laid_share(w, p, load, stiff, mass, v3_madd(u, -v3_dot(u, n), n), v3(0, 0, 0),
-                          fmax(square / sum - mean * mean, 0.0));
+        sustained = sustained_share(w, p, load, stiff, mass, v3_madd(u, -v3_dot(u, n), n), v3(0, 0, 0),
+                                    fmax(square / sum - mean * mean, 0.0));
     }
     for (int32_t c = 1; c < s->n; c++) {
         const world_point t = world_point_of(p, &s->point[c], r);
@@ -375,7 +375,7 @@ static int evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, co
         const world_point t = c ? world_point_of(p, q, r) : first;
         const double elastic = k * t.weight, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
                      own = c ? approach_speed_of(b, p, a, &t) : first_approach,
-                     comes = s->n > 1 ? own + laid * (mean - own) : own,
+                     comes = s->n > 1 ? own + sustained * (mean - own) : own,
                      normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes + more);
         add_wrench(&p->force, &p->torque_i, &p->torque_j, v3_scale(normal, t.n), t.ai, t.aj);
         add_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping,
@@ -444,9 +444,10 @@ static fl_patch_result add_damping_and_friction(fl_world *w, fl_pair *p, const f
 }
 
 /* lambda of a patch.  elastic: the force; spin: relative spin, world axes. */
-static double laid_share_of_patch(const fl_world *w, fl_pair *p, const fl_patch_points *s,
-                                  const fl_force_sum *q, const fl_exact_contact *exact, fl_vec3 elastic,
-                                  const fl_relative_pose *r, const prediction *a, fl_vec3 spin, double mass)
+static double sustained_share_of_patch(const fl_world *w, fl_pair *p, const fl_patch_points *s,
+                                       const fl_force_sum *q, const fl_exact_contact *exact, fl_vec3 elastic,
+                                       const fl_relative_pose *r, const prediction *a, fl_vec3 spin,
+                                       double mass)
 {
     const fl_bodies *b = &w->b;
     if (!(q->pressure > 0.0)) return 0.0;
@@ -455,9 +456,9 @@ static double laid_share_of_patch(const fl_world *w, fl_pair *p, const fl_patch_
                   core = end_velocity(b, p, a,
                                       v3_madd(v3_add(aj, r->off), p->radius_factor * b->radius[p->i], n),
                                       v3_madd(aj, -p->radius_factor * b->radius[p->j], n));
-    return laid_share(w, p, exact->scale * q->pressure, exact->slope, mass,
-                      v3_madd(core, -v3_dot(core, n), n), v3_madd(spin, -v3_dot(spin, n), n),
-                      fmax(each * fl_force_sum_square(s) - mean * mean, 0.0));
+    return sustained_share(w, p, exact->scale * q->pressure, exact->slope, mass,
+                           v3_madd(core, -v3_dot(core, n), n), v3_madd(spin, -v3_dot(spin, n), n),
+                           fmax(each * fl_force_sum_square(s) - mean * mean, 0.0));
 }
 
 /* --- exact evaluation -------------------------------------------------------------------------- */
@@ -499,14 +500,14 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const fl_vec3 v = m3_tmul(R, end_velocity(b, p, a, ai, aj)), turn = m3_tmul(R, spin);
     if (fl_force_sum_motion(s, v, turn, &q)) return -1;
     const double chi = damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass);
-    const double laid =
-        is_on_facets(w, p) ? laid_share_of_patch(w, p, s, &q, &exact, elastic, r, a, spin, mass) : 0.0;
+    const double sustained =
+        is_on_facets(w, p) ? sustained_share_of_patch(w, p, s, &q, &exact, elastic, r, a, spin, mass) : 0.0;
     const double size = v3_norm(elastic),
                  more = fl_predictor_share(size, exact.scale * q.pressure) *
                         approach_correction(a, q.pressure_rate / q.pressure, size, chi * size, compliance);
     const double whole = fl_damping_whole_approach(
         q.pressure_rate / q.pressure, -(v3_dot(q.gradient.f, v) + v3_dot(q.gradient.m, turn)) / q.pressure);
-    fl_force_sum_damping(s, chi, more, laid, whole, &q);
+    fl_force_sum_damping(s, chi, more, sustained, whole, &q);
     fl_stiffness si, sj;
     fl_spring_sums point_springs;
     if (survey || has_surrogate) fl_force_sum_springs(s, &point_springs);
@@ -532,7 +533,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     if (fl_panels_need_points(w, p)) {
         for (int32_t k = 0; k < s->n; k++)
             s->point[k].approach_speed =
-                (1.0 - laid) * fl_force_sum_approach_speed(s, k) + (laid * whole + more);
+                (1.0 - sustained) * fl_force_sum_approach_speed(s, k) + (sustained * whole + more);
         fl_panels_record_points(w, p, s, exact.scale, chi);
     }
     return p->touching = 1;
@@ -852,8 +853,8 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     if (p->rolling) *p->rolling = (fl_rolling_spring){.k = 0.0};
     p->touching = 0;
     p->max_approach_speed = 0.0;
-    p->laid_load = p->laid_step = 0.0;
-    p->laid_spin = v3(0, 0, 0);
+    p->sustained_load = p->sustained_step = 0.0;
+    p->sustained_spin = v3(0, 0, 0);
     if (p->surrogate) p->surrogate->valid = 0;
     if (p->bond && p->radius_factor < 1.0) fl_bond_list_restore_radii(w, p, R, distance);
     fl_pair_set_free_travel(w, p, distance, R);

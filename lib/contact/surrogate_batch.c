@@ -28,13 +28,13 @@ typedef struct {
     fl_lane turn[3]; /* rotation of the force since the exact evaluation, frame of B */
     /* damping; fd and md in the frame of B, for a force ratio of 1 */
     fl_lane chi, weight_y, growth, shift[3], fd[3], md[3];
-    fl_lane laid, laid_spin[3], core_a, core_b; /* memory of fl_pair; radii */
-    fl_lane springs[SPRINGS];                   /* fl_friction_springs; the last one is unused */
+    fl_lane sustained, sustained_spin[3], core_a, core_b; /* memory of fl_pair; radii */
+    fl_lane springs[SPRINGS];                             /* fl_friction_springs; the last one is unused */
     fl_lane compliance[6];
     /* input of friction */
     fl_lane n[3], v[3], v_end[3], aj[3], elongation[3], k, g, limit, spin_mean, spin, spin_end;
     fl_lane results[FL_PAIR_RESULTS]; /* of fl_pair, from force on */
-    int remembers;                    /* some contact has a load that was laid down */
+    int remembers;                    /* some contact has a sustained load */
 } batch;
 
 #define OF(member) (b->s.s + FL_SURROGATE_ROW(member))
@@ -74,13 +74,13 @@ FL_SIMD_INLINE void set_compliance(fl_lane *a, int k, fl_sym3 K)
     a[3].a[k] = K.yy, a[4].a[k] = K.yz, a[5].a[k] = K.zz;
 }
 
-/* What find_damping_over_faces() needs besides. */
+/* Further input of find_damping_over_faces(). */
 static void load_memory(batch *b, const fl_world *w, fl_pair *const *p, int n)
 {
     for (int k = 0; k < FL_SURROGATE_BATCH; k++) {
         const fl_pair *c = p[k < n ? k : 0];
-        b->laid.a[k] = c->laid_load;
-        fl_lane3_set(b->laid_spin, k, c->laid_spin);
+        b->sustained.a[k] = c->sustained_load;
+        fl_lane3_set(b->sustained_spin, k, c->sustained_spin);
         b->core_a.a[k] = w->b.radius[c->i], b->core_b.a[k] = w->b.radius[c->j];
     }
 }
@@ -112,7 +112,7 @@ static void load_batch(batch *b, const fl_world *w, fl_pair *const *p, int n, do
         b->mass.a[k] = b->reduced.a[k] = c->mass, b->max_approach.a[k] = c->max_approach_speed;
         b->slow_factor.a[k] = c->law->slow_damping_factor, b->impact_damping.a[k] = c->law->impact_damping;
         b->friction.a[k] = c->law->friction, b->tangential.a[k] = c->law->tangential_ratio;
-        b->remembers |= c->laid_load > 0.0;
+        b->remembers |= c->sustained_load > 0.0;
     }
     fl_surrogate_pack(&b->s, s, FL_SURROGATE_BATCH);
     load_rows(b->qi, qi, 4);
@@ -207,22 +207,22 @@ FL_SIMD_INLINE double row_times(const fl_lane *A, int k, int r, fl_vec3 v, fl_ve
 /* a after a small rotation. */
 FL_SIMD_INLINE fl_vec3 rotated(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(turn, a)); }
 
-/* lambda of law/damping.h, as laid_share_of_patch() of pair_force.c.  v: of A against B at the centre of the
- * pressures; w: relative spin; force: on A; all in world axes or all in the frame of B. */
-FL_SIMD_INLINE double laid_share(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn,
-                                 fl_vec3 before, fl_vec3 force, double sigma2)
+/* lambda of law/damping.h, as sustained_share_of_patch() of pair_force.c.  v: of A against B at the centre of
+ * the pressures; w: relative spin; force: on A; all in world axes or all in the frame of B. */
+FL_SIMD_INLINE double sustained_share(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn,
+                                      fl_vec3 before, fl_vec3 force, double sigma2)
 {
     const double size2 = v3_norm2(force), each2 = size2 > 0.0 ? 1.0 / size2 : 0.0, each = sqrt(each2);
     const fl_vec3 core = v3_madd(v, each, v3_cross(core_turn, force)),
                   u = v3_madd(core, -each2 * v3_dot(core, force), force),
                   turns = v3_madd(w, -each2 * v3_dot(w, force), force);
     const double load = b->s.force_ratio.a[k] * OF(pressure)->a[k], u2 = v3_norm2(u),
-                 all = u2 + sigma2 * (1.0 / (FL_LAID_SLOPE * FL_LAID_SLOPE)), now2 = v3_norm2(turns),
-                 before2 = v3_norm2(before), product = v3_dot(turns, before),
+                 all = u2 + sigma2 * (1.0 / (FL_SUSTAINED_SLOPE * FL_SUSTAINED_SLOPE)),
+                 now2 = v3_norm2(turns), before2 = v3_norm2(before), product = v3_dot(turns, before),
                  most = now2 > before2 ? now2 : before2;
-    const double laid = b->laid.a[k] < load ? b->laid.a[k] / load : 1.0, passing = all > 0.0 ? u2 / all : 0.0,
-                 steady = product > 0.0 ? product / most : 0.0;
-    return laid * passing * (most > 0.0 ? steady : 1.0);
+    const double sustained = b->sustained.a[k] < load ? b->sustained.a[k] / load : 1.0,
+                 passing = all > 0.0 ? u2 / all : 0.0, steady = product > 0.0 ? product / most : 0.0;
+    return sustained * passing * (most > 0.0 ? steady : 1.0);
 }
 
 /* Motion of A against B, and damping for a force ratio of 1: -chi times the sums over e (n, t) (n, t)^T.  The
@@ -269,10 +269,10 @@ FL_SIMD_INLINE void find_damping_of(batch *restrict b, fl_predictor_step of, int
             const fl_vec3 middle =
                 r3_mul(R, v3_madd(v3_add(v3_add(first, by), fl_lane3(OF(centre_offset), k)), eachd2,
                                   v3_cross(D, T)));
-            const double laid =
-                laid_share(b, k, v3_add(mean_velocity(b, k, middle), predicted_change(b, k, middle)),
-                           v3_add(turns, more), core_turn, fl_lane3(b->laid_spin, k), r3_mul(R, force),
-                           variance > 0.0 ? variance : 0.0);
+            const double sustained =
+                sustained_share(b, k, v3_add(mean_velocity(b, k, middle), predicted_change(b, k, middle)),
+                                v3_add(turns, more), core_turn, fl_lane3(b->sustained_spin, k),
+                                r3_mul(R, force), variance > 0.0 ? variance : 0.0);
             const fl_vec3 acts = r3_mul(R, fl_lane3(b->s.point, k)),
                           at = v3_add(mean_velocity(b, k, acts), predicted_change(b, k, acts));
             const double rate = -(v3_dot(r3_mul(R, force), at) +
@@ -280,9 +280,9 @@ FL_SIMD_INLINE void find_damping_of(batch *restrict b, fl_predictor_step of, int
                                 (b->s.force_ratio.a[k] * OF(pressure)->a[k]),
                          same = closing * rate > 0.0 ? rate : 0.0,
                          whole = same * same < closing * closing ? same : closing;
-            f = v3_madd(v3_scale(1.0 - laid, f), -laid * whole, D);
-            m = v3_madd(v3_scale(1.0 - laid, m), -laid * whole, T);
-            variance *= (1.0 - laid) * (1.0 - laid);
+            f = v3_madd(v3_scale(1.0 - sustained, f), -sustained * whole, D);
+            m = v3_madd(v3_scale(1.0 - sustained, m), -sustained * whole, T);
+            variance *= (1.0 - sustained) * (1.0 - sustained);
         }
         /* the change by the contact itself */
         const fl_previous_force before = previous_of(b, k);

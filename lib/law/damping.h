@@ -42,29 +42,30 @@ static inline double fl_damping_chi(double D, double c, double touch, double ene
     return speed > 0.0 ? D / speed : 0.0;
 }
 
-/* --- a load that has been laid down ---------------------------------------------------------------------
+/* --- sustained loads ---------------------------------------------------------------------------------
  *
- * A body that rolls or slides over a corner of a surface hands its load from one face to the next: while the
- * points of one approach, those of the other part, and the load as a whole does not change.  Damped point by
- * point that costs far more than the corner itself, m (v dphi)^2/2, as the load is laid down once more at
- * every corner.  So of the approach speeds c of the points, with C the approach of the contact as a whole,
+ * A body that rolls or slides over a corner of a surface transfers its load from one face to the next: the
+ * points of one approach, those of the other part, and the load as a whole does not change.  Damping of each
+ * point by its own speed would then cost far more than the corner itself, m (v dphi)^2/2, as the load would
+ * be built up anew at every corner.  So damping acts on
  *
- *     c' = c - lambda (c - C)
+ *     c' = c - lambda (c - C),
  *
- * are damped.  C is the mean sum e c/sum e over the pressures e, or the rate of the stored energy over sum e,
- * or 0, whichever is between the other two: where pressures travel along the faces their mean approach is no
- * rate of the load.  lambda is the product of
- *   - the share of the load that was there before, laid/F, with `laid` the load F behind a low pass of
- *     FL_LAID_PERIODS/omega, omega^2 = K/M: 1 for a load that rests, 0 in an impact, whose restitution stays;
- *   - u^2/(u^2 + (sigma/FL_LAID_SLOPE)^2), with u the speed across the normal of the points of the cores that
- *     touch, and sigma the deviation of c: 1 for a body that moves along the surface over small bends, 0 for
- *     one that rocks on the spot, and little in a groove;
- *   - w.w'/max(w^2, w'^2) >= 0, with w the spin across the normal and w' the same behind the low pass: 1 for
- *   a
- *     body that rolls or pitches steadily, 0 for one that rocks to and fro.
- * sum e c' c >= 0: it stays a dissipation. */
-#define FL_LAID_PERIODS 2.0
-#define FL_LAID_SLOPE 0.2
+ * c being the approach speeds of the points, and C that of the contact as a whole.  C is the mean
+ * sum e c/sum e over the pressures e, or the rate of the stored energy over sum e, or 0, whichever is between
+ * the other two: where pressures travel along the faces their mean approach is no rate of the load.  lambda
+ * is the product of
+ *   - the sustained share of the load: F behind a low pass over F.  The time of the low pass is
+ *     FL_SUSTAINED_PERIODS/omega, omega^2 = K/M.  The share is 1 for a load that rests, and 0 in an impact,
+ *     whose restitution stays;
+ *   - u^2/(u^2 + (sigma/FL_SUSTAINED_SLOPE)^2), with u the speed across the normal of the points of the cores
+ *     that touch, and sigma the deviation of c: 1 for a body that moves along the surface over small bends, 0
+ *     for one that rocks on the spot, and little in a groove;
+ *   - w.w'/max(w^2, w'^2) >= 0, with w the spin across the normal and w' the same behind the low pass: 1
+ *     for a body that rolls or pitches steadily, 0 for one that rocks to and fro.
+ * sum e c' c >= 0, so that damping dissipates. */
+#define FL_SUSTAINED_PERIODS 2.0
+#define FL_SUSTAINED_SLOPE 0.2
 
 /* C from the mean and from the rate of the energy over the load. */
 static inline double fl_damping_whole_approach(double mean, double rate)
@@ -74,15 +75,15 @@ static inline double fl_damping_whole_approach(double mean, double rate)
 }
 
 /* First factor of lambda. */
-static inline double fl_damping_laid_share(double laid, double load)
+static inline double fl_damping_sustained_share(double sustained, double load)
 {
-    return laid < load ? laid / load : load > 0.0 ? 1.0 : 0.0;
+    return sustained < load ? sustained / load : load > 0.0 ? 1.0 : 0.0;
 }
 
 /* Second factor, from u^2 and sigma^2. */
 static inline double fl_damping_passing_share(double u2, double sigma2)
 {
-    const double all = u2 + sigma2 * (1.0 / (FL_LAID_SLOPE * FL_LAID_SLOPE));
+    const double all = u2 + sigma2 * (1.0 / (FL_SUSTAINED_SLOPE * FL_SUSTAINED_SLOPE));
     return all > 0.0 ? u2 / all : 0.0;
 }
 
@@ -96,7 +97,7 @@ static inline double fl_damping_steady_share(double product, double now2, double
 /* Share of the new value in the low pass after dt [s]; omega2: stiffness over mass [1/s2]. */
 static inline double fl_damping_low_pass(double dt, double omega2)
 {
-    const double x = dt * sqrt(omega2) * (1.0 / FL_LAID_PERIODS);
+    const double x = dt * sqrt(omega2) * (1.0 / FL_SUSTAINED_PERIODS);
     return x / (1.0 + x);
 }
 

@@ -351,15 +351,16 @@ FL_SIMD_INLINE fl_friction_result fl_tangent_step_of(fl_friction_springs s, fl_f
 {
     const double before = v3_norm2(s.force), k = c.k, k_turn = k * c.arm * c.arm;
     const fl_vec3 rolled = v3_madd(s.force, by.mean_spin * dt, v3_cross(c.n, s.force));
-    const fl_vec3 laid = v3_madd(rolled, -v3_dot(rolled, c.n), c.n);
-    const double after = v3_norm2(laid), length = after > 0.0 ? sqrt(before / after) : 1.0;
+    const fl_vec3 projected = v3_madd(rolled, -v3_dot(rolled, c.n), c.n);
+    const double after = v3_norm2(projected), length = after > 0.0 ? sqrt(before / after) : 1.0;
     const double fall = k < s.k ? k / s.k : 1.0, fall_turn = k_turn < s.k_turn ? k_turn / s.k_turn : 1.0;
     const double mean_k = k < s.k ? k : 0.5 * (k + s.k),
                  mean_k_turn = k_turn < s.k_turn ? k_turn : 0.5 * (k_turn + s.k_turn);
     const double each = c.arm > 0.0 ? 1.0 / c.arm : 0.0;
     const fl_vec3 v = v3_madd(by.v, -v3_dot(by.v, c.n), c.n),
                   v_end = v3_madd(by.v_end, -v3_dot(by.v_end, c.n), c.n);
-    const fl_friction_wrench held = {v3_scale(fall, v3_scale(length, laid)), each * (fall_turn * s.moment)},
+    const fl_friction_wrench held = {v3_scale(fall, v3_scale(length, projected)),
+                                     each * (fall_turn * s.moment)},
                              change = {v3_scale(-mean_k * dt, v), each * (-mean_k_turn * dt * by.spin)},
                              change_end = {v3_scale(-mean_k * dt, v_end),
                                            each * (-mean_k_turn * dt * by.spin_end)},

@@ -335,22 +335,22 @@ double fl_member_chain_energy(fl_member_chain *c)
 
 int32_t fl_member_chain_commit(fl_member_chain *c)
 {
-    int32_t parted = 0;
+    int32_t ruptured = 0;
     for (int32_t k = 0; k < c->yielding; k++) {
         fl_member_fibres *f = &c->fibres[k];
         double energy = 0.0;
         fl_member_force force;
-        if (f->strain > f->section->limit && !f->parted) evaluate(c, f->contact, &force, &energy);
-        parted += fl_member_fibres_commit(f, energy);
+        if (f->strain > f->section->limit && !f->ruptured) evaluate(c, f->contact, &force, &energy);
+        ruptured += fl_member_fibres_commit(f, energy);
     }
-    return parted;
+    return ruptured;
 }
 
 double fl_member_chain_plastic(const fl_member_chain *c)
 {
     double sum = 0.0;
     for (int32_t k = 0; k < c->yielding; k++)
-        sum += c->fibres[k].spent + (c->fibres[k].parted ? 0.0 : c->fibres[k].flow);
+        sum += c->fibres[k].dissipated + (c->fibres[k].ruptured ? 0.0 : c->fibres[k].flow);
     return sum;
 }
 

@@ -167,7 +167,7 @@ static inline fl_member_force fl_member_contact_force(const fl_member_contact *c
                                                       fl_quat qj, double *energy, double *rotation2)
 {
     *rotation2 = 0.0;
-    if (c->fibres && c->fibres->parted) {
+    if (c->fibres && c->fibres->ruptured) {
         if (energy) *energy = 0.0;
         return (fl_member_force){v3(0, 0, 0), v3(0, 0, 0), v3(0, 0, 0)};
     }

@@ -142,7 +142,7 @@ int fl_member_dynamics_make(fl_member_dynamics *d, const fl_member_model *m, dou
         fl_member_dynamics_free(d);
         return -1;
     }
-    d->parted = fl_member_chain_commit(&d->chain);
+    d->ruptured = fl_member_chain_commit(&d->chain);
     for (int32_t b = 0; b < d->chain.balls; b++) d->equilibrium[b] = d->chain.ball[b].d;
     d->plastic_at_start = fl_member_chain_plastic(&d->chain);
     d->energy_at_start = fl_member_dynamics_energy(d);
@@ -229,8 +229,8 @@ void fl_member_dynamics_damp(fl_member_dynamics *d)
     d->damped += before - fl_member_dynamics_kinetic(d);
 }
 
-/* Kick of half a substep by the chain's own forces and the loads, then perhaps the drift of a substep. */
-static void own_kick(fl_member_chain *c, int drift)
+/* Half-substep kick by the internal forces and the loads; with drift, the drift of a substep follows. */
+static void kick_by_internal_forces(fl_member_chain *c, int drift)
 {
     const double h = 0.5 * c->dt;
     for (int32_t b = 0; b < c->balls; b++) {
@@ -249,11 +249,11 @@ void fl_member_dynamics_drift(fl_member_dynamics *d)
 {
     fl_member_chain *c = &d->chain;
     for (int s = 0; s < d->substeps; s++) {
-        own_kick(c, 1);
+        kick_by_internal_forces(c, 1);
         fl_member_chain_forces(c);
-        own_kick(c, 0);
-        if (c->yielding) d->parted += fl_member_chain_commit(c);
-        if (!(c->largest_rotation2 <= FL_MEMBER_ROTATION_MAX * FL_MEMBER_ROTATION_MAX)) d->too_far = 1;
+        kick_by_internal_forces(c, 0);
+        if (c->yielding) d->ruptured += fl_member_chain_commit(c);
+        if (!(c->largest_rotation2 <= FL_MEMBER_ROTATION_MAX * FL_MEMBER_ROTATION_MAX)) d->over_rotated = 1;
     }
 }
 

@@ -33,9 +33,9 @@ typedef struct {
     int substeps;            /* in dt */
     double energy_at_start;  /* of strain and loads in equilibrium */
     double damped;           /* energy that damping has removed */
-    double plastic_at_start; /* spent in the equilibrium of the start */
-    int32_t parted;          /* pieces that have parted */
-    int too_far;             /* a piece is turned by more than FL_MEMBER_ROTATION_MAX */
+    double plastic_at_start; /* dissipated by yielding in the equilibrium of the start */
+    int32_t ruptured;        /* pieces that have ruptured */
+    int over_rotated;        /* a piece is turned by more than FL_MEMBER_ROTATION_MAX */
 } fl_member_dynamics;
 
 /* Makes the chain of a model, at rest in equilibrium under its loads. -1 with FL_INPUT: a mechanism, no mass,
@@ -57,7 +57,7 @@ void fl_member_dynamics_drift(fl_member_dynamics *d);
 double fl_member_dynamics_energy(const fl_member_dynamics *d);
 double fl_member_dynamics_kinetic(const fl_member_dynamics *d);
 
-/* Internal forces of the present state, as after reading it. */
+/* Evaluates the internal forces of the present state; needed after a state was read. */
 void fl_member_dynamics_refresh(fl_member_dynamics *d);
 
 /* Acceleration of a ball by all forces and by damping. */

@@ -122,17 +122,17 @@ void fl_member_fibres_update(fl_member_fibres *f, double length, double stretch,
 
 int fl_member_fibres_commit(fl_member_fibres *f, double energy)
 {
-    if (f->parted) return 0;
+    if (f->ruptured) return 0;
     if (f->changed) {
-        f->spent += f->flow;
+        f->dissipated += f->flow;
         f->flow = 0.0;
         memcpy(f->plastic, f->trial, (size_t)f->section->n * sizeof *f->plastic);
         for (int k = 0; k < f->section->n && !f->yielded; k++) f->yielded = f->plastic[k] != 0.0;
         f->changed = 0;
     }
     if (!(f->strain > f->section->limit)) return 0;
-    f->parted = 1;
-    f->spent += energy;
+    f->ruptured = 1;
+    f->dissipated += energy;
     f->stored = 0.0;
     return 1;
 }

@@ -10,9 +10,9 @@
  *     e0p = sum a p/A,   kyp = sum a p z/Iy,   kzp = -sum a p y/Iz,
  * so that the forces of member_contact.h follow with these subtracted. Shear and torsion stay elastic.
  *
- * p depends on the way: an evaluation starts from the strains of the last commit, so that a relaxation,
- * whose way means nothing, may try as it likes; a point of a path, or a substep of a motion, is committed.
- * A piece parts at the commit after the strain of a fibre was above the limit.
+ * p depends on the history: each evaluation starts from the strains of the last commit, so that the
+ * iterations of a relaxation leave no trace.  A point of a path, or a substep of a motion, is committed.
+ * A piece ruptures at the commit after the strain of a fibre was above the limit.
  * Fibres have area and both second moments of the section exactly. A pipe has 40 about its circumference,
  * in one layer where its wall is thin; a rectangle 16 x 16. Fully plastic moments are within 0.5 %.
  * Limits: small strain; one section a piece, at its middle, so that a plastic hinge is as long as a piece,
@@ -30,7 +30,7 @@ typedef struct {
     double *y, *z, *a; /* [n] */
     double area, iy, iz;
     double e, yield, back; /* E, sigma, C */
-    double limit;          /* strain at which a piece parts, INFINITY: never */
+    double limit;          /* strain at which a piece ruptures, INFINITY: never */
     double reach;          /* distance of the farthest fibre */
 } fl_member_fibre_section;
 
@@ -41,11 +41,11 @@ typedef struct fl_member_fibres {
     double deform[3];        /* e0p, kyp, kzp at the last evaluation */
     double stored;           /* elastic energy of the fibres then, and of hardening */
     double flow;             /* work of yielding since the commit */
-    double spent;            /* the same until the commit, with the energy released by parting */
+    double dissipated;       /* the same until the commit, with the energy released by rupture */
     double strain;           /* largest |eps| then */
     int32_t yielded;         /* p is not 0 everywhere */
     int changed;             /* trial differs from plastic */
-    int32_t parted;
+    int32_t ruptured;
     int frozen; /* no fibre yields in this evaluation, as after reading a state */
 } fl_member_fibres;
 
@@ -59,8 +59,8 @@ void fl_member_fibre_section_free(fl_member_fibre_section *f);
 void fl_member_fibres_update(fl_member_fibres *f, double length, double stretch, double turn_y,
                              double turn_z);
 
-/* Plastic strains become those of the last evaluation. `energy` of the piece then is spent where it parts:
- * 1, else 0. */
+/* Plastic strains become those of the last evaluation. Returns 1 if the piece ruptures: its `energy` is
+ * dissipated then.  Else 0. */
 int fl_member_fibres_commit(fl_member_fibres *f, double energy);
 
 #endif

@@ -71,11 +71,12 @@ static int make_section(importer *u, const fl_frame_section *s, int truss, const
             return 1;
         }
         if (!(iy > 0.0) || !(iz > 0.0)) {
-            fl_frame_leave(u->f, "section %s has no second moment of area: its elements are left out", name);
+            fl_frame_count_skipped(u->f, "section %s has no second moment of area: its elements are left out",
+                                   name);
             return 0;
         }
         if (!(j > 0.0)) {
-            fl_frame_leave(u->f, "section %s has no torsion constant: Iy + Iz is taken", name);
+            fl_frame_count_skipped(u->f, "section %s has no torsion constant: Iy + Iz is taken", name);
             j = iy + iz;
         }
         *out = (fl_member_section){
@@ -115,23 +116,24 @@ static int import_element(importer *u, const fl_frame_element *e, int32_t scope,
 {
     fl_member b = {.pieces = e->truss ? 1 : pieces};
     char name[NAME];
-    if (e->section < 0) return fl_frame_leave(u->f, "elements without a section");
+    if (e->section < 0) return fl_frame_count_skipped(u->f, "elements without a section");
     b.section = import_section(u, e->section, e->truss, err);
     if (b.section == -3) return -1;
     if (b.section == -2)
-        return fl_frame_leave(u->f, "elements of section %s, which has no area or material",
-                              u->f->section_name.name[e->section]);
+        return fl_frame_count_skipped(u->f, "elements of section %s, which has no area or material",
+                                      u->f->section_name.name[e->section]);
     if (v3_norm(v3_sub(u->f->node[e->node[1]].x, u->f->node[e->node[0]].x)) == 0.0)
-        return fl_frame_leave(u->f, "elements without length");
+        return fl_frame_count_skipped(u->f, "elements without length");
     for (int s = 0; s < 2; s++) {
         if ((b.end[s] = import_node(u, e->node[s], err)) < 0) return -1;
         const unsigned bends = e->pins[s] & 6u;
         b.released[s] = e->truss || bends == 6u;
-        if (bends != 0u && bends != 6u && fl_frame_leave(u->f, "releases of one bending moment")) return -1;
-        if (bends == 6u && !(e->pins[s] & 1u) &&
-            fl_frame_leave(u->f, "torsion at a hinge, which its member does not transmit here"))
+        if (bends != 0u && bends != 6u && fl_frame_count_skipped(u->f, "releases of one bending moment"))
             return -1;
-        if (bends == 0u && e->pins[s] && fl_frame_leave(u->f, "releases of torsion alone")) return -1;
+        if (bends == 6u && !(e->pins[s] & 1u) &&
+            fl_frame_count_skipped(u->f, "torsion at a hinge, which its member does not transmit here"))
+            return -1;
+        if (bends == 0u && e->pins[s] && fl_frame_count_skipped(u->f, "releases of torsion alone")) return -1;
     }
     if (!e->truss && (e->has_y || e->has_z)) {
         const fl_vec3 along = v3_unit(v3_sub(u->f->node[e->node[1]].x, u->f->node[e->node[0]].x));
@@ -140,7 +142,8 @@ static int import_element(importer *u, const fl_frame_element *e, int32_t scope,
         if (v3_norm(v3_cross(along, z)) > 1e-6 * v3_norm(e->across)) {
             b.has_ref = 1;
             b.ref = v3_scale(1.0 / size, z);
-        } else if (fl_frame_leave(u->f, "orientations along their element; the standard one is taken")) {
+        } else if (fl_frame_count_skipped(u->f,
+                                          "orientations along their element; the standard one is taken")) {
             return -1;
         }
     }
@@ -170,7 +173,7 @@ static int import_all(importer *u, int32_t pieces, fl_err *err)
     for (int32_t k = 0; k < f->node_id.n; k++) {
         const fl_frame_node *n = &f->node[k];
         if (u->node[k] < 0 && (n->mass > 0.0 || v3_nonzero(n->force) || v3_nonzero(n->moment)) &&
-            fl_frame_leave(f, "masses and loads of nodes that no member ends at"))
+            fl_frame_count_skipped(f, "masses and loads of nodes that no member ends at"))
             return -1;
     }
     return 0;
@@ -187,8 +190,9 @@ int fl_member_import(fl_member_model *m, fl_frame_model *f, int32_t pieces, doub
     for (int32_t k = 0; k < f->node_id.n && u.node; k++) u.node[k] = -1;
     for (int32_t k = 0; k < 2 * f->section_name.n && u.section; k++) u.section[k] = -1;
     int rc = err->code ? -1 : import_all(&u, pieces, err);
-    if (rc == 0 && f->extra_supports && fl_frame_leave(f, "supports of sets besides the first")) rc = -1;
-    if (rc == 0 && f->extra_loads && fl_frame_leave(f, "loads of sets besides the first")) rc = -1;
+    if (rc == 0 && f->extra_supports && fl_frame_count_skipped(f, "supports of sets besides the first"))
+        rc = -1;
+    if (rc == 0 && f->extra_loads && fl_frame_count_skipped(f, "loads of sets besides the first")) rc = -1;
     if (rc == 0 && f->failed) rc = fl_fail(err, FL_SYSTEM, "%s: out of memory", file);
     if (rc == 0 && m->member_name.n == 0)
         rc = fl_fail(err, FL_INPUT,

@@ -62,9 +62,9 @@ typedef struct {
     double lambda, arc, length;      /* arc: sum of chords; length: |d| */
     double along;                    /* P0.d/|P0| with moments by their rotation */
     double residual;                 /* reached, over |P0| max |lambda| */
-    double energy, work;             /* stored and spent by yielding; integral of lambda P0 along the path */
-    double balance;                  /* work - energy, over the greatest of both so far */
-    int hint;                        /* of a critical point between the last two points and this, bits */
+    double energy, work; /* stored, and dissipated by yielding; integral of lambda P0 along the path */
+    double balance;      /* work - energy, over the greatest of both so far */
+    int hint;            /* of a critical point between the last two points and this, bits */
     double limit, limit_error, limit_arc; /* load factor at the maximum or minimum, and where it is */
 } fl_path_point;
 

@@ -67,12 +67,12 @@ static void put_state(FILE *f, const fl_path_state *s, const fl_member_chain *c)
     for (int32_t k = 0; k < c->loads; k++) put_numbers(f, "turned", &s->turned[k].x, 3);
 }
 
-/* Pieces that yield: what they have spent, whether they have parted, and their plastic strains. */
+/* Pieces that yield: dissipated energy, rupture and plastic strains of each. */
 static void put_fibres(FILE *f, const fl_member_chain *c)
 {
     for (int32_t k = 0; k < c->yielding; k++) {
         const fl_member_fibres *s = &c->fibres[k];
-        const double numbers[] = {s->spent, s->parted, s->yielded};
+        const double numbers[] = {s->dissipated, s->ruptured, s->yielded};
         put_numbers(f, "piece", numbers, 3);
         if (s->yielded) put_numbers(f, "fibres", s->plastic, s->section->n);
     }
@@ -156,8 +156,8 @@ static int get_fibres(fl_text *in, fl_member_chain *c, fl_err *err)
         fl_member_fibres *s = &c->fibres[k];
         double x[3];
         if (get_numbers(in, "piece", x, 3, err)) return -1;
-        s->spent = x[0];
-        s->parted = x[1] != 0.0;
+        s->dissipated = x[0];
+        s->ruptured = x[1] != 0.0;
         s->yielded = x[2] != 0.0;
         if (s->yielded && get_numbers(in, "fibres", s->plastic, s->section->n, err)) return -1;
     }

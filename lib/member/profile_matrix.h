@@ -23,10 +23,10 @@ typedef struct {
 int fl_profile_begin(fl_profile *p, int32_t n, fl_err *err);
 void fl_profile_free(fl_profile *p); /* accepts a zeroed struct, leaves one */
 
-/* Unknowns that meet in one element; a number below 0 is none. */
+/* Adds the unknowns of one element to the profile; a number below 0 is none. */
 void fl_profile_join(fl_profile *p, int count, const int32_t *which);
 
-/* Zeros.  1 if there would be more than `most` numbers; -1 with FL_SYSTEM. */
+/* Allocates the profile, all zero.  1 if it would have more than `most` numbers; -1 with FL_SYSTEM. */
 int fl_profile_allocate(fl_profile *p, int64_t most, fl_err *err);
 
 /* Adds stiff (g.u)2/2. */

@@ -61,18 +61,19 @@ static int read_property(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
             break;
         }
     if (listed) {
-        if (strcasecmp(kind, "ROD") == 0) s = fl_frame_rod(x[0]), used = 1;
+        if (strcasecmp(kind, "ROD") == 0) s = fl_frame_section_rod(x[0]), used = 1;
         else if (strcasecmp(kind, "TUBE") == 0)
             s.form = FL_FRAME_PIPE, s.size[0] = 2.0 * x[0], s.size[1] = x[0] - x[1], used = 2;
         else if (strcasecmp(kind, "TUBE2") == 0)
             s.form = FL_FRAME_PIPE, s.size[0] = 2.0 * x[0], s.size[1] = x[1], used = 2;
         else if (strcasecmp(kind, "BAR") == 0)
             s.form = FL_FRAME_RECTANGLE, s.size[0] = x[1], s.size[1] = x[0], used = 2;
-        else if (strcasecmp(kind, "BOX") == 0) s = fl_frame_box(x[0], x[1], x[2], x[3]), used = 4;
-        else if (strcasecmp(kind, "I") == 0) s = fl_frame_i(x[0], x[1], x[2], x[3], x[4], x[5]), used = 6;
+        else if (strcasecmp(kind, "BOX") == 0) s = fl_frame_section_box(x[0], x[1], x[2], x[3]), used = 4;
+        else if (strcasecmp(kind, "I") == 0)
+            s = fl_frame_section_i(x[0], x[1], x[2], x[3], x[4], x[5]), used = 6;
         else {
             s.form = FL_FRAME_NONE;
-            if (fl_frame_leave(f, "%s of the type %s: its elements have no section", a->name, kind))
+            if (fl_frame_count_skipped(f, "%s of the type %s: its elements have no section", a->name, kind))
                 return -1;
         }
         if (used && fl_bdf_real(a, X + used, &s.other_mass, err)) return -1;
@@ -87,8 +88,9 @@ static int read_property(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
         s.a = x[0], s.iz = x[1], s.iy = x[2], s.j = x[3], s.other_mass = x[4];
     } else { /* PBEAM has I12 before J */
         s.a = x[0], s.iz = x[1], s.iy = x[2], s.j = x[4], s.other_mass = x[5];
-        if (x[3] != 0.0 && fl_frame_leave(f, "PBEAM: I12")) return -1;
-        if (a->fields > 2 * X && fl_frame_leave(f, "PBEAM: stations, shear and warping; its end A is taken"))
+        if (x[3] != 0.0 && fl_frame_count_skipped(f, "PBEAM: I12")) return -1;
+        if (a->fields > 2 * X &&
+            fl_frame_count_skipped(f, "PBEAM: stations, shear and warping; its end A is taken"))
             return -1;
     }
     s.material = material;
@@ -102,7 +104,8 @@ static int read_pins(fl_frame_model *f, const fl_bdf_entry *a, int k, unsigned *
     *pins = 0;
     for (const char *p = fl_bdf_field(a, k); *p; p++) {
         if (*p >= '4' && *p <= '6') *pins |= 1u << (*p - '4');
-        else if (*p >= '1' && *p <= '3' && fl_frame_leave(f, "%s: pins of forces", a->name)) return -1;
+        else if (*p >= '1' && *p <= '3' && fl_frame_count_skipped(f, "%s: pins of forces", a->name))
+            return -1;
     }
     return 0;
 }
@@ -159,7 +162,8 @@ static int read_element(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
             if (fl_bdf_real(a, d, &w, err)) return -1;
             offset |= w != 0.0;
         }
-        if (offset && fl_frame_leave(f, "%s: offsets; the member runs from grid to grid", a->name)) return -1;
+        if (offset && fl_frame_count_skipped(f, "%s: offsets; the member runs from grid to grid", a->name))
+            return -1;
     }
     if ((e.part = fl_frame_part_of(f, part, err)) < 0) return -1;
     f->element[k] = e;
@@ -202,7 +206,7 @@ static int read_supports(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
             if (fl_bdf_integer(a, k, 0, &g, err) || fl_bdf_real(a, k + 2, &moved, err) ||
                 hold_grid(f, g, freedoms_of(fl_bdf_field(a, k + 1)), err))
                 return -1;
-            if (moved != 0.0 && fl_frame_leave(f, "SPC: enforced displacements; the freedom is held"))
+            if (moved != 0.0 && fl_frame_count_skipped(f, "SPC: enforced displacements; the freedom is held"))
                 return -1;
         }
         return 0;
@@ -233,7 +237,7 @@ static int read_load(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
         fl_bdf_real(a, 3, &size, err) || fl_bdf_point(a, 4, &n, err))
         return -1;
     if (!of_first_set(sid, &f->load_set, &f->extra_loads)) return 0;
-    if (system) return fl_frame_leave(f, "%s in a coordinate system of its own", a->name);
+    if (system) return fl_frame_count_skipped(f, "%s in a coordinate system of its own", a->name);
     const int32_t k = fl_frame_node_of(f, 0, grid, err);
     if (k < 0) return -1;
     fl_vec3 *to = a->name[0] == 'F' ? &f->node[k].force : &f->node[k].moment;
@@ -253,7 +257,7 @@ static int read_mass(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
     if (k < 0) return -1;
     f->node[k].mass += mass;
     return (v3_nonzero(arm) || inertia != 0.0) &&
-                   fl_frame_leave(f, "CONM2: offset and moments of inertia; its mass is at the grid")
+                   fl_frame_count_skipped(f, "CONM2: offset and moments of inertia; its mass is at the grid")
                ? -1
                : 0;
 }
@@ -263,8 +267,8 @@ static int read_grid(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
     int64_t id, cd;
     if (fl_bdf_id(a, 0, &id, err) || fl_bdf_integer(a, 5, 0, &cd, err)) return -1;
     if (cd > 0 &&
-        fl_frame_leave(f, "GRID: displacement system CD; supports and orientations are taken in the "
-                          "basic one"))
+        fl_frame_count_skipped(f, "GRID: displacement system CD; supports and orientations are taken in the "
+                                  "basic one"))
         return -1;
     const int32_t k = fl_frame_node_of(f, 0, id, err);
     if (k < 0) return -1;
@@ -298,5 +302,5 @@ int fl_frame_bdf_entry(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
     for (size_t k = 0; k < sizeof ENTRY / sizeof *ENTRY; k++)
         if (strcmp(a->name, ENTRY[k].name) == 0) return ENTRY[k].read(f, a, err);
     if (!a->bulk || says_nothing(a->name)) return 0;
-    return fl_frame_leave(f, "%s", a->name);
+    return fl_frame_count_skipped(f, "%s", a->name);
 }

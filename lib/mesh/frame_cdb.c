@@ -23,7 +23,7 @@ int fl_frame_cdb_element(fl_frame_cdb *f, int64_t id, int32_t routine, int64_t m
 {
     fl_frame_model *m = f->model;
     const int line = is_beam(routine) || is_pipe(routine) || is_truss(routine);
-    if (!line && routine != 21) return fl_frame_leave(m, "elements of routine %d", (int)routine);
+    if (!line && routine != 21) return fl_frame_count_skipped(m, "elements of routine %d", (int)routine);
     if (nodes < (line ? 2 : 1)) return 0; /* the reader of the mesh refuses it */
     if (fl_grow(&f->line, &f->line_cap, (int64_t)f->lines + 1, sizeof *f->line, err)) return -1;
     fl_frame_cdb_line l = {
@@ -37,7 +37,8 @@ int fl_frame_cdb_element(fl_frame_cdb *f, int64_t id, int32_t routine, int64_t m
         const int third = routine == 189 ? 3 : 2;
         if (is_beam(routine) && nodes > third && node[third] > 0) l.third = node[third];
         if (l.third && fl_frame_node_of(m, 0, l.third, err) < 0) return -1;
-        if ((routine == 189 || routine == 289) && fl_frame_leave(m, "middle nodes of BEAM189 and PIPE289"))
+        if ((routine == 189 || routine == 289) &&
+            fl_frame_count_skipped(m, "middle nodes of BEAM189 and PIPE289"))
             return -1;
         l.element = k;
     } else if ((l.node = fl_frame_node_of(m, 0, node[0], err)) < 0) return -1;
@@ -84,12 +85,13 @@ int fl_frame_cdb_section(fl_frame_cdb *f, int64_t id, const char *type, const ch
     } else if (strncasecmp(subtype, "CTUB", 4) == 0) {
         s.form = FL_FRAME_PIPE, s.size[0] = 2.0 * x[1], s.size[1] = x[1] - x[0];
     } else if (strncasecmp(subtype, "CSOL", 4) == 0) {
-        s = fl_frame_rod(x[0]);
+        s = fl_frame_section_rod(x[0]);
     } else if (strncasecmp(subtype, "ASEC", 4) == 0) { /* A Iyy Iyz Izz Iw J */
         s.form = FL_FRAME_GENERAL, s.a = x[0], s.iy = x[1], s.iz = x[3], s.j = x[5];
-        if (x[2] != 0.0 && fl_frame_leave(f->model, "SECDATA of ASEC: Iyz")) return -1;
+        if (x[2] != 0.0 && fl_frame_count_skipped(f->model, "SECDATA of ASEC: Iyz")) return -1;
     } else {
-        return fl_frame_leave(f->model, "SECTYPE %s, %s: its elements have no section", type, subtype);
+        return fl_frame_count_skipped(f->model, "SECTYPE %s, %s: its elements have no section", type,
+                                      subtype);
     }
     f->model->section[k] = s;
     return 0;
@@ -185,7 +187,7 @@ static int set_freedom(fl_frame_cdb *f, char *const *word, int load, fl_err *err
     int64_t id;
     double x = 0.0;
     if (fl_deck_integer(word[1], &id) || id < 1)
-        return fl_frame_leave(f->model, "%s of other than one node", word[0]);
+        return fl_frame_count_skipped(f->model, "%s of other than one node", word[0]);
     const int32_t k = fl_frame_node_of(f->model, 0, id, err);
     if (k < 0) return -1;
     fl_frame_node *n = &f->model->node[k];
@@ -196,7 +198,8 @@ static int set_freedom(fl_frame_cdb *f, char *const *word, int load, fl_err *err
         if (!load && (strcasecmp(word[2], held[d]) == 0 || strcasecmp(word[2], "ALL") == 0))
             n->fixed |= 1 << d;
     }
-    if (!load && x != 0.0) return fl_frame_leave(f->model, "D: imposed displacements; the freedom is held");
+    if (!load && x != 0.0)
+        return fl_frame_count_skipped(f->model, "D: imposed displacements; the freedom is held");
     return 0;
 }
 
@@ -234,7 +237,7 @@ int fl_frame_cdb_command(fl_frame_cdb *f, char *const *word, int64_t constants, 
         }
         return 0;
     }
-    return says_nothing(word[0]) ? 0 : fl_frame_leave(f->model, "%s", word[0]);
+    return says_nothing(word[0]) ? 0 : fl_frame_count_skipped(f->model, "%s", word[0]);
 }
 
 void fl_frame_cdb_free(fl_frame_cdb *f)

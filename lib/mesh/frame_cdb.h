@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* frame_cdb.h -- what of an ANSYS archive makes a frame.
+/* frame_cdb.h -- the commands of an ANSYS archive that make a frame.
  *
  *     elements   BEAM188 BEAM189 BEAM4 BEAM3, PIPE288 PIPE289 PIPE16, LINK180 LINK8 LINK1, MASS21, with the
  *                orientation node of beams; curved ones run straight from end to end

@@ -34,15 +34,15 @@ static int read_numbers(fl_inp_model *r, int n, double *x, fl_err *err)
 static fl_frame_section profile_of(const char *kind, const double *x)
 {
     fl_frame_section s = {.material = -1};
-    if (strcasecmp(kind, "CIRC") == 0) return fl_frame_rod(x[0]);
+    if (strcasecmp(kind, "CIRC") == 0) return fl_frame_section_rod(x[0]);
     if (strcasecmp(kind, "PIPE") == 0 || strcasecmp(kind, "THICKPIPE") == 0)
         s = (fl_frame_section){.form = FL_FRAME_PIPE, .material = -1, .size = {2.0 * x[0], x[1]}};
     else if (strcasecmp(kind, "RECT") == 0) /* a along n1, which is y here */
         s = (fl_frame_section){.form = FL_FRAME_RECTANGLE, .material = -1, .size = {x[0], x[1]}};
     else if (strcasecmp(kind, "BOX") == 0 && x[2] == x[4] && x[3] == x[5]) { /* a along n1: turned round */
-        s = fl_frame_box(x[1], x[0], x[2], x[3]);
+        s = fl_frame_section_box(x[1], x[0], x[2], x[3]);
     } else if (strcasecmp(kind, "I") == 0) { /* h along n2, which is z here */
-        s = fl_frame_i(x[1], x[2], x[3], x[6], x[4], x[5]);
+        s = fl_frame_section_i(x[1], x[2], x[3], x[6], x[4], x[5]);
         const double keep = s.iy;
         s.iy = s.iz;
         s.iz = keep;
@@ -81,12 +81,12 @@ static int read_section(fl_inp_model *r, fl_err *err)
         made.a = x[0];
     } else if (general && strcasecmp(profile, "GENERAL") == 0) {
         made = (fl_frame_section){.form = FL_FRAME_GENERAL, .a = x[0], .iy = x[1], .iz = x[3], .j = x[4]};
-        if (x[2] != 0.0 && fl_frame_leave(f->model, "*BEAM GENERAL SECTION: I12")) return -1;
+        if (x[2] != 0.0 && fl_frame_count_skipped(f->model, "*BEAM GENERAL SECTION: I12")) return -1;
     } else {
         made = profile_of(profile, x);
         if (made.form == FL_FRAME_NONE &&
-            fl_frame_leave(f->model, "*%s, SECTION=%s: its elements have no section",
-                           general ? "BEAM GENERAL SECTION" : "BEAM SECTION", profile))
+            fl_frame_count_skipped(f->model, "*%s, SECTION=%s: its elements have no section",
+                                   general ? "BEAM GENERAL SECTION" : "BEAM SECTION", profile))
             return -1;
     }
     made.material = its;
@@ -123,7 +123,7 @@ static int read_constants(fl_inp_model *r, fl_err *err)
     fl_frame_inp *f = r->frame;
     const int elastic = strcmp(r->line.word, "ELASTIC") == 0;
     if (elastic && fl_inp_param(&r->line, "TYPE") && !fl_inp_param_is(&r->line, "TYPE", "ISOTROPIC") &&
-        fl_frame_leave(f->model, "*ELASTIC that is not isotropic"))
+        fl_frame_count_skipped(f->model, "*ELASTIC that is not isotropic"))
         return -1;
     const int more = fl_inp_next_data(&r->line, err);
     if (more > 0 && f->material > 0) {
@@ -240,7 +240,8 @@ static int read_boundary(fl_inp_model *r, fl_err *err)
             for (int64_t d = first; d <= last && d <= 6; d++)
                 if (d >= 1) s.bits |= 1 << (d - 1);
             if (moved != 0.0 &&
-                fl_frame_leave(r->frame->model, "*BOUNDARY: enforced displacements; the freedom is held"))
+                fl_frame_count_skipped(r->frame->model,
+                                       "*BOUNDARY: enforced displacements; the freedom is held"))
                 return -1;
         }
         if (s.bits && add_support(r->frame, &s, err)) return -1;
@@ -308,12 +309,12 @@ int fl_frame_inp_keyword(fl_inp_model *r, fl_err *err)
         if (strcmp(r->line.word, KEYWORD[k].word) == 0) return KEYWORD[k].read(r, err) ? -1 : 1;
     /* nodes and elements may name sets of nodes */
     if (strcmp(r->line.word, "NODE") == 0 && fl_inp_param(&r->line, "NSET") &&
-        fl_frame_leave(r->frame->model, "*NODE, NSET=: its set has no nodes here; write *NSET"))
+        fl_frame_count_skipped(r->frame->model, "*NODE, NSET=: its set has no nodes here; write *NSET"))
         return -1;
     return 0;
 }
 
-int fl_frame_inp_leave(fl_inp_model *r)
+int fl_frame_inp_count_skipped(fl_inp_model *r)
 {
     static const char *const no[] = {"HEADING",    "PREPRINT",      "STEP",      "ENDSTEP",
                                      "STATIC",     "OUTPUT",        "NODEPRINT", "NODEFILE",
@@ -321,7 +322,7 @@ int fl_frame_inp_leave(fl_inp_model *r)
                                      "NODEOUTPUT", "ELEMENTOUTPUT", "FREQUENCY", "PHYSICALCONSTANTS"};
     for (size_t k = 0; k < sizeof no / sizeof *no; k++)
         if (strcmp(r->line.word, no[k]) == 0) return 0;
-    return fl_frame_leave(r->frame->model, "*%s", r->line.word);
+    return fl_frame_count_skipped(r->frame->model, "*%s", r->line.word);
 }
 
 /* --- the end ----------------------------------------------------------------------------------- */
@@ -393,7 +394,7 @@ static int add_lines(fl_inp_model *r, fl_err *err)
     for (int32_t k = 0; k < r->e.element_id.n; k++) {
         const fl_element *el = &r->e.element[k];
         if (el->shape != FL_LINE2 && el->shape != FL_LINE3) {
-            if (fl_frame_leave(f, "shells and solids")) return -1;
+            if (fl_frame_count_skipped(f, "shells and solids")) return -1;
             continue;
         }
         const int32_t at = fl_frame_element_of(f, r->e.element_id.scope[k], r->e.element_id.id[k], err);
@@ -402,7 +403,8 @@ static int add_lines(fl_inp_model *r, fl_err *err)
             if ((f->element[at].node[s] = node_of(r, r->e.connectivity[el->first + s], err)) < 0) return -1;
         const char *part = el->part >= 0 ? r->e.parts.name[el->part] : "";
         if ((f->element[at].part = fl_frame_part_of(f, *part ? part : "members", err)) < 0) return -1;
-        if (el->shape == FL_LINE3 && fl_frame_leave(f, "middle nodes of beams of three nodes")) return -1;
+        if (el->shape == FL_LINE3 && fl_frame_count_skipped(f, "middle nodes of beams of three nodes"))
+            return -1;
     }
     return 0;
 }
@@ -463,7 +465,7 @@ int fl_frame_inp_finish(fl_inp_model *r, fl_err *err)
     }
     for (int32_t k = 0; k < r->e.skipped.n; k++)
         for (int32_t c = 0; c < r->e.skip_count[k]; c++)
-            if (fl_frame_leave(f->model, "elements %s", r->e.skipped.name[k])) return -1;
+            if (fl_frame_count_skipped(f->model, "elements %s", r->e.skipped.name[k])) return -1;
     return 0;
 }
 

@@ -54,7 +54,7 @@ typedef struct fl_frame_inp {
 int fl_frame_inp_keyword(fl_inp_model *r, fl_err *err);
 
 /* Counts the keyword as one that is not carried over, unless it says nothing about the structure. */
-int fl_frame_inp_leave(fl_inp_model *r);
+int fl_frame_inp_count_skipped(fl_inp_model *r);
 
 /* At the end of the deck: elements with their sections, nodes with supports and loads. */
 int fl_frame_inp_finish(fl_inp_model *r, fl_err *err);

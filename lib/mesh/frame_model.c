@@ -45,7 +45,7 @@ int32_t fl_frame_part_of(fl_frame_model *f, const char *name, fl_err *err)
     return fl_string_table_add(&f->part_name, name, err);
 }
 
-int fl_frame_leave(fl_frame_model *f, const char *fmt, ...)
+int fl_frame_count_skipped(fl_frame_model *f, const char *fmt, ...)
 {
     char text[160];
     fl_err err = {0};
@@ -53,17 +53,17 @@ int fl_frame_leave(fl_frame_model *f, const char *fmt, ...)
     va_start(args, fmt);
     vsnprintf(text, sizeof text, fmt, args);
     va_end(args);
-    const int32_t had = f->left_name.n, k = fl_string_table_add(&f->left_name, text, &err);
-    if (k < 0 || fl_grow(&f->left, &f->left_cap, (int64_t)k + 1, sizeof *f->left, &err)) {
+    const int32_t had = f->skipped_name.n, k = fl_string_table_add(&f->skipped_name, text, &err);
+    if (k < 0 || fl_grow(&f->skipped, &f->skipped_cap, (int64_t)k + 1, sizeof *f->skipped, &err)) {
         f->failed = 1;
         return 0;
     }
-    if (f->left_name.n > had) f->left[k] = 0;
-    f->left[k]++;
+    if (f->skipped_name.n > had) f->skipped[k] = 0;
+    f->skipped[k]++;
     return 0;
 }
 
-fl_frame_section fl_frame_box(double b, double h, double tf, double tw)
+fl_frame_section fl_frame_section_box(double b, double h, double tf, double tw)
 {
     const double bi = b - 2.0 * tw, hi = h - 2.0 * tf;
     return (fl_frame_section){.form = FL_FRAME_GENERAL,
@@ -75,7 +75,7 @@ fl_frame_section fl_frame_box(double b, double h, double tf, double tw)
                                    (b * tw + h * tf - tw * tw - tf * tf)};
 }
 
-fl_frame_section fl_frame_i(double h, double b1, double b2, double tw, double t1, double t2)
+fl_frame_section fl_frame_section_i(double h, double b1, double b2, double tw, double t1, double t2)
 {
     const double web = h - t1 - t2, a1 = b1 * t1, a2 = b2 * t2, aw = web * tw, a = a1 + a2 + aw;
     const double y1 = 0.5 * t1, y2 = h - 0.5 * t2, yw = t1 + 0.5 * web, y = (a1 * y1 + a2 * y2 + aw * yw) / a;
@@ -89,7 +89,7 @@ fl_frame_section fl_frame_i(double h, double b1, double b2, double tw, double t1
                               .j = (b1 * t1 * t1 * t1 + b2 * t2 * t2 * t2 + web * tw * tw * tw) / 3.0};
 }
 
-fl_frame_section fl_frame_rod(double radius)
+fl_frame_section fl_frame_section_rod(double radius)
 {
     return (fl_frame_section){.form = FL_FRAME_PIPE, .material = -1, .size = {2.0 * radius, radius}};
 }
@@ -101,7 +101,7 @@ void fl_frame_model_free(fl_frame_model *f)
     fl_string_table_free(&f->material_name);
     fl_string_table_free(&f->section_name);
     fl_string_table_free(&f->part_name);
-    fl_string_table_free(&f->left_name);
-    free(f->node), free(f->element), free(f->material), free(f->section), free(f->left);
+    fl_string_table_free(&f->skipped_name);
+    free(f->node), free(f->element), free(f->material), free(f->section), free(f->skipped);
     *f = (fl_frame_model){0};
 }

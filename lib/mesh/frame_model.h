@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* frame_model.h -- beams, trusses and pipes of a finite element deck as it states them: nodes, materials,
- * sections, elements with orientations, releases and offsets, supports, masses, loads; and a list of what was
- * read over.
+ * sections, elements with orientations, releases and offsets, supports, masses, loads; and a list of entries
+ * that were skipped.
  *
  * Units are those of the deck. The axes of an element are x along it, y and z across; iz resists deflection
  * along y, iy along z. Readers fill it where import_options.h asks for it; member/member_import.h makes a
@@ -48,13 +48,13 @@ typedef struct fl_frame_model {
     fl_id_map node_id, element_id;
     fl_frame_node *node;
     fl_frame_element *element; /* [element_id.n] */
-    fl_string_table material_name, section_name, part_name, left_name;
+    fl_string_table material_name, section_name, part_name, skipped_name;
     fl_frame_material *material;
     fl_frame_section *section;
-    int32_t *left; /* [left_name.n] entries of that kind that were not carried over */
-    int32_t node_cap, element_cap, material_cap, section_cap, left_cap;
+    int32_t *skipped; /* [skipped_name.n] entries of that kind that were not carried over */
+    int32_t node_cap, element_cap, material_cap, section_cap, skipped_cap;
     int32_t extra_supports, extra_loads; /* sets of them besides the first */
-    int failed;                          /* memory ran out for `left` */
+    int failed;                          /* memory ran out for `skipped` */
     int64_t support_set, load_set;       /* that the deck's first belong to; 0: none yet */
 } fl_frame_model;
 
@@ -67,15 +67,15 @@ int32_t fl_frame_section_of(fl_frame_model *f, const char *name, fl_err *err);
 int32_t fl_frame_part_of(fl_frame_model *f, const char *name, fl_err *err);
 
 /* Counts an entry that is not carried over; `what` is its card and, where it helps, why.  Returns 0; sets
- * failed without memory, which the importer tells. */
-int fl_frame_leave(fl_frame_model *f, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+ * failed without memory, which the importer reports. */
+int fl_frame_count_skipped(fl_frame_model *f, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 
 /* Constants of sections that have no form of their own.
  *   box  b along z, h along y, walls tf across y, tw across z
  *   i    height h along y, flanges b1 t1 below and b2 t2 above, web tw; torsion is sum b t3/3 */
-fl_frame_section fl_frame_box(double b, double h, double tf, double tw);
-fl_frame_section fl_frame_i(double h, double b1, double b2, double tw, double t1, double t2);
-fl_frame_section fl_frame_rod(double radius);
+fl_frame_section fl_frame_section_box(double b, double h, double tf, double tw);
+fl_frame_section fl_frame_section_i(double h, double b1, double b2, double tw, double t1, double t2);
+fl_frame_section fl_frame_section_rod(double radius);
 
 void fl_frame_model_free(fl_frame_model *f); /* accepts a zeroed struct, leaves one */
 

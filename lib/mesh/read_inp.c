@@ -96,7 +96,7 @@ static int read_keywords(fl_inp_model *r, fl_err *err)
             if (used) continue;
         }
         while (k < sizeof KEYWORD / sizeof *KEYWORD && strcmp(r->line.word, KEYWORD[k].word) != 0) k++;
-        if (k == sizeof KEYWORD / sizeof *KEYWORD && r->frame && fl_frame_inp_leave(r)) return -1;
+        if (k == sizeof KEYWORD / sizeof *KEYWORD && r->frame && fl_frame_inp_count_skipped(r)) return -1;
         if (k < sizeof KEYWORD / sizeof *KEYWORD && KEYWORD[k].read(r, err)) return -1;
     }
     if (kind == 0 && r->store == &r->part_defs)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* frame_copy.h -- frames that were read written again, as text or packed, animation(5). */
+/* frame_copy.h -- writes frames of a file again, as text or packed, animation(5). */
 #ifndef FL_OUT_FRAME_COPY_H
 #define FL_OUT_FRAME_COPY_H
 #include <stdio.h>

@@ -202,7 +202,7 @@ static int take_blocks(fl_frame_file *f, fl_seekable *in, fl_err *err)
             k = fl_seekable_next(in, &last, 1, err);
             if (k < 0) return -1;
             if (k == 0) { /* cut off: a later pass begins with this block again */
-                fl_seekable_back(in, at);
+                fl_seekable_set_back(in, at);
                 f->buf_len = 0;
                 return 1;
             }
@@ -252,7 +252,7 @@ static int end_piece(fl_frame_file *f, const struct piece *p, int within, fl_err
 {
     const char *name = f->text.name;
     const int32_t n = f->d.frames;
-    const int cut = within || fl_seekable_cut(p->in);
+    const int cut = within || fl_seekable_is_cut(p->in);
     const int next_begins = within && f->buf_len >= 6 && memcmp(f->buf, "frame ", 6) == 0;
     if (f->form == FORM_UNKNOWN && f->text.line == 0)
         return fl_fail(err, FL_INPUT, "%s: %s", name,
@@ -558,7 +558,7 @@ int fl_frame_file_is(const char *path)
     return strncmp(head, "#animation", 10) == 0 || strncmp(head, "#state ", 7) == 0;
 }
 
-int32_t fl_frame_file_more(fl_frame_file *f, fl_err *err)
+int32_t fl_frame_file_extend(fl_frame_file *f, fl_err *err)
 {
     const int32_t before = f->d.frames;
     struct piece *const p = &f->piece[f->pieces - 1];
@@ -570,7 +570,7 @@ int32_t fl_frame_file_more(fl_frame_file *f, fl_err *err)
         f->text.line = e.line - 1;
         f->buf_len = 0;
         f->offset = e.at;
-        fl_seekable_back(p->in, e.at);
+        fl_seekable_set_back(p->in, e.at);
     }
     const int within = scan_piece(f, p->in, err);
     if (within < 0) return -1;

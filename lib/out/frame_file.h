@@ -30,8 +30,8 @@ const char *fl_frame_file_history(const fl_frame_file *f); /* the "#by" lines; N
 /* Frame k of the index, 0 <= k < frames.  0, or -1 with FL_INPUT or FL_SYSTEM; `out` then holds no frame. */
 int fl_frame_file_read(fl_frame_file *f, int32_t k, fl_frame *out, fl_err *err);
 
-/* Goes on with the index of a file that has grown.  The number of new frames, or -1. */
-int32_t fl_frame_file_more(fl_frame_file *f, fl_err *err);
+/* Extends the index of a file that has grown.  Returns the number of new frames, or -1. */
+int32_t fl_frame_file_extend(fl_frame_file *f, fl_err *err);
 
 void fl_frame_file_close(fl_frame_file *f); /* NULL is accepted */
 

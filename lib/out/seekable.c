@@ -42,7 +42,7 @@ struct fl_seekable {
 };
 
 const char *fl_seekable_name(const fl_seekable *s) { return s->name; }
-int fl_seekable_cut(const fl_seekable *s) { return s->cut; }
+int fl_seekable_is_cut(const fl_seekable *s) { return s->cut; }
 
 /* Up to n bytes of the file at `at`; the number, 0 at its end, -1 with FL_INPUT. */
 static int64_t file_read(const fl_seekable *s, int64_t at, void *buf, int64_t n, fl_err *err)
@@ -54,7 +54,7 @@ static int64_t file_read(const fl_seekable *s, int64_t at, void *buf, int64_t n,
 }
 
 /* Copies a pipe into a file without a name. */
-static int spool_pipe(fl_seekable *s, fl_err *err)
+static int copy_pipe(fl_seekable *s, fl_err *err)
 {
     const char *folder = getenv("TMPDIR");
     char path[4096];
@@ -100,7 +100,7 @@ fl_seekable *fl_seekable_open(const char *path, fl_err *err)
         goto fail;
     }
     if (!S_ISREG(st.st_mode) || (standard && lseek(s->fd, 0, SEEK_CUR) != 0)) {
-        if (spool_pipe(s, err)) goto fail;
+        if (copy_pipe(s, err)) goto fail;
     }
     const int64_t k = file_read(s, 0, s->in, 2, err);
     if (k < 0) goto fail;
@@ -211,7 +211,7 @@ int fl_seekable_skip(fl_seekable *s, int64_t n, fl_err *err)
     return 0;
 }
 
-void fl_seekable_back(fl_seekable *s, int64_t offset)
+void fl_seekable_set_back(fl_seekable *s, int64_t offset)
 {
     if (!s->gzip) s->at = offset;
 }

@@ -16,7 +16,7 @@ typedef struct fl_seekable fl_seekable;
 fl_seekable *fl_seekable_open(const char *path, fl_err *err);
 
 /* The first pass: the next bytes, up to n.  The number read; 0 at the end; -1 with FL_INPUT or FL_SYSTEM.
- * A gzip file that is cut off or damaged ends where its text ends; fl_seekable_cut() then says so.  At the
+ * A gzip file that is cut off or damaged ends where its text ends; fl_seekable_is_cut() then says so.  At the
  * end of a plain file that still grows, a later call goes on. */
 int64_t fl_seekable_next(fl_seekable *s, void *buf, int64_t n, fl_err *err);
 
@@ -24,10 +24,10 @@ int64_t fl_seekable_next(fl_seekable *s, void *buf, int64_t n, fl_err *err);
 int fl_seekable_skip(fl_seekable *s, int64_t n, fl_err *err);
 
 /* Sets the first pass of a plain file back to `offset`, to read what has been added since. */
-void fl_seekable_back(fl_seekable *s, int64_t offset);
+void fl_seekable_set_back(fl_seekable *s, int64_t offset);
 
 /* True if the first pass met the end of a gzip file that is cut off or damaged. */
-int fl_seekable_cut(const fl_seekable *s);
+int fl_seekable_is_cut(const fl_seekable *s);
 
 /* n bytes from `offset` of the text, which the first pass has passed.  0, or -1 with FL_INPUT (the file has
  * become shorter or other) or FL_SYSTEM. */

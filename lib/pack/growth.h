@@ -59,10 +59,10 @@ typedef struct {
     double trimmed;            /* FL_TRIM_NEAR: smallest radius over that before; 1 */
 } fl_growth;
 
-/* Of bodies that were thrown. */
+/* State at the start, of bodies that were thrown. */
 fl_growth fl_growth_start(const fl_growth_options *opt);
 
-/* The next stage; phase is FL_GROWTH_DONE after the last.  -1 with FL_SYSTEM, or FL_NUMERIC (bodies that
+/* Runs the next stage; phase is FL_GROWTH_DONE after the last.  -1 with FL_SYSTEM, or FL_NUMERIC (bodies that
  * neither part nor balance). */
 int fl_growth_stage(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_err *err);
 

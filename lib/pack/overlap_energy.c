@@ -141,7 +141,7 @@ static int update_list(fl_overlaps *o, fl_err *err)
     const int64_t n = p->n;
     o->reach = p->s * GROWTH;
     if (fl_region_is_periodic(o->region))
-        for (int32_t i = 0; i < p->n; i++) p->x[i] = fl_region_into_cell(o->region, p->x[i]);
+        for (int32_t i = 0; i < p->n; i++) p->x[i] = fl_region_wrap_point(o->region, p->x[i]);
     for (int32_t i = 0; i < p->n; i++)
         o->box[i] = aabb_grow((fl_aabb){p->x[i], p->x[i]}, o->reach * p->bound[i] + 0.5 * o->skin);
     if (fl_pairs_find(&o->candidates, o->box, p->n, p->n, 0, err)) return -1;

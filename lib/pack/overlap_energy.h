@@ -9,17 +9,17 @@
  *                           their depth is added, narrow/penetration.h), and of polyhedra the same of each
  *                           corner of one core and the other core (narrow/closest_point.h), so that faces
  *                           touch at their corners, too;
- *     at the boundary       r_i less the distance (pack_region.h) of the centre of a sphere, or of each
- *     corner
- *                           of a core, and of each edge and corner of the boundary that points inwards.
+ *     at the boundary       r_i less the distance (pack_region.h) of the centre of a sphere, or of
+ *                           each corner of a core, and of each edge and corner of the boundary that points
+ *                           inwards.
  *
  * The minimum is found by FIRE (body/relaxation.h) with fictitious masses: 1, and more for bodies with many
  * neighbours, so that a body between hundreds of small ones does not set the step; of rotation m rho^2 with
  * rho = ARM of the bounding radius.  No body moves more than a fifth of its radius in a step.
  *
  * Lists of neighbours hold all pairs up to the scale `reach` and a skin of SKIN of the smallest body; they
- * last while the scale and the bodies' ways stay below.  Each body sums its own contacts in the order of the
- * list, and totals go by blocks of bodies in order: the same bits for any number of threads. */
+ * last while the scale and the paths of the bodies stay below these.  Each body sums its own contacts in the
+ * order of the list, and totals go by blocks of bodies in order: the same bits for any number of threads. */
 #ifndef FL_PACK_OVERLAP_ENERGY_H
 #define FL_PACK_OVERLAP_ENERGY_H
 #include "body/relaxation.h"
@@ -35,7 +35,7 @@ typedef struct {
     double max_force;             /* largest |force| on a body [m] */
     double max_overlap;           /* largest delta over the smaller bounding radius, at this scale */
     double overlap_sum, pressure; /* sums over contacts of delta [m], and of delta times the distance [m2] */
-    double max_move2;             /* largest way since the list was made, squared [m2] */
+    double max_move2;             /* square of the largest displacement since the list was made [m2] */
     int64_t contacts;             /* touching pairs, each once, and contacts with the boundary */
     int64_t wall_contacts;
 } fl_overlap_totals;
@@ -103,8 +103,7 @@ enum fl_relaxed {
 /* Relax from rest.
  *   free     overlap over the smaller bounding radius that counts as none
  *   balance  root mean square of the forces on bodies, or where `strict` the largest, over the mean overlap
- *   of
- *            the contacts, that counts as balance
+ *            of the contacts, that counts as balance
  *   steps    at most
  * Returns enum fl_relaxed, or -1 with FL_SYSTEM. */
 int fl_overlaps_relax(fl_overlaps *o, double free, double balance, int64_t steps, fl_err *err);

@@ -174,7 +174,7 @@ static double into_cell(double x, double lo, double hi)
     return x < hi ? x : lo;
 }
 
-fl_vec3 fl_region_into_cell(const fl_pack_region *r, fl_vec3 x)
+fl_vec3 fl_region_wrap_point(const fl_pack_region *r, fl_vec3 x)
 {
     if (r->periodic[0]) x.x = into_cell(x.x, r->lo.x, r->hi.x);
     if (r->periodic[1]) x.y = into_cell(x.y, r->lo.y, r->hi.y);

@@ -95,7 +95,7 @@ int fl_region_contacts(const fl_pack_region *r, fl_vec3 x, double reach,
 fl_vec3 fl_region_wrap(const fl_pack_region *r, fl_vec3 d);
 
 /* x moved by periods into the box. */
-fl_vec3 fl_region_into_cell(const fl_pack_region *r, fl_vec3 x);
+fl_vec3 fl_region_wrap_point(const fl_pack_region *r, fl_vec3 x);
 
 int fl_region_is_periodic(const fl_pack_region *r);
 

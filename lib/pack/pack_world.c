@@ -220,7 +220,7 @@ static void read_poses(motion *q)
 {
     fl_packing *p = q->p;
     for (int32_t i = 0; i < p->n; i++) {
-        p->x[i] = fl_region_into_cell(q->region, q->w.b.x[i]);
+        p->x[i] = fl_region_wrap_point(q->region, q->w.b.x[i]);
         if (p->dim == 2) p->x[i].z = 0.0;
         if (!p->q) continue;
         const fl_quat turn = q_mul(q->w.b.q[i], q_conj(q->q0[i]));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* patch_result.h -- what a contact law hands to friction: the load of a contact, where it acts and how it is
- * distributed.
+/* patch_result.h -- the result of a contact law that friction reads: the load of a contact, its centre and
+ * its distribution.
  *
  *     N = sum f,   x_c = sum f x / N,   Theta = sum e t t^T / sum e,   t = (x - x_e) x n
  *

@@ -7,7 +7,7 @@
 /* Adds the crossings, in the frame of B.
  *   d        of A over B;  rho_b: radius of the features of B [m]
  *   axis     direction from B to A of overlapping cores, or 0;  overlap: raised to the largest */
-void fl_quick_add_crossings(const fl_quick_way *d, double rho_b, fl_vec3 axis, fl_quick_total *to,
+void fl_quick_add_crossings(const fl_quick_direction *d, double rho_b, fl_vec3 axis, fl_quick_total *to,
                             double *overlap);
 
 #endif

@@ -19,7 +19,7 @@ typedef struct {
 
 /* A face of the own core over the plane of one of the other. */
 typedef struct {
-    const fl_quick_way *d;
+    const fl_quick_direction *d;
     const fl_quick_face *f; /* of the other core */
     const fl_quick_side *side;
     fl_vec3 n;           /* normal of the own face, in the frame of other */
@@ -175,7 +175,8 @@ static fl_wrench area_gradient(const face_pair *q)
 
 /* Share of the edges of the own face that the pair bears.  The polygon is not yet cut at s = 0; where it does
  * not touch it is cut at z = 0 here.  least: the least s. */
-static int find_borne(face_pair *q, double a0, int touching, double least, int32_t own, fl_quick_borne *to)
+static int find_support(face_pair *q, double a0, int touching, double least, int32_t own,
+                        fl_quick_support *to)
 {
     const double far = FL_QUICK_NEARNESS * q->d->R;
     fl_wrench of_area = {.f = {0}}, of_nearness = of_area;
@@ -194,7 +195,7 @@ static int find_borne(face_pair *q, double a0, int touching, double least, int32
         by_nearness = fl_quick_step(find_nearness(q, &of_nearness) / far, &dn);
     }
     const double by_others = by_area * by_nearness;
-    *to = (fl_quick_borne){.share = by_angle * by_others, .face = own};
+    *to = (fl_quick_support){.share = by_angle * by_others, .face = own};
     to->reach = by_angle * by_area * dn / far;
     if (da > 0.0) to->rise = fl_wrench_madd(to->rise, by_angle * da / a0 * by_nearness, of_area);
     if (dn > 0.0) to->rise = fl_wrench_madd(to->rise, to->reach, of_nearness);
@@ -301,7 +302,7 @@ FL_SIMD_INLINE void add_area(const face_pair *q, fl_quick_total *to)
                   moment =
                       v3_madd(from_axes(f, factor * i.m1 + e * cy, factor * i.m2 - e * cx, factor * i.m3),
                               turned, v3_cross(q->n, f->n)),
-                  way = v3_scale(e, f->n);
+                  direction = v3_scale(e, f->n);
     /* the middle of the overlap, and second moments in the plane of f about it */
     const fl_vec3 p = from_axes(f, cx, cy, f->height + q->d->reach - 0.5 * s - q->d->r);
     const double w = e * each, xx = w * (i.xx - i.x * rx), xy = w * (i.xy - i.x * ry),
@@ -313,7 +314,8 @@ FL_SIMD_INLINE void add_area(const face_pair *q, fl_quick_total *to)
     a[FL_QUICK_E] += e;
     a[FL_QUICK_F] += force.x, a[FL_QUICK_F + 1] += force.y, a[FL_QUICK_F + 2] += force.z;
     a[FL_QUICK_M] += moment.x, a[FL_QUICK_M + 1] += moment.y, a[FL_QUICK_M + 2] += moment.z;
-    a[FL_QUICK_WAY] += way.x, a[FL_QUICK_WAY + 1] += way.y, a[FL_QUICK_WAY + 2] += way.z;
+    a[FL_QUICK_DIRECTION] += direction.x, a[FL_QUICK_DIRECTION + 1] += direction.y,
+        a[FL_QUICK_DIRECTION + 2] += direction.z;
     a[FL_QUICK_EX] += ep.x, a[FL_QUICK_EY] += ep.y, a[FL_QUICK_EZ] += ep.z;
     a[FL_QUICK_XX] += ep.x * p.x + g.x * f->t1.x + h.x * f->t2.x;
     a[FL_QUICK_XY] += ep.x * p.y + g.x * f->t1.y + h.x * f->t2.y;
@@ -326,7 +328,7 @@ FL_SIMD_INLINE void add_area(const face_pair *q, fl_quick_total *to)
 /* Projects own face j; returns 0 where no corner is nearer than R + R.  *low, *high: of s. */
 FL_SIMD_INLINE int project_face(face_pair *q, const fl_quick_face *j)
 {
-    const fl_quick_way *d = q->d;
+    const fl_quick_direction *d = q->d;
     const fl_quick_face *f = q->f;
     const double per = 1.0 / q->C;
     const double *const *v = (const double *const *)d->own->corner;
@@ -354,9 +356,9 @@ FL_SIMD_INLINE int project_face(face_pair *q, const fl_quick_face *j)
 
 /* Adds a pair of faces; returns 1 if it bears edges of its own face. */
 FL_SIMD_INLINE int add_pair(face_pair *q, int32_t own, int32_t other, fl_quick_total *to,
-                            fl_quick_borne *borne, double *overlap)
+                            fl_quick_support *support, double *overlap)
 {
-    const fl_quick_way *d = q->d;
+    const fl_quick_direction *d = q->d;
     const fl_quick_face *j = &d->own->face[own];
     q->f = &d->other->face[other], q->side = d->other->side + q->f->first;
     q->n = m3_mul(d->M, j->n);
@@ -374,7 +376,7 @@ FL_SIMD_INLINE int add_pair(face_pair *q, int32_t own, int32_t other, fl_quick_t
     if (high > most && !clip_side(q, most - q->s0, q->sx, q->sy, CUT)) return 0;
     const double least = j->area < q->f->area ? j->area : q->f->area, most_wide = d->R * sqrt(least),
                  a0 = most_wide < 0.5 * least ? most_wide : 0.5 * least;
-    const int bears = find_borne(q, a0, high > 0.0, low, own, borne);
+    const int bears = find_support(q, a0, high > 0.0, low, own, support);
     if (!(high > 0.0)) return bears;
     if (low < 0.0) {
         if (!clip_side(q, q->s0, -q->sx, -q->sy, CUT)) return bears;
@@ -388,20 +390,20 @@ FL_SIMD_INLINE int add_pair(face_pair *q, int32_t own, int32_t other, fl_quick_t
 }
 
 FL_SIMD_VERSIONS static int32_t add_pairs(face_pair *q, const int32_t *at, int32_t n, fl_quick_total *to,
-                                          fl_quick_borne *borne, double *overlap)
+                                          fl_quick_support *support, double *overlap)
 {
     int32_t bear = 0;
-    for (int32_t k = 0; k < n; k += 2) bear += add_pair(q, at[k], at[k + 1], to, &borne[bear], overlap);
+    for (int32_t k = 0; k < n; k += 2) bear += add_pair(q, at[k], at[k + 1], to, &support[bear], overlap);
     return bear;
 }
 
-int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_way *d, fl_quick_total *to,
-                       const fl_quick_borne **borne, int32_t *n, double *overlap)
+int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_direction *d, fl_quick_total *to,
+                       const fl_quick_support **support, int32_t *n, double *overlap)
 {
     int32_t pairs, most = 0;
     const int32_t *at = fl_quick_section_of(d->l, d->section + FL_QUICK_PAIR, &pairs);
     *n = 0;
-    *borne = w->borne;
+    *support = w->support;
     if (pairs == 0) return 0;
     for (int32_t k = 0; k < pairs; k += 2) {
         const int32_t corners = d->own->face[at[k]].sides + d->other->face[at[k + 1]].sides + 3 + 2 * PAD;
@@ -409,13 +411,13 @@ int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_way *d, fl_quick_tota
     }
     most = (most + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH * FL_SIMD_WIDTH;
     if (fl_reserve(&w->polygon, &w->polygon_cap, 13 * most, sizeof(double)) ||
-        fl_reserve(&w->borne, &w->borne_cap, pairs / 2, sizeof(fl_quick_borne)))
+        fl_reserve(&w->support, &w->support_cap, pairs / 2, sizeof(fl_quick_support)))
         return -1;
     double *x = w->polygon;
     face_pair q = {.d = d, .g = x + 3 * most, .at = (fl_simd *)(void *)(x + 4 * most)};
     q.p = (outline){x, x + most, x + 2 * most, (int32_t *)(void *)(x + 12 * most)};
     q.spare = q.at + most;
-    *borne = w->borne;
-    *n = add_pairs(&q, at, pairs, to, w->borne, overlap);
+    *support = w->support;
+    *n = add_pairs(&q, at, pairs, to, w->support, overlap);
     return 0;
 }

@@ -5,9 +5,9 @@
 #include "patch/quick_rows.h"
 
 /* Adds the pairs of faces of one direction.  -1 when memory runs out.
- *   borne    out: [*n] pairs that bear edges, in the scratch
+ *   support    out: [*n] pairs that bear edges, in the scratch
  *   overlap  raised to the largest */
-int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_way *d, fl_quick_total *to,
-                       const fl_quick_borne **borne, int32_t *n, double *overlap);
+int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_direction *d, fl_quick_total *to,
+                       const fl_quick_support **support, int32_t *n, double *overlap);
 
 #endif

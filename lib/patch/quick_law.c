@@ -24,7 +24,7 @@ static void set_sums(fl_quick_sums *to, const fl_quick_total *t)
                           .reach = a[FL_QUICK_REACH],
                           .gradient = {vector_at(t, FL_QUICK_F), vector_at(t, FL_QUICK_M)},
                           .pressure = a[FL_QUICK_E],
-                          .direction = vector_at(t, FL_QUICK_WAY),
+                          .direction = vector_at(t, FL_QUICK_DIRECTION),
                           .moment = centre_sum(t),
                           .second = {a[FL_QUICK_XX], a[FL_QUICK_XY], a[FL_QUICK_XZ], a[FL_QUICK_YY],
                                      a[FL_QUICK_YZ], a[FL_QUICK_ZZ]}};
@@ -41,7 +41,7 @@ static void add_from_a(fl_quick_sums *to, const fl_quick_total *t, const fl_mat3
     to->u += a[FL_QUICK_U], to->ddu += a[FL_QUICK_DDU], to->reach += a[FL_QUICK_REACH], to->pressure += e;
     to->gradient.f = v3_add(to->gradient.f, f);
     to->gradient.m = v3_add(v3_add(to->gradient.m, m), v3_cross(o, f));
-    to->direction = v3_sub(to->direction, m3_mul(*M, vector_at(t, FL_QUICK_WAY)));
+    to->direction = v3_sub(to->direction, m3_mul(*M, vector_at(t, FL_QUICK_DIRECTION)));
     to->moment = v3_madd(v3_add(to->moment, c), e, o);
     const fl_sym3 x = s3_rotated((fl_sym3){a[FL_QUICK_XX], a[FL_QUICK_XY], a[FL_QUICK_XZ], a[FL_QUICK_YY],
                                            a[FL_QUICK_YZ], a[FL_QUICK_ZZ]},
@@ -78,19 +78,19 @@ int fl_quick_evaluate(fl_quick_scratch *w, const fl_quick_shape *a, const fl_qui
     const fl_mat3 N = {{{M.m[0][0], M.m[1][0], M.m[2][0]},
                         {M.m[0][1], M.m[1][1], M.m[2][1]},
                         {M.m[0][2], M.m[1][2], M.m[2][2]}}};
-    const fl_quick_way way[2] = {
+    const fl_quick_direction direction[2] = {
         {a, b, M, at, ra, fl_quick_feature_radius(ra, rb), R, reach, l, 0},
         {b, a, N, v3_neg(m3_mul(N, at)), rb, fl_quick_feature_radius(rb, ra), R, reach, l, FL_QUICK_KINDS}};
     fl_quick_total total[2] = {0};
     double overlap = 0.0;
     for (int k = 0; k < 2; k++) {
-        const fl_quick_borne *borne;
+        const fl_quick_support *support;
         int32_t n;
-        if (fl_quick_add_faces(w, &way[k], &total[k], &borne, &n, &overlap) ||
-            fl_quick_add_points(w, &way[k], borne, n, &total[k], &overlap))
+        if (fl_quick_add_faces(w, &direction[k], &total[k], &support, &n, &overlap) ||
+            fl_quick_add_points(w, &direction[k], support, n, &total[k], &overlap))
             return -1;
     }
-    fl_quick_add_crossings(&way[0], way[1].rho, deep->n, &total[0], &overlap);
+    fl_quick_add_crossings(&direction[0], direction[1].rho, deep->n, &total[0], &overlap);
     set_sums(sums, &total[0]);
     add_from_a(sums, &total[1], &M, at);
     sums->overlap = overlap;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* quick_law.h -- the contact law `quick`: the potential of two dilated convex cores, from parts that are
- * cheap.
+/* quick_law.h -- the contact law `quick`: the potential of two dilated convex cores, from terms of low
+ * cost.
  *
  * As `patch` (patch_law.h) it takes W = c sqrt(U) with the same c and the same measure int s^4 of the overlap
  * s = R - d, d the exact distance from the other core, so stiffness and material are those of `patch`.  U is

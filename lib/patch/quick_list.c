@@ -173,7 +173,7 @@ static int may_be_over(const direction *d, const fl_quick_list *l, int section, 
 }
 
 /* True if one of them comes within reach of edge f of the other core. */
-static int may_be_by(const direction *d, const fl_quick_list *l, int section, int32_t f)
+static int may_be_near(const direction *d, const fl_quick_list *l, int section, int32_t f)
 {
     const fl_quick_edge *edge = &d->other->edge[f];
     const double near = d->R + d->margin;
@@ -197,7 +197,7 @@ static int append_direction(fl_quick_list *l, direction *d, int section)
         if (may_be_over(d, l, section, f) && append_index(l, f)) return -1;
     l->first[section + FL_QUICK_EDGE] = l->n;
     for (int32_t f = 0; f < d->other->edges; f++)
-        if (d->other_near[f] && may_be_by(d, l, section, f) && append_index(l, f)) return -1;
+        if (d->other_near[f] && may_be_near(d, l, section, f) && append_index(l, f)) return -1;
     l->first[section + FL_QUICK_KINDS] = l->n;
     return 0;
 }

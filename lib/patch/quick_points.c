@@ -68,7 +68,7 @@ FL_SIMD_INLINE void find_nearest(nearest_point *q, const nearest_features *of, c
     q->on_face = in;
     const fl_simd_mask out = ~in & within;
     if (!fl_simd_any(&out)) return;
-    fl_simd best = zero + INFINITY, way[3] = {zero, zero, zero};
+    fl_simd best = zero + INFINITY, offset[3] = {zero, zero, zero};
     for (int32_t k = 0; k < of->edges; k++) {
         const fl_quick_edge *e = &of->s->edge[of->edge[k]];
         fl_simd r[3] = {x[0] - e->a.x, x[1] - e->a.y, x[2] - e->a.z};
@@ -78,7 +78,7 @@ FL_SIMD_INLINE void find_nearest(nearest_point *q, const nearest_features *of, c
         const fl_simd d2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         const fl_simd_mask nearer = (d2 < best) & out;
         CHOOSE(best, nearer, d2);
-        CHOOSE(way[0], nearer, r[0]), CHOOSE(way[1], nearer, r[1]), CHOOSE(way[2], nearer, r[2]);
+        CHOOSE(offset[0], nearer, r[0]), CHOOSE(offset[1], nearer, r[1]), CHOOSE(offset[2], nearer, r[2]);
         if (!edges_too) continue;
         CHOOSE(q->b[0], nearer, e->d.x + zero), CHOOSE(q->b[1], nearer, e->d.y + zero);
         CHOOSE(q->b[2], nearer, e->d.z + zero), CHOOSE(q->t, nearer, t),
@@ -90,7 +90,7 @@ FL_SIMD_INLINE void find_nearest(nearest_point *q, const nearest_features *of, c
     const fl_simd_mask apart = out & (best > 0.0);
     CHOOSE(q->d, apart, d);
     FL_SIMD_UNROLL
-    for (int c = 0; c < 3; c++) CHOOSE(q->n[c], apart, each * way[c]);
+    for (int c = 0; c < 3; c++) CHOOSE(q->n[c], apart, each * offset[c]);
 }
 
 static void keep_most(double *overlap, const fl_simd *s)
@@ -99,7 +99,7 @@ static void keep_most(double *overlap, const fl_simd *s)
         if ((*s)[k] > *overlap) *overlap = (*s)[k];
 }
 
-FL_SIMD_VERSIONS static void add_vertices(const fl_quick_way *d, const nearest_features *of,
+FL_SIMD_VERSIONS static void add_vertices(const fl_quick_direction *d, const nearest_features *of,
                                           const int32_t *at, int32_t n, fl_quick_total *to, double *overlap)
 {
     const double factor = FL_PATCH_ROUND_FACTOR * (0.4 * PI) * d->rho;
@@ -127,7 +127,7 @@ FL_SIMD_VERSIONS static void add_vertices(const fl_quick_way *d, const nearest_f
 }
 
 /* A segment of an edge of the own core: u = weight s^(9/2) o of each point, o of quick_law.h. */
-FL_SIMD_VERSIONS static void add_segment(const fl_quick_way *d, const nearest_features *of,
+FL_SIMD_VERSIONS static void add_segment(const fl_quick_direction *d, const nearest_features *of,
                                          const fl_quick_edge *e, fl_vec3 from, fl_vec3 along, int32_t part,
                                          int32_t parts, double factor, fl_quick_total *to, double *overlap)
 {
@@ -206,23 +206,23 @@ FL_SIMD_VERSIONS static void add_segment(const fl_quick_way *d, const nearest_fe
 }
 
 /* Adds v times the sum of an edge, and the gradient of v. */
-static void add_edge(const fl_quick_total *sum, double v, const fl_quick_edge *e, const fl_quick_borne *borne,
-                     int32_t n, fl_quick_total *to)
+static void add_edge(const fl_quick_total *sum, double v, const fl_quick_edge *e,
+                     const fl_quick_support *support, int32_t n, fl_quick_total *to)
 {
     fl_quick_add_total(to, v, sum);
     for (int32_t k = 0; k < n; k++) {
         double others = sum->a[FL_QUICK_U];
-        if (borne[k].face != e->face[0] && borne[k].face != e->face[1]) continue;
+        if (support[k].face != e->face[0] && support[k].face != e->face[1]) continue;
         for (int32_t i = 0; i < n; i++)
-            if (i != k && (borne[i].face == e->face[0] || borne[i].face == e->face[1]))
-                others *= 1.0 - borne[i].share;
-        fl_quick_add_wrench(to, others, borne[k].rise);
-        to->a[FL_QUICK_REACH] -= others * borne[k].reach;
+            if (i != k && (support[i].face == e->face[0] || support[i].face == e->face[1]))
+                others *= 1.0 - support[i].share;
+        fl_quick_add_wrench(to, others, support[k].rise);
+        to->a[FL_QUICK_REACH] -= others * support[k].reach;
     }
 }
 
-static void add_edges(const fl_quick_way *d, const nearest_features *of, const fl_quick_borne *borne,
-                      int32_t n, fl_quick_total *to, double *overlap)
+static void add_edges(const fl_quick_direction *d, const nearest_features *of,
+                      const fl_quick_support *support, int32_t n, fl_quick_total *to, double *overlap)
 {
     int32_t parts;
     const int32_t *at = fl_quick_section_of(d->l, d->section + FL_QUICK_SEGMENTS, &parts);
@@ -232,7 +232,7 @@ static void add_edges(const fl_quick_way *d, const nearest_features *of, const f
         const fl_quick_edge *e = &d->own->edge[edge];
         double v = 1.0;
         for (int32_t i = 0; i < n; i++)
-            if (borne[i].face == e->face[0] || borne[i].face == e->face[1]) v *= 1.0 - borne[i].share;
+            if (support[i].face == e->face[0] || support[i].face == e->face[1]) v *= 1.0 - support[i].share;
         if (!(v > 0.0)) {
             while (k < parts && at[k] == edge) k += 3;
             continue;
@@ -241,12 +241,12 @@ static void add_edges(const fl_quick_way *d, const nearest_features *of, const f
         fl_quick_total sum = {{0}};
         for (; k < parts && at[k] == edge; k += 3)
             add_segment(d, of, e, from, along, at[k + 1], at[k + 2], factor * e->weight, &sum, overlap);
-        if (sum.a[FL_QUICK_U] > 0.0) add_edge(&sum, v, e, borne, n, to);
+        if (sum.a[FL_QUICK_U] > 0.0) add_edge(&sum, v, e, support, n, to);
     }
 }
 
-int fl_quick_add_points(fl_quick_scratch *w, const fl_quick_way *d, const fl_quick_borne *borne, int32_t n,
-                        fl_quick_total *to, double *overlap)
+int fl_quick_add_points(fl_quick_scratch *w, const fl_quick_direction *d, const fl_quick_support *support,
+                        int32_t n, fl_quick_total *to, double *overlap)
 {
     nearest_features of = {.s = d->other, .tol = ON_PLANE_TOL * (d->own->bound + d->other->bound)};
     of.face = fl_quick_section_of(d->l, d->section + FL_QUICK_FACE, &of.faces);
@@ -256,6 +256,6 @@ int fl_quick_add_points(fl_quick_scratch *w, const fl_quick_way *d, const fl_qui
     int32_t vertices;
     const int32_t *at = fl_quick_section_of(d->l, d->section + FL_QUICK_VERTEX, &vertices);
     add_vertices(d, &of, at, vertices, to, overlap);
-    add_edges(d, &of, borne, n, to, overlap);
+    add_edges(d, &of, support, n, to, overlap);
     return 0;
 }

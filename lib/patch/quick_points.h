@@ -5,8 +5,8 @@
 #include "patch/quick_rows.h"
 
 /* Adds vertices and edges of the own core of one direction.  -1 when memory runs out.
- *   borne    [n] pairs of faces that bear edges;  overlap: raised to the largest */
-int fl_quick_add_points(fl_quick_scratch *w, const fl_quick_way *d, const fl_quick_borne *borne, int32_t n,
-                        fl_quick_total *to, double *overlap);
+ *   support    [n] pairs of faces that bear edges;  overlap: raised to the largest */
+int fl_quick_add_points(fl_quick_scratch *w, const fl_quick_direction *d, const fl_quick_support *support,
+                        int32_t n, fl_quick_total *to, double *overlap);
 
 #endif

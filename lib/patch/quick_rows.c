@@ -4,6 +4,6 @@
 
 void fl_quick_scratch_free(fl_quick_scratch *w)
 {
-    free(w->polygon), free(w->height), free(w->borne);
+    free(w->polygon), free(w->height), free(w->support);
     *w = (fl_quick_scratch){0};
 }

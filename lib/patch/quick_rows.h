@@ -21,8 +21,8 @@
 
 /* Scratch of one thread.  Zeroed to start; grows as needed. */
 typedef struct {
-    void *polygon, *height, *borne;
-    int32_t polygon_cap, height_cap, borne_cap;
+    void *polygon, *height, *support;
+    int32_t polygon_cap, height_cap, support_cap;
 } fl_quick_scratch;
 
 void fl_quick_scratch_free(fl_quick_scratch *w);
@@ -37,8 +37,8 @@ enum {
     FL_QUICK_EX = FL_QUICK_F + 3, /* of e x, x component */
     FL_QUICK_M,
     FL_QUICK_EY = FL_QUICK_M + 3,
-    FL_QUICK_WAY,
-    FL_QUICK_EZ = FL_QUICK_WAY + 3,
+    FL_QUICK_DIRECTION,
+    FL_QUICK_EZ = FL_QUICK_DIRECTION + 3,
     FL_QUICK_XX,
     FL_QUICK_XY,
     FL_QUICK_XZ,
@@ -64,9 +64,9 @@ typedef struct {
         const fl_simd ex_ = p_ * (x_)[0], ey_ = p_ * (x_)[1], ez_ = p_ * (x_)[2];                            \
         (l)->a[FL_QUICK_U] = (u_), (l)->a[FL_QUICK_REACH] = (l)->a[FL_QUICK_E] = p_;                         \
         (l)->a[FL_QUICK_DDU] = (ddu_);                                                                       \
-        (l)->a[FL_QUICK_F] = (l)->a[FL_QUICK_WAY] = fx_,                                                     \
-        (l)->a[FL_QUICK_F + 1] = (l)->a[FL_QUICK_WAY + 1] = fy_;                                             \
-        (l)->a[FL_QUICK_F + 2] = (l)->a[FL_QUICK_WAY + 2] = fz_;                                             \
+        (l)->a[FL_QUICK_F] = (l)->a[FL_QUICK_DIRECTION] = fx_,                                               \
+        (l)->a[FL_QUICK_F + 1] = (l)->a[FL_QUICK_DIRECTION + 1] = fy_;                                       \
+        (l)->a[FL_QUICK_F + 2] = (l)->a[FL_QUICK_DIRECTION + 2] = fz_;                                       \
         (l)->a[FL_QUICK_M] = (x_)[1] * fz_ - (x_)[2] * fy_;                                                  \
         (l)->a[FL_QUICK_M + 1] = (x_)[2] * fx_ - (x_)[0] * fz_;                                              \
         (l)->a[FL_QUICK_M + 2] = (x_)[0] * fy_ - (x_)[1] * fx_;                                              \
@@ -115,13 +115,13 @@ static inline double fl_quick_step(double x, double *slope)
     return FL_QUICK_STEP(t);
 }
 
-/* How much of an edge the face pair bears, v of quick_law.h; 0 if none. */
+/* Support of edges by a pair of faces, v of quick_law.h. */
 typedef struct {
     double share;   /* 1 - v of this pair */
     double reach;   /* d share/dR */
     fl_wrench rise; /* its gradient */
     int32_t face;   /* own face */
-} fl_quick_borne;
+} fl_quick_support;
 
 /* Input of one direction. */
 typedef struct {
@@ -133,6 +133,6 @@ typedef struct {
     double reach;  /* with it */
     const fl_quick_list *l;
     int section; /* the first of the list */
-} fl_quick_way;
+} fl_quick_direction;
 
 #endif

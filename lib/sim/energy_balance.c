@@ -119,15 +119,15 @@ void fl_energy_update(fl_world *w)
     if (w->spheres.bodies) fl_contact_list_energy(w, &elastic, &spring);
     const fl_bond_energies bonds = fl_bond_list_energies(w);
     g->bond = bonds.store;
-    g->fracture = bonds.spent;
+    g->fracture = bonds.dissipated;
     spring += bonds.spring - bonds.transferred;
     g->kinetic = kinetic;
     g->gravity = gravity;
     g->elastic = elastic;
     g->hydrostatic = hydro;
     g->damping_now = g->damping - ahead.damping + bonds.damped;
-    g->friction_now =
-        g->friction - ahead.friction - spring + bonds.rubbed; /* the friction springs can give it back */
+    g->friction_now = g->friction - ahead.friction - spring +
+                      bonds.friction_loss; /* the friction springs can give it back */
     g->drag = drag;
     g->wind = wind;
     g->waves = waves;

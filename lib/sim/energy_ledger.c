@@ -155,7 +155,8 @@ static fl_velocity_change acceleration_of(const fl_world *w, int32_t k)
     if (k < w->n) {
         fl_body_accelerations(&w->b, k, &g.v, &g.w);
     } else if (fl_structure_has_members(w)) {
-        if (fl_piece_moves(w, k)) fl_member_motion_push(&w->moving.members, k - w->n, w->b.x[k], &g.v, &g.w);
+        if (fl_piece_moves(w, k))
+            fl_member_motion_acceleration(&w->moving.members, k - w->n, w->b.x[k], &g.v, &g.w);
     } else if (w->moving.movers.n) {
         const fl_bodies *mb = &w->moving.movers.b;
         const int32_t m = w->moving.mover_of_piece[k - w->n];

@@ -609,8 +609,9 @@ static int32_t end_floating_spheres(fl_world *w, int32_t k, int32_t to, double h
         if (has_contact(w, i)) own->contact_force = v3_add(own->contact_force, r.contact_force[at]);
         if (!w->spheres.bodies || !(w->spheres.contact_count[i] | w->spheres.previous_contact_count[i]))
             continue;
-        const fl_velocity_change first = {r.first_v[at], r.first_w[at]}, back = {r.back_v[at], r.back_w[at]};
-        add_works(own, fl_work_of_step(w, i, &first, &back));
+        const fl_velocity_change first = {r.first_dv[at], r.first_dw[at]},
+                                 second = {r.second_dv[at], r.second_dw[at]};
+        add_works(own, fl_work_of_step(w, i, &first, &second));
     }
     return end;
 }

@@ -95,7 +95,7 @@ static double arm_of(const fl_world *w, const fl_pair *p, int32_t k)
 
 /* Forces that act on one ball through several cylinders add up: the bound of a piece has the contacts of all
  * cylinders at its two balls. */
-double fl_member_structure_limit(const fl_world *w)
+double fl_member_structure_critical_step(const fl_world *w)
 {
     const fl_member_motion *v = &w->moving.members;
     const fl_member_chain *c = &v->dynamics.chain;
@@ -162,7 +162,7 @@ int fl_member_structure_check(const fl_world *w, fl_err *err)
             !v3_finite(d->chain.ball[b].w))
             return fl_fail(err, FL_NUMERIC, "%s: not a finite number in step %lld (t = %g s)", v->model->file,
                            (long long)w->step, fl_world_time(w));
-    if (d->too_far)
+    if (d->over_rotated)
         return fl_fail(err, FL_NUMERIC,
                        "%s: a piece of a member was turned by more than 1 rad before t = %g s: the structure "
                        "collapses, or its members need more pieces",

@@ -292,7 +292,7 @@ void fl_moving_structure_limit(fl_world *w)
 {
     fl_moving_structure *r = &w->moving;
     if (fl_structure_has_members(w)) {
-        lower_critical(w, fl_member_structure_limit(w), 0);
+        lower_critical(w, fl_member_structure_critical_step(w), 0);
         return;
     }
     for (int32_t m = 0; m < r->movers.n; m++) r->contact_omega2[m] = 0.0;

@@ -180,7 +180,7 @@ static void exchange_block(fl_state_io *t, fl_wave_block *c)
 {
     fl_state_io_count(t, &c->level);
     fl_state_io_int(t, 0, 2, &c->span);
-    fl_state_io_int(t, 0, INT32_MAX, &c->short_turns);
+    fl_state_io_int(t, 0, INT32_MAX, &c->short_blocks_left);
     fl_state_io_quat(t, &c->q);
     for (int k = 0; k < FL_WAVE_SAMPLES; k++) fl_state_io_vec3(t, &c->x[k]), fl_state_io_vec3(t, &c->turn[k]);
     if (t->in && !t->err->code && c->level != FL_WAVE_NO_BLOCK && (c->level < 0 || c->span < 1))
@@ -243,7 +243,7 @@ static void exchange_members(fl_state_io *t, fl_world *w)
     fl_state_io_open(t, "members");
     fl_state_io_int(t, balls, balls, &balls);
     fl_state_io_real(t, &d->damped);
-    fl_state_io_int(t, 0, INT32_MAX, &d->parted);
+    fl_state_io_int(t, 0, INT32_MAX, &d->ruptured);
     fl_state_io_close(t);
     for (int32_t k = 0; k < d->chain.balls && !t->err->code; k++) {
         fl_member_ball *a = &d->chain.ball[k];
@@ -257,9 +257,9 @@ static void exchange_members(fl_state_io *t, fl_world *w)
     for (int32_t k = 0; k < d->chain.yielding && !t->err->code; k++) {
         fl_member_fibres *f = &d->chain.fibres[k];
         fl_state_io_open(t, "yields");
-        fl_state_io_real(t, &f->spent);
+        fl_state_io_real(t, &f->dissipated);
         fl_state_io_real(t, &f->strain);
-        fl_state_io_int(t, 0, 1, &f->parted);
+        fl_state_io_int(t, 0, 1, &f->ruptured);
         fl_state_io_int(t, 0, 1, &f->yielded);
         for (int e = 0; e < f->section->n && f->yielded && !t->err->code; e++)
             fl_state_io_real(t, &f->plastic[e]);
@@ -405,7 +405,7 @@ static void exchange_disc(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_byte(t, FL_DISC_ENDED, &s->has_ended[k]);
     fl_state_io_vec3(t, &m.S), fl_state_io_vec3(t, &m.M);
     fl_state_io_real(t, &m.lambda);
-    fl_state_io_real(t, &m.dissipated), fl_state_io_real(t, &m.rubbed);
+    fl_state_io_real(t, &m.dissipated), fl_state_io_real(t, &m.friction_loss);
     fl_state_io_real(t, &s->pending[k]);
     fl_state_io_vec3(t, &f->force), fl_state_io_vec3(t, &f->couple_i), fl_state_io_vec3(t, &f->couple_j);
     if (s->at.damped) {

@@ -212,7 +212,7 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
     load_motion(w, from, n, q);
     for (int32_t k = 0; k < n; k++) {
         const int32_t i = from + k;
-        out->first_v[k] = change_by(q, k, h, heavy), out->first_w[k] = turn_by(q, k, h);
+        out->first_dv[k] = change_by(q, k, h, heavy), out->first_dw[k] = turn_by(q, k, h);
         q->z[k] = b->x[i].z;
         q->volume[k] = s->hull[i].volume, q->surface[k] = s->hull[i].surface_area;
         q->fill[k] = s->hull[i].fill;
@@ -231,7 +231,7 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
         out->contact_force[k] = v3_sub(v3_madd(f, -b->m[i], w->gravity), v3(0, 0, q->buoyancy[k]));
         s->wetted_area[i] = q->area[k], s->buoyancy[i] = q->buoyancy[k];
         if (heavy) b->heave_mass[i] = q->heave[k], b->heave_work[i] = q->work[k];
-        out->back_v[k] = change_by(q, k, h, heavy), out->back_w[k] = turn_by(q, k, h);
+        out->second_dv[k] = change_by(q, k, h, heavy), out->second_dw[k] = turn_by(q, k, h);
     }
     kick_rows(q, full, h, heavy);
     decay_rows(q, full, d, heavy);

@@ -10,8 +10,8 @@
  * whole body, no waves, wind or other forces of the table, no sleep, no outflow. */
 int fl_floating_batch_applies(const fl_world *w);
 
-/* End of the run of such spheres from k on: free, not driven, and without contacts in w->pair, in the step
- * before, and in this one if `second`.  k if it is none. */
+/* Returns the end of the run of such spheres from k on: free, not driven, and without contacts in w->pair, in
+ * the step before, and in this one if `second`.  k if it is none. */
 int32_t fl_floating_run_end(const fl_world *w, int32_t k, int32_t to, int second);
 
 /* First half of a step of 2 h for [from, to), at most FL_BODY_BLOCK. */
@@ -20,8 +20,8 @@ void fl_floating_batch_begin(fl_world *w, int32_t from, int32_t to, double h);
 /* Second half; the caller adds contact_force[k - from], the force of contacts and bonds, and the works to the
  * sums of the block.  Sphere sums are collected before. */
 typedef struct {
-    fl_vec3 contact_force[FL_BODY_BLOCK], first_v[FL_BODY_BLOCK], first_w[FL_BODY_BLOCK],
-        back_v[FL_BODY_BLOCK], back_w[FL_BODY_BLOCK]; /* changes by the two kicks */
+    fl_vec3 contact_force[FL_BODY_BLOCK], first_dv[FL_BODY_BLOCK], first_dw[FL_BODY_BLOCK],
+        second_dv[FL_BODY_BLOCK], second_dw[FL_BODY_BLOCK]; /* changes by the two kicks */
 } fl_floating_result;
 void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_floating_result *out);
 

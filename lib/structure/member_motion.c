@@ -225,7 +225,7 @@ void fl_member_motion_velocity(const fl_member_motion *v, int32_t k, fl_vec3 x, 
     combine(&f, e, i->v, j->v, i->w, j->w, x, speed, spin);
 }
 
-void fl_member_motion_push(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *a, fl_vec3 *turn)
+void fl_member_motion_acceleration(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *a, fl_vec3 *turn)
 {
     const fl_member_dynamics *d = &v->dynamics;
     const fl_member_contact *e = &d->chain.contact[v->cylinder[k].contact];

@@ -37,11 +37,12 @@ typedef struct {
     double *contact_stiffness;    /* [balls] of the contacts at cylinders that use the ball [N/m] */
 } fl_member_motion;
 
-/* Parts, and the cylinders of their members, as a surface. waterline: height at which the piece of a cylinder
- * is chosen [m]. -1 with FL_INPUT (no section has a radius) or FL_SYSTEM. */
+/* Makes a surface of the parts and the cylinders of their members. waterline: height at which the piece of a
+ * cylinder is chosen [m]. -1 with FL_INPUT (no section has a radius) or FL_SYSTEM. */
 int fl_member_motion_surface(fl_surface *s, const fl_member_model *m, double waterline, fl_err *err);
 
-/* The pieces of the chain as parts with a cylinder each, in the order of the contacts, for animations. */
+/* Makes a surface of the pieces of the chain, a part with a cylinder each, in the order of the contacts, for
+ * animations. */
 int fl_member_motion_frames_surface(fl_surface *s, const fl_member_model *m, fl_err *err);
 
 int fl_member_motion_make(fl_member_motion *v, const fl_member_model *m, double waterline, double ratio,
@@ -58,8 +59,9 @@ void fl_member_motion_piece_pose(const fl_member_motion *v, int32_t contact, fl_
 void fl_member_motion_velocity(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *speed,
                                fl_vec3 *spin);
 
-/* Acceleration of the same by the forces on the balls alone. */
-void fl_member_motion_push(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *a, fl_vec3 *turn);
+/* Acceleration and angular acceleration at x by the forces on the balls alone. */
+void fl_member_motion_acceleration(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *a,
+                                   fl_vec3 *turn);
 
 /* Sets the forces on the balls to 0; adds force f at x and torque t about x on cylinder k. */
 void fl_member_motion_clear(fl_member_motion *v);

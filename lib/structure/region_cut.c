@@ -242,8 +242,8 @@ static int is_on_face(const fl_vec3 *q, const fl_region_polygon *p, fl_vec3 x)
     return 1;
 }
 
-/* True if of two fragments in one place that of body a goes, where the other one is of b. */
-static int gives_way(const body *a, const body *b, int a_first, int same_way)
+/* True if a fragment of body a is dropped where one of body b lies in the same place. */
+static int is_hidden_by(const body *a, const body *b, int a_first, int same_way)
 {
     if (a->kind == SOLID && b->kind == SOLID) return same_way ? !a_first : 1;
     if (a->kind == PLATE && b->kind == PLATE) return !a_first;
@@ -251,9 +251,9 @@ static int gives_way(const body *a, const body *b, int a_first, int same_way)
     return a->kind < b->kind;
 }
 
-/* True if the fragment stays, as far as body b is concerned.  list[0 .. near): faces of b near it. */
-static int stays(const fl_region_surface *s, const fragments *w, int32_t k, fl_vec3 normal, const body *a,
-                 const body *b, int32_t near, int a_first)
+/* True if body b leaves the fragment in the surface.  list[0 .. near): faces of b near it. */
+static int is_kept(const fl_region_surface *s, const fragments *w, int32_t k, fl_vec3 normal, const body *a,
+                   const body *b, int32_t near, int a_first)
 {
     const fl_vec3 *v = w->v + w->at[k].first, middle = mean_of(v, w->at[k].n);
     for (int32_t c = 0; c < near; c++) {
@@ -261,7 +261,7 @@ static int stays(const fl_region_surface *s, const fragments *w, int32_t k, fl_v
         const fl_vec3 *at = s->v + q->first;
         if (v3_norm(v3_cross(normal, q->normal)) >= SAME_PLANE) continue;
         if (fabs(v3_dot(q->normal, v3_sub(middle, at[0]))) > s->tol || !is_on_face(at, q, middle)) continue;
-        return !gives_way(a, b, a_first, v3_dot(normal, q->normal) > 0.0);
+        return !is_hidden_by(a, b, a_first, v3_dot(normal, q->normal) > 0.0);
     }
     return !fl_piece_contains(b->piece, v3_add(middle, s->origin));
 }
@@ -302,7 +302,7 @@ static int cut_polygon(fl_region_surface *to, const fl_region_surface *s, int32_
             if (cut_by_face(w, q.normal, s->v, &s->polygon[all[b].first + w->list[c]], s->tol, err))
                 return -1;
         for (int32_t k = 0; k < w->n;) {
-            if (stays(s, w, k, q.normal, &all[q.body], &all[b], near, q.body < b)) k++;
+            if (is_kept(s, w, k, q.normal, &all[q.body], &all[b], near, q.body < b)) k++;
             else w->at[k] = w->at[--w->n];
         }
     }

@@ -26,7 +26,7 @@ static const char *find_program(const char *name, char path[PATH_LEN])
     return NULL;
 }
 
-int fl_film_possible(void)
+int fl_film_has_ffmpeg(void)
 {
     char path[PATH_LEN];
     return find_program("ffmpeg", path) != NULL;

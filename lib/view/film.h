@@ -18,13 +18,13 @@ typedef struct {
 } fl_film;
 
 /* True if ffmpeg is on the PATH. */
-int fl_film_possible(void);
+int fl_film_has_ffmpeg(void);
 
-/* w and h even.  -1 with FL_USAGE (an ending that is not known, odd sizes) or FL_SYSTEM (no ffmpeg: the
- * package). */
+/* Starts a film of w x h pixels, both even.  -1 with FL_USAGE (an ending that is not known, odd sizes) or
+ * FL_SYSTEM (no ffmpeg: the package). */
 int fl_film_open(fl_film *f, const char *path, int w, int h, double fps, fl_err *err);
 
-/* The next frame.  -1 with FL_SYSTEM. */
+/* Writes the next frame.  -1 with FL_SYSTEM. */
 int fl_film_add(fl_film *f, const fl_picture *p, fl_err *err);
 
 /* Ends the film; it gets its name if ffmpeg ended well.  -1 with FL_SYSTEM. */
@@ -33,7 +33,7 @@ int fl_film_close(fl_film *f, fl_err *err);
 /* Ends the film and removes what there is of it.  Accepts a zeroed struct. */
 void fl_film_abort(fl_film *f);
 
-/* A picture as jpg.  -1 with FL_SYSTEM. */
+/* Writes a picture as jpg.  -1 with FL_SYSTEM. */
 int fl_film_jpg(const char *path, const fl_picture *p, fl_err *err);
 
 #endif

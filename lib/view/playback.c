@@ -32,7 +32,7 @@ static int jumps(const fl_playback *p, fl_vec3 d)
     return fabs(d.x) > 0.5 * side.x + 1e-9 || fabs(d.y) > 0.5 * side.y + 1e-9;
 }
 
-static fl_quat mix_turns(fl_quat a, fl_quat b, double s)
+static fl_quat interpolate_rotation(fl_quat a, fl_quat b, double s)
 {
     const double sign = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0.0 ? -1.0 : 1.0, r = 1.0 - s;
     return q_unit((fl_quat){r * a.w + s * sign * b.w, r * a.x + s * sign * b.x, r * a.y + s * sign * b.y,
@@ -75,7 +75,7 @@ static void mix_bodies(fl_playback *p, double s, double dt)
             continue;
         }
         now->x[r] = v3_madd(a->x[r], s, d);
-        now->q[r] = mix_turns(a->q[r], b->q[r], s);
+        now->q[r] = interpolate_rotation(a->q[r], b->q[r], s);
         if (!a->has_velocity) {
             now->v[r] = v3_scale(1.0 / dt, d);
             now->w[r] = spin_between(a->q[r], b->q[r], dt);
@@ -83,7 +83,7 @@ static void mix_bodies(fl_playback *p, double s, double dt)
     }
     for (int32_t k = 0; k < now->parts; k++) {
         now->part_x[k] = v3_lerp(a->part_x[k], b->part_x[k], s);
-        now->part_q[k] = mix_turns(a->part_q[k], b->part_q[k], s);
+        now->part_q[k] = interpolate_rotation(a->part_q[k], b->part_q[k], s);
     }
 }
 

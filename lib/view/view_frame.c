@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "view/view_frame.h"
 
-static float speck_of(int32_t id)
+static float grain_of(int32_t id)
 {
     uint32_t h = (uint32_t)id * 0x9E3779B1u;
     h ^= h >> 15;
@@ -42,7 +42,7 @@ int fl_view_frame_make(fl_view_frame *v, const fl_frame_data *d, fl_aabb box, fl
     v->centre = v3(0, 0, 0);
     v->radius = fmax(1e-9, 0.5 * v3_norm(v3_sub(box.hi, box.lo)));
     for (int32_t r = 0; r < v->rows; r++) {
-        pose[r].speck = speck_of(d->shape[d->row_shape[r]].id);
+        pose[r].speck = grain_of(d->shape[d->row_shape[r]].id);
         reach[r] = (float)fl_frame_data_reach(d, &d->shape[d->row_shape[r]]);
     }
     for (int32_t p = 0; p < v->parts; p++) reach[v->rows + p] = (float)part_reach(&d->structure.part[p]);

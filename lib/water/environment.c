@@ -85,7 +85,7 @@ static int fit_surface(fl_environment *s, int32_t i, fl_err *err)
 static int fit_nodes(fl_environment *s, int32_t i, fl_err *err)
 {
     s->block[i].level = FL_WAVE_NO_BLOCK;
-    s->block[i].short_turns = 0;
+    s->block[i].short_blocks_left = 0;
     if (fl_wave_nodes_make(&s->nodes[i], &s->hull[i], &s->wave, s->grid.error, err)) return -1;
     if (s->nodes[i].n <= s->scratch_per_thread) return 0;
     fl_wave_node_sample *room = fl_alloc((int64_t)s->threads * s->nodes[i].n, sizeof *room, err);
@@ -437,7 +437,7 @@ int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t 
     for (int32_t c = 0; c < s->grid.lines; c++) at.lo[c] = INFINITY, at.hi[c] = -INFINITY;
     for (int32_t i = 0; i < s->n; i++) {
         if ((absent && absent[i]) || !v3_finite(b->x[i])) continue;
-        shorter |= s->block[i].short_turns > 0;
+        shorter |= s->block[i].short_blocks_left > 0;
         for (int32_t c = 0; c < s->grid.lines; c++) {
             const double x = s->grid.line[c].x * b->x[i].x + s->grid.line[c].y * b->x[i].y,
                          r = s->drag_radius[i];

@@ -6,7 +6,7 @@
 enum { AT_Z, AT_SLOPE, AT_FORCE = 3, AT_MOMENT = 6, AT_FLOW = 9, AT_ACCELERATION = 12 };
 
 /* Distance from the path, over 1/k95, beyond which a new block begins. */
-#define KNOCK 0.1
+#define MAX_DEVIATION 0.1
 /* Largest rotation within a block [rad]: beyond it the path stops turning. */
 #define MAX_TURN 1.0
 /* Cosine of the tilt of columns below which pressure is not integrated by its ends, and G is 0. */
@@ -93,7 +93,7 @@ int fl_wave_block_due(const fl_wave_block *c, const fl_wave_water *sea, double r
 {
     if (c->level == FL_WAVE_NO_BLOCK || c->level != fl_wave_block_level(sea->grid, t, c->span)) return 1;
     const fl_wave_deviation d = fl_wave_block_deviation(c, sea->grid, t, x, q);
-    const double far = KNOCK / sea->k95, turned = reach * reach * v3_norm2(d.turn);
+    const double far = MAX_DEVIATION / sea->k95, turned = reach * reach * v3_norm2(d.turn);
     return !(v3_norm2(d.x) <= far * far && turned <= far * far); /* written so that a NaN begins one */
 }
 

@@ -2,24 +2,24 @@
 /* wave_block.h -- waves on one floating body from four samples in a block of time.
  *
  * In a block of four levels (wave_grid.h) the body is expected on a path r(t): the caller gives its pose at
- * the four levels, in between it is cubic in time. On that path the waves are evaluated at the levels. A
+ * the four levels, and it is cubic in time in between. On that path the waves are evaluated at the levels. A
  * plane (height and slopes) is fitted to the waves over the nodes of the body (wave_nodes.h), and D is the
  * load of the waves less that of still water up to the plane. At the first and last level G is the change of
  * D with x, y, z and the rotations about x and y. Then
  *     F(t) = B(plane(t), pose) + D(t) + G(t) (pose - r(t)),
  * plane, D, the flow and the acceleration of the water being cubic in time, G linear. B is the buoyancy on
- * the plane by the exact clip of buoyancy.h. So what rights a body answers in each step, and so do overwash
- * and edges that go under; without G the motion would be 4 to 8 times as far off.
+ * the plane by the exact clip of buoyancy.h. So righting moments, overwash and
+ * edges that submerge act in each step; without G the error of the motion would be 4 to 8 times as large.
  *
  * The load by the divergence theorem, with p = rho g (P - z):
  *     columns   F = -int grad p dV over the wet part of each, by Simpson's rule;
  *               along the column the pressure at its ends
  *     faces     F = -sum max(p, 0) A, A the area vectors; at the water line the mean over the part
  *     sphere, capsule   F = rho V (g e_z + acceleration at the centre of the wet part)
- * The error of a block is of order 4 in its length, but where an edge goes under: there a cubic
- * leaves order 1. A body whose load jumps by more than e rho g A sigma from one block to the next (A the
- * area of its section, sigma the standard deviation of the elevation) takes blocks of half the length until
- * it has not three times.
+ * The error of a block is of order 4 in its length, except where an edge submerges: there it is of
+ * order 1. A body whose load jumps by more than e rho g A sigma from one block to the next (A the
+ * area of its section, sigma the standard deviation of the elevation) takes blocks of half the length,
+ * until three long blocks have passed without a jump.
  *
  * Bits: all is a function of the path and the levels. A checkpoint holds the path. */
 #ifndef FL_WATER_WAVE_BLOCK_H
@@ -42,14 +42,14 @@ typedef struct {
      * of it [rad] */
     fl_vec3 x[FL_WAVE_SAMPLES], turn[FL_WAVE_SAMPLES];
     fl_quat q;
-    int64_t level;       /* first level; FL_WAVE_NO_BLOCK: none yet */
-    int32_t span;        /* levels from sample to sample: 2, or 1 in a short block */
-    int32_t short_turns; /* long blocks that are still to be taken in halves */
+    int64_t level;             /* first level; FL_WAVE_NO_BLOCK: none yet */
+    int32_t span;              /* levels from sample to sample: 2, or 1 in a short block */
+    int32_t short_blocks_left; /* long blocks that are still to be halved */
     double sample[FL_WAVE_SAMPLES][FL_WAVE_ROW];
     double change[2][FL_WAVE_CHANGES][6];
 } fl_wave_block;
 
-/* What all bodies have in common. */
+/* Water and waves, the same for all bodies. */
 typedef struct {
     const fl_wave_grid *grid;
     const fl_current *current;
@@ -93,7 +93,7 @@ fl_wave_deviation fl_wave_block_deviation(const fl_wave_block *c, const fl_wave_
                                           fl_quat q);
 
 /* True if a block must begin at time t with the body at this pose: it has none, or the time is outside, or
- * the body is off the path by more than 0.1/k95 (a knock). */
+ * the body deviates from the path by more than 0.1/k95, as after an impact. */
 int fl_wave_block_due(const fl_wave_block *c, const fl_wave_water *sea, double reach, double t, fl_vec3 x,
                       fl_quat q);
 
@@ -116,7 +116,7 @@ typedef struct {
 } fl_wave_flow;
 void fl_wave_block_flow(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_wave_flow *out);
 
-/* ... at a point z above still water, under the elevation eta [m/s]. */
+/* The same at a point z above still water, under the elevation eta [m/s]. */
 fl_vec3 fl_wave_flow_velocity(const fl_wave_flow *f, double x, double y, double z, double eta);
 
 #endif

@@ -86,7 +86,7 @@ static void predict_path(const path_forces *f, double time, fl_wave_block *next)
 }
 
 /* Long blocks that a body takes in halves after its load has jumped. */
-enum { SHORT_TURNS = 3 };
+enum { SHORT_BLOCKS = 3 };
 
 /* A block that ended more than its own length ago does not tell the path. */
 void fl_wave_block_begin(fl_wave_block *c, const fl_wave_water *sea, const fl_wave_body *body,
@@ -103,7 +103,7 @@ void fl_wave_block_begin(fl_wave_block *c, const fl_wave_water *sea, const fl_wa
     fl_vec3 f, t, f2, t2;
     if (ends) fl_wave_block_load(c, sea, body, time, b->x[i], q, &v, &wet, &f, &t);
     if (!has_block || c->level < group || c->level >= group + FL_WAVE_GROUP) /* the start of a long block */
-        next.span = c->short_turns > 0 ? 1 : 2;
+        next.span = c->short_blocks_left > 0 ? 1 : 2;
     next.level = fl_wave_block_level(sea->grid, time, next.span);
     predict_path(&forces, time, &next);
     fl_wave_block_fill(&next, sea, body);
@@ -119,5 +119,5 @@ void fl_wave_block_begin(fl_wave_block *c, const fl_wave_water *sea, const fl_wa
     const double most = sea->grid->error * sea->weight * body->nodes->section * sea->deviation,
                  turn = most * body->reach;
     const int jumped = v3_norm2(v3_sub(f2, f)) > most * most || v3_norm2(v3_sub(t2, t)) > turn * turn;
-    c->short_turns = jumped ? SHORT_TURNS : c->short_turns > 0 ? c->short_turns - 1 : 0;
+    c->short_blocks_left = jumped ? SHORT_BLOCKS : c->short_blocks_left > 0 ? c->short_blocks_left - 1 : 0;
 }

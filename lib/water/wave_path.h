@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* wave_path.h -- the way of a body through a block of waves, and the load on it (wave_block.h).
+/* wave_path.h -- the predicted path of a body through a block of waves, and the load on it (wave_block.h).
  *
  * A block begins with the present state of the body. Its path is predicted by the forces of the block before:
  * buoyancy on the plane, D and G, which go on linearly beyond the last sample; weight and added mass;

@@ -175,7 +175,7 @@ static void a_run_under_way_is_followed(void **state)
     assert_true(frames >= 1 && frames < 12);
     for (n += 17; n < strlen(all); n += 17) {
         write_file(all, n);
-        const int32_t more = fl_frame_file_more(f, &err);
+        const int32_t more = fl_frame_file_extend(f, &err);
         assert_true(more >= 0 && more <= 1);
         frames += more;
         assert_int_equal(fl_frame_file_data(f)->frames, frames);

@@ -112,21 +112,21 @@ static void damping_of_many_is_stable(void **state)
 
 /* A load that rests is not damped anew where a body moves along steadily: each factor of lambda alone, and
  * the approach of the whole, whose product with the mean is never negative. */
-static void a_load_that_was_laid_down_is_left_alone(void **state)
+static void a_sustained_load_is_not_damped(void **state)
 {
     (void)state;
-    assert_near(fl_damping_laid_share(0.0, 5.0), 0.0, 0.0);   /* an impact */
-    assert_near(fl_damping_laid_share(5.0, 20.0), 0.25, 0.0); /* on top of a load */
-    assert_near(fl_damping_laid_share(7.0, 5.0), 1.0, 0.0);
+    assert_near(fl_damping_sustained_share(0.0, 5.0), 0.0, 0.0);   /* an impact */
+    assert_near(fl_damping_sustained_share(5.0, 20.0), 0.25, 0.0); /* on top of a load */
+    assert_near(fl_damping_sustained_share(7.0, 5.0), 1.0, 0.0);
     assert_near(fl_damping_passing_share(0.0, 1.0), 0.0, 0.0);             /* rocks on the spot */
     assert_near(fl_damping_passing_share(1.0, 0.2 * 0.2), 0.5, 1e-15);     /* over bends of some 0.4 */
     assert_near(fl_damping_passing_share(9.0, 0.0), 1.0, 0.0);             /* slides on a plane */
     assert_near(fl_damping_steady_share(0.0, 0.0, 0.0), 1.0, 0.0);         /* does not spin */
     assert_near(fl_damping_steady_share(-3.0, 9.0, 1.0), 0.0, 0.0);        /* swings back */
     assert_near(fl_damping_steady_share(6.0, 9.0, 4.0), 2.0 / 3.0, 1e-15); /* spins up */
-    double laid = 0.0;
-    for (int k = 0; k < 1000; k++) laid += fl_damping_low_pass(0.01, 100.0) * (3.0 - laid);
-    assert_near(laid, 3.0, 1e-12); /* after fifty times its time */
+    double sustained = 0.0;
+    for (int k = 0; k < 1000; k++) sustained += fl_damping_low_pass(0.01, 100.0) * (3.0 - sustained);
+    assert_near(sustained, 3.0, 1e-12); /* after fifty times its time */
     for (int k = 0; k < 100; k++) {
         fl_rng g = fl_rng_of(test_seed(), k, FL_RNG_TEST);
         const double mean = fl_rng_normal(&g), rate = fl_rng_normal(&g),
@@ -633,7 +633,7 @@ int main(void)
         cmocka_unit_test(damping_of_every_restitution_is_finite),
         cmocka_unit_test(damping_of_one_contact_uses_the_speed_at_the_end),
         cmocka_unit_test(damping_of_many_is_stable),
-        cmocka_unit_test(a_load_that_was_laid_down_is_left_alone),
+        cmocka_unit_test(a_sustained_load_is_not_damped),
         cmocka_unit_test(damping_solves_its_equation),
         cmocka_unit_test(a_slow_contact_is_damped_at_most_as_an_impact),
         cmocka_unit_test(material_gives_hertz_and_flat_punch),

@@ -110,7 +110,7 @@ static void periods_wrap(void **state)
     assert_near(d.x, -0.5, 1e-15);
     assert_near(d.y, 2.9, 1e-15);
     assert_near(d.z, 0.1, 1e-14);
-    const fl_vec3 x = fl_region_into_cell(&r, v3(1.25, 5, 4.5));
+    const fl_vec3 x = fl_region_wrap_point(&r, v3(1.25, 5, 4.5));
     assert_near(x.x, -0.75, 1e-15);
     assert_near(x.y, 5.0, 1e-15);
     assert_near(x.z, 0.5, 1e-15);

@@ -64,7 +64,7 @@ static void report_bonds(const fl_world *w, FILE *f)
             w->ledger.fracture);
 }
 
-/* Members whose sections have yielded or parted. */
+/* Members whose sections have yielded or ruptured. */
 static void report_members(const fl_world *w, FILE *f)
 {
     const fl_member_dynamics *d = &w->moving.members.dynamics;
@@ -73,10 +73,10 @@ static void report_members(const fl_world *w, FILE *f)
     const fl_member_fibres *first = NULL;
     for (int32_t k = 0; k < c->yielding; k++) {
         yielded += c->fibres[k].yielded;
-        if (!first && c->fibres[k].parted) first = &c->fibres[k];
+        if (!first && c->fibres[k].ruptured) first = &c->fibres[k];
     }
-    fprintf(f, "members            %d of %d pieces yielded, %d parted: %.4g J", yielded, c->yielding,
-            d->parted, w->ledger.plastic);
+    fprintf(f, "members            %d of %d pieces yielded, %d ruptured: %.4g J", yielded, c->yielding,
+            d->ruptured, w->ledger.plastic);
     if (first)
         fprintf(f, "; of member %s first",
                 w->moving.members.model->member_name.name[c->contact[first->contact].member]);

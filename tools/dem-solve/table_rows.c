@@ -187,7 +187,7 @@ static void write_disc(const fl_world *w, FILE *f, double t, int32_t k)
                               .state = BOND_STATE[s->has_ended[k]     ? FL_BOND_ENDED
                                                   : s->at.is_whole[k] ? FL_BOND_INTACT
                                                                       : FL_BOND_DAMAGED],
-                              .damage = 1.0 - fl_disc_remainder(c, s->at.lambda[k]),
+                              .damage = 1.0 - fl_disc_integrity(c, s->at.lambda[k]),
                               .tension = q.tension,
                               .shear = q.shear,
                               .moment = q.moment,

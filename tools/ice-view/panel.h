@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* panel.h -- the controls of the window: buttons and a bar of time, drawn and asked in one call each. */
+/* panel.h -- the controls of the window: buttons and a bar of time; one call each draws it and returns its
+ * state. */
 #ifndef ICE_VIEW_PANEL_H
 #define ICE_VIEW_PANEL_H
 #include "view/picture_rgba.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* subject.h -- what is looked at: frames or a still, and the tables that go with it. */
+/* subject.h -- the subject of pictures: frames or a single state, and the tables that go with it. */
 #ifndef ICE_VIEW_SUBJECT_H
 #define ICE_VIEW_SUBJECT_H
 #include "options.h"
@@ -37,7 +37,7 @@ struct subject {
     double most_force;
 };
 
-/* Opens all that the options name.  A warning goes to standard error.  -1 with FL_INPUT or FL_SYSTEM. */
+/* Opens the files of the options.  A warning goes to standard error.  -1 with FL_INPUT or FL_SYSTEM. */
 int subject_open(struct subject *s, struct options *o, fl_err *err);
 
 /* Chooses colours anew after the look has changed: ends of the bar.  -1 with FL_INPUT or FL_SYSTEM. */

@@ -468,7 +468,7 @@ static void advance(struct window *v, fl_err *err)
     }
     if (v->s->file && now - v->followed_at > FOLLOW_MS) {
         v->followed_at = now;
-        const int32_t more = fl_frame_file_more(v->s->file, err);
+        const int32_t more = fl_frame_file_extend(v->s->file, err);
         if (more > 0) v->dirty = 1;
     }
     if (!v->playing || !v->s->file) return;

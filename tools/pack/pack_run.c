@@ -88,7 +88,7 @@ static int draw_bodies(const struct options *o, struct result *r, fl_err *err)
 
 /* --- growth ------------------------------------------------------------------------------------- */
 
-static void tell_progress(const struct options *o, const struct result *r, const char *phase, double left)
+static void report_progress(const struct options *o, const struct result *r, const char *phase, double left)
 {
     const int terminal = isatty(2) && !o->quiet;
     const fl_overlap_totals *t = &r->overlaps.now;
@@ -124,8 +124,8 @@ static int grow_relaxed(const struct options *o, struct result *r, fl_err *err)
             return 0;
         }
         if (fl_growth_stage(&r->growth, &r->overlaps, &g, err)) return -1;
-        tell_progress(o, r, fl_growth_phase_name[phase],
-                      phase == FL_GROWTH_RISE ? 2.0 * (1.0 - r->packing.s) : 0.0);
+        report_progress(o, r, fl_growth_phase_name[phase],
+                        phase == FL_GROWTH_RISE ? 2.0 * (1.0 - r->packing.s) : 0.0);
     }
     return 0;
 }
@@ -143,7 +143,7 @@ static int note_motion(void *with, const fl_packing *p, const fl_pack_moved *m)
     if (w->o->verbose)
         fprintf(stderr, "%s: scale %.6f, %lld steps, %.4g s, speed %.2g\n", w->phase, w->r->packing.s,
                 (long long)m->steps, m->time, m->speed);
-    else tell_progress(w->o, w->r, w->phase, 2.0 * (1.0 - w->r->packing.s));
+    else report_progress(w->o, w->r, w->phase, 2.0 * (1.0 - w->r->packing.s));
     return stop_signal != 0;
 }
 

@@ -7,15 +7,15 @@
 #include "member/member_import.h"
 #include "mesh/read_mesh.h"
 
-/* Card by card. */
-static void tell_left(const char *path, const fl_frame_model *f)
+/* Prints the entries that were not carried over, card by card. */
+static void report_skipped(const char *path, const fl_frame_model *f)
 {
-    for (int32_t k = 0; k < f->left_name.n; k++)
-        fprintf(stderr, "struct-import: %s: not carried over: %s (%d)\n", path, f->left_name.name[k],
-                (int)f->left[k]);
+    for (int32_t k = 0; k < f->skipped_name.n; k++)
+        fprintf(stderr, "struct-import: %s: not carried over: %s (%d)\n", path, f->skipped_name.name[k],
+                (int)f->skipped[k]);
 }
 
-static void tell_model(const fl_member_model *m)
+static void report_model(const fl_member_model *m)
 {
     int32_t bars = 0, held = 0;
     double mass = 0.0;
@@ -66,7 +66,7 @@ int import_members(const struct options *o, fl_err *err)
     if (rc == 0) rc = fl_member_import(&m, &frame, o->pieces, o->map.s, o->map.t, path, err);
     for (char *p = note, *end; !o->quiet && (end = strchr(p, '\n')) != NULL; p = end + 1)
         fprintf(stderr, "struct-import: %s: %.*s\n", path, (int)(end - p), p);
-    if (!o->quiet) tell_left(path, &frame);
+    if (!o->quiet) report_skipped(path, &frame);
     options_by(o, &by);
     if (rc == 0) rc = check_model(&m, &by, o->out, err);
     if (rc == 0) rc = fl_out_open(&out, o->out, o->gzip, err);
@@ -75,9 +75,9 @@ int import_members(const struct options *o, fl_err *err)
         rc = fl_out_close(&out, err);
     }
     fl_out_abort(&out);
-    if (rc == 0 && !o->quiet) tell_model(&m);
-    if (rc == 0 && o->strict && frame.left_name.n)
-        rc = fl_fail(err, FL_NO, "%d kinds of entries were not carried over", (int)frame.left_name.n);
+    if (rc == 0 && !o->quiet) report_model(&m);
+    if (rc == 0 && o->strict && frame.skipped_name.n)
+        rc = fl_fail(err, FL_NO, "%d kinds of entries were not carried over", (int)frame.skipped_name.n);
     fl_surface_free(&none);
     fl_frame_model_free(&frame);
     fl_member_model_free(&m);
