@@ -5,7 +5,7 @@ $1 == "trimmed" || $1 == "loose" {
     say($4 == 0, $1 ": no disc left")
     say($7 <= 1 && $9 <= 1, $1 ": at most 1 % rose by more than 0.1 d, none by more than 1 d")
     say($8 <= 2, $1 ": at most 2 % moved by more than 2 d")
-    say($10 <= 0.5, $1 ": the crest stays within 0.5 m")
+    say($10 ^ 2 <= 0.09 && $11 ^ 2 <= 0.09, $1 ": crest and toe stay within 0.3 m, half of the smallest d")
     calm = $7 > calm ? $7 : calm
 }
 $1 == "untrimmed" { say($7 > 1 && $7 > 3 * calm, "untrimmed: more than 1 % rise, and three times as many as of the others") }

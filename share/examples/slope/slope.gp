@@ -8,6 +8,7 @@ set xrange [-1:61]
 set yrange [-1:27]
 set cbrange [0:25]
 set cblabel 'height at the start  [m]'
+set xlabel ' '
 set ylabel 'y  [m]'
 set style fill solid border lc rgb '#222222'
 do for [k = 0:2] {
