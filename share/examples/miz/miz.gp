@@ -2,7 +2,8 @@ set terminal svg size 900,620 background "white" font "sans,13"
 set output out.'/miz.svg'
 set multiplot layout 2,1
 set grid
-set key top right
+set lmargin 9
+set key bottom left
 set xlabel "distance from the edge of the ice [m]"
 set ylabel "height, heave [m]"
 set yrange [0:*]
