@@ -200,6 +200,17 @@ static int take_members(fl_structure *s, int32_t n, const int32_t *of, uint8_t *
     return 0;
 }
 
+/* Cones of a frame stay apart: a body near one of so many would look through the facets of all of them, and
+ * their surface where they meet is a small part of the whole. */
+enum { MOST_CONES = 16 };
+
+static int is_frame(const fl_structure *s, int32_t n, const int32_t *of)
+{
+    for (int32_t k = 0; k < n; k++)
+        if (s->piece[of[k]].kind != FL_PIECE_CONE) return 0;
+    return n > MOST_CONES;
+}
+
 int fl_regions_join(fl_structure *s, const fl_surface *surface, const int32_t *mover, fl_vec3 period,
                     fl_err *err)
 {
@@ -218,7 +229,7 @@ int fl_regions_join(fl_structure *s, const fl_surface *surface, const int32_t *m
         for (int32_t j = k; j < all && g.parent[k] == k; j++)
             if (root_of(g.parent, j) == k) of[n++] = j, box = aabb_join(box, g.box[j]);
         if (n < 2 || is_longer(box, period)) continue;
-        const int made = join_pieces(s, surface, n, of, box, err);
+        const int made = is_frame(s, n, of) ? 0 : join_pieces(s, surface, n, of, box, err);
         if (made < 0 || (made && take_members(s, n, of, gone, err))) goto done;
         if (!made) s->unjoined++, s->unjoined_part = s->piece[k].part;
     }

@@ -149,11 +149,10 @@ static void warn_unjoined(const struct run *r)
 {
     const fl_structure *s = &r->w->structure;
     if (s->unjoined)
-        fprintf(
-            stderr,
-            "dem-solve: warning: %d group%s of parts that touch could not be joined to one surface, the last "
-            "that of part %s: where they meet, bodies feel each of them\n",
-            s->unjoined, s->unjoined == 1 ? "" : "s", r->surface->part[s->unjoined_part].name);
+        fprintf(stderr,
+                "dem-solve: warning: %d group%s of pieces that touch not joined to one surface, the last "
+                "that of part %s: where they meet, bodies feel each of them\n",
+                s->unjoined, s->unjoined == 1 ? "" : "s", r->surface->part[s->unjoined_part].name);
 }
 
 /* A hull that does not float in its pose: its motion is one about that pose. */
