@@ -105,13 +105,16 @@ static void it_swings_and_is_damped_by_its_ratio(void **state)
 }
 
 /* A force on a cylinder and its work are those on the balls; ends that turn or not alike. */
+static const char TRIPOD[] =
+    "#members 1\nnode a 0 0 0\nnode b 3 0 0\nnode c 0 4 0\nnode d 1 1 5\nsection s bar 0.01 2e11 7850\n"
+    "member 1 a d s 1\nmember 2 b d s 1\nmember 3 c d s 1\nfix a pinned\nfix b pinned\nfix c pinned\n";
+
 static void forces_and_work_go_to_the_balls(void **state)
 {
     (void)state;
     static const char *const text[] = {
         PIPE("5", ""), PIPE("3", "node far 5 0 0\nmember tie head far s 1 hinge-i\nfix far clamped\n"),
-        "#members 1\nnode a 0 0 0\nnode b 3 0 0\nnode c 0 4 0\nnode d 1 1 5\nsection s bar 0.01 2e11 7850\n"
-        "member 1 a d s 1\nmember 2 b d s 1\nmember 3 c d s 1\nfix a pinned\nfix b pinned\nfix c pinned\n"};
+        TRIPOD};
     for (int t = 0; t < 3; t++) {
         fl_member_model m = {0};
         fl_member_motion v = {0};

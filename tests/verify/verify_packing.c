@@ -61,7 +61,7 @@ static double *draw(const char *law, int dim, double volume, int32_t *n)
 {
     fl_grading g = {0};
     fl_err err = {0};
-    double *d;
+    double *d = NULL;
     int32_t empty;
     if (fl_grading_law(&g, law, dim, &err) != 1 ||
         fl_grading_draw(&g, dim, dim == 2 ? PI / 4.0 : PI / 6.0, volume, 0, &d, n, &empty, &err))

@@ -56,7 +56,7 @@ static void pack_slope(slope *s, double solid, enum fl_growth_trim trim, int res
     fl_pack_moved moved;
     fl_grading g = {0};
     fl_err err = {0};
-    double *d;
+    double *d = NULL;
     int32_t n, empty;
     int halved;
     *s = (slope){.g = {0}};
