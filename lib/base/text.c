@@ -191,6 +191,17 @@ int fl_text_word(fl_text *t, const char *what, const char **word, fl_err *err)
     return 0;
 }
 
+int fl_text_row_of(fl_text *t, const char *word, fl_err *err)
+{
+    const char *found = "";
+    const int more = fl_text_row(t, err);
+    if (more < 0) return -1;
+    if (more == 0) return fl_text_fail(t, err, "the file ends before \"%s\"", word);
+    if (fl_text_word(t, word, &found, err)) return -1;
+    return strcmp(found, word) == 0 ? 0
+                                    : fl_text_fail(t, err, "\"%.40s\" found, expected \"%s\"", found, word);
+}
+
 int fl_text_f64(fl_text *t, const char *what, double *x, fl_err *err)
 {
     const char *w = "";

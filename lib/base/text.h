@@ -49,6 +49,8 @@ int fl_text_row(fl_text *t, fl_err *err);
 
 /* Return the next field of the row.  `what` names it in the message if it is missing or invalid. */
 int fl_text_word(fl_text *t, const char *what, const char **word, fl_err *err);
+/* Reads the next row, which has to begin with that word, and the word. */
+int fl_text_row_of(fl_text *t, const char *word, fl_err *err);
 int fl_text_f64(fl_text *t, const char *what, double *x, fl_err *err);
 int fl_text_i32(fl_text *t, const char *what, int32_t lo, int32_t hi, int32_t *x, fl_err *err);
 /* Fails if the row has unread fields. */

@@ -105,21 +105,9 @@ int fl_path_state_write(const fl_path *p, const fl_path_table *t, const char *pa
 
 /* --- reading ----------------------------------------------------------------------------------- */
 
-/* The next row, which has to begin with that word. */
-static int next_row(fl_text *in, const char *word, fl_err *err)
-{
-    const char *found;
-    const int more = fl_text_row(in, err);
-    if (more < 0) return -1;
-    if (more == 0) return fl_text_fail(in, err, "the file ends before \"%s\"", word);
-    if (fl_text_word(in, word, &found, err)) return -1;
-    return strcmp(found, word) == 0 ? 0
-                                    : fl_text_fail(in, err, "\"%.40s\" found, expected \"%s\"", found, word);
-}
-
 static int get_numbers(fl_text *in, const char *word, double *x, int n, fl_err *err)
 {
-    if (next_row(in, word, err)) return -1;
+    if (fl_text_row_of(in, word, err)) return -1;
     for (int k = 0; k < n; k++)
         if (fl_text_f64(in, word, &x[k], err)) return -1;
     return fl_text_no_more(in, err);
@@ -168,7 +156,7 @@ static int get_hash(fl_text *in, uint64_t wanted, fl_err *err)
 {
     const char *word;
     char text[24];
-    if (next_row(in, "hash", err) || fl_text_word(in, "hash", &word, err)) return -1;
+    if (fl_text_row_of(in, "hash", err) || fl_text_word(in, "hash", &word, err)) return -1;
     snprintf(text, sizeof text, "%016" PRIx64, wanted);
     return strcmp(word, text) == 0
                ? 0
@@ -181,7 +169,7 @@ static int get_rows(fl_text *in, fl_path_table *t, fl_err *err)
 {
     int64_t bytes;
     int more = 1;
-    if (next_row(in, "rows", err) || get_count(in, INT32_MAX / 2, &bytes, err)) return -1;
+    if (fl_text_row_of(in, "rows", err) || get_count(in, INT32_MAX / 2, &bytes, err)) return -1;
     if (fl_grow(&t->text, &t->cap, bytes + 1, 1, err)) return -1;
     t->len = 0;
     while (t->len < bytes && (more = fl_text_line(in, err)) > 0) {
@@ -205,7 +193,7 @@ static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
     static const int64_t most[8] = {INT32_MAX, INT64_MAX / 4, INT64_MAX / 4, INT64_MAX / 4, 2, 4,
                                     4,         INT32_MAX};
     if (fl_text_magic(in, "path-state", VERSION, err) || get_hash(in, fl_path_hash(p), err) ||
-        next_row(in, "counts", err))
+        fl_text_row_of(in, "counts", err))
         return -1;
     for (int k = 0; k < 8; k++)
         if (get_count(in, most[k], &count[k], err)) return -1;
@@ -232,7 +220,7 @@ static int get_all(fl_text *in, fl_path *p, fl_path_table *t, fl_err *err)
     t->limits = (int)count[7];
     if (p->known < 1 || t->known < 1 || a->number < 1) return fl_text_fail(in, err, "the state has no point");
     if (get_numbers(in, "arc", p->s, p->known, err) || get_numbers(in, "lambda", p->lambda, p->known, err) ||
-        get_numbers(in, "work", p->w, p->known, err) || next_row(in, "watched", err) ||
+        get_numbers(in, "work", p->w, p->known, err) || fl_text_row_of(in, "watched", err) ||
         get_count(in, FL_PATH_WATCH_MAX, &watches, err))
         return -1;
     if (watches != t->watches)

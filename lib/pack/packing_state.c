@@ -42,17 +42,6 @@ int fl_packing_state_write(const fl_packing *p, const fl_growth *g, uint64_t has
     return fl_out_close(&out, err);
 }
 
-static int next_row(fl_text *in, const char *word, fl_err *err)
-{
-    const char *found;
-    const int more = fl_text_row(in, err);
-    if (more < 0) return -1;
-    if (more == 0) return fl_text_fail(in, err, "the file ends before \"%s\"", word);
-    if (fl_text_word(in, word, &found, err)) return -1;
-    return strcmp(found, word) == 0 ? 0
-                                    : fl_text_fail(in, err, "\"%.40s\" found, expected \"%s\"", found, word);
-}
-
 static int get_numbers(fl_text *in, double *x, int n, fl_err *err)
 {
     for (int k = 0; k < n; k++)
@@ -63,7 +52,7 @@ static int get_numbers(fl_text *in, double *x, int n, fl_err *err)
 static int read_body(fl_text *in, fl_packing *p, int32_t i, fl_err *err)
 {
     double b[BODY];
-    if (next_row(in, "body", err) || get_numbers(in, b, BODY, err)) return -1;
+    if (fl_text_row_of(in, "body", err) || get_numbers(in, b, BODY, err)) return -1;
     p->x[i] = v3(b[0], b[1], b[2]);
     p->size[i] = b[3], p->radius[i] = b[4], p->bound[i] = b[5];
     if (!(b[3] > 0.0 && b[5] > 0.0)) return fl_text_fail(in, err, "a body without a size");
@@ -82,12 +71,12 @@ static int read_all(fl_text *in, fl_packing *p, fl_growth *g, uint64_t hash, fl_
     char expected[24];
     double x[NUMBERS + 1];
     snprintf(expected, sizeof expected, "%016" PRIx64, hash);
-    if (fl_text_magic(in, "packing-state", VERSION, err) || next_row(in, "hash", err) ||
+    if (fl_text_magic(in, "packing-state", VERSION, err) || fl_text_row_of(in, "hash", err) ||
         fl_text_word(in, "hash", &word, err))
         return -1;
     if (strcmp(word, expected) != 0)
         return fl_text_fail(in, err, "the state is that of other options or files, the same are expected");
-    if (next_row(in, "growth", err) || fl_text_i32(in, "phase", 0, FL_GROWTH_DONE, &g->phase, err) ||
+    if (fl_text_row_of(in, "growth", err) || fl_text_i32(in, "phase", 0, FL_GROWTH_DONE, &g->phase, err) ||
         fl_text_i32(in, "jammed", 0, 1, &g->jammed, err) ||
         fl_text_i32(in, "stage", 0, INT32_MAX, &g->stage, err) || get_numbers(in, x, NUMBERS + 1, err) ||
         fl_text_no_more(in, err))
@@ -98,7 +87,7 @@ static int read_all(fl_text *in, fl_packing *p, fl_growth *g, uint64_t hash, fl_
     if (!(p->s > 0.0 && p->s <= 2.0)) return fl_text_fail(in, err, "scale %g, expected a number to 1", p->s);
     for (int32_t i = 0; i < p->n; i++)
         if (read_body(in, p, i, err)) return -1;
-    return next_row(in, "end", err);
+    return fl_text_row_of(in, "end", err);
 }
 
 int fl_packing_state_read(fl_packing *p, fl_growth *g, uint64_t hash, const char *path, fl_err *err)

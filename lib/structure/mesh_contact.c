@@ -410,7 +410,7 @@ static int add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_p
     if ((of || !fl_feature_pairs_valid(l, &w->M, w->o)) &&
         list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, of, 0, l))
         return -1;
-    if (of) l->max_shift2 = 0.0; /* for now only */
+    if (of) l->max_shift2 = 0.0; /* a list of a part of the mesh holds for this evaluation only */
     if (l->out_of_reach) {
         l->max_shift2 = 0.0; /* not near now: no list is kept */
         return 0;
@@ -434,7 +434,7 @@ static int add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_p
         if (list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, of, 1, l) ||
             add_listed_points(w, near, &A, &B, ra, far, l))
             return -1;
-        l->max_shift2 = 0.0; /* for now only */
+        l->max_shift2 = 0.0; /* so does one with the far side */
     }
     return 0;
 }
