@@ -53,7 +53,7 @@ a = floe.read_table("loads.tsv")
 b = floe.read_table("loads.tsv.gz").where(part="leg")
 print("%d %.6g %.6g" % (len(a), max(a["fx"]), a["t"][-1]))
 print("%d %.6g %.6g" % (len(b), max(b["fx"]), b["t"][-1]))
-print(a.kind, a.units["fx"], a.history[-1].split()[0])
+print(a.kind, a.units["fx"], a.history[-1].split()[0], a.settings["run.duration"], a.report["state hash"], a.stopped)
 ice = floe.read_ice("ice.dat")
 print(len(ice.bodies), len(ice.bonds), sum(len(x.vertices) for x in ice.bodies))
 text, packed, far = list(floe.read_frames("frames.dat")), list(floe.read_frames("packed.dat")), 0.0
@@ -76,7 +76,7 @@ PY
     $python try.py "$root/share/python" >out 2>&1
     same "$python: rows" "$want" "$(sed -n 1p out)"
     same "$python: rows of the leg" "$want" "$(sed -n 2p out)"
-    same "$python: head" "loads N dem-solve" "$(sed -n 3p out)"
+    same "$python: head" "loads N dem-solve 0.4 s $(sed -n 's/^#report state hash *//p' loads.tsv) None" "$(sed -n 3p out)"
     same "$python: ice" "$(awk '$1 == "poly" { n++ } $1 == "bond" { b++ } $1 == "v" { v++ } END { print n, b, v }' ice.dat)" \
         "$(sed -n 4p out)"
     same "$python: frames" "$frames $frames True $shapes" "$(sed -n 5p out)"

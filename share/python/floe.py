@@ -29,6 +29,7 @@ except ImportError:
 
 __all__ = ["Error", "Table", "Body", "Ice", "Frame", "read_table", "read_ice", "read_frames", "read_shapes", "solve"]
 
+REPORT_NAME = 19  # width of the name in a line of the report
 NOT_TABLES = ("g-polys", "g_struct", "animation", "members", "checkpoint")
 
 
@@ -64,13 +65,14 @@ class Table:
     names, units: of the columns in their order; units is by name ("" where there is none).
     history: lines "PROGRAM VERSION OPTIONS" of the programs that contributed.
     settings: of the lines "#set KEY = VALUE", in which the scene differs from its defaults.
-    report: of the lines "#report NAME VALUE".  stopped: text of "#stopped", of a run that ended early, else None.
+    report: of the lines "#report NAME VALUE"; warnings: its warnings.
+    stopped: text of "#stopped" of a run that ended early, else None.
     """
 
     def __init__(self, kind, version, names, units, columns):
         self.kind, self.version = kind, version
         self.names, self.units, self._columns = names, units, columns
-        self.history, self.settings, self.report, self.stopped = [], {}, {}, None
+        self.history, self.settings, self.report, self.warnings, self.stopped = [], {}, {}, [], None
 
     def __len__(self):
         return len(self._columns[0]) if self._columns else 0
@@ -90,7 +92,8 @@ class Table:
         columns = [c[keep] if numpy is not None and isinstance(c, numpy.ndarray) else [c[i] for i in keep]
                    for c in self._columns]
         new = Table(self.kind, self.version, self.names, self.units, columns)
-        new.history, new.settings, new.report, new.stopped = self.history, self.settings, self.report, self.stopped
+        new.history, new.settings, new.report = self.history, self.settings, self.report
+        new.warnings, new.stopped = self.warnings, self.stopped
         return new
 
     def pandas(self):
@@ -109,7 +112,8 @@ def _column(cells):
 
 def read_table(path):
     """Reads a table of any kind: loads, energy, state, bonds, panels, stats, ..."""
-    kind, version, head, rows, by, settings, report, stopped = None, 0, None, [], [], {}, {}, None
+    kind, version, head, rows, by, settings, report = None, 0, None, [], [], {}, {}
+    warnings, stopped = [], None
     for number, line in _lines(path, _open(path)):
         if line.startswith("#"):
             m = re.match(r"#(\S+) ?(.*)", line)
@@ -128,8 +132,10 @@ def read_table(path):
                 key, value = rest.split("=", 1)
                 settings[key.strip()] = value.strip()
             elif word == "report":
-                key, _, value = rest.partition("\t") if "\t" in rest else rest.partition("  ")
-                report[key.strip()] = value.strip()
+                if rest.startswith("warning: "):
+                    warnings.append(rest[9:])
+                else:
+                    report[rest[:REPORT_NAME].strip()] = rest[REPORT_NAME:].strip()
             elif word == "stopped":
                 stopped = rest
             continue
@@ -151,7 +157,7 @@ def read_table(path):
         units[names[-1]] = m.group(2) if m else ""
     columns = [_column(list(c)) for c in zip(*rows)] if rows else [[] for _ in names]
     t = Table(kind, version, names, units, columns)
-    t.history, t.settings, t.report, t.stopped = by, settings, report, stopped
+    t.history, t.settings, t.report, t.warnings, t.stopped = by, settings, report, warnings, stopped
     return t
 
 
