@@ -44,8 +44,8 @@ static void tau_is_that_of_the_process(void **state)
     static const double R[] = {0.0, 0.5, 0.9, 0.98};
     double *x = malloc(N * sizeof *x);
     (void)state;
-    /* One estimate scatters by sqrt(2 (2 W + 1) / n), W the rows up to the first zero of the correlation, about
-     * 6 tau: 0.16 and 0.38 for the last two; the mean of forty by a sixth of that. */
+    /* One estimate scatters by sqrt(2 (2 W + 1) / n), W the rows up to the first zero of the correlation,
+     * about 6 tau: 0.16 and 0.38 for the last two; the mean of forty by a sixth of that. */
     for (int k = 0; k < 4; k++) {
         double mean = 0.0;
         for (uint64_t seed = 1; seed <= 40; seed++) {

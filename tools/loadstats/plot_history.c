@@ -6,7 +6,7 @@
 #include "stat/histogram.h"
 #include "plot_history.h"
 
-enum { GAP = 26, STRETCHES = 2000, CLASSES = 20, ALL_RANKS = 200 };
+enum { GAP = 26, STRETCHES = 875, CLASSES = 20, ALL_RANKS = 200 };
 
 /* Least relative range of an axis: a filtered constant varies by the rounding of its sums. */
 static const double FLAT = 1e-6;
@@ -186,8 +186,15 @@ static void write_exceedance_panel(picture *p, int k, int32_t s)
     const plot_scale c = plot_scale_of_signal(p, s);
     plot_set_margins(p, k, 0.58, 0.97);
     plot_left_title(p, "Probability of exceedance", 0.508);
-    fputs("set xtics autofreq\nset logscale y\nset yrange [*:1]\nset ytics autofreq\nset format y '%g'\n",
-          p->script);
+    double lo = INFINITY, hi = -INFINITY;
+    for (int w = 0; w < p->r->view_count; w++) {
+        const fl_signal_view *v = find_view(p->r, p->part, s, w);
+        if (!v->peaks.n) continue;
+        hi = fmax(hi, v->peak_value[0]);
+        lo = fmin(lo, v->peak_value[v->peaks.n - 1]);
+    }
+    fprintf(p->script, "set xtics %.6g\n", plot_tics(c.factor * (hi > lo ? hi - lo : fabs(hi))));
+    fputs("set logscale y\nset yrange [*:1]\nset ytics autofreq\nset format y '%g'\n", p->script);
     for (int w = 0; w < p->r->view_count; w++) {
         if (!find_view(p->r, p->part, s, w)->peaks.n) continue;
         plot_curve(p);
