@@ -54,13 +54,11 @@ static int make_views(fl_signal_view *v, const fl_series *s, const struct option
 
 /* --- noise ---------------------------------------------------------------------------------------------- */
 
-/* A signal below this share of the largest of its unit is rounding: the vertical force on a vertical wall. */
+/* A signal whose root mean square is below this share of the largest of its unit is rounding: the vertical
+ * force on a vertical wall. */
 static const double NOISE = 1e-9;
 
-static double largest_magnitude(const fl_signal_view *v)
-{
-    return fmax(fabs(v->stats.min), fabs(v->stats.max));
-}
+static double root_mean_square(const fl_signal_view *v) { return hypot(v->stats.mean, v->stats.std); }
 
 /* Leave out signals that are rounding beside the others of their unit.  A signal that is 0 is a result. */
 static void drop_noise(fl_signal_view *v, const fl_series *s, int each, unsigned char *dropped)
@@ -69,8 +67,8 @@ static void drop_noise(fl_signal_view *v, const fl_series *s, int each, unsigned
         double most = 0.0;
         for (int32_t j = 0; j < s->parts * s->signals; j++)
             if (strcmp(s->unit[j % s->signals], s->unit[k % s->signals]) == 0 && v[j * each].n)
-                most = fmax(most, largest_magnitude(&v[j * each]));
-        const double own = v[k * each].n ? largest_magnitude(&v[k * each]) : 0.0;
+                most = fmax(most, root_mean_square(&v[j * each]));
+        const double own = v[k * each].n ? root_mean_square(&v[k * each]) : 0.0;
         dropped[k] = own > 0.0 && own < NOISE * most;
     }
     for (int32_t k = 0; k < s->parts * s->signals; k++)
@@ -81,7 +79,7 @@ static void print_dropped(FILE *f, const fl_series *s, const unsigned char *drop
 {
     for (int32_t k = 0; dropped && k < s->parts * s->signals; k++)
         if (dropped[k])
-            fprintf(f, "%s%s of %s is left out: below %g of the largest of its unit, it is rounding\n",
+            fprintf(f, "%s%s of %s is left out: below %g of the largest of its unit, rms, it is rounding\n",
                     before, s->signal[k % s->signals], s->part[k / s->signals], NOISE);
 }
 

@@ -407,18 +407,26 @@ static void join_path(char path[PATH_LEN], const char *dir, const char *name)
     snprintf(path, PATH_LEN, "%.*s/%.*s", DIR_LEN, dir, PATH_LEN - DIR_LEN - 2, name);
 }
 
-/* Copy the text of a picture without groups that hold nothing, and with one decimal of a pixel in its paths:
- * half of its size. */
+/* Copy the text of a picture without groups that hold nothing and attributes that SVG has anyway, and with
+ * one decimal of a pixel in its paths: half of its size. */
 static void write_small_svg(FILE *f, const char *text)
 {
+    static const char *const POINTS[] = {" d='", " points = '"}, *const USUAL[] = {
+                                                                     " stroke-linecap=\"butt\"",
+                                                                     " stroke-linejoin=\"miter\"",
+                                                                     " stroke-width=\"1.00\""};
     int in_path = 0;
     while (*text) {
-        if (strncmp(text, " d='", 4) == 0) {
-            fputs(" d='", f);
-            text += 4;
+        for (size_t k = 0; k < sizeof USUAL / sizeof *USUAL; k++)
+            if (strncmp(text, USUAL[k], strlen(USUAL[k])) == 0) text += strlen(USUAL[k]);
+        if (*text == '\'') in_path = 0;
+        for (size_t k = 0; k < sizeof POINTS / sizeof *POINTS; k++) {
+            if (strncmp(text, POINTS[k], strlen(POINTS[k])) != 0) continue;
+            fputs(POINTS[k], f);
+            text += strlen(POINTS[k]);
             in_path = 1;
         }
-        if (*text == '\'') in_path = 0;
+        if (!*text) break;
         if (strncmp(text, "<g ", 3) == 0) {
             const char *end = strchr(text, '>'), *inside = end ? end + 1 : text + strlen(text);
             inside += strspn(inside, "\n ");

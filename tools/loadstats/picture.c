@@ -158,6 +158,12 @@ int plot_part_varies(const picture *p, fl_err *err)
     return 0;
 }
 
+int picture_of_sum(const picture *p)
+{
+    const fl_series *s = p->r->series;
+    return s->parts <= 2 || p->part == s->parts - 1 || strcmp(s->part[s->parts - 1], "total") != 0;
+}
+
 int plot_is_loads(const picture *p) { return strcmp(p->r->series->kind, "loads") == 0; }
 
 void plot_start(const picture *p, const char *heading)

@@ -96,6 +96,9 @@ double plot_tics(double range);
 int plot_signal_varies(const picture *p, int32_t s);
 int plot_part_varies(const picture *p, fl_err *err);
 
+/* True if the picture is of the sum over the parts, or of the only part. */
+int picture_of_sum(const picture *p);
+
 /* True for a loads table, whose rows are means. */
 int plot_is_loads(const picture *p);
 
