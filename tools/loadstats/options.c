@@ -28,7 +28,7 @@ static const char *const RESIDUES[] = {"half", "repeat", "none", NULL}; /* as fl
 static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none", NULL}; /* as fl_taper_name() */
 static const char *const FILTERS[] = {"low", "high", "band", "mean", NULL};        /* as fl_filter_name() */
 static const char *const PEAKS[] = {"max", "min", "abs", NULL}; /* as fl_peak_side_name() */
-static const char *const FORMATS[] = {"svg", "png", NULL};
+static const char *const FORMATS[] = {"svg", "png", "pdf", NULL};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 #define TINY 1e-300
 #define HUGE_NUMBER 1e300
@@ -588,7 +588,7 @@ static const fl_option OPTION[] = {
      .at = AT(page)},
     {.word = "format",
      .argument = "FORMAT",
-     .help = "of the pictures, svg or png (svg)",
+     .help = "of the pictures, svg, png or pdf (svg)",
      .kind = FL_OPTION_CALL,
      .call = set_format},
     FL_COMMON_OPTIONS(struct options, "write there, - is standard output", "compress the table",
