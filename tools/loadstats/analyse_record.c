@@ -7,6 +7,7 @@
 #include "base/stream.h"
 #include "stat/power_spectrum.h"
 #include "stat/resample.h"
+#include "stat/stationary.h"
 #include "analyse_record.h"
 #include "history_line.h"
 #include "html_report.h"
@@ -119,6 +120,40 @@ static void warn_side(const struct record_views *r, const struct options *o)
                 v->stats.min, v->stats.max,
                 r->series->has_motion ? "; of a hull under way, -c resistance is positive" : "");
     }
+}
+
+/* The signal that a designer reads first: the largest force by root mean square, of the total where there is
+ * one. */
+static const fl_signal_view *find_main_force(const struct record_views *r, int32_t *part, int32_t *signal)
+{
+    const fl_series *s = r->series;
+    const fl_signal_view *most = NULL;
+    for (int32_t p = 0; p < s->parts; p++)
+        for (int32_t k = 0; k < s->signals; k++) {
+            const fl_signal_view *v = find_view(r, p, k, 0);
+            if (!v || strcmp(s->unit[k], "N") != 0) continue;
+            if (most && root_mean_square(v) < root_mean_square(most)) continue;
+            most = v, *part = p, *signal = k;
+        }
+    return most;
+}
+
+/* A mean of a record that drifts is one of the length of the run. */
+static int warn_moving_mean(const struct record_views *r, fl_err *err)
+{
+    int32_t p = 0, k = 0;
+    fl_stationarity s;
+    const fl_signal_view *v = strcmp(r->series->kind, "loads") == 0 ? find_main_force(r, &p, &k) : NULL;
+    if (!v) return 0;
+    if (fl_stationarity_make(&s, v->n, v->x, v->edge[v->n] - v->edge[0], err)) return -1;
+    if (s.moves)
+        fprintf(
+            stderr,
+            "loadstats: warning: %s of %s is not stationary: mean %.3g kN in the first half and %.3g kN in "
+            "the second, %.2g standard errors apart: --from where it settles is expected, or, where it "
+            "does not, a result for this length of run only, see ice-scenes(7)\n",
+            r->series->signal[k], r->series->part[p], 1e-3 * s.mean[0], 1e-3 * s.mean[1], fabs(s.apart));
+    return 0;
 }
 
 /* --- table, pictures, report ---------------------------------------------------------------------------- */
@@ -234,7 +269,10 @@ int analyse_record(const struct options *o, fl_err *err)
     print_notes(&s, o);
     if (!o->quiet) print_dropped(stderr, &s, dropped, "loadstats: ");
     const struct record_views r = {&s, views, each, o->step > 0.0 ? loss : NULL, dropped};
-    if (!o->quiet) warn_side(&r, o);
+    if (!o->quiet) {
+        warn_side(&r, o);
+        if (warn_moving_mean(&r, err)) goto done;
+    }
     if (fl_out_open(&out, o->out, o->gzip, err) || write_table(out.f, &r, o, err) || fl_out_close(&out, err))
         goto done;
     if (o->plot && draw_pictures(&r, o, err)) goto done;
