@@ -16,6 +16,7 @@
 #include "save.h"
 #include "scene/ice_field.h"
 #include "scene/ice_field_order.h"
+#include "scene/plausibility.h"
 #include "scene/scene_check.h"
 #include "scene/scene_print.h"
 #include "scene/scene_read.h"
@@ -106,6 +107,7 @@ struct inputs {
     fl_restart saved;
     fl_restart_part input_text[INPUT_TEXTS];
     char *text[INPUT_TEXTS]; /* of input_text, where it is owned */
+    fl_floe_extent floes;
     char *history;
     fl_history_line by;
 };
@@ -164,6 +166,8 @@ static int read_inputs(struct inputs *in, const struct options *o, fl_err *err)
     if (o->echo) return 0;
     if (check_files(&in->scene, err)) return -1;
     if (fl_ice_field_read(&in->field, in->scene.ice.file, err)) return -1;
+    in->floes = fl_floe_extent_of(&in->field);
+    if (!o->force && fl_scene_check_plausible(&in->scene, &in->floes, err)) return -1;
     if (in->scene.boundary.inflow == FL_INFLOW_FILE &&
         fl_ice_field_read(&in->feed, in->scene.boundary.inflow_file, err))
         return -1;
@@ -284,6 +288,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     if (!has_inflow) fl_ice_field_free(&in.field);
     struct run r = {.o = o,
                     .scene = &in.scene,
+                    .floes = in.floes,
                     .order = order,
                     .surface = surface,
                     .frames_surface = members ? &in.frames_surface : surface,

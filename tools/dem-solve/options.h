@@ -13,7 +13,7 @@ struct options {
     int sets;
     const char *out, *report, *explain, *resume, *again; /* NULL: not given */
     double probe;                                        /* < 0: not asked for [m] */
-    int plan, echo, gzip, quiet, verbose, threads;
+    int plan, echo, force, gzip, quiet, verbose, threads;
     int ended; /* --help or --version has said all there is to say */
 };
 

@@ -179,6 +179,12 @@ void keep_outputs(struct outputs *u)
     for (int k = 0; k < TABLES; k++) u->table[k].keep_part = 1;
 }
 
+void discard_outputs(struct outputs *u)
+{
+    for (int k = 0; k < TABLES; k++) u->table[k].keep_part = 0;
+    abort_outputs(u);
+}
+
 int close_outputs(struct outputs *u, fl_err *err)
 {
     int rc = 0;

@@ -72,5 +72,6 @@ void reschedule(struct run *r, struct outputs *u);
 
 int close_outputs(struct outputs *u, fl_err *err);
 void abort_outputs(struct outputs *u);
+void discard_outputs(struct outputs *u); /* also those that would be kept */
 
 #endif

@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include "clocks.h"
 #include "contact/pair_law.h"
+#include "ice_scene.h"
 #include "out/tables.h"
 #include "sim/memory_use.h"
 #include "sim/moving_structure.h"
@@ -107,7 +108,14 @@ int print_plan(struct run *r, FILE *f, fl_err *err)
     char water[FL_WATER_FORCES_MAX][FL_FORCE_TEXT];
     const double chosen = w->dt;
     const int bad = fl_step_start(w, err);
-    if (!bad || err->code == FL_NUMERIC) warn_at_start(r, stderr); /* as before the run itself */
+    if (!bad && check_start(r, err)) return -1;
+    if (!bad || err->code == FL_NUMERIC) { /* as before the run itself */
+        struct ice_scene scene;
+        if (ice_scene_make(&scene, r, err)) return -1;
+        if (!r->o->quiet) ice_scene_report(&scene, r, stderr);
+        ice_scene_warn_width(&scene, stderr);
+        warn_at_start(r, stderr);
+    }
     if (bad || update_chosen_step(r, chosen, err)) return -1;
     describe_forces(w, water);
     while (w->step < r->steps && (spent = wall_clock() - begun) < 0.5)

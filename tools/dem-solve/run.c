@@ -105,6 +105,10 @@ static int start_run(struct run *r, struct outputs *u, fl_err *err)
 {
     const double chosen = r->w->dt;
     const int bad = fl_step_start(r->w, err);
+    if (!bad && check_start(r, err)) {
+        r->refused = 1;
+        return -1;
+    }
     /* A warning may explain why the step is too long. */
     if ((!bad || err->code == FL_NUMERIC) && record_start(r, u, err)) return -1;
     if (bad || update_chosen_step(r, chosen, err)) return -1;
@@ -151,6 +155,11 @@ int run_scene(struct run *r, fl_err *err)
     if (r->budget) r->budget->stop = &stop_signal;
     const double begun = wall_clock(), cpu_begun = cpu_clock();
     const int rc = run_steps(r, &u, show, begun, err);
+    if (r->refused) {
+        r->started = 0;
+        discard_outputs(&u);
+        return -1;
+    }
     if (rc && err->code == FL_NUMERIC && r->w->step > 0 && r->scene->output.checkpoint[0] &&
         is_finite_state(r->w)) {
         fl_err why = {0}; /* the failure of the run is reported, not this one */

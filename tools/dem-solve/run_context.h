@@ -4,6 +4,7 @@
 #define DEM_SOLVE_RUN_CONTEXT_H
 #include "options.h"
 #include "out/restart.h"
+#include "scene/plausibility.h"
 #include "sim/error_budget.h"
 
 /* Number of inputs that a checkpoint carries as texts: ice, structure, inflow. */
@@ -12,6 +13,7 @@ enum { INPUT_TEXTS = 3 };
 struct run {
     const struct options *o;
     const fl_scene *scene;
+    fl_floe_extent floes;             /* of the ice file; none in a run that is resumed */
     const int32_t *order;             /* [n] index in the world of the k-th body of the ice file */
     const fl_surface *surface;        /* NULL: none */
     const fl_surface *frames_surface; /* the same, or of members each piece of the chain as a part */
@@ -42,6 +44,7 @@ struct run {
     int64_t saves;         /* checkpoints written */
     int64_t saved_step;    /* step of the last one */
     char step_change[120]; /* a resumed run has another step: from when on; "" otherwise */
+    int refused;           /* the start is refused: no table stays */
     int started;           /* there is something to report */
     int warned_fast;       /* the warning of a body that moves by its thickness in a step was given */
     int stopped;           /* number of the signal that ended the run, 0: none */

@@ -2,6 +2,7 @@
 #include "run_record.h"
 #include <stdlib.h>
 #include "base/number_text.h"
+#include "ice_scene.h"
 #include "out/tables.h"
 #include "report.h"
 #include "warnings.h"
@@ -26,12 +27,20 @@ static char *finish_text(FILE *f, char **text, int bad, fl_err *err)
 
 int record_start(const struct run *r, struct outputs *u, fl_err *err)
 {
+    struct ice_scene scene;
     char *text = NULL;
-    size_t n = 0;
+    size_t n = 0, of_scene = 0;
+    if (ice_scene_make(&scene, r, err)) return -1;
     FILE *f = open_memstream(&text, &n);
-    if (f) warn_at_start(r, f);
+    if (f) {
+        ice_scene_report(&scene, r, f);
+        fflush(f);
+        of_scene = n;
+        ice_scene_warn_width(&scene, f);
+        warn_at_start(r, f);
+    }
     if (!finish_text(f, &text, !f, err)) return -1;
-    fputs(text, stderr);
+    fputs(r->o->quiet ? text + of_scene : text, stderr);
     fl_table_write_report(u->table[TABLE_LOADS].f, text, PROGRAM);
     free(text);
     return 0;

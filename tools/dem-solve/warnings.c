@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <string.h>
 #include "base/pi.h"
+#include "ice_scene.h"
 #include "scene/scene.h"
 #include "sim/energy_balance.h"
 #include "sim/moving_structure.h"
@@ -14,12 +15,16 @@
  * displacement and size. */
 #define AT_REST 1e-3
 
+enum { START_FAULT = 400 };
+
 /* Bodies that overlap at the start are pushed apart, with loads that belong to no case.  A run may take
- * hours, so this is said before it.  Rounded edges cannot overlap by more than the sum of the radii. */
-static void warn_overlaps(const struct run *r, FILE *f)
+ * hours, so this is said before it.  Rounded edges cannot overlap by more than the sum of the radii.  The
+ * number of pairs, of those with the structure, and a sentence about them. */
+static int32_t find_overlaps(const struct run *r, int32_t *with_structure, char text[START_FAULT])
 {
     const fl_world *w = r->w;
     int32_t found = 0, i = -1, j = -1;
+    *with_structure = 0;
     char other[64];
     fl_pair_iterator at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
@@ -27,14 +32,16 @@ static void warn_overlaps(const struct run *r, FILE *f)
             !(p->overlap > FL_DEEP_OVERLAP * p->radius_factor * (w->b.radius[p->i] + w->b.radius[p->j])))
             continue;
         if (!found++) i = p->i, j = p->j;
+        *with_structure += p->j >= w->n && p->j < w->n + w->pieces;
     }
-    if (!found) return;
-    fprintf(f, "dem-solve: warning: %d %s at the start, first ", found,
-            found == 1 ? "pair overlaps by more than half its radii"
-                       : "pairs overlap by more than half their radii");
+    if (!found) return 0;
     if (j < w->n + w->pieces) snprintf(other, sizeof other, "%d", fl_world_id(w, j));
     else fl_wall_name(w, j - w->n - w->pieces, other);
-    fprintf(f, "body %d and %s; they will be pushed apart\n", w->id[i], other);
+    snprintf(text, START_FAULT, "%d %s at the start, first body %d and %s; they will be pushed apart", found,
+             found == 1 ? "pair overlaps by more than half its radii"
+                        : "pairs overlap by more than half their radii",
+             w->id[i], other);
+    return found;
 }
 
 /* A sheet of bonded spheres that starts inside the structure by more than this share of a radius loses
@@ -115,8 +122,8 @@ static int is_inside(const fl_world *w, int32_t i, int32_t k)
     return 1;
 }
 
-/* Bodies inside the structure stay there, and the loads do not show it. */
-static void warn_inside(const struct run *r, FILE *f)
+/* Bodies inside the structure stay there, and the loads do not show it.  Their number, and a sentence. */
+static int32_t find_inside(const struct run *r, char text[START_FAULT])
 {
     const fl_world *w = r->w;
     int32_t found = 0, body = -1, part = -1;
@@ -126,11 +133,39 @@ static void warn_inside(const struct run *r, FILE *f)
             body = i;
             part = w->structure.piece[k].part;
         }
-    if (found)
-        fprintf(f,
-                "dem-solve: warning: %d %s inside the structure, first body %d in part %s; it feels the "
-                "structure only where it reaches the surface\n",
-                found, found == 1 ? "body is" : "bodies are", w->id[body], r->surface->part[part].name);
+    if (!found) return 0;
+    snprintf(text, START_FAULT,
+             "%d %s inside the structure, first body %d in part %s; it feels the structure only where it "
+             "reaches the surface",
+             found, found == 1 ? "body is" : "bodies are", w->id[body], r->surface->part[part].name);
+    return found;
+}
+
+int check_start(const struct run *r, fl_err *err)
+{
+    static const char WAY_OUT[] = "--force runs it as it is";
+    char text[START_FAULT];
+    int32_t swallowed, inside = 0;
+    if (r->o->force || !r->w->sea.water || strncmp(r->scene->ice.material, "ice", 3) != 0) return 0;
+    const int32_t overlaps = find_overlaps(r, &swallowed, text);
+    if (!overlaps) inside = find_inside(r, text);
+    if (swallowed + inside > r->w->n / 2)
+        return fl_fail(err, FL_INPUT,
+                       "%s: is the structure in mm? Metres are expected (struct-import --unit mm); %s", text,
+                       WAY_OUT);
+    if (overlaps || inside)
+        return fl_fail(err, FL_INPUT,
+                       "%s: a field with gaps there is expected (voronoi-ice --keep-out, --probe 0); %s",
+                       text, WAY_OUT);
+    return 0;
+}
+
+static void warn_faults(const struct run *r, FILE *f)
+{
+    char text[START_FAULT];
+    int32_t with_structure;
+    if (find_overlaps(r, &with_structure, text)) fprintf(f, "dem-solve: warning: %s\n", text);
+    if (find_inside(r, text)) fprintf(f, "dem-solve: warning: %s\n", text);
 }
 
 /* A flat sheet with an outline that is not convex is a surface with an inside, like a hull. */
@@ -231,29 +266,14 @@ static void warn_materials(const struct run *r, FILE *f)
 
 void warn_at_start(const struct run *r, FILE *f)
 {
+    fl_scene_warn_implausible(r->scene, &r->floes, "dem-solve: warning: ", f);
     warn_materials(r, f);
-    warn_overlaps(r, f);
+    warn_faults(r, f);
     warn_bonded_sheet(r, f);
-    warn_inside(r, f);
     warn_waves(r, f);
     warn_hulls(r, f);
     warn_sheets(r, f);
     warn_unjoined(r, f);
-}
-
-/* Thickness of a dilated body: smallest extent along the normals of its faces. */
-static double thickness_of(const fl_poly *p, double radius)
-{
-    double smallest = p->nf ? INFINITY : 0.0;
-    for (int32_t f = 0; f < p->nf; f++) {
-        double lo = INFINITY, hi = -INFINITY;
-        for (int32_t v = 0; v < p->nv; v++) {
-            const double h = v3_dot(p->n[f], p->v[v]);
-            lo = fmin(lo, h), hi = fmax(hi, h);
-        }
-        smallest = fmin(smallest, hi - lo);
-    }
-    return smallest + 2.0 * radius;
 }
 
 /* Two bodies that move by less than their thickness in a step cannot pass each other. */
@@ -263,14 +283,14 @@ void warn_at_row(struct run *r, double t)
     for (int32_t i = 0; i < w->n && !r->warned_fast; i++) {
         const double distance = w->dt * v3_norm(w->b.v[i]);
         if (!(distance > 2.0 * w->b.radius[i]) || fl_body_absent(w, i)) continue;
-        const double body_thickness = thickness_of(&w->b.core[i], w->b.radius[i]);
-        if (!(distance > body_thickness) || isinf(distance)) continue;
+        const double thickness = body_thickness(&w->b.core[i], w->b.radius[i]);
+        if (!(distance > thickness) || isinf(distance)) continue;
         r->warned_fast = 1;
         fprintf(
             stderr,
             "dem-solve: warning: body %d moves by %.3g m in a step at t = %.6g s and is %.3g m thick: it may "
             "pass through thin bodies; use a shorter run.dt\n",
-            w->id[i], distance, t, body_thickness);
+            w->id[i], distance, t, thickness);
     }
 }
 
@@ -420,6 +440,7 @@ static void warn_fallen(const fl_world *w, FILE *f)
 void warn_at_end(const struct run *r, int failed, FILE *f)
 {
     if (!failed) warn_fallen(r->w, f);
+    ice_scene_warn_inflow(r, f);
     warn_sudden(r->w, f);
     warn_overlapped(r->w, f);
     if (!failed && r->budget) warn_budget(r, f);

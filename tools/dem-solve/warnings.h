@@ -8,6 +8,10 @@
 void warn_at_start(const struct run *r, FILE *f);
 void warn_at_end(const struct run *r, int failed, FILE *f);
 
+/* After the start, before the first step: -1 with FL_INPUT where ice in water overlaps or lies inside the
+ * structure, without --force. */
+int check_start(const struct run *r, fl_err *err);
+
 /* At a row of the loads, time t, to standard error. */
 void warn_at_row(struct run *r, double t);
 
