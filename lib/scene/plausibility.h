@@ -4,7 +4,8 @@
  * A scene with [water] whose ice.material has a name that begins with ice is held against two ranges of each
  * value: outside the wide one it is refused, outside the narrow one it is warned of.  A refusal names the
  * unit that was likely meant, the first of a short list whose factor brings the value into the wide range.
- * Other scenes, such as rock, packings and dry blocks, and other materials have other bounds and are not looked at.
+ * Other scenes, such as rock, packings and dry blocks, and other materials have other bounds and are not
+ * looked at.
  *
  *     value                                   wide                     narrow
  *     density of ice [kg/m3]                  500 to 950, below water  800 to 930
