@@ -4,19 +4,30 @@
 #include <string.h>
 #include <strings.h>
 #include "base/array.h"
-#include "mesh/rejected_formats.h"
 #include "mesh/gstruct.h"
+#include "mesh/read_aqwa.h"
 #include "mesh/read_bdf.h"
 #include "mesh/read_cdb.h"
+#include "mesh/read_gdf.h"
+#include "mesh/read_hams.h"
+#include "mesh/read_hydrostar.h"
 #include "mesh/read_inp.h"
 #include "mesh/read_mesh.h"
 #include "mesh/read_msh.h"
+#include "mesh/read_nemoh.h"
 #include "mesh/read_obj.h"
 #include "mesh/read_off.h"
+#include "mesh/read_openfast.h"
 #include "mesh/read_ply.h"
+#include "mesh/read_sacs.h"
+#include "mesh/read_salome_dat.h"
+#include "mesh/read_sesam.h"
 #include "mesh/read_stl.h"
+#include "mesh/read_tecplot.h"
+#include "mesh/read_usfos.h"
 #include "mesh/read_vtk.h"
 #include "mesh/read_vtk_xml.h"
+#include "mesh/rejected_formats.h"
 #include "mesh/single_precision.h"
 
 enum { NAME_MAX = 128 };
@@ -49,11 +60,23 @@ const fl_mesh_format FL_MESH_FORMATS[] = {
     {"VTK", "VTK", fl_vtk_is, fl_vtk_read, 0, 1},
     {"ANSYS", "ANSYS archive", fl_cdb_is, fl_cdb_read, 0, 1},
     {"Abaqus", "Abaqus, CalculiX", fl_inp_is, fl_inp_read, 0, 1},
+    {"SESAM", "SESAM", fl_sesam_is, fl_sesam_read, 0, 1},
+    {"OpenFAST", "OpenFAST", fl_openfast_is, fl_openfast_read, 0, 1},
+    {"USFOS", "USFOS", fl_usfos_is, fl_usfos_read, 0, 1},
+    {"SACS", "SACS", fl_sacs_is, fl_sacs_read, 0, 1},
+    {"HAMS", "HAMS", fl_hams_is, fl_hams_read, 0, 0},
+    {"HydroStar", "HydroStar", fl_hydrostar_is, fl_hydrostar_read, 0, 0},
+    {"AQWA", "AQWA", fl_aqwa_is, fl_aqwa_read, 0, 0},
+    {"Tecplot", "Tecplot", fl_tecplot_is, fl_tecplot_read, 0, 0},
     {"STL", "STL", fl_stl_is, fl_stl_read, 0, 0},
     {"PLY", "PLY", fl_ply_is, fl_ply_read, 0, 0},
     {"g_struct", "g_struct", fl_gstruct_is, fl_gstruct_read_bytes, 0, 0},
     {"OFF", "OFF", fl_off_is, fl_off_read, 0, 0},
     {"OBJ", "OBJ", fl_obj_is, fl_obj_read, 0, 0},
+    /* numbers alone: the first lines decide */
+    {"NEMOH", "NEMOH", fl_nemoh_is, fl_nemoh_read, 0, 0},
+    {"Salome DAT", "Salome DAT", fl_salome_dat_is, fl_salome_dat_read, 0, 0},
+    {"WAMIT", "WAMIT", fl_gdf_is, fl_gdf_read, 0, 0},
     /* a Nastran deck has no first word of its own */
     {"Nastran", "Nastran", fl_bdf_is, fl_bdf_read, 0, 1},
     {0},

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "geom/mesh_patch.h"
 #include "geom/weld.h"
+#include "member/member_import.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
 #include "support/fuzz.h"
@@ -148,4 +149,26 @@ int mesh_fuzz_all(const unsigned char *data, size_t n)
     fl_surface_free(&s);
     fl_string_table_free(&seen);
     return verdict;
+}
+
+int mesh_fuzz_members(const unsigned char *data, size_t n)
+{
+    fl_err err = {0};
+    fl_surface s = {0};
+    fl_frame_model f = {0};
+    fl_member_model m = {0};
+    fl_import_options opt = {.frame = &f};
+    char note[FL_MESH_NOTE];
+    const int verdict = mesh_fuzz_all(data, n);
+    if (verdict == FUZZ_BROKEN || verdict == FUZZ_SYSTEM) return verdict;
+    const int rc = fl_mesh_read(&s, fuzz_file(data, n), &opt, note, &err) ||
+                           fl_member_import(&m, &f, 3, 1.0, (fl_vec3){0, 0, 0}, "deck", &err)
+                       ? -1
+                       : 0;
+    int framed = fuzz_verdict(rc, &err);
+    if ((framed == FUZZ_READ) != (m.member_name.n > 0)) framed = FUZZ_BROKEN;
+    fl_surface_free(&s);
+    fl_frame_model_free(&f);
+    fl_member_model_free(&m);
+    return framed == FUZZ_BROKEN || framed == FUZZ_SYSTEM ? framed : verdict;
 }
