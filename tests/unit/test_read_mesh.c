@@ -267,7 +267,7 @@ static void unsupported_formats_are_named(void **state)
         {"\r\nISO-10303-21;\nHEADER;\n", 0,
          ": a STEP file, which is geometry without a mesh: gmsh FILE -2 -setstring "},
         {"DBRep_DrawableShape\n", 0, ": a BREP file, which is geometry without a mesh: gmsh FILE"},
-        {"* x\n*DIODORE\n*NODES\n", 0, ": a DIODORE file: export the panels as WAMIT GDF or STL"},
+        {"*DIODORE\n*NODES\n", 0, ": a DIODORE file: export the panels as WAMIT GDF or STL"},
         {"$ x\n&DIMEN -DIMEN METERS M-TONS\n", 0, ": commands of MOSES: export the panels as WAMIT GDF"},
         {"%YAML 1.1\n# Type: Model\n", 0, ": a YAML file, as OrcaFlex and OrcaWave write: export the panels"},
         {"#VRML V2.0 utf8\n", 0, ": a VRML scene: export the panels"},
