@@ -9,6 +9,7 @@
 #include "mesh/read_bdf.h"
 #include "mesh/read_cdb.h"
 #include "mesh/read_gdf.h"
+#include "mesh/read_genie.h"
 #include "mesh/read_hams.h"
 #include "mesh/read_hydrostar.h"
 #include "mesh/read_inp.h"
@@ -24,6 +25,7 @@
 #include "mesh/read_sesam.h"
 #include "mesh/read_stl.h"
 #include "mesh/read_tecplot.h"
+#include "mesh/read_unv.h"
 #include "mesh/read_usfos.h"
 #include "mesh/read_vtk.h"
 #include "mesh/read_vtk_xml.h"
@@ -56,6 +58,8 @@ static void base_name(const char *path, char name[NAME_MAX])
 const fl_mesh_format FL_MESH_FORMATS[] = {
     {"Gmsh", "Gmsh", fl_msh_is, fl_msh_read, 0, 1, "MSH 2 and 4.1: shells, solids", "points, lines",
      "versions 1 and 4.0"},
+    {"GeniE", "GeniE", fl_genie_is, fl_genie_read, 1, 1, "straight beams of pipes, cones and boxes",
+     "other sections, plates, curved beams", "lengths of unknown units"},
     /* arrays of an XML file lie anywhere behind the tags, and several may share the same bytes */
     {"VTK", "VTK", fl_vtk_xml_is, fl_vtk_xml_read, 1, 1, "POLYDATA, UNSTRUCTURED_GRID; vtp, vtu",
      "points, lines", "structured grids"},
@@ -77,6 +81,8 @@ const fl_mesh_format FL_MESH_FORMATS[] = {
      "IHPROFIL, GENBEAM, loads", "nothing"},
     {"SACS", "SACS", fl_sacs_is, fl_sacs_read, 0, 1, "tubulars and cones by segments, plates, groups",
      "other sections, members of missing joints, springs", "files without units"},
+    {"UNV", "UNV", fl_unv_is, fl_unv_read, 0, 1, "shells and solids of datasets 2411, 2412, groups of 2467",
+     "beams, other datasets", "nothing"},
     {"HAMS", "HAMS", fl_hams_is, fl_hams_read, 0, 0, "panels with symmetry", "nothing",
      "panels across a plane of symmetry"},
     {"HydroStar", "HydroStar", fl_hydrostar_is, fl_hydrostar_read, 0, 0, "panels of bodies with symmetry",

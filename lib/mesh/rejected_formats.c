@@ -100,9 +100,7 @@ const char *fl_rejected_format(const fl_bytes *b)
     if (is_iges(b->data)) return "an IGES file, which is " GMSH;
     if (is_fluent(text)) return "a mesh of Fluent: " DECK;
     if (is_line(text, "0") && is_line(next_line(text), "SECTION")) return "a DXF drawing: " SURFACE;
-    if (is_line(text, "-1")) return "a universal file of I-DEAS: " DECK;
-    if (*text == '<' && strstr(text, "<DNV_structure_concept_protocol"))
-        return "a concept model of GeniE: export the FEM file from GeniE";
+    if (is_line(text, "-1")) return "a universal file of I-DEAS without datasets 2411 and 2412: " DECK;
     if (is_control_surface(b->data))
         return "a control surface of WAMIT, and no hull: read the geometric data file (.gdf)";
     if (*text == '{' && strstr(text, "\"asset\"")) return "a glTF scene: " SURFACE;

@@ -169,6 +169,32 @@ static void usfos_and_sacs_have_their_members(void **state)
     says("member of a joint that is not there 1, member with a WF section 1");
 }
 
+static void genie_has_its_beams(void **state)
+{
+    (void)state;
+    check_members("genie/good_leg", 3, 30.0, 26.3056025);
+    check_part("Leg_1", 3, 0);
+    says("i_section 1");
+    says("1 plates lie in ACIS geometry: export the FEM file from GeniE");
+}
+
+/* A cube of second order on a plate, in two groups; nodes go round each face. */
+static void unv_has_its_shells_and_solids(void **state)
+{
+    (void)state;
+    read_corpus("unv/good_cube");
+    assert_int_equal(s.n, 2);
+    near_answer("volume", hull_volume(part_named("CUBE")), 8.0);
+    near_answer("plate", triangle_area(part_named("PLATE")), 4.0);
+    check_part("CUBE", 0, 12);
+    says("hex20 1");
+    says("beam type 21 1");
+    says("largest sagitta is 0 in");
+    refuses("    -1\n  2411\n 1 1 1 11\n 0 0 x\n    -1\n", "deck:4: a coordinate of node 1 is \"x\"");
+    refuses("    -1\n  2412\n 1 91 1 1 7 3\n    -1\n", "deck:4: the dataset ends within a record");
+    refuses("    -1\n  2412\n 1 91 1 1 7 99\n    -1\n", "deck:3: element 1 has 99 nodes");
+}
+
 /* --- panels --------------------------------------------------------------------------------------------- */
 
 static void check_hull(const char *path, const char *name, int panels, int triangles, double hull,
@@ -319,6 +345,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(openfast_has_its_members, setup, clear),
         cmocka_unit_test_setup_teardown(sesam_has_its_members_and_plates, setup, clear),
         cmocka_unit_test_setup_teardown(usfos_and_sacs_have_their_members, setup, clear),
+        cmocka_unit_test_setup_teardown(genie_has_its_beams, setup, clear),
+        cmocka_unit_test_setup_teardown(unv_has_its_shells_and_solids, setup, clear),
         cmocka_unit_test_setup_teardown(hulls_have_their_panels, setup, clear),
         cmocka_unit_test_setup_teardown(salome_has_its_shells, setup, clear),
         cmocka_unit_test_setup_teardown(bad_members_are_refused_with_their_line, setup, clear),

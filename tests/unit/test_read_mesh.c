@@ -284,7 +284,7 @@ static void unsupported_formats_are_named(void **state)
         {"PK\003\004\0\0", 6, ": a ZIP archive, as 3MF is"},
         {"\211HDF\r\n\032\n", 0, ": an HDF5 file, as MED and CGNS are: in Salome export the mesh as STL"},
         {"CDF\001\0\0\0\0", 8, ": a NetCDF file"},
-        {"    -1\n  2411\n", 0, ": a universal file of I-DEAS"},
+        {"    -1\n  2420\n", 0, ": a universal file of I-DEAS"},
         {"MeshVersionFormatted 2\n", 0, ": a MEDIT mesh"},
         {"(0 \"fluent\")\n(2 3)\n", 0, ": a mesh of Fluent"},
         {"$# comment\n*KEYWORD\n*NODE\n", 0, ": a deck of LS-DYNA: export it as"},

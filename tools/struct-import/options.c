@@ -12,9 +12,8 @@ static const char USAGE[] =
     "usage: struct-import [options] [FILE ...]\n"
     "Turn meshes and ready-made solids into a structure file (g_struct) for dem-solve.\n"
     "FILE is one of (STL, OBJ, OFF, PLY, VTK, g_struct, Abaqus, ANSYS, Gmsh, Nastran, SESAM, SACS, USFOS,\n"
-    "OpenFAST, WAMIT, NEMOH, HAMS, HydroStar, AQWA, Tecplot, Salome), recognised by content; - or nothing "
-    "is\n"
-    "standard input.\n"
+    "OpenFAST, WAMIT, NEMOH, HAMS, HydroStar, AQWA, Tecplot, Salome, GeniE, UNV), recognised by content;\n"
+    "- or nothing is standard input.\n"
     "\n";
 
 static const struct unit {
