@@ -30,11 +30,12 @@ static void range_of(const fl_part *p, int32_t t, int axis, double *lo, double *
 int fl_part_mirror_half(fl_part *p, int axis, double tol, int32_t *crosses, fl_err *err)
 {
     const int32_t nv = p->nv, nt = p->nt, nc = p->nc;
-    double lo, hi;
+    double lo, hi, least = 0.0, most = 0.0;
     *crosses = -1;
     for (int32_t t = 0; t < nt + nc; t++) {
         range_of(p, t, axis, &lo, &hi);
-        if (lo < -tol && hi > tol) {
+        least = fmin(least, lo), most = fmax(most, hi);
+        if (least < -tol && most > tol) {
             *crosses = t;
             return 0;
         }

@@ -136,6 +136,7 @@ static void panel_range(const fl_panel_mesh *m, const fl_panel *p, int axis, dou
 /* Counts the panels of a body with their images.  One that reaches through a plane of symmetry is refused. */
 static int count_images(const fl_panel_mesh *m, int32_t body, double tol, int64_t *all, fl_err *err)
 {
+    double least[2] = {0.0}, most[2] = {0.0};
     *all = 0;
     for (int32_t i = 0; i < m->panels; i++) {
         const fl_panel *p = &m->panel[i];
@@ -145,10 +146,16 @@ static int count_images(const fl_panel_mesh *m, int32_t body, double tol, int64_
             double lo, hi;
             if (!(m->planes[body] >> axis & 1)) continue;
             panel_range(m, p, axis, &lo, &hi);
+            least[axis] = fmin(least[axis], lo), most[axis] = fmax(most[axis], hi);
             if (lo < -tol && hi > tol)
                 return fl_fail(err, FL_INPUT,
                                "%s:%d: the panel reaches from %c = %g to %g, through the plane of symmetry",
                                fl_in_name(m->b->in), p->line, "xy"[axis], lo, hi);
+            if (least[axis] < -tol && most[axis] > tol)
+                return fl_fail(err, FL_INPUT,
+                               "%s:%d: the panel lies on the other side of the plane of symmetry %c = 0 than "
+                               "those before it",
+                               fl_in_name(m->b->in), p->line, "xy"[axis]);
             if (fmax(fabs(lo), fabs(hi)) > tol) images *= 2;
         }
         *all += images;

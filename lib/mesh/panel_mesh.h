@@ -63,7 +63,7 @@ int fl_panel_head_words(const char *line, int most, char word[][FL_PANEL_WORD]);
 const char *fl_panel_next_line(const char *p);
 
 /* Make parts of s, one a body.  -1 with FL_SYSTEM, or FL_INPUT: no panels, or one that crosses a plane of
- * symmetry; the message names its line. */
+ * symmetry, or lies on its other side; the message names its line. */
 int fl_panel_mesh_finish(fl_panel_mesh *m, fl_surface *s, fl_err *err);
 void fl_panel_mesh_free(fl_panel_mesh *m); /* accepts a zeroed struct, leaves one */
 

@@ -325,6 +325,8 @@ static void bad_panels_are_refused_with_their_line(void **state)
     (void)state;
     refuses("t\n1 9.8\n1 0\n1\n-1 0 0\n-1 0 -1\n1 0 -1\n1 0 0\n",
             "deck:8: the panel reaches from x = -1 to 1, through the plane of symmetry");
+    refuses("t\n1 9.8\n0 1\n2\n0 1 0\n0 1 -1\n1 1 -1\n1 1 0\n0 -1 0\n0 -1 -1\n1 -1 -1\n1 -1 0\n",
+            "deck:12: the panel lies on the other side of the plane of symmetry y = 0");
     refuses("t\n1 9.8\n0 0\n2\n0 0 0 0 0 -1 1 0 -1 1 0 0\n",
             "NPAN promises 2 panels, the file ends in panel 2");
     refuses("t\n-1 9.8\n2\na.gdf\n", "deck:2: ULEN -1: a list of bodies");

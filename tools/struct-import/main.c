@@ -70,8 +70,8 @@ static int add_halves(const struct options *o, fl_surface *s, int32_t first, con
             if (crosses >= 0)
                 return fl_fail(
                     err, FL_INPUT,
-                    "%s: part \"%.60s\" reaches through %c = 0, across which --symmetry %c mirrors it", path,
-                    s->part[i].name, 'x' + axis, 'x' + axis);
+                    "%s: part \"%.60s\" lies on both sides of %c = 0, across which --symmetry %c mirrors it",
+                    path, s->part[i].name, 'x' + axis, 'x' + axis);
         }
     return 0;
 }
