@@ -81,8 +81,8 @@ static int aqwa_nodes(aqwa_reader *r, fl_err *err)
     r->structure = 1;
     while ((more = next_card(r, err)) > 0 && !is_end_card(r)) {
         char text[CARD], number[CARD];
-        if (strcmp(cut_card(r, 11, 14, text), "STRC") == 0) {
-            cut_card(r, 15, 29, number);
+        if (strcmp(cut_card(r, 7, 10, text), "STRC") == 0) {
+            cut_card(r, 11, 25, number);
             if (fl_deck_integer(number, &r->structure) || r->structure < 1 || r->structure > 10000)
                 return fl_bytes_fail(r->b, err, "STRC \"%s\", a number from 1 to 10000 is expected", number);
         } else if (aqwa_node(r, err)) {

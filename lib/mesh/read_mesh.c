@@ -54,7 +54,8 @@ static void base_name(const char *path, char name[NAME_MAX])
     name[len] = '\0';
 }
 
-/* Order of trust: a format whose files cannot be mistaken for another comes first. */
+/* Order of trust: a format whose files cannot be mistaken for another comes first. Lines that begin with * look
+ * like Abaqus and are comments in others, so it stands behind them. */
 const fl_mesh_format FL_MESH_FORMATS[] = {
     {"Gmsh", "Gmsh", fl_msh_is, fl_msh_read, 0, 1, "MSH 2 and 4.1: shells, solids", "points, lines",
      "versions 1 and 4.0"},
@@ -65,12 +66,6 @@ const fl_mesh_format FL_MESH_FORMATS[] = {
      "points, lines", "structured grids"},
     {"VTK", "VTK", fl_vtk_is, fl_vtk_read, 0, 1, "POLYDATA, UNSTRUCTURED_GRID; vtp, vtu", "points, lines",
      "structured grids"},
-    {"ANSYS", "ANSYS archive", fl_cdb_is, fl_cdb_read, 0, 1,
-     "shells, solids, round beams and pipes, components", "fluids, contact, other sections",
-     "the unblocked format"},
-    {"Abaqus", "Abaqus, CalculiX", fl_inp_is, fl_inp_read, 0, 1,
-     "shells, solids, round beams and pipes, sets, assemblies", "fluids, other sections",
-     "*NCOPY, *NFILL, *PARAMETER, arcs"},
     {"SESAM", "SESAM", fl_sesam_is, fl_sesam_read, 0, 1,
      "pipes and boxes with tapers and offsets, shells, solids, sets", "profiles, springs, masses",
      "files of GELMNT2 alone; SIN, SIU"},
@@ -91,6 +86,12 @@ const fl_mesh_format FL_MESH_FORMATS[] = {
      "tubes, discs, masses", "one SYMX or SYMY that fits no rim, or two"},
     {"Tecplot", "Tecplot", fl_tecplot_is, fl_tecplot_read, 0, 0,
      "zones of triangles and quadrilaterals, grids", "further variables", "data in blocks, zones of solids"},
+    {"ANSYS", "ANSYS archive", fl_cdb_is, fl_cdb_read, 0, 1,
+     "shells, solids, round beams and pipes, components", "fluids, contact, other sections",
+     "the unblocked format"},
+    {"Abaqus", "Abaqus, CalculiX", fl_inp_is, fl_inp_read, 0, 1,
+     "shells, solids, round beams and pipes, sets, assemblies", "fluids, other sections",
+     "*NCOPY, *NFILL, *PARAMETER, arcs"},
     {"STL", "STL", fl_stl_is, fl_stl_read, 0, 0, "triangles, ASCII and binary", "colours", "nothing"},
     {"PLY", "PLY", fl_ply_is, fl_ply_read, 0, 0, "faces, ASCII and binary", "other properties", "nothing"},
     {"g_struct", "g_struct", fl_gstruct_is, fl_gstruct_read_bytes, 0, 0, "parts of triangles and cones",

@@ -8,7 +8,7 @@
 #include "base/pi.h"
 #include "mesh/beam_deck.h"
 
-enum { WORDS = 24 };
+enum { WORDS = 24, HEAD_LINES = 3 };
 
 /* Sections by their numbers: those of each form are numbered on their own, which is the scope. */
 enum { CIRCLES, RECTANGLES, CONSTANTS };
@@ -47,7 +47,11 @@ static int is_second_word(const char *p, const char *word)
 
 int fl_openfast_is(const fl_bytes *b)
 {
-    const char *p = b->data, *end = p + strcspn(p, "\r\n");
+    const char *p = b->data, *end = p;
+    for (int k = 0; k < HEAD_LINES && *end; k++) { /* a line of dashes may come first */
+        end += strcspn(end, "\n");
+        end += *end == '\n';
+    }
     if (!has_word_in_line(p, end, "SubDyn") && !has_word_in_line(p, end, "HydroDyn")) return 0;
     for (; *p; p += strcspn(p, "\n"), p += *p == '\n')
         if (is_second_word(p, "NJoints")) return 1;
@@ -85,7 +89,16 @@ static int read_header(openfast_reader *r, fl_err *err)
     if (more <= 0) return more;
     r->columns = r->words;
     for (int c = 0; c < r->words; c++) snprintf(r->header[c], sizeof r->header[c], "%s", r->word[c]);
-    return next_words(r, err);
+    const int units = next_words(r, err);
+    /* some files write PropSetID in the line of units */
+    const size_t n = units > 0 && r->words ? strlen(r->word[0]) : 0;
+    if (n > 2 && strcasecmp(r->word[0] + n - 2, "ID") == 0 && r->columns > 0 && r->columns < WORDS &&
+        strcasecmp(r->header[0], r->word[0]) != 0 && strcasecmp(r->header[0], "YoungE") == 0) {
+        memmove(r->header[1], r->header[0], (size_t)r->columns * sizeof r->header[0]);
+        snprintf(r->header[0], sizeof r->header[0], "%s", r->word[0]);
+        r->columns++;
+    }
+    return units;
 }
 
 /* Index of the column of that name, -1.  MSpin/COSMID is found as MSpin. */

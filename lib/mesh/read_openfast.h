@@ -6,7 +6,7 @@
 #include "mesh/bytes.h"
 #include "mesh/import_options.h"
 
-/* True if line 1 names SubDyn or HydroDyn and a line has NJoints behind its value. */
+/* True if one of the first three lines names SubDyn or HydroDyn and a line has NJoints behind its value. */
 int fl_openfast_is(const fl_bytes *b);
 
 /* Add the members of the file to s, or to the frame of opt.

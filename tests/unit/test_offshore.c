@@ -234,6 +234,48 @@ static void hulls_have_their_panels(void **state)
     corpus_refuses("hull_panels/bad_spline", ":4: higher-order geometry (IGDEF 1): save it as flat panels");
 }
 
+/* Two structures with nodes of the same numbers. */
+static void aqwa_knows_its_structures(void **state)
+{
+    (void)state;
+    static const char deck[] =
+        "JOB AQWA  LINE\n          COOR\n      STRC        1\n"
+        "     1    1                  0         0        -1\n     1    2                  1         0        "
+        "-1\n"
+        "     1    3                  0         1        -1\n      STRC        2\n"
+        "     2    1                  5         0        -1\n     2    2                  7         0        "
+        "-1\n"
+        "     2    3                  5         1        -1\n END\n          ELM1      One\n"
+        "     1TPPL DIFF   15(1)(    1)(    2)(    3)\n END\n          ELM2      Two\n"
+        "     2TPPL        15(1)(    1)(    2)(    3)\n END\n";
+    reads(deck);
+    assert_int_equal(s.n, 2);
+    near_answer("One", triangle_area(part_named("One")), 0.5);
+    near_answer("Two", triangle_area(part_named("Two")), 1.0);
+    says("1 panels are above the water");
+}
+
+/* AQWA says one plane of symmetry of two: that which holds an open rim. */
+static void aqwa_finds_its_plane(void **state)
+{
+    (void)state;
+    static const char nodes[] =
+        "JOB AQWA  LINE\n          COOR\n     1    1                  0         0        -1\n"
+        "     1    2                  2         1        -1\n     1    3                  0         2        "
+        "-1\n"
+        "     1    4                  1         0        -1\n END\n          ELM1      One\n      SYMX\n";
+    char deck[1500];
+    snprintf(deck, sizeof deck, "%s     1TPPL DIFF   15(1)(    1)(    2)(    3)\n END\n", nodes);
+    reads(deck);
+    says("2 panels, mirrored in x = 0");
+    snprintf(deck, sizeof deck,
+             "%s     1TPPL DIFF   15(1)(    1)(    2)(    3)\n     1TPPL DIFF   15(1)(    1)(    4)(    2)\n "
+             "END\n",
+             nodes);
+    refuses(deck,
+            "body One has SYMX, and is open in x = 0 and in y = 0: which plane is meant is not certain");
+}
+
 /* A box of four sides, and of triangles and quadrilaterals with lines, which are counted. */
 static void salome_has_its_shells(void **state)
 {
@@ -256,6 +298,18 @@ static void bad_members_are_refused_with_their_line(void **state)
 {
     (void)state;
     assert_int_equal(reads(SUBDYN("1 1 2 1 1", PIPE)).cones, 1);
+    /* a line of dashes before the title, PropSetID in the line of units */
+    const fl_mesh_quality q = reads(
+        "-----\n--- SubDyn ---\n2 NJoints\nid x y z\n-\n1 0 0 -9\n2 0 0 1\n1 NMembers\nMemberID a b p q "
+        "COSMID\n-\n1 1 2 1 1\n1 NPropSets\n YoungE ShearG MatDens XsecD XsecT\nPropSetID - - - - -\n" PIPE
+        "\n");
+    near_answer("width", q.box.hi.x, 1.0);
+    /* comments that look like keywords of Abaqus do not make a deck of it */
+    assert_int_equal(
+        reads("*NODE\n*ELEMENT\nCOORDINATES\n1 0 0 0\n2 1 0 0\n3 0 1 0\nENDCOORDINATES\nPANEL TYPE 0\n"
+              "1 2 3\nENDPANEL\n")
+            .triangles,
+        1);
     refuses(SUBDYN("1 1 9 1 1", PIPE), "deck:11: member 1 ends at node 9, which is not defined");
     refuses(SUBDYN("1 1 2 1 4", PIPE), "deck:11: member 1 has circular section 4, which is not defined");
     refuses(SUBDYN("1 2 3 1 1", PIPE), "deck:11: member 1 has no length");
@@ -350,6 +404,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(genie_has_its_beams, setup, clear),
         cmocka_unit_test_setup_teardown(unv_has_its_shells_and_solids, setup, clear),
         cmocka_unit_test_setup_teardown(hulls_have_their_panels, setup, clear),
+        cmocka_unit_test_setup_teardown(aqwa_knows_its_structures, setup, clear),
+        cmocka_unit_test_setup_teardown(aqwa_finds_its_plane, setup, clear),
         cmocka_unit_test_setup_teardown(salome_has_its_shells, setup, clear),
         cmocka_unit_test_setup_teardown(bad_members_are_refused_with_their_line, setup, clear),
         cmocka_unit_test_setup_teardown(bad_sesam_is_refused_with_its_line, setup, clear),
