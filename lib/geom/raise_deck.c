@@ -37,7 +37,8 @@ static double flat_tolerance(const fl_part *p, double *top)
 /* True for a triangle that lies in the waterline, z = 0, at the top. */
 static int is_lid(const fl_part *p, int32_t t, double least)
 {
-    return least <= 0.0 && p->v[p->t[t].v[0]].z >= least && p->v[p->t[t].v[1]].z >= least && p->v[p->t[t].v[2]].z >= least;
+    return least <= 0.0 && p->v[p->t[t].v[0]].z >= least && p->v[p->t[t].v[1]].z >= least &&
+           p->v[p->t[t].v[2]].z >= least;
 }
 
 /* --- rims ----------------------------------------------------------------------------------------------- */
@@ -194,7 +195,8 @@ static int32_t visible_corner(const fl_part *p, const int32_t *loop, int32_t n, 
         corner = a.x > b.x ? i : i + 1 < n ? i + 1 : 0;
     }
     if (corner < 0) return -1;
-    /* a concave corner within the triangle of m, the hit and that corner would hide it: the one of least angle */
+    /* a concave corner within the triangle of m, the hit and that corner would hide it: the one of least
+     * angle */
     const fl_vec3 far = p->v[loop[corner]];
     double angle = INFINITY;
     int32_t hiding = corner;

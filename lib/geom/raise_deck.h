@@ -4,8 +4,8 @@
  * Panels of hydrodynamics end at the water.  The rims at the top of a surface, edges of one triangle of which
  * both ends lie within FL_DECK_FLAT of the box below its highest point, are raised by H: walls H high, and a
  * flat deck on them.  A rim within a rim is a hole in the deck (a moonpool), one within that a deck again.
- * Where the top is at z = 0, triangles that lie there, lids of the waterline, are left out first.  Other open edges stay.
- * The volume added is H times the area within the rims, that of the holes taken off. */
+ * Where the top is at z = 0, triangles that lie there, lids of the waterline, are left out first.  Other
+ * open edges stay. The volume added is H times the area within the rims, that of the holes taken off. */
 #ifndef FL_GEOM_RAISE_DECK_H
 #define FL_GEOM_RAISE_DECK_H
 #include "geom/surface.h"

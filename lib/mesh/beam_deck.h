@@ -5,8 +5,8 @@
  *   surface   a round member is the solid cone of the outer radii of its ends, a rectangular one a prism of
  *             the two outlines; other sections have no outline and are counted
  *   frame     members with their walls and materials (frame_model.h).  A taper becomes FL_BEAM_STEPS
- *             cylinders of the diameters and walls at their middles, an error of second order in their length.
- *             Offsets are counted: in a frame members run from node to node
+ *             cylinders of the diameters and walls at their middles, an error of second order in their
+ *             length. Offsets are counted: in a frame members run from node to node
  * A member or plate belongs to the smallest of the sets that hold it; else to the part its reader gives; else
  * to one of its size: "D_1.2", "10x5", "cones" for a taper, "plates", "solids". */
 #ifndef FL_MESH_BEAM_DECK_H
@@ -84,8 +84,8 @@ int fl_beam_deck_mass(fl_beam_deck *k, int64_t node, double mass, fl_err *err);
 /* Counts what is not carried over, by kind.  -1 with FL_SYSTEM. */
 int fl_beam_deck_skip(fl_beam_deck *k, const char *kind, fl_err *err);
 
-/* Makes the surface, or fills the frame.  -1 with FL_INPUT (a member with an unknown node, without a length or
- * with a diameter that is not above 0: the line of the member) or FL_SYSTEM. */
+/* Makes the surface, or fills the frame.  -1 with FL_INPUT (a member with an unknown node, without a length
+ * or with a diameter that is not above 0: the line of the member) or FL_SYSTEM. */
 int fl_beam_deck_finish(fl_beam_deck *k, fl_surface *s, fl_err *err);
 void fl_beam_deck_free(fl_beam_deck *k); /* accepts a zeroed struct, leaves one */
 

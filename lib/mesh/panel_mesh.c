@@ -45,7 +45,7 @@ int32_t fl_panel_mesh_find(const fl_panel_mesh *m, int32_t scope, int64_t id)
 int fl_panel_mesh_add(fl_panel_mesh *m, int32_t body, const int32_t v[4], fl_err *err)
 {
     if (fl_grow(&m->panel, &m->panel_cap, (int64_t)m->panels + 1, sizeof *m->panel, err)) return -1;
-    m->panel[m->panels++] = (fl_panel){{v[0], v[1], v[2], v[3]}, body, m->b->line};
+    m->panel[m->panels++] = (fl_hull_panel){{v[0], v[1], v[2], v[3]}, body, m->b->line};
     return 0;
 }
 
@@ -124,7 +124,7 @@ int fl_panel_head_words(const char *line, int most, char word[][FL_PANEL_WORD])
 static double plane_distance(fl_vec3 x, int axis) { return axis == 0 ? x.x : x.y; }
 
 /* Range of a panel across a plane. */
-static void panel_range(const fl_panel_mesh *m, const fl_panel *p, int axis, double *lo, double *hi)
+static void panel_range(const fl_panel_mesh *m, const fl_hull_panel *p, int axis, double *lo, double *hi)
 {
     *lo = INFINITY, *hi = -INFINITY;
     for (int k = 0; k < 4 && p->v[k] >= 0; k++) {
@@ -139,7 +139,7 @@ static int count_images(const fl_panel_mesh *m, int32_t body, double tol, int64_
     double least[2] = {0.0}, most[2] = {0.0};
     *all = 0;
     for (int32_t i = 0; i < m->panels; i++) {
-        const fl_panel *p = &m->panel[i];
+        const fl_hull_panel *p = &m->panel[i];
         int images = 1;
         if (p->body != body) continue;
         for (int axis = 0; axis < 2; axis++) {
@@ -164,7 +164,7 @@ static int count_images(const fl_panel_mesh *m, int32_t body, double tol, int64_
 }
 
 /* The corners of a panel without those that repeat another one, by number or by position. */
-static int distinct_corners(const fl_panel_mesh *m, const fl_panel *p, int32_t loop[4])
+static int distinct_corners(const fl_panel_mesh *m, const fl_hull_panel *p, int32_t loop[4])
 {
     int n = 0;
     for (int k = 0; k < 4 && p->v[k] >= 0; k++) {

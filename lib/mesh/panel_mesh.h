@@ -15,12 +15,12 @@ enum { FL_PLANE_X = 1, FL_PLANE_Y = 2 }; /* x = 0, y = 0: bits */
 typedef struct {
     int32_t v[4]; /* vertices; of a triangle v[3] is -1 */
     int32_t body, line;
-} fl_panel;
+} fl_hull_panel;
 
 typedef struct {
     fl_bytes *b; /* borrowed */
     fl_vec3 *x;  /* [vertices] */
-    fl_panel *panel;
+    fl_hull_panel *panel;
     fl_string_table body;
     int8_t *planes;     /* [body.n] planes of symmetry */
     fl_id_map node;     /* numbered nodes */
@@ -55,7 +55,7 @@ int fl_panel_point(const fl_bytes *b, int32_t k, fl_vec3 *x, fl_err *err);
 int fl_panel_is_integer(const char *word, int64_t *x);
 int fl_panel_is_real(const char *word, double *x);
 
-/* Words of a line in memory: copies up to `most` into word, returns their count (most + 1: there are more). */
+/* Words of a line in memory: copies up to `most` into word; returns their count, most + 1 for more. */
 enum { FL_PANEL_WORD = 32 };
 int fl_panel_head_words(const char *line, int most, char word[][FL_PANEL_WORD]);
 

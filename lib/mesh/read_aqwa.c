@@ -178,7 +178,7 @@ static int32_t open_edges_in_plane(const aqwa_reader *r, int32_t body, int axis,
     for (int32_t v = 0; v < m->vertices; v++) box = aabb_add(box, m->x[v]);
     const double tol = 1e-6 * v3_norm(v3_sub(box.hi, box.lo));
     for (int32_t i = 0; i < m->panels; i++) {
-        const fl_panel *p = &m->panel[i];
+        const fl_hull_panel *p = &m->panel[i];
         const int corners = p->v[3] < 0 ? 3 : 4;
         for (int k = 0; k < corners && p->body == body; k++) {
             const int32_t a = p->v[k], b = p->v[(k + 1) % corners];

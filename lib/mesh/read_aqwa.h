@@ -10,7 +10,8 @@
 int fl_aqwa_is(const fl_bytes *b);
 
 /* Add the bodies to s, a part for each ELM card with the name behind it.
- *   COOR   7-10 STRC and its number, then its nodes: 7-11 number, 21-30 31-40 41-50 x y z, blank is 0; END in 2-4
+ *   COOR   7-10 STRC and its number, then its nodes: 7-11 number, 21-30 31-40 41-50 x y z, blank is 0; END
+ *          in 2-4
  *   ELMn   7-10 QPPL, TPPL: (1)(n1)(n2)(n3)(n4) behind column 15; other elements are counted; END
  *   SYMX and SYMY, both: x = 0 and y = 0; one of them: the plane that holds an open rim of the hull, and if
  *   that is not one plane the file is refused

@@ -54,8 +54,8 @@ static void base_name(const char *path, char name[NAME_MAX])
     name[len] = '\0';
 }
 
-/* Order of trust: a format whose files cannot be mistaken for another comes first. Lines that begin with * look
- * like Abaqus and are comments in others, so it stands behind them. */
+/* Order of trust: a format whose files cannot be mistaken for another comes first. Lines that begin with *
+ * look like Abaqus and are comments in others, so it stands behind them. */
 const fl_mesh_format FL_MESH_FORMATS[] = {
     {"Gmsh", "Gmsh", fl_msh_is, fl_msh_read, 0, 1, "MSH 2 and 4.1: shells, solids", "points, lines",
      "versions 1 and 4.0"},

@@ -380,6 +380,10 @@ int fl_openfast_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_opt
     int rc = -1;
     if (fl_beam_deck_start(&r.k, b, opt, err)) return -1;
     if (read_tables(&r, err) || finish_members(&r, err)) goto done;
+    if (r.k.beams == 0 && r.k.e.node_id.n == 0) {
+        fl_bytes_fail(b, err, "no members: a body of potential flow has panels, as a WAMIT .gdf");
+        goto done;
+    }
     if (r.down != 0.0)
         fl_bytes_note(b, "z is from mean sea level and was moved by %g to still water (MSL2SWL)", -r.down);
     if (r.growth) fl_bytes_note(b, "marine growth is not added to the diameters");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* read_openfast.h -- input files of SubDyn and HydroDyn, modules of OpenFAST, in their old and new layouts. */
+/* read_openfast.h -- input files of SubDyn and HydroDyn of OpenFAST, in their old and new layouts. */
 #ifndef FL_MESH_READ_OPENFAST_H
 #define FL_MESH_READ_OPENFAST_H
 #include "geom/surface.h"
@@ -18,10 +18,10 @@ int fl_openfast_is(const fl_bytes *b);
  *   XsecSa XsecSb, XsecA XsecB, PropA PropB rectangles: side A is horizontal, of an upright member along x,
  *                                           both turned by MSpin degrees about the member
  *   XsecAsx ...                             constants of any section: no outline; a frame takes them
- * The diameter is linear from the first section to the second.  Words behind ! or # in a row of a section name
- * the part of its members, of a taper the first section does.  Cables, rigid links and springs are counted.
- * NReact holds joints of a frame, NCmass gives them masses.  Coordinates of HydroDyn move down by MSL2SWL;
- * marine growth is not added, and a remark says so.
+ * The diameter is linear from the first section to the second.  Words behind ! or # in a row of a section
+ * name the part of its members, of a taper the first section does.  Cables, rigid links and springs are
+ * counted. NReact holds joints of a frame, NCmass gives them masses.  Coordinates of HydroDyn move down by
+ * MSL2SWL; marine growth is not added, and a remark says so.
  * Source: OpenFAST documentation, SubDyn and HydroDyn, input files.
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err; s may then have new parts. */
 int fl_openfast_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);

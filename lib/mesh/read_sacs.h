@@ -22,8 +22,9 @@ int fl_sacs_is(const fl_bytes *b);
  *   PLATE    12-27 three or four joints
  *   OPTIONS  14-15 MN, ME metric; EN feet and inches, which become metres
  *   LDOPT    25-32 density of steel
- * END ends the file; * is a comment; a bare word is a heading; all else is ignored.  Members of a joint that is
- * not there, and of a section of a library, are counted.  The name of its group is the part of a member.
+ * END ends the file; * is a comment; a bare word is a heading; all else is ignored.  Members of a joint
+ * that is not there, and of a section of a library, are counted.  The name of its group is the part of a
+ * member.
  * Source: SACS Precede and IV User's Manuals, input line formats.
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err; s may then have new parts. */
 int fl_sacs_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);

@@ -10,8 +10,8 @@
 int fl_salome_dat_is(const fl_bytes *b);
 
 /* Add the triangles and quadrilaterals to s: NN NE; rows "id x y z"; rows "id type nodes" with type 203 of
- * triangles and 204 of quadrilaterals, 206 and 208 of those with mid-side nodes, which are left out.  Lines (102)
- * and other types are counted.
+ * triangles and 204 of quadrilaterals, 206 and 208 of those with mid-side nodes, which are left out.  Lines
+ * (102) and other types are counted.
  * Source: Salome, documentation of module Mesh, export to DAT.
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err; s may then have new parts. */
 int fl_salome_dat_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);

@@ -12,8 +12,8 @@ int fl_sesam_is(const fl_bytes *b);
 /* Add the members, plates and solids of the file to s, or its members to the frame of opt.
  *
  * A record is a name in columns 1 to 8 and numbers in columns of 16 from column 9 on; lines with blanks in
- * columns 1 to 8 continue it.  Fields that are not there are 0.  Lines of text behind TD..., DATE and TEXT are
- * not records, whatever they look like.  Read are
+ * columns 1 to 8 continue it.  Fields that are not there are 0.  Lines of text behind TD..., DATE and TEXT
+ * are not records, whatever they look like.  Read are
  *   GCOORD, GELMNT1, GELREF1, GECCEN, GUNIVEC        elements with sections, offsets and axes
  *   GPIPE, GBOX, GBARM                               outer diameter; outer sides
  *   GIORH GUSYI GCHAN GLSEC GTONP GDOBO and GBEAMG   no outline; a frame takes the constants of GBEAMG

@@ -6,7 +6,8 @@
 #include "mesh/bytes.h"
 #include "mesh/import_options.h"
 
-/* True if the first line with words is -1 alone and a later one, behind another -1, the number 2411 or 2412. */
+/* True if the first line with words is -1 alone and a later one, behind another -1, the number 2411 or
+ * 2412. */
 int fl_unv_is(const fl_bytes *b);
 
 /* Add the shells and solids of the file to s.  A dataset stands between lines of -1, its number first:

@@ -11,8 +11,8 @@ int fl_usfos_is(const fl_bytes *b);
 
 /* Add the members and plates of the file to s, or its members to the frame of opt.
  *
- * A record is a keyword, of any case, and words behind it, also on lines that begin with a number; what stands
- * behind ' is comment.  Read are
+ * A record is a keyword, of any case, and words behind it, also on lines that begin with a number; what
+ * stands behind ' is comment.  Read are
  *   NODE id x y z [6 codes]                             codes hold a node of a frame
  *   BEAM id n1 n2 material geometry [lcoor [ecc1 ecc2]] 0: none
  *   PIPE id D T [shear shear [D at end 2]]

@@ -310,6 +310,8 @@ static void bad_members_are_refused_with_their_line(void **state)
               "1 2 3\nENDPANEL\n")
             .triangles,
         1);
+    refuses("HydroDyn\n0 NJoints\nid x y z\n-\n0 NMembers\na\n-\n",
+            "no members: a body of potential flow has panels");
     refuses(SUBDYN("1 1 9 1 1", PIPE), "deck:11: member 1 ends at node 9, which is not defined");
     refuses(SUBDYN("1 1 2 1 4", PIPE), "deck:11: member 1 has circular section 4, which is not defined");
     refuses(SUBDYN("1 2 3 1 1", PIPE), "deck:11: member 1 has no length");
