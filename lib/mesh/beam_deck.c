@@ -306,6 +306,54 @@ done:
 
 /* --- frame ---------------------------------------------------------------------------------------------- */
 
+/* The node that stands for node v of the deck, where short members made several one. */
+static int32_t common_node(const fl_beam_deck *k, int32_t v)
+{
+    while (k->same[v] != v) v = k->same[v];
+    return v;
+}
+
+/* Makes the ends of very short members one node: of a chain of stiff stubs the equations of the frame would be
+ * ill conditioned.  Nodes that become one lie within the same bound of the first of them. */
+static int join_short_members(fl_beam_deck *k, fl_err *err)
+{
+    k->same = fl_alloc(k->e.node_id.n, sizeof *k->same, err);
+    if (!k->same) return -1;
+    for (int32_t v = 0; v < k->e.node_id.n; v++) k->same[v] = v;
+    for (int32_t i = 0; i < k->beams; i++) {
+        const fl_beam *b = &k->beam[i];
+        const fl_beam_section *p = &k->section[b->section[0]];
+        int32_t v[2];
+        for (int s = 0; s < 2; s++) {
+            v[s] = fl_id_map_find(&k->e.node_id, b->scope[s], b->node[s]);
+            v[s] = v[s] < 0 || isnan(k->e.x[v[s]].x) ? -1 : common_node(k, v[s]);
+        }
+        if (p->form != FL_FRAME_PIPE || v[0] < 0 || v[1] < 0 || v[0] == v[1]) continue;
+        if (v3_norm(v3_sub(k->e.x[v[1]], k->e.x[v[0]])) < FL_BEAM_SHORT * p->size[0])
+            k->same[v[0] > v[1] ? v[0] : v[1]] = v[0] > v[1] ? v[1] : v[0];
+    }
+    return 0;
+}
+
+/* Supports and masses of nodes that became another one. */
+static int move_supports(fl_beam_deck *k, fl_err *err)
+{
+    for (int32_t i = 0; i < k->frame->node_id.n; i++) {
+        const fl_frame_node n = k->frame->node[i];
+        const int32_t scope = k->frame->node_id.scope[i];
+        const int32_t v = scope > 1 ? -1 : fl_id_map_find(&k->e.node_id, scope, k->frame->node_id.id[i]);
+        const int32_t to = v < 0 ? v : common_node(k, v);
+        if (to == v || (n.fixed == 0 && n.mass == 0.0)) continue;
+        const int32_t at = fl_frame_node_of(k->frame, k->e.node_id.scope[to], k->e.node_id.id[to], err);
+        if (at < 0) return -1;
+        k->frame->node[at].fixed |= n.fixed;
+        k->frame->node[at].mass += n.mass;
+        k->frame->node[i].fixed = 0;
+        k->frame->node[i].mass = 0.0;
+    }
+    return 0;
+}
+
 static int32_t frame_node(fl_beam_deck *k, int32_t scope, int64_t id, fl_vec3 x, fl_err *err)
 {
     const int32_t at = fl_frame_node_of(k->frame, scope, id, err);
@@ -381,14 +429,23 @@ static int frame_beam(fl_beam_deck *k, const fl_beam *b, fl_err *err)
     if (steps > 1) fl_frame_count_skipped(f, "tapers; %d steps each are taken", FL_BEAM_STEPS);
     if (b->node[2] > 0) fl_frame_count_skipped(f, "middles of curved members, which run straight");
     beam_axes(b, x, &y, &z);
-    int32_t from = frame_node(k, b->scope[0], b->node[0], x[0], err);
+    int32_t end[2];
+    for (int s = 0; s < 2; s++) {
+        end[s] = common_node(k, fl_id_map_find(&k->e.node_id, b->scope[s], b->node[s]));
+        x[s] = k->e.x[end[s]];
+    }
+    if (end[0] == end[1])
+        return fl_frame_count_skipped(f, "members shorter than %g of their diameter, whose ends are one node",
+                                      FL_BEAM_SHORT);
+    int32_t from = frame_node(k, k->e.node_id.scope[end[0]], k->e.node_id.id[end[0]], x[0], err);
     const int32_t part = frame_part(k, b, err);
     for (int step = 0; step < steps; step++) {
         const int last = step == steps - 1;
         const fl_vec3 at = v3_madd(x[0], (step + 1.0) / steps, v3_sub(x[1], x[0]));
         const int32_t scope = steps > 1 ? b->piece * FL_BEAM_STEPS + step + 1 : b->piece;
-        const int32_t to = last ? frame_node(k, b->scope[1], b->node[1], x[1], err)
-                                : frame_node(k, scope + 1, b->id, at, err);
+        const int32_t to = last
+                               ? frame_node(k, k->e.node_id.scope[end[1]], k->e.node_id.id[end[1]], x[1], err)
+                               : frame_node(k, scope + 1, b->id, at, err);
         const int32_t section = frame_section(k, b, step, steps, err);
         const int32_t i = fl_frame_element_of(f, scope, b->id, err);
         if (from < 0 || to < 0 || part < 0 || section < 0 || i < 0) return -1;
@@ -407,7 +464,7 @@ static int frame_beam(fl_beam_deck *k, const fl_beam *b, fl_err *err)
 
 static int make_frame(fl_beam_deck *k, fl_err *err)
 {
-    if (sort_sets(k, err)) return -1;
+    if (sort_sets(k, err) || join_short_members(k, err)) return -1;
     for (int32_t i = 0; i < k->beams; i++)
         if (frame_beam(k, &k->beam[i], err)) return -1;
     for (int32_t i = 0; i < k->e.element_id.n; i++)
@@ -418,7 +475,7 @@ static int make_frame(fl_beam_deck *k, fl_err *err)
         k->frame->node[i].x = k->e.x[at];
         k->frame->node[i].defined = 1;
     }
-    return 0;
+    return move_supports(k, err);
 }
 
 int fl_beam_deck_finish(fl_beam_deck *k, fl_surface *s, fl_err *err)
@@ -436,5 +493,6 @@ void fl_beam_deck_free(fl_beam_deck *k)
     free(k->entry);
     free(k->set_is_part);
     free(k->set_size);
+    free(k->same);
     *k = (fl_beam_deck){0};
 }

@@ -6,7 +6,8 @@
  *             the two outlines; other sections have no outline and are counted
  *   frame     members with their walls and materials (frame_model.h).  A taper becomes FL_BEAM_STEPS
  *             cylinders of the diameters and walls at their middles, an error of second order in their
- *             length. Offsets are counted: in a frame members run from node to node
+ *             length. Offsets are counted: in a frame members run from node to node. Members shorter than
+ *             FL_BEAM_SHORT of their diameter make their nodes one
  * A member or plate belongs to the smallest of the sets that hold it; else to the part its reader gives; else
  * to one of its size: "D_1.2", "10x5", "cones" for a taper, "plates", "solids". */
 #ifndef FL_MESH_BEAM_DECK_H
@@ -17,6 +18,7 @@
 #include "mesh/import_options.h"
 
 enum { FL_BEAM_STEPS = 4, FL_BEAM_NAME = 64 };
+#define FL_BEAM_SHORT 0.01 /* of the diameter: a member of a frame shorter than that joins its nodes */
 
 /* A cross-section; lengths and moduli in the unit of the deck. */
 typedef struct {
@@ -58,6 +60,7 @@ typedef struct {
         int64_t element;
     } * entry;
     int8_t *set_is_part; /* [set_name.n] 0: a set to ask for only */
+    int32_t *same;       /* [e.node_id.n] of a frame: the node that stands for this one */
     int32_t *set_size;   /* [set_name.n] its elements, once they are sorted */
     int32_t beams, beam_cap, sections, section_cap, entries, entry_cap, set_cap;
     int32_t tapers, prisms, made_nodes, offsets;

@@ -45,7 +45,7 @@ typedef struct {
         plate_cap;
     double length, small;        /* metres in a unit of coordinates, and of sizes; 0: not known */
     double stress, density, rho; /* Pa in a unit of moduli, kg/m3 in one of densities */
-    int32_t local_offsets, first_joint;
+    int32_t local_offsets, pile_heads;
 } sacs_reader;
 
 /* --- columns -------------------------------------------------------------------------------------------- */
@@ -154,6 +154,10 @@ static int sacs_joint(sacs_reader *r, fl_err *err)
         x[k] = r->length * x[k] + r->small * more;
     }
     for (int k = 0; fixity[k]; k++) fixed |= (fixity[k] == '1') << k;
+    if (strcmp(fixity, "PILEHD") == 0) {
+        fixed = 63;
+        r->pile_heads++;
+    }
     const int64_t id = joint_number(r, name, err);
     if (id < 1 || fl_elements_add_node(&r->k.e, 0, id, v3(x[0], x[1], x[2]), err) < 0) return -1;
     return fl_beam_deck_hold(&r->k, id, fixed & 63, err);
@@ -420,6 +424,7 @@ int fl_sacs_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options
         if (place_plate(&r, &r.plate[i], (int64_t)r.members + i + 1, err)) goto done;
     if (r.local_offsets)
         fl_bytes_note(b, "offsets of %d members are in local axes and were ignored", r.local_offsets);
+    if (r.pile_heads && r.k.frame) fl_bytes_note(b, "%d pile heads are clamped", r.pile_heads);
     rc = fl_beam_deck_finish(&r.k, s, err);
 done:
     fl_beam_deck_free(&r.k);

@@ -12,7 +12,7 @@ int fl_sacs_is(const fl_bytes *b);
 /* Add the members and plates of the file to s, or its members to the frame of opt.  Lines are of 80 columns,
  * counted from 1:
  *   JOINT    7-10 name; 12-18 19-25 26-32 coordinates [m, ft], 33-39 40-46 47-53 what is added [cm, in];
- *            55-60 fixity of a frame, ELASTI a spring, which is passed over
+ *            55-60 fixity of a frame, PILEHD is clamped, ELASTI a spring, which is passed over
  *   MEMBER   8-11 12-15 joints, 17-19 group; 7 says whether the next line has offsets in global (1) or local
  *            (2) axes; MEMBER OFFSETS 36-53, 54-71 three each.  Local ones are ignored, with a remark
  *   GRUP     6-8 name, 9 taper, 10-16 section, or 18-23 outer diameter and 24-29 wall; 31-35 36-40 E and G;

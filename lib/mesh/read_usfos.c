@@ -268,11 +268,14 @@ static int usfos_general(usfos_reader *r, fl_err *err)
     return usfos_section(r, id, &s, 0.0, err);
 }
 
+/* MISOIEP id E nu fy rho; MATERIAL id Elastic E nu fy rho. */
 static int usfos_material(usfos_reader *r, fl_err *err)
 {
+    const int worded = strcasecmp(word_at(r, 0), "MATERIAL") == 0, at_e = 2 + worded;
     int64_t id;
     double x[4] = {0};
-    if (id_at(r, 1, 1, &id, err) || reals_at(r, 2, r->words > 5 ? 4 : 2, x, err)) return -1;
+    if (worded && strcasecmp(word_at(r, 2), "Elastic") != 0) return 0;
+    if (id_at(r, 1, 1, &id, err) || reals_at(r, at_e, r->words > 3 + at_e ? 4 : 2, x, err)) return -1;
     const int32_t at = fl_id_map_add(&r->material_id, 0, id, err);
     if (at < 0 || fl_grow(&r->material, &r->material_cap, (int64_t)at + 1, sizeof *r->material, err))
         return -1;
@@ -350,11 +353,11 @@ static int usfos_eccent(usfos_reader *r, fl_err *err)
 static const struct {
     const char *word;
     int (*read)(usfos_reader *r, fl_err *err);
-} RECORD[] = {{"NODE", usfos_node},       {"BEAM", usfos_beam},          {"PIPE", usfos_pipe},
-              {"BOX", usfos_box},         {"IHPROFIL", usfos_profile},   {"GENBEAM", usfos_general},
-              {"QUADSHEL", usfos_quad},   {"TRISHELL", usfos_triangle},  {"ECCENT", usfos_eccent},
-              {"UNITVEC", usfos_unitvec}, {"MISOIEP", usfos_material},   {"NODEMASS", usfos_mass},
-              {"Name", usfos_name},       {"GroupDef", usfos_members_of}};
+} RECORD[] = {{"NODE", usfos_node},       {"BEAM", usfos_beam},         {"PIPE", usfos_pipe},
+              {"BOX", usfos_box},         {"IHPROFIL", usfos_profile},  {"GENBEAM", usfos_general},
+              {"QUADSHEL", usfos_quad},   {"TRISHELL", usfos_triangle}, {"ECCENT", usfos_eccent},
+              {"UNITVEC", usfos_unitvec}, {"MISOIEP", usfos_material},  {"MATERIAL", usfos_material},
+              {"NODEMASS", usfos_mass},   {"Name", usfos_name},         {"GroupDef", usfos_members_of}};
 
 /* --- references ----------------------------------------------------------------------------------------- */
 

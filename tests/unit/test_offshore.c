@@ -10,6 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "geom/weld.h"
+#include "mesh/frame_model.h"
 #include "support/decks.h"
 
 static const double ANSWER = 1e-8; /* of its size: digits of the answers that came with the files */
@@ -193,6 +194,27 @@ static void unv_has_its_shells_and_solids(void **state)
     refuses("    -1\n  2411\n 1 1 1 11\n 0 0 x\n    -1\n", "deck:4: a coordinate of node 1 is \"x\"");
     refuses("    -1\n  2412\n 1 91 1 1 7 3\n    -1\n", "deck:4: the dataset ends within a record");
     refuses("    -1\n  2412\n 1 91 1 1 7 99\n    -1\n", "deck:3: element 1 has 99 nodes");
+}
+
+/* A millimetre between two metres: of a frame its nodes are one, and what holds them goes along. */
+static void short_members_join_their_nodes(void **state)
+{
+    (void)state;
+    static const char deck[] = "SubDyn\n4 NJoints\nid x y z\n-\n1 0 0 -9\n2 0 0 -8\n3 0 0 -7.999\n4 0 0 1\n3 "
+                               "NMembers\nMemberID a b p q\n-\n"
+                               "1 1 2 1 1\n2 2 3 1 1\n3 3 4 1 1\n1 NPropSets\nid YoungE ShearG MatDens XsecD "
+                               "XsecT\n-\n1 2e11 8e10 7850 2 .1\n"
+                               "1 NReact\nid\n-\n1 1 1 1 1 1 1\n1 NCmass\nid\n-\n3 500\n";
+    fl_frame_model f = {0};
+    fl_import_options w = {.frame = &f};
+    if (read_some(deck, &w)) fail_msg("%s", err.text);
+    assert_int_equal(f.element_id.n, 2);
+    assert_int_equal(f.element[0].node[1], f.element[1].node[0]);
+    near_answer("mass", f.node[f.element[0].node[1]].mass, 500.0);
+    assert_int_equal(f.node[f.element[0].node[0]].fixed, 63);
+    assert_string_equal(f.skipped_name.name[0],
+                        "members shorter than 0.01 of their diameter, whose ends are one node");
+    fl_frame_model_free(&f);
 }
 
 /* --- panels --------------------------------------------------------------------------------------------- */
@@ -405,6 +427,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(usfos_and_sacs_have_their_members, setup, clear),
         cmocka_unit_test_setup_teardown(genie_has_its_beams, setup, clear),
         cmocka_unit_test_setup_teardown(unv_has_its_shells_and_solids, setup, clear),
+        cmocka_unit_test_setup_teardown(short_members_join_their_nodes, setup, clear),
         cmocka_unit_test_setup_teardown(hulls_have_their_panels, setup, clear),
         cmocka_unit_test_setup_teardown(aqwa_knows_its_structures, setup, clear),
         cmocka_unit_test_setup_teardown(aqwa_finds_its_plane, setup, clear),
