@@ -313,8 +313,8 @@ static int32_t common_node(const fl_beam_deck *k, int32_t v)
     return v;
 }
 
-/* Makes the ends of very short members one node: of a chain of stiff stubs the equations of the frame would be
- * ill conditioned.  Nodes that become one lie within the same bound of the first of them. */
+/* Makes the ends of very short members one node: of a chain of stiff stubs the equations of the frame would
+ * be ill conditioned.  Nodes that become one lie within the same bound of the first of them. */
 static int join_short_members(fl_beam_deck *k, fl_err *err)
 {
     k->same = fl_alloc(k->e.node_id.n, sizeof *k->same, err);

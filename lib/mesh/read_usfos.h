@@ -20,7 +20,8 @@ int fl_usfos_is(const fl_bytes *b);
  *   IHPROFIL, GENBEAM                                   no outline; a frame takes their constants
  *   QUADSHEL id n1..n4 .., TRISHELL id n1..n3 ..
  *   ECCENT id ex ey ez                                  added to the end, in global axes
- *   UNITVEC, MISOIEP, MATERIAL id Elastic, NODEMASS; Name Group, GroupDef    an element belongs to the smallest of its groups
+ *   UNITVEC, MISOIEP, MATERIAL id Elastic, NODEMASS; Name Group, GroupDef    an element belongs to the
+ *   smallest of its groups
  * and all else is ignored.  Source: USFOS User's Manual, input description.
  * Returns 0, or -1 with FL_INPUT or FL_SYSTEM in err; s may then have new parts. */
 int fl_usfos_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options *opt, fl_err *err);
