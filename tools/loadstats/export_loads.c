@@ -6,6 +6,7 @@
 #include "base/stream.h"
 #include "base/tool.h"
 #include "stat/uniform_step.h"
+#include "run_end.h"
 #include "stat/series.h"
 
 enum { LOADS = 6 };
@@ -58,7 +59,7 @@ int export_loads(const struct options *o, fl_err *err)
     fl_out out = {0};
     fl_history_line by;
     fl_resampling_loss loss[LOADS];
-    char step[FL_NUMBER_LEN];
+    char step[FL_NUMBER_LEN], text[RUN_END_NOTE];
     int rc = -1;
     if (fl_series_read(&s, o->in, &selection, err)) return -1;
     if (o->step > 0.0 && fl_resample_uniform(&s, o->step, loss, err)) goto done;
@@ -70,6 +71,9 @@ int export_loads(const struct options *o, fl_err *err)
     write_head(out.f, &s, s.part[0], &by);
     write_rows(out.f, &s, 0);
     rc = fl_out_close(&out, err);
+    if (rc == 0 && s.end != FL_RUN_ENDED)
+        fprintf(stderr, "loadstats: warning: %s: %s\n", strcmp(o->in, "-") ? o->in : "<stdin>",
+                run_end_text(s.end, s.why, text));
     if (rc == 0 && !o->quiet)
         fprintf(stderr, "%d rows of part %s from %.10g s to %.10g s\n", s.n + 2, s.part[0], s.edge[0],
                 s.edge[s.n]);
