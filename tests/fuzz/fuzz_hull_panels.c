@@ -2,4 +2,4 @@
 #include "support/fuzz.h"
 #include "support/mesh.h"
 
-int main(int argc, char **argv) { return fuzz_main(argc, argv, "hull_panels", mesh_fuzz_all); }
+int main(int argc, char **argv) { return fuzz_main(argc, argv, "hull_panels", mesh_fuzz_hulls); }
