@@ -16,8 +16,10 @@ typedef struct {
     fl_frame_material *material; /* [material_id.n] */
     fl_vec3 *vector, *offset;    /* [vector_id.n], [offset_id.n] */
     int32_t *group;              /* [group_id.n] set of the deck */
+    fl_id_map ready_id;          /* pairs of geometry and material */
+    int32_t *ready;              /* [2 ready_id.n] their sections */
     int32_t *end_two; /* [sections] section of the second end of a pipe, the same without a taper */
-    int32_t material_cap, vector_cap, offset_cap, group_cap, end_cap;
+    int32_t material_cap, vector_cap, offset_cap, group_cap, end_cap, ready_cap;
     struct usfos_refs {
         int64_t material, vector, offset[2], geometry;
     } * refs; /* [beams] */
@@ -361,6 +363,30 @@ static const struct {
 
 /* --- references ----------------------------------------------------------------------------------------- */
 
+/* The sections of both ends of geometry g with a material: each pair of the two is made once. */
+static int sections_with(usfos_reader *r, int32_t g, int64_t geometry, int64_t material, int32_t section[2],
+                         fl_err *err)
+{
+    const int32_t m = fl_id_map_find(&r->material_id, 0, material);
+    const int32_t had = r->ready_id.n, at = fl_id_map_add(&r->ready_id, g, m < 0 ? 0 : material, err);
+    if (at < 0 || fl_grow(&r->ready, &r->ready_cap, 2 * ((int64_t)at + 1), sizeof *r->ready, err)) return -1;
+    for (int s = 0; at == had && s < 2; s++) {
+        fl_beam_section made = r->k.section[r->end_two[2 * g + s]];
+        if (m >= 0) {
+            made.material = r->material[m];
+            snprintf(made.name, sizeof made.name, "g%lld_m%lld%s", (long long)geometry, (long long)material,
+                     s && r->end_two[2 * g] != r->end_two[2 * g + 1] ? "_end" : "");
+        }
+        r->ready[2 * at + s] = s && r->end_two[2 * g] == r->end_two[2 * g + 1]
+                                   ? r->ready[2 * at]
+                                   : fl_beam_deck_section(&r->k, &made, err);
+        if (r->ready[2 * at + s] < 0) return -1;
+    }
+    section[0] = r->ready[2 * at];
+    section[1] = r->ready[2 * at + 1];
+    return 0;
+}
+
 static int find_refs(usfos_reader *r, int32_t i, fl_err *err)
 {
     fl_beam *b = &r->k.beam[i];
@@ -370,21 +396,7 @@ static int find_refs(usfos_reader *r, int32_t i, fl_err *err)
         return fl_elements_fail(&r->k.e, b->file, b->line, err,
                                 "member %lld has geometry %lld, which is not defined", (long long)b->id,
                                 (long long)refs->geometry);
-    b->section[0] = r->end_two[2 * g];
-    b->section[1] = r->end_two[2 * g + 1];
-    const int32_t m = fl_id_map_find(&r->material_id, 0, refs->material);
-    for (int s = 0; s < 2 && m >= 0; s++) {
-        fl_frame_material *of = &r->k.section[b->section[s]].material;
-        if (of->e > 0.0 && of->e != r->material[m].e) { /* the same section of another material */
-            fl_beam_section other = r->k.section[b->section[s]];
-            other.material = r->material[m];
-            snprintf(other.name, sizeof other.name, "g%lld_m%lld%s", (long long)refs->geometry,
-                     (long long)refs->material, s ? "_end" : "");
-            if ((b->section[s] = fl_beam_deck_section(&r->k, &other, err)) < 0) return -1;
-        } else {
-            *of = r->material[m];
-        }
-    }
+    if (sections_with(r, g, refs->geometry, refs->material, b->section, err)) return -1;
     const int32_t v = fl_id_map_find(&r->vector_id, 0, refs->vector);
     if (v >= 0) b->across = r->vector[v];
     for (int s = 0; s < 2; s++) {
@@ -420,7 +432,8 @@ done:
     fl_id_map_free(&r.vector_id);
     fl_id_map_free(&r.offset_id);
     fl_id_map_free(&r.group_id);
+    fl_id_map_free(&r.ready_id);
     free(r.text), free(r.at), free(r.material), free(r.vector), free(r.offset), free(r.group);
-    free(r.end_two), free(r.refs);
+    free(r.end_two), free(r.refs), free(r.ready);
     return rc;
 }
