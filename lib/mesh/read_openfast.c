@@ -134,6 +134,9 @@ static int read_joint(openfast_reader *r, fl_err *err)
     if (get_id(r, 0, "the joint", &id, err)) return -1;
     for (int c = 0; c < 3; c++)
         if (get_real(r, c + 1, "a coordinate of the joint", &x[c], err)) return -1;
+    const int type = find_column_named(r, "JointType");
+    if (type >= 0 && type < r->words && strcmp(r->word[type], "1") != 0 && r->k.frame)
+        fl_frame_count_skipped(r->k.frame, "releases of joints of type %.10s", r->word[type]);
     return fl_elements_add_node(&r->k.e, 0, id, v3(x[0], x[1], x[2] - r->down), err) < 0 ? -1 : 0;
 }
 

@@ -258,6 +258,13 @@ static int sacs_add_plate(sacs_reader *r, fl_err *err)
     return 0;
 }
 
+/* Of a frame a line that is not read is counted by its first word, but for headings and titles. */
+static void count_line(sacs_reader *r, const char *p)
+{
+    const int n = (int)strcspn(p, " ");
+    if (r->k.frame && n > 0 && p[n] != '\0') fl_frame_count_skipped(r->k.frame, "%.*s", n < 8 ? n : 8, p);
+}
+
 /* Reads the lines up to END. */
 static int read_sacs_lines(sacs_reader *r, fl_err *err)
 {
@@ -274,6 +281,7 @@ static int read_sacs_lines(sacs_reader *r, fl_err *err)
         else if (begins(p, "GRUP") && r->k.d.len > 5) bad = sacs_group(r, err);
         else if (begins(p, "SECT") && r->k.d.len > 5) bad = sacs_section(r, err);
         else if (begins(p, "PLATE") && r->k.d.len > 6) bad = sacs_add_plate(r, err);
+        else count_line(r, p);
         if (bad) return -1;
     }
     return more;

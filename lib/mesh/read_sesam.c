@@ -413,6 +413,16 @@ static int sesam_node(sesam_reader *r, fl_err *err)
                : 0;
 }
 
+/* Of a frame a record that is not read is counted, but for those that say nothing of the structure. */
+static void count_record(sesam_reader *r)
+{
+    static const char *const SILENT[] = {"IDENT", "DATE",  "TEXT",   "IEND",
+                                         "GNODE", "UNITS", "TDSECT", "TDMATER"};
+    for (size_t k = 0; k < sizeof SILENT / sizeof *SILENT; k++)
+        if (strcmp(r->name, SILENT[k]) == 0) return;
+    if (r->k.frame) fl_frame_count_skipped(r->k.frame, "%s", r->name);
+}
+
 static int sesam_record(sesam_reader *r, const char *text, fl_err *err)
 {
     const char *name = r->name;
@@ -436,6 +446,8 @@ static int sesam_record(sesam_reader *r, const char *text, fl_err *err)
         fl_bytes_note(r->k.b, "UNITS says that a length is %g m: --scale %g", field(r, 1), field(r, 1));
     if (strcmp(name, "GELMNT2") == 0) {
         if (r->superelements++ == 0) r->superelement_line = r->line;
+    } else {
+        count_record(r);
     }
     return 0;
 }

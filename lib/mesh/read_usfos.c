@@ -420,6 +420,8 @@ int fl_usfos_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_option
         size_t k = 0;
         while (k < sizeof RECORD / sizeof *RECORD && strcasecmp(RECORD[k].word, word_at(&r, 0)) != 0) k++;
         if (k < sizeof RECORD / sizeof *RECORD && RECORD[k].read(&r, err)) goto done;
+        if (k == sizeof RECORD / sizeof *RECORD && r.k.frame)
+            fl_frame_count_skipped(r.k.frame, "%.30s", word_at(&r, 0));
     }
     if (more < 0) goto done;
     for (int32_t i = 0; i < r.k.beams; i++)
