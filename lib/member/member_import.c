@@ -79,8 +79,12 @@ static int make_section(importer *u, const fl_frame_section *s, int truss, const
             fl_frame_count_skipped(u->f, "section %s has no torsion constant: Iy + Iz is taken", name);
             j = iy + iz;
         }
-        *out = (fl_member_section){
-            .ea = e * a, .eiy = e * iy * l4, .eiz = e * iz * l4, .gj = g * j * l4, .mass = rho * a + more};
+        *out = (fl_member_section){.ea = e * a,
+                                   .eiy = e * iy * l4,
+                                   .eiz = e * iz * l4,
+                                   .gj = g * j * l4,
+                                   .mass = rho * a + more,
+                                   .radius = l * s->radius};
         return 1;
     }
     if (truss) {

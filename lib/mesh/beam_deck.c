@@ -386,6 +386,7 @@ static fl_frame_section mixed_section(const fl_beam_section *p, const fl_beam_se
     s.size[1] = p->form == FL_FRAME_PIPE ? (t > 0.0 && t <= 0.5 * d ? t : 0.5 * d) : h;
     if (p->form == FL_FRAME_RECTANGLE && t > 0.0 && u > 0.0 && 2.0 * t < d && 2.0 * u < h)
         s = fl_frame_section_box(h, d, t, u);
+    if (s.form == FL_FRAME_GENERAL && p->form == FL_FRAME_RECTANGLE) s.radius = 0.5 * sqrt(d * d + h * h);
     return s;
 }
 

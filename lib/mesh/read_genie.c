@@ -100,8 +100,14 @@ static int read_form(genie_reader *r, fl_err *err)
     r->section_now = -1;
     if (strcmp(s->form, "pipe_section") == 0) {
         if (tag_real(r, "od", &s->size[0], err) || tag_real(r, "th", &s->wall[0], err)) return -1;
-    } else if (strcmp(s->form, "box_section") == 0) {
+    } else if (strcmp(s->form, "box_section") == 0 || strcmp(s->form, "bar_section") == 0) {
+        double top, bottom;
         if (tag_real(r, "h", &s->size[1], err) || tag_real(r, "b", &s->size[0], err)) return -1;
+        if (strcmp(s->form, "bar_section") == 0) return 0; /* solid */
+        if (tag_real(r, "tw", &s->wall[0], err) || tag_real(r, "tftop", &top, err) ||
+            tag_real(r, "tfbot", &bottom, err))
+            return -1;
+        s->wall[1] = 0.5 * (top + bottom);
         return 0;
     } else {
         return 0;
@@ -255,7 +261,8 @@ static int32_t section_at(genie_reader *r, int32_t i, int32_t of, fl_err *err)
     fl_beam_section s = {.form = FL_FRAME_NONE};
     snprintf(s.kind, sizeof s.kind, "%s", f ? f->form : "segment without a section");
     if (f && is_pipe(r, g)) s.form = FL_FRAME_PIPE;
-    else if (f && strcmp(f->form, "box_section") == 0) s.form = FL_FRAME_RECTANGLE;
+    else if (f && (strcmp(f->form, "box_section") == 0 || strcmp(f->form, "bar_section") == 0))
+        s.form = FL_FRAME_RECTANGLE;
     else if (f && is_cone(r, g)) snprintf(s.kind, sizeof s.kind, "cone between sections that are no pipes");
     for (int c = 0; f && c < 2; c++) s.size[c] = r->length * f->size[c], s.wall[c] = r->length * f->wall[c];
     const int32_t m = r->segment[i].material;

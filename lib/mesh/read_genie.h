@@ -12,9 +12,9 @@ int fl_genie_is(const fl_bytes *b);
 /* Add the beams of the model to s, a part for each, or to the frame of opt.  The whole file must be in
  * memory.
  *   model_units length             m, mm, cm, ft, in: other lengths become metres
- *   section name                   pipe_section od th, box_section h b; a cone_section runs from the
- *                                  diameter of the segment before to that of the one behind; others are
- *                                  counted
+ *   section name                   pipe_section od th, box_section h b tw tftop tfbot, bar_section h b; a
+ *                                  cone_section runs from the diameter of the segment before to that of
+ *                                  the one behind; others are counted
  *   material name                  isotropic_linear_material youngs_modulus poissons_ratio density
  *   straight_beam name             straight_segment section_ref material_ref, with position x y z end
  * Plates and curved beams lie in packed ACIS geometry and are counted: the FEM file has them.  Offsets of
