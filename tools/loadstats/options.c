@@ -33,6 +33,14 @@ static const char *const FORMATS[] = {"svg", "png", "pdf", NULL};
 #define TINY 1e-300
 #define HUGE_NUMBER 1e300
 
+static int set_export(void *options, const char *text, fl_err *err)
+{
+    ((struct options *)options)->exports = 1;
+    return strcmp(text, "openfast") == 0
+               ? 0
+               : fl_fail(err, FL_USAGE, "--export is \"%.60s\", expected openfast", text);
+}
+
 static int choose_table(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
@@ -576,6 +584,11 @@ static const fl_option OPTION[] = {
      .help = "draw history and peak distribution into DIR",
      .kind = FL_OPTION_TEXT,
      .at = AT(plot)},
+    {.word = "export",
+     .argument = "FORM",
+     .help = "write the load as input of another program: openfast, a prescribed force",
+     .kind = FL_OPTION_CALL,
+     .call = set_export},
     {.word = "report",
      .argument = "FILE",
      .help = "write numbers, pictures and history as one HTML page",
