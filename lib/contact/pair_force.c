@@ -592,8 +592,7 @@ static fl_wrench wrench_before(const fl_pair *p, const prediction *a, const fl_s
 {
     if (!t || !p->surrogate->used || !fl_surrogate_in_double_range(p->surrogate, t)) return a->before.elastic;
     const fl_wrench now = fl_wrench_about_middle(p->force, p->torque_i, p->torque_j);
-    const fl_vec3 f = m3_mul(r->R, t->gradient.f),
-                  at = v3_madd(m3_mul(r->R, t->point), 0.5, r->off);
+    const fl_vec3 f = m3_mul(r->R, t->gradient.f), at = v3_madd(m3_mul(r->R, t->point), 0.5, r->off);
     const fl_wrench value = {f, v3_add(v3_cross(at, f), m3_mul(r->R, t->gradient.m))};
     return fl_wrench_madd(fl_wrench_madd(a->before.elastic, 1.0, now), -1.0, value);
 }
@@ -606,8 +605,7 @@ static int update_quick_surrogate(fl_world *w, fl_pair *p, int32_t thread, const
     fl_quick_exact rest;
     fl_exact_contact exact;
     fl_exact_contact_of_quick(w, p, r, q, &rest, &exact);
-    const fl_vec3 aj = m3_mul(r->R, exact.first),
-                  ai = v3_add(aj, r->off);
+    const fl_vec3 aj = m3_mul(r->R, exact.first), ai = v3_add(aj, r->off);
     const double speed = v3_dot(n, relative_velocity(&w->b, p, ai, aj));
     /* the force at the energy of the motion, since W grows as its square */
     exact.motion_force = sqrt(1.0 + 0.5 * mass * speed * speed / exact.energy);
@@ -650,8 +648,8 @@ static int evaluate_quick(fl_world *w, fl_pair *p, int32_t thread, const fl_quic
         const double more = fl_predictor_share(size, pressed) *
                             approach_correction(a, predicted, size, chi * size, compliance);
         const fl_vec3 spin = v3_scale(0.5, v3_add(b->w[p->i], b->w[p->j])), off = v3_scale(0.5, r->off);
-        const fl_wrench D = change_damping(p, a, wrench_before(p, a, t, r), spin, chi, predicted + more,
-                                           slope, arm);
+        const fl_wrench D =
+            change_damping(p, a, wrench_before(p, a, t, r), spin, chi, predicted + more, slope, arm);
         p->force_damping = D.f;
         p->torque_i_damping = v3_add(v3_cross(off, D.f), D.m);
         p->torque_j_damping = v3_sub(v3_cross(off, D.f), D.m);

@@ -3,6 +3,11 @@
 #include "contact/pair_surrogate.h"
 #include "world/access.h"
 
+/* Springs of the surrogate of the law `quick` over those of its terms, whose weights grow with the overlap as well.
+ * Eight cubes between walls (verify_energy, 1e-3, mean of 12 runs of 10 s) gain 1.1e-4 of their energy with 1, 2.2e-5
+ * with 1.1, 1.5e-5 with 1.2, 1.9e-5 with 1.3. */
+#define SURROGATE_SPRINGS 1.2
+
 /* K plus the compliance by rotation: x, y, z torques of unit forces, in a frame with the inverse moments
  * invI. */
 static fl_sym3 add_rotation(fl_sym3 K, fl_vec3 invI, fl_vec3 x, fl_vec3 y, fl_vec3 z)
@@ -79,7 +84,7 @@ void fl_exact_contact_of_quick(const fl_world *w, const fl_pair *p, const fl_rel
         .pressure = e,
         .second = {e * second.xx, e * second.xy, e * second.xz, e * second.yy, e * second.yz, e * second.zz},
         .gradient = {q->gradient.f, v3_sub(q->gradient.m, v3_cross(centre, q->gradient.f))}};
-    rest->springs = fl_quick_springs(q, &second, q->ddu);
+    rest->springs = fl_quick_springs(q, &second, SURROGATE_SPRINGS * q->ddu);
     rest->pressing = (fl_pressure_moments){
         .pressure = e, .direction = q->direction, .radius = spread > 0.0 ? sqrt(spread) : 0.0};
     const fl_spring_sums even = fl_quick_springs(q, &second, e);
