@@ -3,10 +3,11 @@
 #include "contact/pair_surrogate.h"
 #include "world/access.h"
 
-/* Free path of a pair of the law `quick` over the radii, a third of the width over which crossings begin: beyond that
- * terms come that the expansion does not know.  Eight cubes between walls (verify_energy, 1e-3, 12 runs of 10 s) change
- * their energy by 1.8e-4 (rms) without a limit, 5.4e-5 with 0.2, 1.2e-5 with 0.1, 7e-6 with 0.05, by 0.57, 0.57, 0.54
- * and 0.42 of the contact-steps without an evaluation; `patch` by 1.6e-5. */
+/* Free path of a pair of the law `quick` over the radii, a third of the width over which crossings begin:
+ * beyond that terms come that the expansion does not know.  Eight cubes between walls (verify_energy, 1e-3,
+ * 12 runs of 10 s) change their energy by 1.8e-4 (rms) without a limit, 5.4e-5 with 0.2, 1.2e-5 with 0.1,
+ * 7e-6 with 0.05, by 0.57, 0.57, 0.54 and 0.42 of the contact-steps without an evaluation; `patch` by
+ * 1.6e-5. */
 #define QUICK_FREE_PATH (FL_QUICK_TAPER / 3.0)
 
 /* K plus the compliance by rotation: x, y, z torques of unit forces, in a frame with the inverse moments

@@ -16,14 +16,14 @@ typedef struct {
     fl_spring_sums springs;
 } fl_quick_exact;
 
-/* The exact contact of the law `quick`: its pressures as even ones with the same sum, centre, second moments and
- * mean normal.  q: sums of the law; rest: receives what `exact` refers to. */
+/* The exact contact of the law `quick`: its pressures as even ones with the same sum, centre, second moments
+ * and mean normal.  q: sums of the law; rest: receives what `exact` refers to. */
 void fl_exact_contact_of_quick(const fl_world *w, const fl_pair *p, const fl_relative_pose *r,
                                const fl_quick_sums *q, fl_quick_exact *rest, fl_exact_contact *exact);
 
-/* Springs of the terms of the law `quick` about their centre of pressure: k [m4] along the mean normal, spread as
- * the second moments of the pressure [m2].  Normals that differ leave |sum of e n| = e (1 - part): part of the
- * springs may act in any direction. */
+/* Springs of the terms of the law `quick` about their centre of pressure: k [m4] along the mean normal,
+ * spread as the second moments of the pressure [m2].  Normals that differ leave |sum of e n| = e (1 - part):
+ * part of the springs may act in any direction. */
 fl_spring_sums fl_quick_springs(const fl_quick_sums *q, const fl_sym3 *second, double k);
 
 /* Second moments of the pressure about its centre [m2]. */

@@ -37,8 +37,10 @@
  * punch; W does not depend on which body is A.  The force is continuous but where two parallel rims pass each
  * other at the inset: there it jumps along the face by s/(8 sqrt A) of the normal force on an area A.
  *
- * Limits: those of `patch`, and: a point on an edge stands for a quarter of a part, so a line contact that is
- * shorter is uneven by some percent; edges that cross over a face count beside the face. */
+ * Limits: those of `patch`, and: a face tilted by 0.5 to 6 degrees, which bears on a strip no wider than
+ * some insets, has as little as 0.6 of the energy that `patch` gives it.  A point on an edge stands for a
+ * quarter of a part, so a line contact that is shorter is uneven by some percent; edges that cross over a
+ * face count beside the face. */
 #ifndef FL_PATCH_QUICK_LAW_H
 #define FL_PATCH_QUICK_LAW_H
 #include "narrow/penetration.h"

@@ -3,8 +3,9 @@
  * from the gradient of its energy; and libccd's penetration of the same dilated shapes in the same run.
  *
  *     bench_contact               the table
- *     bench_contact CASE N [TOL [LAW]]  N evaluations of one case, for instruction counts; with TOL above 0, N of
- *                                 one of eight contacts by surrogates of that tolerance; LAW is patch
+ *     bench_contact CASE N [TOL [LAW]]
+ *                                 N evaluations of one case, for instruction counts; with TOL above 0 one
+ *                                 of eight contacts by surrogates of that tolerance; without LAW `patch`
  *     bench_contact curves DIR    DIR/tilt.tsv and DIR/slide.tsv: the torque of a face that tilts on another,
  *                                 and the forces of one that slides off it, by law; DIR/friction.tsv: force
  *                                 and moment of a disc, a square, along and across a line that slide and spin
@@ -233,7 +234,8 @@ static double ask_ccd(lab *l, const fl_pair *p, int mpr, double *error)
 
 /* With surrogates: time per contact and step [s], share of exact evaluations, largest relative error of the
  * force. */
-static double time_with_surrogates(which c, const char *law, double tolerance, double *exact_share, double *off)
+static double time_with_surrogates(which c, const char *law, double tolerance, double *exact_share,
+                                   double *off)
 {
     lab l;
     make_contacts(&l, c, law, tolerance, EIGHT);

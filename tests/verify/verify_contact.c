@@ -348,8 +348,8 @@ static double parting_rate(double c, double weight)
     return rate;
 }
 
-/* The same of the law `quick`: faces end at the inset, so their common part stays, and they bear the edges.  What is
- * left is U = A s^4 + 8 V and U_ee = -20 V/(s h). */
+/* The same of the law `quick`: faces end at the inset, so their common part stays, and they bear the edges.
+ * What is left is U = A s^4 + 8 V and U_ee = -20 V/(s h). */
 static double parting_rate_of_quick(double c, double weight)
 {
     const double R = 0.2, rho = 0.1, w = 2.0 * FL_QUICK_INSET * rho, A = (1.8 - w) * (0.8 - w);
