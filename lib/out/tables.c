@@ -100,12 +100,20 @@ static void write_name(FILE *f, const fl_column *c)
 void fl_table_write_header(FILE *f, const fl_table_format *table, unsigned options, const char *history,
                            const fl_history_line *by, double start)
 {
+    fl_table_write_header_more(f, table, options, history, by, start, NULL);
+}
+
+void fl_table_write_header_more(FILE *f, const fl_table_format *table, unsigned options, const char *history,
+                                const fl_history_line *by, double start, const fl_more_columns *more)
+{
     char text[FL_NUMBER_LEN];
     fl_write_file_header(f, table->kind, 1, history, by);
     if (start > 0.0) fprintf(f, "#start %s\n", fl_number_text(start, text));
     fputs("t[s]", f);
     for (int k = 0; k < table->columns; k++)
         if (is_present(&table->column[k], options)) write_name(f, &table->column[k]);
+    for (int32_t k = 0; more && k < more->n; k++)
+        fprintf(f, "\t%s%s[%s]", more->prefix, more->name[k], more->unit);
     putc('\n', f);
 }
 
@@ -144,12 +152,19 @@ static void write_value(FILE *f, enum fl_column_type type, const void *value)
 
 void fl_table_write_row(FILE *f, const fl_table_format *table, unsigned options, double t, const void *row)
 {
+    fl_table_write_row_more(f, table, options, t, row, NULL);
+}
+
+void fl_table_write_row_more(FILE *f, const fl_table_format *table, unsigned options, double t,
+                             const void *row, const fl_more_columns *more)
+{
     char text[FL_NUMBER_LEN];
     fputs(fl_number_text(t, text), f);
     for (int k = 0; k < table->columns; k++) {
         const fl_column *c = &table->column[k];
         if (is_present(c, options)) write_value(f, c->type, (const char *)row + c->offset);
     }
+    for (int32_t k = 0; more && k < more->n; k++) put_real(f, more->value[k]);
     putc('\n', f);
 }
 

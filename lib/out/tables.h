@@ -54,6 +54,20 @@ typedef struct {
 void fl_table_write_header(FILE *f, const fl_table_format *table, unsigned options, const char *history,
                            const fl_history_line *by, double start);
 
+/* Columns that depend on the scene: PREFIX NAME[UNIT], numbers, after all others. */
+typedef struct {
+    int32_t n;
+    const char *prefix, *unit;
+    const char *const *name; /* [n] */
+    const double *value;     /* [n] not read for the header */
+} fl_more_columns;
+
+/* The same with further columns; more NULL: none. */
+void fl_table_write_header_more(FILE *f, const fl_table_format *table, unsigned options, const char *history,
+                                const fl_history_line *by, double start, const fl_more_columns *more);
+void fl_table_write_row_more(FILE *f, const fl_table_format *table, unsigned options, double t,
+                             const void *row, const fl_more_columns *more);
+
 /* row: the row struct of the table; t [s]. */
 void fl_table_write_row(FILE *f, const fl_table_format *table, unsigned options, double t, const void *row);
 

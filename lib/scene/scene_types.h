@@ -143,6 +143,8 @@ typedef struct {
     char file[FL_SCENE_PATH];    /* g_struct; "" not given */
     char members[FL_SCENE_PATH]; /* members; "" not given */
     double member_damping;       /* ratio of the lowest modes */
+    char modes[FL_SCENE_PATH];   /* table of modes; "" not given */
+    char modes_node[FL_SCENE_NAME]; /* its node at the waterline; "": it has directions */
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */
     fl_scene_motion motion;
@@ -155,6 +157,19 @@ typedef struct {
     fl_scene_motion motion;
 } fl_scene_part;
 
+/* A mode of a part of the structure, structure/modal_motion.h. */
+enum fl_mode_direction { FL_MODE_X, FL_MODE_Y, FL_MODE_XY };
+typedef struct {
+    fl_scene_head head;
+    char name[FL_SCENE_NAME];
+    char part[FL_SCENE_NAME]; /* "": all parts without a motion of their own */
+    int32_t direction;        /* enum fl_mode_direction */
+    double frequency;         /* [1/s]; 0: not given */
+    double mass;              /* of the shape [kg]; 0: not given */
+    double shape;             /* at the reference */
+    double damping_ratio;
+} fl_scene_mode;
+
 typedef struct {
     fl_scene_head head;
     int32_t type[3];  /* enum fl_boundary_type of x, y, z; an absent section is FL_BOUNDARY_FREE */
@@ -166,6 +181,7 @@ typedef struct {
     double inflow_speed;             /* [m/s]; 0: auto, that of the current */
     double inflow_pitch;             /* [m]; 0: auto, the length of the field */
     int32_t room;                    /* most floes at a time besides the initial ones; 0: auto */
+    char drive_track[FL_SCENE_PATH]; /* track(5) of the driven floes in place of `drive`; "": none */
     fl_vec3 drive;                   /* velocity of the driven edge row of floes [m/s] */
     char drive_group[FL_SCENE_NAME]; /* group of the driven floes; "": by drive_width */
     double drive_width;              /* [m]; 0: none */
@@ -256,8 +272,9 @@ typedef struct {
     fl_scene_contact *contact;
     fl_scene_group *group;
     fl_scene_part *part;
-    int32_t n_material, n_contact, n_group, n_part;
-    int32_t cap_material, cap_contact, cap_group, cap_part;
+    fl_scene_mode *mode;
+    int32_t n_material, n_contact, n_group, n_part, n_mode;
+    int32_t cap_material, cap_contact, cap_group, cap_part, cap_mode;
     char **file; /* names of the files read: the scene, then included files */
     int32_t n_file, cap_file;
 } fl_scene;

@@ -13,6 +13,7 @@
 #include "geom/mass.h"
 #include "ice/slab_fill.h"
 #include "sim/energy_ledger.h"
+#include "sim/drive_track.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
 #include "sim/moving_structure.h"
@@ -261,6 +262,7 @@ static int make_driven_floes(fl_world *w, const fl_ice_field *field, fl_err *err
     w->driven_floes.rest_height = fl_alloc(field->n, sizeof *w->driven_floes.rest_height, err);
     if (!w->driven_floes.is_driven || !w->driven_floes.k || !w->driven_floes.rest_height) return -1;
     w->driven_floes.n = field->n;
+    if (s->drive_track[0] && fl_drive_track_read(w, err)) return -1;
     for (int32_t k = 0; k < field->n; k++) back = fmin(back, fl_inflow_extent(&edge, field, k, -1.0));
     for (int32_t k = 0; k < field->n; k++) {
         const double middle =
@@ -440,6 +442,7 @@ void fl_world_free(fl_world *w)
     for (int32_t i = 0; w->quick_shape && i < w->b.total; i++) fl_quick_shape_free(&w->quick_shape[i]);
     free(w->quick_shape), free(w->quick_scratch);
     free(w->elastic_walls.hull), free(w->elastic_walls.outer);
+    fl_track_free(&w->driven_floes.track);
     free(w->driven_floes.is_driven), free(w->driven_floes.k), free(w->driven_floes.rest_height);
     fl_inflow_free(&w->inflow);
     fl_neighbour_pairs_free(w);

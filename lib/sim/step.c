@@ -12,6 +12,7 @@
 #include "contact/panel_load.h"
 #include "sim/body_step.h"
 #include "sim/critical_step.h"
+#include "sim/drive_track.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
 #include "sim/half_kicks.h"
@@ -405,6 +406,7 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* moving structure: first half */
     fl_ledger_begin_step(w);
+    if (w->driven_floes.track.n) fl_drive_track_begin_step(w, fl_world_time(w));
     if (moves) fl_moving_structure_first_half(w, fl_world_time(w));
 
     /* tables of the waves */

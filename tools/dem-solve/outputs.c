@@ -128,8 +128,12 @@ void write_header(struct run *r, struct outputs *u, int table)
         fl_frames_header(u->table[table].f, r->history, r->by, &now, r->frames_surface, packed);
         return;
     }
-    fl_table_write_header(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history, r->by,
-                          a->of_interval ? u->last_row : 0.0);
+    struct mode_columns modes;
+    const fl_more_columns *more = table == TABLE_LOADS    ? mode_displacements(r->w, -1, &modes)
+                                  : table == TABLE_ENERGY ? mode_energies(r->w, &modes)
+                                                          : NULL;
+    fl_table_write_header_more(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history,
+                               r->by, a->of_interval ? u->last_row : 0.0, more);
 }
 
 static int open_table(struct run *r, struct outputs *u, int table, fl_err *err)
