@@ -99,6 +99,7 @@ static int set_modes(const fl_scene *s, const char *part, fl_rigid_motion *out, 
     for (int32_t k = 0; k < out->modes; k++)
         out->free_dof |= (out->mode[k].e.x != 0.0 ? FL_DOF_X : 0u) | (out->mode[k].e.y != 0.0 ? FL_DOF_Y : 0u) |
                          (out->mode[k].e.z != 0.0 ? FL_DOF_Z : 0u);
+    out->mass = 1.0 / fl_modes_compliance(out->mode, out->modes);
     return 0;
 }
 

@@ -96,10 +96,6 @@ int fl_rigid_motions_start(fl_rigid_motions *v, double t, fl_err *err)
                                    m->inertia.y > 0.0 ? m->inertia.y : 1.0,
                                    m->inertia.z > 0.0 ? m->inertia.z : 1.0));
         }
-        if (m->modes) { /* a mass with the compliance of all modes */
-            b->m[k] = 1.0 / fl_modes_compliance(m->mode, m->modes);
-            b->invm[k] = 1.0 / b->m[k];
-        }
         b->x[k] = v3_add(m->reference, x.x);
         b->q[k] = q_of_vector(x.r);
         b->v[k] = v->prescribed_velocity[k] = rate.x;

@@ -30,7 +30,7 @@ typedef struct {
     fl_vec3 velocity, spin; /* prescribed, without a track [m/s], [rad/s] */
     fl_track track;         /* n = 0: none */
     unsigned free_dof;      /* FL_DOF_X | ...: free directions; 0: all is prescribed */
-    double mass;            /* [kg] */
+    double mass;            /* [kg]; with modes that of their compliance, 1/fl_modes_compliance() */
     fl_vec3 inertia;        /* [kg m2] */
     double K[6][6];         /* symmetric, x y z rx ry rz */
     fl_vec3 c, ct;          /* dashpots along x y z [N s/m], about the own axes [N m s] */
