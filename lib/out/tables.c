@@ -4,7 +4,7 @@
 #include "base/number_text.h"
 #include "base/pi.h"
 
-enum { TRANSLATES = 1, ROTATES = 2 }; /* bits of enum fl_loads_motion_kind */
+enum { TRANSLATES = 1, ROTATES = 2, RATE = FL_LOADS_RATE }; /* bits of enum fl_loads_motion_kind */
 
 static const fl_column LOADS[] = {
     {"part", "", FL_COLUMN_TEXT, 0, offsetof(fl_loads_row, part)},
@@ -18,6 +18,8 @@ static const fl_column LOADS[] = {
     {"r", "deg", FL_COLUMN_VEC3_DEGREES, ROTATES, offsetof(fl_loads_row, motion.r)},
     {"w", "rad/s", FL_COLUMN_VEC3, ROTATES, offsetof(fl_loads_row, motion.w)},
     {"e", "rad/s2", FL_COLUMN_VEC3, ROTATES, offsetof(fl_loads_row, motion.e)},
+    {"closing", "m/s", FL_COLUMN_REAL, RATE, offsetof(fl_loads_row, closing)},
+    {"breaks", "", FL_COLUMN_REAL, RATE, offsetof(fl_loads_row, breaks)},
 };
 const fl_table_format fl_loads_table = {"loads", FL_TABLE_COLUMNS(LOADS)};
 

@@ -81,6 +81,7 @@ typedef struct {
 
 /* The columns of motion that a table of loads has: the `options` of fl_loads_table. */
 enum fl_loads_motion_kind { FL_LOADS_FIXED = 0, FL_LOADS_TRANSLATION = 1, FL_LOADS_ROTATION = 3 };
+enum { FL_LOADS_RATE = 4 }; /* columns of crushing by speed; to be added to the above */
 
 typedef struct {
     const char *part;
@@ -88,6 +89,8 @@ typedef struct {
     double peak;            /* largest |force| of any step in it [N] */
     int32_t contacts;       /* bodies that touch the part at t */
     fl_loads_motion motion; /* not read with FL_LOADS_FIXED */
+    double closing;         /* mean speed of the ice against the part along its load [m/s] */
+    double breaks;          /* of elements of ice in the interval */
 } fl_loads_row;
 extern const fl_table_format fl_loads_table;
 

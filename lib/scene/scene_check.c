@@ -593,6 +593,33 @@ static int check_modes(fl_scene *s, fl_err *err)
     return 0;
 }
 
+static int check_failure(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_failure *f = &s->failure;
+    if (!f->head.present || f->crushing == FL_CRUSHING_NONE) return 0;
+    if (f->crushing_law == FL_CRUSHING_PLAIN)
+        return fl_scene_fail(s, "failure.crushing", err,
+                             "crushing needs a law: failure.crushing_law = rate is expected");
+    if (!s->structure.head.present)
+        return fl_scene_fail(s, "failure.crushing_law", err,
+                             "there is no structure that ice crushes on: [structure] is expected");
+    if (f->creep_exponent == 2)
+        return fl_scene_fail(s, "failure.creep_exponent", err, "creep_exponent is 2, 1 or 3 is expected");
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(s, "run.sleep", err,
+                             "ice that crushes by its speed does not sleep: either run.sleep or crushing_law = rate "
+                             "is expected");
+    if (s->run.error > 0.0)
+        return fl_scene_fail(s, "run.error", err,
+                             "run.error repeats windows with other steps, in which ice would break elsewhere: run.dt "
+                             "is expected with crushing_law = rate");
+    if (s->bond.head.present && s->bond.on)
+        return fl_scene_fail(s, "bond.on", err,
+                             "bonded floes do not crush by their speed: either bond.on or crushing_law = rate is "
+                             "expected");
+    return 0;
+}
+
 /* What a track of the drive excludes. */
 static int check_drive_track(const fl_scene *s, fl_err *err)
 {
@@ -634,7 +661,7 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
                    check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) ||
-                   check_members(s, err) || check_modes(s, err) || check_drive_track(s, err) || check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
+                   check_members(s, err) || check_modes(s, err) || check_failure(s, err) || check_drive_track(s, err) || check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)
                ? -1

@@ -252,6 +252,37 @@ typedef struct {
     int32_t seed;
 } fl_scene_bond;
 
+/* Contacts in which ice crushes, and laws of its pressure; polar classes 1 to 7 follow each other. */
+enum fl_crushing_of { FL_CRUSHING_NONE, FL_CRUSHING_STRUCTURE, FL_CRUSHING_ALL };
+enum fl_crushing_law { FL_CRUSHING_PLAIN, FL_CRUSHING_RATE };
+enum fl_pressure_law {
+    FL_PRESSURE_USER,
+    FL_PRESSURE_POLAR_1,
+    FL_PRESSURE_ISO_LOCAL = FL_PRESSURE_POLAR_1 + 7,
+    FL_PRESSURE_API
+};
+
+typedef struct {
+    fl_scene_head head;
+    int32_t crushing;         /* enum fl_crushing_of */
+    int32_t crushing_law;     /* enum fl_crushing_law */
+    int32_t pressure_law;     /* enum fl_pressure_law */
+    double pressure;          /* p0 [Pa] */
+    double pressure_area;     /* A0 [m2] */
+    double pressure_exponent; /* e */
+    double pressure_max;      /* [Pa] */
+    double peak_ratio;        /* R, and so on: of the law `rate`, failure/strip.h */
+    double break_deflection;  /* [m] */
+    double transition_speed;  /* [m/s] */
+    int32_t creep_exponent;   /* 1, 3 */
+    double delayed_stiffness; /* 0: none */
+    double delayed_time;      /* [s] */
+    double element_width;     /* [m]; 0: auto */
+    double scatter;           /* standard deviation over mean */
+    double scatter_length;    /* [m] */
+    int32_t seed;
+} fl_scene_failure;
+
 typedef struct {
     fl_scene_head head;
     char name[FL_SCENE_NAME];
@@ -268,6 +299,7 @@ typedef struct {
     fl_scene_water water;
     fl_scene_wind wind;
     fl_scene_bond bond;
+    fl_scene_failure failure;
     fl_scene_material *material; /* "ice" and "steel" are always there after fl_scene_check() */
     fl_scene_contact *contact;
     fl_scene_group *group;

@@ -18,6 +18,7 @@
 #include "sim/inflow.h"
 #include "sim/moving_structure.h"
 #include "sim/sleep.h"
+#include "sim/strip_setup.h"
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
 #include "structure/region.h"
@@ -414,7 +415,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         if (fl_world_place_floe(w, i, feed, w->inflow.source_floe[i], err)) goto fail;
     }
     if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
-        fl_panels_make(w, surface, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
+        fl_panels_make(w, surface, err) || fl_strips_make(w, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
         fl_bond_list_make(w, field, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
@@ -463,6 +464,7 @@ void fl_world_free(fl_world *w)
     fl_bond_list_free(&w->bonds);
     fl_disc_list_free(&w->discs);
     fl_panels_free(&w->panel_load);
+    fl_strips_free(&w->strips);
     fl_pairs_free(&w->candidates);
     fl_environment_free(&w->sea);
     fl_bodies_free(&w->b);

@@ -31,6 +31,7 @@ static void exchange_ledger(fl_state_io *t, fl_world *w)
     fl_state_io_real(t, &g->damping);
     fl_state_io_real(t, &g->drive);
     fl_state_io_real(t, &g->carried);
+    fl_state_io_real(t, &g->crushing);
     fl_state_io_vec3(t, &w->imbalance);
     fl_state_io_real(t, &w->impulse_sum);
     fl_state_io_real(t, &w->max_overlap);
@@ -491,6 +492,11 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         fl_state_io_vec3(t, &w->part_impulse[p]);
         fl_state_io_vec3(t, &w->part_moment[p]);
         fl_state_io_real(t, &w->part_peak[p]);
+        if (w->strips.wall) {
+            fl_state_io_real(t, &w->strips.part_closing[p]);
+            fl_state_io_real(t, &w->strips.part_seconds[p]);
+            fl_state_io_count(t, &w->strips.part_breaks[p]);
+        }
         fl_state_io_close(t);
     }
     if (w->inflow.absent && !t->err->code) exchange_inflow(t, w);

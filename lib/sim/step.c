@@ -22,6 +22,7 @@
 #include "sim/neighbour_list.h"
 #include "sim/sleep.h"
 #include "sim/stiffness_update.h"
+#include "sim/strip_setup.h"
 #include "sphere/contact_force.h"
 #include "sphere/contact_list.h"
 #include "world/access.h"
@@ -426,6 +427,7 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* energy ledger, overlaps, momentum */
     fl_ledger_book_step(w);
+    if (w->strips.wall) fl_strips_book(w, dt);
     gather_overlaps(w, dt);
 
     /* loads: half a step of the new forces */
@@ -433,6 +435,7 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* critical step and checks */
     if (update_stiffness) fl_stiffness_update(w);
+    if (w->strips.wall && fl_strips_check(w, err)) return -1;
     if (check_state(w, update_stiffness, err) || check_energy_after_overlap(w, err)) return -1;
 
     /* outflow and inflow; a floe placed between two steps samples the water */

@@ -27,7 +27,7 @@ struct table {
     int needs_now;   /* sleeping bodies are advanced to the time of now first */
 };
 
-static unsigned motion_columns(const fl_world *w) { return (unsigned)fl_motion_columns(w); }
+static unsigned motion_columns(const fl_world *w) { return loads_options(w); }
 
 #define PATH(key) offsetof(fl_scene_output, key)
 #define NO_PATH ((size_t)-1)

@@ -70,6 +70,21 @@ const fl_more_columns *mode_energies(const fl_world *w, struct mode_columns *c)
     return more;
 }
 
+unsigned loads_options(const fl_world *w)
+{
+    return (unsigned)fl_motion_columns(w) | (w->strips.wall ? FL_LOADS_RATE : 0u);
+}
+
+/* Fills the columns of crushing by speed, and begins the next interval. */
+static void take_closing(fl_world *w, int32_t part, fl_loads_row *row)
+{
+    fl_strips *s = &w->strips;
+    if (s->part_seconds[part] > 0.0) row->closing = s->part_closing[part] / s->part_seconds[part];
+    row->breaks = (double)s->part_breaks[part];
+    s->part_closing[part] = s->part_seconds[part] = 0.0;
+    s->part_breaks[part] = 0;
+}
+
 void write_loads(struct run *r, FILE *f, double t, double interval)
 {
     fl_world *w = r->w;
@@ -82,7 +97,8 @@ void write_loads(struct run *r, FILE *f, double t, double interval)
                             .contacts = bodies_touching(w, p)};
         if (moving) fl_part_motion(w, p, t, &row.motion);
         struct mode_columns modes;
-        fl_table_write_row_more(f, &fl_loads_table, moving, t, &row, mode_displacements(w, p, &modes));
+        if (w->strips.wall) take_closing(w, p, &row);
+        fl_table_write_row_more(f, &fl_loads_table, loads_options(w), t, &row, mode_displacements(w, p, &modes));
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
         w->part_peak[p] = 0.0;
     }

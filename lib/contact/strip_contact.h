@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* strip_contact.h -- a floe and a wall of the structure under failure.crushing_law = rate.
+ *
+ * Each sector of the wall (failure/strip_wall.h) that is inside the floe has an element of ice in front of it
+ * (failure/strip.h), which is fixed to the wall. With S_i the area vector of sector i inside the floe, out of
+ * the wall, the floe feels at the centre of S_i the force
+ *     f_i = k z_i S_i,      k = R p(A)/delta,      A = |sum S_i| over sectors with e > -4 delta R,
+ * A the largest of this contact and p(A) of failure/pressure_area.h, times the strength along the drift. In a
+ * step the wall closes by dq_i = -dt v_i.n_i, v_i the velocity of the ice against the wall.
+ *   - A sector that enters the floe has a gap e = -r. Behind a pile e falls: the channel bears no load.
+ *   - Ice that slides by s along the wall is passed on, e_i -= |s|/b (e_i - e_upwind), and u alike.
+ * The law of the pair is not evaluated; its friction acts at the centre of the forces.
+ *
+ * Energy. In a step sum (f_i0 + f_i1)/2 dq_i is what the bodies lose, to rounding and telescoping terms; what
+ * of it is not stored afterwards is `work`, and goes to the column crushing of energy(5): creep, delayed
+ * strain, breaks, changes of k and of areas. A floe must be thicker than it is tilted: areas are found anew
+ * after a tenth of a sector's width of motion. */
+#ifndef FL_CONTACT_STRIP_CONTACT_H
+#define FL_CONTACT_STRIP_CONTACT_H
+#include "contact/pair_geometry.h"
+#include "world/access.h"
+
+/* True if pair p is such a contact. */
+static inline int fl_pair_has_strip(const fl_world *w, int32_t j)
+{
+    return w->strips.wall && j >= w->n && j < w->n + w->strips.pieces && w->strips.wall[j - w->n].n > 0;
+}
+
+/* Results in the frame of the piece, on the floe. */
+typedef struct {
+    fl_wrench force;  /* about the origin of the frame */
+    double normal;    /* sum of |f_i| [N] */
+    fl_vec3 centre;   /* of the forces [m] */
+    double slope;     /* sum of k |S_i| [N/m] */
+    int touches;      /* a sector is in the floe */
+    double max_depth; /* largest z [m] */
+} fl_strip_result;
+
+/* A strip of n elements, none of which is in ice; NULL when memory runs out. */
+fl_strip *fl_strip_make(int32_t n);
+
+/* Advances the strip of pair p by dt and evaluates it; makes p->strip. -1 when memory runs out. */
+int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, fl_strip_result *out);
+
+/* Calls `add` for each sector that bears load, with its stiffness [N/m], normal and centre, frame of the piece. */
+void fl_strip_contact_springs(const fl_world *w, const fl_pair *p,
+                              void (*add)(void *arg, double k, fl_vec3 n, fl_vec3 x), void *arg);
+
+#endif
