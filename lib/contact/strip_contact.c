@@ -118,14 +118,21 @@ static void transport(fl_strip *q, const fl_wall *wall, const wall_motion *v, do
     }
 }
 
-/* The direction and size of the area of the ice that is near the wall. */
-static fl_vec3 near_area(const fl_world *w, const fl_strip *q, const fl_wall *wall)
+/* Sum of the area vectors of the ice that is near the wall, and *A, the nominal area: its length, or that of all
+ * of them seen against the motion, which is the same on a front, and more where ice is all around. */
+static fl_vec3 near_area(const fl_world *w, const fl_strip *q, const fl_wall *wall, fl_vec3 v, double *A)
 {
-    const double least = -4.0 * w->strips.law.delta * w->strips.law.peak_ratio;
+    const double least = -4.0 * w->strips.law.delta * w->strips.law.peak_ratio, speed = v3_norm(v);
+    const fl_vec3 d = speed > 0.0 ? v3_scale(-1.0 / speed, v) : v3(0, 0, 0);
     fl_vec3 sum = v3(0, 0, 0);
-    for (int32_t k = 0; k < q->n; k++)
-        if (q->cell[k].area > 0.0 && q->cell[k].ice.e > least)
-            sum = v3_madd(sum, q->cell[k].area, wall->sector[k].n);
+    double seen = 0.0;
+    for (int32_t k = 0; k < q->n; k++) {
+        if (!(q->cell[k].area > 0.0) || !(q->cell[k].ice.e > least)) continue;
+        const double facing = v3_dot(wall->sector[k].n, d);
+        sum = v3_madd(sum, q->cell[k].area, wall->sector[k].n);
+        if (facing > 0.0) seen += q->cell[k].area * facing;
+    }
+    *A = fmax(v3_norm(sum), seen);
     return sum;
 }
 
@@ -134,10 +141,11 @@ static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, 
 {
     const fl_strips *s = &w->strips;
     fl_strip *q = p->strip;
-    const fl_vec3 S = near_area(w, q, wall);
-    const double A = v3_norm(S);
+    double A;
+    const fl_vec3 S = near_area(w, q, wall, v->base, &A);
+    const double size = v3_norm(S);
     if (A > q->largest_area) q->largest_area = A;
-    q->closing = A > 0.0 ? -v3_dot(v->base, S) / A : 0.0;
+    q->closing = size > 1e-9 * A ? -v3_dot(v->base, S) / size : 0.0;
     q->way += dt * q->closing;
     q->farthest = fmax(q->farthest, q->way);
     if (q->largest_area == 0.0) return 0.0;

@@ -4,9 +4,10 @@
  * Each sector of the wall (failure/strip_wall.h) that is inside the floe has an element of ice in front of it
  * (failure/strip.h), which is fixed to the wall. With S_i the area vector of sector i inside the floe, out of
  * the wall, the floe feels at the centre of S_i the force
- *     f_i = k z_i S_i,      k = R p(A)/delta,      A = |sum S_i| over sectors with e > -4 delta R,
- * A the largest of this contact and p(A) of failure/pressure_area.h, times the strength along the drift. In a
- * step the wall closes by dq_i = -dt v_i.n_i, v_i the velocity of the ice against the wall.
+ *     f_i = k z_i S_i,      k = R p(A)/delta,
+ * p(A) of failure/pressure_area.h, times the strength along the drift. A is the largest of this contact of
+ * |sum S_i|, or of sum max(0, S_i.d) with d against the motion of the ice, over sectors with e > -4 delta R: of
+ * a pile D h, whether ice is in front of it or all around. In a step the wall closes by dq_i = -dt v_i.n_i, v_i the velocity of the ice against the wall.
  *   - A sector that enters the floe has a gap e = -r. Behind a pile e falls: the channel bears no load.
  *   - Ice that slides by s along the wall is passed on, e_i -= |s|/b (e_i - e_upwind), and u alike.
  * The law of the pair is not evaluated; its friction acts at the centre of the forces.
