@@ -720,22 +720,6 @@ static int evaluate_elastic_wall(fl_world *w, fl_pair *p, const fl_relative_pose
     return p->touching = 1;
 }
 
-/* The springs of a strip, for the bounds of omega^2. */
-typedef struct {
-    const fl_bodies *b;
-    const fl_pair *p;
-    const fl_relative_pose *r;
-    fl_stiffness si, sj;
-} strip_springs;
-
-static void add_strip_spring(void *arg, double k, fl_vec3 n, fl_vec3 x)
-{
-    strip_springs *const q = arg;
-    const fl_vec3 f = m3_mul(q->r->R, n), aj = m3_mul(q->r->R, x);
-    fl_stiffness_add_force(&q->si, q->b, q->p->i, k, f, v3_cross(v3_add(aj, q->r->off), f));
-    fl_stiffness_add_force(&q->sj, q->b, q->p->j, k, f, v3_cross(aj, f));
-}
-
 /* Evaluates ice that crushes by its speed; *distance is set where the two do not touch. */
 static int evaluate_strip(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r, const prediction *a,
                           double dt, int survey, double *distance)
@@ -744,7 +728,7 @@ static int evaluate_strip(fl_world *w, fl_pair *p, int32_t thread, const fl_rela
     const fl_mat3 R = r->R;
     const fl_piece *piece = fl_world_piece(w, p->j);
     fl_strip_result q;
-    if (fl_strip_contact_advance(w, p, r, dt, &q)) return -1;
+    if (fl_strip_contact_advance(w, p, r, dt, survey, &q)) return -1;
     p->touching = q.touches || store > 0.0 || work != 0.0; /* until its last work is booked */
     if (!p->touching) {
         free(p->strip);
@@ -767,10 +751,11 @@ static int evaluate_strip(fl_world *w, fl_pair *p, int32_t thread, const fl_rela
     if (q.normal > 0.0 && all.load > 0.0) add_friction(w, p, &all, 0.0, &(contact_compliance){0}, r, a);
     else p->springs = (fl_friction_springs){0};
     if (survey) {
-        strip_springs at = {.b = &w->b, .p = p, .r = r};
-        fl_strip_contact_springs(w, p, add_strip_spring, &at);
+        fl_stiffness si = {0}, sj = {0};
+        fl_stiffness_add_springs(&si, &w->b, p->i, 1.0, &q.springs, R, r->off);
+        fl_stiffness_add_springs(&sj, &w->b, p->j, 1.0, &q.springs, R, none);
         if (!(q.normal > 0.0)) all.direction = v3(1, 0, 0);
-        bound_stiffness(w, p, &all, r, &at.si, &at.sj);
+        bound_stiffness(w, p, &all, r, &si, &sj);
     }
     p->energy += p->spring_energy;
     if (q.normal > 0.0 && fl_panels_need_points(w, p))

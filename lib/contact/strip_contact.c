@@ -8,6 +8,9 @@
 #define KNOWN_SHARE 0.1
 #define STEP_SHARE 0.2
 
+/* Share of that width after which ice is passed on. */
+#define PASS_SHARE 0.01
+
 enum { PLANES = 128 };
 
 /* The floe as half-spaces n.x <= c in the frame of the piece; `steep` ones are its sides. */
@@ -81,6 +84,7 @@ static void update_areas(fl_world *w, const fl_pair *p, const fl_relative_pose *
         const double before = c->area;
         c->area = sector_area(&planes, &wall->sector[k], &c->middle, &room);
         room = fmin(room, KNOWN_SHARE * wall->sector[k].width);
+        if (c->area != before) q->near_known = 0;
         if (before > 0.0 || c->area == 0.0) continue;
         const fl_strip_id id = id_of(w, p, k); /* it enters */
         c->ice.u = 0.0;
@@ -92,48 +96,66 @@ static void update_areas(fl_world *w, const fl_pair *p, const fl_relative_pose *
 /* Velocity of the ice against the wall at x, frame of the piece: base + spin x x. */
 typedef struct {
     fl_vec3 base, spin;
+    int turns; /* spin is not 0 */
 } wall_motion;
+
+/* Way by which the wall closes on the ice at x along n in dt. */
+static inline double closing_way(const wall_motion *v, fl_vec3 n, fl_vec3 x, double dt)
+{
+    return -dt * v3_dot(n, v->turns ? v3_add(v->base, v3_cross(v->spin, x)) : v->base);
+}
 
 static wall_motion motion_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, double dt)
 {
     const fl_bodies *b = &w->b;
     const fl_vec3 lag = fl_pair_rotation_lag(b, p, r->off, dt),
                   v = v3_add(v3_add(v3_sub(b->v[p->i], b->v[p->j]), lag), v3_cross(b->w[p->i], r->off));
-    return (wall_motion){m3_tmul(r->R, v), m3_tmul(r->R, v3_sub(b->w[p->i], b->w[p->j]))};
+    const fl_vec3 spin = m3_tmul(r->R, v3_sub(b->w[p->i], b->w[p->j]));
+    return (wall_motion){m3_tmul(r->R, v), spin, v3_nonzero(spin)};
 }
 
-/* Ice that slides along the wall passes from sector to sector. */
+/* Ice that has slid along the wall passes from sector to sector, in steps of a share of their width. */
 static void transport(fl_strip *q, const fl_wall *wall, const wall_motion *v, double dt)
 {
+    double far = 0.0;
+    q->slid = v3_madd(q->slid, dt, v->base);
+    q->turned = v3_madd(q->turned, dt, v->spin);
+    far = v3_norm(q->slid) + v3_norm(q->turned) * v3_norm(wall->sector[0].x);
+    if (far < PASS_SHARE * wall->sector[0].width) return;
     for (int32_t k = 0; k < q->n; k++) q->cell[k].e = q->cell[k].ice.e, q->cell[k].u = q->cell[k].ice.u;
     for (int32_t k = 0; k < q->n; k++) {
         const fl_wall_sector *s = &wall->sector[k];
         fl_strip_cell *c = &q->cell[k];
-        const double slid = dt * v3_dot(s->along, v3_add(v->base, v3_cross(v->spin, s->x)));
+        const double slid = v3_dot(s->along, v3_add(q->slid, v3_cross(q->turned, s->x)));
         const int32_t from = slid > 0.0 ? s->left : s->right;
         if (c->area == 0.0 || slid == 0.0 || from < 0 || q->cell[from].area == 0.0) continue;
         const double part = fmin(1.0, fabs(slid) / s->width);
         c->ice.e -= part * (c->e - q->cell[from].e);
         c->ice.u -= part * (c->u - q->cell[from].u);
     }
+    q->slid = q->turned = v3(0, 0, 0);
+    q->near_known = 0;
 }
 
-/* Sum of the area vectors of the ice that is near the wall, and *A, the nominal area: its length, or that of all
- * of them seen against the motion, which is the same on a front, and more where ice is all around. */
-static fl_vec3 near_area(const fl_world *w, const fl_strip *q, const fl_wall *wall, fl_vec3 v, double *A)
+/* Depth of ice in a gap beyond which it is not near the wall. */
+static double near_limit(const fl_world *w) { return -4.0 * w->strips.law.delta * w->strips.law.peak_ratio; }
+
+/* Sums the area vectors of the ice near the wall. The nominal area is their length, or that of all of them seen
+ * against the motion, which is the same on a front, and more where ice is all around. */
+static void sum_near_area(const fl_world *w, fl_strip *q, const fl_wall *wall, fl_vec3 v)
 {
-    const double least = -4.0 * w->strips.law.delta * w->strips.law.peak_ratio, speed = v3_norm(v);
+    const double least = near_limit(w), speed = v3_norm(v);
     const fl_vec3 d = speed > 0.0 ? v3_scale(-1.0 / speed, v) : v3(0, 0, 0);
-    fl_vec3 sum = v3(0, 0, 0);
     double seen = 0.0;
+    q->near_area = v3(0, 0, 0);
     for (int32_t k = 0; k < q->n; k++) {
         if (!(q->cell[k].area > 0.0) || !(q->cell[k].ice.e > least)) continue;
         const double facing = v3_dot(wall->sector[k].n, d);
-        sum = v3_madd(sum, q->cell[k].area, wall->sector[k].n);
+        q->near_area = v3_madd(q->near_area, q->cell[k].area, wall->sector[k].n);
         if (facing > 0.0) seen += q->cell[k].area * facing;
     }
-    *A = fmax(v3_norm(sum), seen);
-    return sum;
+    q->largest_area = fmax(q->largest_area, fmax(v3_norm(q->near_area), seen));
+    q->near_known = speed > 0.0;
 }
 
 /* k of the present step; sets the way of the ice, and the closing speed. */
@@ -141,11 +163,9 @@ static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, 
 {
     const fl_strips *s = &w->strips;
     fl_strip *q = p->strip;
-    double A;
-    const fl_vec3 S = near_area(w, q, wall, v->base, &A);
-    const double size = v3_norm(S);
-    if (A > q->largest_area) q->largest_area = A;
-    q->closing = size > 1e-9 * A ? -v3_dot(v->base, S) / size : 0.0;
+    if (!q->near_known) sum_near_area(w, q, wall, v->base);
+    const double size = v3_norm(q->near_area);
+    q->closing = size > 1e-9 * q->largest_area ? -v3_dot(v->base, q->near_area) / size : 0.0;
     q->way += dt * q->closing;
     q->farthest = fmax(q->farthest, q->way);
     if (q->largest_area == 0.0) return 0.0;
@@ -156,6 +176,30 @@ static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, 
     return k;
 }
 
+/* Adds the spring k along n, with its moment `arm` about the origin. */
+static void add_spring(fl_strip_result *out, double k, fl_vec3 n, fl_vec3 arm)
+{
+    const double N[3] = {n.x, n.y, n.z}, M[3] = {arm.x, arm.y, arm.z};
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            out->springs.linear[r][c] += k * N[r] * N[c];
+            out->springs.coupling[r][c] += k * M[r] * N[c];
+            out->springs.angular[r][c] += k * M[r] * M[c];
+        }
+}
+
+/* Adds the load f on a cell whose stiffness is k, at x. */
+static void add_load(fl_strip_result *out, double k, double f, fl_vec3 n, fl_vec3 x, fl_vec3 *moment, int survey)
+{
+    const fl_vec3 arm = v3_cross(x, n);
+    out->force.f = v3_madd(out->force.f, f, n);
+    out->force.m = v3_madd(out->force.m, f, arm);
+    out->normal += f;
+    out->slope += k;
+    *moment = v3_madd(*moment, f, x);
+    if (survey) add_spring(out, k, n, arm);
+}
+
 static void note_speed(fl_world *w, double closes)
 {
     if (closes <= STEP_SHARE * w->strips.law.delta) return;
@@ -163,65 +207,69 @@ static void note_speed(fl_world *w, double closes)
     if (closes > w->strips.too_fast) w->strips.too_fast = closes;
 }
 
-int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, fl_strip_result *out)
+/* What the cells of a step add up to. */
+typedef struct {
+    fl_vec3 moment;
+    double work, store, fastest;
+} cell_sums;
+
+/* Advances cell k by the step; a cell that stays in a gap is done with it. */
+static void advance_cell(fl_world *w, const fl_pair *p, int32_t k, const fl_strip_step *step, const wall_motion *v,
+                         double dt, int survey, fl_strip_result *out, cell_sums *sum)
+{
+    fl_strip *const q = p->strip;
+    fl_strip_cell *c = &q->cell[k];
+    const fl_wall_sector *s = &w->strips.wall[p->j - w->n].sector[k];
+    const fl_vec3 x = v3_madd(s->x, c->middle, s->up);
+    const double dq = closing_way(v, s->n, x, dt), least = near_limit(w);
+    const int was_near = c->ice.e > least;
+    if (dq > sum->fastest) sum->fastest = dq;
+    if (c->load == 0.0 && c->ice.u == 0.0 && c->ice.e + dq <= 0.0) {
+        c->ice.e += dq;
+        if (survey && c->ice.e > -step->gap) add_spring(out, q->k * c->area, s->n, v3_cross(x, s->n));
+    } else {
+        const double stiff = q->k * c->area, before = c->load;
+        q->breaks += fl_strip_advance(step, &c->ice, dq, id_of(w, p, k));
+        const double z = fl_strip_deflection(&c->ice);
+        c->load = stiff * z;
+        sum->store += stiff * fl_strip_store(step->law, &c->ice);
+        sum->work += 0.5 * (before + c->load) * dq;
+        if (z > out->max_depth) out->max_depth = z;
+        if (z > 0.0 || survey) add_load(out, stiff, c->load, s->n, x, &sum->moment, survey);
+    }
+    if (was_near != (c->ice.e > least)) q->near_known = 0;
+}
+
+/* A cell whose sector has left the ice: the last of its load does work. */
+static double leaving_work(fl_strip_cell *c, const fl_wall_sector *s, const wall_motion *v, double dt)
+{
+    const double work = 0.5 * c->load * closing_way(v, s->n, v3_madd(s->x, c->middle, s->up), dt);
+    c->load = 0.0;
+    return work;
+}
+
+int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, int survey,
+                             fl_strip_result *out)
 {
     const fl_wall *wall = &w->strips.wall[p->j - w->n];
-    const fl_strip_law *law = &w->strips.law;
-    fl_vec3 moment = v3(0, 0, 0);
-    double work = 0.0, store = 0.0, fastest = 0.0;
     *out = (fl_strip_result){0};
     if (!p->strip && !(p->strip = fl_strip_make(wall->n))) return -1;
     fl_strip *const q = p->strip;
     const wall_motion v = motion_of(w, p, r, dt);
-    const fl_strip_step step = fl_strip_step_of(law, dt);
-    for (int32_t k = 0; k < q->n; k++) { /* work of the forces at the start of the step */
-        fl_strip_cell *c = &q->cell[k];
-        if (!(c->area > 0.0)) continue;
-        const fl_wall_sector *s = &wall->sector[k];
-        const double f = q->k * c->area * fl_strip_deflection(&c->ice);
-        if (f > 0.0) work -= 0.5 * f * dt * v3_dot(s->n, v3_add(v.base, v3_cross(v.spin, v3_madd(s->x, c->middle, s->up))));
-    }
+    const fl_strip_step step = fl_strip_step_of(&w->strips.law, dt);
+    cell_sums sum = {.work = 0.0};
     update_areas(w, p, r, wall);
-    if (dt > 0.0) transport(q, wall, &v, dt);
+    transport(q, wall, &v, dt);
     q->k = stiffness_now(w, p, wall, &v, dt);
     q->breaks = 0;
     for (int32_t k = 0; k < q->n; k++) {
         fl_strip_cell *c = &q->cell[k];
-        if (!(c->area > 0.0)) continue;
-        const fl_wall_sector *s = &wall->sector[k];
-        const fl_vec3 x = v3_madd(s->x, c->middle, s->up);
-        const double dq = -dt * v3_dot(s->n, v3_add(v.base, v3_cross(v.spin, x)));
-        q->breaks += fl_strip_advance(&step, &c->ice, dq, id_of(w, p, k));
-        fastest = fmax(fastest, dq);
-        out->touches = 1;
-        const double z = fl_strip_deflection(&c->ice), stiff = q->k * c->area, f = stiff * z;
-        store += stiff * fl_strip_store(law, &c->ice);
-        if (!(f > 0.0)) continue;
-        const fl_vec3 force = v3_scale(f, s->n);
-        work += 0.5 * f * dq;
-        out->force.f = v3_add(out->force.f, force);
-        out->force.m = v3_add(out->force.m, v3_cross(x, force));
-        out->normal += f;
-        out->slope += stiff;
-        moment = v3_madd(moment, f, x);
-        out->max_depth = fmax(out->max_depth, z);
+        if (c->area > 0.0) advance_cell(w, p, k, &step, &v, dt, survey, out, &sum), out->touches = 1;
+        else if (c->load > 0.0) sum.work += leaving_work(c, &wall->sector[k], &v, dt);
     }
-    if (out->normal > 0.0) out->centre = v3_scale(1.0 / out->normal, moment);
-    q->work = work - (store - q->store);
-    q->store = store;
-    note_speed(w, fastest);
+    if (out->normal > 0.0) out->centre = v3_scale(1.0 / out->normal, sum.moment);
+    q->work = sum.work - (sum.store - q->store);
+    q->store = sum.store;
+    note_speed(w, sum.fastest);
     return 0;
-}
-
-void fl_strip_contact_springs(const fl_world *w, const fl_pair *p,
-                              void (*add)(void *arg, double k, fl_vec3 n, fl_vec3 x), void *arg)
-{
-    const fl_wall *wall = &w->strips.wall[p->j - w->n];
-    const fl_strip *q = p->strip;
-    for (int32_t k = 0; k < q->n; k++) {
-        const fl_strip_cell *c = &q->cell[k];
-        const fl_wall_sector *s = &wall->sector[k];
-        if (c->area > 0.0 && c->ice.e > -w->strips.law.delta)
-            add(arg, q->k * c->area, s->n, v3_madd(s->x, c->middle, s->up));
-    }
 }

@@ -9,7 +9,8 @@
  * |sum S_i|, or of sum max(0, S_i.d) with d against the motion of the ice, over sectors with e > -4 delta R: of
  * a pile D h, whether ice is in front of it or all around. In a step the wall closes by dq_i = -dt v_i.n_i, v_i the velocity of the ice against the wall.
  *   - A sector that enters the floe has a gap e = -r. Behind a pile e falls: the channel bears no load.
- *   - Ice that slides by s along the wall is passed on, e_i -= |s|/b (e_i - e_upwind), and u alike.
+ *   - Ice that slides by s along the wall is passed on, e_i -= |s|/b (e_i - e_upwind), and u alike, once per
+ *     hundredth of a sector's width of motion.
  * The law of the pair is not evaluated; its friction acts at the centre of the forces.
  *
  * Energy. In a step sum (f_i0 + f_i1)/2 dq_i is what the bodies lose, to rounding and telescoping terms; what
@@ -19,6 +20,7 @@
 #ifndef FL_CONTACT_STRIP_CONTACT_H
 #define FL_CONTACT_STRIP_CONTACT_H
 #include "contact/pair_geometry.h"
+#include "patch/stiffness_bound.h"
 #include "world/access.h"
 
 /* True if pair p is such a contact. */
@@ -35,16 +37,14 @@ typedef struct {
     double slope;     /* sum of k |S_i| [N/m] */
     int touches;      /* a sector is in the floe */
     double max_depth; /* largest z [m] */
+    fl_spring_sums springs; /* of sectors near the ice, about the origin; only with survey */
 } fl_strip_result;
 
 /* A strip of n elements, none of which is in ice; NULL when memory runs out. */
 fl_strip *fl_strip_make(int32_t n);
 
 /* Advances the strip of pair p by dt and evaluates it; makes p->strip. -1 when memory runs out. */
-int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, fl_strip_result *out);
-
-/* Calls `add` for each sector that bears load, with its stiffness [N/m], normal and centre, frame of the piece. */
-void fl_strip_contact_springs(const fl_world *w, const fl_pair *p,
-                              void (*add)(void *arg, double k, fl_vec3 n, fl_vec3 x), void *arg);
+int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, int survey,
+                             fl_strip_result *out);
 
 #endif

@@ -159,6 +159,7 @@ static void exchange_cell(fl_state_io *t, fl_strip_cell *c)
     fl_state_io_count(t, &count);
     fl_state_io_real(t, &c->area);
     fl_state_io_real(t, &c->middle);
+    fl_state_io_real(t, &c->load);
     c->ice.count = (int32_t)count;
 }
 
@@ -175,6 +176,10 @@ static void exchange_strip(fl_state_io *t, const fl_world *w, fl_pair *p)
     fl_state_io_real(t, &q->k);
     fl_state_io_real(t, &q->store);
     fl_state_io_real(t, &q->work);
+    fl_state_io_vec3(t, &q->slid);
+    fl_state_io_vec3(t, &q->turned);
+    fl_state_io_vec3(t, &q->near_area);
+    fl_state_io_int(t, 0, 1, &q->near_known);
     fl_state_io_real(t, &q->way);
     fl_state_io_real(t, &q->farthest);
     fl_state_io_real(t, &q->known_until);

@@ -12,7 +12,8 @@ typedef struct {
     fl_strip_element ice;
     double area;   /* of wall in the ice [m2]; 0: the sector is outside of the floe */
     double middle; /* height of its centre, as s of fl_wall_sector [m] */
-    double e, u;   /* of `ice` before transport [m] */
+    double load;   /* force at the end of the last step [N] */
+    double e, u;   /* of `ice` before it was passed on [m] */
 } fl_strip_cell;
 
 typedef struct {
@@ -21,6 +22,9 @@ typedef struct {
     double k;            /* of the last step [N/m3] */
     double store;        /* energy at its end [J] */
     double work;         /* what the step crushed [J] */
+    fl_vec3 slid, turned; /* motion since ice was last passed on along the wall, frame of the piece [m], [rad] */
+    fl_vec3 near_area;   /* sum of the area vectors of the ice near the wall [m2] */
+    int32_t near_known;  /* 0: it has to be summed anew */
     double way;          /* of the ice against the wall [m] */
     double farthest;     /* largest so far */
     double known_until;  /* areas hold while the odometers of the two are below this [m] */

@@ -56,15 +56,55 @@ static void write_displacement(picture *p, const struct regime_windows *q)
     }
 }
 
-static void begin_panel(picture *p, int k, const char *title, const char *range)
+static void begin_panel(picture *p, int k, const char *title, double low, double high)
 {
     const double *edge = find_view(p->r, p->part, 0, 0)->edge;
     plot_set_margins(p, k, 0.095, 0.97);
-    fprintf(p->script, "set xrange [%.10g:%.10g]\nset yrange %s\nset ytics autofreq\n", edge[0],
-            edge[find_view(p->r, p->part, 0, 0)->n], range);
+    fprintf(p->script, "set xrange [%.10g:%.10g]\nset yrange [%.6g:%.6g]\nset ytics %.6g\n", edge[0],
+            edge[find_view(p->r, p->part, 0, 0)->n], low, high, plot_tics(high - low));
     plot_left_title(p, title, 0.022);
     if (k + 1 == p->panels) fputs("set xlabel 'Time  [s]'\nset format x '%g'\n", p->script);
     else fputs("set format x ''\n", p->script);
+}
+
+/* Largest over the windows, with room for the key. */
+static double top_of(const struct regime_windows *q, double (*what)(const fl_regime_window *))
+{
+    double most = 0.0;
+    for (int32_t k = 0; k < q->n; k++)
+        if (isfinite(what(&q->window[k]))) most = fmax(most, what(&q->window[k]));
+    return most > 0.0 ? 1.2 * most : 1.0;
+}
+
+static void range_of_displacement(const struct regime_windows *q, double *low, double *high)
+{
+    const double *x = q->memory + q->rows;
+    *low = INFINITY, *high = -INFINITY;
+    for (int32_t k = 0; k < q->rows; k++) *low = fmin(*low, 1e3 * x[k]), *high = fmax(*high, 1e3 * x[k]);
+    const double room = fmax(0.1 * (*high - *low), 1e-6 + 1e-3 * fabs(*high));
+    *low -= room, *high += room;
+}
+
+static void write_panels(picture *p, const struct regime_windows *q)
+{
+    double low, high;
+    begin_panel(p, 0, "Speed of the ice  [m/s]", 0.0, top_of(q, speed_of));
+    fputs("set key inside top left vertical maxrows 4 samplen 1\n", p->script);
+    write_points(p, q, speed_of, 1);
+    plot_end_panel(p);
+    range_of_displacement(q, &low, &high);
+    begin_panel(p, 1, "Displacement  [mm]", low, high);
+    write_displacement(p, q);
+    plot_end_panel(p);
+    begin_panel(p, 2, "beta", 0.0, top_of(q, beta_of));
+    write_points(p, q, beta_of, 0);
+    plot_end_panel(p);
+    begin_panel(p, 3, "Frequency  [Hz]", 0.0, top_of(q, frequency_of));
+    for (int32_t k = 0; k < p->o->modes; k++)
+        fprintf(p->script, "set arrow %d from graph 0, first %.6g to graph 1, first %.6g nohead dt 2 lc rgb '#999999'\n",
+                20 + (int)k, p->o->mode[k], p->o->mode[k]);
+    write_points(p, q, frequency_of, 0);
+    plot_end_panel(p);
 }
 
 static int fill_regimes(picture *p, fl_err *err)
@@ -73,24 +113,10 @@ static int fill_regimes(picture *p, fl_err *err)
     const int rc = regimes_make(&q, p->r, p->o, p->part, err);
     if (rc == 0) {
         p->panels = 4;
+        p->gap = 14;
         fputs("signal\tunit\tview\tt[s]\tvalue\n", p->data);
         plot_start(p, "Regimes of vibration");
-        begin_panel(p, 0, "Speed of the ice  [m/s]", "[0:*]");
-        fputs("set key above right maxrows 1 samplen 1\n", p->script);
-        write_points(p, &q, speed_of, 1);
-        plot_end_panel(p);
-        begin_panel(p, 1, "Displacement  [mm]", "[*:*]");
-        write_displacement(p, &q);
-        plot_end_panel(p);
-        begin_panel(p, 2, "beta", "[0:3]");
-        write_points(p, &q, beta_of, 0);
-        plot_end_panel(p);
-        begin_panel(p, 3, "Frequency  [Hz]", "[0:*]");
-        for (int32_t k = 0; k < p->o->modes; k++)
-            fprintf(p->script, "set arrow %d from graph 0, first %.6g to graph 1, first %.6g nohead dt 2 lc rgb '#999999'\n",
-                    20 + (int)k, p->o->mode[k], p->o->mode[k]);
-        write_points(p, &q, frequency_of, 0);
-        plot_end_panel(p);
+        write_panels(p, &q);
     }
     regimes_free(&q);
     return rc;
