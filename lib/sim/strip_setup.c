@@ -2,7 +2,9 @@
 #include "sim/strip_setup.h"
 #include <stdlib.h>
 #include "base/array.h"
+#include "base/pi.h"
 #include "scene/scene_key.h"
+#include "sim/moving_structure.h"
 
 /* Sectors on an outline for element_width = auto, at least; share of break_deflection that a step may close. */
 enum { AUTO_RING = 16 };
@@ -130,4 +132,32 @@ double fl_strips_max_step(const fl_world *w)
     }
     fastest = fmax(fastest, w->moving.max_speed);
     return fastest > 0.0 ? STEP_SHARE * w->strips.law.delta / fastest : INFINITY;
+}
+
+/* Width of a wall seen along e, world axes [m]. */
+static double width_along(const fl_world *w, int32_t piece, fl_vec3 e)
+{
+    const fl_wall *wall = &w->strips.wall[piece];
+    const fl_vec3 d = m3_tmul(fl_body_axes(&w->b, w->n + piece), e);
+    double sum = 0.0;
+    for (int32_t k = 0; k < wall->n; k++) sum += wall->sector[k].width * fmax(0.0, v3_dot(wall->sector[k].n, d));
+    return sum;
+}
+
+double fl_strips_lock_in_speed(const fl_world *w, int32_t k)
+{
+    int32_t mover;
+    const fl_modal_dof *m = fl_structure_mode(w, k, &mover);
+    const fl_strips *s = &w->strips;
+    double z, thickest, F = 0.0, b = fl_strip_negative_damping(&s->law);
+    int is_round = 0;
+    if (!s->wall) return 0.0;
+    ice_at_start(w, &z, &thickest);
+    for (int32_t c = 0; c < w->pieces; c++) {
+        const double A = thickest * width_along(w, c, m->e);
+        if (w->moving.mover_of_piece[c] != mover || A == 0.0) continue;
+        F += A * fl_crushing_pressure(&s->pressure, A);
+        is_round |= s->wall[c].is_round;
+    }
+    return F > 0.0 ? fl_strip_lock_in_speed(F, is_round ? 0.5 * PI * b : b, m->ratio, m->omega, m->mass) : 0.0;
 }

@@ -19,4 +19,9 @@ int fl_strips_check(const fl_world *w, fl_err *err);
  * strips [s]. */
 double fl_strips_max_step(const fl_world *w);
 
+/* Speed below which mode k of the structure (fl_structure_mode) locks in by estimate: fl_strip_lock_in_speed() of
+ * the mean force on the walls of its part, seen along the mode, in ice of the largest thickness. 0: no wall; INFINITY:
+ * no damping [m/s]. */
+double fl_strips_lock_in_speed(const fl_world *w, int32_t k);
+
 #endif
