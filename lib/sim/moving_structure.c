@@ -159,6 +159,9 @@ static int make_movers(fl_world *w, const fl_surface *surface, fl_err *err)
         const int32_t p = fl_surface_find(surface, name, strlen(name));
         char section[FL_SCENE_NAME + 8];
         snprintf(section, sizeof section, "part %s", name);
+        for (int32_t k = 0; p < 0 && k < s->n_mode; k++) /* the section may be there for a mode alone */
+            if (strcmp(s->mode[k].part, name) == 0 && s->part[i].head.heading.line == 0)
+                snprintf(section, sizeof section, "mode %s", s->mode[k].name);
         if (p < 0)
             return fl_scene_fail(s, section, err, "there is no part %s in %s", name, s->structure.file);
         w->part_reference[p] = s->part[i].motion.reference;

@@ -173,14 +173,16 @@ static void rigid_wall(void)
     const int runs = verify_quick() ? 1 : 10;
     char what[80];
     for (int k = 0; k < 7; k++) {
-        const double cycle = fmax(5e-3 * 1.25 / w[k], 1.0), length = fmin(400.0 * 5e-3 / w[k], 300.0);
+        /* elements keep their common phase for long near v_t */
+        const double since = w[k] < 0.04 ? 60.0 : 20.0,
+                     length = verify_quick() ? fmin(400.0 * 5e-3 / w[k], 100.0) : w[k] < 0.04 ? 320.0 : 60.0;
         record_sums s = {0};
         if (verify_quick() && (k == 0 || k == 2 || k == 4)) continue;
         for (int seed = 1; seed <= runs; seed++) {
             lab l;
             start_strip(&l, w[k], seed, 0);
             lab_make(&l, w[k] > 0.1 ? 5e-4 : 2e-3);
-            if (record_until(&l, 20.0 * cycle + length, 20.0 * cycle, &s)) return;
+            if (record_until(&l, since + length, since, &s)) return;
             lab_free(&l);
         }
         snprintf(what, sizeof what, "rigid wall, w %g: mean force", w[k]);
@@ -202,7 +204,7 @@ static void rigid_ring(void)
         if (verify_quick() && k != 1 && k != 3) continue;
         start_strip(&l, v[k], 1, 62);
         lab_make(&l, 1e-3);
-        if (record_until(&l, 10.0 + (verify_quick() ? 4.0 : 12.0) / v[k], 10.0, &s)) return;
+        if (record_until(&l, 10.0 + (verify_quick() ? 4.0 : 36.0) / v[k], 10.0, &s)) return;
         snprintf(what, sizeof what, "rigid pile, 31 sectors on the front, v %g: mean force", v[k]);
         if (mean[k] > 0.0) verify_row("IV3", what, mean_of(s.n, s.f), mean[k], 0.01, VERIFY_REL);
         if (k == 3) {
