@@ -17,6 +17,9 @@
 static const fl_vec3 ZERO = {0, 0, 0};
 #define F0 2e6 /* of the worlds below [N] */
 
+/* The floe reaches so far into the wall at the start, where its elements stand at gaps [m]. */
+#define FRONT 6e-3
+
 static const fl_strip_law B = {2.5, 5e-3, 10e-3, 3, 0.2, 2.0, 1}, A = {2.5, 5e-3, 10e-3, 1, 0.0, 1.0, 1};
 
 /* --- IV1: one element -------------------------------------------------------------------------------------- */
@@ -125,7 +128,7 @@ static void start_strip(lab *l, double v, int seed, int ring)
     } else {
         lab_set(l, "failure.element_width=0.5");
         lab_wall(l, v3(0, -5, -2), v3(1, 5, 2), 1);
-        lab_box(l, v3(-60, 0, 0), v3(60 - 1e-6, 30, 0.25), 0.05, q_one(), v3(v, 0, 0), ZERO);
+        lab_box(l, v3(-60, 0, 0), v3(60 + FRONT, 30, 0.25), 0.05, q_one(), v3(v, 0, 0), ZERO);
     }
 }
 
@@ -217,21 +220,17 @@ static void rigid_ring(void)
 
 /* --- IV5, IV6, IV10: the oscillator ------------------------------------------------------------------------ */
 
-/* Holds the structure at the deflection under the mean force until its elements have lost their common phase, then
- * lets it go at the speed `start`. */
-static void hold(lab *l, double start)
+/* Puts the structure to its deflection under the mean force, at the speed `start`; its elements stand at their first
+ * gaps. */
+static void put_to_deflection(lab *l, double start)
 {
     fl_modal_dof *m = &l->w.moving.movers.motion[0].mode[0];
-    const double q = F0 * 1.05 / (m->mass * m->omega * m->omega);
-    while (fl_world_time(&l->w) < 4.0) {
-        if (lab_run(l, 1)) exit(1);
-        m->q = q, m->v = 0.0;
-    }
+    m->q = F0 * 1.05 / (m->mass * m->omega * m->omega);
     m->v = start;
 }
 
-/* beta, from `since` to `t`; held: released at `start` m/s by hold(). */
-static double beta_of_run(double v, int seed, int held, double start, double since, double t, double scatter,
+/* beta, from `since` to `t`; put: started by put_to_deflection(). */
+static double beta_of_run(double v, int seed, int put, double start, double since, double t, double scatter,
                           record_sums *s)
 {
     record_sums own = {0};
@@ -240,10 +239,10 @@ static double beta_of_run(double v, int seed, int held, double start, double sin
     add_oscillator(&l);
     if (scatter > 0.0) lab_setf(&l, "failure.scatter=%g", scatter);
     lab_make(&l, 1e-3);
-    if (held) hold(&l, start);
+    if (put) put_to_deflection(&l, start);
     if (record_until(&l, t, since, &own)) exit(1);
     fl_energy_update(&l.w);
-    if (!held && seed == 1) /* else work is done from outside */
+    if (!put && seed == 1) /* else the start is not that of the ledger */
         verify_below("IV5", "residual of the ledger over the throughput",
                      fabs(l.w.ledger.residual) / l.w.ledger.throughput, 1e-7);
     lab_free(&l);
@@ -378,7 +377,7 @@ static void stop_floe(int oscillates, int seed, double *way, double *time, doubl
     lab_set(&l, "boundary.drive_edge=auto");
     lab_set(&l, "boundary.drive_fixed=x y rz");
     lab_set(&l, "boundary.drive=0");
-    const double r = 0.05, a = 120.0 - 2e-6 - 2.0 * r, b = 60.0 - 2.0 * r, c = 0.5 - 2.0 * r,
+    const double r = 0.05, a = 120.0 + 2.0 * FRONT - 2.0 * r, b = 60.0 - 2.0 * r, c = 0.5 - 2.0 * r,
                  volume = a * b * c + 2.0 * r * (a * b + b * c + c * a) + PI * r * r * (a + b + c) + 4.0 / 3.0 * PI * r * r * r;
     lab_setf(&l, "material ice.density=%.17g", mass / volume);
     if (oscillates) add_oscillator(&l);

@@ -5,6 +5,9 @@
 
 enum { STRETCHES = 3000 };
 
+/* Of ice at rest beta has no meaning. */
+#define BETA_MOST 3.0
+
 static const char *const COLOUR[FL_REGIMES] = {"#6a51a3", "#c8642d", "#cb181d", "#2171b5"};
 
 /* Points of the windows of each regime: what(window) over the middle of the window. */
@@ -88,15 +91,15 @@ static void range_of_displacement(const struct regime_windows *q, double *low, d
 static void write_panels(picture *p, const struct regime_windows *q)
 {
     double low, high;
-    begin_panel(p, 0, "Speed of the ice  [m/s]", 0.0, top_of(q, speed_of));
-    fputs("set key inside top left vertical maxrows 4 samplen 1\n", p->script);
+    begin_panel(p, 0, "Speed of the ice  [m/s]", 0.0, 1.15 * top_of(q, speed_of));
+    fputs("set key inside top center horizontal maxrows 1 samplen 1\n", p->script);
     write_points(p, q, speed_of, 1);
     plot_end_panel(p);
     range_of_displacement(q, &low, &high);
     begin_panel(p, 1, "Displacement  [mm]", low, high);
     write_displacement(p, q);
     plot_end_panel(p);
-    begin_panel(p, 2, "beta", 0.0, top_of(q, beta_of));
+    begin_panel(p, 2, "beta", 0.0, fmin(BETA_MOST, top_of(q, beta_of)));
     write_points(p, q, beta_of, 0);
     plot_end_panel(p);
     begin_panel(p, 3, "Frequency  [Hz]", 0.0, top_of(q, frequency_of));
