@@ -721,8 +721,8 @@ static int evaluate_elastic_wall(fl_world *w, fl_pair *p, const fl_relative_pose
 }
 
 /* Evaluates ice that crushes by its speed; *distance is set where the two do not touch. */
-static int evaluate_strip(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r, const prediction *a,
-                          double dt, int survey, double *distance)
+static int evaluate_strip(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r,
+                          const prediction *a, double dt, int survey, double *distance)
 {
     const double store = p->strip ? p->strip->store : 0.0, work = p->strip ? p->strip->work : 0.0;
     const fl_mat3 R = r->R;

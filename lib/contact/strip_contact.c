@@ -140,8 +140,8 @@ static void transport(fl_strip *q, const fl_wall *wall, const wall_motion *v, do
 /* Depth of ice in a gap beyond which it is not near the wall. */
 static double near_limit(const fl_world *w) { return -4.0 * w->strips.law.delta * w->strips.law.peak_ratio; }
 
-/* Sums the area vectors of the ice near the wall. The nominal area is their length, or that of all of them seen
- * against the motion, which is the same on a front, and more where ice is all around. */
+/* Sums the area vectors of the ice near the wall. The nominal area is their length, or that of all of them
+ * seen against the motion, which is the same on a front, and more where ice is all around. */
 static void sum_near_area(const fl_world *w, fl_strip *q, const fl_wall *wall, fl_vec3 v)
 {
     const double least = near_limit(w), speed = v3_norm(v);
@@ -159,7 +159,8 @@ static void sum_near_area(const fl_world *w, fl_strip *q, const fl_wall *wall, f
 }
 
 /* k of the present step; sets the way of the ice, and the closing speed. */
-static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, const wall_motion *v, double dt)
+static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, const wall_motion *v,
+                            double dt)
 {
     const fl_strips *s = &w->strips;
     fl_strip *q = p->strip;
@@ -171,8 +172,8 @@ static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, 
     if (q->largest_area == 0.0) return 0.0;
     double k = s->law.peak_ratio * fl_crushing_pressure(&s->pressure, q->largest_area) / s->law.delta;
     if (s->scatter > 0.0)
-        k *= fl_strip_strength_at(&q->strength, &s->law, s->scatter, s->scatter_length, q->farthest, w->id[p->i],
-                                  p->j - w->n);
+        k *= fl_strip_strength_at(&q->strength, &s->law, s->scatter, s->scatter_length, q->farthest,
+                                  w->id[p->i], p->j - w->n);
     return k;
 }
 
@@ -189,7 +190,8 @@ static void add_spring(fl_strip_result *out, double k, fl_vec3 n, fl_vec3 arm)
 }
 
 /* Adds the load f on a cell whose stiffness is k, at x. */
-static void add_load(fl_strip_result *out, double k, double f, fl_vec3 n, fl_vec3 x, fl_vec3 *moment, int survey)
+static void add_load(fl_strip_result *out, double k, double f, fl_vec3 n, fl_vec3 x, fl_vec3 *moment,
+                     int survey)
 {
     const fl_vec3 arm = v3_cross(x, n);
     out->force.f = v3_madd(out->force.f, f, n);
@@ -214,8 +216,8 @@ typedef struct {
 } cell_sums;
 
 /* Advances cell k by the step; a cell that stays in a gap is done with it. */
-static void advance_cell(fl_world *w, const fl_pair *p, int32_t k, const fl_strip_step *step, const wall_motion *v,
-                         double dt, int survey, fl_strip_result *out, cell_sums *sum)
+static void advance_cell(fl_world *w, const fl_pair *p, int32_t k, const fl_strip_step *step,
+                         const wall_motion *v, double dt, int survey, fl_strip_result *out, cell_sums *sum)
 {
     fl_strip *const q = p->strip;
     fl_strip_cell *c = &q->cell[k];

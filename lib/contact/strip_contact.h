@@ -6,8 +6,9 @@
  * the wall, the floe feels at the centre of S_i the force
  *     f_i = k z_i S_i,      k = R p(A)/delta,
  * p(A) of failure/pressure_area.h, times the strength along the drift. A is the largest of this contact of
- * |sum S_i|, or of sum max(0, S_i.d) with d against the motion of the ice, over sectors with e > -4 delta R: of
- * a pile D h, whether ice is in front of it or all around. In a step the wall closes by dq_i = -dt v_i.n_i, v_i the velocity of the ice against the wall.
+ * |sum S_i|, or of sum max(0, S_i.d) with d against the motion of the ice, over sectors with e > -4 delta R:
+ * of a pile D h, whether ice is in front of it or all around. In a step the wall closes by dq_i = -dt
+ * v_i.n_i, v_i the velocity of the ice against the wall.
  *   - A sector that enters the floe has a gap e = -r. Behind a pile e falls: the channel bears no load.
  *   - Ice that slides by s along the wall is passed on, e_i -= |s|/b (e_i - e_upwind), and u alike, once per
  *     hundredth of a sector's width of motion.
@@ -31,12 +32,12 @@ static inline int fl_pair_has_strip(const fl_world *w, int32_t j)
 
 /* Results in the frame of the piece, on the floe. */
 typedef struct {
-    fl_wrench force;  /* about the origin of the frame */
-    double normal;    /* sum of |f_i| [N] */
-    fl_vec3 centre;   /* of the forces [m] */
-    double slope;     /* sum of k |S_i| [N/m] */
-    int touches;      /* a sector is in the floe */
-    double max_depth; /* largest z [m] */
+    fl_wrench force;        /* about the origin of the frame */
+    double normal;          /* sum of |f_i| [N] */
+    fl_vec3 centre;         /* of the forces [m] */
+    double slope;           /* sum of k |S_i| [N/m] */
+    int touches;            /* a sector is in the floe */
+    double max_depth;       /* largest z [m] */
     fl_spring_sums springs; /* of sectors near the ice, about the origin; only with survey */
 } fl_strip_result;
 

@@ -41,7 +41,8 @@ void fl_strip_break(const fl_strip_law *law, fl_strip_element *s, double rest, f
 double fl_strip_negative_damping(const fl_strip_law *law)
 {
     const double n = law->creep_exponent, R = law->peak_ratio,
-                 delayed = law->kappa > 0.0 ? (2.0 / 3.0 - 1.0 / R) * law->delta / (law->kappa * law->tau) : 0.0;
+                 delayed =
+                     law->kappa > 0.0 ? (2.0 / 3.0 - 1.0 / R) * law->delta / (law->kappa * law->tau) : 0.0;
     return law->transition_speed * (1.0 + n / (n + 2.0) - 2.0 / R) / (n + 1.0) + delayed;
 }
 
@@ -57,8 +58,9 @@ double fl_strip_lock_in_speed(double F, double b, double ratio, double omega, do
 /* Sum of four uniforms, mean 0 and variance 1. */
 static double nearly_normal(const fl_strip_law *law, int32_t floe, int32_t region, int64_t node)
 {
-    fl_rng g = fl_rng_of(law->seed, fl_rng_entity4(floe, region, (int32_t)(node >> 31), (int32_t)(node & INT32_MAX)),
-                         FL_RNG_STRIP_STRENGTH);
+    fl_rng g =
+        fl_rng_of(law->seed, fl_rng_entity4(floe, region, (int32_t)(node >> 31), (int32_t)(node & INT32_MAX)),
+                  FL_RNG_STRIP_STRENGTH);
     double sum = -2.0;
     for (int k = 0; k < 4; k++) sum += fl_rng_unit(&g);
     return sqrt(3.0) * sum;

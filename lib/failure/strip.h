@@ -47,8 +47,8 @@ typedef struct {
 typedef struct {
     const fl_strip_law *law;
     double h, over_delta, creep; /* creep: v_t h */
-    double g, keep, a;           /* 1/(1 + h/tau), 1 - h/tau, 1/(kappa tau); 1, 1 and 0 without delayed part */
-    double gap;                  /* largest r [m] */
+    double g, keep, a; /* 1/(1 + h/tau), 1 - h/tau, 1/(kappa tau); 1, 1 and 0 without delayed part */
+    double gap;        /* largest r [m] */
 } fl_strip_step;
 
 fl_strip_step fl_strip_step_of(const fl_strip_law *law, double dt);

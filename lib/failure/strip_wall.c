@@ -75,8 +75,7 @@ static void face_reach(const fl_poly *p, int32_t f, fl_vec3 x, fl_vec3 up, doubl
 {
     *from = -INFINITY, *to = INFINITY;
     for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) {
-        const fl_vec3 a = p->v[p->loop[k]],
-                      b = p->v[p->loop[k + 1 < p->first[f + 1] ? k + 1 : p->first[f]]],
+        const fl_vec3 a = p->v[p->loop[k]], b = p->v[p->loop[k + 1 < p->first[f + 1] ? k + 1 : p->first[f]]],
                       out = v3_cross(v3_sub(b, a), p->n[f]);
         const double rise = v3_dot(out, up), room = v3_dot(out, v3_sub(a, x));
         if (rise > 0.0) *to = fmin(*to, room / rise);
@@ -131,7 +130,8 @@ static double run_length(const outline *o, int32_t i)
 static int32_t last_side(const outline *o, int32_t i)
 {
     int32_t k = i;
-    while (o->side[k].next >= 0 && o->side[k].next != i && !o->side[o->side[k].next].first) k = o->side[k].next;
+    while (o->side[k].next >= 0 && o->side[k].next != i && !o->side[o->side[k].next].first)
+        k = o->side[k].next;
     return k;
 }
 
@@ -164,8 +164,8 @@ static int add_runs(fl_wall *out, const outline *o, const fl_poly *p, double wid
     return rc;
 }
 
-static int wall_of_faces(fl_wall *out, const fl_piece *piece, fl_vec3 up, fl_vec3 x, double width, int32_t ring,
-                         fl_err *err)
+static int wall_of_faces(fl_wall *out, const fl_piece *piece, fl_vec3 up, fl_vec3 x, double width,
+                         int32_t ring, fl_err *err)
 {
     outline o = {.up = up, .x = x, .size = piece->core.size};
     double around = 0.0;
@@ -186,8 +186,8 @@ static int wall_of_faces(fl_wall *out, const fl_piece *piece, fl_vec3 up, fl_vec
     return rc;
 }
 
-static int wall_of_cone(fl_wall *out, const fl_piece *piece, fl_vec3 up, fl_vec3 x, double width, int32_t ring,
-                        fl_err *err)
+static int wall_of_cone(fl_wall *out, const fl_piece *piece, fl_vec3 up, fl_vec3 x, double width,
+                        int32_t ring, fl_err *err)
 {
     const double rise = (piece->r1 - piece->r0) / piece->h, slant = sqrt(1.0 + rise * rise);
     if (!(fabs(up.z) > 0.5)) return 0;

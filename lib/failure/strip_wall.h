@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* strip_wall.h -- the walls of a piece of the structure, divided into sectors: one for each element of a strip.
+/* strip_wall.h -- the walls of a piece of the structure, divided into sectors: one for each element of a
+ * strip.
  *
  * The outline of the piece at the height of the ice is cut into lengths of about the same width b: round a
  * cone, along the sides of a polyhedron or a mesh. It is cut anew at bends of more than 20 degrees. A sector
  * stands for the wall above and below its middle; its normal is the mean over its width, so that the area
  * vector of all sectors is that of the outline.
  *
- * Only walls within 15 degrees of the vertical have sectors; the rest of a piece bears no ice where it has some.
- * Limits: a wall has the height of the one face at the ice; a joined piece of free cones is its facets. */
+ * Only walls within 15 degrees of the vertical have sectors; the rest of a piece bears no ice where it has
+ * some. Limits: a wall has the height of the one face at the ice; a joined piece of free cones is its facets.
+ * */
 #ifndef FL_FAILURE_STRIP_WALL_H
 #define FL_FAILURE_STRIP_WALL_H
 #include "structure/structure.h"

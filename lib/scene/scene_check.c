@@ -86,9 +86,9 @@ static int check_outputs(const fl_scene *s, fl_err *err)
             if (strcmp(path[j], path[k]) == 0)
                 return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is %s already", key[k], path[k],
                                      key[j]);
-        if (path[k][0] && (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0 ||
-                           strcmp(path[k], s->structure.members) == 0 ||
-                           strcmp(path[k], s->structure.modes) == 0))
+        if (path[k][0] &&
+            (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0 ||
+             strcmp(path[k], s->structure.members) == 0 || strcmp(path[k], s->structure.modes) == 0))
             return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is an input", key[k], path[k]);
     }
     return 0;
@@ -536,7 +536,8 @@ static int count_modes(const fl_scene *s, int32_t k, fl_err *err)
         if (strcmp(m->part, other->part) != 0) continue;
         n++;
         if (j >= k || m->frequency != other->frequency ||
-            (m->direction != other->direction && m->direction != FL_MODE_XY && other->direction != FL_MODE_XY))
+            (m->direction != other->direction && m->direction != FL_MODE_XY &&
+             other->direction != FL_MODE_XY))
             continue;
         snprintf(what, sizeof what, "it has the frequency and direction of [mode %s]", other->name);
         return mode_fail(s, k, "frequency", what, err);
@@ -555,10 +556,9 @@ static const fl_scene_motion *motion_of_part(const fl_scene *s, const char *part
 static int check_mode_motion(const fl_scene *s, const char *key, const fl_scene_motion *m, fl_err *err)
 {
     if (m && (m->free || m->track[0] || v3_nonzero(m->velocity) || v3_nonzero(m->spin)))
-        return fl_scene_fail(s, key, err,
-                             "the part has modes and `%s` as well: one of the two is expected",
-                             m->free       ? "free"
-                             : m->track[0] ? "track"
+        return fl_scene_fail(s, key, err, "the part has modes and `%s` as well: one of the two is expected",
+                             m->free               ? "free"
+                             : m->track[0]         ? "track"
                              : v3_nonzero(m->spin) ? "spin"
                                                    : "velocity");
     return 0;
@@ -569,7 +569,8 @@ static int check_modes(fl_scene *s, fl_err *err)
 {
     char key[2 * FL_SCENE_NAME];
     if (s->structure.head.present && s->structure.modes[0]) {
-        if (s->n_mode) return mode_fail(s, 0, NULL, "structure.modes is given as well: one of the two is expected", err);
+        if (s->n_mode)
+            return mode_fail(s, 0, NULL, "structure.modes is given as well: one of the two is expected", err);
         if (check_mode_motion(s, "structure.modes", &s->structure.motion, err)) return -1;
     }
     for (int32_t k = 0; k < s->n_mode; k++) {
@@ -578,10 +579,15 @@ static int check_modes(fl_scene *s, fl_err *err)
         if (!s->structure.head.present)
             return mode_fail(s, k, NULL, "there is no structure: [structure] is expected", err);
         if (s->structure.members[0])
-            return mode_fail(s, k, NULL, "a structure of members moves by its own masses: structure.file is expected", err);
+            return mode_fail(s, k, NULL,
+                             "a structure of members moves by its own masses: structure.file is expected",
+                             err);
         if (m->frequency == 0.0) return mode_fail(s, k, "frequency", "a frequency is expected", err);
         if (m->mass == 0.0) return mode_fail(s, k, "mass", "a mass is expected", err);
-        if (m->shape == 0.0) return mode_fail(s, k, "shape", "the waterline does not move in this mode: a shape other than 0 is expected", err);
+        if (m->shape == 0.0)
+            return mode_fail(s, k, "shape",
+                             "the waterline does not move in this mode: a shape other than 0 is expected",
+                             err);
         const int n = count_modes(s, k, err);
         if (n < 0 || check_mode_motion(s, key, motion_of_part(s, m->part), err)) return -1;
         if (n > MODES_OF_A_PART) return mode_fail(s, k, NULL, "a part has at most 8 modes", err);
@@ -606,17 +612,20 @@ static int check_failure(const fl_scene *s, fl_err *err)
     if (f->creep_exponent == 2)
         return fl_scene_fail(s, "failure.creep_exponent", err, "creep_exponent is 2, 1 or 3 is expected");
     if (s->run.sleep > 0.0)
-        return fl_scene_fail(s, "run.sleep", err,
-                             "ice that crushes by its speed does not sleep: either run.sleep or crushing_law = rate "
-                             "is expected");
+        return fl_scene_fail(
+            s, "run.sleep", err,
+            "ice that crushes by its speed does not sleep: either run.sleep or crushing_law = rate "
+            "is expected");
     if (s->run.error > 0.0)
-        return fl_scene_fail(s, "run.error", err,
-                             "run.error repeats windows with other steps, in which ice would break elsewhere: run.dt "
-                             "is expected with crushing_law = rate");
+        return fl_scene_fail(
+            s, "run.error", err,
+            "run.error repeats windows with other steps, in which ice would break elsewhere: run.dt "
+            "is expected with crushing_law = rate");
     if (s->bond.head.present && s->bond.on)
-        return fl_scene_fail(s, "bond.on", err,
-                             "bonded floes do not crush by their speed: either bond.on or crushing_law = rate is "
-                             "expected");
+        return fl_scene_fail(
+            s, "bond.on", err,
+            "bonded floes do not crush by their speed: either bond.on or crushing_law = rate is "
+            "expected");
     return 0;
 }
 
@@ -632,8 +641,9 @@ static int check_drive_track(const fl_scene *s, fl_err *err)
         return fl_scene_fail(s, "boundary.drive_track", err,
                              "a track has no rear: boundary.drive_edge is expected");
     if (s->run.sleep > 0.0)
-        return fl_scene_fail(s, "boundary.drive_track", err,
-                             "floes that follow a track do not sleep: either drive_track or run.sleep is expected");
+        return fl_scene_fail(
+            s, "boundary.drive_track", err,
+            "floes that follow a track do not sleep: either drive_track or run.sleep is expected");
     return 0;
 }
 
@@ -661,7 +671,9 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
                    check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) ||
-                   check_members(s, err) || check_modes(s, err) || check_failure(s, err) || check_drive_track(s, err) || check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
+                   check_members(s, err) || check_modes(s, err) || check_failure(s, err) ||
+                   check_drive_track(s, err) ||
+                   check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)
                ? -1

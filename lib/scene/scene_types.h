@@ -140,10 +140,10 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    char file[FL_SCENE_PATH];    /* g_struct; "" not given */
-    char members[FL_SCENE_PATH]; /* members; "" not given */
-    double member_damping;       /* ratio of the lowest modes */
-    char modes[FL_SCENE_PATH];   /* table of modes; "" not given */
+    char file[FL_SCENE_PATH];       /* g_struct; "" not given */
+    char members[FL_SCENE_PATH];    /* members; "" not given */
+    double member_damping;          /* ratio of the lowest modes */
+    char modes[FL_SCENE_PATH];      /* table of modes; "" not given */
     char modes_node[FL_SCENE_NAME]; /* its node at the waterline; "": it has directions */
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */

@@ -69,11 +69,13 @@ static int add_hydrostatics(fl_world *w, int32_t k, fl_rigid_motion *out, const 
 static void add_mode(fl_rigid_motion *out, const fl_scene_mode *m, int axis)
 {
     fl_modal_dof one = {.mass = m->mass / (m->shape * m->shape),
-                   .omega = 2.0 * PI * m->frequency,
-                   .ratio = m->damping_ratio,
-                   .e = axis ? v3(0, 1, 0) : v3(1, 0, 0)};
+                        .omega = 2.0 * PI * m->frequency,
+                        .ratio = m->damping_ratio,
+                        .e = axis ? v3(0, 1, 0) : v3(1, 0, 0)};
     snprintf(one.name, sizeof one.name, "%s%s", m->name,
-             m->direction != FL_MODE_XY ? "" : axis ? "_y" : "_x");
+             m->direction != FL_MODE_XY ? ""
+             : axis                     ? "_y"
+                                        : "_x");
     out->mode[out->modes++] = one;
 }
 
@@ -97,7 +99,8 @@ static int set_modes(const fl_scene *s, const char *part, fl_rigid_motion *out, 
         if (s->mode[k].direction != FL_MODE_X) add_mode(out, &s->mode[k], 1);
     }
     for (int32_t k = 0; k < out->modes; k++)
-        out->free_dof |= (out->mode[k].e.x != 0.0 ? FL_DOF_X : 0u) | (out->mode[k].e.y != 0.0 ? FL_DOF_Y : 0u) |
+        out->free_dof |= (out->mode[k].e.x != 0.0 ? FL_DOF_X : 0u) |
+                         (out->mode[k].e.y != 0.0 ? FL_DOF_Y : 0u) |
                          (out->mode[k].e.z != 0.0 ? FL_DOF_Z : 0u);
     out->mass = 1.0 / fl_modes_compliance(out->mode, out->modes);
     return 0;
@@ -166,12 +169,14 @@ static int make_movers(fl_world *w, const fl_surface *surface, fl_err *err)
             return fl_scene_fail(s, section, err, "there is no part %s in %s", name, s->structure.file);
         w->part_reference[p] = s->part[i].motion.reference;
     }
-    if (has_motion(s, &s->structure.motion, "") && add_mover(w, &s->structure.motion, "", "structure", surface, err))
+    if (has_motion(s, &s->structure.motion, "") &&
+        add_mover(w, &s->structure.motion, "", "structure", surface, err))
         return -1;
     for (int32_t i = 0; i < s->n_part; i++) {
         char section[FL_SCENE_NAME + 8];
         snprintf(section, sizeof section, "part %s", s->part[i].name);
-        if (has_motion(s, &s->part[i].motion, s->part[i].name) && add_mover(w, &s->part[i].motion, s->part[i].name, section, surface, err))
+        if (has_motion(s, &s->part[i].motion, s->part[i].name) &&
+            add_mover(w, &s->part[i].motion, s->part[i].name, section, surface, err))
             return -1;
     }
     return 0;
@@ -218,7 +223,8 @@ int fl_moving_structure_make(fl_world *w, const fl_surface *surface, const fl_me
     const int32_t pieces = w->structure.n; /* walls have an entry, too */
     for (int32_t p = 0; p < w->parts; p++) w->part_reference[p] = w->scene->structure.motion.reference;
     if (members) return fl_member_structure_make(w, members, err);
-    if (!surface || (!has_motion(w->scene, &w->scene->structure.motion, "") && w->scene->n_part == 0)) return 0;
+    if (!surface || (!has_motion(w->scene, &w->scene->structure.motion, "") && w->scene->n_part == 0))
+        return 0;
     r->mover_of_part = fl_alloc(w->parts, sizeof *r->mover_of_part, err);
     r->mover_of_piece = fl_alloc(pieces, sizeof *r->mover_of_piece, err);
     r->arm = fl_alloc(pieces, sizeof *r->arm, err);

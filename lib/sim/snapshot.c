@@ -244,7 +244,8 @@ static void exchange_mode(fl_state_io *t, fl_world *w, int32_t k)
     fl_modal_dof *m = (fl_modal_dof *)(uintptr_t)fl_structure_mode(w, k, &mover);
     fl_state_io_open(t, "mode");
     if (fl_state_io_hash(t, fl_hash(FL_HASH_START, m->name, (int64_t)strlen(m->name))))
-        fl_text_fail(t->in, t->err, "the modes of %s have changed since the checkpoint", fl_mover_name(w, mover));
+        fl_text_fail(t->in, t->err, "the modes of %s have changed since the checkpoint",
+                     fl_mover_name(w, mover));
     fl_state_io_real(t, &m->q);
     fl_state_io_real(t, &m->v);
     fl_state_io_real(t, &m->load);

@@ -6,7 +6,8 @@
 #include "scene/scene_key.h"
 #include "sim/moving_structure.h"
 
-/* Sectors on an outline for element_width = auto, at least; share of break_deflection that a step may close. */
+/* Sectors on an outline for element_width = auto, at least; share of break_deflection that a step may close.
+ * */
 enum { AUTO_RING = 16 };
 #define STEP_SHARE 0.2
 
@@ -52,15 +53,17 @@ static int make_walls(fl_world *w, fl_err *err)
         const int32_t j = w->n + k;
         const fl_mat3 R = fl_body_axes(&w->b, j);
         const fl_vec3 up = m3_tmul(R, v3(0, 0, 1)), at = v3_scale(z - w->b.x[j].z, up);
-        if (fl_wall_make(&w->strips.wall[k], &w->structure.piece[k], up, at, width, is_auto ? AUTO_RING : 0, err))
+        if (fl_wall_make(&w->strips.wall[k], &w->structure.piece[k], up, at, width, is_auto ? AUTO_RING : 0,
+                         err))
             return -1;
         walls += w->strips.wall[k].n > 0;
     }
     if (walls) return 0;
-    return fl_scene_fail(w->scene, "failure.crushing_law", err,
-                         "the structure has no wall within 15 degrees of the vertical at z = %.4g m, where the ice "
-                         "is: crushing_law = plain is expected",
-                         z);
+    return fl_scene_fail(
+        w->scene, "failure.crushing_law", err,
+        "the structure has no wall within 15 degrees of the vertical at z = %.4g m, where the ice "
+        "is: crushing_law = plain is expected",
+        z);
 }
 
 int fl_strips_make(fl_world *w, fl_err *err)
@@ -70,14 +73,14 @@ int fl_strips_make(fl_world *w, fl_err *err)
     if (!s->head.present || s->crushing == FL_CRUSHING_NONE || s->crushing_law != FL_CRUSHING_RATE) return 0;
     for (int32_t i = 0; i < w->n; i++)
         if (w->b.core[i].nf == 0)
-            return fl_scene_fail(w->scene, "failure.crushing_law", err,
-                                 "body %d is a sphere or a capsule: crushing_law = rate is for floes with faces",
-                                 w->id[i]);
-    q->law = (fl_strip_law){s->peak_ratio,     s->break_deflection,  s->transition_speed,
-                            s->creep_exponent, s->delayed_stiffness, s->delayed_time,
-                            (uint64_t)s->seed};
+            return fl_scene_fail(
+                w->scene, "failure.crushing_law", err,
+                "body %d is a sphere or a capsule: crushing_law = rate is for floes with faces", w->id[i]);
+    q->law = (fl_strip_law){s->peak_ratio,        s->break_deflection, s->transition_speed, s->creep_exponent,
+                            s->delayed_stiffness, s->delayed_time,     (uint64_t)s->seed};
     q->pressure = fl_pressure_area_of(s);
-    if (!key_given(s, "pressure") && s->pressure_law == FL_PRESSURE_USER) q->pressure.p0 = PEAK_PRESSURE / s->peak_ratio;
+    if (!key_given(s, "pressure") && s->pressure_law == FL_PRESSURE_USER)
+        q->pressure.p0 = PEAK_PRESSURE / s->peak_ratio;
     q->scatter = s->scatter;
     q->scatter_length = s->scatter_length;
     q->pieces = w->pieces;
@@ -140,7 +143,8 @@ static double width_along(const fl_world *w, int32_t piece, fl_vec3 e)
     const fl_wall *wall = &w->strips.wall[piece];
     const fl_vec3 d = m3_tmul(fl_body_axes(&w->b, w->n + piece), e);
     double sum = 0.0;
-    for (int32_t k = 0; k < wall->n; k++) sum += wall->sector[k].width * fmax(0.0, v3_dot(wall->sector[k].n, d));
+    for (int32_t k = 0; k < wall->n; k++)
+        sum += wall->sector[k].width * fmax(0.0, v3_dot(wall->sector[k].n, d));
     return sum;
 }
 
@@ -159,5 +163,6 @@ double fl_strips_lock_in_speed(const fl_world *w, int32_t k)
         F += A * fl_crushing_pressure(&s->pressure, A);
         is_round |= s->wall[c].is_round;
     }
-    return F > 0.0 ? fl_strip_lock_in_speed(F, is_round ? 0.5 * PI * b : b, m->ratio, m->omega, m->mass) : 0.0;
+    return F > 0.0 ? fl_strip_lock_in_speed(F, is_round ? 0.5 * PI * b : b, m->ratio, m->omega, m->mass)
+                   : 0.0;
 }

@@ -4,8 +4,8 @@
 #define FL_SIM_STRIP_SETUP_H
 #include "world/access.h"
 
-/* Fills w->strips if the scene has that law, after the pieces and floes have been placed.  -1 with FL_INPUT (no
- * vertical wall at the height of the ice, spheres or bonded floes) or FL_SYSTEM. */
+/* Fills w->strips if the scene has that law, after the pieces and floes have been placed.  -1 with FL_INPUT
+ * (no vertical wall at the height of the ice, spheres or bonded floes) or FL_SYSTEM. */
 int fl_strips_make(fl_world *w, fl_err *err);
 void fl_strips_free(fl_strips *s);
 
@@ -19,9 +19,9 @@ int fl_strips_check(const fl_world *w, fl_err *err);
  * strips [s]. */
 double fl_strips_max_step(const fl_world *w);
 
-/* Speed below which mode k of the structure (fl_structure_mode) locks in by estimate: fl_strip_lock_in_speed() of
- * the mean force on the walls of its part, seen along the mode, in ice of the largest thickness. 0: no wall; INFINITY:
- * no damping [m/s]. */
+/* Speed below which mode k of the structure (fl_structure_mode) locks in by estimate:
+ * fl_strip_lock_in_speed() of the mean force on the walls of its part, seen along the mode, in ice of the
+ * largest thickness. 0: no wall; INFINITY: no damping [m/s]. */
 double fl_strips_lock_in_speed(const fl_world *w, int32_t k);
 
 #endif

@@ -5,11 +5,11 @@
 #include "base/array.h"
 #include "base/pi.h"
 
-#define STILL 0.5      /* beta below which crushing is continuous */
-#define LOCKED 1.6     /* and above which a motion is not locked in */
-#define NEAR_MODE 0.1  /* relative distance from a natural frequency */
-#define BAND 1.5       /* the spectrum reaches to so many times the highest natural frequency */
-enum { FINER = 4 };    /* steps of the spectrum in one of its resolution */
+#define STILL 0.5     /* beta below which crushing is continuous */
+#define LOCKED 1.6    /* and above which a motion is not locked in */
+#define NEAR_MODE 0.1 /* relative distance from a natural frequency */
+#define BAND 1.5      /* the spectrum reaches to so many times the highest natural frequency */
+enum { FINER = 4 };   /* steps of the spectrum in one of its resolution */
 
 const char *fl_regime_name(int regime)
 {
@@ -59,7 +59,8 @@ static double dominant_frequency(const double *v, int32_t n, double dt, double m
     }
     free(y);
     if (at < 0) return NAN;
-    const double a = log(fmax(below, 1e-300)), b = log(best), c = log(fmax(above, 1e-300)), bend = a - 2.0 * b + c;
+    const double a = log(fmax(below, 1e-300)), b = log(best), c = log(fmax(above, 1e-300)),
+                 bend = a - 2.0 * b + c;
     const double shift = below > 0.0 && above > 0.0 && bend < 0.0 ? 0.5 * (a - c) / bend : 0.0;
     return (at + fmax(-1.0, fmin(1.0, shift))) * step;
 }
@@ -84,8 +85,8 @@ int fl_regime_classify(fl_regime_window *out, const fl_regime_rows *r, int32_t f
                        const double *mode, int32_t modes, fl_err *err)
 {
     const int32_t n = to - from;
-    const moments F = moments_of(r->load + from, n), x = moments_of(r->x + from, n), v = moments_of(r->v + from, n),
-                  ice = moments_of(r->ice + from, n);
+    const moments F = moments_of(r->load + from, n), x = moments_of(r->x + from, n),
+                  v = moments_of(r->v + from, n), ice = moments_of(r->ice + from, n);
     double highest = 0.0, breaks = 0.0;
     for (int32_t k = 0; k < modes; k++) highest = fmax(highest, mode[k]);
     for (int32_t k = from; r->breaks && k < to; k++) breaks += r->breaks[k];
@@ -93,7 +94,8 @@ int fl_regime_classify(fl_regime_window *out, const fl_regime_rows *r, int32_t f
                               .speed = ice.mean,
                               .beta = sqrt(2.0) * v.std / fabs(ice.mean),
                               .peak = mean_peak(r->v + from, n, v.mean) / fabs(ice.mean),
-                              .frequency = dominant_frequency(r->v + from, n, r->dt, v.mean, BAND * highest, err),
+                              .frequency =
+                                  dominant_frequency(r->v + from, n, r->dt, v.mean, BAND * highest, err),
                               .load = F.mean,
                               .load_std = F.std,
                               .load_max = F.max,
@@ -105,10 +107,10 @@ int fl_regime_classify(fl_regime_window *out, const fl_regime_rows *r, int32_t f
         if (fabs(out->frequency - mode[k]) <= NEAR_MODE * mode[k] &&
             (out->mode < 0 || fabs(out->frequency - mode[k]) < fabs(out->frequency - mode[out->mode])))
             out->mode = k;
-    out->regime = r->breaks && breaks == 0.0                    ? FL_REGIME_CREEP
-                  : out->beta < STILL                           ? FL_REGIME_CONTINUOUS
-                  : out->beta <= LOCKED && out->mode >= 0        ? FL_REGIME_LOCK_IN
-                                                                : FL_REGIME_INTERMITTENT;
+    out->regime = r->breaks && breaks == 0.0              ? FL_REGIME_CREEP
+                  : out->beta < STILL                     ? FL_REGIME_CONTINUOUS
+                  : out->beta <= LOCKED && out->mode >= 0 ? FL_REGIME_LOCK_IN
+                                                          : FL_REGIME_INTERMITTENT;
     if (out->regime != FL_REGIME_LOCK_IN) out->mode = -1;
     return 0;
 }

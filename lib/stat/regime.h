@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* regime.h -- regimes of ice-induced vibration, window by window.
  *
- * Along the mean horizontal load of the record, with v the speed of the ice, x the displacement of the waterline
- * and x' its velocity, a window has
+ * Along the mean horizontal load of the record, with v the speed of the ice, x the displacement of the
+ * waterline and x' its velocity, a window has
  *     beta = sqrt(2) rms(x' - mean x')/v,    v_p = mean of the largest x' of each cycle over v,
  *     f the frequency at which the spectrum of x' is largest,
  * and is
@@ -22,13 +22,19 @@
 #include <stdint.h>
 #include "base/err.h"
 
-enum fl_regime { FL_REGIME_CREEP, FL_REGIME_INTERMITTENT, FL_REGIME_LOCK_IN, FL_REGIME_CONTINUOUS, FL_REGIMES };
+enum fl_regime {
+    FL_REGIME_CREEP,
+    FL_REGIME_INTERMITTENT,
+    FL_REGIME_LOCK_IN,
+    FL_REGIME_CONTINUOUS,
+    FL_REGIMES
+};
 
 /* "creep", "intermittent", "lock-in", "continuous". */
 const char *fl_regime_name(int regime);
 
-/* Rows of equal length dt [s]: load [N], x [m], x' [m/s], speed of the ice [m/s], breaks (NULL: unknown, and then
- * no window creeps). */
+/* Rows of equal length dt [s]: load [N], x [m], x' [m/s], speed of the ice [m/s], breaks (NULL: unknown, and
+ * then no window creeps). */
 typedef struct {
     int32_t n;
     double dt;

@@ -116,9 +116,10 @@ static int find_mode_columns(fl_table *t, const char *node, mode_columns *c, fl_
     }
     if (node[0]) return fl_table_require(t, column[0], &c->node[0], err);
     if (c->direction >= 0) return 0;
-    return fl_text_fail(&t->text, err,
-                        "the modes have no column direction: structure.modes_node, the node at the waterline, "
-                        "is expected");
+    return fl_text_fail(
+        &t->text, err,
+        "the modes have no column direction: structure.modes_node, the node at the waterline, "
+        "is expected");
 }
 
 /* The displacement of the reference where the mode is 1; in out of three numbers. */
@@ -133,8 +134,7 @@ static int read_shape(const fl_table *t, const mode_columns *c, double phi[3], f
     const char *word = fl_table_word(t, c->direction);
     if (c->shape >= 0 && fl_table_f64(t, c->shape, &shape, err)) return -1;
     if ((word[0] != 'x' && word[0] != 'y') || word[1])
-        return fl_text_fail(&t->text, err,
-                            "direction \"%.20s\", x or y is expected", word);
+        return fl_text_fail(&t->text, err, "direction \"%.20s\", x or y is expected", word);
     phi[word[0] - 'x'] = shape;
     return 0;
 }

@@ -4,9 +4,9 @@
  * The reference point, at the waterline, has the displacement u = sum_j q_j e_j, e_j the unit direction of
  * mode j, and the part follows it without rotation. Each mode obeys
  *     m_j q_j'' + 2 zeta_j omega_j m_j q_j' + m_j omega_j^2 q_j = e_j . F,     omega_j = 2 pi f_j,
- * F the sum of all forces of the ice, m_j the modal mass for a shape that is 1 at the reference: a mass M of a
- * shape phi is m = M/phi^2. Modes are coupled through the ice alone. Modes of a frame that are left out make
- * the waterline too stiff.
+ * F the sum of all forces of the ice, m_j the modal mass for a shape that is 1 at the reference: a mass M of
+ * a shape phi is m = M/phi^2. Modes are coupled through the ice alone. Modes of a frame that are left out
+ * make the waterline too stiff.
  *
  * A step is that of rigid_motion.h: dampers h, kick h, drift dt, kick h, dampers h, h = dt/2, with
  *     v <- v exp(-2 zeta omega h)
@@ -27,14 +27,14 @@ enum {
 
 typedef struct {
     char name[FL_MODAL_NAME];
-    fl_vec3 e;                  /* direction of the waterline, length 1 */
-    double mass;                /* [kg] for |displacement of the reference| = q */
-    double omega, ratio;        /* [rad/s]; damping over critical */
-    double q, v;                /* [m], [m/s] */
-    double load;                /* e . F of the last evaluation [N] */
-    double force;               /* the same with the spring [N] */
+    fl_vec3 e;                    /* direction of the waterline, length 1 */
+    double mass;                  /* [kg] for |displacement of the reference| = q */
+    double omega, ratio;          /* [rad/s]; damping over critical */
+    double q, v;                  /* [m], [m/s] */
+    double load;                  /* e . F of the last evaluation [N] */
+    double force;                 /* the same with the spring [N] */
     double spring_energy, damped; /* [J] now; removed by the damper so far */
-    double decay;               /* factor of v by the damper of half a step */
+    double decay;                 /* factor of v by the damper of half a step */
 } fl_modal_dof;
 
 /* Sets `decay` for steps of dt. */
@@ -65,8 +65,8 @@ double fl_modes_max_omega2(const fl_modal_dof *m, int32_t n);
 /* Reads the modes of a table of kind `modes`, modes(5): columns f, mass, ratio, and either `direction` (x, y)
  * with an optional `shape`, or the displacements NODE.x NODE.y NODE.z of a node, which `node` names. Modes in
  * which that node stays at rest are left out. m: [FL_MODES_MOST].
- * Returns their number, or -1 with FL_INPUT (no such column or node, a number below 0, none or too many modes)
- * or FL_SYSTEM. */
+ * Returns their number, or -1 with FL_INPUT (no such column or node, a number below 0, none or too many
+ * modes) or FL_SYSTEM. */
 int32_t fl_modes_read(fl_modal_dof *m, const char *path, const char *node, fl_err *err);
 
 #endif

@@ -35,7 +35,7 @@ typedef struct {
     double K[6][6];         /* symmetric, x y z rx ry rz */
     fl_vec3 c, ct;          /* dashpots along x y z [N s/m], about the own axes [N m s] */
     int32_t modes;          /* 0: none */
-    fl_modal_dof *mode;          /* [modes] owned, with their state */
+    fl_modal_dof *mode;     /* [modes] owned, with their state */
 } fl_rigid_motion;
 
 typedef struct {

@@ -22,12 +22,13 @@ typedef struct {
     double k;            /* of the last step [N/m3] */
     double store;        /* energy at its end [J] */
     double work;         /* what the step crushed [J] */
-    fl_vec3 slid, turned; /* motion since ice was last passed on along the wall, frame of the piece [m], [rad] */
-    fl_vec3 near_area;   /* sum of the area vectors of the ice near the wall [m2] */
-    int32_t near_known;  /* 0: it has to be summed anew */
-    double way;          /* of the ice against the wall [m] */
-    double farthest;     /* largest so far */
-    double known_until;  /* areas hold while the odometers of the two are below this [m] */
+    fl_vec3 slid,
+        turned;        /* motion since ice was last passed on along the wall, frame of the piece [m], [rad] */
+    fl_vec3 near_area; /* sum of the area vectors of the ice near the wall [m2] */
+    int32_t near_known; /* 0: it has to be summed anew */
+    double way;         /* of the ice against the wall [m] */
+    double farthest;    /* largest so far */
+    double known_until; /* areas hold while the odometers of the two are below this [m] */
     fl_strip_strength strength;
     double closing; /* speed of the ice against the wall along the load [m/s] */
     int32_t breaks; /* in the step */
@@ -43,7 +44,7 @@ typedef struct {
     double scatter, scatter_length;
     double *part_closing, *part_seconds; /* [parts] integral of closing, and its time, since the last row */
     int64_t *part_breaks;                /* [parts] */
-    double too_fast;                     /* most that a wall closed in a step beyond what is allowed [m]; 0: none */
+    double too_fast; /* most that a wall closed in a step beyond what is allowed [m]; 0: none */
 } fl_strips;
 
 #endif

@@ -77,7 +77,8 @@ static void modes_add_up_at_the_waterline(void **state)
         fl_modes_damp(m, 2);
     }
     /* step response 1 - exp(-zw t)(cos + zw/wd sin) of either */
-    const double t = 2.0, wd = 3.0 * sqrt(1 - 0.01), q = 4.0 / 18.0 * (1 - exp(-0.3 * t) * (cos(wd * t) + 0.3 / wd * sin(wd * t))),
+    const double t = 2.0, wd = 3.0 * sqrt(1 - 0.01),
+                 q = 4.0 / 18.0 * (1 - exp(-0.3 * t) * (cos(wd * t) + 0.3 / wd * sin(wd * t))),
                  p = (0.6 * 4 + 0.8) / 245.0 * (1 - cos(7 * t));
     assert_near(m[0].q, q, 1e-6);
     assert_near(m[1].q, p, 1e-6);
@@ -115,15 +116,20 @@ static void tables_of_modes_are_read(void **state)
     fl_modal_dof m[FL_MODES_MOST];
     fl_err err;
     (void)state;
-    assert_int_equal(read_modes("#modes 1\nmode\tf\tmass\tratio\tdirection\tshape\na\t2\t8\t0.01\ty\t2\n", "", m, &err), 1);
+    assert_int_equal(
+        read_modes("#modes 1\nmode\tf\tmass\tratio\tdirection\tshape\na\t2\t8\t0.01\ty\t2\n", "", m, &err),
+        1);
     assert_near(m[0].mass, 2.0, 1e-15);
     assert_near(m[0].omega, 4 * PI, 1e-15);
     assert_near(m[0].e.y, 1.0, 0);
     assert_string_equal(m[0].name, "a");
     /* the second mode does not move the node */
-    assert_int_equal(read_modes("#modes 1\nmode\tf\tmass\tratio\tw.x\tw.y\tw.z\n1\t2\t8\t0.01\t0.3\t0.4\t0\n2\t3\t8\t0\t0\t0\t0\n",
-                                "w", m, &err),
-                     1);
+    assert_int_equal(
+        read_modes(
+            "#modes "
+            "1\nmode\tf\tmass\tratio\tw.x\tw.y\tw.z\n1\t2\t8\t0.01\t0.3\t0.4\t0\n2\t3\t8\t0\t0\t0\t0\n",
+            "w", m, &err),
+        1);
     assert_near(m[0].mass, 32.0, 1e-14);
     assert_near(m[0].e.x, 0.6, 1e-15);
 }
@@ -131,7 +137,8 @@ static void tables_of_modes_are_read(void **state)
 static void bad_tables_are_refused(void **state)
 {
     static const char *const it[][3] = {
-        {"#modes 1\nmode\tf\tmass\tratio\n1\t2\t8\t0\n", "", "structure.modes_node, the node at the waterline"},
+        {"#modes 1\nmode\tf\tmass\tratio\n1\t2\t8\t0\n", "",
+         "structure.modes_node, the node at the waterline"},
         {"#modes 1\nmode\tf\tmass\tratio\tdirection\n1\t0\t8\t0\tx\n", "", "f is 0 Hz"},
         {"#modes 1\nmode\tf\tmass\tratio\tdirection\n1\t1\t0\t0\tx\n", "", "mass is 0 kg"},
         {"#modes 1\nmode\tf\tmass\tratio\tdirection\n1\t1\t1\t1\tx\n", "", "ratio is 1"},

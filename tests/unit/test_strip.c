@@ -20,7 +20,8 @@ static void work_is_store_creep_and_delay(void **state)
     (void)state;
     for (int k = 0; k < 60; k++) {
         const fl_strip_element old = s;
-        const double z0 = fl_strip_deflection(&s), dq = (k < 40 ? 0.02 : -0.01) * dt, store = fl_strip_store(&LAW, &s);
+        const double z0 = fl_strip_deflection(&s), dq = (k < 40 ? 0.02 : -0.01) * dt,
+                     store = fl_strip_store(&LAW, &s);
         assert_int_equal(fl_strip_advance(&step, &s, dq, (fl_strip_id){0, 0, 0}), 0);
         const double z1 = fl_strip_deflection(&s), mean = 0.5 * (z0 + z1), du = s.u - old.u, rate = du / dt;
         const double creep = mean * h * 10e-3 * (pow(z0 / 5e-3, 3) + pow(z1 / 5e-3, 3)),
@@ -55,7 +56,8 @@ static void gaps_are_uniform(void **state)
     }
     assert_near(sum / 20000, 0.5, 4 * 0.0041 / 0.5); /* 4 standard errors */
     assert_near(square / 20000, 1.0 / 3, 4 * 0.0063);
-    assert_true(fl_strip_gap(&LAW, fl_rng_entity4(3, 1, 4, 5)) == fl_strip_gap(&LAW, fl_rng_entity4(3, 1, 4, 5)));
+    assert_true(fl_strip_gap(&LAW, fl_rng_entity4(3, 1, 4, 5)) ==
+                fl_strip_gap(&LAW, fl_rng_entity4(3, 1, 4, 5)));
 }
 
 static void strength_has_its_deviation(void **state)
@@ -79,7 +81,8 @@ static void speeds_of_lock_in_are_those_of_the_formulas(void **state)
     (void)state;
     assert_near(fl_strip_negative_damping(&a), 0.002667, 2e-4);
     assert_near(fl_strip_negative_damping(&LAW), 0.005333, 1e-4);
-    assert_near(fl_strip_lock_in_speed(2e6, fl_strip_negative_damping(&LAW), 0.02, 4 * PI, 2.533e6), 0.0915, 1e-3);
+    assert_near(fl_strip_lock_in_speed(2e6, fl_strip_negative_damping(&LAW), 0.02, 4 * PI, 2.533e6), 0.0915,
+                1e-3);
 }
 
 static void a_cone_has_a_ring_of_sectors(void **state)
@@ -99,7 +102,8 @@ static void a_cone_has_a_ring_of_sectors(void **state)
         seen += s->width * fmax(0.0, s->n.x);
         assert_near(s->from, -3.0, 1e-12);
         assert_near(s->to, 5.0, 1e-12);
-        assert_near_of(v3_norm(v3_sub(wall.sector[s->right].x, v3_madd(s->x, s->width, s->along))), 0.0, 0.15, s->width);
+        assert_near_of(v3_norm(v3_sub(wall.sector[s->right].x, v3_madd(s->x, s->width, s->along))), 0.0, 0.15,
+                       s->width);
         assert_int_equal(wall.sector[s->right].left, k);
     }
     assert_near_of(v3_norm(sum), 0.0, 1e-12, 1.0);
@@ -108,7 +112,8 @@ static void a_cone_has_a_ring_of_sectors(void **state)
     /* a cone of 20 degrees is no wall */
     fl_piece_free(&piece);
     piece = (fl_piece){0};
-    assert_int_equal(fl_cone_piece(&piece, &(fl_cone){v3(0, 0, -3), v3(0, 0, 5), 5, 5 - 8 * tan(PI / 9)}, &err), 0);
+    assert_int_equal(
+        fl_cone_piece(&piece, &(fl_cone){v3(0, 0, -3), v3(0, 0, 5), 5, 5 - 8 * tan(PI / 9)}, &err), 0);
     assert_int_equal(fl_wall_make(&wall, &piece, v3(0, 0, 1), v3(0, 0, 3), 1.0, 16, &err), 0);
     assert_int_equal(wall.n, 0);
     fl_piece_free(&piece);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Ice-induced vibration: crushing that depends on speed, structures with modes, floes that stop.
  *
- * Expected values of IV1 are closed forms: for n = 1 without a delayed part t = -ln(1 - v_t/w) delta/v_t to break,
- * else quadrature of one cycle. Those of IV2 to IV10 are of an independent program for the same model, with the
- * numbers of runs given there; tolerances are its errors. Forces are over F0, the mean of fast crushing. */
+ * Expected values of IV1 are closed forms: for n = 1 without a delayed part t = -ln(1 - v_t/w) delta/v_t to
+ * break, else quadrature of one cycle. Those of IV2 to IV10 are of an independent program for the same model,
+ * with the numbers of runs given there; tolerances are its errors. Forces are over F0, the mean of fast
+ * crushing. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +23,8 @@ static const fl_vec3 ZERO = {0, 0, 0};
 
 static const fl_strip_law B = {2.5, 5e-3, 10e-3, 3, 0.2, 2.0, 1}, A = {2.5, 5e-3, 10e-3, 1, 0.0, 1.0, 1};
 
-/* --- IV1: one element -------------------------------------------------------------------------------------- */
+/* --- IV1: one element --------------------------------------------------------------------------------------
+ * */
 
 /* Period and mean pressure over k z, R 2, closing at w. */
 static void one_element(fl_strip_law law, double w, double dt, double *period, double *mean)
@@ -44,7 +46,8 @@ static void one_element(fl_strip_law law, double w, double dt, double *period, d
         cycles++;
     }
     *period = (last - first) / (cycles - 1);
-    *mean = 2.0 * sum / (law.delta * (last - first)); /* R = 2, and at the end the same part of a cycle is open */
+    *mean =
+        2.0 * sum / (law.delta * (last - first)); /* R = 2, and at the end the same part of a cycle is open */
 }
 
 static void elements(void)
@@ -67,7 +70,8 @@ static void elements(void)
     verify_row("IV1", "  time at 10 ms [s]", 0.797427 + error[1][0], 0.797427, 1e-4, VERIFY_REL);
 }
 
-/* --- IV4: elements that are moved ------------------------------------------------------------------------ */
+/* --- IV4: elements that are moved ------------------------------------------------------------------------
+ * */
 
 /* Work of the force on a harmonic motion of velocity beta v cos(omega t), as a dashpot c times v/F0. */
 static double damping_of_motion(double beta, double v, int n, int cycles)
@@ -100,12 +104,13 @@ static void moved(void)
     for (int k = 0; k < 6; k++) {
         if (verify_quick() && k % 2 == 0) continue;
         snprintf(what, sizeof what, "moved at 2 Hz, v .07, beta %g: c v/F0", beta[k]);
-        verify_row("IV4", what, damping_of_motion(beta[k], 0.07, verify_quick() ? 400 : 2000, 24), expected[k], 0.01,
-                   VERIFY_ABS);
+        verify_row("IV4", what, damping_of_motion(beta[k], 0.07, verify_quick() ? 400 : 2000, 24),
+                   expected[k], 0.01, VERIFY_ABS);
     }
 }
 
-/* --- worlds ---------------------------------------------------------------------------------------------- */
+/* --- worlds ----------------------------------------------------------------------------------------------
+ * */
 
 /* A floe 0.5 m thick is driven at v against a wall 10 m wide with 20 columns, or a pile of radius 5 in it. */
 static void start_strip(lab *l, double v, int seed, int ring)
@@ -154,7 +159,10 @@ static void add_record(record_sums *s, const fl_world *w)
 }
 
 static double mean_of(double n, double x) { return x / n; }
-static double deviation_of(double n, double x, double xx) { return sqrt(fmax(0.0, xx / n - (x / n) * (x / n))); }
+static double deviation_of(double n, double x, double xx)
+{
+    return sqrt(fmax(0.0, xx / n - (x / n) * (x / n)));
+}
 
 /* Runs to time t; from `since` on records are summed. */
 static int record_until(lab *l, double t, double since, record_sums *s)
@@ -166,7 +174,8 @@ static int record_until(lab *l, double t, double since, record_sums *s)
     return 0;
 }
 
-/* --- IV2, IV3: rigid structures --------------------------------------------------------------------------- */
+/* --- IV2, IV3: rigid structures ---------------------------------------------------------------------------
+ * */
 
 static void rigid_wall(void)
 {
@@ -177,8 +186,10 @@ static void rigid_wall(void)
     char what[80];
     for (int k = 0; k < 7; k++) {
         /* elements keep their common phase for long near v_t */
-        const double since = w[k] < 0.04 ? 60.0 : 20.0,
-                     length = verify_quick() ? fmin(400.0 * 5e-3 / w[k], 100.0) : w[k] < 0.04 ? 320.0 : 60.0;
+        const double since = w[k] < 0.04 ? 60.0 : 20.0, length = verify_quick()
+                                                                     ? fmin(400.0 * 5e-3 / w[k], 100.0)
+                                                                 : w[k] < 0.04 ? 320.0
+                                                                               : 60.0;
         record_sums s = {0};
         if (verify_quick() && (k == 0 || k == 2 || k == 4)) continue;
         for (int seed = 1; seed <= runs; seed++) {
@@ -193,7 +204,8 @@ static void rigid_wall(void)
         verify_row("IV2", what, mean_of(s.n, s.f), mean[k], 0.003 * sqrt(10.0 / runs), VERIFY_REL);
         snprintf(what, sizeof what, "  deviation");
         if (std[k] > 0.0)
-            verify_row("IV2", what, deviation_of(s.n, s.f, s.ff), std[k], 0.03 * sqrt(10.0 / runs), VERIFY_REL);
+            verify_row("IV2", what, deviation_of(s.n, s.f, s.ff), std[k], 0.03 * sqrt(10.0 / runs),
+                       VERIFY_REL);
     }
 }
 
@@ -211,17 +223,19 @@ static void rigid_ring(void)
         snprintf(what, sizeof what, "rigid pile, 31 sectors on the front, v %g: mean force", v[k]);
         if (mean[k] > 0.0) verify_row("IV3", what, mean_of(s.n, s.f), mean[k], 0.01, VERIFY_REL);
         if (k == 3) {
-            verify_row("IV3", "rigid pile, v .3: deviation along", deviation_of(s.n, s.f, s.ff), 0.163, 0.05, VERIFY_REL);
+            verify_row("IV3", "rigid pile, v .3: deviation along", deviation_of(s.n, s.f, s.ff), 0.163, 0.05,
+                       VERIFY_REL);
             verify_row("IV3", "  across", deviation_of(s.n, s.g, s.gg), 0.163, 0.05, VERIFY_REL);
         }
         lab_free(&l);
     }
 }
 
-/* --- IV5, IV6, IV10: the oscillator ------------------------------------------------------------------------ */
+/* --- IV5, IV6, IV10: the oscillator ------------------------------------------------------------------------
+ * */
 
-/* Puts the structure to its deflection under the mean force, at the speed `start`; its elements stand at their first
- * gaps. */
+/* Puts the structure to its deflection under the mean force, at the speed `start`; its elements stand at
+ * their first gaps. */
 static void put_to_deflection(lab *l, double start)
 {
     fl_modal_dof *m = &l->w.moving.movers.motion[0].mode[0];
@@ -246,7 +260,8 @@ static double beta_of_run(double v, int seed, int put, double start, double sinc
         verify_below("IV5", "residual of the ledger over the throughput",
                      fabs(l.w.ledger.residual) / l.w.ledger.throughput, 1e-7);
     lab_free(&l);
-    s->n += own.n, s->f += own.f, s->ff += own.ff, s->x += own.x, s->xx += own.xx, s->v += own.v, s->vv += own.vv;
+    s->n += own.n, s->f += own.f, s->ff += own.ff, s->x += own.x, s->xx += own.xx, s->v += own.v,
+        s->vv += own.vv;
     s->top = fmax(s->top, own.top);
     return sqrt(2.0) * deviation_of(own.n, own.v, own.vv) / v;
 }
@@ -255,8 +270,9 @@ static void oscillator(void)
 {
     static const struct {
         double v, f, std, x, beta;
-    } IT[] = {{0.005, 1.984, 0, 0, 0},         {0.012, 1.876, 0.665, 3.34, 2.18}, {0.02, 1.541, 0.767, 3.77, 2.40},
-              {0.03, 1.280, 0.616, 3.35, 1.70}, {0.05, 1.140, 0.322, 3.02, 1.10},  {0.07, 1.102, 0.326, 4.30, 1.088},
+    } IT[] = {{0.005, 1.984, 0, 0, 0},           {0.012, 1.876, 0.665, 3.34, 2.18},
+              {0.02, 1.541, 0.767, 3.77, 2.40},  {0.03, 1.280, 0.616, 3.35, 1.70},
+              {0.05, 1.140, 0.322, 3.02, 1.10},  {0.07, 1.102, 0.326, 4.30, 1.088},
               {0.09, 1.094, 0.263, 5.29, 1.035}, {0.2, 1.028, 0.184, 0.35, 0.03}};
     char what[80];
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
@@ -269,10 +285,13 @@ static void oscillator(void)
         snprintf(what, sizeof what, "oscillator, v %g: mean force", IT[k].v);
         verify_row("IV5", what, mean_of(s.n, s.f), IT[k].f, 0.003, VERIFY_REL);
         if (IT[k].std == 0.0) continue;
-        verify_row("IV5", "  deviation of the force", deviation_of(s.n, s.f, s.ff), IT[k].std, 0.05, VERIFY_REL);
-        /* beta and deviation of .03 and .35 mm are printed with one and two digits: half a unit of the last */
+        verify_row("IV5", "  deviation of the force", deviation_of(s.n, s.f, s.ff), IT[k].std, 0.05,
+                   VERIFY_REL);
+        /* beta and deviation of .03 and .35 mm are printed with one and two digits: half a unit of the last
+         * */
         const double coarse = IT[k].beta < 0.1 ? 0.2 : 0.05;
-        verify_row("IV5", "  deviation of x [mm]", 1e3 * deviation_of(s.n, s.x, s.xx), IT[k].x, coarse, VERIFY_REL);
+        verify_row("IV5", "  deviation of x [mm]", 1e3 * deviation_of(s.n, s.x, s.xx), IT[k].x, coarse,
+                   VERIFY_REL);
         verify_row("IV5", "  beta", beta, IT[k].beta, coarse, VERIFY_REL);
     }
 }
@@ -310,12 +329,14 @@ static void scatter(void)
         beta_of_run(0.2, seed, 0, 0.0, 20.0, 120.0, 0.25, &s);
         if (!verify_quick()) beta += beta_of_run(0.07, seed, 0, 0.0, 40.0, 120.0, 0.25, &locked_in) / runs;
     }
-    verify_row("IV10", "scatter .25, v .2: deviation of the force", deviation_of(s.n, s.f, s.ff), 0.310, 0.05, VERIFY_REL);
+    verify_row("IV10", "scatter .25, v .2: deviation of the force", deviation_of(s.n, s.f, s.ff), 0.310, 0.05,
+               VERIFY_REL);
     verify_row("IV10", "  of x [mm]", 1e3 * deviation_of(s.n, s.x, s.xx), 2.2, 0.15, VERIFY_REL);
     if (!verify_quick()) verify_row("IV10", "  v .07: beta", beta, 1.08, 0.05, VERIFY_REL);
 }
 
-/* --- IV7: the monopile ------------------------------------------------------------------------------------- */
+/* --- IV7: the monopile -------------------------------------------------------------------------------------
+ * */
 
 /* beta of the leading mode of the IEA 15 MW monopile, of its lowest `modes`. */
 static double beta_of_pile(int modes, int ring, double v, int lead, int seed, double *mean)
@@ -346,8 +367,11 @@ static void monopile(void)
     static const struct {
         int modes, ring, lead;
         double v, beta, mean;
-    } IT[] = {{3, 0, 2, 0.05, 1.218, 1.136}, {3, 0, 2, 0.08, 1.087, 1.113}, {4, 62, 2, 0.05, 1.272, 1.192},
-              {4, 62, 3, 0.08, 1.06, 1.140}, {4, 62, 3, 0.12, 1.036, 1.111}};
+    } IT[] = {{3, 0, 2, 0.05, 1.218, 1.136},
+              {3, 0, 2, 0.08, 1.087, 1.113},
+              {4, 62, 2, 0.05, 1.272, 1.192},
+              {4, 62, 3, 0.08, 1.06, 1.140},
+              {4, 62, 3, 0.12, 1.036, 1.111}};
     const int runs = verify_quick() ? 1 : 8;
     char what[100];
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
@@ -358,14 +382,15 @@ static void monopile(void)
             beta += beta_of_pile(IT[k].modes, IT[k].ring, IT[k].v, IT[k].lead, seed, &one) / runs;
             mean += one / runs;
         }
-        snprintf(what, sizeof what, "%s, %d modes, v %g: beta of mode %d", IT[k].ring ? "pile" : "wall", IT[k].modes,
-                 IT[k].v, IT[k].lead + 1);
+        snprintf(what, sizeof what, "%s, %d modes, v %g: beta of mode %d", IT[k].ring ? "pile" : "wall",
+                 IT[k].modes, IT[k].v, IT[k].lead + 1);
         verify_row("IV7", what, beta, IT[k].beta, 0.05, VERIFY_REL);
         verify_row("IV7", "  mean force", mean, IT[k].mean, 0.01, VERIFY_REL);
     }
 }
 
-/* --- IV8: floes that stop ---------------------------------------------------------------------------------- */
+/* --- IV8: floes that stop ----------------------------------------------------------------------------------
+ * */
 
 static void stop_floe(int oscillates, int seed, double *way, double *time, double *back)
 {
@@ -378,7 +403,8 @@ static void stop_floe(int oscillates, int seed, double *way, double *time, doubl
     lab_set(&l, "boundary.drive_fixed=x y rz");
     lab_set(&l, "boundary.drive=0");
     const double r = 0.05, a = 120.0 + 2.0 * FRONT - 2.0 * r, b = 60.0 - 2.0 * r, c = 0.5 - 2.0 * r,
-                 volume = a * b * c + 2.0 * r * (a * b + b * c + c * a) + PI * r * r * (a + b + c) + 4.0 / 3.0 * PI * r * r * r;
+                 volume = a * b * c + 2.0 * r * (a * b + b * c + c * a) + PI * r * r * (a + b + c) +
+                          4.0 / 3.0 * PI * r * r * r;
     lab_setf(&l, "material ice.density=%.17g", mass / volume);
     if (oscillates) add_oscillator(&l);
     lab_make(&l, 1e-3);
@@ -417,7 +443,8 @@ static void stopping(void)
     verify_row("IV8", "  time [s]", time, 56.2, 0.01, VERIFY_REL);
 }
 
-/* --- IV9: a drift that turns ---------------------------------------------------------------------------------- */
+/* --- IV9: a drift that turns
+ * ---------------------------------------------------------------------------------- */
 
 static void turning(void)
 {

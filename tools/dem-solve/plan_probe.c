@@ -107,8 +107,9 @@ static void print_modes(const fl_world *w, FILE *f)
         int32_t mover;
         const fl_modal_dof *m = fl_structure_mode(w, k, &mover);
         const double speed = w->strips.wall ? fl_strips_lock_in_speed(w, k) : 0.0;
-        fprintf(f, "mode           %s of %s: %.5g Hz, %.6g kg and %.4g N/m at the waterline, damping %.3g", m->name,
-                fl_mover_name(w, mover), m->omega / (2.0 * PI), m->mass, m->mass * m->omega * m->omega, m->ratio);
+        fprintf(f, "mode           %s of %s: %.5g Hz, %.6g kg and %.4g N/m at the waterline, damping %.3g",
+                m->name, fl_mover_name(w, mover), m->omega / (2.0 * PI), m->mass,
+                m->mass * m->omega * m->omega, m->ratio);
         if (speed > 0.0 && isfinite(speed)) fprintf(f, "; locks in below about %.3g m/s", speed);
         putc('\n', f);
     }

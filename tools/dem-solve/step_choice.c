@@ -67,7 +67,8 @@ static void describe_step(struct run *r, double automatic)
     else if (automatic / r->critical < s->safety * (1.0 - TIME_ROUNDING))
         describe_damped_step(to, n, automatic / r->critical, left, r->critical);
     else snprintf(to, n, "run.safety, %.3g of the critical %.4g s", s->safety, r->critical);
-    if (s->dt > 0.0 || r->step_body < 0 || automatic >= fmin(fl_strips_max_step(r->w), fmin(every, s->duration)))
+    if (s->dt > 0.0 || r->step_body < 0 ||
+        automatic >= fmin(fl_strips_max_step(r->w), fmin(every, s->duration)))
         return;
     const size_t used = strlen(to);
     snprintf(to + used, n - used, " of %s", body_name(r->w, r->step_body, name));

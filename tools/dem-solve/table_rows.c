@@ -42,8 +42,8 @@ static int32_t id_of_partner(fl_world *w, const fl_pair *p, fl_vec3 x)
 }
 
 /* The columns of all modes, without values; NULL where there are no modes, or too many for a table. */
-static const fl_more_columns *begin_mode_columns(const fl_world *w, struct mode_columns *c, const char *prefix,
-                                                 const char *unit)
+static const fl_more_columns *begin_mode_columns(const fl_world *w, struct mode_columns *c,
+                                                 const char *prefix, const char *unit)
 {
     const int32_t n = w->moving.movers.n ? fl_structure_modes(w) : 0;
     if (n == 0) return NULL;
@@ -98,7 +98,8 @@ void write_loads(struct run *r, FILE *f, double t, double interval)
         if (moving) fl_part_motion(w, p, t, &row.motion);
         struct mode_columns modes;
         if (w->strips.wall) take_closing(w, p, &row);
-        fl_table_write_row_more(f, &fl_loads_table, loads_options(w), t, &row, mode_displacements(w, p, &modes));
+        fl_table_write_row_more(f, &fl_loads_table, loads_options(w), t, &row,
+                                mode_displacements(w, p, &modes));
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
         w->part_peak[p] = 0.0;
     }

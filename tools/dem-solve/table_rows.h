@@ -25,7 +25,8 @@ void write_members(struct run *r, FILE *f, double t, double interval);
 /* The columns of loads(5) that depend on the scene. */
 unsigned loads_options(const fl_world *w);
 
-/* The columns of modes in loads(5), for a row of a part (-1: the header), and in energy(5). NULL: no modes. */
+/* The columns of modes in loads(5), for a row of a part (-1: the header), and in energy(5). NULL: no modes.
+ * */
 enum { MODE_COLUMNS = 256 };
 struct mode_columns {
     fl_more_columns more;

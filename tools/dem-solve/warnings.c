@@ -192,8 +192,9 @@ static void warn_vibration(const struct run *r)
     const double every = r->scene->output.loads_every;
     double highest = 0.0;
     if (w->strips.wall && !fl_structure_moves_freely(w))
-        fprintf(stderr, "dem-solve: warning: the structure is fixed: with crushing_law = rate nothing vibrates; "
-                        "[mode NAME] or structure.modes lets it\n");
+        fprintf(stderr,
+                "dem-solve: warning: the structure is fixed: with crushing_law = rate nothing vibrates; "
+                "[mode NAME] or structure.modes lets it\n");
     for (int32_t k = 0; k < n; k++) {
         const fl_modal_dof *m = fl_structure_mode(w, k, NULL);
         highest = fmax(highest, m->omega / (2.0 * PI));
@@ -202,7 +203,8 @@ static void warn_vibration(const struct run *r)
     }
     if (every * highest > 0.1 * (1.0 + 1e-9))
         fprintf(stderr,
-                "dem-solve: warning: output.loads_every is %g s, longer than a tenth of the period of the mode of "
+                "dem-solve: warning: output.loads_every is %g s, longer than a tenth of the period of the "
+                "mode of "
                 "%.4g Hz: its motion is not resolved\n",
                 every, highest);
 }

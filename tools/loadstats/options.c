@@ -201,8 +201,10 @@ static int add_oscillator(void *options, const char *text, fl_err *err)
 static int parse_mode(void *options, const char *word, fl_err *err)
 {
     struct options *const o = options;
-    if (o->modes == MODES_MAX) return fl_fail(err, FL_USAGE, "expected at most %d natural frequencies", MODES_MAX);
-    return fl_option_number("mode", word, 1e-100, 1e100, "a natural frequency above 0", &o->mode[o->modes++], err);
+    if (o->modes == MODES_MAX)
+        return fl_fail(err, FL_USAGE, "expected at most %d natural frequencies", MODES_MAX);
+    return fl_option_number("mode", word, 1e-100, 1e100, "a natural frequency above 0", &o->mode[o->modes++],
+                            err);
 }
 
 static int parse_area(void *options, const char *word, fl_err *err)

@@ -11,7 +11,8 @@ enum { STRETCHES = 3000 };
 static const char *const COLOUR[FL_REGIMES] = {"#6a51a3", "#c8642d", "#cb181d", "#2171b5"};
 
 /* Points of the windows of each regime: what(window) over the middle of the window. */
-static void write_points(picture *p, const struct regime_windows *q, double (*what)(const fl_regime_window *), int keys)
+static void write_points(picture *p, const struct regime_windows *q, double (*what)(const fl_regime_window *),
+                         int keys)
 {
     const double *edge = find_view(p->r, p->part, 0, 0)->edge;
     for (int regime = 0; regime < FL_REGIMES; regime++) {
@@ -25,8 +26,8 @@ static void write_points(picture *p, const struct regime_windows *q, double (*wh
         for (int32_t k = 0; k < q->n; k++) {
             if (q->window[k].regime != regime) continue;
             plot_label(p, 0, 0);
-            plot_columns(p, 2,
-                         (double[]){0.5 * (edge[k * q->each] + edge[(k + 1) * q->each]), what(&q->window[k])});
+            plot_columns(
+                p, 2, (double[]){0.5 * (edge[k * q->each] + edge[(k + 1) * q->each]), what(&q->window[k])});
         }
     }
 }
@@ -104,7 +105,8 @@ static void write_panels(picture *p, const struct regime_windows *q)
     plot_end_panel(p);
     begin_panel(p, 3, "Frequency  [Hz]", 0.0, top_of(q, frequency_of));
     for (int32_t k = 0; k < p->o->modes; k++)
-        fprintf(p->script, "set arrow %d from graph 0, first %.6g to graph 1, first %.6g nohead dt 2 lc rgb '#999999'\n",
+        fprintf(p->script,
+                "set arrow %d from graph 0, first %.6g to graph 1, first %.6g nohead dt 2 lc rgb '#999999'\n",
                 20 + (int)k, p->o->mode[k], p->o->mode[k]);
     write_points(p, q, frequency_of, 0);
     plot_end_panel(p);
@@ -131,4 +133,5 @@ static int can_draw_regimes(const picture *p, fl_err *err)
     return p->r->series->signals >= 6 && find_view(p->r, p->part, 2, 0) != NULL;
 }
 
-const struct picture_kind regimes_picture = {.name = "regimes", .drawable = can_draw_regimes, .fill = fill_regimes};
+const struct picture_kind regimes_picture = {
+    .name = "regimes", .drawable = can_draw_regimes, .fill = fill_regimes};

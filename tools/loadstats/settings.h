@@ -73,9 +73,9 @@ struct options {
     double mode[MODES_MAX]; /* natural frequencies [Hz] */
     int32_t modes;
     const char *modes_text; /* as given, or NULL; borrowed from argv */
-    double stress; /* per unit of the load */
-    double follow; /* data time between two outputs [s], 0 for one at the end */
-    int ended;     /* --help or --version was answered */
+    double stress;          /* per unit of the load */
+    double follow;          /* data time between two outputs [s], 0 for one at the end */
+    int ended;              /* --help or --version was answered */
 };
 
 /* Start of the analysis [s], and the time to drop after the first load [s], 0 for none. */

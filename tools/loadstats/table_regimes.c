@@ -22,7 +22,8 @@ static int count_windows(struct regime_windows *w, const struct record_views *r,
                          fl_err *err)
 {
     const fl_signal_view *v = find_view(r, 0, FX, 0);
-    const double even = fl_resample_common_interval(v->n, v->edge), length = o->segment > 0.0 ? o->segment : USUAL_WINDOW;
+    const double even = fl_resample_common_interval(v->n, v->edge),
+                 length = o->segment > 0.0 ? o->segment : USUAL_WINDOW;
     double fastest = 0.0;
     if (!(even > 0.0))
         return fl_fail(err, FL_INPUT, "the intervals of the record are not equal: --step is expected");
@@ -35,13 +36,15 @@ static int count_windows(struct regime_windows *w, const struct record_views *r,
                        even * v->n, even);
     w->n = v->n / w->each;
     if (!o->quiet && even * fastest > 0.1 * (1.0 + 1e-9))
-        fprintf(stderr, "loadstats: rows of %.4g s are long for a mode of %.4g Hz, ten or more a period are expected\n",
-                even, fastest);
+        fprintf(
+            stderr,
+            "loadstats: rows of %.4g s are long for a mode of %.4g Hz, ten or more a period are expected\n",
+            even, fastest);
     return 0;
 }
 
-int regimes_make(struct regime_windows *w, const struct record_views *r, const struct options *o, int32_t part,
-                 fl_err *err)
+int regimes_make(struct regime_windows *w, const struct record_views *r, const struct options *o,
+                 int32_t part, fl_err *err)
 {
     *w = (struct regime_windows){0};
     if (count_windows(w, r, o, err)) return -1;
@@ -85,8 +88,8 @@ static void write_mode(FILE *f, const struct options *o, int32_t mode)
     else write_cell(f, o->mode[mode]);
 }
 
-int regime_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal, int w,
-                fl_err *err)
+int regime_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
+                int w, fl_err *err)
 {
     struct regime_windows q;
     if (!has_motion(r, part, signal, w)) return 0;
@@ -121,8 +124,8 @@ struct regime_sum {
     double slowest, fastest, load, load_max, beta_max, cycles, range_max, power;
 };
 
-static int add_window(struct regime_sum *s, const struct regime_windows *q, int32_t k, const struct options *o,
-                      double m, fl_err *err)
+static int add_window(struct regime_sum *s, const struct regime_windows *q, int32_t k,
+                      const struct options *o, double m, fl_err *err)
 {
     const fl_regime_window *a = &q->window[k];
     fl_rainflow flow = {0};
@@ -163,8 +166,8 @@ static void write_share(FILE *f, const char *part, int regime, const struct opti
     putc('\n', f);
 }
 
-int regime_share_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
-                      int w, fl_err *err)
+int regime_share_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part,
+                      int32_t signal, int w, fl_err *err)
 {
     struct regime_windows q;
     const double m = o->sn_curves ? o->sn[0].m : 5.0;

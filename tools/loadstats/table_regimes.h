@@ -20,13 +20,13 @@ struct regime_windows {
     int32_t rows;
     double dt;
 };
-int regimes_make(struct regime_windows *w, const struct record_views *r, const struct options *o, int32_t part,
-                 fl_err *err);
+int regimes_make(struct regime_windows *w, const struct record_views *r, const struct options *o,
+                 int32_t part, fl_err *err);
 void regimes_free(struct regime_windows *w);
 
-int regime_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal, int w,
-                fl_err *err);
-int regime_share_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
-                      int w, fl_err *err);
+int regime_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
+                int w, fl_err *err);
+int regime_share_rows(FILE *f, const struct record_views *r, const struct options *o, int32_t part,
+                      int32_t signal, int w, fl_err *err);
 
 #endif
