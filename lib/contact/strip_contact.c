@@ -177,29 +177,22 @@ static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, 
     return k;
 }
 
-/* Adds the spring k along n, with its moment `arm` about the origin. */
-static void add_spring(fl_strip_result *out, double k, fl_vec3 n, fl_vec3 arm)
+/* Adds the springs of the sectors that touch the ice, or may soon. */
+static void add_springs(const fl_strip *q, const fl_wall *wall, double gap, fl_spring_sums *sum)
 {
-    const double N[3] = {n.x, n.y, n.z}, M[3] = {arm.x, arm.y, arm.z};
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) {
-            out->springs.linear[r][c] += k * N[r] * N[c];
-            out->springs.coupling[r][c] += k * M[r] * N[c];
-            out->springs.angular[r][c] += k * M[r] * M[c];
-        }
-}
-
-/* Adds the load f on a cell whose stiffness is k, at x. */
-static void add_load(fl_strip_result *out, double k, double f, fl_vec3 n, fl_vec3 x, fl_vec3 *moment,
-                     int survey)
-{
-    const fl_vec3 arm = v3_cross(x, n);
-    out->force.f = v3_madd(out->force.f, f, n);
-    out->force.m = v3_madd(out->force.m, f, arm);
-    out->normal += f;
-    out->slope += k;
-    *moment = v3_madd(*moment, f, x);
-    if (survey) add_spring(out, k, n, arm);
+    for (int32_t j = 0; j < q->n; j++) {
+        const fl_strip_cell *c = &q->cell[j];
+        const fl_wall_sector *s = &wall->sector[j];
+        if (!(c->area > 0.0) || c->ice.e < -gap) continue;
+        const fl_vec3 arm = v3_cross(v3_madd(s->x, c->middle, s->up), s->n);
+        const double k = q->k * c->area, N[3] = {s->n.x, s->n.y, s->n.z}, M[3] = {arm.x, arm.y, arm.z};
+        for (int r = 0; r < 3; r++)
+            for (int i = 0; i < 3; i++) {
+                sum->linear[r][i] += k * N[r] * N[i];
+                sum->coupling[r][i] += k * M[r] * N[i];
+                sum->angular[r][i] += k * M[r] * M[i];
+            }
+    }
 }
 
 static void note_speed(fl_world *w, double closes)
@@ -209,45 +202,57 @@ static void note_speed(fl_world *w, double closes)
     if (closes > w->strips.too_fast) w->strips.too_fast = closes;
 }
 
-/* What the cells of a step add up to. */
+/* What the cells of a step add up to, frame of the piece. */
 typedef struct {
-    fl_vec3 moment;
-    double work, store, fastest;
+    fl_vec3 force, moment, weighted; /* sum of f, of x x f, and of |f| x */
+    double normal, stiffness, depth, work, store, fastest;
+    int32_t breaks, touching, crossing; /* crossing: some came near the wall or left it */
 } cell_sums;
 
-/* Advances cell k by the step; a cell that stays in a gap is done with it. */
-static void advance_cell(fl_world *w, const fl_pair *p, int32_t k, const fl_strip_step *step,
-                         const wall_motion *v, double dt, int survey, fl_strip_result *out, cell_sums *sum)
+/* Advances all cells by the step; those that stay in a gap are done with it at once. */
+static cell_sums advance_cells(const fl_world *w, const fl_pair *p, const fl_strip_step *step,
+                               const wall_motion *v, double dt)
 {
+    const fl_wall *wall = &w->strips.wall[p->j - w->n];
+    const double least = near_limit(w), k = p->strip->k;
     fl_strip *const q = p->strip;
-    fl_strip_cell *c = &q->cell[k];
-    const fl_wall_sector *s = &w->strips.wall[p->j - w->n].sector[k];
-    const fl_vec3 x = v3_madd(s->x, c->middle, s->up);
-    const double dq = closing_way(v, s->n, x, dt), least = near_limit(w);
-    const int was_near = c->ice.e > least;
-    if (dq > sum->fastest) sum->fastest = dq;
-    if (c->load == 0.0 && c->ice.u == 0.0 && c->ice.e + dq <= 0.0) {
-        c->ice.e += dq;
-        if (survey && c->ice.e > -step->gap) add_spring(out, q->k * c->area, s->n, v3_cross(x, s->n));
-    } else {
-        const double stiff = q->k * c->area, before = c->load;
-        q->breaks += fl_strip_advance(step, &c->ice, dq, id_of(w, p, k));
-        const double z = fl_strip_deflection(&c->ice);
-        c->load = stiff * z;
-        sum->store += stiff * fl_strip_store(step->law, &c->ice);
-        sum->work += 0.5 * (before + c->load) * dq;
-        if (z > out->max_depth) out->max_depth = z;
-        if (z > 0.0 || survey) add_load(out, stiff, c->load, s->n, x, &sum->moment, survey);
+    cell_sums sum = {.normal = 0.0};
+    for (int32_t j = 0; j < q->n; j++) {
+        fl_strip_cell *const c = &q->cell[j];
+        const fl_wall_sector *const s = &wall->sector[j];
+        const double e = c->ice.e;
+        if (!(c->area > 0.0) && c->load == 0.0) continue;
+        fl_vec3 x = s->x;
+        if (v->turns || c->load > 0.0) x = v3_madd(s->x, c->middle, s->up);
+        const double dq = closing_way(v, s->n, x, dt);
+        if (!(c->area > 0.0)) { /* the sector has left the ice: the last of its load does work */
+            sum.work += 0.5 * c->load * dq;
+            c->load = 0.0;
+            continue;
+        }
+        sum.touching = 1;
+        if (dq > sum.fastest) sum.fastest = dq;
+        if (c->load == 0.0 && c->ice.u == 0.0 && e + dq <= 0.0) {
+            c->ice.e = e + dq;
+            sum.crossing |= (e > least) != (e + dq > least);
+            continue;
+        }
+        const double stiff = k * c->area;
+        sum.breaks += fl_strip_advance(step, &c->ice, dq, id_of(w, p, j));
+        const double z = fl_strip_deflection(&c->ice), f = stiff * z;
+        sum.store += stiff * fl_strip_store(step->law, &c->ice);
+        sum.work += 0.5 * (c->load + f) * dq;
+        c->load = f;
+        if (!(z > 0.0)) continue;
+        if (z > sum.depth) sum.depth = z;
+        const fl_vec3 force = v3_scale(f, s->n), at = v3_madd(s->x, c->middle, s->up);
+        sum.force = v3_add(sum.force, force);
+        sum.moment = v3_add(sum.moment, v3_cross(at, force));
+        sum.weighted = v3_madd(sum.weighted, f, at);
+        sum.normal += f;
+        sum.stiffness += stiff;
     }
-    if (was_near != (c->ice.e > least)) q->near_known = 0;
-}
-
-/* A cell whose sector has left the ice: the last of its load does work. */
-static double leaving_work(fl_strip_cell *c, const fl_wall_sector *s, const wall_motion *v, double dt)
-{
-    const double work = 0.5 * c->load * closing_way(v, s->n, v3_madd(s->x, c->middle, s->up), dt);
-    c->load = 0.0;
-    return work;
+    return sum;
 }
 
 int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, int survey,
@@ -259,19 +264,21 @@ int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r,
     fl_strip *const q = p->strip;
     const wall_motion v = motion_of(w, p, r, dt);
     const fl_strip_step step = fl_strip_step_of(&w->strips.law, dt);
-    cell_sums sum = {.work = 0.0};
     update_areas(w, p, r, wall);
     transport(q, wall, &v, dt);
     q->k = stiffness_now(w, p, wall, &v, dt);
-    q->breaks = 0;
-    for (int32_t k = 0; k < q->n; k++) {
-        fl_strip_cell *c = &q->cell[k];
-        if (c->area > 0.0) advance_cell(w, p, k, &step, &v, dt, survey, out, &sum), out->touches = 1;
-        else if (c->load > 0.0) sum.work += leaving_work(c, &wall->sector[k], &v, dt);
-    }
-    if (out->normal > 0.0) out->centre = v3_scale(1.0 / out->normal, sum.moment);
+    const cell_sums sum = advance_cells(w, p, &step, &v, dt);
+    if (sum.crossing) q->near_known = 0;
+    q->breaks = sum.breaks;
     q->work = sum.work - (sum.store - q->store);
     q->store = sum.store;
+    out->force = (fl_wrench){sum.force, sum.moment};
+    out->normal = sum.normal;
+    out->slope = sum.stiffness;
+    out->touches = sum.touching;
+    out->max_depth = sum.depth;
+    if (sum.normal > 0.0) out->centre = v3_scale(1.0 / sum.normal, sum.weighted);
+    if (survey) add_springs(q, wall, step.gap, &out->springs);
     note_speed(w, sum.fastest);
     return 0;
 }

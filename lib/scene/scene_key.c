@@ -1458,7 +1458,7 @@ const fl_key fl_key_table[] = {
      .needs = {"crushing"},
      .meaning = "how pressure follows the motion: plain, it depends on the area alone; rate, on the speed as "
                 "well, on walls of the structure: elements that creep, load and break",
-     .source = "Hendrikse & Nord, Mar. Struct. 65 (2019); failure/strip.h"},
+     .source = "Hendrikse & Nord, Marine Structures 65 (2019); failure/strip.h"},
     {.section = FL_SEC_FAILURE,
      .key = "pressure_law",
      .type = FL_VALUE_WORD,
