@@ -223,9 +223,14 @@ static void rigid_ring(void)
         snprintf(what, sizeof what, "rigid pile, 31 sectors on the front, v %g: mean force", v[k]);
         if (mean[k] > 0.0) verify_row("IV3", what, mean_of(s.n, s.f), mean[k], 0.01, VERIFY_REL);
         if (k == 3) {
+            /* sectors with v |cos| < v_t creep, and their noise, sin^2 of all across the drift, is missing */
+            const double slow = 10e-3 / v[k],
+                         across =
+                             0.163 * sqrt(1.0 - 2.0 / PI * (asin(slow) + slow * sqrt(1.0 - slow * slow)));
             verify_row("IV3", "rigid pile, v .3: deviation along", deviation_of(s.n, s.f, s.ff), 0.163, 0.05,
                        VERIFY_REL);
-            verify_row("IV3", "  across", deviation_of(s.n, s.g, s.gg), 0.163, 0.05, VERIFY_REL);
+            verify_row("IV3", "  across, the sectors aside creeping", deviation_of(s.n, s.g, s.gg), across,
+                       0.05, VERIFY_REL);
         }
         lab_free(&l);
     }
