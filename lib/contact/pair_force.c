@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include "base/array.h"
 #include "contact/bond_list.h"
 #include "contact/pair_force.h"
@@ -9,6 +10,7 @@
 #include "contact/pair_surrogate.h"
 #include "contact/panel_load.h"
 #include "contact/rolling_pair.h"
+#include "contact/strip_contact.h"
 #include "contact/surrogate_batch.h"
 #include "contact/velocity_predictor.h"
 #include "law/damping.h"
@@ -752,6 +754,49 @@ static int evaluate_elastic_wall(fl_world *w, fl_pair *p, const fl_relative_pose
     return p->touching = 1;
 }
 
+/* Evaluates ice that crushes by its speed; *distance is set where the two do not touch. */
+static int evaluate_strip(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r,
+                          const prediction *a, double dt, int survey, double *distance)
+{
+    const double store = p->strip ? p->strip->store : 0.0, work = p->strip ? p->strip->work : 0.0;
+    const fl_mat3 R = r->R;
+    const fl_piece *piece = fl_world_piece(w, p->j);
+    fl_strip_result q;
+    if (fl_strip_contact_advance(w, p, r, dt, survey, &q)) return -1;
+    p->touching = q.touches || store > 0.0 || work != 0.0; /* until its last work is booked */
+    if (!p->touching) {
+        free(p->strip);
+        p->strip = NULL;
+        return fl_pair_find_points(w, p, thread, r, distance) ? -1 : 0;
+    }
+    const fl_vec3 none = v3(0, 0, 0);
+    p->overlap = q.max_depth;
+    p->energy = p->strip->store;
+    add_scaled_wrench(&p->force, &p->torque_i, &p->torque_j, &q.force, 1.0, &R, r->off, none);
+    fl_patch_result all = {.energy = p->energy,
+                           .force = p->force,
+                           .elastic = q.normal,
+                           .normal = q.normal,
+                           .direction = p->force,
+                           .load = v3_norm(p->force),
+                           .centre = m3_mul(R, q.centre),
+                           .slope = q.slope};
+    if (piece->several_parts) p->load_part = fl_load_part_at(w, p->j, v3_add(w->b.x[p->j], all.centre));
+    if (q.normal > 0.0 && all.load > 0.0) add_friction(w, p, &all, 0.0, &(contact_compliance){0}, r, a);
+    else p->springs = (fl_friction_springs){0};
+    if (survey) {
+        fl_stiffness si = {0}, sj = {0};
+        fl_stiffness_add_springs(&si, &w->b, p->i, 1.0, &q.springs, R, r->off);
+        fl_stiffness_add_springs(&sj, &w->b, p->j, 1.0, &q.springs, R, none);
+        if (!(q.normal > 0.0)) all.direction = v3(1, 0, 0);
+        bound_stiffness(w, p, &all, r, &si, &sj);
+    }
+    p->energy += p->spring_energy;
+    if (q.normal > 0.0 && fl_panels_need_points(w, p))
+        fl_panels_record_point(w, p, q.centre, v3_unit(q.force.f), q.slope / p->strip->k);
+    return 1;
+}
+
 /* Evaluates the laws of the manual: one contact, by the kind of the closest features. */
 static int evaluate_features(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r,
                              const prediction *a, int survey, double *distance)
@@ -865,6 +910,10 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
         if (touch < 0) goto failed;
         if (touch) return;
         distance += R; /* free travel is computed from the distance of the cores */
+    } else if (fl_pair_has_strip(w, p->j)) {
+        const int touch = evaluate_strip(w, p, thread, &r, &a, dt, survey, &distance);
+        if (touch < 0) goto failed;
+        if (touch) return;
     } else if (p->points == FL_POINTS_FEATURES) {
         if (evaluate_features(w, p, thread, &r, &a, survey, &distance)) goto failed;
         if (p->touching) goto touches;

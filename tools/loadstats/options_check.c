@@ -109,6 +109,14 @@ int options_check(struct options *o, fl_err *err)
         return fl_fail(err, FL_USAGE, "--report - needs --output for the table");
     if ((o->table->needs & NEEDS_OSCILLATOR) && !o->oscillators)
         return fl_fail(err, FL_USAGE, "--table %s needs --oscillator, F,Z", o->table->name);
+    if ((o->table->needs & NEEDS_MODES) && !o->modes)
+        return fl_fail(err, FL_USAGE, "--table %s needs --mode, the natural frequencies", o->table->name);
+    if ((o->table->needs & NEEDS_MODES) && (o->signals || o->filter > 0.0 || o->over))
+        return fl_fail(err, FL_USAGE, "--%s is not for --table %s, which has columns of its own",
+                       o->signals ? "column"
+                       : o->over  ? "over"
+                                  : "filter",
+                       o->table->name);
     if ((o->table->needs & NEEDS_RETURNS) && !o->returns)
         return fl_fail(err, FL_USAGE, "--table %s needs --return, the return periods", o->table->name);
     return 0;
