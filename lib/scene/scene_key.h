@@ -21,8 +21,10 @@ enum fl_section_id {
     FL_SEC_WATER,
     FL_SEC_WIND,
     FL_SEC_BOND,
+    FL_SEC_FAILURE,
     FL_SEC_GROUP,
     FL_SEC_PART,
+    FL_SEC_MODE,
     FL_SECTIONS
 };
 

@@ -28,6 +28,7 @@ static void name_section(const fl_scene *scene, int s, int32_t i, char mark,
     if (s == FL_SEC_MATERIAL) snprintf(names, size, "%c%s", mark, scene->material[i].name);
     if (s == FL_SEC_GROUP) snprintf(names, size, "%c%s", mark, scene->group[i].name);
     if (s == FL_SEC_PART) snprintf(names, size, "%c%s", mark, scene->part[i].name);
+    if (s == FL_SEC_MODE) snprintf(names, size, "%c%s", mark, scene->mode[i].name);
     if (s == FL_SEC_CONTACT && scene->contact[i].a[0])
         snprintf(names, size, "%c%s%c%s", mark, scene->contact[i].a, mark, scene->contact[i].b);
 }

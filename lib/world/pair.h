@@ -12,6 +12,7 @@
 #include "patch/feature_pairs.h"
 #include "patch/quick_list.h"
 #include "patch/surrogate.h"
+#include "world/strip_state.h"
 
 /* The contact law of a pair of materials. */
 typedef struct {
@@ -48,6 +49,7 @@ typedef struct {
     fl_quick_list *quick_list;  /* the same of the law `quick`, or NULL */
     fl_surrogate *surrogate;    /* NULL until there is one */
     fl_rolling_spring *rolling; /* of a sphere, rolling_pair.h; NULL without rolling resistance */
+    fl_strip *strip;            /* of crushing by speed, strip_contact.h; NULL: none */
     fl_gjk_cache cache;         /* start of the distance query */
     fl_mode mode;               /* of the laws manual and manual-si */
     int32_t cores_overlap;      /* the cores overlap */

@@ -29,7 +29,7 @@ struct table {
     int needs_now;   /* sleeping bodies are advanced to the time of now first */
 };
 
-static unsigned motion_columns(const fl_world *w) { return (unsigned)fl_motion_columns(w); }
+static unsigned motion_columns(const fl_world *w) { return loads_options(w); }
 
 #define PATH(key) offsetof(fl_scene_output, key)
 #define NO_PATH ((size_t)-1)
@@ -149,10 +149,14 @@ int write_header(struct run *r, struct outputs *u, int table, fl_err *err)
         fl_frames_header(u->table[table].f, r->history, r->by, &now, r->frames_surface, packed);
         return 0;
     }
+    struct mode_columns modes;
+    const fl_more_columns *more = table == TABLE_LOADS    ? mode_displacements(r->w, -1, &modes)
+                                  : table == TABLE_ENERGY ? mode_energies(r->w, &modes)
+                                                          : NULL;
     char *const sets = make_sets(r, table, err);
     if (!sets) return -1;
-    fl_table_write_header(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history, r->by,
-                          sets, a->of_interval ? u->last_row : 0.0);
+    fl_table_write_header_more(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history,
+                               r->by, sets, a->of_interval ? u->last_row : 0.0, more);
     free(sets);
     return 0;
 }

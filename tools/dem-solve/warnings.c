@@ -220,6 +220,30 @@ static void warn_hulls(const struct run *r, FILE *f)
     }
 }
 
+/* Ice that may excite vibrations, and a structure that does not show them. */
+static void warn_vibration(const struct run *r, FILE *f)
+{
+    const fl_world *w = r->w;
+    const int32_t n = w->moving.movers.n ? fl_structure_modes(w) : 0;
+    const double every = r->scene->output.loads_every;
+    double highest = 0.0;
+    if (w->strips.wall && !fl_structure_moves_freely(w))
+        fprintf(f, "dem-solve: warning: the structure is fixed: with crushing_law = rate nothing vibrates; "
+                   "[mode NAME] or structure.modes lets it\n");
+    for (int32_t k = 0; k < n; k++) {
+        const fl_modal_dof *m = fl_structure_mode(w, k, NULL);
+        highest = fmax(highest, m->omega / (2.0 * PI));
+        if (m->ratio == 0.0)
+            fprintf(f, "dem-solve: warning: mode %s has no damping: it goes on vibrating\n", m->name);
+    }
+    if (every * highest > 0.1 * (1.0 + 1e-9))
+        fprintf(f,
+                "dem-solve: warning: output.loads_every is %g s, longer than a tenth of the period of the "
+                "mode of "
+                "%.4g Hz: its motion is not resolved\n",
+                every, highest);
+}
+
 /* A wave that would break is not linear. */
 static void warn_waves(const struct run *r, FILE *f)
 {
@@ -272,6 +296,7 @@ void warn_at_start(const struct run *r, FILE *f)
     warn_bonded_sheet(r, f);
     warn_waves(r, f);
     warn_hulls(r, f);
+    warn_vibration(r, f);
     warn_sheets(r, f);
     warn_unjoined(r, f);
 }

@@ -61,8 +61,8 @@ static void write_pressure_script(FILE *f, const load_map *p)
         double c, e;
         char name[PART_TEXT + 2] = "", part[PART_TEXT];
         if (parts > 1) snprintf(name, sizeof name, "%s, ", load_map_part(p, p->part[k].part, part));
-        for (char *c = name; *c; c++)
-            if (*c == '\'') *c = '_'; /* it would end the title */
+        for (char *at = name; *at; at++)
+            if (*at == '\'') *at = '_'; /* it would end the title */
         fit_pressure_area(p, &p->part[k], &c, &e);
         fprintf(f, ", \\\n     data index %d using 2:3 with points pt 7 ps 0.8 lc rgb '%s' title '%slargest'",
                 k + 1, COLOUR[k], name);

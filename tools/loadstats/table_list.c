@@ -6,6 +6,7 @@
 #include "plot_parts.h"
 #include "plot_pressure.h"
 #include "plot_rainflow.h"
+#include "plot_regimes.h"
 #include "plot_response.h"
 #include "plot_spectrum.h"
 #include "table_fits.h"
@@ -14,6 +15,7 @@
 #include "table_parts.h"
 #include "table_pressure.h"
 #include "table_rainflow.h"
+#include "table_regimes.h"
 #include "table_response.h"
 #include "table_spectrum.h"
 #include "table_stats.h"
@@ -144,6 +146,20 @@ static const struct table TABLES[] = {
      .columns = LABELS "\tfn[Hz]\tdamping\tt[s]\tload\tresponse\tx[m]\tv[m/s]\ta[m/s^2]",
      .view_rows = motion_rows,
      .picture = &response_picture},
+    {.name = "regimes",
+     .uses = USES_SEGMENT | USES_SPEED | USES_MODES,
+     .needs = NEEDS_MODES,
+     .columns = "part\tfrom[s]\tto[s]\tregime\tmode[Hz]\tspeed[m/s]\tbeta\tpeak\tf[Hz]\tload[N]\tload_std[N]"
+                "\tload_max[N]\tx_mean[m]\tx_std[m]\tbreaks",
+     .view_rows = regime_rows,
+     .picture = &regimes_picture},
+    {.name = "regime-shares",
+     .uses = USES_SEGMENT | USES_SPEED | USES_MODES | USES_RULE | USES_SN,
+     .needs = NEEDS_MODES,
+     .columns = "part\tregime\tmode[Hz]\twindows\tshare\tslowest[m/s]\tfastest[m/s]\tbeta_max\tload[N]"
+                "\tload_max[N]\tcycles\trange_max[m]\tm\tequivalent[m]",
+     .view_rows = regime_share_rows,
+     .picture = &regimes_picture},
     {.name = "pressure-area",
      .source = FROM_CONTACTS,
      .uses = USES_AREAS,

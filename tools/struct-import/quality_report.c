@@ -119,6 +119,13 @@ static void print_warnings(const char *name, const struct cleanup *m)
                 "struct-import: warning: %s: open patches have no outside: except for flat convex ones, ice "
                 "meets them on one side only, the side of most of their area\n",
                 name);
+    if (m->rim.rims && !m->closes_jointly &&
+        fabs(m->rim.top) <= FL_DECK_FLAT * v3_norm(v3_sub(m->quality.box.hi, m->quality.box.lo)))
+        fprintf(
+            stderr,
+            "struct-import: warning: %s: open at z = 0 along %d edges: ice goes in over the rim; --deck H "
+            "closes it\n",
+            name, m->rim.edges);
     if (m->fins)
         fprintf(stderr,
                 "struct-import: warning: %s: %d triangles of two-sided plates that stand on others were "
