@@ -177,7 +177,10 @@ int ice_scene_make(struct ice_scene *s, const struct run *r, fl_err *err)
     s->concentration = fmin(1.0, ice.area / (x * y));
     s->mass_per_area = ice.mass / (x * y);
     s->floe_size = sqrt(ice.area / ice.n);
-    if (!(s->speed > 0.0)) return 0;
+    if (!(s->speed > 0.0)) {
+        s->kind = SCENE_OTHER;
+        return 0;
+    }
     const fl_vec3 along = v3_scale(1.0 / s->speed, v), across = v3(-along.y, along.x, 0.0);
     s->field_width = width_across(w, along);
     return measure_structure(s, r->surface, w->scene->water.level, across, FL_ARCH_SIZES * s->floe_size, err);

@@ -8,7 +8,7 @@
 #include "run_context.h"
 
 enum ice_scene_kind {
-    SCENE_OTHER, /* no water or no structure */
+    SCENE_OTHER, /* no water, no structure, or at rest */
     SCENE_ONE_FLOE,
     SCENE_FIELD_ONCE,
     SCENE_DRIFT,  /* with inflow */
