@@ -47,7 +47,8 @@ static struct hit run_hit(lab *l)
     return h;
 }
 
-/* IS1: the impulse is that of the momentum of the floe, less where it can turn, more with the water it moves. */
+/* IS1: the impulse is that of the momentum of the floe, less where it can turn, more with the water that it
+ * moves. */
 static void impulse_of_one_floe(void)
 {
     for (int k = 0; k < 3; k++) {
@@ -67,8 +68,8 @@ static void impulse_of_one_floe(void)
     }
 }
 
-/* IS2: peaks go with the stiffness factor to 0.446, impulses do not: softening 1 is six times the crushing load of
- * 1.17 MN, 0.02 about what ice can carry. */
+/* IS2: peaks go with the stiffness factor to 0.446, impulses do not: a factor of 1 gives six times the crushing
+ * load of 1.17 MN, 0.02 about what ice can carry. */
 static void peak_against_stiffness(void)
 {
     const double factor[] = {1.0, 0.1, 0.02};
