@@ -231,23 +231,36 @@ static int set_seed(void *options, const char *text, fl_err *err)
     return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", expected a whole number from 0 to 2^64 - 1", text);
 }
 
-/* A stress above 0, with a unit or in Pa. */
-static int parse_stress(const char *option, const char *text, double *x, fl_err *err)
+/* A number with or without a unit, which starts with one of these letters. */
+static int parse_measure(const char *text, const char *letters, enum fl_unit_kind kind, double *x)
 {
-    char number[64], units[200];
-    const size_t n = strcspn(text, "PpkMGN");
+    char number[64];
+    const size_t n = strcspn(text, letters);
     const char *unit = text + n;
     size_t end = n;
     while (end > 0 && text[end - 1] == ' ') end--;
-    if (end > 0 && end < sizeof number) {
-        memcpy(number, text, end);
-        number[end] = '\0';
-        if (fl_number_f64(number, x) == 0 && *x > 0.0 &&
-            (*unit == '\0' || fl_unit_convert(FL_UNIT_STRESS, unit, x) == 0))
-            return 0;
-    }
+    if (end == 0 || end >= sizeof number) return -1;
+    memcpy(number, text, end);
+    number[end] = '\0';
+    return fl_number_f64(number, x) || (*unit && fl_unit_convert(kind, unit, x)) ? -1 : 0;
+}
+
+/* A stress above 0, with a unit or in Pa. */
+static int parse_stress(const char *option, const char *text, double *x, fl_err *err)
+{
+    char units[200];
+    if (parse_measure(text, "PpkMGN", FL_UNIT_STRESS, x) == 0 && *x > 0.0) return 0;
     return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a stress above 0 is expected, in Pa or with one of %s",
                    option, text, fl_unit_list(FL_UNIT_STRESS, units, sizeof units));
+}
+
+static int set_mean_size(void *options, const char *text, fl_err *err)
+{
+    char units[200];
+    double *const x = &((struct recipe *)options)->mean_size;
+    if (parse_measure(text, "mcdku", FL_UNIT_LENGTH, x) == 0 && *x >= SHORTEST && *x <= LONGEST) return 0;
+    return fl_fail(err, FL_USAGE, "--mean-size is \"%.60s\", a length is expected, in m or with one of %s",
+                   text, fl_unit_list(FL_UNIT_LENGTH, units, sizeof units));
 }
 
 static int set_flexural(void *options, const char *text, fl_err *err)
@@ -303,6 +316,11 @@ static const fl_option FIELD_OPTION[] = {
      .at = AT(floes),
      .lo = 1,
      .hi = FLOES_MAX},
+    {.word = "mean-size",
+     .argument = "L",
+     .help = "in place of --floes: root of the mean area of the floes, as \"14 m\"",
+     .kind = FL_OPTION_CALL,
+     .call = set_mean_size},
     {.word = "sizes",
      .argument = "LAW",
      .help = "uniform (Voronoi cells), equal, lognormal:CV or weibull:K of areas,\n"
@@ -622,6 +640,22 @@ static int check_bonded(const struct recipe *o, const struct command_line *c, fl
     return o->bonded ? reject_options(c, "beside --bonded, which fills the field", without, err) : 0;
 }
 
+/* The number of floes that gives the mean size; a law of sizes is scaled to it, as by --floes. */
+static int use_mean_size(struct recipe *o, const struct command_line *c, fl_err *err)
+{
+    static const char *const other[] = {"floes", "outline", "grade", "pancakes", NULL};
+    if (!(o->mean_size > 0.0)) return 0;
+    if (reject_options(c, "beside --mean-size", other, err)) return -1;
+    const double covered = (o->bonded ? 1.0 : o->concentration) * o->size.x * o->size.y;
+    const double n = covered / (o->mean_size * o->mean_size);
+    if (!(n >= 0.5 && n <= FLOES_MAX))
+        return fl_fail(err, FL_USAGE, "--mean-size %g would give %.3g floes, 1 to %d are expected",
+                       o->mean_size, n, FLOES_MAX);
+    o->floes = (int32_t)(n + 0.5);
+    o->has_floes = 1;
+    return 0;
+}
+
 int options_parse(struct recipe *o, int *ended, int argc, char **argv, fl_err *err)
 {
     struct command_line c;
@@ -655,7 +689,8 @@ int options_parse(struct recipe *o, int *ended, int argc, char **argv, fl_err *e
                        "--certificate - and the field both go to standard output: expected -o");
     if (!o->has_origin) o->origin = (fl_vec2){-0.5 * o->size.x, -0.5 * o->size.y};
     if (select_generator(o, &c, err) || check_water(o, &c, err) || check_graded(o, &c, err) ||
-        check_layers(o, &c, err) || check_ridges(o, &c, err) || check_bonded(o, &c, err))
+        check_layers(o, &c, err) || check_ridges(o, &c, err) || check_bonded(o, &c, err) ||
+        use_mean_size(o, &c, err))
         return -1;
     if (!(o->ice_density < o->water_density))
         return fl_fail(err, FL_USAGE, "--ice-density %g is not below --water-density %g: the floes sink",
