@@ -126,7 +126,6 @@ static int look_at_water(const struct plausible_look *l)
     if (look_at(l, "water.density", "water.density of", w->density, &WATER_DENSITY) ||
         look_at(l, "water.current", "water.current of", v3_norm(w->current), &CURRENT) ||
         look_at(l, "water.drag_force_coef", "water.drag_force_coef of", w->drag_force_coef, &WATER_DRAG) ||
-        look_at(l, "water.skin_coef", "water.skin_coef of", w->skin_coef, &WATER_DRAG) ||
         look_at(l, "water.form_coef", "water.form_coef of", w->form_coef, &FORM_DRAG) ||
         look_at(l, "boundary.inflow_speed", "boundary.inflow_speed of", b->inflow_speed, &CURRENT) ||
         look_at(l, "structure.velocity", "structure.velocity of", v3_norm(l->s->structure.motion.velocity),

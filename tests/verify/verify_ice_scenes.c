@@ -28,7 +28,7 @@ static void start_floe(lab *l, double arm, double stiffness_factor, int with_add
     lab_make(l, 0.0);
 }
 
-/* What the leg took of the momentum along the drift after the hit [N s], and the largest load of a step [N]. */
+/* What the leg took of the momentum along the drift by the hit [N s], and the largest load of a step [N]. */
 struct hit {
     double impulse, peak;
 };
@@ -68,8 +68,8 @@ static void impulse_of_one_floe(void)
     }
 }
 
-/* IS2: peaks go with the stiffness factor to 0.446, impulses do not: a factor of 1 gives six times the crushing
- * load of 1.17 MN, 0.02 about what ice can carry. */
+/* IS2: peaks go with the stiffness factor to 0.446, impulses do not: a factor of 1 gives six times the
+ * crushing load of 1.17 MN, 0.02 about what ice can carry. */
 static void peak_against_stiffness(void)
 {
     const double factor[] = {1.0, 0.1, 0.02};

@@ -150,9 +150,11 @@ static int warn_moving_mean(const struct record_views *r, fl_err *err)
         fprintf(
             stderr,
             "loadstats: warning: %s of %s is not stationary: mean %.3g kN in the first half and %.3g kN in "
-            "the second, %.2g standard errors apart: --from where it settles is expected, or, where it "
-            "does not, a result for this length of run only, see ice-scenes(7)\n",
-            r->series->signal[k], r->series->part[p], 1e-3 * s.mean[0], 1e-3 * s.mean[1], fabs(s.apart));
+            "the second, %.2g standard errors apart, its blocks with a trend of %.2g: --from where it "
+            "settles is "
+            "expected, or, where it does not, a result for this length of run only, see ice-scenes(7)\n",
+            r->series->signal[k], r->series->part[p], 1e-3 * s.mean[0], 1e-3 * s.mean[1], fabs(s.apart),
+            fabs(s.trend));
     return 0;
 }
 
