@@ -9,6 +9,7 @@
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "ice/certificate.h"
+#include "ice/floe_gaps.h"
 #include "ice/floes.h"
 
 static const fl_vec2 LO = {-25.0, -20.0}, HI = {25.0, 20.0};
@@ -54,6 +55,45 @@ static void check_field(const fl_power_cells *c, const fl_floes *a, double conce
     assert_int_equal(cert.overlaps, 0);
     assert_near(cert.total_area, sum, 1e-14);
     assert_true(cert.min_gap > 0.0);
+}
+
+/* Distance from floe i to the nearest side of its cell. */
+static double nearest_side(const fl_power_cells *c, const fl_floes *a, int32_t i)
+{
+    double least = INFINITY;
+    for (int32_t f = c->first[i]; f < c->first[i + 1]; f++)
+        for (int32_t k = a->first[i]; k < a->first[i + 1]; k++)
+            least = fmin(least, -fl_polygon_side_distance(c->side[f], a->outer[k]));
+    return least;
+}
+
+/* Even gaps are twice the inset; pushed, each floe touches a side of its cell, none overlaps, areas stay, and
+ * about one in five touches another. */
+static void pushed_floes_touch_here_and_there(void **state)
+{
+    const fl_vec2 none = {0.0, 0.0};
+    fl_power_cells c = {0};
+    fl_floes a = {0}, same = {0};
+    fl_floe_gaps even, pushed;
+    fl_err err = {0};
+    (void)state;
+    make_cells(&c, 600, 5, 2);
+    assert_int_equal(fl_floes_make(&a, &c, 0.6, 0.05, none, &err), 0);
+    assert_int_equal(fl_floe_gaps_measure(&even, &a, &c, none, &err), 0);
+    assert_near(even.median, 2.0 * a.inset, 1e-9);
+    assert_true(even.touching == 0.0);
+    fl_floes_push(&a, &c, none, 9);
+    check_field(&c, &a, 0.6, 0.05);
+    assert_int_equal(fl_floe_gaps_measure(&pushed, &a, &c, none, &err), 0);
+    for (int32_t i = 0; i < a.n; i++) assert_true(nearest_side(&c, &a, i) < 2e-5 * a.inset);
+    assert_true(pushed.touching > 0.1 && pushed.touching < 0.3);
+    assert_true(pushed.q90 > 1.5 * even.median && pushed.q90 < 2.0 * even.median);
+    assert_int_equal(fl_floes_make(&same, &c, 0.6, 0.05, none, &err), 0);
+    fl_floes_push(&same, &c, none, 9);
+    assert_memory_equal(same.core, a.core, (size_t)a.first[a.n] * sizeof *a.core);
+    fl_floes_free(&same);
+    fl_floes_free(&a);
+    fl_power_cells_free(&c);
 }
 
 static void concentration_is_reached_without_overlap(void **state)
@@ -322,7 +362,8 @@ static void allocation_failure_is_reported(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(concentration_is_reached_without_overlap),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pushed_floes_touch_here_and_there),
+                                       cmocka_unit_test(concentration_is_reached_without_overlap),
                                        cmocka_unit_test(the_solver_sees_the_requested_ice),
                                        cmocka_unit_test(dense_and_coarse_fields_converge),
                                        cmocka_unit_test(one_floe_is_a_rectangle),

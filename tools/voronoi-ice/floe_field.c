@@ -11,6 +11,7 @@
 #include "ice/faces.h"
 #include "ice/floes.h"
 #include "ice/concentration_gradient.h"
+#include "ice/floe_gaps.h"
 #include "ice/prescribed_areas.h"
 #include "ice/pancakes.h"
 #include "ice/periodic.h"
@@ -31,6 +32,7 @@ struct layer {
     double floe_area, cell_area; /* of the floes and of their cells after that [m2] */
     fl_certificate certificate;
     struct floe_sizing sizing;
+    fl_floe_gaps gaps; /* of --gaps random */
     struct open_water water;
     fl_faces faces; /* of a bonded field */
     struct floe_thickness thickness;
@@ -371,6 +373,13 @@ static void add_certificate_rows(const struct recipe *o, const struct layer *a, 
     if (c->min_gap_pair[0] >= 0 && !o->bonded)
         certificate_add(t, "narrowest gap [m]", NOT_REQUESTED, c->min_gap, NO_DISTANCE, 6, "floes %d and %d",
                         id_of(a, c->min_gap_pair[0]), id_of(a, c->min_gap_pair[1]));
+    if (o->gaps == GAPS_RANDOM) {
+        certificate_add(t, "gap between neighbours, median [m]", NOT_REQUESTED, a->gaps.median, NO_DISTANCE,
+                        6, NULL);
+        certificate_add(t, "gap between neighbours, 90 % [m]", NOT_REQUESTED, a->gaps.q90, NO_DISTANCE, 6,
+                        NULL);
+        certificate_add(t, "floes that touch another", NOT_REQUESTED, a->gaps.touching, NO_DISTANCE, 4, NULL);
+    }
     certificate_add(t, "inset of the cells [m]", NOT_REQUESTED, a->floes.inset, NO_DISTANCE, 6, NULL);
     certificate_add(t, "floes inset less: small cells", NOT_REQUESTED, a->floes.limited, NO_DISTANCE, 10,
                     NULL);
@@ -488,6 +497,10 @@ static int make_layer(struct recipe *o, struct layer *a, fl_err *err)
         (o->sizes && floe_sizing_assign(&a->sizing, o, a->water.area, err)))
         return -1;
     if (o->sizes ? make_floes_of_sizes(o, a, err) : make_cells(o, a, err) || make_floes(o, a, err)) return -1;
+    if (o->gaps == GAPS_RANDOM) {
+        fl_floes_push(&a->floes, &a->cells, a->water.shift, o->seed);
+        if (fl_floe_gaps_measure(&a->gaps, &a->floes, &a->cells, a->water.shift, err)) return -1;
+    }
     a->cell_of = fl_alloc(a->cells.n, sizeof *a->cell_of, err);
     if (!a->cell_of) return -1;
     for (int32_t i = 0; i < a->cells.n; i++) a->cell_of[i] = i;

@@ -263,6 +263,14 @@ static int set_mean_size(void *options, const char *text, fl_err *err)
                    text, fl_unit_list(FL_UNIT_LENGTH, units, sizeof units));
 }
 
+static int set_gaps(void *options, const char *text, fl_err *err)
+{
+    int *const gaps = &((struct recipe *)options)->gaps;
+    *gaps = strcmp(text, "random") == 0 ? GAPS_RANDOM : GAPS_EVEN;
+    if (*gaps == GAPS_RANDOM || strcmp(text, "even") == 0) return 0;
+    return fl_fail(err, FL_USAGE, "--gaps is \"%.60s\", expected even or random", text);
+}
+
 static int set_flexural(void *options, const char *text, fl_err *err)
 {
     return parse_stress("flexural", text, &((struct recipe *)options)->flexural, err);
@@ -358,6 +366,11 @@ static const fl_option FIELD_OPTION[] = {
      .at = AT(smooth),
      .lo = 0,
      .hi = 10000},
+    {.word = "gaps",
+     .argument = "HOW",
+     .help = "even, or random: floes touch here and there (even)",
+     .kind = FL_OPTION_CALL,
+     .call = set_gaps},
     {.word = "material",
      .argument = "NAME",
      .help = "material of the floes (ice)",
@@ -591,14 +604,16 @@ static int select_generator(struct recipe *o, const struct command_line *c, fl_e
 
 static int check_water(const struct recipe *o, const struct command_line *c, fl_err *err)
 {
-    static const char *const without[] = {"size", "origin", NULL}, *const within[] = {"margin", NULL};
+    static const char *const without[] = {"size", "origin", "gaps", NULL}, *const within[] = {"margin", NULL};
+    static const char *const whole[] = {"gaps", NULL};
     if (o->outline || o->disc[0] > 0.0) {
         if (reject_options(c, "beside --outline", without, err)) return -1;
         if (o->outline && strcmp(o->outline, "-") == 0)
             return fl_fail(err, FL_USAGE,
                            "--outline is \"-\", expected a file: a pipe cannot be named again");
     }
-    return o->structures ? 0 : reject_options(c, "without the file of a structure", within, err);
+    return o->structures ? reject_options(c, "beside --keep-out of a file", whole, err)
+                         : reject_options(c, "without the file of a structure", within, err);
 }
 
 static int check_graded(const struct recipe *o, const struct command_line *c, fl_err *err)
@@ -636,7 +651,7 @@ static int check_layers(const struct recipe *o, const struct command_line *c, fl
 
 static int check_bonded(const struct recipe *o, const struct command_line *c, fl_err *err)
 {
-    static const char *const without[] = {"concentration", NULL};
+    static const char *const without[] = {"concentration", "gaps", NULL};
     return o->bonded ? reject_options(c, "beside --bonded, which fills the field", without, err) : 0;
 }
 

@@ -53,6 +53,7 @@ void recipe_history_floes(const struct recipe *o, fl_history_line *by)
     recipe_history_numbers(by, "--radius ", ',', 1, &o->radius);
     fl_history_line_add(by, "--seed %llu", (unsigned long long)o->seed);
     fl_history_line_add(by, "--smooth %d", o->smooth);
+    if (o->gaps == GAPS_RANDOM) fl_history_line_add(by, "--gaps random");
 }
 
 void recipe_history(const struct recipe *o, fl_history_line *by)

@@ -18,6 +18,8 @@ struct keep_out {
     double r;       /* of the circle [m] */
 };
 
+enum { GAPS_EVEN, GAPS_RANDOM };
+
 struct recipe {
     const struct generator *generator;
     const char *generator_argument; /* NULL: none */
@@ -60,7 +62,8 @@ struct recipe {
     double flexural, compressive, young; /* of the sheet [Pa]; 0: not given */
     const char *scene;                   /* file for the bonds that give these, NULL: none */
     int gzip, quiet, verbose, threads, ended;
-    double mean_size; /* --mean-size [m]; 0: none */
+    int gaps;                                                    /* GAPS_EVEN, GAPS_RANDOM */
+    double mean_size;                                            /* --mean-size [m]; 0: none */
     int has_origin, has_floes, has_concentration, has_thickness; /* given on the command line */
     const char *sizes; /* full name of a law, or a file; NULL: areas of Voronoi cells */
     int sizes_file;    /* sizes is a file */
