@@ -118,7 +118,7 @@ static void warn_side(const struct record_views *r, const struct options *o)
                 "--peaks min or abs, not of max%s\n",
                 r->series->signal[k % r->series->signals], r->series->part[k / r->series->signals],
                 v->stats.min, v->stats.max,
-                r->series->has_motion ? "; of a hull under way, -c resistance is positive" : "");
+                r->series->has_motion ? "; of a hull under way, -C resistance is positive" : "");
     }
 }
 
