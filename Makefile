@@ -7,7 +7,7 @@ TOOLS = voronoi-ice struct-import dem-solve loadstats arc-path ice-view pack
 FLAGS = $(OPT) -g $(FLOAT) -fopenmp -Ilib -MMD -MP $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all)
 CCALL  = $(CC) -std=c17 -D_POSIX_C_SOURCE=200809L $(CWARN) $(FLAGS) $(CFLAGS)
 CXXALL = $(CXX) -std=c++17 $(WARN) $(FLAGS) $(CXXFLAGS)
-LIBS  = -Wl,--as-needed -lccd -lgsl -lgslcblas -linih -lz -lm
+LIBS  = -Wl,--as-needed -lccd -lgsl -lgslcblas -linih -lz -lm -ldl
 CGAL  = -lstdc++ -lgmp -lmpfr
 # What draws is built where the headers are: OpenGL by libepoxy and EGL (pictures, films), SDL2 (the window).  Without
 # them ice-view reads and converts, and says which package is missing.
@@ -56,7 +56,7 @@ $(SUPPORT): $(HELPOBJ)
 # A program is the .c files of its folder on the two libraries; what it does not use is not linked.
 VIEW = $(if $(GL),,%/shot.c) $(if $(SDL),,%/window.c)
 $B/tools/ice-view/%.o: CFLAGS += $(if $(GL),-DFL_HAVE_GL) $(if $(SDL),-DFL_HAVE_WINDOW)
-$B/bin/ice-view: LIBS += $(if $(GL),-lepoxy) $(if $(SDL),-lSDL2) -ldl
+$B/bin/ice-view: LIBS += $(if $(GL),-lepoxy) $(if $(SDL),-lSDL2)
 define tool
 $B/bin/$1: $(patsubst %.c,$B/%.o,$(filter-out $(VIEW),$(wildcard tools/$1/*.c))) $B/libfloe-shim.a $B/libfloe.a
 	@mkdir -p $$(@D)

@@ -4,6 +4,7 @@
 #define DEM_SOLVE_RUN_CONTEXT_H
 #include "options.h"
 #include "out/restart.h"
+#include "sim/device_step.h"
 #include "sim/error_budget.h"
 
 /* Number of inputs that a checkpoint carries as texts: ice, structure, inflow. */
@@ -27,6 +28,7 @@ struct run {
 
     double critical;   /* 2/omega by prediction [s] */
     int32_t step_body; /* body that sets the automatic step, -1: none */
+    char device[FL_DEVICE_NOTE]; /* who runs the spheres, and why */
     char step_by[160]; /* what sets the step, for --plan and the report */
     int64_t steps;     /* of the whole run */
 

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "gpu/gpu_engine.h"
+#include "gpu/gpu_step_kernel.h"
+
+static const char *failure = "";
+
+static int open_engine(void) { return 0; }
+static void close_engine(void) {}
+static const char *device_name(void) { return "serial launcher, one thread of the CPU"; }
+static const char *last_failure(void) { return failure; }
+static double free_bytes(void) { return INFINITY; }
+
+static int alloc_bytes(void **to, size_t bytes)
+{
+    *to = bytes ? calloc(1, bytes) : NULL;
+    if (bytes && !*to) failure = "out of memory";
+    return bytes && !*to ? -1 : 0;
+}
+
+static int copy_bytes(void *to, const void *from, size_t bytes)
+{
+    if (bytes) memcpy(to, from, bytes);
+    return 0;
+}
+
+#define LOOP(name, function)                                                                                 \
+    case FL_GPU_##name:                                                                                      \
+        for (int32_t k = 0; k < n; k++) function(v, k);                                                      \
+        break;
+
+static int launch_kernel(int kernel, int32_t n, const fl_gpu_view *v)
+{
+    switch (kernel) {
+        FL_GPU_KERNELS(LOOP)
+    default: failure = "a kernel that is not there"; return -1;
+    }
+    return 0;
+}
+
+static int wait_engine(void) { return 0; }
+
+static const fl_gpu_engine SERIAL = {
+    .version = FL_GPU_VERSION,
+    .view_bytes = sizeof(fl_gpu_view),
+    .name = "serial",
+    .open = open_engine,
+    .close = close_engine,
+    .device = device_name,
+    .why = last_failure,
+    .free_bytes = free_bytes,
+    .alloc = alloc_bytes,
+    .release = free,
+    .upload = copy_bytes,
+    .download = copy_bytes,
+    .launch = launch_kernel,
+    .wait = wait_engine,
+};
+
+const fl_gpu_engine *fl_gpu_serial(void) { return &SERIAL; }
