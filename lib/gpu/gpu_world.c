@@ -156,6 +156,17 @@ static int is_guest(const fl_world *w, int32_t k)
            w->contact_sums.slot[k] != 0 || w->previous_sums.slot[k] != 0;
 }
 
+/* A guest that the device moves from now on: the CPU has done the first half of this step. */
+static int release_guest(fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *err)
+{
+    const fl_sym3 e = fl_body_mobility(&w->b, k).linear;
+    const fl_vec3 yields = v3(e.xx, e.yy, e.zz);
+    return g->e->upload(&g->v.state[k], &w->spheres.state[k], sizeof *g->v.state) ||
+                   g->e->upload(&g->v.yields[k], &yields, sizeof yields)
+               ? fail_with_device(g, err)
+               : 0;
+}
+
 static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
 {
     const fl_disc_list *s = &w->discs;
@@ -170,7 +181,9 @@ static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
     }
     g->guests = g->guest_discs = 0;
     for (int32_t k = 0; k < w->n; k++) {
-        const int guest = is_guest(w, k), stays = !guest || g->host[k] || !g->uploaded;
+        const int guest = is_guest(w, k);
+        if (!guest && g->host[k] && release_guest(g, w, k, err)) return -1;
+        const int stays = !guest || g->host[k] || !g->uploaded;
         g->host[k] = guest ? (stays ? GUEST : NEW_GUEST) : OWN;
         if (guest) g->guest[g->guests++] = k;
     }
