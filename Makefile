@@ -20,6 +20,17 @@ else ifeq ($(SDL),)
 $(info ice-view: built without its window, SDL2/SDL.h is not there (package libsdl2-dev))
 endif
 
+# The plug-in for an NVIDIA card, where nvcc is: GPU=0 leaves it out, GPU=1 insists.  Nothing else needs nvcc.
+NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
+GPU  ?= $(if $(NVCC),1,0)
+ifeq ($(GPU)$(NVCC),1)
+$(error GPU=1: there is no nvcc, of the package nvidia-cuda-toolkit or in /usr/local/cuda/bin)
+endif
+PLUGIN = $(if $(SAN),,$(if $(filter 1,$(GPU)),$B/lib/libfloe-cuda.so))
+# Code for cards of 2018, 2020 and 2022 on, and for later ones as text that their driver compiles.
+CARDS  = -gencode arch=compute_75,code=sm_75 -gencode arch=compute_80,code=sm_80 -gencode arch=compute_90,code=[sm_90,compute_90]
+NVALL  = $(NVCC) -std=c++17 -O3 -fmad=false -Xcompiler -ffp-contract=off,-fPIC -Ilib -x cu
+
 LIBOBJ   = $(patsubst %.c,$B/%.o,$(filter-out $(if $(GL),,lib/view/gl_%.c),$(wildcard lib/*/*.c)))
 SHIMOBJ  = $(patsubst %.cpp,$B/%.o,$(wildcard lib/shim/*.cpp))
 SHIM     = $B/libfloe-shim.a
@@ -28,7 +39,10 @@ HELPOBJ  = $(patsubst %.c,$B/%.o,$(wildcard tests/support/*.c))
 test_of  = $(patsubst tests/$1/%.c,$B/tests/$1/%,$(wildcard tests/$1/*.c))
 TESTS    = $(foreach k,unit prop fuzz verify bench,$(call test_of,$k))
 
-all: $(TOOLS:%=$B/bin/%)
+all: $(TOOLS:%=$B/bin/%) $(PLUGIN)
+$B/lib/libfloe-cuda.so: lib/gpu/cuda.cu $(wildcard lib/gpu/*.h lib/*/*_kernel.h) lib/law/tangent.h lib/law/damping.h lib/law/rolling.h
+	@mkdir -p $(@D)
+	$(NVALL) -shared -cudart static $(CARDS) $< -o $@
 tests: all $(TESTS)
 
 $B/%.o: %.c

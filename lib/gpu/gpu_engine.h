@@ -45,6 +45,8 @@ typedef const fl_gpu_engine *fl_gpu_engine_get(void);
 #endif
 
 const fl_gpu_engine *fl_gpu_serial(void);
+/* The same from the last thread to the first: a kernel must not depend on their order. */
+const fl_gpu_engine *fl_gpu_serial_backwards(void);
 
 /* The engine of the plug-in, opened; NULL, and why in text: there is none, of another version, no driver, no
  * card.  It is looked for in $FLOE_CUDA, then beside the program and in ../lib. */

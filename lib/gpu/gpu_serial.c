@@ -6,6 +6,7 @@
 #include "gpu/gpu_step_kernel.h"
 
 static const char *failure = "";
+static int backwards;
 
 static int open_engine(void) { return 0; }
 static void close_engine(void) {}
@@ -28,7 +29,7 @@ static int copy_bytes(void *to, const void *from, size_t bytes)
 
 #define LOOP(name, function)                                                                                 \
     case FL_GPU_##name:                                                                                      \
-        for (int32_t k = 0; k < n; k++) function(v, k);                                                      \
+        for (int32_t k = 0; k < n; k++) function(v, backwards ? n - 1 - k : k);                              \
         break;
 
 static int launch_kernel(int kernel, int32_t n, const fl_gpu_view *v)
@@ -59,4 +60,14 @@ static const fl_gpu_engine SERIAL = {
     .wait = wait_engine,
 };
 
-const fl_gpu_engine *fl_gpu_serial(void) { return &SERIAL; }
+const fl_gpu_engine *fl_gpu_serial(void)
+{
+    backwards = 0;
+    return &SERIAL;
+}
+
+const fl_gpu_engine *fl_gpu_serial_backwards(void)
+{
+    backwards = 1;
+    return &SERIAL;
+}

@@ -101,7 +101,6 @@ void fl_gpu_world_free(fl_gpu_world *g)
 }
 
 const char *fl_gpu_world_device(const fl_gpu_world *g) { return g->e->device(); }
-int fl_gpu_world_is_uploaded(const fl_gpu_world *g) { return g->uploaded; }
 
 const int32_t *fl_gpu_world_guests(const fl_gpu_world *g, int32_t *n)
 {
@@ -435,14 +434,24 @@ int fl_gpu_world_download(fl_gpu_world *g, fl_world *w, fl_err *err)
 
 /* --- a step ------------------------------------------------------------------------------------------ */
 
+/* The sums of the step before, as fl_ledger_begin_step(). */
+static void swap_sums(fl_gpu_world *g)
+{
+    buffer *const now = &g->memory[offsetof(fl_gpu_view, sum) / sizeof(void *)],
+                  *const before = &g->memory[offsetof(fl_gpu_view, previous_sum) / sizeof(void *)];
+    const buffer memory = *now;
+    fl_sphere_sum *const sum = g->v.sum;
+    *now = *before, *before = memory;
+    g->v.sum = g->v.previous_sum, g->v.previous_sum = sum;
+}
+
 int fl_gpu_world_first_half(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
-    fl_sphere_sum *const sum = g->v.sum;
-    const buffer memory = g->memory[offsetof(fl_gpu_view, sum) / sizeof(void *)];
-    g->memory[offsetof(fl_gpu_view, sum) / sizeof(void *)] =
-        g->memory[offsetof(fl_gpu_view, previous_sum) / sizeof(void *)];
-    g->memory[offsetof(fl_gpu_view, previous_sum) / sizeof(void *)] = memory;
-    g->v.sum = g->v.previous_sum, g->v.previous_sum = sum;
+    if (!g->uploaded) { /* the sums of the world are swapped already */
+        if (fl_gpu_world_upload(g, w, err)) return -1;
+    } else {
+        swap_sums(g);
+    }
     g->v.dt = w->dt;
     return LAUNCH(FIRST_HALF, w->n) || LAUNCH(BLOCK_MOVES, g->v.blocks) ? -1 : 0;
 }

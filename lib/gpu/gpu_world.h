@@ -33,9 +33,8 @@ void fl_gpu_world_free(fl_gpu_world *g); /* closes the engine; accepts NULL */
 /* "serial launcher, ...", or the name of the card. */
 const char *fl_gpu_world_device(const fl_gpu_world *g);
 
-/* Copies the lists, and all bodies and bonds.  Between two steps, or after a search within one. */
+/* Copies the lists, and all bodies and bonds, after a search within a step; the first step begins with it. */
 int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err);
-int fl_gpu_world_is_uploaded(const fl_gpu_world *g);
 
 /* Copies bodies, contacts and bonds into the world. */
 int fl_gpu_world_download(fl_gpu_world *g, fl_world *w, fl_err *err);

@@ -81,9 +81,8 @@ int fl_device_first_half(fl_world *w, double h, fl_err *err)
 {
     fl_gpu_world *const g = w->device.gpu;
     int32_t n;
-    if (!fl_gpu_world_is_uploaded(g) && fl_gpu_world_upload(g, w, err)) return -1;
-    const int32_t *const guest = fl_gpu_world_guests(g, &n);
     if (fl_gpu_world_first_half(g, w, err)) return -1;
+    const int32_t *const guest = fl_gpu_world_guests(g, &n);
     w->device.stale = 1;
     fl_bodies_first_half(w, guest, n, h);
     for (int32_t k = 0; k < n; k++) fl_sphere_states_update(w, guest[k], guest[k] + 1, h);
