@@ -14,8 +14,8 @@ typedef struct {
     fl_vec3 v, L, w; /* [m/s], [kg m2/s], [rad/s] */
 } fl_sphere_motion;
 
-/* Change of v by a kick of h [s] with the force f [N].  up: mass along the vertical [kg]; heavy: 1 where there
- * is added mass. */
+/* Change of v by a kick of h [s] with the force f [N].  up: mass along the vertical [kg]; heavy: 1 where
+ * there is added mass. */
 FL_SIMD_INLINE fl_vec3 fl_sphere_velocity_change(fl_vec3 f, double h, double invm, double up, int heavy)
 {
     return v3(heavy ? h * (invm * f.x) : h * invm * f.x, heavy ? h * (invm * f.y) : h * invm * f.y,
@@ -23,8 +23,8 @@ FL_SIMD_INLINE fl_vec3 fl_sphere_velocity_change(fl_vec3 f, double h, double inv
 }
 
 /* Kick; turn: 1/I. */
-FL_SIMD_INLINE fl_sphere_motion fl_sphere_kick(fl_sphere_motion a, fl_vec3 f, fl_vec3 t, double h, double invm,
-                                               double turn, double up, int heavy)
+FL_SIMD_INLINE fl_sphere_motion fl_sphere_kick(fl_sphere_motion a, fl_vec3 f, fl_vec3 t, double h,
+                                               double invm, double turn, double up, int heavy)
 {
     fl_sphere_motion q;
     const fl_vec3 by = fl_sphere_velocity_change(f, h, invm, up, heavy);

@@ -4,8 +4,8 @@
 #ifndef FL_BOND_DISC_DAMAGE_KERNEL_H
 #define FL_BOND_DISC_DAMAGE_KERNEL_H
 #include "base/pi.h"
-#include "bond/disc.h"
 #include "bond/disc_kernel.h"
+#include "bond/disc_types.h"
 
 static inline double fl_disc_integrity_of(fl_disc_class c, double lambda)
 {
@@ -42,8 +42,8 @@ static inline double fl_disc_shear_share(fl_disc_law law, double g, double N, fl
 static inline double fl_disc_spring_product(fl_disc_class c, fl_vec3 e, double N0, fl_vec3 S0, fl_vec3 M0,
                                             double N1, fl_vec3 S1, fl_vec3 M1)
 {
-    const double ks = c.shear_ratio * c.kn, r2 = c.radius * c.radius, kb = 0.25 * r2 * c.kn, kt = 0.5 * r2 * ks,
-                 t0 = v3_dot(M0, e), t1 = v3_dot(M1, e);
+    const double ks = c.shear_ratio * c.kn, r2 = c.radius * c.radius, kb = 0.25 * r2 * c.kn,
+                 kt = 0.5 * r2 * ks, t0 = v3_dot(M0, e), t1 = v3_dot(M1, e);
     return fl_disc_positive(N0) * fl_disc_positive(N1) / c.kn + v3_dot(S0, S1) / ks +
            v3_dot(v3_madd(M0, -t0, e), v3_madd(M1, -t1, e)) / kb + t0 * t1 / kt;
 }
@@ -91,8 +91,8 @@ static inline double fl_disc_stored(fl_disc_class c, fl_disc_memory m, fl_vec3 d
 {
     const double r = v3_norm(d), N = c.kn * (r - c.length), g = fl_disc_integrity_of(c, m.lambda),
                  press = fl_disc_positive(-N);
-    return 0.5 *
-           (press * press / c.kn + g * fl_disc_spring_product(c, v3_scale(1.0 / r, d), N, m.S, m.M, N, m.S, m.M));
+    return 0.5 * (press * press / c.kn +
+                  g * fl_disc_spring_product(c, v3_scale(1.0 / r, d), N, m.S, m.M, N, m.S, m.M));
 }
 
 #endif

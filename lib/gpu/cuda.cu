@@ -3,6 +3,8 @@
  *
  * Built with -fmad=false: products and sums stay apart, as with -ffp-contract=off, and sqrt and divisions of
  * doubles are those of IEEE 754.  So a kernel has the bits of gpu_serial.c. */
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
 #include <cuda_runtime.h>
 #include <math.h>
 #include <stddef.h>
@@ -13,6 +15,7 @@
 
 /* The headers of the project are C: their inline functions are wanted on both sides. */
 #define inline __host__ __device__ __forceinline__
+#include "gpu/gpu_list_kernel.h"
 #include "gpu/gpu_step_kernel.h"
 #undef inline
 #include "gpu/gpu_engine.h"
@@ -43,8 +46,8 @@ static int open_engine(void)
     if (check(cudaGetDeviceProperties(&p, 0), "the card")) return -1;
     snprintf(card, sizeof card, "%.150s", p.name);
     if (10 * p.major + p.minor < OLDEST) {
-        snprintf(failure, sizeof failure, "%.100s has compute capability %d.%d, 7.5 or more is expected", p.name, p.major,
-                 p.minor);
+        snprintf(failure, sizeof failure, "%.100s has compute capability %d.%d, 7.5 or more is expected",
+                 p.name, p.major, p.minor);
         return -1;
     }
     return check(cudaSetDevice(0), "the card") || check(cudaStreamCreate(&stream), "the card") ? -1 : 0;
@@ -117,9 +120,58 @@ static int launch_kernel(int kernel, int32_t n, const fl_gpu_view *v)
 
 static int wait_engine(void) { return check(cudaStreamSynchronize(stream), "a kernel"); }
 
-static const fl_gpu_engine CUDA = {FL_GPU_VERSION, (int32_t)sizeof(fl_gpu_view), "cuda",       open_engine,
-                                   close_engine,   device_name,                  last_failure, free_bytes,
-                                   alloc_bytes,    release_bytes,                upload_bytes, download_bytes,
-                                   launch_kernel,  wait_engine};
+/* Memory of the two below, kept. */
+static void *scratch;
+static size_t scratch_bytes;
+
+static int fit_scratch(size_t bytes)
+{
+    if (bytes <= scratch_bytes) return 0;
+    cudaFree(scratch);
+    scratch_bytes = bytes + bytes / 8;
+    return check(cudaMalloc(&scratch, scratch_bytes), "memory of the card");
+}
+
+static int sort_keys(uint64_t *key, int32_t *value, int32_t n)
+{
+    size_t need = 0;
+    const size_t room = ((size_t)n * 12 + 1023) / 512 * 512; /* sorted keys and values */
+    if (check(cub::DeviceRadixSort::SortPairs(NULL, need, key, key, value, value, n, 0, 64, stream),
+              "sorting") ||
+        fit_scratch(room + need))
+        return -1;
+    uint64_t *const keys = (uint64_t *)scratch;
+    int32_t *const values = (int32_t *)(keys + n);
+    return check(cub::DeviceRadixSort::SortPairs((char *)scratch + room, need, key, keys, value, values, n, 0,
+                                                 64, stream),
+                 "sorting") ||
+                   check(
+                       cudaMemcpyAsync(key, keys, (size_t)n * sizeof *key, cudaMemcpyDeviceToDevice, stream),
+                       "sorting") ||
+                   check(cudaMemcpyAsync(value, values, (size_t)n * sizeof *value, cudaMemcpyDeviceToDevice,
+                                         stream),
+                         "sorting")
+               ? -1
+               : 0;
+}
+
+static int make_offsets(int32_t *count, int32_t n)
+{
+    size_t need = 0;
+    return check(cub::DeviceScan::ExclusiveSum(NULL, need, count, count, n, stream), "adding up") ||
+                   fit_scratch(need) ||
+                   check(cub::DeviceScan::ExclusiveSum(scratch, need, count, count, n, stream), "adding up")
+               ? -1
+               : 0;
+}
+
+static const fl_gpu_engine CUDA = {FL_GPU_VERSION, (int32_t)sizeof(fl_gpu_view),
+                                   "cuda",         open_engine,
+                                   close_engine,   device_name,
+                                   last_failure,   free_bytes,
+                                   alloc_bytes,    release_bytes,
+                                   upload_bytes,   download_bytes,
+                                   launch_kernel,  wait_engine,
+                                   sort_keys,      make_offsets};
 
 extern "C" const fl_gpu_engine *fl_gpu_engine_cuda(void) { return &CUDA; }

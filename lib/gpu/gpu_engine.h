@@ -4,7 +4,7 @@
  *
  *     serial   loops on the CPU over memory of their own (gpu_serial.c), always there: the same data flow
  *              without a card
- *     cuda     one NVIDIA card (cuda.cu), in libfloe-cuda.so beside the programs or in ../lib, loaded by dlopen
+ *     cuda     one NVIDIA card (cuda.cu), in libfloe-cuda.so beside the programs or in ../lib, by dlopen
  *
  * Calls return 0, or -1 with a sentence in why(). */
 #ifndef FL_GPU_GPU_ENGINE_H
@@ -20,20 +20,23 @@ extern "C" {
 #endif
 
 typedef struct {
-    int32_t version;       /* FL_GPU_VERSION */
-    int32_t view_bytes;    /* sizeof(fl_gpu_view) */
-    const char *name;      /* "serial", "cuda" */
-    int (*open)(void);     /* finds the card */
+    int32_t version;    /* FL_GPU_VERSION */
+    int32_t view_bytes; /* sizeof(fl_gpu_view) */
+    const char *name;   /* "serial", "cuda" */
+    int (*open)(void);  /* finds the card */
     void (*close)(void);
-    const char *(*device)(void); /* name of the card */
-    const char *(*why)(void);    /* the last failure */
-    double (*free_bytes)(void);  /* memory that is free [B] */
+    const char *(*device)(void);           /* name of the card */
+    const char *(*why)(void);              /* the last failure */
+    double (*free_bytes)(void);            /* memory that is free [B] */
     int (*alloc)(void **to, size_t bytes); /* zeroed; 0 bytes: NULL */
     void (*release)(void *p);
     int (*upload)(void *to, const void *from, size_t bytes);
     int (*download)(void *to, const void *from, size_t bytes); /* after all that was launched before */
-    int (*launch)(int kernel, int32_t n, const fl_gpu_view *v); /* k = 0 .. n - 1; may return before the end */
-    int (*wait)(void);                                          /* for all that was launched */
+    int (*launch)(int kernel, int32_t n,
+                  const fl_gpu_view *v);                   /* k = 0 .. n - 1; may return before the end */
+    int (*wait)(void);                                     /* for all that was launched */
+    int (*sort)(uint64_t *key, int32_t *value, int32_t n); /* by ascending keys; arrays of the device */
+    int (*offsets)(int32_t *count, int32_t n);             /* n counts become the sums of those before */
 } fl_gpu_engine;
 
 /* The function that a plug-in exports, and its name. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "gpu/gpu_engine.h"
+#include "gpu/gpu_list_kernel.h"
 #include "gpu/gpu_step_kernel.h"
 
 static const char *failure = "";
@@ -43,6 +44,39 @@ static int launch_kernel(int kernel, int32_t n, const fl_gpu_view *v)
 
 static int wait_engine(void) { return 0; }
 
+/* By bytes from the lowest on, which keeps the order of equal keys. */
+static int sort_keys(uint64_t *key, int32_t *value, int32_t n)
+{
+    uint64_t *const keys = malloc(((size_t)n + 1) * sizeof *keys);
+    int32_t *const values = malloc(((size_t)n + 1) * sizeof *values);
+    const int bad = !keys || !values;
+    for (int shift = 0; shift < 64 && !bad; shift += 8) {
+        int32_t first[257] = {0};
+        for (int32_t k = 0; k < n; k++) first[(key[k] >> shift & 255) + 1]++;
+        for (int d = 0; d < 256; d++) first[d + 1] += first[d];
+        for (int32_t k = 0; k < n; k++) {
+            const int32_t to = first[key[k] >> shift & 255]++;
+            keys[to] = key[k], values[to] = value[k];
+        }
+        memcpy(key, keys, (size_t)n * sizeof *key);
+        memcpy(value, values, (size_t)n * sizeof *value);
+    }
+    free(keys), free(values);
+    if (bad) failure = "out of memory";
+    return bad ? -1 : 0;
+}
+
+static int make_offsets(int32_t *count, int32_t n)
+{
+    int32_t sum = 0;
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t own = count[k];
+        count[k] = sum;
+        sum += own;
+    }
+    return 0;
+}
+
 static const fl_gpu_engine SERIAL = {
     .version = FL_GPU_VERSION,
     .view_bytes = sizeof(fl_gpu_view),
@@ -58,6 +92,8 @@ static const fl_gpu_engine SERIAL = {
     .download = copy_bytes,
     .launch = launch_kernel,
     .wait = wait_engine,
+    .sort = sort_keys,
+    .offsets = make_offsets,
 };
 
 const fl_gpu_engine *fl_gpu_serial(void)

@@ -129,9 +129,10 @@ static inline fl_rolling_spring fl_gpu_no_roll(void)
 
 /* Evaluates a contact: updates its memory, and its rolling spring (NULL: none) over arm with the change dw of
  * w_i - w_j and the inverse mass roll_inverse. */
-static inline fl_gpu_row_result fl_gpu_evaluate(const fl_gpu_view *a, const fl_gpu_law *law, fl_gpu_approach p,
-                                                fl_sphere_contact *c, fl_rolling_spring *roll, double arm,
-                                                fl_vec3 dw, double roll_inverse)
+static inline fl_gpu_row_result fl_gpu_evaluate(const fl_gpu_view *a, const fl_gpu_law *law,
+                                                fl_gpu_approach p, fl_sphere_contact *c,
+                                                fl_rolling_spring *roll, double arm, fl_vec3 dw,
+                                                double roll_inverse)
 {
     fl_sphere_step by;
     by.dt = a->dt, by.half = 0.5 * a->dt, by.at_start = 0.0;
@@ -168,7 +169,8 @@ static inline fl_gpu_row_result fl_gpu_evaluate(const fl_gpu_view *a, const fl_g
     const fl_sphere_forces all =
         fl_sphere_forces_of(g.n, g.overlap, p.ri, p.rj, g.elastic, q.normal_damping, now.friction_force);
     fl_gpu_row_result out;
-    out.n = g.n, out.elastic = g.elastic, out.overlap = g.overlap, out.slope = g.slope, out.size = all.magnitude;
+    out.n = g.n, out.elastic = g.elastic, out.overlap = g.overlap, out.slope = g.slope,
+    out.size = all.magnitude;
     return out;
 }
 
@@ -227,8 +229,7 @@ static inline void fl_gpu_row(const fl_gpu_view *a, int32_t c)
         arm = si.r * sj.r / (si.r + sj.r);
         roll_inverse = arm * arm * roll_inverse;
     }
-    a->result[c] =
-        fl_gpu_evaluate(a, law, p, &m, a->rolling ? &a->rolling[c] : NULL, arm, dw, roll_inverse);
+    a->result[c] = fl_gpu_evaluate(a, law, p, &m, a->rolling ? &a->rolling[c] : NULL, arm, dw, roll_inverse);
     a->contact[c] = m;
 }
 
@@ -253,7 +254,8 @@ static inline void fl_gpu_wall_row(const fl_gpu_view *a, int32_t c)
     w->touches = 1;
     const fl_gpu_law *law = &a->law[w->law];
     const double below = z > 0.0 ? 0.0 : radius - 2.0 * z, over = radius - z, both = radius + below - over,
-                 own = (radius - 0.5 * over) / radius, part = both > 0.0 ? own * (radius + below) / both : 1.0;
+                 own = (radius - 0.5 * over) / radius,
+                 part = both > 0.0 ? own * (radius + below) / both : 1.0;
     fl_gpu_approach p;
     p.d = v3_scale(z + below, n), p.u = s.v, p.du = s.dv, p.wi = s.w, p.wj = v3(0, 0, 0);
     p.rdw = v3_scale(part, s.rdw), p.ri = radius, p.rj = below;
@@ -309,15 +311,15 @@ static inline void fl_gpu_disc(const fl_gpu_view *a, int32_t k)
     fl_disc_memory m = a->disc[k];
     const fl_disc_motion q = fl_disc_motion_of(at.d, at.vi, at.vj, at.wi, at.wj, m.S, m.M, c.length, c.kn,
                                                c.shear_ratio, c.radius, c.share, a->dt);
-    const double used = fl_disc_strength_bound(q, c.radius, a->disc_law.moment_factor, s * a->disc_law.tension,
-                                               s * a->disc_law.cohesion);
+    const double used = fl_disc_strength_bound(q, c.radius, a->disc_law.moment_factor,
+                                               s * a->disc_law.tension, s * a->disc_law.cohesion);
     if (a->disc_whole[k] && used < FL_GPU_WHOLE) {
         fl_vec3 F = v3_madd(v3_scale(q.N, q.e), 1.0, q.S), M = q.M;
         if (a->damped_discs) {
             const fl_vec3 drag = fl_disc_damping_force(q, c.kn, c.shear_ratio, c.damping),
                           brake = fl_disc_damping_couple(q, c.kn, c.shear_ratio, c.radius, c.damping);
-            m.damped += 0.5 * a->dt * fl_disc_power(q, v3_add(m.damping_force, drag),
-                                                    v3_add(m.damping_couple, brake));
+            m.damped += 0.5 * a->dt *
+                        fl_disc_power(q, v3_add(m.damping_force, drag), v3_add(m.damping_couple, brake));
             m.damping_force = drag, m.damping_couple = brake;
             F = v3_add(F, drag), M = v3_add(brake, M);
         }
@@ -379,13 +381,14 @@ static inline int32_t fl_gpu_sum(const fl_gpu_view *a, int32_t k, fl_sphere_sum 
             const int32_t c = a->link[at] >> 1;
             if (part == 0 && a->row_i[c] < begin) break;
             if (!a->touches[c]) continue;
-            fl_gpu_add(s, &a->result[c], &a->contact[c], a->rolling ? &a->rolling[c] : NULL, r, a->link[at] & 1);
+            fl_gpu_add(s, &a->result[c], &a->contact[c], a->rolling ? &a->rolling[c] : NULL, r,
+                       a->link[at] & 1);
             touching++;
         }
         for (int32_t c = a->wall_of_body[k]; part == 0 && c < a->wall_of_body[k + 1]; c++) {
             if (!a->wall[c].touches) continue;
-            fl_gpu_add(s, &a->wall_result[c], &a->wall[c].contact, a->wall_rolling ? &a->wall_rolling[c] : NULL, r,
-                       0);
+            fl_gpu_add(s, &a->wall_result[c], &a->wall[c].contact,
+                       a->wall_rolling ? &a->wall_rolling[c] : NULL, r, 0);
             touching++;
         }
     }
@@ -410,7 +413,8 @@ static inline void fl_gpu_tell_guest_disc(const fl_gpu_view *a, int32_t e)
 
 static inline int fl_gpu_has_discs(const fl_gpu_view *a, int32_t k)
 {
-    return a->discs && (a->disc_first_i[k] < a->disc_first_i[k + 1] || a->disc_first_j[k] < a->disc_first_j[k + 1]);
+    return a->discs &&
+           (a->disc_first_i[k] < a->disc_first_i[k + 1] || a->disc_first_j[k] < a->disc_first_j[k + 1]);
 }
 
 static inline void fl_gpu_add_discs(const fl_gpu_view *a, int32_t k, fl_vec3 *f, fl_vec3 *t)
@@ -437,7 +441,10 @@ static inline fl_vec3 fl_gpu_change(const fl_gpu_view *a, fl_vec3 f, double h, d
     return a->heave_mass ? v3_scale(h, v3(invm * f.x, invm * f.y, f.z / up)) : v3_scale(h * invm, f);
 }
 
-static inline int fl_gpu_is_finite(fl_vec3 a) { return a.x - a.x == 0.0 && a.y - a.y == 0.0 && a.z - a.z == 0.0; }
+static inline int fl_gpu_is_finite(fl_vec3 a)
+{
+    return a.x - a.x == 0.0 && a.y - a.y == 0.0 && a.z - a.z == 0.0;
+}
 
 static inline void fl_gpu_second_half(const fl_gpu_view *a, int32_t k)
 {
@@ -454,8 +461,8 @@ static inline void fl_gpu_second_half(const fl_gpu_view *a, int32_t k)
     fl_vec3 f = v3_scale(m, a->gravity), t = v3(0, 0, 0), lift = v3(0, 0, 0);
     if (a->floats) {
         const fl_sphere_float wet =
-            fl_sphere_floats(a->state[k].x.z, a->drag_radius[k], a->fill[k], a->volume[k], a->surface[k], a->level,
-                             a->specific_weight);
+            fl_sphere_floats(a->state[k].x.z, a->drag_radius[k], a->fill[k], a->volume[k], a->surface[k],
+                             a->level, a->specific_weight);
         a->wetted_area[k] = wet.area, a->buoyancy[k] = wet.buoyancy;
         lift = v3(0, 0, wet.buoyancy);
         f = v3_add(f, lift);
@@ -486,12 +493,11 @@ static inline void fl_gpu_second_half(const fl_gpu_view *a, int32_t k)
     a->contact_count[k] = touching;
     /* works */
     const double sixth = dt / 6.0;
-    a->damping_work[k] =
-        0.0 - (dt * v3_dot(s1.damping, end.v) + sixth * (v3_dot(s1.damping, first_v) - v3_dot(s0.damping, second_v)));
-    a->friction_work[k] =
-        0.0 - (dt * fl_gpu_power(s1.friction, s1.torque, end.v, end.w) +
-               sixth * (fl_gpu_power(s1.friction, s1.torque, first_v, first_w) -
-                        fl_gpu_power(s0.friction, s0.torque, second_v, second_w)));
+    a->damping_work[k] = 0.0 - (dt * v3_dot(s1.damping, end.v) +
+                                sixth * (v3_dot(s1.damping, first_v) - v3_dot(s0.damping, second_v)));
+    a->friction_work[k] = 0.0 - (dt * fl_gpu_power(s1.friction, s1.torque, end.v, end.w) +
+                                 sixth * (fl_gpu_power(s1.friction, s1.torque, first_v, first_w) -
+                                          fl_gpu_power(s0.friction, s0.torque, second_v, second_w)));
     const int has_contact = touching > 0 || fl_gpu_has_discs(a, k);
     fl_vec3 by = v3_madd(f, -m, a->gravity);
     if (a->floats) by = v3_sub(by, lift);
@@ -540,9 +546,10 @@ static inline void fl_gpu_batch_end(fl_gpu_batch *b, fl_chunk_totals *t)
     b->m = b->lanes = 0;
 }
 
-static inline void fl_gpu_deepest(fl_chunk_totals *t, double overlap, double both, int32_t c)
+static inline void fl_gpu_deepest(fl_chunk_totals *t, double overlap, double both, int32_t i, int32_t j)
 {
-    if (overlap > t->max_overlap * both) t->max_overlap = overlap / both, t->max_overlap_contact = c;
+    if (overlap > t->max_overlap * both)
+        t->max_overlap = overlap / both, t->max_overlap_i = i, t->max_overlap_j = j;
 }
 
 /* Load of wall contact c, as add_to_load() of sphere/wall_contact.c. */
@@ -552,7 +559,8 @@ static inline void fl_gpu_load_wall(const fl_gpu_view *a, fl_wall_load *load, in
     const fl_gpu_row_result *q = &a->wall_result[c];
     const fl_gpu_wall plane = a->plane[w->j - a->plane_first];
     const fl_vec3 F = v3_madd(w->contact.friction_force, q->elastic + w->contact.normal_damping, plane.n),
-                  middle = v3_madd(v3_sub(a->state[w->i].x, plane.x), 0.5 * q->overlap - a->state[w->i].r, plane.n);
+                  middle = v3_madd(v3_sub(a->state[w->i].x, plane.x), 0.5 * q->overlap - a->state[w->i].r,
+                                   plane.n);
     load->f = v3_sub(load->f, F);
     load->t = v3_sub(load->t, v3_cross(middle, F));
     load->t = v3_sub(load->t, a->wall_rolling ? v3_scale(a->wall_rolling[c].arm, a->wall_rolling[c].total)
@@ -561,10 +569,12 @@ static inline void fl_gpu_load_wall(const fl_gpu_view *a, fl_wall_load *load, in
 
 static inline void fl_gpu_chunk(const fl_gpu_view *a, int32_t g)
 {
-    const int32_t begin = g * FL_SPHERE_CHUNK, end = begin + FL_SPHERE_CHUNK < a->n ? begin + FL_SPHERE_CHUNK : a->n;
+    const int32_t begin = g * FL_SPHERE_CHUNK,
+                  end = begin + FL_SPHERE_CHUNK < a->n ? begin + FL_SPHERE_CHUNK : a->n;
     fl_chunk_totals t;
     fl_gpu_batch b;
-    t.touching = 0, t.force_sum = t.max_overlap = t.elastic = t.spring = 0.0, t.max_overlap_contact = -1;
+    t.touching = 0, t.force_sum = t.max_overlap = t.elastic = t.spring = 0.0,
+    t.max_overlap_i = t.max_overlap_j = -1;
     b.m = b.lanes = 0, b.lane[0] = b.lane[1] = b.lane[2] = b.lane[3] = 0.0;
     for (int32_t c = a->first[begin]; c < a->first[end]; c++) {
         if (!a->touches[c]) continue;
@@ -576,7 +586,8 @@ static inline void fl_gpu_chunk(const fl_gpu_view *a, int32_t g)
         }
         t.touching++;
         if (++b.m == 16) fl_gpu_batch_end(&b, &t);
-        fl_gpu_deepest(&t, q->overlap, a->state[a->row_i[c]].r + a->state[a->row_j[c]].r, c);
+        fl_gpu_deepest(&t, q->overlap, a->state[a->row_i[c]].r + a->state[a->row_j[c]].r, a->row_i[c],
+                       a->row_j[c]);
     }
     if (b.m) fl_gpu_batch_end(&b, &t);
     for (int32_t k = 0; k < a->wall_planes; k++) {
@@ -590,7 +601,8 @@ static inline void fl_gpu_chunk(const fl_gpu_view *a, int32_t g)
         fl_gpu_load_wall(a, &a->wall_load[(int64_t)g * a->wall_planes + (a->wall[c].j - a->plane_first)], c);
         t.force_sum += q->size;
         t.touching++;
-        if (deep > t.max_overlap) t.max_overlap = deep, t.max_overlap_contact = ~c;
+        if (deep > t.max_overlap)
+            t.max_overlap = deep, t.max_overlap_i = a->wall[c].i, t.max_overlap_j = a->wall[c].j;
     }
     a->totals[g] = t;
 }
@@ -637,7 +649,8 @@ static inline void fl_gpu_stiffness(const fl_gpu_view *a, int32_t k)
             if (part == 0 && i < begin) break;
             if (!a->touches[c]) continue;
             const fl_gpu_row_result *q = &a->result[c];
-            const double half = 0.5 * q->overlap, rolls = a->rolling ? fl_gpu_turn_stiffness(&a->rolling[c]) : 0.0,
+            const double half = 0.5 * q->overlap,
+                         rolls = a->rolling ? fl_gpu_turn_stiffness(&a->rolling[c]) : 0.0,
                          across = a->contact[c].spring_stiffness;
             const double ki = fl_gpu_stiffness_of_point(a, i, q->slope, across, a->state[i].r - half, rolls),
                          kj = fl_gpu_stiffness_of_point(a, j, q->slope, across, a->state[j].r - half, rolls),
@@ -647,9 +660,9 @@ static inline void fl_gpu_stiffness(const fl_gpu_view *a, int32_t k)
         for (int32_t c = a->wall_of_body[k]; part == 0 && c < a->wall_of_body[k + 1]; c++) {
             if (!a->wall[c].touches) continue;
             const fl_gpu_row_result *q = &a->wall_result[c];
-            sum += fl_gpu_stiffness_of_point(a, k, q->slope, a->wall[c].contact.spring_stiffness,
-                                             a->state[k].r - 0.5 * q->overlap,
-                                             a->wall_rolling ? fl_gpu_turn_stiffness(&a->wall_rolling[c]) : 0.0);
+            sum += fl_gpu_stiffness_of_point(
+                a, k, q->slope, a->wall[c].contact.spring_stiffness, a->state[k].r - 0.5 * q->overlap,
+                a->wall_rolling ? fl_gpu_turn_stiffness(&a->wall_rolling[c]) : 0.0);
         }
     }
     a->omega2[k] = sum;

@@ -4,12 +4,12 @@
  *
  * A body is known by its number in the world, which is also its place; rows are sorted by (i, j, image) as on
  * the CPU, and each body adds its rows in the order of its links.  So neither the memory nor the moment of a
- * list changes a bit.  Bodies with host = 1, the guests, are moved by the CPU; their states come in before rows
- * are evaluated. */
+ * list changes a bit.  Bodies with host not 0, the guests, are moved by the CPU; their states come in before
+ * rows are evaluated. */
 #ifndef FL_GPU_GPU_VIEW_H
 #define FL_GPU_GPU_VIEW_H
 #include <stdint.h>
-#include "bond/disc.h"
+#include "bond/disc_types.h"
 #include "geom/quat.h"
 #include "water/sphere_water_kernel.h"
 #include "world/body_block.h"
@@ -24,6 +24,7 @@ typedef struct {
 /* Parameters of a contact law. */
 typedef struct {
     double friction, tangential, impact_damping, slow_factor2, rolling;
+    double stiffness, stiffness_factor, modulus, round_young; /* of a new contact, as in fl_pair_law */
 } fl_gpu_law;
 
 /* A rigid wall: normal into the domain, and point. */
@@ -39,7 +40,7 @@ typedef struct {
 
 /* What the CPU tells of a guest after its step. */
 typedef struct {
-    fl_vec3 contact_force;        /* [N] */
+    fl_vec3 contact_force;              /* [N] */
     double damping_work, friction_work; /* [J] */
     int64_t is_finite;
 } fl_gpu_guest_work;
@@ -59,11 +60,12 @@ typedef struct {
 typedef struct {
     /* of the run */
     int32_t n, rows, walls, discs, guests, guest_discs, chunks, blocks, wall_planes;
-    int32_t floats; /* 0: dry; 1: drag and buoyancy; 2: the same where bonds make the sheet (floating_batch.h) */
+    int32_t
+        floats; /* 0: dry; 1: drag and buoyancy; 2: the same where bonds make the sheet (floating_batch.h) */
     int32_t linear, has_rolling, damped_discs;
     double dt;
     fl_vec3 gravity;
-    fl_vec3 cell_length; /* [m] */
+    fl_vec3 cell_lo, cell_length; /* periodic cell [m] */
     /* still water */
     fl_sphere_drag drag;
     double level, specific_weight, heave_factor, gravity_size;
@@ -89,15 +91,15 @@ typedef struct {
     const double *drag_radius, *volume, *surface, *fill;
 
     /* rows [rows] */
-    const int32_t *row_i, *row_j, *row_law;
-    const int32_t *row_image; /* [3 rows]; NULL without a periodic cell */
+    int32_t *row_i, *row_j, *row_law;
+    int32_t *row_image; /* [3 rows]; NULL without a periodic cell */
     uint8_t *touches;
     fl_sphere_contact *contact;
     fl_rolling_spring *rolling;
     fl_gpu_row_result *result;
-    const int32_t *first;      /* [n + 1] rows of body i */
-    const int32_t *link_first; /* [n + 1] */
-    const int32_t *link;       /* row * 2, + 1 if the body is its j */
+    int32_t *first;      /* [n + 1] rows of body i */
+    int32_t *link_first; /* [n + 1] */
+    int32_t *link;       /* row * 2, + 1 if the body is its j */
     const fl_gpu_law *law;
 
     /* contacts with walls [walls] */
@@ -127,12 +129,28 @@ typedef struct {
     double *disc_force_sum; /* [discs / FL_DISC_RUN + 1] */
 
     /* guests */
-    const int32_t *guest;           /* [guests] */
+    const int32_t *guest; /* [guests] */
     fl_gpu_guest_state *guest_state;
     fl_gpu_guest_work *guest_work;
     fl_gpu_guest_sum *guest_sum;
-    const int32_t *guest_disc;      /* [guest_discs] bonds of guests */
-    fl_disc_wrench *guest_wrench;   /* [guest_discs] */
+    const int32_t *guest_disc;    /* [guest_discs] bonds of guests */
+    fl_disc_wrench *guest_wrench; /* [guest_discs] */
+
+    /* the list, while it is made */
+    double skin;
+    double cell_scale[3]; /* cells a metre */
+    int32_t cells[3];     /* in a direction with a period, else 0 */
+    int32_t law_columns;
+    const int32_t *material;             /* [n] */
+    uint64_t *key;                       /* [n] */
+    int32_t *order;                      /* [n] bodies by their keys */
+    int32_t *lower;                      /* [links] partners of each body with smaller numbers, ascending */
+    int32_t *new_first, *new_link_first; /* [n + 1] */
+    int32_t *new_row_i, *new_row_j, *new_row_law, *new_row_image;
+    uint8_t *new_touches;
+    fl_sphere_contact *new_contact;
+    fl_rolling_spring *new_rolling;
+    const int32_t *disc_image; /* [3 discs]; NULL without a periodic cell */
 
     /* sums */
     fl_body_block *block;    /* [blocks] */
@@ -144,20 +162,25 @@ typedef struct {
 
 /* The kernels, and what one thread of each works on. */
 #define FL_GPU_KERNELS(X)                                                                                    \
-    X(TAKE_GUESTS, fl_gpu_take_guest)       /* a guest: its state */                                         \
-    X(FIRST_HALF, fl_gpu_first_half)        /* a body: drag, kick, drift */                                  \
-    X(BLOCK_MOVES, fl_gpu_block_moves)      /* a block: its two largest paths */                             \
-    X(ROWS, fl_gpu_row)                     /* a row: the contact of two spheres */                          \
-    X(WALLS, fl_gpu_wall_row)               /* a contact with a wall */                                      \
-    X(DISCS, fl_gpu_disc)                   /* a bond */                                                     \
-    X(TELL_GUESTS, fl_gpu_tell_guest)       /* a guest: its sums */                                          \
-    X(TELL_DISCS, fl_gpu_tell_guest_disc)   /* a bond of a guest */                                          \
-    X(SECOND_HALF, fl_gpu_second_half)      /* a body: sums, water, kick, drag, works */                     \
-    X(TAKE_WORKS, fl_gpu_take_guest_work)   /* a guest: works */                                             \
-    X(BLOCKS, fl_gpu_block)                 /* a block: works and contact forces of its bodies */            \
-    X(CHUNKS, fl_gpu_chunk)                 /* a chunk: totals of its contacts, loads on walls */            \
-    X(DISC_RUNS, fl_gpu_disc_run)           /* a run of bonds: sum of |F| */                                 \
-    X(STIFFNESS, fl_gpu_stiffness)          /* a body: bound of omega^2 */
+    X(TAKE_GUESTS, fl_gpu_take_guest)     /* a guest: its state */                                           \
+    X(FIRST_HALF, fl_gpu_first_half)      /* a body: drag, kick, drift */                                    \
+    X(BLOCK_MOVES, fl_gpu_block_moves)    /* a block: its two largest paths */                               \
+    X(ROWS, fl_gpu_row)                   /* a row: the contact of two spheres */                            \
+    X(WALLS, fl_gpu_wall_row)             /* a contact with a wall */                                        \
+    X(DISCS, fl_gpu_disc)                 /* a bond */                                                       \
+    X(TELL_GUESTS, fl_gpu_tell_guest)     /* a guest: its sums */                                            \
+    X(TELL_DISCS, fl_gpu_tell_guest_disc) /* a bond of a guest */                                            \
+    X(SECOND_HALF, fl_gpu_second_half)    /* a body: sums, water, kick, drag, works */                       \
+    X(TAKE_WORKS, fl_gpu_take_guest_work) /* a guest: works */                                               \
+    X(BLOCKS, fl_gpu_block)               /* a block: works and contact forces of its bodies */              \
+    X(CHUNKS, fl_gpu_chunk)               /* a chunk: totals of its contacts, loads on walls */              \
+    X(DISC_RUNS, fl_gpu_disc_run)         /* a run of bonds: sum of |F| */                                   \
+    X(STIFFNESS, fl_gpu_stiffness)        /* a body: bound of omega^2 */                                     \
+    X(KEYS, fl_gpu_make_key)              /* a body: key of its cell */                                      \
+    X(COUNT_ROWS, fl_gpu_count_rows)      /* a body: its partners */                                         \
+    X(FILL_ROWS, fl_gpu_fill_rows)        /* a body: its rows, and what they remember */                     \
+    X(LINK_ROWS, fl_gpu_link_rows)        /* a body: its rows in the order of its sums */                    \
+    X(FORGET_ENDED, fl_gpu_forget_ended)  /* a bond: one that has ended is listed */
 
 #define FL_GPU_KERNEL_ID(name, function) FL_GPU_##name,
 enum fl_gpu_kernel { FL_GPU_KERNELS(FL_GPU_KERNEL_ID) FL_GPU_KERNEL_COUNT };

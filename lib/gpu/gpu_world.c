@@ -5,42 +5,16 @@
 #include "body/integrate.h"
 #include "contact/bond_list.h"
 #include "contact/pair_law.h"
+#include "gpu/gpu_lists.h"
+#include "gpu/gpu_memory.h"
 #include "sphere/contact_list.h"
 #include "sphere/floating_batch.h"
 #include "sphere/sphere_pair.h"
 #include "world/access.h"
 
-/* Memory of the device behind a pointer of the view; its place is that of the pointer. */
-typedef struct {
-    void *at;
-    size_t bytes;
-} buffer;
-
-/* Who moves a body.  A new guest is one since a search within this step, whose first half the device has done:
- * its state is there. */
+/* Who moves a body.  A new guest is one since a search within this step, whose first half the device has
+ * done. */
 enum { OWN, GUEST, NEW_GUEST };
-
-enum { BUFFERS = sizeof(fl_gpu_view) / sizeof(void *) };
-
-struct fl_gpu_world {
-    const fl_gpu_engine *e;
-    fl_gpu_view v;
-    buffer memory[BUFFERS];
-    int uploaded;
-    int32_t n; /* bodies of the arrays below */
-    uint8_t *host;
-    int32_t *guest, *guest_disc;
-    int32_t guests, guest_discs, guest_disc_cap;
-    fl_gpu_guest_state *guest_state;
-    fl_gpu_guest_sum *guest_sum;
-    fl_disc_wrench *guest_wrench;
-    double *moves;
-};
-
-static int fail_with_device(const fl_gpu_world *g, fl_err *err)
-{
-    return fl_fail(err, FL_SYSTEM, "%s: %.200s; the last checkpoint stands", g->e->device(), g->e->why());
-}
 
 /* --- what runs there ----------------------------------------------------------------------------- */
 
@@ -64,7 +38,8 @@ const char *fl_gpu_world_refuses(const fl_world *w)
     if (s->drag_surface) return "drag by facets";
     if (s->impulses) return "water forces with an impulse";
     if (w->b.added_mass) return "added mass by axes of bodies";
-    if (w->b.heave_mass && !fl_floating_batch_applies(w)) return "added mass along the vertical without bonds";
+    if (w->b.heave_mass && !fl_floating_batch_applies(w))
+        return "added mass along the vertical without bonds";
     if (s->water && !s->only_spheres) return "water, and floes that are no spheres";
     return NULL;
 }
@@ -92,7 +67,7 @@ fl_gpu_world *fl_gpu_world_make(const fl_gpu_engine *e, fl_err *err)
 void fl_gpu_world_free(fl_gpu_world *g)
 {
     if (!g) return;
-    for (int k = 0; k < BUFFERS; k++)
+    for (int k = 0; k < FL_GPU_BUFFERS; k++)
         if (g->memory[k].at) g->e->release(g->memory[k].at);
     g->e->close();
     free(g->host), free(g->guest), free(g->guest_disc), free(g->guest_state), free(g->guest_sum),
@@ -108,42 +83,10 @@ const int32_t *fl_gpu_world_guests(const fl_gpu_world *g, int32_t *n)
     return g->guest;
 }
 
-/* Fits the memory behind the pointer at that offset of the view, and copies from into it if it is given. */
-static int put_bytes(fl_gpu_world *g, size_t offset, const void *from, size_t bytes, fl_err *err)
-{
-    buffer *const m = &g->memory[offset / sizeof(void *)];
-    if (bytes > m->bytes) {
-        const size_t want = bytes + bytes / 8;
-        if (m->at) g->e->release(m->at);
-        *m = (buffer){0};
-        if (g->e->alloc(&m->at, want))
-            return fl_fail(err, FL_SYSTEM,
-                           "%s: no memory for %.0f MiB more, %.0f MiB are free; about %.3g of the %d bodies would "
-                           "fit",
-                           g->e->device(), (double)want / 1048576.0, g->e->free_bytes() / 1048576.0,
-                           g->n * (g->e->free_bytes() / (g->e->free_bytes() + (double)want)), g->n);
-        m->bytes = want;
-    }
-    memcpy((char *)&g->v + offset, &m->at, sizeof m->at);
-    return from && bytes && g->e->upload(m->at, from, bytes) ? fail_with_device(g, err) : 0;
-}
-
-static int get_bytes(fl_gpu_world *g, void *to, const void *from, size_t bytes, fl_err *err)
-{
-    return bytes && g->e->download(to, from, bytes) ? fail_with_device(g, err) : 0;
-}
-
-#define SIZE(member, count) ((size_t)(count) * sizeof *g->v.member)
-#define PUT(member, from, count)                                                                             \
-    put_bytes(g, offsetof(fl_gpu_view, member), from, SIZE(member, count), err)
-#define ROOM(member, count) PUT(member, NULL, count)
-#define GET(member, to, count) get_bytes(g, to, g->v.member, SIZE(member, count), err)
-#define LAUNCH(kernel, count) launch_one(g, FL_GPU_##kernel, count, err)
-
-static int launch_one(fl_gpu_world *g, int kernel, int32_t n, fl_err *err)
-{
-    return n > 0 && g->e->launch(kernel, n, &g->v) ? fail_with_device(g, err) : 0;
-}
+#define PUT FL_GPU_PUT
+#define ROOM FL_GPU_ROOM
+#define GET FL_GPU_GET
+#define LAUNCH FL_GPU_LAUNCH
 
 /* --- up ---------------------------------------------------------------------------------------------- */
 
@@ -151,8 +94,8 @@ static int is_guest(const fl_world *w, int32_t k)
 {
     return !w->b.is_isotropic[k] || w->b.fixed_dof[k] || fl_body_absent(w, k) ||
            w->first_pair_of_body[k] < w->first_pair_of_body[k + 1] ||
-           (k < w->driven_floes.n && w->driven_floes.is_driven[k]) ||
-           w->contact_sums.slot[k] != 0 || w->previous_sums.slot[k] != 0;
+           (k < w->driven_floes.n && w->driven_floes.is_driven[k]) || w->contact_sums.slot[k] != 0 ||
+           w->previous_sums.slot[k] != 0;
 }
 
 /* A guest that the device moves from now on: the CPU has done the first half of this step. */
@@ -162,7 +105,7 @@ static int release_guest(fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *
     const fl_vec3 yields = v3(e.xx, e.yy, e.zz);
     return g->e->upload(&g->v.state[k], &w->spheres.state[k], sizeof *g->v.state) ||
                    g->e->upload(&g->v.yields[k], &yields, sizeof yields)
-               ? fail_with_device(g, err)
+               ? fl_gpu_fail(g, err)
                : 0;
 }
 
@@ -188,7 +131,8 @@ static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
     }
     for (int32_t k = 0; k < s->n; k++) {
         if (!g->host[s->at.i[k]] && !g->host[s->at.j[k]]) continue;
-        if (fl_grow(&g->guest_disc, &g->guest_disc_cap, (int64_t)g->guest_discs + 1, sizeof *g->guest_disc, err))
+        if (fl_grow(&g->guest_disc, &g->guest_disc_cap, (int64_t)g->guest_discs + 1, sizeof *g->guest_disc,
+                    err))
             return -1;
         g->guest_disc[g->guest_discs++] = k;
     }
@@ -210,7 +154,8 @@ static void set_parameters(fl_gpu_world *g, const fl_world *w)
 {
     const fl_environment *s = &w->sea;
     fl_gpu_view *v = &g->v;
-    v->n = w->n, v->rows = w->spheres.n, v->walls = w->spheres.walls, v->discs = w->discs.n;
+    if (!g->uploaded || !g->makes_lists) v->rows = w->spheres.n;
+    v->n = w->n, v->walls = w->spheres.walls, v->discs = w->discs.n;
     v->guests = g->guests, v->guest_discs = g->guest_discs;
     v->chunks = w->spheres.chunks, v->blocks = fl_block_count(w), v->wall_planes = w->walls;
     v->plane_first = w->n + w->pieces;
@@ -218,7 +163,8 @@ static void set_parameters(fl_gpu_world *g, const fl_world *w)
     v->linear = fl_round_exponent(w) == 1.0;
     v->has_rolling = w->has_rolling, v->damped_discs = w->discs.at.damped != NULL;
     v->gravity = w->gravity;
-    v->cell_length = w->cell.length;
+    v->cell_lo = w->cell.lo, v->cell_length = w->cell.length;
+    v->law_columns = w->materials + 2;
     v->drag = (fl_sphere_drag){0.5 * s->seawater.force_coefficient * s->seawater.density,
                                0.5 * s->seawater.moment_coefficient * s->seawater.density, 0.0,
                                s->current.velocity, s->seawater.moment_coefficient > 0.0 ? 1.0 : 0.0};
@@ -240,16 +186,19 @@ static int put_constants(fl_gpu_world *g, const fl_world *w, fl_err *err)
         one[k] = b->invI[k].x, one[n + k] = b->I[k].x, one[2 * n + k] = fl_body_inverse_mass(b, k);
     for (int32_t k = 0; k < laws && !bad; k++) {
         const fl_pair_law *p = &w->law[k];
-        law[k] = (fl_gpu_law){p->friction, p->tangential_ratio, p->impact_damping,
-                              p->slow_damping_factor * p->slow_damping_factor, p->rolling};
+        law[k] = (fl_gpu_law){p->friction,         p->tangential_ratio,
+                              p->impact_damping,   p->slow_damping_factor * p->slow_damping_factor,
+                              p->rolling,          p->stiffness,
+                              p->stiffness_factor, p->modulus,
+                              p->round_young};
     }
     for (int32_t k = 0; k < w->walls && !bad; k++) {
         const int32_t j = w->n + w->pieces + k;
         wall[k] = (fl_gpu_wall){m3_col(fl_body_axes(b, j), 2), b->x[j]};
     }
-    bad = bad || PUT(turn, one, n) || PUT(inertia, one + n, n) || PUT(inverse, one + 2 * n, n) || PUT(m, b->m, n) ||
-          PUT(invm, b->invm, n) || PUT(law, law, laws) || PUT(plane, wall, w->walls) || ROOM(control, 1) ||
-          ROOM(yields, n);
+    bad = bad || PUT(turn, one, n) || PUT(inertia, one + n, n) || PUT(inverse, one + 2 * n, n) ||
+          PUT(m, b->m, n) || PUT(invm, b->invm, n) || PUT(law, law, laws) || PUT(plane, wall, w->walls) ||
+          PUT(material, w->material, n) || ROOM(control, 1) || ROOM(yields, n);
     if (!bad && w->sea.water) {
         bad = PUT(drag_radius, w->sea.drag_radius, n);
         for (int32_t k = 0; k < n; k++)
@@ -267,8 +216,8 @@ static int put_states(fl_gpu_world *g, const fl_world *w, fl_err *err)
     fl_sphere_state *const s = fl_alloc(w->n, sizeof *s, err);
     if (!s) return -1;
     for (int32_t k = 0; k < w->n; k++)
-        s[k] = (fl_sphere_state){.x = w->b.x[k], .r = w->b.radius[k], .v = w->b.v[k], .w = w->b.w[k],
-                                 .r_copy = w->b.radius[k]};
+        s[k] = (fl_sphere_state){
+            .x = w->b.x[k], .r = w->b.radius[k], .v = w->b.v[k], .w = w->b.w[k], .r_copy = w->b.radius[k]};
     const int bad = PUT(state, s, w->n);
     free(s);
     return bad ? -1 : 0;
@@ -279,12 +228,13 @@ static int put_bodies(fl_gpu_world *g, const fl_world *w, fl_err *err)
     const fl_bodies *b = &w->b;
     const fl_environment *s = &w->sea;
     const int32_t n = w->n;
-    if (PUT(L, b->L, n) || PUT(f, b->f, n) || PUT(t, b->t, n) || PUT(q, b->q, n) || PUT(odometer, b->odometer, n) ||
-        PUT(odometer_at_search, w->odometer_at_search, n) || PUT(contact_count, w->spheres.contact_count, n) ||
-        PUT(sum, w->spheres.sum, n) || PUT(previous_sum, w->spheres.previous_sum, n) || ROOM(contact_force, n) ||
-        ROOM(damping_work, n) || ROOM(friction_work, n) || ROOM(bad, n) || ROOM(block, g->v.blocks) ||
-        ROOM(totals, g->v.chunks) || ROOM(moves, 2 * (int64_t)g->v.blocks) || ROOM(omega2, n) ||
-        ROOM(wall_load, (int64_t)g->v.chunks * w->walls))
+    if (PUT(L, b->L, n) || PUT(f, b->f, n) || PUT(t, b->t, n) || PUT(q, b->q, n) ||
+        PUT(odometer, b->odometer, n) || PUT(odometer_at_search, w->odometer_at_search, n) ||
+        (!(g->uploaded && g->makes_lists) && PUT(contact_count, w->spheres.contact_count, n)) ||
+        PUT(sum, w->spheres.sum, n) || PUT(previous_sum, w->spheres.previous_sum, n) ||
+        ROOM(contact_force, n) || ROOM(damping_work, n) || ROOM(friction_work, n) || ROOM(bad, n) ||
+        ROOM(block, g->v.blocks) || ROOM(totals, g->v.chunks) || ROOM(moves, 2 * (int64_t)g->v.blocks) ||
+        ROOM(omega2, n) || ROOM(wall_load, (int64_t)g->v.chunks * w->walls))
         return -1;
     if (s->water && (PUT(wetted_area, s->wetted_area, n) || PUT(buoyancy, s->buoyancy, n) ||
                      PUT(drag_loss, s->drag_loss, n)))
@@ -351,13 +301,26 @@ static int put_discs(fl_gpu_world *g, const fl_world *w, fl_err *err)
     bad = bad || PUT(disc, m, s->n) || PUT(disc_k, k, s->n) || PUT(disc_class, s->classes, s->n_class) ||
           PUT(disc_which, s->at.which, s->n) || PUT(disc_i, s->at.i, s->n) || PUT(disc_j, s->at.j, s->n) ||
           (s->at.scatter && PUT(disc_scatter, s->at.scatter, s->n)) ||
-          (s->shift && PUT(disc_shift, s->shift, s->n)) || PUT(disc_out, s->at.out, s->n) ||
-          PUT(disc_whole, s->at.is_whole, s->n) || PUT(disc_ended, s->has_ended, s->n) ||
-          ROOM(disc_done, s->n) || ROOM(disc_size, s->n) || PUT(disc_pending, s->pending, s->n) ||
-          PUT(disc_first_i, s->first_i, (int64_t)w->n + 1) || PUT(disc_first_j, s->first_j, (int64_t)w->n + 1) ||
-          PUT(disc_of, s->of, s->n) || ROOM(disc_force_sum, s->n / FL_DISC_RUN + 1);
+          (s->shift && (PUT(disc_shift, s->shift, s->n) || PUT(disc_image, s->image, 3 * (int64_t)s->n))) ||
+          PUT(disc_out, s->at.out, s->n) || PUT(disc_whole, s->at.is_whole, s->n) ||
+          PUT(disc_ended, s->has_ended, s->n) || ROOM(disc_done, s->n) || ROOM(disc_size, s->n) ||
+          PUT(disc_pending, s->pending, s->n) || PUT(disc_first_i, s->first_i, (int64_t)w->n + 1) ||
+          PUT(disc_first_j, s->first_j, (int64_t)w->n + 1) || PUT(disc_of, s->of, s->n) ||
+          ROOM(disc_force_sum, s->n / FL_DISC_RUN + 1);
     free(m), free(k);
     return bad ? -1 : 0;
+}
+
+/* The states of guests after their first half. */
+static int give_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
+{
+    for (int32_t k = 0; k < g->guests; k++) {
+        const int32_t i = g->guest[k];
+        const fl_sym3 e = fl_body_mobility(&w->b, i).linear;
+        g->guest_state[k] = (fl_gpu_guest_state){w->spheres.state[i], v3(e.xx, e.yy, e.zz)};
+        if (g->host[i] == NEW_GUEST) g->guest_state[k].state.r = 0.0, g->host[i] = GUEST;
+    }
+    return PUT(guest_state, g->guest_state, g->guests) || LAUNCH(TAKE_GUESTS, g->guests) ? -1 : 0;
 }
 
 int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err)
@@ -366,9 +329,11 @@ int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err)
     if (choose_guests(g, w, err)) return -1;
     set_parameters(g, w);
     if (!g->uploaded && (put_constants(g, w, err) || put_states(g, w, err))) return -1;
-    if (put_guests(g, err) || put_bodies(g, w, err) || put_rows(g, w, err) || put_links(g, w, err) ||
-        put_walls(g, w, err) || put_discs(g, w, err))
-        return -1;
+    if (put_guests(g, err) || put_bodies(g, w, err) || put_walls(g, w, err)) return -1;
+    if (g->uploaded && g->makes_lists) return give_guests(g, w, err) || fl_gpu_lists_make(g, w, err) ? -1 : 0;
+    if (put_rows(g, w, err) || put_links(g, w, err) || put_discs(g, w, err)) return -1;
+    g->makes_lists = fl_gpu_lists_apply(w);
+    g->rows_newer = 0;
     g->uploaded = 1;
     return 0;
 }
@@ -379,12 +344,15 @@ int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err)
 static int get_states(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     fl_bodies *b = &w->b;
-    if (GET(state, w->spheres.state, w->n)) return -1;
-    for (int32_t k = 0; k < w->n; k++) {
-        const fl_sphere_state *s = &w->spheres.state[k];
-        if (!g->host[k]) b->x[k] = s->x, b->v[k] = s->v, b->w[k] = s->w;
+    fl_sphere_state *const all = fl_alloc(w->n, sizeof *all, err);
+    const int bad = !all || GET(state, all, w->n);
+    for (int32_t k = 0; k < w->n && !bad; k++) {
+        if (g->host[k]) continue;
+        w->spheres.state[k] = all[k];
+        b->x[k] = all[k].x, b->v[k] = all[k].v, b->w[k] = all[k].w;
     }
-    return 0;
+    free(all);
+    return bad ? -1 : 0;
 }
 
 /* An array of the world, where guests keep their numbers; size: of an element. */
@@ -392,7 +360,7 @@ static int get_own(fl_gpu_world *g, void *to, const void *from, size_t size, fl_
 {
     char *const all = fl_alloc(g->n, size, err);
     if (!all) return -1;
-    const int bad = get_bytes(g, all, from, (size_t)g->n * size, err);
+    const int bad = fl_gpu_get_bytes(g, all, from, (size_t)g->n * size, err);
     for (int32_t k = 0; k < g->n && !bad; k++)
         if (!g->host[k]) memcpy((char *)to + (size_t)k * size, all + (size_t)k * size, size);
     free(all);
@@ -412,45 +380,64 @@ static int get_discs(fl_gpu_world *g, fl_world *w, fl_err *err)
     return bad ? -1 : 0;
 }
 
-int fl_gpu_world_download(fl_gpu_world *g, fl_world *w, fl_err *err)
+/* The rows of a list that the device has made. */
+static int get_new_rows(fl_gpu_world *g, fl_world *w, fl_err *err)
+{
+    fl_sphere_contacts *s = &w->spheres;
+    const int32_t n = g->v.rows;
+    return fl_contact_list_resize(w, n, err) || GET(row_i, s->i, n) || GET(row_j, s->j, n) ||
+                   GET(row_law, s->law, n) || (s->image && GET(row_image, s->image, 3 * (int64_t)n))
+               ? -1
+               : 0;
+}
+
+static int get_rows(fl_gpu_world *g, fl_world *w, fl_err *err)
+{
+    fl_sphere_contacts *s = &w->spheres;
+    if (g->rows_newer && get_new_rows(g, w, err)) return -1;
+    if (GET(touches, s->touches, s->n) || GET(contact, s->contact, s->n) ||
+        (s->rolling && GET(rolling, s->rolling, s->n)))
+        return -1;
+    if (g->rows_newer && fl_contact_list_offsets(w, err)) return -1;
+    g->rows_newer = 0;
+    return 0;
+}
+
+int fl_gpu_world_download_bodies(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     fl_bodies *b = &w->b;
     fl_sphere_contacts *s = &w->spheres;
     fl_environment *sea = &w->sea;
-    if (get_states(g, w, err) || GET_OWN(L, b->L) || GET_OWN(q, b->q) || GET_OWN(f, b->f) || GET_OWN(t, b->t) ||
-        GET_OWN(odometer, b->odometer) || GET(contact_count, s->contact_count, w->n) || GET(sum, s->sum, w->n) ||
-        GET(previous_sum, s->previous_sum, w->n) || GET(touches, s->touches, s->n) ||
-        GET(contact, s->contact, s->n) || GET(wall, s->wall, s->walls))
-        return -1;
-    if ((s->rolling && GET(rolling, s->rolling, s->n)) ||
+    if (get_states(g, w, err) || GET_OWN(L, b->L) || GET_OWN(q, b->q) || GET_OWN(f, b->f) ||
+        GET_OWN(t, b->t) || GET_OWN(odometer, b->odometer) || GET(sum, s->sum, w->n) ||
+        GET(previous_sum, s->previous_sum, w->n) || GET(wall, s->wall, s->walls) ||
         (s->wall_rolling && GET(wall_rolling, s->wall_rolling, s->walls)))
         return -1;
     if (sea->water && (GET_OWN(wetted_area, sea->wetted_area) || GET_OWN(buoyancy, sea->buoyancy) ||
                        GET_OWN(drag_loss, sea->drag_loss)))
         return -1;
-    if (b->heave_mass && (GET_OWN(heave_mass, b->heave_mass) || GET_OWN(heave_work, b->heave_work))) return -1;
-    return get_discs(g, w, err);
+    return b->heave_mass && (GET_OWN(heave_mass, b->heave_mass) || GET_OWN(heave_work, b->heave_work)) ? -1
+                                                                                                       : 0;
 }
+
+int fl_gpu_world_download(fl_gpu_world *g, fl_world *w, fl_err *err)
+{
+    return fl_gpu_world_download_bodies(g, w, err) || get_rows(g, w, err) || get_discs(g, w, err) ||
+                   GET(contact_count, w->spheres.contact_count, w->n)
+               ? -1
+               : 0;
+}
+
+int fl_gpu_world_makes_lists(const fl_gpu_world *g) { return g->uploaded && g->makes_lists; }
 
 /* --- a step ------------------------------------------------------------------------------------------ */
-
-/* The sums of the step before, as fl_ledger_begin_step(). */
-static void swap_sums(fl_gpu_world *g)
-{
-    buffer *const now = &g->memory[offsetof(fl_gpu_view, sum) / sizeof(void *)],
-                  *const before = &g->memory[offsetof(fl_gpu_view, previous_sum) / sizeof(void *)];
-    const buffer memory = *now;
-    fl_sphere_sum *const sum = g->v.sum;
-    *now = *before, *before = memory;
-    g->v.sum = g->v.previous_sum, g->v.previous_sum = sum;
-}
 
 int fl_gpu_world_first_half(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     if (!g->uploaded) { /* the sums of the world are swapped already */
         if (fl_gpu_world_upload(g, w, err)) return -1;
     } else {
-        swap_sums(g);
+        FL_GPU_EXCHANGE(sum, previous_sum); /* as fl_ledger_begin_step() */
     }
     g->v.dt = w->dt;
     return LAUNCH(FIRST_HALF, w->n) || LAUNCH(BLOCK_MOVES, g->v.blocks) ? -1 : 0;
@@ -467,15 +454,8 @@ int fl_gpu_world_moves(fl_gpu_world *g, double largest[2], fl_err *err)
 int fl_gpu_world_contacts(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     const fl_gpu_control none = {0};
-    for (int32_t k = 0; k < g->guests; k++) {
-        const int32_t i = g->guest[k];
-        const fl_sym3 e = fl_body_mobility(&w->b, i).linear;
-        g->guest_state[k] = (fl_gpu_guest_state){w->spheres.state[i], v3(e.xx, e.yy, e.zz)};
-        if (g->host[i] == NEW_GUEST) g->guest_state[k].state.r = 0.0, g->host[i] = GUEST;
-    }
-    return PUT(guest_state, g->guest_state, g->guests) || PUT(control, &none, 1) ||
-                   LAUNCH(TAKE_GUESTS, g->guests) || LAUNCH(ROWS, g->v.rows) || LAUNCH(WALLS, g->v.walls) ||
-                   LAUNCH(DISCS, g->v.discs) || LAUNCH(TELL_GUESTS, g->guests) ||
+    return give_guests(g, w, err) || PUT(control, &none, 1) || LAUNCH(ROWS, g->v.rows) ||
+                   LAUNCH(WALLS, g->v.walls) || LAUNCH(DISCS, g->v.discs) || LAUNCH(TELL_GUESTS, g->guests) ||
                    LAUNCH(TELL_DISCS, g->guest_discs)
                ? -1
                : 0;
@@ -498,13 +478,16 @@ int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, fl_err *err)
 
 int fl_gpu_world_second_half(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err)
 {
-    return (stiffness && LAUNCH(STIFFNESS, w->n)) || LAUNCH(SECOND_HALF, w->n) || LAUNCH(CHUNKS, g->v.chunks) ||
-                   (w->discs.n && LAUNCH(DISC_RUNS, w->discs.n / FL_DISC_RUN + (w->discs.n % FL_DISC_RUN != 0)))
+    return (stiffness && LAUNCH(STIFFNESS, w->n)) || LAUNCH(SECOND_HALF, w->n) ||
+                   LAUNCH(CHUNKS, g->v.chunks) ||
+                   (w->discs.n &&
+                    LAUNCH(DISC_RUNS, w->discs.n / FL_DISC_RUN + (w->discs.n % FL_DISC_RUN != 0)))
                ? -1
                : 0;
 }
 
-int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *work, int stiffness, fl_err *err)
+int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *work, int stiffness,
+                        fl_err *err)
 {
     const int32_t runs = w->discs.n / FL_DISC_RUN + (w->discs.n % FL_DISC_RUN != 0);
     return PUT(guest_work, work, g->guests) || LAUNCH(TAKE_WORKS, g->guests) || LAUNCH(BLOCKS, g->v.blocks) ||

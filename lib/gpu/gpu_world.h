@@ -5,14 +5,15 @@
  * bodies are guests: those near the structure, driven ones, ones with fixed directions, floes that are no
  * spheres.  The CPU moves them with its own code, while the device evaluates rows and bonds:
  *
- *     fl_gpu_world_first_half()   own bodies: drag, kick, drift.  The caller does the same for the guests
+ *     fl_gpu_world_first_half()   own bodies: drag, kick, drift.  The caller does the same for guests
  *     fl_gpu_world_contacts()     states of guests up; rows, walls and bonds are launched
  *     fl_gpu_world_sums()         sums of guests down, and how many bonds ended
- *     fl_gpu_world_second_half()  own bodies: sums, kick, drag are launched.  The caller does the guests, then
+ *     fl_gpu_world_second_half()  own bodies: sums, kick, drag are launched.  The caller does the guests
  *     fl_gpu_world_finish()       their works go up; sums of blocks, chunks and runs of bonds come down
  *
- * The lists are made by the CPU (sim/neighbour_list.h): fl_gpu_world_download(), the search, then
- * fl_gpu_world_upload(). */
+ * When the skin is used up the CPU lists walls and all other pairs (sim/neighbour_list.h), and the device its rows
+ * (gpu_lists.h), or where it cannot, the CPU those as well: fl_gpu_world_download_bodies(), or
+ * fl_gpu_world_download(), the search, then fl_gpu_world_upload(). */
 #ifndef FL_GPU_GPU_WORLD_H
 #define FL_GPU_GPU_WORLD_H
 #include "gpu/gpu_engine.h"
@@ -36,8 +37,12 @@ const char *fl_gpu_world_device(const fl_gpu_world *g);
 /* Copies the lists, and all bodies and bonds, after a search within a step; the first step begins with it. */
 int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err);
 
-/* Copies bodies, contacts and bonds into the world. */
+/* Copies bodies, contacts and bonds into the world; or bodies and contacts with walls alone. */
 int fl_gpu_world_download(fl_gpu_world *g, fl_world *w, fl_err *err);
+int fl_gpu_world_download_bodies(fl_gpu_world *g, fl_world *w, fl_err *err);
+
+/* 1 if the device lists the rows. */
+int fl_gpu_world_makes_lists(const fl_gpu_world *g);
 
 /* The bodies that the CPU moves, ascending. */
 const int32_t *fl_gpu_world_guests(const fl_gpu_world *g, int32_t *n);
@@ -49,6 +54,7 @@ int fl_gpu_world_contacts(fl_gpu_world *g, fl_world *w, fl_err *err);
 int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, fl_err *err);
 int fl_gpu_world_second_half(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err);
 /* work[n]: of each guest. */
-int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *work, int stiffness, fl_err *err);
+int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *work, int stiffness,
+                        fl_err *err);
 
 #endif

@@ -18,8 +18,8 @@ FL_SIMD_VERSIONS static void find_geometry(fl_sphere_batch *restrict b, int32_t 
     const int linear = b->exponent == 1.0;
     SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
-        const fl_sphere_geometry g = fl_sphere_geometry_of(b->d[0][c], b->d[1][c], b->d[2][c], b->ri[c],
-                                                           b->rj[c], b->k[c], linear);
+        const fl_sphere_geometry g =
+            fl_sphere_geometry_of(b->d[0][c], b->d[1][c], b->d[2][c], b->ri[c], b->rj[c], b->k[c], linear);
         SET_VECTOR(n, g.n);
         b->overlap[c] = g.overlap;
         b->elastic[c] = g.elastic;
@@ -34,10 +34,10 @@ FL_SIMD_VERSIONS static void find_normal_forces(fl_sphere_batch *restrict b, int
     const fl_sphere_step by = {dt, h, at_start};
     SIMD_LOOP for (int32_t c = 0; c < m; c++)
     {
-        const fl_sphere_normal q = fl_sphere_normal_of(
-            VECTOR(n), b->overlap[c], b->elastic[c], b->k[c], VECTOR(u), VECTOR(du), b->max_approach_speed[c],
-            b->normal_damping[c], b->slow_inv_mass[c], b->impact_damping[c], b->inv_mass[c],
-            b->contact_count[c], by, linear);
+        const fl_sphere_normal q =
+            fl_sphere_normal_of(VECTOR(n), b->overlap[c], b->elastic[c], b->k[c], VECTOR(u), VECTOR(du),
+                                b->max_approach_speed[c], b->normal_damping[c], b->slow_inv_mass[c],
+                                b->impact_damping[c], b->inv_mass[c], b->contact_count[c], by, linear);
         b->max_approach_speed[c] = q.max_approach_speed;
         b->damping_factor[c] = q.damping_factor;
         b->normal_damping[c] = q.normal_damping;
@@ -58,9 +58,9 @@ FL_SIMD_VERSIONS static void find_friction(fl_sphere_batch *restrict b, int32_t 
                                           .inv_mass = b->inv_mass_tangent[c],
                                           .contact_count = b->contact_count[c]};
         const int on = spring.limit > 0.0 && b->tangential[c] > 0.0;
-        const fl_sphere_friction now =
-            fl_sphere_friction_of(VECTOR(n), b->overlap[c], b->ri[c], b->rj[c], VECTOR(u), VECTOR(du),
-                                  VECTOR(wi), VECTOR(wj), VECTOR(rdw), before, spring, b->inv_inertia[c], on, by);
+        const fl_sphere_friction now = fl_sphere_friction_of(
+            VECTOR(n), b->overlap[c], b->ri[c], b->rj[c], VECTOR(u), VECTOR(du), VECTOR(wi), VECTOR(wj),
+            VECTOR(rdw), before, spring, b->inv_inertia[c], on, by);
         SET_VECTOR(spring_force, now.spring_force);
         b->spring_stiffness[c] = now.spring_stiffness;
         SET_VECTOR(friction_force, now.friction_force);
@@ -98,8 +98,8 @@ FL_SIMD_VERSIONS static void find_rolling(const fl_sphere_batch *restrict b,
         const fl_rolling_spring before = {v3(r->elastic[0][c], r->elastic[1][c], r->elastic[2][c]),
                                           r->spring_stiffness[c],
                                           v3(r->total[0][c], r->total[1][c], r->total[2][c]), r->arm[c]};
-        const fl_rolling_spring now = fl_sphere_rolling_of(
-            before, spring, VECTOR(wi), VECTOR(wj), v3(r->dw[0][c], r->dw[1][c], r->dw[2][c]), by);
+        const fl_rolling_spring now = fl_sphere_rolling_of(before, spring, VECTOR(wi), VECTOR(wj),
+                                                           v3(r->dw[0][c], r->dw[1][c], r->dw[2][c]), by);
         r->elastic[0][c] = now.elastic.x;
         r->elastic[1][c] = now.elastic.y;
         r->elastic[2][c] = now.elastic.z;

@@ -62,9 +62,9 @@ FL_SIMD_INLINE fl_sphere_normal fl_sphere_normal_of(fl_vec3 n, double s, double 
     const double speed = sqrt(stored2 > touch2 ? stored2 : touch2);
     const double chi = speed > 0.0 ? impact_damping / speed : 0.0;
     const double from = s - by.dt * approach, previous = from > 0.0 ? from : 0.0;
-    const double end_speed = fl_damping_end_speed(
-        closing, chi * elastic, by.half * inv_mass, contact_count,
-        elastic - k * (previous * (linear ? 1.0 : sqrt(previous))), before, by.at_start);
+    const double end_speed =
+        fl_damping_end_speed(closing, chi * elastic, by.half * inv_mass, contact_count,
+                             elastic - k * (previous * (linear ? 1.0 : sqrt(previous))), before, by.at_start);
     const double damping = elastic * (chi * end_speed);
     q.max_approach_speed = touch;
     q.damping_factor = chi;

@@ -14,13 +14,13 @@ enum { FEWEST = 1000 };
 static const char *const BY_NAME[] = {"auto", "cpu", "gpu", "serial"};
 
 /* The CPU runs, for that reason, unless a device was asked for by name. */
-static int take_cpu(const fl_world *w, int code, char note[FL_DEVICE_NOTE], const char *why,
-                    fl_err *err)
+static int take_cpu(const fl_world *w, int code, char note[FL_DEVICE_NOTE], const char *why, fl_err *err)
 {
     const int32_t want = w->scene->run.device;
     snprintf(note, FL_DEVICE_NOTE, "cpu: %.300s", why);
-    return want == FL_DEVICE_AUTO ? 0
-                                  : fl_fail(err, code, "run.device = %s: %.300s", BY_NAME[want], why);
+    if (code == FL_INPUT && want != FL_DEVICE_AUTO)
+        return fl_scene_fail(w->scene, "run.device", err, "%.300s", why);
+    return want == FL_DEVICE_AUTO ? 0 : fl_fail(err, code, "run.device = %s: %.300s", BY_NAME[want], why);
 }
 
 static int take_engine(fl_world *w, const fl_gpu_engine *e, char note[FL_DEVICE_NOTE], fl_err *err)
@@ -28,8 +28,9 @@ static int take_engine(fl_world *w, const fl_gpu_engine *e, char note[FL_DEVICE_
     const double need = fl_gpu_world_bytes(w), room = e->free_bytes();
     char why[200];
     if (need > room) {
-        snprintf(why, sizeof why, "%.60s has %.0f MiB free and %.0f are needed: about %.0f of the %d bodies fit",
-                 e->device(), room / 1048576.0, need / 1048576.0, w->n * (room / need), w->n);
+        snprintf(why, sizeof why,
+                 "%.60s has %.0f MiB free and %.0f are needed: about %.0f of the %d bodies fit", e->device(),
+                 room / 1048576.0, need / 1048576.0, w->n * (room / need), w->n);
         e->close();
         return take_cpu(w, FL_SYSTEM, note, why, err);
     }
@@ -93,6 +94,17 @@ int fl_device_first_half(fl_world *w, double h, fl_err *err)
     return 0;
 }
 
+int fl_device_makes_lists(const fl_world *w)
+{
+    return w->device.gpu && fl_gpu_world_makes_lists(w->device.gpu);
+}
+
+int fl_device_before_search(fl_world *w, fl_err *err)
+{
+    return fl_device_makes_lists(w) ? fl_gpu_world_download_bodies(w->device.gpu, w, err)
+                                    : fl_device_refresh(w, err);
+}
+
 int fl_device_take_lists(fl_world *w, fl_err *err) { return fl_gpu_world_upload(w->device.gpu, w, err); }
 
 int fl_device_contacts(fl_world *w, fl_err *err) { return fl_gpu_world_contacts(w->device.gpu, w, err); }
@@ -108,7 +120,8 @@ int fl_device_second_half(fl_world *w, double h, int stiffness, fl_err *err)
     int bad = (n && !work) || fl_gpu_world_second_half(g, w, stiffness, err);
     for (int32_t k = 0; k < n && !bad; k++) {
         const fl_body_block one = fl_body_second_half(w, guest[k], h);
-        work[k] = (fl_gpu_guest_work){one.contact_force, one.damping_work, one.friction_work, one.not_finite < 0};
+        work[k] =
+            (fl_gpu_guest_work){one.contact_force, one.damping_work, one.friction_work, one.not_finite < 0};
     }
     bad = bad || fl_gpu_world_finish(g, w, work, stiffness, err);
     free(work);

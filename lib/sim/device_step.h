@@ -21,7 +21,9 @@ int fl_device_refresh(fl_world *w, fl_err *err);
 
 /* Drag, kick and drift; sets the largest paths of w->blocks. */
 int fl_device_first_half(fl_world *w, double h, fl_err *err);
-/* After the neighbour list was made anew. */
+/* Before the neighbour list is made anew, and after.  fl_device_makes_lists(): the device lists pairs of spheres. */
+int fl_device_makes_lists(const fl_world *w);
+int fl_device_before_search(fl_world *w, fl_err *err);
 int fl_device_take_lists(fl_world *w, fl_err *err);
 int fl_device_contacts(fl_world *w, fl_err *err);
 int fl_device_sums(fl_world *w, fl_err *err);

@@ -216,7 +216,7 @@ static int run_device_step(step_context *q)
         if (fl_device_first_half(w, h, q->err)) return -1;
         advance_time(w);
         q->needs_search = fl_neighbour_list_due(w);
-        if (q->needs_search) return fl_device_refresh(w, q->err);
+        if (q->needs_search) return fl_device_before_search(w, q->err);
     } else if (fl_device_take_lists(w, q->err)) {
         return -1;
     }

@@ -44,8 +44,8 @@ static fl_sphere_drag drag_law_of(const fl_world *w, double h)
 {
     const fl_fluid *s = &w->sea.seawater;
     const fl_vec3 c = w->sea.current.velocity;
-    return (fl_sphere_drag){0.5 * s->force_coefficient * s->density, 0.5 * s->moment_coefficient * s->density, h, c,
-                      s->moment_coefficient > 0.0 ? 1.0 : 0.0};
+    return (fl_sphere_drag){0.5 * s->force_coefficient * s->density, 0.5 * s->moment_coefficient * s->density,
+                            h, c, s->moment_coefficient > 0.0 ? 1.0 : 0.0};
 }
 
 static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows *q)
@@ -97,9 +97,9 @@ FL_SIMD_INLINE void decay_lane(sphere_rows *restrict q, int k, fl_sphere_drag d,
 
 FL_SIMD_INLINE void kick_lane(sphere_rows *restrict q, int k, double h, int heavy)
 {
-    set_motion_of_lane(q, k,
-                       fl_sphere_kick(motion_of_lane(q, k), ROW(f), ROW(t), h, q->invm[k], q->turn[k],
-                                      q->up[k], heavy));
+    set_motion_of_lane(
+        q, k,
+        fl_sphere_kick(motion_of_lane(q, k), ROW(f), ROW(t), h, q->invm[k], q->turn[k], q->up[k], heavy));
 }
 
 FL_SIMD_VERSIONS static void decay_rows(sphere_rows *restrict q, int n, fl_sphere_drag d, int heavy)

@@ -27,8 +27,8 @@ FL_SIMD_INLINE double fl_sphere_kinetic(double m, double up, fl_vec3 v, double t
 
 /* The decay of velocities, as decay_velocity() of environment.c.  area: wetted [m2]; *lost: change of the
  * kinetic energy [J], 0 for a dry sphere, which keeps its motion. */
-FL_SIMD_INLINE fl_sphere_motion fl_sphere_decay(fl_sphere_motion a, double m, double up, double area, double r,
-                                                fl_sphere_drag d, int heavy, double *lost)
+FL_SIMD_INLINE fl_sphere_motion fl_sphere_decay(fl_sphere_motion a, double m, double up, double area,
+                                                double r, fl_sphere_drag d, int heavy, double *lost)
 {
     fl_sphere_motion q;
     const double c = d.c_force * area;
@@ -56,8 +56,8 @@ typedef struct {
 } fl_sphere_float;
 
 /* Cap under water, as fl_environment_force().  volume, surface: of the whole sphere; weight: rho g [N/m3]. */
-FL_SIMD_INLINE fl_sphere_float fl_sphere_floats(double z, double r, double fill, double volume, double surface,
-                                                double level, double weight)
+FL_SIMD_INLINE fl_sphere_float fl_sphere_floats(double z, double r, double fill, double volume,
+                                                double surface, double level, double weight)
 {
     fl_sphere_float q;
     const double above = level - z, t = above + r;

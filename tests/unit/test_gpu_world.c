@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A device that runs the spheres of a world gives the bits of the CPU: hashes in each step, and at the end all
- * that a checkpoint holds.  The device is the serial launcher, forwards and backwards. */
+/* A device that runs the spheres of a world gives the bits of the CPU: hashes in each step, and at the end
+ * all that a checkpoint holds.  The device is the serial launcher, forwards and backwards. */
 #define _GNU_SOURCE /* open_memstream */
 #include <math.h>
 #include <stdio.h>
@@ -103,7 +103,8 @@ static void runs_alike(a_scene *make, int32_t side, const char *law, const fl_gp
         assert_int_equal(lab_run(&a, 1), lab_run(&b, 1));
         if (k % 50) continue;
         refresh(&b.w);
-        if (fl_state_hash(&a.w) != fl_state_hash(&b.w)) print_error("the runs part before step %lld\n", (long long)k);
+        if (fl_state_hash(&a.w) != fl_state_hash(&b.w))
+            print_error("the runs part before step %lld\n", (long long)k);
         assert_true(fl_state_hash(&a.w) == fl_state_hash(&b.w));
     }
     refresh(&b.w);

@@ -19,9 +19,9 @@
 /* Keys that a resumed run may change, besides the paths of its tables.  The first two give it another step
  * from then on; the others change no step and no row. */
 enum { STEP_KEYS = 2 };
-static const char *const FREE_KEY[] = {"run.dt",      "run.safety",        "run.duration",
-                                       "run.threads", "run.device",        "output.checkpoint",
-                                       "output.checkpoint_every"};
+static const char *const FREE_KEY[] = {
+    "run.dt",     "run.safety",        "run.duration",           "run.threads",
+    "run.device", "output.checkpoint", "output.checkpoint_every"};
 
 /* --- write ------------------------------------------------------------------------------------- */
 
