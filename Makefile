@@ -111,6 +111,9 @@ WIDTHS = $(if $(filter x86_64,$(shell uname -m)),$B/bench/dem-solve-plain $B/ben
 run-bench: $(WIDTHS)
 ladder: all $(WIDTHS)
 	@sh bench/ladder.sh $B
+# On a machine with a card: bits, and times, into bench/results/gpu.tsv.
+gpu-check gpu-bench: all
+	@sh bench/gpu.sh $(@:gpu-%=%) $B
 golden-update: all
 	@sh tests/run.sh update $B
 lint:
@@ -126,6 +129,6 @@ install: all
 clean:
 	rm -rf build
 
-.PHONY: all ladder tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install clean
+.PHONY: all ladder tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench gpu-check gpu-bench golden-update lint install clean
 .SECONDARY:
 -include $(wildcard $B/*/*/*.d $B/*/*/*/*.d)
