@@ -143,7 +143,7 @@ else
             awk -v kind="bench" -v scene=$k -v n="$(grep -c '^poly' "$k-$n.dat")" '
                 /^steps / { steps = $2 }
                 / simulated in / { wall = $6 }
-                /ns per body-step/ { body = $1; contact = $4 }
+                /ns per body-step/ { body = $1; contact = $5 }
                 END { printf "%s\t%s\t%d\t%d\t\t\t\t%.4g\t%s\t%s\n", kind, scene, n, steps, steps / wall, body, contact }' "$k-$n.report" |
                 tee -a gpu.tsv
         done

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gpu_list_kernel.h -- what one thread of a device does for the list of sphere contacts: the rows and links that
- * sphere/contact_list.h makes, in its order, with what rows remember.
+/* gpu_list_kernel.h -- what one thread of a device does for the list of sphere contacts: the rows and links
+ * that sphere/contact_list.h makes, in its order, with what rows remember.
  *
  *     keys     Morton code of the cell of a body; cells are as wide as the largest pair with the skin
  *              (the launcher sorts bodies by their keys)
  *     count    partners of a body in its cell and the 26 around: with larger numbers, and all
  *              (the launcher makes offsets of both)
- *     fill     rows of a body, sorted by (j, image), each with the memory of its row before, or of a bond that
- *              has ended
+ *     fill     rows of a body, sorted by (j, image), each with the memory of its row before, or of a bond
+ *              that has ended
  *     links    rows of a body in the order of its sums
  *
  * A pair is listed under the conditions of the CPU: boxes of broad/pairs.h overlap, the distance is below the
@@ -139,7 +139,8 @@ typedef struct {
     int32_t upper, lower;
 } fl_gpu_partners;
 
-/* Partners of k with larger and with smaller numbers; into upper, its images, and lower, where they are given. */
+/* Partners of k with larger and with smaller numbers; into upper, its images, and lower, where they are
+ * given. */
 static inline fl_gpu_partners fl_gpu_find_partners(const fl_gpu_view *a, int32_t k, int32_t *upper,
                                                    int32_t *upper_image, int32_t *lower)
 {

@@ -6,8 +6,8 @@
 #include "gpu/gpu_memory.h"
 #include "world/world.h"
 
-/* 1 if the device can make the list of w: all bodies are spheres of laws for spheres, and a periodic cell holds
- * three cells of the search in each of its directions, and no structure. */
+/* 1 if the device can make the list of w: all bodies are spheres of laws for spheres, and a periodic cell
+ * holds three cells of the search in each of its directions, and no structure. */
 int fl_gpu_lists_apply(const fl_world *w);
 
 /* Makes the list anew from the states on the device; rows that were listed before keep their memory. */

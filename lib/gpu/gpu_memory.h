@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gpu_memory.h -- the memory of a world on a device, for gpu_world.c and gpu_lists.c: each pointer of the view has
- * a buffer that grows. */
+/* gpu_memory.h -- the memory of a world on a device, for gpu_world.c and gpu_lists.c: each pointer of the view
+ * has a buffer that grows. */
 #ifndef FL_GPU_GPU_MEMORY_H
 #define FL_GPU_GPU_MEMORY_H
 #include <stddef.h>
@@ -35,8 +35,8 @@ struct fl_gpu_world {
 /* Fails with the reason of the engine. */
 int fl_gpu_fail(const struct fl_gpu_world *g, fl_err *err);
 
-/* Fits the memory behind the pointer at that offset of the view, and copies from into it if it is given.  What
- * was there is lost when it grows. */
+/* Fits the memory behind the pointer at that offset of the view, and copies from into it if it is given.
+ * What was there is lost when it grows. */
 int fl_gpu_put_bytes(struct fl_gpu_world *g, size_t offset, const void *from, size_t bytes, fl_err *err);
 int fl_gpu_get_bytes(struct fl_gpu_world *g, void *to, const void *from, size_t bytes, fl_err *err);
 int fl_gpu_launch(struct fl_gpu_world *g, int kernel, int32_t n, fl_err *err);

@@ -11,8 +11,8 @@
  *     fl_gpu_world_second_half()  own bodies: sums, kick, drag are launched.  The caller does the guests
  *     fl_gpu_world_finish()       their works go up; sums of blocks, chunks and runs of bonds come down
  *
- * When the skin is used up the CPU lists walls and all other pairs (sim/neighbour_list.h), and the device its rows
- * (gpu_lists.h), or where it cannot, the CPU those as well: fl_gpu_world_download_bodies(), or
+ * When the skin is used up the CPU lists walls and all other pairs (sim/neighbour_list.h), and the device its
+ * rows (gpu_lists.h), or where it cannot, the CPU those as well: fl_gpu_world_download_bodies(), or
  * fl_gpu_world_download(), the search, then fl_gpu_world_upload(). */
 #ifndef FL_GPU_GPU_WORLD_H
 #define FL_GPU_GPU_WORLD_H

@@ -21,7 +21,8 @@ int fl_device_refresh(fl_world *w, fl_err *err);
 
 /* Drag, kick and drift; sets the largest paths of w->blocks. */
 int fl_device_first_half(fl_world *w, double h, fl_err *err);
-/* Before the neighbour list is made anew, and after.  fl_device_makes_lists(): the device lists pairs of spheres. */
+/* Before the neighbour list is made anew, and after.  fl_device_makes_lists(): the device lists pairs of
+ * spheres. */
 int fl_device_makes_lists(const fl_world *w);
 int fl_device_before_search(fl_world *w, fl_err *err);
 int fl_device_take_lists(fl_world *w, fl_err *err);
