@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gpu_memory.h -- the memory of a world on a device, for gpu_world.c and gpu_lists.c: each pointer of the view
- * has a buffer that grows. */
+/* gpu_memory.h -- the memory of a world on a device, for gpu_world.c and gpu_lists.c: each pointer of the
+ * view has a buffer that grows. */
 #ifndef FL_GPU_GPU_MEMORY_H
 #define FL_GPU_GPU_MEMORY_H
 #include <stddef.h>

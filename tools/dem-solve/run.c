@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include "clocks.h"
 #include "outputs.h"
+#include "run_record.h"
 #include "save.h"
 #include "sim/device_step.h"
 #include "sim/energy_balance.h"
@@ -106,7 +107,8 @@ static int start_run(struct run *r, struct outputs *u, fl_err *err)
 {
     const double chosen = r->w->dt;
     const int bad = fl_step_start(r->w, err);
-    if (!bad || err->code == FL_NUMERIC) warn_at_start(r); /* it may explain why the step is too long */
+    /* A warning may explain why the step is too long. */
+    if ((!bad || err->code == FL_NUMERIC) && record_start(r, u, err)) return -1;
     if (bad || update_chosen_step(r, chosen, err)) return -1;
     warn_at_row(r, 0.0);
     return write_due(r, u, err);
@@ -151,9 +153,9 @@ int run_scene(struct run *r, fl_err *err)
     if (r->budget) r->budget->stop = &stop_signal;
     const double begun = wall_clock(), cpu_begun = cpu_clock();
     const int rc = run_steps(r, &u, show, begun, err);
-    fl_err lost = {0}; /* with the card went the state of the run */
-    if (fl_device_refresh(r->w, &lost) && !rc) *err = lost;
-    if (rc && !lost.code && err->code == FL_NUMERIC && r->w->step > 0 && r->scene->output.checkpoint[0] &&
+    fl_err gone = {0}; /* with the card went the state of the run */
+    if (fl_device_refresh(r->w, &gone) && !rc) *err = gone;
+    if (rc && !gone.code && err->code == FL_NUMERIC && r->w->step > 0 && r->scene->output.checkpoint[0] &&
         is_finite_state(r->w)) {
         fl_err why = {0}; /* the failure of the run is reported, not this one */
         save_write(r, &u, &why);
@@ -162,10 +164,13 @@ int run_scene(struct run *r, fl_err *err)
     r->cpu_time = cpu_clock() - cpu_begun;
     if (show) show_progress(r, begun, 1);
     fl_sleep_advance_to_now(r->w);
-    if (!lost.code) fl_energy_update(r->w);
-    warn_at_end(r, rc != 0);
+    if (!gone.code) fl_energy_update(r->w);
+    /* After SIGPIPE a row could not be written. */
+    const int ended_by = rc && pipe_signal && err->code == FL_SYSTEM ? SIGPIPE : r->stopped;
+    const fl_err why = *err;
+    const int lost = record_end(r, &u, &why, ended_by, err);
     /* Also after a failed run: the rows until then are good, and the tables keep their names. */
-    if (!close_outputs(&u, err) && !rc && !lost.code) return 0;
+    if (!close_outputs(&u, err) && !rc && !lost && !gone.code) return 0;
     if (!pipe_signal || err->code != FL_SYSTEM) return -1;
     r->stopped = SIGPIPE;
     *err = (fl_err){0};
