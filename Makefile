@@ -147,7 +147,7 @@ install: all
 	cd $(SHARED)/bash-completion/completions && for t in $(filter-out dem-solve,$(TOOLS)); do ln -sf dem-solve $$t; done
 	sed 's/COMMANDS/$(TOOLS)/' share/completion/_dilateddem >$(SHARED)/zsh/site-functions/_dilateddem
 uninstall:
-	rm -f $(TOOLS:%=$(DESTDIR)$(PREFIX)/bin/%) $(PAGES:%=$(SHARED)/man/%) $(SHARED)/zsh/site-functions/_dilateddem \
+	rm -f $(TOOLS:%=$(DESTDIR)$(PREFIX)/bin/%) $(DESTDIR)$(PREFIX)/lib/libfloe-cuda.so $(PAGES:%=$(SHARED)/man/%) $(SHARED)/zsh/site-functions/_dilateddem \
 		$(TOOLS:%=$(SHARED)/bash-completion/completions/%)
 	rm -rf $(SHARED)/dilateddem $(SHARED)/doc/dilateddem
 deb:

@@ -132,7 +132,7 @@ else
         [ "$quick" = 0 ] || steps=200
         # Spheres of 0.2 m in three layers; the pack in a box, ten layers high, under gravity.
         side=$(awk -v n="$n" 'BEGIN { printf "%.3f", sqrt(n / 3 * 0.2 * 0.2 * 0.8660254) }')
-        sheet "sheet-$n" "${side}x$side" "-$side,-$(awk -v s="$side" 'BEGIN { print s / 2 }')" 0.52 3 600kPa >"sheet-$n.scene"
+        sheet "sheet-$n" "${side}x$side" "$(awk -v s="$side" 'BEGIN { printf "%.3f,%.3f", -s - 0.95, -s / 2 }')" 0.52 3 600kPa >"sheet-$n.scene"
         printf '[run]\ndt = 0.01 ms\nduration = %s\n' "$(awk -v s="$steps" 'BEGIN { print s * 1e-5 }')" >>"sheet-$n.scene"
         side=$(awk -v n="$n" 'BEGIN { printf "%.3f", sqrt(n / 10 * 0.2 * 0.2 * 0.8660254) }')
         voronoi-ice --lattice hcp --layers 10 --diameter 0.2 --size "${side}x$side" --origin=0,0 -q -o "pack-$n.dat" || fail "no pack"
