@@ -44,15 +44,19 @@ const char *fl_gpu_world_refuses(const fl_world *w)
     return NULL;
 }
 
+/* Rows of a sphere in a dense pack with the skin, before they are listed. */
+#define FEW_ROWS 5.0
+
 double fl_gpu_world_bytes(const fl_world *w)
 {
     const double body = sizeof(fl_sphere_state) + 2.0 * sizeof(fl_sphere_sum) + 6.0 * sizeof(fl_vec3) +
                         sizeof(fl_quat) + 24.0 * sizeof(double),
-                 row = sizeof(fl_sphere_contact) + sizeof(fl_gpu_row_result) + 6.0 * sizeof(int32_t) +
-                       (w->has_rolling ? sizeof(fl_rolling_spring) : 0.0) +
-                       (w->cell.periodic ? 3.0 * sizeof(int32_t) : 0.0),
+                 row = 2.0 * sizeof(fl_sphere_contact) + sizeof(fl_gpu_row_result) + 12.0 * sizeof(int32_t) +
+                       (w->has_rolling ? 2.0 * sizeof(fl_rolling_spring) : 0.0) +
+                       (w->cell.periodic ? 6.0 * sizeof(int32_t) : 0.0),
                  bond = sizeof(fl_disc_memory) + sizeof(fl_disc_wrench) + 6.0 * sizeof(double);
-    return w->n * body + (double)w->spheres.n * row + w->discs.n * bond;
+    const double rows = w->spheres.n ? w->spheres.n : (w->discs.n ? 1.0 : FEW_ROWS) * w->n;
+    return w->n * body + rows * row + w->discs.n * bond;
 }
 
 /* --- memory ---------------------------------------------------------------------------------------- */
@@ -413,6 +417,9 @@ int fl_gpu_world_download_bodies(fl_gpu_world *g, fl_world *w, fl_err *err)
         GET(previous_sum, s->previous_sum, w->n) || GET(wall, s->wall, s->walls) ||
         (s->wall_rolling && GET(wall_rolling, s->wall_rolling, s->walls)))
         return -1;
+    if (GET(contact_count, s->contact_count, w->n)) return -1;
+    for (int32_t k = 0; k < w->n; k++) /* works of a body that comes to the CPU need them */
+        if (!g->host[k]) s->previous_contact_count[k] = s->contact_count[k];
     if (sea->water && (GET_OWN(wetted_area, sea->wetted_area) || GET_OWN(buoyancy, sea->buoyancy) ||
                        GET_OWN(drag_loss, sea->drag_loss)))
         return -1;
