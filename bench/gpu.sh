@@ -108,8 +108,8 @@ if [ "$what" = check ]; then
     begin_table
     n=10000 t=0.5 long=1
     [ "$quick" = 0 ] || n=1000 t=0.05 long=0.3
-    pack --in box:0,0,0,2,2,2 --grading uniform:0.14,0.2 --porosity 0.5 --seed 2 --density 900 -q -o pack.dat &&
-        pack --in box:0,0,0,2,2,2 --periodic xy --grading uniform:0.14,0.2 --porosity 0.5 --seed 3 --density 900 -q -o cell.dat ||
+    pack --in box:0,0,0,2,2,2 --grading uniform:0.14,0.2 --porosity 0.5 --seed 2 --density 900 -q -o pack.dat || fail "no packing"
+    pack --in box:0,0,0,2,2,2 --periodic xy --grading uniform:0.14,0.2 --porosity 0.5 --seed 3 --density 900 -q -o cell.dat ||
         fail "no packing"
     base pack.dat rigid '0 0 0' '2 2 2.5' '' '1 0.5 -9.81' '0.05 ms' "$t s" >free.scene
     base pack.dat rigid '-1 -1 0' '3 3 2.5' 'rolling = 0.2' 9.81 '0.05 ms' "$t s" >heap.scene
