@@ -12,6 +12,7 @@
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "ice/slab_fill.h"
+#include "sim/device_step.h"
 #include "sim/energy_ledger.h"
 #include "sim/drive_track.h"
 #include "sim/floe_setup.h"
@@ -445,6 +446,7 @@ void fl_world_free(fl_world *w)
     free(w->elastic_walls.hull), free(w->elastic_walls.outer);
     fl_track_free(&w->driven_floes.track);
     free(w->driven_floes.is_driven), free(w->driven_floes.k), free(w->driven_floes.rest_height);
+    fl_device_free(w);
     fl_inflow_free(&w->inflow);
     fl_neighbour_pairs_free(w);
     free(w->first_pair_of_body), free(w->pairs_of_body), free(w->scratch), free(w->mesh_near),

@@ -51,6 +51,18 @@ static int alloc_contacts(fl_sphere_contacts *s, const fl_world *w, int64_t n, f
     return 0;
 }
 
+/* Puts the arrays of contacts of `fresh` in the place of those of s. */
+static void take_contacts(fl_sphere_contacts *s, const fl_sphere_contacts *fresh)
+{
+    free(s->i), free(s->j), free(s->law), free(s->image), free(s->touches), free(s->contact),
+        free(s->rolling);
+    s->rolling = fresh->rolling, s->rolling_cap = fresh->rolling_cap;
+    s->i = fresh->i, s->j = fresh->j, s->law = fresh->law, s->image = fresh->image;
+    s->touches = fresh->touches, s->contact = fresh->contact, s->n = fresh->n;
+    s->i_cap = fresh->i_cap, s->j_cap = fresh->j_cap, s->law_cap = fresh->law_cap;
+    s->image_cap = fresh->image_cap, s->touches_cap = fresh->touches_cap, s->contact_cap = fresh->contact_cap;
+}
+
 /* Allocates the arrays of bodies once; they last as long as the world. */
 static int alloc_bodies(fl_sphere_contacts *s, const fl_world *w, fl_err *err)
 {
@@ -233,13 +245,7 @@ int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl
     for (int32_t i = 0; i < w->n; i++)
         if (at[i + 1] > at[i]) fill_contacts(w, &fresh, listed, i, at[i], image);
     free(at), free(listed);
-    free(s->i), free(s->j), free(s->law), free(s->image), free(s->touches), free(s->contact),
-        free(s->rolling);
-    s->rolling = fresh.rolling, s->rolling_cap = fresh.rolling_cap;
-    s->i = fresh.i, s->j = fresh.j, s->law = fresh.law, s->image = fresh.image;
-    s->touches = fresh.touches, s->contact = fresh.contact, s->n = fresh.n;
-    s->i_cap = fresh.i_cap, s->j_cap = fresh.j_cap, s->law_cap = fresh.law_cap;
-    s->image_cap = fresh.image_cap, s->touches_cap = fresh.touches_cap, s->contact_cap = fresh.contact_cap;
+    take_contacts(s, &fresh);
     if (index_contacts(w, err)) return -1;
     fl_sphere_states_update(w, 0, w->n, 0.5 * w->dt);
     return 0;
@@ -293,6 +299,31 @@ int fl_contact_list_remove_absent(fl_world *w, fl_err *err)
     return fl_contact_list_index(w, err);
 }
 
+int fl_contact_list_resize(fl_world *w, int32_t n, fl_err *err)
+{
+    fl_sphere_contacts *s = &w->spheres, fresh = {0};
+    if (n == s->n) return 0;
+    if (alloc_contacts(&fresh, w, n, err)) {
+        fl_contact_list_free(&fresh);
+        return -1;
+    }
+    take_contacts(s, &fresh);
+    return 0;
+}
+
+int fl_contact_list_offsets(fl_world *w, fl_err *err) { return index_contacts(w, err); }
+
+int fl_contact_list_build_walls(fl_world *w, fl_err *err)
+{
+    int64_t walls = 0;
+    for (int32_t i = 0; i < w->n; i++)
+        for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++)
+            walls += fl_sphere_pair_kind(w, i, w->candidates.partner[k]) == FL_SPHERE_WALL;
+    if (fl_wall_list_build(w, walls, err)) return -1;
+    fl_wall_list_index(&w->spheres);
+    return 0;
+}
+
 int fl_contact_list_index(fl_world *w, fl_err *err)
 {
     if (index_contacts(w, err)) return -1;
@@ -335,19 +366,14 @@ fl_sphere_totals fl_contact_list_totals(const fl_world *w)
 {
     const fl_sphere_contacts *s = &w->spheres;
     fl_sphere_totals all = {.i = -1, .j = -1};
-    int32_t contact = -1;
     for (int32_t a = 0; a < s->chunks; a++) {
         const fl_chunk_totals *t = &s->totals[a];
         all.force_sum += t->force_sum;
         all.touching += t->touching;
-        if (t->max_overlap > all.max_overlap) {
-            all.max_overlap = t->max_overlap;
-            contact = t->max_overlap_contact;
-        }
-    }
-    if (all.max_overlap > 0.0) {
-        all.i = contact < 0 ? s->wall[~contact].i : s->i[contact];
-        all.j = contact < 0 ? s->wall[~contact].j : s->j[contact];
+        if (!(t->max_overlap > all.max_overlap)) continue;
+        all.max_overlap = t->max_overlap;
+        all.i = t->max_overlap_i;
+        all.j = t->max_overlap_j;
     }
     return all;
 }

@@ -26,6 +26,12 @@ int fl_contact_list_remove_absent(fl_world *w, fl_err *err);
 /* Computes offsets and slots, and the sums from the stored forces.  -1 with FL_SYSTEM. */
 int fl_contact_list_index(fl_world *w, fl_err *err);
 
+/* Where a device makes the rows of spheres (gpu/gpu_lists.h): the list of walls from the candidates; n
+ * contacts whose arrays the caller fills; their offsets and slots.  -1 with FL_SYSTEM. */
+int fl_contact_list_build_walls(fl_world *w, fl_err *err);
+int fl_contact_list_resize(fl_world *w, int32_t n, fl_err *err);
+int fl_contact_list_offsets(fl_world *w, fl_err *err);
+
 /* --- sums -------------------------------------------------------------------------------------- */
 
 /* Sum of bounds of omega^2 of the contacts of body k, at the last survey [1/s2]. */
