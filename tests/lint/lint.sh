@@ -62,11 +62,12 @@ architecture()
 kernels()
 {
     wrong=0
+    # shellcheck disable=SC2086 # a compiler may be two words, "ccache gcc"
     for f in lib/*/*_kernel.h; do
         echo "#include \"${f#lib/}\"" >"$scratch/kernel.cpp"
-        "${CXX:-g++}" -std=c++17 -Wall -Wextra -Wno-missing-field-initializers -Werror -Ilib -fsyntax-only "$scratch/kernel.cpp" || wrong=1
+        ${CXX:-g++} -std=c++17 -Wall -Wextra -Wno-missing-field-initializers -Werror -Ilib -fsyntax-only "$scratch/kernel.cpp" || wrong=1
         echo "#include \"${f#lib/}\"" >"$scratch/kernel.c"
-        "${CC:-gcc}" -std=c17 -Wall -Wextra -Werror -Ilib -fsyntax-only "$scratch/kernel.c" || wrong=1
+        ${CC:-gcc} -std=c17 -Wall -Wextra -Werror -Ilib -fsyntax-only "$scratch/kernel.c" || wrong=1
     done
     return $wrong
 }
