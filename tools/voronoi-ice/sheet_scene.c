@@ -33,8 +33,19 @@ static void write_value(FILE *f, const char *key, double x, const char *unit)
     fprintf(f, "%s = %s%s%s\n", key, fl_number_text(x, text), *unit ? " " : "", unit);
 }
 
+static void write_inflow(FILE *f, const struct sheet_inflow *p)
+{
+    char text[FL_NUMBER_LEN];
+    fl_number_text(p->bound, text);
+    fprintf(f, "\n[boundary]\ntype = free\n%s = %s %s none\n", p->backwards ? "max" : "min",
+            p->along_y ? "none" : text, p->along_y ? text : "none");
+    fprintf(f, "inflow = ice\ninflow_from = %s%s\n", p->backwards ? "" : "-", p->along_y ? "y" : "x");
+    write_value(f, "inflow_pitch", p->pitch, "m");
+    if (p->speed > 0.0) write_value(f, "inflow_speed", p->speed, "m/s");
+}
+
 int sheet_scene_write(const struct recipe *o, const struct sheet_bonds *bonds, double slab,
-                      const fl_history_line *by, fl_err *err)
+                      const struct sheet_inflow *inflow, const fl_history_line *by, fl_err *err)
 {
     fl_out file = {0};
     if (fl_out_open(&file, o->scene, 0, err)) return -1;
@@ -58,5 +69,6 @@ int sheet_scene_write(const struct recipe *o, const struct sheet_bonds *bonds, d
     }
     fprintf(f, "\n[contact]\nround_law = linear\n");
     write_value(f, "tangential_ratio", 0.5 / (1.0 + FL_SHEET_POISSON), "");
+    if (inflow) write_inflow(f, inflow);
     return fl_out_close(&file, err);
 }
