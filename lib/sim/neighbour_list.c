@@ -262,11 +262,24 @@ static int rebuild_list(fl_world *w, fl_err *err)
     return fl_neighbour_list_index(w, err);
 }
 
-int fl_neighbour_list_update(fl_world *w, fl_err *err) { return is_due(w, 0) ? rebuild_list(w, err) : 0; }
+/* The pairs of bonded spheres that have come apart, which is all that a valid list lacks. */
+static int add_ended(fl_world *w, fl_err *err)
+{
+    if (!w->discs.ended) return 0;
+    if (!w->spheres.bodies) return rebuild_list(w, err);
+    if (fl_contact_list_add_ended(w, err)) return -1;
+    fl_disc_list_forget_ended(w);
+    return 0;
+}
+
+int fl_neighbour_list_update(fl_world *w, fl_err *err)
+{
+    return is_due(w, 0) ? rebuild_list(w, err) : add_ended(w, err);
+}
 
 int fl_neighbour_list_from_blocks(fl_world *w, fl_err *err)
 {
-    return is_due(w, 1) ? rebuild_list(w, err) : 0;
+    return is_due(w, 1) ? rebuild_list(w, err) : add_ended(w, err);
 }
 
-int fl_neighbour_list_due(const fl_world *w) { return is_due(w, 1); }
+int fl_neighbour_list_due(const fl_world *w) { return w->discs.ended || is_due(w, 1); }
