@@ -7,7 +7,7 @@
  * released, so bonds begin without load.  A partner that is elsewhere, or has left, gets no bond: there the
  * sheet has a crack.
  *
- * Spheres of such a sheet are guided in all six degrees of freedom: the sheet is clamped where it comes in. */
+ * Spheres of such a sheet are guided in all six degrees of freedom: it is clamped where it comes in. */
 #ifndef FL_SIM_INFLOW_BONDS_H
 #define FL_SIM_INFLOW_BONDS_H
 #include "world/world.h"

@@ -10,8 +10,8 @@
 #include "world/world.h"
 
 /* Rebuild the list if it is due: any two odometers together have grown by more than the skin since the last
- * search, or run.search_every steps have passed.  Else add the pairs of bonds of spheres that have ended.  0, or
- * -1 with FL_SYSTEM. */
+ * search, or run.search_every steps have passed.  Else add the pairs of bonds of spheres that have ended.
+ * 0, or -1 with FL_SYSTEM. */
 int fl_neighbour_list_update(fl_world *w, fl_err *err);
 
 /* The same after the first half of a step, when w->blocks has the largest paths of the floes. */
