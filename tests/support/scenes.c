@@ -309,7 +309,7 @@ void scene_of_endless_sheet(lab *l, int32_t side, const char *law)
     const double pitch = add_sheet(l, side, 8.0, 0.0);
     for (int32_t k = 0; k < l->field.n; k++)
         front = fmax(front, l->field.core[k].v[0].x + l->field.radius[k]);
-    lab_setf(l, "boundary.min=%.17g none none", front - pitch), lab_set(l, "boundary.max=0.05 none none");
+    lab_setf(l, "boundary.min=%.17g none none", front - pitch), lab_set(l, "boundary.max=-0.15 none none");
     lab_set(l, "boundary.inflow=ice"), lab_setf(l, "boundary.inflow_pitch=%.17g", pitch);
-    lab_cone(l, (fl_cone){.p0 = v3(0.85, 0, -0.6), .p1 = v3(0.85, 0, 0.6), .r0 = 0.9, .r1 = 0.3});
+    lab_cone(l, (fl_cone){.p0 = v3(0.74, 0, -0.6), .p1 = v3(0.74, 0, 0.6), .r0 = 0.9, .r1 = 0.3});
 }
