@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bonds between spheres and sheets of them: beams as V61 to V66 have them for faces, a strip that is lifted
- * at speed, a floating slab, the books of a sheet that breaks on a cone, a floating beam, a block (BS1 to BS8; V68, V69; V67 is reported). */
+ * at speed, a floating slab, the books of a sheet that breaks on a cone, a floating beam, a block (BS1 to
+ * BS8; V68, V69; V67 is reported). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
