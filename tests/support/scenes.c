@@ -304,7 +304,7 @@ void scene_of_endless_sheet(lab *l, int32_t side, const char *law)
     double front = -INFINITY;
     lab_start(l);
     for (size_t k = 0; k < SHEET_KEY_COUNT; k++) lab_set(l, SHEET_KEYS[k]);
-    lab_set(l, "water.current=8 0 0"), lab_set(l, "bond.scatter=0.15");
+    lab_set(l, "water.current=8 0 0");
     if (law) lab_setf(l, "contact.law=%s", law);
     const double pitch = add_sheet(l, side, 8.0, 0.0);
     for (int32_t k = 0; k < l->field.n; k++)
