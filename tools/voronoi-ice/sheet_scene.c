@@ -22,6 +22,9 @@ int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_
             "with --bonded");
     if (fl_sheet_strength_of(kind, o->layers, o->rows_across, &out->ratio, err)) return -1;
     if (o->flexural > 0.0) out->strength = o->flexural / out->ratio.flexural;
+    if (o->compressive > 0.0 && out->ratio.compressive == 0.0)
+        return fl_fail(err, FL_USAGE,
+                       "--compressive is calibrated for --lattice hcp alone: --flexural is expected");
     if (o->compressive > 0.0) out->strength = o->compressive / out->ratio.compressive;
     if (o->young > 0.0) out->young = o->young / out->ratio.young;
     return 0;

@@ -220,8 +220,9 @@ static void add_sheet_rows(const struct recipe *o, enum fl_packing_kind kind, do
         certificate_add(t, "strength of the bonds [Pa]", none, b->strength, NO_DISTANCE, 6, NULL);
         certificate_add(t, "flexural strength [Pa]", o->flexural > 0.0 ? o->flexural : none, f, NO_DISTANCE,
                         6, "+- %.0f %% of it", 100.0 * b->ratio.flexural_spread);
-        certificate_add(t, "compressive strength [Pa]", o->compressive > 0.0 ? o->compressive : none, c,
-                        NO_DISTANCE, 6, NULL);
+        if (c > 0.0)
+            certificate_add(t, "compressive strength [Pa]", o->compressive > 0.0 ? o->compressive : none, c,
+                            NO_DISTANCE, 6, NULL);
     }
     if (b->young > 0.0) {
         certificate_add(t, "modulus of the bonds [Pa]", none, b->young, NO_DISTANCE, 6, NULL);
