@@ -597,8 +597,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(contact, surrogate),
      .default_text = "0",
      .range = "[0,0.1]",
-     .meaning = "target relative force error of the surrogate, an expansion of the energy of "
-                "a patch contact that has moved little; not a guaranteed bound, the report "
+     .meaning = "target relative force error of the surrogate, an expansion of the energy of a "
+                "contact of patch or quick that has moved little; not a guaranteed bound, the report "
                 "lists the errors found; 0 evaluates every contact exactly in every step",
      .source = "share/doc/contact.md"},
     {.section = FL_SEC_CONTACT,
@@ -1429,12 +1429,13 @@ const fl_key fl_key_table[] = {
 const int fl_key_count = sizeof fl_key_table / sizeof fl_key_table[0];
 
 const fl_manual_word fl_manual_table[] = {
-    {"expperiment duration", FL_SEC_RUN, NULL, "duration", FL_MAP_SAME},
+    {"expperiment duration", FL_SEC_RUN, NULL, "duration", FL_MAP_SAME}, /* as the manual prints it */
+    {"experiment duration", FL_SEC_RUN, NULL, "duration", FL_MAP_SAME},
     {"gravity", FL_SEC_RUN, NULL, "gravity", FL_MAP_SAME},
     {"nproc", FL_SEC_RUN, NULL, "threads", FL_MAP_SAME},
     {"ndtsrc", FL_SEC_RUN, NULL, "search_every", FL_MAP_SAME},
     {"dtoutInfo", FL_SEC_OUTPUT, NULL, "loads_every", FL_MAP_SAME},
-    {"dtoutAni", FL_SEC_OUTPUT, NULL, "frames_every", FL_MAP_SAME},
+    {"dtoutAni", FL_SEC_OUTPUT, NULL, "frames_every", FL_MAP_FRAMES},
     {"dtoutAni_draw", FL_SEC_OUTPUT, NULL, "ice_every", FL_MAP_SAME},
     {"dtoutfile", FL_SEC_OUTPUT, NULL, "until", FL_MAP_SAME},
     {"output file number", FL_SEC_OUTPUT, NULL, "files", FL_MAP_SAME},

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
@@ -10,9 +11,10 @@
 
 enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3 };
 
-/* A signal is the Euclidean length of one to three columns; of one column it is the column itself. */
+/* A signal is the Euclidean length of one to three columns; of one column it is the column itself.  The
+ * resistance is minus the component of a horizontal force along a horizontal velocity, of four columns. */
 typedef struct {
-    int raw[3], n; /* indices into the columns that are read */
+    int raw[4], n; /* indices into the columns that are read; n = 4: resistance */
     int adds;      /* the sum over the parts is meaningful */
 } formula;
 
@@ -82,13 +84,17 @@ static int add_signal(fl_record_reader *r, const fl_record_selection *selection,
 {
     static const char *const axis[] = {"fx", "fy", "fz"};
     formula *f = &r->form[r->signals];
-    const char *of[3] = {name, NULL, NULL};
+    const char *of[4] = {name, NULL, NULL, NULL};
     if (r->signals == SIGNAL_MAX)
         return fl_fail(err, FL_USAGE, "at most %d signals can be selected", SIGNAL_MAX);
     f->n = 1;
     if (fl_table_column(&r->table, name) < 0 && (strcmp(name, "fh") == 0 || strcmp(name, "f") == 0)) {
         f->n = name[1] == 'h' ? 2 : 3;
-        memcpy(of, axis, sizeof of);
+        memcpy(of, axis, sizeof axis);
+    }
+    if (fl_table_column(&r->table, name) < 0 && strcmp(name, "resistance") == 0) {
+        f->n = 4;
+        of[0] = "fx", of[1] = "fy", of[2] = "vx", of[3] = "vy";
     }
     f->adds = 1;
     for (int k = 0; k < f->n; k++) {
@@ -236,6 +242,10 @@ static double evaluate_formula(const double *raw, const formula *f)
 {
     if (f->n == 1) return raw[f->raw[0]];
     const double h = hypot(raw[f->raw[0]], raw[f->raw[1]]);
+    if (f->n == 4) {
+        const double vx = raw[f->raw[2]], vy = raw[f->raw[3]], v = hypot(vx, vy);
+        return v > 0.0 ? -(raw[f->raw[0]] * vx + raw[f->raw[1]] * vy) / v : 0.0;
+    }
     return f->n == 2 ? h : hypot(h, raw[f->raw[2]]);
 }
 
@@ -383,6 +393,7 @@ int fl_record_open(fl_record *r, const char *path, const fl_record_selection *se
     r->signals = own->signals;
     r->signal = own->name;
     r->unit = own->unit;
+    r->has_motion = fl_table_column(&own->table, "vx") >= 0;
     return 0;
 }
 
@@ -434,6 +445,31 @@ int fl_record_next(fl_record *r, fl_err *err)
 }
 
 const char *fl_record_history(const fl_record *r) { return r->reader->table.text.history; }
+
+const char *fl_record_run_lines(const fl_record *r) { return r->reader->table.text.run_lines; }
+
+/* 1 if one of the lines begins with that word. */
+static int has_line(const char *lines, const char *word)
+{
+    for (const char *p = lines; p && *p; p = strchr(p, '\n') + 1)
+        if (strncmp(p, word, strlen(word)) == 0) return 1;
+    return 0;
+}
+
+enum fl_run_end fl_record_end(const fl_record *r, char why[FL_RUN_END_TEXT])
+{
+    static const char STOPPED[] = "#stopped ";
+    const char *lines = fl_record_run_lines(r);
+    why[0] = '\0';
+    for (const char *p = fl_record_history(r); p && *p; p = strchr(p, '\n') + 1) {
+        if (strncmp(p, STOPPED, strlen(STOPPED)) != 0) continue;
+        p += strlen(STOPPED);
+        snprintf(why, FL_RUN_END_TEXT, "%.*s", (int)strcspn(p, "\n"), p);
+        return FL_RUN_STOPPED;
+    }
+    return r->reader->loads && has_line(lines, "#set ") && !has_line(lines, "#report steps ") ? FL_RUN_OPEN
+                                                                                              : FL_RUN_ENDED;
+}
 
 const char *fl_record_name(const fl_record *r) { return fl_in_name(r->reader->table.text.in); }
 

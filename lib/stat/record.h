@@ -12,9 +12,12 @@
 /* Larger values are rejected.  No load is near it, and squares and sums of any number of rows stay finite. */
 #define FL_RECORD_LARGEST_VALUE 1e100
 
+enum { FL_RUN_END_TEXT = 400 };
+
 /* Signals and rows to read.
  *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total of
- *                    the summed components; signals = 0 selects fx, fy, fz, fh of a loads table
+ *                    the summed components, or resistance = -(fx vx + fy vy) / sqrt(vx^2 + vy^2) of a part
+ *                    that moves, 0 while it is at rest; signals = 0 selects fx, fy, fz, fh of a loads table
  *   part             one part or "total"; NULL selects all parts and the total
  *   reduction        how several rows at one time are combined, fl_time_reduction
  *   where[wheres]    "COLUMN=WORD": only rows with that word in the column
@@ -59,6 +62,7 @@ typedef struct {
     const char *const *signal, *const *unit; /* [signals] */
     const unsigned char *defined; /* [parts * signals] 0 where the sum over the parts is meaningless */
     int64_t n;                    /* times read so far */
+    int has_motion;               /* the table has velocities of the parts */
     double t, edge[2];            /* the time as written, and the interval of its row [s] */
     const double *x;              /* [parts * signals] of part p and signal s at x[p * signals + s] */
 } fl_record;
@@ -77,8 +81,19 @@ int fl_record_open(fl_record *r, const char *path, const fl_record_selection *se
  * after it, and so does any table whose rows are combined: their number is not known. */
 int fl_record_next(fl_record *r, fl_err *err);
 
-/* The "#by" lines of the table, or NULL; complete at the end of it.  Borrowed. */
+/* The history of the table, its "#by" and "#stopped" lines, or NULL; and the "#set" and "#report" lines of
+ * its run.  Complete at the end of the table.  Borrowed. */
 const char *fl_record_history(const fl_record *r);
+const char *fl_record_run_lines(const fl_record *r);
+
+/* How the run of a record ended, known at the end of the table. */
+enum fl_run_end {
+    FL_RUN_ENDED,   /* as it should, or the table does not say: it is of another program */
+    FL_RUN_STOPPED, /* early: why is the rest of its line "#stopped " */
+    FL_RUN_OPEN /* the loads of a run have a scene at their head and no report at the end: the run was killed,
+                    * or goes on */
+};
+enum fl_run_end fl_record_end(const fl_record *r, char why[FL_RUN_END_TEXT]);
 
 /* Name for messages. */
 const char *fl_record_name(const fl_record *r);

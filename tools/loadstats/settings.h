@@ -54,7 +54,7 @@ struct options {
     double level;               /* fraction of a peak or of the largest value; durations are above it */
     double period[RETURNS_MAX]; /* return periods [s] */
     int32_t returns, resamples, seed;
-    int gzip, quiet, verbose, threads;
+    int gzip, quiet, verbose, threads, force;
     int report_page;   /* the history line is that of a report, which holds several tables */
     char *const *file; /* [files] the inputs, in is the first of them */
     int files, merge, stream;
@@ -70,6 +70,7 @@ struct options {
     struct oscillator_case oscillator[OSCILLATORS_MAX];
     int32_t oscillators, oscillator_words;
     double stress; /* per unit of the load */
+    int exports;   /* 0, or 1 + the form of --export */
     double follow; /* data time between two outputs [s], 0 for one at the end */
     int ended;     /* --help or --version was answered */
 };
