@@ -79,11 +79,23 @@ static fl_vec3 solve_free_dof(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_
     return v3(u[0], u[1], u[2]);
 }
 
+/* Angular velocity, or its change, of body i with the fixed components of w_held, at the angular momentum L.
+ * The axes of a sphere do not count. */
+static fl_vec3 spin_with_fixed_dof(const fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held, fl_vec3 L)
+{
+    if (b->is_isotropic[i]) {
+        const fl_vec3 own = v3_scale(b->invI[i].x, L);
+        return v3(hold & FL_DOF_RX ? w_held.x : own.x, hold & FL_DOF_RY ? w_held.y : own.y,
+                  hold & FL_DOF_RZ ? w_held.z : own.z);
+    }
+    const fl_mat3 R = fl_body_axes(b, i);
+    return solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, w_held, L);
+}
+
 /* Sets the fixed components of w as given, and the free ones from L. */
 static void apply_fixed_rotation(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
 {
-    const fl_mat3 R = fl_body_axes(b, i);
-    fl_body_set_spin(b, i, solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, w_held, b->L[i]));
+    fl_body_set_spin(b, i, spin_with_fixed_dof(b, i, hold, w_held, b->L[i]));
 }
 
 /* Velocity of body i at momentum P, with its fixed components as given. */
@@ -222,8 +234,7 @@ void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *t
         *turn = fl_body_apply_inverse_inertia(b, i, b->t[i]);
         return;
     }
-    const fl_mat3 R = fl_body_axes(b, i);
-    *turn = solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, rest, b->t[i]);
+    *turn = spin_with_fixed_dof(b, i, hold, rest, b->t[i]);
 }
 
 /* --- isotropic bodies, four at a time ---------------------------------------------------------- */

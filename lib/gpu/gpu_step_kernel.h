@@ -11,6 +11,7 @@
  * so that the state of a run has the bits of the CPU path. */
 #ifndef FL_GPU_GPU_STEP_KERNEL_H
 #define FL_GPU_GPU_STEP_KERNEL_H
+#include "base/pi.h"
 #include "bond/disc_damage_kernel.h"
 #include "geom/sym3.h"
 #include "gpu/gpu_view.h"
@@ -295,7 +296,8 @@ static inline void fl_gpu_end_disc(const fl_gpu_view *a, int32_t k, fl_disc_clas
 static inline void fl_gpu_disc(const fl_gpu_view *a, int32_t k)
 {
     const fl_disc_class c = a->disc_class[a->disc_which[k]];
-    const double scatter = a->disc_scatter ? a->disc_scatter[k] : 1.0, s = scatter * c.weakening;
+    const double scatter = a->disc_scatter ? a->disc_scatter[k] : 1.0,
+                 own = 1.0 / (PI * c.radius * c.radius * c.weakening);
     fl_disc_wrench out;
     a->disc_done[k] = 0, a->disc_size[k] = 0.0;
     if (a->disc_ended[k]) {
@@ -311,9 +313,9 @@ static inline void fl_gpu_disc(const fl_gpu_view *a, int32_t k)
     fl_disc_memory m = a->disc[k];
     const fl_disc_motion q = fl_disc_motion_of(at.d, at.vi, at.vj, at.wi, at.wj, m.S, m.M, c.length, c.kn,
                                                c.shear_ratio, c.radius, c.share, a->dt);
-    const double used = fl_disc_strength_bound(q, c.radius, a->disc_law.moment_factor,
-                                               s * a->disc_law.tension, s * a->disc_law.cohesion);
-    if (a->disc_whole[k] && used < FL_GPU_WHOLE) {
+    const double used = fl_disc_strength_bound(q, a->disc_law.moment_factor / c.radius,
+                                               own / a->disc_law.tension, own / a->disc_law.cohesion);
+    if (a->disc_whole[k] && used < FL_GPU_WHOLE * scatter * scatter) {
         fl_vec3 F = v3_madd(v3_scale(q.N, q.e), 1.0, q.S), M = q.M;
         if (a->damped_discs) {
             const fl_vec3 drag = fl_disc_damping_force(q, c.kn, c.shear_ratio, c.damping),

@@ -284,25 +284,44 @@ static int find_pairs(fl_world *w, fl_err *err)
     return 0;
 }
 
-static int rebuild_list(fl_world *w, fl_err *err)
+/* Lists anew what is near. */
+static int search(fl_world *w, fl_err *err)
 {
-    const int32_t total = w->b.total;
     const int32_t pairs = w->n_pair;
     const int rc = find_pairs(w, err);
     if (w->box) free_boxes(w);
     free_candidates(w, pairs);
-    if (rc) return -1;
-    for (int32_t k = 0; k < total; k++) w->odometer_at_search[k] = w->b.odometer[k];
-    w->last_search_step = w->step;
-    w->searches++;
-    return fl_neighbour_list_index(w, err);
+    return rc || fl_neighbour_list_index(w, err) ? -1 : 0;
 }
 
-int fl_neighbour_list_update(fl_world *w, fl_err *err) { return is_due(w, 0) ? rebuild_list(w, err) : 0; }
+static int rebuild_list(fl_world *w, fl_err *err)
+{
+    if (search(w, err)) return -1;
+    for (int32_t k = 0; k < w->b.total; k++) w->odometer_at_search[k] = w->b.odometer[k];
+    w->last_search_step = w->step;
+    w->searches++;
+    return 0;
+}
+
+/* The pairs of bonded spheres that have come apart, which is all that a valid list lacks.  A device lists all
+ * anew, as does the CPU where no spheres have met yet; the next search is due when it was. */
+static int add_ended(fl_world *w, fl_err *err)
+{
+    if (!w->discs.ended) return 0;
+    if (!w->spheres.bodies || fl_device_makes_lists(w)) return search(w, err);
+    if (fl_contact_list_add_ended(w, err)) return -1;
+    fl_disc_list_forget_ended(w);
+    return 0;
+}
+
+int fl_neighbour_list_update(fl_world *w, fl_err *err)
+{
+    return is_due(w, 0) ? rebuild_list(w, err) : add_ended(w, err);
+}
 
 int fl_neighbour_list_from_blocks(fl_world *w, fl_err *err)
 {
-    return is_due(w, 1) ? rebuild_list(w, err) : 0;
+    return is_due(w, 1) ? rebuild_list(w, err) : add_ended(w, err);
 }
 
-int fl_neighbour_list_due(const fl_world *w) { return is_due(w, 1); }
+int fl_neighbour_list_due(const fl_world *w) { return w->discs.ended || is_due(w, 1); }

@@ -75,7 +75,7 @@ static void after_contacts(void *arg)
     fl_work_share_split(w->block_share, w->team.n, fl_block_count(w));
     fl_collect_touching(w);
     fl_contact_sums_assign(w);
-    if (w->bonds.ended || w->discs.ended) { /* the neighbour list must take up the pair of an ended bond */
+    if (w->bonds.ended) { /* the neighbour list must take up the pair of an ended bond */
         w->last_search_step = -1;
         w->bonds.ended = 0;
     }

@@ -11,7 +11,7 @@ int fl_floating_batch_applies(const fl_world *w)
 {
     const fl_environment *s = &w->sea;
     return w->discs.n && s->water && s->only_spheres && !s->waves && !s->wind && !s->flow_velocity &&
-           !s->drag_surface && !s->impulses && !w->b.added_mass && !w->sleep.state && !w->inflow.absent &&
+           !s->drag_surface && !s->impulses && !w->b.added_mass && !w->sleep.state &&
            !w->contact_sums.one_each && !w->previous_sums.one_each;
 }
 
@@ -19,7 +19,7 @@ int32_t fl_floating_run_end(const fl_world *w, int32_t k, int32_t to, int second
 {
     const int32_t *now = w->contact_sums.slot, *before = w->previous_sums.slot;
     while (k < to && w->b.is_isotropic[k] && !w->b.fixed_dof[k] && before[k] == 0 &&
-           !(second && now[k] != 0) && !(k < w->driven_floes.n && w->driven_floes.is_driven[k]))
+           !(second && now[k] != 0) && !fl_body_absent(w, k) && !fl_floe_is_driven(w, k))
         k++;
     return k;
 }
