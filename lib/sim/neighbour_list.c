@@ -303,13 +303,13 @@ static int rebuild_list(fl_world *w, fl_err *err)
     return 0;
 }
 
-/* The pairs of bonded spheres that have come apart, which is all that a valid list lacks.  A device lists all
- * anew, as does the CPU where no spheres have met yet; the next search is due when it was. */
+/* The pairs of bonded spheres that have come apart, which is all that a valid list lacks.  A device lists its
+ * rows anew by itself, and where no spheres have met yet all is; the next search is due when it was. */
 static int add_ended(fl_world *w, fl_err *err)
 {
     if (!w->discs.ended) return 0;
-    if (!w->spheres.bodies || fl_device_makes_lists(w)) return search(w, err);
-    if (fl_contact_list_add_ended(w, err)) return -1;
+    if (!w->spheres.bodies) return search(w, err);
+    if (!fl_device_makes_lists(w) && fl_contact_list_add_ended(w, err)) return -1;
     fl_disc_list_forget_ended(w);
     return 0;
 }
