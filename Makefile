@@ -7,7 +7,7 @@ TOOLS = voronoi-ice struct-import dem-solve loadstats arc-path ice-view pack
 FLAGS = $(OPT) -g $(FLOAT) -fopenmp -Ilib -MMD -MP $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all)
 CCALL  = $(CC) -std=c17 -D_POSIX_C_SOURCE=200809L $(CWARN) $(FLAGS) $(CFLAGS)
 CXXALL = $(CXX) -std=c++17 $(WARN) $(FLAGS) $(CXXFLAGS)
-LIBS  = -Wl,--as-needed -lccd -lgsl -lgslcblas -linih -lz -lm
+LIBS  = -Wl,--as-needed -lccd -lgsl -lgslcblas -linih -lz -lm -ldl
 CGAL  = -lstdc++ -lgmp -lmpfr
 # What draws is built where the headers are: OpenGL by libepoxy and EGL (pictures, films), SDL2 (the window).  Without
 # them ice-view reads and converts, and says which package is missing.
@@ -20,6 +20,17 @@ else ifeq ($(SDL),)
 $(info ice-view: built without its window, SDL2/SDL.h is not there (package libsdl2-dev))
 endif
 
+# The plug-in for an NVIDIA card, where nvcc is: GPU=0 leaves it out, GPU=1 insists.  Nothing else needs nvcc.
+NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
+GPU  ?= $(if $(NVCC),1,0)
+ifeq ($(GPU)$(NVCC),1)
+$(error GPU=1: there is no nvcc, of the package nvidia-cuda-toolkit or in /usr/local/cuda/bin)
+endif
+PLUGIN = $(if $(SAN),,$(if $(filter 1,$(GPU)),$B/lib/libfloe-cuda.so))
+# Code for cards of 2018, 2020 and 2022 on, and for later ones as text that their driver compiles.
+CARDS  = -gencode arch=compute_75,code=sm_75 -gencode arch=compute_80,code=sm_80 -gencode arch=compute_90,code=[sm_90,compute_90]
+NVALL  = $(NVCC) -std=c++17 -O3 -fmad=false -Xcompiler -ffp-contract=off,-fPIC -Ilib -x cu
+
 LIBOBJ   = $(patsubst %.c,$B/%.o,$(filter-out $(if $(GL),,lib/view/gl_%.c),$(wildcard lib/*/*.c)))
 SHIMOBJ  = $(patsubst %.cpp,$B/%.o,$(wildcard lib/shim/*.cpp))
 SHIM     = $B/libfloe-shim.a
@@ -28,7 +39,10 @@ HELPOBJ  = $(patsubst %.c,$B/%.o,$(wildcard tests/support/*.c))
 test_of  = $(patsubst tests/$1/%.c,$B/tests/$1/%,$(wildcard tests/$1/*.c))
 TESTS    = $(foreach k,unit prop fuzz verify bench,$(call test_of,$k))
 
-all: $(TOOLS:%=$B/bin/%)
+all: $(TOOLS:%=$B/bin/%) $(PLUGIN)
+$B/lib/libfloe-cuda.so: lib/gpu/cuda.cu $(wildcard lib/gpu/*.h lib/*/*_kernel.h) lib/law/tangent.h lib/law/damping.h lib/law/rolling.h
+	@mkdir -p $(@D)
+	$(NVALL) -shared -cudart static $(CARDS) $< -o $@
 tests: all $(TESTS)
 
 $B/%.o: %.c
@@ -65,7 +79,7 @@ FORCE:
 # A program is the .c files of its folder on the two libraries; what it does not use is not linked.
 VIEW = $(if $(GL),,%/shot.c) $(if $(SDL),,%/window.c)
 $B/tools/ice-view/%.o: CFLAGS += $(if $(GL),-DFL_HAVE_GL) $(if $(SDL),-DFL_HAVE_WINDOW)
-$B/bin/ice-view: LIBS += $(if $(GL),-lepoxy) $(if $(SDL),-lSDL2) -ldl
+$B/bin/ice-view: LIBS += $(if $(GL),-lepoxy) $(if $(SDL),-lSDL2)
 define tool
 $B/bin/$1: $(patsubst %.c,$B/%.o,$(filter-out $(VIEW),$(wildcard tools/$1/*.c))) $B/source.o $B/libfloe-shim.a $B/libfloe.a
 	@mkdir -p $$(@D)
@@ -106,6 +120,9 @@ WIDTHS = $(if $(filter x86_64,$(shell uname -m)),$B/bench/dem-solve-plain $B/ben
 run-bench: $(WIDTHS)
 ladder: all $(WIDTHS)
 	@sh bench/ladder.sh $B
+# On a machine with a card: bits, and times, into bench/results/gpu.tsv.
+gpu-check gpu-bench: all
+	@sh bench/gpu.sh $(@:gpu-%=%) $B
 golden-update: all
 	@sh tests/run.sh update $B
 lint:
@@ -119,6 +136,7 @@ install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(foreach s,1 5 7,$(SHARED)/man/man$s) $(SHARED)/dilateddem $(SHARED)/doc/dilateddem \
 		$(SHARED)/bash-completion/completions $(SHARED)/zsh/site-functions
 	install $(STRIP) $(TOOLS:%=$B/bin/%) $(DESTDIR)$(PREFIX)/bin
+	$(if $(PLUGIN),install -D -m 644 $(PLUGIN) $(DESTDIR)$(PREFIX)/lib/libfloe-cuda.so)
 	install -m 644 $(wildcard tools/*/*.1) $(SHARED)/man/man1
 	install -m 644 $(wildcard share/man5/*.5) $(SHARED)/man/man5
 	install -m 644 $(wildcard share/man7/*.7) $(SHARED)/man/man7
@@ -129,7 +147,7 @@ install: all
 	cd $(SHARED)/bash-completion/completions && for t in $(filter-out dem-solve,$(TOOLS)); do ln -sf dem-solve $$t; done
 	sed 's/COMMANDS/$(TOOLS)/' share/completion/_dilateddem >$(SHARED)/zsh/site-functions/_dilateddem
 uninstall:
-	rm -f $(TOOLS:%=$(DESTDIR)$(PREFIX)/bin/%) $(PAGES:%=$(SHARED)/man/%) $(SHARED)/zsh/site-functions/_dilateddem \
+	rm -f $(TOOLS:%=$(DESTDIR)$(PREFIX)/bin/%) $(DESTDIR)$(PREFIX)/lib/libfloe-cuda.so $(PAGES:%=$(SHARED)/man/%) $(SHARED)/zsh/site-functions/_dilateddem \
 		$(TOOLS:%=$(SHARED)/bash-completion/completions/%)
 	rm -rf $(SHARED)/dilateddem $(SHARED)/doc/dilateddem
 deb:
@@ -137,6 +155,6 @@ deb:
 clean:
 	rm -rf build
 
-.PHONY: all FORCE ladder tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install uninstall deb clean
+.PHONY: all FORCE ladder tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench gpu-check gpu-bench golden-update lint install uninstall deb clean
 .SECONDARY:
 -include $(wildcard $B/*/*/*.d $B/*/*/*/*.d)

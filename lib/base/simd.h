@@ -8,6 +8,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#ifdef __CUDACC__ /* a thread of a card is one lane: functions by value, no registers of four */
+#define FL_SIMD_INLINE static inline
+#else
+
 enum { FL_SIMD_WIDTH = 4 };
 
 /* Alignment as for single doubles. */
@@ -111,4 +115,5 @@ FL_SIMD_INLINE double fl_simd_sum(const fl_simd *a)
     return sum[0] + sum[1];
 }
 
+#endif
 #endif

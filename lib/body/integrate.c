@@ -1,13 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/simd.h"
 #include "body/integrate.h"
-
-/* Only rounding moves |q| from 1: one Newton step for 1/sqrt(|q|^2) removes it. */
-static fl_quat normalise(fl_quat q)
-{
-    const double s = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    return (fl_quat){s * q.w, s * q.x, s * q.y, s * q.z};
-}
+#include "body/sphere_motion_kernel.h"
 
 fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3 *mean)
 {
@@ -26,7 +20,7 @@ fl_quat fl_drift_rotation(fl_quat q, fl_vec3 L, fl_vec3 invI, double dt, fl_vec3
     l = v3_dot(e, L);
     if (a0 != 0.0) q = q_mul(q, q_about_axis(0, a0 * l));
     *mean = v3_madd(top, 0.5 * less, v3_madd(first, l, e));
-    return normalise(q);
+    return fl_quat_renormalised(q);
 }
 
 void fl_kick(fl_bodies *b, int32_t i, double h)
@@ -85,11 +79,23 @@ static fl_vec3 solve_free_dof(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_
     return v3(u[0], u[1], u[2]);
 }
 
+/* Angular velocity, or its change, of body i with the fixed components of w_held, at the angular momentum L.
+ * The axes of a sphere do not count. */
+static fl_vec3 spin_with_fixed_dof(const fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held, fl_vec3 L)
+{
+    if (b->is_isotropic[i]) {
+        const fl_vec3 own = v3_scale(b->invI[i].x, L);
+        return v3(hold & FL_DOF_RX ? w_held.x : own.x, hold & FL_DOF_RY ? w_held.y : own.y,
+                  hold & FL_DOF_RZ ? w_held.z : own.z);
+    }
+    const fl_mat3 R = fl_body_axes(b, i);
+    return solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, w_held, L);
+}
+
 /* Sets the fixed components of w as given, and the free ones from L. */
 static void apply_fixed_rotation(fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held)
 {
-    const fl_mat3 R = fl_body_axes(b, i);
-    fl_body_set_spin(b, i, solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, w_held, b->L[i]));
+    fl_body_set_spin(b, i, spin_with_fixed_dof(b, i, hold, w_held, b->L[i]));
 }
 
 /* Velocity of body i at momentum P, with its fixed components as given. */
@@ -126,7 +132,7 @@ static void drift_fixed_rotation(fl_bodies *b, int32_t i, double dt)
     const fl_vec3 w = b->w[i], L = b->L[i];
     b->q[i] = q_mul(q_of_vector(v3_scale(0.5 * dt, w)), q);
     apply_fixed_rotation(b, i, hold, w);
-    b->q[i] = normalise(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
+    b->q[i] = fl_quat_renormalised(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
     b->L[i] = L;
     apply_fixed_rotation(b, i, hold, w);
     b->work_of_constraints[i] += angular_constraint_work(hold, v3_sub(b->L[i], L), w);
@@ -151,7 +157,7 @@ static void drift_rotation(fl_bodies *b, int32_t i, double dt)
     if (held) {
         drift_fixed_rotation(b, i, dt);
     } else if (b->is_isotropic[i]) { /* it turns about L, and no point of its core moves by that */
-        b->q[i] = normalise(q_mul(q_of_vector(v3_scale(dt * b->invI[i].x, b->L[i])), q));
+        b->q[i] = fl_sphere_turned(q, b->L[i], b->invI[i].x, dt);
         return;
     } else {
         b->q[i] = fl_drift_rotation(q, b->L[i], b->invI[i], dt, &b->w[i]);
@@ -228,8 +234,7 @@ void fl_body_accelerations(const fl_bodies *b, int32_t i, fl_vec3 *a, fl_vec3 *t
         *turn = fl_body_apply_inverse_inertia(b, i, b->t[i]);
         return;
     }
-    const fl_mat3 R = fl_body_axes(b, i);
-    *turn = solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, rest, b->t[i]);
+    *turn = spin_with_fixed_dof(b, i, hold, rest, b->t[i]);
 }
 
 /* --- isotropic bodies, four at a time ---------------------------------------------------------- */

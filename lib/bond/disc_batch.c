@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <assert.h>
+#include "base/pi.h"
 #include "bond/disc_batch.h"
 #include "bond/disc_kernel.h"
 
@@ -54,18 +55,23 @@ FL_SIMD_INLINE void evaluate_lanes(disc_lanes *restrict t, const memory_rows *re
                                    int one)
 {
     const fl_lane *c = t->class;
-    const double beta = law->moment_factor, tension = law->tension, cohesion = law->cohesion;
+    const double beta = law->moment_factor,
+                 per_area = one ? 1.0 / (PI * all.radius * all.radius * all.weakening) : 0.0,
+                 all_lever = one ? beta / all.radius : 0.0, all_pull = per_area / law->tension,
+                 all_cut = per_area / law->cohesion;
 #pragma omp simd
     for (int k = 0; k < FL_LANE_COUNT; k++) {
         const double kn = CLASS(kn, KN), ratio = CLASS(shear_ratio, RATIO), R = CLASS(radius, RADIUS),
-                     share = CLASS(share, SHARE), damping = CLASS(damping, DAMPING),
-                     s = t->scatter.a[k] * CLASS(weakening, WEAKENING);
+                     share = CLASS(share, SHARE), damping = CLASS(damping, DAMPING), s = t->scatter.a[k],
+                     own = one ? 0.0 : 1.0 / (PI * R * R * c[WEAKENING].a[k]),
+                     lever = one ? all_lever : beta / R, pull = one ? all_pull : own / law->tension,
+                     cut = one ? all_cut : own / law->cohesion;
         const fl_vec3 d = v3_add(v3_sub(fl_lane3(t->xj, k), fl_lane3(t->xi, k)), fl_lane3(t->shift, k));
         const fl_disc_motion q = fl_disc_motion_of(
             d, fl_lane3(t->vi, k), fl_lane3(t->vj, k), fl_lane3(t->wi, k), fl_lane3(t->wj, k), row3(m->S, k),
             row3(m->M, k), CLASS(length, LENGTH), kn, ratio, R, share, dt);
-        const double used = fl_disc_strength_bound(q, R, beta, s * tension, s * cohesion);
-        const int on = t->whole.a[k] > 0.0 && used < WHOLE_LIMIT;
+        const double used = fl_disc_strength_bound(q, lever, pull, cut);
+        const int on = t->whole.a[k] > 0.0 && used < WHOLE_LIMIT * s * s;
         fl_vec3 F = v3_madd(v3_scale(q.N, q.e), 1.0, q.S), M = q.M;
         if (damped) {
             const fl_vec3 drag = fl_disc_damping_force(q, kn, ratio, damping),

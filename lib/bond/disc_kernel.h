@@ -50,14 +50,13 @@ FL_SIMD_INLINE fl_disc_motion fl_disc_motion_of(fl_vec3 d, fl_vec3 vi, fl_vec3 v
     return q;
 }
 
-/* Upper bound of lambda^2, without the help of pressing and with sums of components for lengths. */
-FL_SIMD_INLINE double fl_disc_strength_bound(fl_disc_motion q, double radius, double beta, double tension,
-                                             double cohesion)
+/* Upper bound of lambda^2 times the square of the scatter, without the help of pressing and with sums of
+ * components for lengths.  lever: beta/R; pull, cut: 1/(A sigma_t) and 1/(A c), 0 for unlimited. */
+FL_SIMD_INLINE double fl_disc_strength_bound(fl_disc_motion q, double lever, double pull, double cut)
 {
-    const double area = 3.14159265358979323846 * radius * radius,
-                 moment = beta * (fabs(q.M.x) + fabs(q.M.y) + fabs(q.M.z)) / radius,
-                 pull = q.N > 0.0 ? q.N : 0.0, sigma = (pull + 4.0 * moment) / (area * tension),
-                 tau = (fabs(q.S.x) + fabs(q.S.y) + fabs(q.S.z) + 2.0 * moment) / (area * cohesion);
+    const double moment = lever * (fabs(q.M.x) + fabs(q.M.y) + fabs(q.M.z)), N = q.N > 0.0 ? q.N : 0.0,
+                 sigma = (N + 4.0 * moment) * pull,
+                 tau = (fabs(q.S.x) + fabs(q.S.y) + fabs(q.S.z) + 2.0 * moment) * cut;
     return sigma * sigma + tau * tau;
 }
 

@@ -7,8 +7,9 @@
 #include "bond/common_face.h"
 #include "contact/bond_image.h"
 #include "contact/bond_list.h"
+#include "contact/bond_stiffness.h"
+#include "contact/disc_setup.h"
 #include "geom/clip.h"
-#include "patch/stiffness_bound.h"
 #include "world/access.h"
 
 /* Least length of a bond over the size of its face. */
@@ -138,14 +139,16 @@ static int index_bonds(fl_world *w, fl_err *err)
     return 0;
 }
 
-/* Adds the springs of bond c to the stiffness of one of its bodies, unless that is fixed. */
-static void add_stiffness(const fl_world *w, const fl_bond *c, int is_i, double share, fl_stiffness *out)
+/* Springs of a bond, none for a fixed body: bond_stiffness.h. */
+static int32_t add_springs(const fl_world *w, int32_t bond, int end, double share, fl_stiffness *out)
 {
     const fl_bodies *b = &w->b;
+    const fl_bond *c = &w->bonds.bond[bond];
+    const int is_i = end == 0;
     const int32_t k = is_i ? c->i : c->j;
     const fl_mat3 R = fl_body_axes(b, k);
     const fl_vec3 n = m3_mul(R, is_i ? c->ni : c->nj);
-    if (b->fixed_dof[k] == ALL_FIXED) return;
+    if (b->fixed_dof[k] == ALL_FIXED) return k;
     for (int at = 0; at < FL_BOND_POINTS; at++) {
         double xi, eta;
         const double wa = share * fl_bond_quadrature_point(at, &xi, &eta) * c->area;
@@ -155,36 +158,7 @@ static void add_stiffness(const fl_world *w, const fl_bond *c, int is_i, double 
         fl_stiffness_add_force(out, b, k, wa * c->kn, n, v3_cross(r, n));
         fl_stiffness_add_tangential(out, b, k, wa * c->ks, n, r);
     }
-}
-
-/* Shares of omega^2 as for contacts: K + sqrt(K K') of the two bodies' own bounds. */
-static int bound_stiffness(fl_world *w, fl_err *err)
-{
-    fl_bond_list *s = &w->bonds;
-    fl_stiffness *all = fl_alloc(w->n, sizeof *all, err);
-    s->omega2 = fl_alloc(2 * (int64_t)s->n, sizeof *s->omega2, err);
-    s->max_omega2 = fl_alloc(w->n, sizeof *s->max_omega2, err);
-    if (!all || !s->omega2 || !s->max_omega2) {
-        free(all);
-        return -1;
-    }
-    for (int32_t k = 0; k < s->n; k++) {
-        const fl_bond *c = &s->bond[k];
-        double own[2];
-        for (int e = 0; e < 2; e++) {
-            fl_stiffness K = {0};
-            add_stiffness(w, c, e == 0, 1.0, &K);
-            own[e] = fl_stiffness_bound(&K);
-        }
-        for (int e = 0; e < 2; e++) {
-            s->omega2[2 * k + e] = own[e] + sqrt(own[0] * own[1]);
-            if (own[e] > 0.0)
-                add_stiffness(w, c, e == 0, s->omega2[2 * k + e] / own[e], &all[e ? c->j : c->i]);
-        }
-    }
-    for (int32_t i = 0; i < w->n; i++) s->max_omega2[i] = fl_stiffness_bound(&all[i]);
-    free(all);
-    return 0;
+    return k;
 }
 
 int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
@@ -207,7 +181,10 @@ int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
         const int32_t of[2] = {s->bond[k].i, s->bond[k].j};
         for (int e = 0; e < 2; e++) w->b.is_isotropic[of[e]] = 0;
     }
-    return index_bonds(w, err) || bound_stiffness(w, err) ? -1 : 0;
+    return index_bonds(w, err) ||
+                   fl_bond_stiffness_bound(w, s->n, add_springs, &s->omega2, &s->max_omega2, err)
+               ? -1
+               : 0;
 }
 
 void fl_bond_list_free(fl_bond_list *s)
@@ -391,6 +368,8 @@ static void count_discs(const fl_world *w, fl_bond_counts *n, double *area)
 {
     const fl_disc_list *s = &w->discs;
     const double G = w->scene->bond.energy;
+    n->state[FL_BOND_ENDED] += s->past.broken, n->left += s->past.left;
+    n->area += s->past.area;
     for (int32_t k = 0; k < s->n; k++) {
         const fl_disc_class *c = &s->classes[s->at.which[k]];
         const double A = PI * c->radius * c->radius, T = c->weakening * s->law.tension,
@@ -398,8 +377,9 @@ static void count_discs(const fl_world *w, fl_bond_counts *n, double *area)
         const enum fl_bond_state state = s->has_ended[k]     ? FL_BOND_ENDED
                                          : s->at.is_whole[k] ? FL_BOND_INTACT
                                                              : FL_BOND_DAMAGED;
-        n->state[state]++;
-        if (s->has_ended[k]) n->area += A;
+        if (state == FL_BOND_ENDED && !fl_disc_is_broken(c, s->at.lambda[k])) n->left++;
+        else n->state[state]++;
+        if (state == FL_BOND_ENDED && fl_disc_is_broken(c, s->at.lambda[k])) n->area += A;
         n->longest = fmax(n->longest, c->length);
         if (!isfinite(fracture)) continue;
         n->energy += fracture * A, *area += A;

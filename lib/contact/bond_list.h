@@ -90,6 +90,7 @@ fl_bond_energies fl_bond_list_energies(const fl_world *w);
 /* Counts and bounds of all bonds. */
 typedef struct {
     int32_t state[FL_BOND_ENDED + 1]; /* bonds in each state */
+    int32_t left;                     /* discs that have left with a sphere, and were not broken */
     int32_t coarse;                   /* bonds whose fracture energy is above G_I */
     double energy;                    /* mean fracture energy in mode I [J/m2] */
     double longest, limit;            /* largest l; smallest limit of l without snap-back [m] */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* disc_list.h -- the bonds between spheres of a world (bond/disc.h): their set-up, forces in a step, and
- * sums.
+/* disc_list.h -- the bonds between spheres of a world (bond/disc.h): forces in a step, and sums.
  *
  * While a bond stands its two spheres have no contact.  In the step in which it breaks it still presses and
  * rubs; from the next one on the two are an ordinary pair, whose spring of friction begins with the shear
@@ -10,18 +9,7 @@
  * Bonded spheres stay isotropic: a disc does not need their attitude. */
 #ifndef FL_CONTACT_DISC_LIST_H
 #define FL_CONTACT_DISC_LIST_H
-#include "scene/ice_field.h"
 #include "world/world.h"
-
-/* True if the bond of the field is a disc: of two spheres that touch or are apart, not one that overlaps by
- * more than FL_DISC_OVERLAP of the sum of their radii, whose contact would begin with a force. */
-#define FL_DISC_OVERLAP 1e-3
-int fl_disc_list_includes(const fl_world *w, const fl_ice_field_bond *d);
-
-/* Makes the discs of the field, body k of the field being body k, in its pose of the field.  -1 with
- * FL_SYSTEM, or FL_INPUT for a bond without length. */
-int fl_disc_list_make(fl_world *w, const fl_ice_field *field, fl_err *err);
-void fl_disc_list_free(fl_disc_list *s);
 
 /* The bond of i < j with that image of j (NULL: no periodic cell), -1: none. */
 int32_t fl_disc_list_find(const fl_world *w, int32_t i, int32_t j, const int32_t image[3]);

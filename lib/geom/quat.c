@@ -19,29 +19,10 @@ fl_quat q_of_matrix(fl_mat3 a)
     return q_unit(q);
 }
 
-/* cos x and sin(x)/x from x^2, for any x.  The argument is halved until |x| <= 1/4 and doubled back by 1 -
- * cos 2x = 2 (1 - cos x) (1 + cos x), sinc 2x = sinc x cos x.  A step turns a body by far less than half a
- * radian, so the loop is rarely entered. */
-static void cos_sinc(double x2, double *c, double *s)
-{
-    int twice = 0;
-    while (x2 > Q_HALF_ANGLE2_MAX && twice < 60) {
-        x2 *= 0.25;
-        twice++;
-    }
-    double v = q_versine(x2), f = q_sinc(x2);
-    for (; twice > 0; twice--) {
-        f *= 1.0 - v;
-        v = 2.0 * v * (2.0 - v);
-    }
-    *c = 1.0 - v;
-    *s = f;
-}
-
 fl_quat q_of_vector(fl_vec3 r)
 {
     double c, s;
-    cos_sinc(0.25 * v3_norm2(r), &c, &s);
+    q_cos_sinc(0.25 * v3_norm2(r), &c, &s);
     s *= 0.5;
     return (fl_quat){c, s * r.x, s * r.y, s * r.z};
 }
@@ -49,7 +30,7 @@ fl_quat q_of_vector(fl_vec3 r)
 fl_quat q_about_axis(int k, double a)
 {
     double c, s;
-    cos_sinc(0.25 * a * a, &c, &s);
+    q_cos_sinc(0.25 * a * a, &c, &s);
     s *= 0.5 * a;
     return (fl_quat){c, k == 0 ? s : 0.0, k == 1 ? s : 0.0, k == 2 ? s : 0.0};
 }

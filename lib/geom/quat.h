@@ -69,6 +69,25 @@ static inline double q_sinc(double x2)
     return 1.0 - x2 * f;
 }
 
+/* cos x and sin(x)/x from x^2, for any x.  The argument is halved until |x| <= 1/4 and doubled back by 1 -
+ * cos 2x = 2 (1 - cos x) (1 + cos x), sinc 2x = sinc x cos x.  A step turns a body by far less than half a
+ * radian, so the loop is rarely entered. */
+static inline void q_cos_sinc(double x2, double *c, double *s)
+{
+    int twice = 0;
+    while (x2 > Q_HALF_ANGLE2_MAX && twice < 60) {
+        x2 *= 0.25;
+        twice++;
+    }
+    double v = q_versine(x2), f = q_sinc(x2);
+    for (; twice > 0; twice--) {
+        f *= 1.0 - v;
+        v = 2.0 * v * (2.0 - v);
+    }
+    *c = 1.0 - v;
+    *s = f;
+}
+
 /* Rotation by |r| about r, r in rad.  Half-angle sine and cosine come from a fixed polynomial (quat.c), so
  * the bits do not depend on the C library.  Error below 2e-16 for |r| <= 1/2, growing slowly beyond (2e-15 at
  * 10 rad). */

@@ -6,7 +6,8 @@
  * 15 %:
  *     flexural     sigma_f/c: largest load of a beam on two rollers with a third in its middle, span 10 h,
  *                  sigma_f = 3 P L/(2 b h^2) with the nominal h = layers x spacing of layers
- *     compressive  sigma_c/c: largest mean stress of a block pressed in the plane of the sheet
+ *     compressive  sigma_c/c: largest mean stress of a block pressed in the plane of the sheet; 0 where it
+ *                  was not measured
  *     young        E/E_b in bending
  * Rows along the stress carry like columns and are stronger; so the direction of the rows counts.  The
  * example calibrate makes the numbers again. */

@@ -377,9 +377,10 @@ static int check_bonds(const fl_scene *s, fl_err *err)
     if (s->run.sleep > 0.0)
         return fl_scene_fail(s, "run.sleep", err,
                              "bonded floes do not sleep: either run.sleep or bond.on is expected");
-    if (s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
+    if (s->boundary.head.present && s->boundary.inflow == FL_INFLOW_FILE)
         return fl_scene_fail(s, "boundary.inflow", err,
-                             "inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
+                             "ice of another file would come in without bonds: boundary.inflow = ice, or "
+                             "bond.on = false, is expected");
     if (b->softening == FL_SOFTENING_WEAKEN && b->energy == 0.0)
         return fl_scene_fail(s, "bond.softening", err,
                              "softening = weaken needs a fracture energy: bond.energy is expected");

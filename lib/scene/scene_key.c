@@ -233,6 +233,15 @@ const fl_key fl_key_table[] = {
                 "and adjusts the number to the fastest; results are the same bytes for any "
                 "number"},
     {.section = FL_SEC_RUN,
+     .key = "device",
+     .type = FL_VALUE_WORD,
+     .offset = OFFSET(run, device),
+     .default_text = "auto",
+     .choices = "auto|cpu|gpu|serial",
+     .meaning = "who runs the spheres: gpu, a card by the plug-in libfloe-cuda.so; serial, the same kernels "
+                "on one thread, for tests; auto, the card where there is one and the scene runs there, else "
+                "the cpu; results are the same bytes"},
+    {.section = FL_SEC_RUN,
      .key = "sleep",
      .type = FL_VALUE_F64,
      .offset = OFFSET(run, sleep),

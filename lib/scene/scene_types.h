@@ -43,6 +43,7 @@ enum fl_error_of {
     FL_ERROR_OF_MY,
     FL_ERROR_OF_MZ
 };
+enum fl_device { FL_DEVICE_AUTO, FL_DEVICE_CPU, FL_DEVICE_GPU, FL_DEVICE_SERIAL };
 enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
 enum fl_frames_form { FL_FRAMES_TEXT, FL_FRAMES_PACKED };
 enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
@@ -58,6 +59,7 @@ typedef struct {
     int32_t error_of;     /* enum fl_error_of */
     fl_vec3 gravity;      /* [m/s2] as a vector; the file's one number g is (0, 0, -g) */
     int32_t threads;      /* 0: auto, as many as OpenMP offers */
+    int32_t device;       /* enum fl_device: who runs the spheres */
     double sleep;         /* allowed position error of a skip over the radius; 0: no floe sleeps */
     int32_t search_every; /* steps between neighbour searches; 0: auto, when the skin is used up */
 } fl_scene_run;

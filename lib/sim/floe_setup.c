@@ -212,8 +212,6 @@ int fl_world_place_floe(fl_world *w, int32_t i, const fl_ice_field *field, int32
     fl_poly_free(&outer);
     if (bad) return -1;
     w->b.is_isotropic[i] = (uint8_t)fl_body_is_isotropic(&w->b, i);
-    if (i < w->driven_floes.n && w->driven_floes.is_driven[i] &&
-        !(w->inflow.absent && w->inflow.source_floe[i] >= 0))
-        drive_body(w, i);
+    if (fl_floe_is_driven(w, i)) drive_body(w, i);
     return 0;
 }

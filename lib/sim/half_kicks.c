@@ -707,3 +707,26 @@ void fl_blocks_second_half(fl_world *w, int32_t g, int32_t last, double h)
         if (suspect[k - g])
             w->blocks[k].not_finite = first_not_finite(&w->b, k * FL_BODY_BLOCK, block_end(w, k));
 }
+
+/* --- single floes -------------------------------------------------------------------------------- */
+
+void fl_bodies_first_half(fl_world *w, const int32_t *body, int32_t n, double h)
+{
+    batch_list c = {.n = 0};
+    for (int32_t k = 0; k < n; k++) begin_bodies(w, body[k], body[k] + 1, h, &c);
+    begin_batch(w, &c, h);
+}
+
+fl_body_block fl_body_second_half(fl_world *w, int32_t k, double h)
+{
+    fl_body_block *const own = block_of(w, k);
+    batch_list c = {.n = 0};
+    int finite = 1;
+    *own = (fl_body_block){.not_finite = -1};
+    if (w->b.is_isotropic[k]) end_sphere_run(w, k, k + 1, h, &finite);
+    else if (is_simple(w, k)) c.at[c.n++] = k;
+    else end_body(w, k, h, own);
+    end_batch(w, &c, h);
+    own->not_finite = first_not_finite(&w->b, k, k + 1);
+    return *own;
+}

@@ -18,4 +18,9 @@ void fl_blocks_wake(fl_world *w, int32_t g, int32_t last);
  * h = 0 computes the forces only, at the start of a run. */
 void fl_blocks_second_half(fl_world *w, int32_t g, int32_t last, double h);
 
+/* The same for single floes, where a device moves the others: the first half of n floes, ascending, and the
+ * second of one whose sums are there; returns its works. */
+void fl_bodies_first_half(fl_world *w, const int32_t *body, int32_t n, double h);
+fl_body_block fl_body_second_half(fl_world *w, int32_t k, double h);
+
 #endif

@@ -12,6 +12,7 @@
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
 #include "sim/floe_setup.h"
+#include "sim/inflow_bonds.h"
 #include "sim/neighbour_list.h"
 #include "sim/sleep.h"
 #include "sphere/contact_list.h"
@@ -136,6 +137,7 @@ void fl_inflow_free(fl_inflow_state *t)
 {
     free(t->absent), free(t->entry_step), free(t->lag), free(t->next_copy);
     free(t->source_floe), free(t->guided), free(t->own_fixed_dof);
+    fl_inflow_bonds_free(&t->join);
     *t = (fl_inflow_state){0};
 }
 
@@ -245,6 +247,7 @@ static int is_free(const fl_world *w, int32_t i, fl_err *err)
         }
         const double R = b->radius[i] + b->radius[k];
         if (v3_norm(offset) > size + b->bounding_radius[k] + b->radius[k]) continue;
+        if (fl_inflow_bonds_joins(w, i, w->inflow.source_floe[i], k)) continue;
         fl_gap gap;
         if (vertices_about(w, k, origin, &vb, &cap_b, err)) {
             fits = -1;
@@ -285,12 +288,14 @@ void fl_inflow_set_guided(fl_world *w, int32_t i, int guided)
     fl_inflow_state *t = &w->inflow;
     uint8_t *const fixed = &w->b.fixed_dof[i];
     if (guided == t->guided[i]) return;
-    if (guided) t->own_fixed_dof[i] = *fixed, *fixed |= FL_DOF_X | FL_DOF_Y | FL_DOF_RZ;
+    const unsigned held = t->join.first ? FL_DOF_X | FL_DOF_Y | FL_DOF_Z | FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ
+                                        : FL_DOF_X | FL_DOF_Y | FL_DOF_RZ;
+    if (guided) t->own_fixed_dof[i] = *fixed, *fixed = (uint8_t)(*fixed | held);
     else *fixed = t->own_fixed_dof[i];
     t->guided[i] = (uint8_t)guided;
 }
 
-static void admit_floe(fl_world *w, int32_t i)
+static int admit_floe(fl_world *w, int32_t i, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
     fl_bodies *b = &w->b;
@@ -304,6 +309,7 @@ static void admit_floe(fl_world *w, int32_t i)
     t->momentum_entered = v3_madd(t->momentum_entered, b->m[i], b->v[i]);
     fl_body_sum_forces(w, i);
     w->last_search_step = -1;
+    return fl_inflow_bonds_admit(w, i, err);
 }
 
 /* Largest number of fields that may be missed in one step: more is an error of the scene. */
@@ -340,7 +346,7 @@ static int place_due(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *
             return 0;
         }
         if (t->next_id == INT32_MAX) return fl_fail(err, FL_NUMERIC, "no id is left for a floe");
-        admit_floe(w, *place);
+        if (admit_floe(w, *place, err)) return -1;
         t->next_copy[k]++;
         ++*came;
     }
@@ -399,8 +405,10 @@ int fl_inflow_step(fl_world *w, fl_err *err)
         g->friction -= before.friction - after.friction;
         g->drive -= before.drive - after.drive;
     }
+    if (is_due(w) && fl_inflow_bonds_renew(w, err)) return -1;
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)
         if (place_due(w, k, &place, &came, err)) return -1;
+    if (came && fl_inflow_bonds_renew(w, err)) return -1;
     fl_energy_update(w);
     g->carried += g->residual - residual;
     g->throughput = throughput;

@@ -83,8 +83,11 @@ static double other_bytes(const fl_world *w)
     double sum = ARRAY(t->absent, n) + ARRAY(t->entry_step, n) + ARRAY(t->source_floe, n) +
                  ARRAY(t->guided, n) + ARRAY(t->own_fixed_dof, n);
     if (t->feed) sum += ARRAY(t->lag, t->feed->n) + ARRAY(t->next_copy, t->feed->n);
-    sum += ARRAY(w->driven_floes.is_driven, w->driven_floes.n) + ARRAY(w->driven_floes.k, w->driven_floes.n) +
-           ARRAY(w->driven_floes.rest_height, w->driven_floes.n);
+    if (t->join.first)
+        sum += ARRAY(t->join.first, t->feed->n) + ARRAY(t->join.newest, t->feed->n) +
+               ARRAY(t->join.partner, t->join.first[t->feed->n]) + ARRAY(t->join.birth, t->join.birth_cap);
+    sum += ARRAY(w->driven_floes.is_driven, w->driven_floes.n) +
+           (w->driven_floes.n ? ARRAY(w->driven_floes.k, n) + ARRAY(w->driven_floes.rest_height, n) : 0.0);
     sum += fl_sleep_bytes(w) + fl_disc_list_bytes(w);
     sum += ARRAY(z->bond, z->n) + ARRAY(z->image, 3 * (double)z->n) + ARRAY(z->radius_factor, z->n) +
            ARRAY(z->omega2, 2 * (double)z->n) + ARRAY(z->of, 2 * (double)z->n) +

@@ -8,6 +8,7 @@
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
+#include "sim/device_step.h"
 #include "sim/energy_ledger.h"
 #include "sim/sleep.h"
 #include "sphere/contact_list.h"
@@ -201,6 +202,39 @@ static void free_candidates(fl_world *w, int32_t pairs)
     fl_pairs_clear(&w->candidates);
 }
 
+/* Candidates of floes and things that are no floes alone: a device lists pairs of spheres. */
+static int find_things(fl_world *w, fl_err *err)
+{
+    fl_pairs *p = &w->candidates;
+    int64_t n = 0;
+    if (fl_grow(&p->first, &p->first_cap, (int64_t)w->n + 1, sizeof *p->first, err)) return -1;
+    for (int pass = 0; pass < 2; pass++) {
+        n = 0;
+        for (int32_t i = 0; i < w->n; i++) {
+            p->first[i] = n;
+            for (int32_t j = w->n; j < w->b.total; j++) {
+                if (!aabb_overlap(w->box[i], w->box[j])) continue;
+                if (pass) p->partner[n] = j;
+                n++;
+            }
+        }
+        p->first[w->n] = n;
+        if (!pass && fl_grow(&p->partner, &p->partner_cap, n, sizeof *p->partner, err)) return -1;
+    }
+    return 0;
+}
+
+/* Lists of spheres and of walls from the candidates; *others: candidates that are none of these. */
+static int list_spheres(fl_world *w, int64_t *others, fl_err *err)
+{
+    if (!fl_device_makes_lists(w)) return fl_contact_list_build(w, image_of, others, err);
+    *others = 0;
+    for (int32_t i = 0; i < w->n; i++)
+        for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++)
+            *others += !fl_sphere_pair_kind(w, i, w->candidates.partner[k]);
+    return fl_contact_list_build_walls(w, err);
+}
+
 static int find_pairs(fl_world *w, fl_err *err)
 {
     const int32_t total = w->b.total;
@@ -215,10 +249,12 @@ static int find_pairs(fl_world *w, fl_err *err)
         w->box[k] = aabb_grow(box_of(w, k), 0.5 * w->skin + margin);
     }
     if (w->cell.periodic) wrap_boxes(w);
-    if (fl_pairs_find(&w->candidates, w->box, w->n, total, w->walls, err)) return -1;
+    if (fl_device_makes_lists(w) ? find_things(w, err)
+                                 : fl_pairs_find(&w->candidates, w->box, w->n, total, w->walls, err))
+        return -1;
     int64_t n, to = 0;
     free_boxes(w);
-    if (fl_contact_list_build(w, image_of, &n, err)) return -1;
+    if (list_spheres(w, &n, err)) return -1;
     fl_disc_list_forget_ended(w);
     fl_neighbour_pair *list = fl_alloc(n, sizeof *list, err);
     if (!list) return -1;
@@ -248,25 +284,44 @@ static int find_pairs(fl_world *w, fl_err *err)
     return 0;
 }
 
-static int rebuild_list(fl_world *w, fl_err *err)
+/* Lists anew what is near. */
+static int search(fl_world *w, fl_err *err)
 {
-    const int32_t total = w->b.total;
     const int32_t pairs = w->n_pair;
     const int rc = find_pairs(w, err);
     if (w->box) free_boxes(w);
     free_candidates(w, pairs);
-    if (rc) return -1;
-    for (int32_t k = 0; k < total; k++) w->odometer_at_search[k] = w->b.odometer[k];
-    w->last_search_step = w->step;
-    w->searches++;
-    return fl_neighbour_list_index(w, err);
+    return rc || fl_neighbour_list_index(w, err) ? -1 : 0;
 }
 
-int fl_neighbour_list_update(fl_world *w, fl_err *err) { return is_due(w, 0) ? rebuild_list(w, err) : 0; }
+static int rebuild_list(fl_world *w, fl_err *err)
+{
+    if (search(w, err)) return -1;
+    for (int32_t k = 0; k < w->b.total; k++) w->odometer_at_search[k] = w->b.odometer[k];
+    w->last_search_step = w->step;
+    w->searches++;
+    return 0;
+}
+
+/* The pairs of bonded spheres that have come apart, which is all that a valid list lacks.  A device lists its
+ * rows anew by itself, and where no spheres have met yet all is; the next search is due when it was. */
+static int add_ended(fl_world *w, fl_err *err)
+{
+    if (!w->discs.ended) return 0;
+    if (!w->spheres.bodies) return search(w, err);
+    if (!fl_device_makes_lists(w) && fl_contact_list_add_ended(w, err)) return -1;
+    fl_disc_list_forget_ended(w);
+    return 0;
+}
+
+int fl_neighbour_list_update(fl_world *w, fl_err *err)
+{
+    return is_due(w, 0) ? rebuild_list(w, err) : add_ended(w, err);
+}
 
 int fl_neighbour_list_from_blocks(fl_world *w, fl_err *err)
 {
-    return is_due(w, 1) ? rebuild_list(w, err) : 0;
+    return is_due(w, 1) ? rebuild_list(w, err) : add_ended(w, err);
 }
 
-int fl_neighbour_list_due(const fl_world *w) { return is_due(w, 1); }
+int fl_neighbour_list_due(const fl_world *w) { return w->discs.ended || is_due(w, 1); }

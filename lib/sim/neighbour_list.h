@@ -10,13 +10,14 @@
 #include "world/world.h"
 
 /* Rebuild the list if it is due: any two odometers together have grown by more than the skin since the last
- * search, or run.search_every steps have passed.  0, or -1 with FL_SYSTEM. */
+ * search, or run.search_every steps have passed.  Else add the pairs of bonds of spheres that have ended.
+ * 0, or -1 with FL_SYSTEM. */
 int fl_neighbour_list_update(fl_world *w, fl_err *err);
 
 /* The same after the first half of a step, when w->blocks has the largest paths of the floes. */
 int fl_neighbour_list_from_blocks(fl_world *w, fl_err *err);
 
-/* 1 if fl_neighbour_list_from_blocks() would rebuild the list. */
+/* 1 if fl_neighbour_list_from_blocks() would change the list. */
 int fl_neighbour_list_due(const fl_world *w);
 
 /* Rebuild all that depends on the list after it has changed: the pairs of each body in the order of the list,

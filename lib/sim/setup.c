@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "base/pi.h"
 #include "contact/bond_list.h"
+#include "contact/disc_setup.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -12,10 +13,12 @@
 #include "geom/clip.h"
 #include "geom/mass.h"
 #include "ice/slab_fill.h"
+#include "sim/device_step.h"
 #include "sim/energy_ledger.h"
 #include "sim/drive_track.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
+#include "sim/inflow_bonds.h"
 #include "sim/moving_structure.h"
 #include "sim/sleep.h"
 #include "sim/strip_setup.h"
@@ -259,8 +262,8 @@ static int make_driven_floes(fl_world *w, const fl_ice_field *field, fl_err *err
     int some = 0;
     if (!s->head.present || (s->drive_width <= 0.0 && !s->drive_group[0])) return 0;
     w->driven_floes.is_driven = fl_alloc(field->n, sizeof *w->driven_floes.is_driven, err);
-    w->driven_floes.k = fl_alloc(field->n, sizeof *w->driven_floes.k, err);
-    w->driven_floes.rest_height = fl_alloc(field->n, sizeof *w->driven_floes.rest_height, err);
+    w->driven_floes.k = fl_alloc(w->n, sizeof *w->driven_floes.k, err);
+    w->driven_floes.rest_height = fl_alloc(w->n, sizeof *w->driven_floes.rest_height, err);
     if (!w->driven_floes.is_driven || !w->driven_floes.k || !w->driven_floes.rest_height) return -1;
     w->driven_floes.n = field->n;
     if (s->drive_track[0] && fl_drive_track_read(w, err)) return -1;
@@ -416,7 +419,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     }
     if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
         fl_panels_make(w, surface, err) || fl_strips_make(w, err) || fl_sleep_make(w, err) ||
-        fl_pair_law_make_table(w, err) || fl_bond_list_make(w, field, err))
+        fl_pair_law_make_table(w, err) || fl_bond_list_make(w, field, err) || fl_inflow_bonds_make(w, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
@@ -445,6 +448,7 @@ void fl_world_free(fl_world *w)
     free(w->elastic_walls.hull), free(w->elastic_walls.outer);
     fl_track_free(&w->driven_floes.track);
     free(w->driven_floes.is_driven), free(w->driven_floes.k), free(w->driven_floes.rest_height);
+    fl_device_free(w);
     fl_inflow_free(&w->inflow);
     fl_neighbour_pairs_free(w);
     free(w->first_pair_of_body), free(w->pairs_of_body), free(w->scratch), free(w->mesh_near),

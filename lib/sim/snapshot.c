@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/snapshot.h"
+#include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
 #include "base/parallel.h"
 #include "contact/bond_list.h"
+#include "contact/disc_setup.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -12,6 +14,7 @@
 #include "sim/energy_ledger.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
+#include "sim/inflow_bonds.h"
 #include "sim/member_structure.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
@@ -118,6 +121,7 @@ static void exchange_inflow(fl_state_io *t, fl_world *w)
         w->id[i] = id;
         fl_inflow_set_guided(w, i, guided);
     }
+    if (t->in && !t->err->code) fl_inflow_bonds_refresh(w);
 }
 
 /* The motion of a body, to the last bit: w does not always follow from L and q. */
@@ -448,9 +452,46 @@ static void exchange_disc(fl_state_io *t, fl_world *w, int32_t k)
     else fl_disc_list_set_memory(s, k, &m);
 }
 
+/* Which bonds an endless sheet has by now, and what is kept of those that have left. */
+static void exchange_renewal(fl_state_io *t, fl_world *w)
+{
+    fl_disc_list *s = &w->discs;
+    int32_t n = s->n;
+    fl_disc_past *p = &s->past;
+    fl_disc_birth *all = NULL;
+    int32_t cap = 0;
+    fl_state_io_open(t, "bonds");
+    fl_state_io_int(t, 0, 1, &s->is_renewed);
+    fl_state_io_int(t, 0, INT32_MAX, &n);
+    fl_state_io_int(t, 0, INT32_MAX, &p->broken);
+    fl_state_io_int(t, 0, INT32_MAX, &p->left);
+    fl_state_io_real(t, &p->area);
+    fl_state_io_real(t, &p->dissipated), fl_state_io_real(t, &p->damped);
+    fl_state_io_real(t, &p->friction_loss);
+    fl_state_io_close(t);
+    for (int32_t k = 0; k < n && s->is_renewed && !t->err->code; k++) {
+        if (t->in && fl_grow(&all, &cap, (int64_t)k + 1, sizeof *all, t->err)) break;
+        fl_disc_birth d = t->f ? fl_disc_list_birth(s, k) : (fl_disc_birth){0};
+        fl_state_io_open(t, "link");
+        fl_state_io_int(t, 0, w->n - 1, &d.i);
+        fl_state_io_int(t, 0, w->n - 1, &d.j);
+        fl_state_io_real(t, &d.length);
+        for (int e = 0; e < 3 && w->cell.periodic; e++)
+            fl_state_io_int(t, -INT32_MAX, INT32_MAX, &d.image[e]);
+        fl_state_io_close(t);
+        if (!t->in || t->err->code) continue;
+        if (d.i >= d.j || !(d.length > 0.0) || (k > 0 && d.i < all[k - 1].i))
+            fl_text_fail(t->in, t->err, "a bond of spheres %d and %d is not possible here", d.i, d.j);
+        all[k] = d;
+    }
+    if (t->in && s->is_renewed && !t->err->code) fl_disc_list_restore(w, all, n, t->err);
+    free(all);
+}
+
 static void exchange_discs(fl_state_io *t, fl_world *w)
 {
     fl_disc_list *s = &w->discs;
+    if (w->inflow.join.first) exchange_renewal(t, w);
     for (int32_t k = 0; k < s->n && !t->err->code; k++) exchange_disc(t, w, k);
     if (!t->in) return;
     s->ended = 0;

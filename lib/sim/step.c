@@ -12,6 +12,7 @@
 #include "contact/panel_load.h"
 #include "sim/body_step.h"
 #include "sim/critical_step.h"
+#include "sim/device_step.h"
 #include "sim/drive_track.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
@@ -74,7 +75,7 @@ static void after_contacts(void *arg)
     fl_work_share_split(w->block_share, w->team.n, fl_block_count(w));
     fl_collect_touching(w);
     fl_contact_sums_assign(w);
-    if (w->bonds.ended || w->discs.ended) { /* the neighbour list must take up the pair of an ended bond */
+    if (w->bonds.ended) { /* the neighbour list must take up the pair of an ended bond */
         w->last_search_step = -1;
         w->bonds.ended = 0;
     }
@@ -113,12 +114,13 @@ static void wake_bodies(fl_world *w, int thread, int threads)
 /* Bonds, then all other near pairs.  Contacts are independent: each writes only its own record. */
 static void evaluate_pairs(fl_world *w, double dt, int update_stiffness)
 {
+    const int32_t discs = w->device.gpu && dt > 0.0 ? 0 : w->discs.n; /* else the device has them */
 #pragma omp for schedule(static) nowait
     for (int32_t k = 0; k < w->bonds.n; k += FL_BOND_LIST_RUN)
         fl_bond_list_evaluate(w, k, k + FL_BOND_LIST_RUN < w->bonds.n ? k + FL_BOND_LIST_RUN : w->bonds.n);
 #pragma omp for schedule(static) nowait
-    for (int32_t k = 0; k < w->discs.n; k += FL_DISC_RUN)
-        fl_disc_list_evaluate(w, k, k + FL_DISC_RUN < w->discs.n ? k + FL_DISC_RUN : w->discs.n, dt);
+    for (int32_t k = 0; k < discs; k += FL_DISC_RUN)
+        fl_disc_list_evaluate(w, k, k + FL_DISC_RUN < discs ? k + FL_DISC_RUN : discs, dt);
     fl_evaluate_active_pairs(w, dt, update_stiffness);
 }
 
@@ -195,10 +197,45 @@ static int prepare_waves(fl_world *w, double t, fl_err *err)
     return fl_environment_prepare(&w->sea, &w->b, w->inflow.absent, t, w->team.n, err);
 }
 
+/* The pairs that are not of spheres. */
+static void evaluate_guests_pairs(fl_world *w, double dt, int update_stiffness)
+{
+    fl_share_active_pairs(w);
+    if (w->team.n == 1) {
+        evaluate_pairs(w, dt, update_stiffness);
+    } else {
+#pragma omp parallel num_threads(w->team.n)
+        evaluate_pairs(w, dt, update_stiffness);
+    }
+}
+
+/* The same step where a device runs the spheres. */
+static int run_device_step(step_context *q)
+{
+    fl_world *const w = q->w;
+    const double h = 0.5 * q->dt;
+    if (q->first_half) {
+        if (fl_device_first_half(w, h, q->err)) return -1;
+        advance_time(w);
+        q->needs_search = fl_neighbour_list_due(w);
+        if (q->needs_search) return fl_device_before_search(w, q->err);
+    } else if (fl_device_take_lists(w, q->err)) {
+        return -1;
+    }
+    if (fl_device_contacts(w, q->err)) return -1;
+    evaluate_guests_pairs(w, q->dt, q->update_stiffness);
+    if (fl_device_sums(w, q->err)) return -1;
+    after_contacts(q);
+    if (q->failed || fl_device_second_half(w, h, q->update_stiffness, q->err)) return -1;
+    for (int32_t k = w->n; k < w->b.total; k++) fl_body_sum_forces(w, k);
+    return 0;
+}
+
 /* A parallel region costs as much as a step of three floes, so a team of one runs without it. */
 static int run_step(step_context *q)
 {
     const int32_t team = q->w->team.n;
+    if (q->w->device.gpu && q->dt > 0.0) return run_device_step(q);
     fl_work_share_split(q->w->block_share, team, fl_block_count(q->w));
     if (!q->first_half) fl_share_active_pairs(q->w);
     if (team == 1) {
@@ -352,7 +389,8 @@ static void gather_overlaps(fl_world *w, double dt)
 /* After the first deep overlap the energy balance is checked every CHECK_INTERVAL steps. */
 static int check_energy_after_overlap(fl_world *w, fl_err *err)
 {
-    return w->deep_overlap_steps && w->step % CHECK_INTERVAL == 0 ? fl_energy_check(w, err) : 0;
+    if (!w->deep_overlap_steps || w->step % CHECK_INTERVAL) return 0;
+    return fl_device_refresh(w, err) || fl_energy_check(w, err) ? -1 : 0;
 }
 
 /* --- the step ----------------------------------------------------------------------------------- */

@@ -434,7 +434,7 @@ FL_SIMD4_VERSIONS static double sum_magnitudes(const fl_sphere_batch *a, int32_t
     return fl_simd_sum(&sum) + rest;
 }
 
-static void add_to_totals(const batch *t, fl_chunk_totals *totals)
+static void add_to_totals(const fl_sphere_contacts *s, const batch *t, fl_chunk_totals *totals)
 {
     const fl_sphere_batch *a = &t->at;
     totals->force_sum += sum_magnitudes(a, t->m);
@@ -444,7 +444,7 @@ static void add_to_totals(const batch *t, fl_chunk_totals *totals)
         const double both = a->ri[m] + a->rj[m];
         if (!(a->overlap[m] > totals->max_overlap * both)) continue;
         totals->max_overlap = a->overlap[m] / both;
-        totals->max_overlap_contact = t->contact[m];
+        totals->max_overlap_i = s->i[t->contact[m]], totals->max_overlap_j = s->j[t->contact[m]];
     }
 }
 
@@ -496,7 +496,7 @@ static void evaluate_batch(fl_world *w, int32_t a, batch *t, double dt, int surv
     }
     if (s->rolling) add_rolling(w, t, dt);
     add_wrenches(s, t);
-    add_to_totals(t, &s->totals[a]);
+    add_to_totals(s, t, &s->totals[a]);
     if (survey) add_stiffness(w, t);
     t->m = 0;
 }
@@ -526,7 +526,7 @@ void fl_sphere_chunk_evaluate(fl_world *w, int32_t a, double dt, int survey)
     for (int32_t m = 0; s->one_law >= 0 && m < FL_SPHERE_BATCH; m++) load_law(w, &t, m, s->one_law);
     t.m = 0;
     t.at.exponent = fl_round_exponent(w);
-    s->totals[a] = (fl_chunk_totals){.max_overlap_contact = -1};
+    s->totals[a] = (fl_chunk_totals){.max_overlap_i = -1, .max_overlap_j = -1};
     clear_sums(&s->sum[begin], end - begin);
     clear_sums(&s->slot[slot_begin], s->slot_first[a + 1] - slot_begin);
     if (survey) {

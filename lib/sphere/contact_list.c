@@ -51,6 +51,18 @@ static int alloc_contacts(fl_sphere_contacts *s, const fl_world *w, int64_t n, f
     return 0;
 }
 
+/* Puts the arrays of contacts of `fresh` in the place of those of s. */
+static void take_contacts(fl_sphere_contacts *s, const fl_sphere_contacts *fresh)
+{
+    free(s->i), free(s->j), free(s->law), free(s->image), free(s->touches), free(s->contact),
+        free(s->rolling);
+    s->rolling = fresh->rolling, s->rolling_cap = fresh->rolling_cap;
+    s->i = fresh->i, s->j = fresh->j, s->law = fresh->law, s->image = fresh->image;
+    s->touches = fresh->touches, s->contact = fresh->contact, s->n = fresh->n;
+    s->i_cap = fresh->i_cap, s->j_cap = fresh->j_cap, s->law_cap = fresh->law_cap;
+    s->image_cap = fresh->image_cap, s->touches_cap = fresh->touches_cap, s->contact_cap = fresh->contact_cap;
+}
+
 /* Allocates the arrays of bodies once; they last as long as the world. */
 static int alloc_bodies(fl_sphere_contacts *s, const fl_world *w, fl_err *err)
 {
@@ -201,6 +213,15 @@ static void fill_contacts(const fl_world *w, fl_sphere_contacts *s, const uint8_
     }
 }
 
+/* Replaces the contacts by those of `fresh`, and computes what follows from them. */
+static int replace_contacts(fl_world *w, const fl_sphere_contacts *fresh, fl_err *err)
+{
+    take_contacts(&w->spheres, fresh);
+    if (index_contacts(w, err)) return -1;
+    fl_sphere_states_update(w, 0, w->n, 0.5 * w->dt);
+    return 0;
+}
+
 int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl_err *err)
 {
     fl_sphere_contacts fresh = {0}, *s = &w->spheres;
@@ -233,20 +254,61 @@ int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl
     for (int32_t i = 0; i < w->n; i++)
         if (at[i + 1] > at[i]) fill_contacts(w, &fresh, listed, i, at[i], image);
     free(at), free(listed);
-    free(s->i), free(s->j), free(s->law), free(s->image), free(s->touches), free(s->contact),
-        free(s->rolling);
-    s->rolling = fresh.rolling, s->rolling_cap = fresh.rolling_cap;
-    s->i = fresh.i, s->j = fresh.j, s->law = fresh.law, s->image = fresh.image;
-    s->touches = fresh.touches, s->contact = fresh.contact, s->n = fresh.n;
-    s->i_cap = fresh.i_cap, s->j_cap = fresh.j_cap, s->law_cap = fresh.law_cap;
-    s->image_cap = fresh.image_cap, s->touches_cap = fresh.touches_cap, s->contact_cap = fresh.contact_cap;
-    if (index_contacts(w, err)) return -1;
-    fl_sphere_states_update(w, 0, w->n, 0.5 * w->dt);
-    return 0;
+    return replace_contacts(w, &fresh, err);
 fail:
     fl_contact_list_free(&fresh);
     free(at), free(listed);
     return -1;
+}
+
+/* Copies contact `from` of `old` to c. */
+static void copy_contact(fl_sphere_contacts *s, int32_t c, const fl_sphere_contacts *old, int32_t from)
+{
+    s->i[c] = old->i[from], s->j[c] = old->j[from];
+    s->law[c] = old->law[from];
+    s->touches[c] = old->touches[from];
+    s->contact[c] = old->contact[from];
+    if (s->rolling) s->rolling[c] = old->rolling[from];
+    if (s->image) memcpy(&s->image[3 * c], &old->image[3 * from], 3 * sizeof *s->image);
+}
+
+/* Fills in contact c of the spheres of bond k, which has ended. */
+static void init_after_disc(const fl_world *w, fl_sphere_contacts *s, int32_t c, int32_t k)
+{
+    const int32_t none[3] = {0}, i = w->discs.at.i[k], j = w->discs.at.j[k],
+                  *image = w->discs.image ? &w->discs.image[3 * k] : none;
+    s->i[c] = i, s->j[c] = j;
+    s->law[c] = (int32_t)(fl_pair_law_of(w, i, j) - w->law);
+    if (s->image) memcpy(&s->image[3 * c], image, 3 * sizeof *image);
+    s->contact[c].k = fl_pair_stiffness(w, i, j).k;
+    fl_disc_list_init_contact(w, i, j, image, &s->contact[c]);
+}
+
+/* True if contact c comes before the pair of bond k. */
+static int is_before_disc(const fl_world *w, const fl_sphere_contacts *s, int32_t c, int32_t k)
+{
+    const int32_t none[3] = {0}, *image = w->discs.image ? &w->discs.image[3 * k] : none;
+    if (s->i[c] != w->discs.at.i[k]) return s->i[c] < w->discs.at.i[k];
+    return compare_contact(s, c, w->discs.at.j[k], image) < 0;
+}
+
+int fl_contact_list_add_ended(fl_world *w, fl_err *err)
+{
+    fl_sphere_contacts fresh = {0}, *s = &w->spheres;
+    const fl_disc_list *d = &w->discs;
+    int32_t at = 0, c = 0, found = 0;
+    if (alloc_contacts(&fresh, w, (int64_t)s->n + d->ended, err)) {
+        fl_contact_list_free(&fresh);
+        return -1;
+    }
+    for (int32_t k = 0; k < d->n && found < d->ended; k++) { /* bonds have the order of contacts */
+        if (d->has_ended[k] != FL_DISC_JUST_ENDED) continue;
+        while (at < s->n && is_before_disc(w, s, at, k)) copy_contact(&fresh, c++, s, at++);
+        init_after_disc(w, &fresh, c++, k);
+        found++;
+    }
+    while (at < s->n) copy_contact(&fresh, c++, s, at++);
+    return replace_contacts(w, &fresh, err);
 }
 
 int fl_contact_list_append(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int touches,
@@ -293,6 +355,31 @@ int fl_contact_list_remove_absent(fl_world *w, fl_err *err)
     return fl_contact_list_index(w, err);
 }
 
+int fl_contact_list_resize(fl_world *w, int32_t n, fl_err *err)
+{
+    fl_sphere_contacts *s = &w->spheres, fresh = {0};
+    if (n == s->n) return 0;
+    if (alloc_contacts(&fresh, w, n, err)) {
+        fl_contact_list_free(&fresh);
+        return -1;
+    }
+    take_contacts(s, &fresh);
+    return 0;
+}
+
+int fl_contact_list_offsets(fl_world *w, fl_err *err) { return index_contacts(w, err); }
+
+int fl_contact_list_build_walls(fl_world *w, fl_err *err)
+{
+    int64_t walls = 0;
+    for (int32_t i = 0; i < w->n; i++)
+        for (int64_t k = w->candidates.first[i]; k < w->candidates.first[i + 1]; k++)
+            walls += fl_sphere_pair_kind(w, i, w->candidates.partner[k]) == FL_SPHERE_WALL;
+    if (fl_wall_list_build(w, walls, err)) return -1;
+    fl_wall_list_index(&w->spheres);
+    return 0;
+}
+
 int fl_contact_list_index(fl_world *w, fl_err *err)
 {
     if (index_contacts(w, err)) return -1;
@@ -335,19 +422,14 @@ fl_sphere_totals fl_contact_list_totals(const fl_world *w)
 {
     const fl_sphere_contacts *s = &w->spheres;
     fl_sphere_totals all = {.i = -1, .j = -1};
-    int32_t contact = -1;
     for (int32_t a = 0; a < s->chunks; a++) {
         const fl_chunk_totals *t = &s->totals[a];
         all.force_sum += t->force_sum;
         all.touching += t->touching;
-        if (t->max_overlap > all.max_overlap) {
-            all.max_overlap = t->max_overlap;
-            contact = t->max_overlap_contact;
-        }
-    }
-    if (all.max_overlap > 0.0) {
-        all.i = contact < 0 ? s->wall[~contact].i : s->i[contact];
-        all.j = contact < 0 ? s->wall[~contact].j : s->j[contact];
+        if (!(t->max_overlap > all.max_overlap)) continue;
+        all.max_overlap = t->max_overlap;
+        all.i = t->max_overlap_i;
+        all.j = t->max_overlap_j;
     }
     return all;
 }

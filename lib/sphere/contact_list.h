@@ -15,6 +15,10 @@ typedef void fl_pair_image(const fl_world *w, int64_t k, int32_t i, int32_t j, i
  * -1 with FL_SYSTEM. */
 int fl_contact_list_build(fl_world *w, fl_pair_image *image, int64_t *others, fl_err *err);
 
+/* Adds the pairs of bonds of spheres that have ended since the list was made.  All other pairs stay: the list
+ * is as long valid as before.  Called where contacts have been listed before.  -1 with FL_SYSTEM. */
+int fl_contact_list_add_ended(fl_world *w, fl_err *err);
+
 /* Appends a contact, when a checkpoint is read: sorted by i, then j.  fl_contact_list_index() must follow.
  * Walls have no image; roll is read where w->has_rolling.  -1 with FL_SYSTEM. */
 int fl_contact_list_append(fl_world *w, int32_t i, int32_t j, const int32_t image[3], int touches,
@@ -25,6 +29,12 @@ int fl_contact_list_remove_absent(fl_world *w, fl_err *err);
 
 /* Computes offsets and slots, and the sums from the stored forces.  -1 with FL_SYSTEM. */
 int fl_contact_list_index(fl_world *w, fl_err *err);
+
+/* Where a device makes the rows of spheres (gpu/gpu_lists.h): the list of walls from the candidates; n
+ * contacts whose arrays the caller fills; their offsets and slots.  -1 with FL_SYSTEM. */
+int fl_contact_list_build_walls(fl_world *w, fl_err *err);
+int fl_contact_list_resize(fl_world *w, int32_t n, fl_err *err);
+int fl_contact_list_offsets(fl_world *w, fl_err *err);
 
 /* --- sums -------------------------------------------------------------------------------------- */
 

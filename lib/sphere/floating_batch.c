@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sphere/floating_batch.h"
-#include <math.h>
-#include "base/pi.h"
 #include "base/simd.h"
 #include "body/integrate.h"
 #include "contact/disc_list.h"
 #include "sphere/contact_list.h"
+#include "water/sphere_water_kernel.h"
 #include "world/access.h"
 
 int fl_floating_batch_applies(const fl_world *w)
 {
     const fl_environment *s = &w->sea;
     return w->discs.n && s->water && s->only_spheres && !s->waves && !s->wind && !s->flow_velocity &&
-           !s->drag_surface && !s->impulses && !w->b.added_mass && !w->sleep.state && !w->inflow.absent &&
+           !s->drag_surface && !s->impulses && !w->b.added_mass && !w->sleep.state &&
            !w->contact_sums.one_each && !w->previous_sums.one_each;
 }
 
@@ -20,7 +19,7 @@ int32_t fl_floating_run_end(const fl_world *w, int32_t k, int32_t to, int second
 {
     const int32_t *now = w->contact_sums.slot, *before = w->previous_sums.slot;
     while (k < to && w->b.is_isotropic[k] && !w->b.fixed_dof[k] && before[k] == 0 &&
-           !(second && now[k] != 0) && !(k < w->driven_floes.n && w->driven_floes.is_driven[k]))
+           !(second && now[k] != 0) && !fl_body_absent(w, k) && !fl_floe_is_driven(w, k))
         k++;
     return k;
 }
@@ -35,24 +34,18 @@ typedef struct {
     double z[N], r[N], volume[N], surface[N], fill[N], buoyancy[N], heave[N], work[N];
 } sphere_rows;
 
-typedef struct {
-    double c_force, c_moment, h; /* 1/2 C rho of the drag; half a step */
-    fl_vec3 flow;
-    double turns; /* 1: there is a drag moment */
-} drag_law;
-
 #define LOAD(member, from)                                                                                   \
     do {                                                                                                     \
         q->member[0][k] = (from).x, q->member[1][k] = (from).y, q->member[2][k] = (from).z;                  \
     } while (0)
 #define STORE(to, member) (to) = v3(q->member[0][k], q->member[1][k], q->member[2][k])
 
-static drag_law drag_law_of(const fl_world *w, double h)
+static fl_sphere_drag drag_law_of(const fl_world *w, double h)
 {
     const fl_fluid *s = &w->sea.seawater;
     const fl_vec3 c = w->sea.current.velocity;
-    return (drag_law){0.5 * s->force_coefficient * s->density, 0.5 * s->moment_coefficient * s->density, h, c,
-                      s->moment_coefficient > 0.0 ? 1.0 : 0.0};
+    return (fl_sphere_drag){0.5 * s->force_coefficient * s->density, 0.5 * s->moment_coefficient * s->density,
+                            h, c, s->moment_coefficient > 0.0 ? 1.0 : 0.0};
 }
 
 static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows *q)
@@ -78,48 +71,38 @@ static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows 
     }
 }
 
-/* Kinetic energy, as fl_body_kinetic_energy(). */
-FL_SIMD_INLINE double kinetic(double m, double up, fl_vec3 v, double turning, int heavy)
+#define ROW(member) v3(q->member[0][k], q->member[1][k], q->member[2][k])
+#define SET_ROW(member, a) (q->member[0][k] = (a).x, q->member[1][k] = (a).y, q->member[2][k] = (a).z)
+
+FL_SIMD_INLINE fl_sphere_motion motion_of_lane(const sphere_rows *q, int k)
 {
-    return heavy ? 0.5 * ((v.x * (m * v.x) + v.y * (m * v.y) + v.z * (up * v.z)) + turning)
-                 : 0.5 * (m * v3_norm2(v) + turning);
+    return (fl_sphere_motion){ROW(v), ROW(L), ROW(w)};
 }
 
-/* The decay of velocities by drag, as decay_velocity() of environment.c. */
-FL_SIMD_INLINE void decay_lane(sphere_rows *restrict q, int k, drag_law d, int heavy)
+FL_SIMD_INLINE void set_motion_of_lane(sphere_rows *restrict q, int k, fl_sphere_motion a)
 {
-    const double m = q->m[k], up = q->up[k], area = q->area[k], r = q->r[k], c = d.c_force * area;
-    const fl_vec3 v0 = v3(q->v[0][k], q->v[1][k], q->v[2][k]), L0 = v3(q->L[0][k], q->L[1][k], q->L[2][k]),
-                  w0 = v3(q->w[0][k], q->w[1][k], q->w[2][k]), u = v3_sub(v0, d.flow);
-    const double turning = v3_dot(w0, L0), speed = sqrt(v3_norm2(u)), spin2 = v3_norm2(w0),
-                 decay = m / (m + c * speed * d.h), rise = up / (up + c * speed * d.h),
-                 moment = d.c_moment * area * r * r * r * spin2,
-                 slow = turning / (turning + moment * sqrt(spin2) * d.h),
-                 spin = d.turns > 0.0 && turning > 0.0 ? slow : 1.0;
-    const fl_vec3 v = v3(d.flow.x + decay * u.x, d.flow.y + decay * u.y,
-                         d.flow.z + (heavy ? rise : decay) * u.z),
-                  L = v3_scale(spin, L0), w = v3_scale(spin, w0);
-    const double lost = kinetic(m, up, v, v3_dot(w, L), heavy) - kinetic(m, up, v0, turning, heavy);
-    const int wet = area > 0.0;
-    q->loss[k] = q->loss[k] - (wet ? lost : 0.0);
-    q->v[0][k] = wet ? v.x : v0.x, q->v[1][k] = wet ? v.y : v0.y, q->v[2][k] = wet ? v.z : v0.z;
-    q->L[0][k] = wet ? L.x : L0.x, q->L[1][k] = wet ? L.y : L0.y, q->L[2][k] = wet ? L.z : L0.z;
-    q->w[0][k] = wet ? w.x : w0.x, q->w[1][k] = wet ? w.y : w0.y, q->w[2][k] = wet ? w.z : w0.z;
+    SET_ROW(v, a.v);
+    SET_ROW(L, a.L);
+    SET_ROW(w, a.w);
+}
+
+FL_SIMD_INLINE void decay_lane(sphere_rows *restrict q, int k, fl_sphere_drag d, int heavy)
+{
+    double lost;
+    const fl_sphere_motion a =
+        fl_sphere_decay(motion_of_lane(q, k), q->m[k], q->up[k], q->area[k], q->r[k], d, heavy, &lost);
+    q->loss[k] = q->loss[k] - lost;
+    set_motion_of_lane(q, k, a);
 }
 
 FL_SIMD_INLINE void kick_lane(sphere_rows *restrict q, int k, double h, int heavy)
 {
-    const double invm = q->invm[k], turn = q->turn[k], fx = q->f[0][k], fy = q->f[1][k], fz = q->f[2][k];
-    const double ax = heavy ? h * (invm * fx) : h * invm * fx, ay = heavy ? h * (invm * fy) : h * invm * fy,
-                 az = heavy ? h * (fz / q->up[k]) : h * invm * fz;
-    const double Lx = q->L[0][k] + h * q->t[0][k], Ly = q->L[1][k] + h * q->t[1][k],
-                 Lz = q->L[2][k] + h * q->t[2][k];
-    q->v[0][k] = q->v[0][k] + ax, q->v[1][k] = q->v[1][k] + ay, q->v[2][k] = q->v[2][k] + az;
-    q->L[0][k] = Lx, q->L[1][k] = Ly, q->L[2][k] = Lz;
-    q->w[0][k] = turn * Lx, q->w[1][k] = turn * Ly, q->w[2][k] = turn * Lz;
+    set_motion_of_lane(
+        q, k,
+        fl_sphere_kick(motion_of_lane(q, k), ROW(f), ROW(t), h, q->invm[k], q->turn[k], q->up[k], heavy));
 }
 
-FL_SIMD_VERSIONS static void decay_rows(sphere_rows *restrict q, int n, drag_law d, int heavy)
+FL_SIMD_VERSIONS static void decay_rows(sphere_rows *restrict q, int n, fl_sphere_drag d, int heavy)
 {
     if (heavy) {
 #pragma omp simd
@@ -148,12 +131,10 @@ FL_SIMD_VERSIONS static void float_rows(sphere_rows *restrict q, int n, double l
 {
 #pragma omp simd
     for (int k = 0; k < n; k++) {
-        const double r = q->r[k], above = level - q->z[k], t = above + r;
-        const double cap = q->fill[k] * (PI * t * t * (3.0 * r - t) / 3.0),
-                     wet = q->fill[k] * (2.0 * PI * r * t);
-        const int under = above >= r || t >= 2.0 * r, dry = !(above > -r) || t <= 0.0;
-        const double volume = under ? q->volume[k] : dry ? 0.0 : cap, B = weight * volume;
-        q->area[k] = under ? q->surface[k] : dry ? 0.0 : wet;
+        const fl_sphere_float wet =
+            fl_sphere_floats(q->z[k], q->r[k], q->fill[k], q->volume[k], q->surface[k], level, weight);
+        const double B = wet.buoyancy;
+        q->area[k] = wet.area;
         q->buoyancy[k] = B;
         const double now = heave_factor * (B / gravity), change = now - q->heave[k];
         q->work[k] += 0.5 * change * q->v[2][k] * q->v[2][k];
@@ -168,7 +149,7 @@ void fl_floating_batch_begin(fl_world *w, int32_t from, int32_t to, double h)
     sphere_rows rows, *const q = &rows;
     const int32_t n = to - from;
     const int full = (n + 7) / 8 * 8, heavy = b->heave_mass != NULL;
-    const drag_law d = drag_law_of(w, h);
+    const fl_sphere_drag d = drag_law_of(w, h);
     fl_vec3 v0[N], w0[N];
     load_motion(w, from, n, q);
     for (int32_t k = 0; k < n && w->drag_change; k++) v0[k] = b->v[from + k], w0[k] = b->w[from + k];
@@ -208,7 +189,7 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
     sphere_rows rows, *const q = &rows;
     const int32_t n = to - from;
     const int full = (n + 7) / 8 * 8, heavy = b->heave_mass != NULL;
-    const drag_law d = drag_law_of(w, h);
+    const fl_sphere_drag d = drag_law_of(w, h);
     load_motion(w, from, n, q);
     for (int32_t k = 0; k < n; k++) {
         const int32_t i = from + k;

@@ -175,12 +175,12 @@ static void add_to_sum(fl_sphere_sum *sum, const fl_sphere_batch *a, int32_t m)
     sum->torque = v3_add(sum->torque, vector_of(a->ti, m));
 }
 
-static void add_to_totals(fl_chunk_totals *t, const fl_sphere_batch *a, int32_t m, int32_t c)
+static void add_to_totals(fl_chunk_totals *t, const fl_sphere_batch *a, int32_t m, const fl_wall_contact *c)
 {
     const double deep = a->overlap[m] / a->ri[m];
     t->force_sum += a->magnitude[m];
     t->touching++;
-    if (deep > t->max_overlap) t->max_overlap = deep, t->max_overlap_contact = ~c;
+    if (deep > t->max_overlap) t->max_overlap = deep, t->max_overlap_i = c->i, t->max_overlap_j = c->j;
 }
 
 /* Middle of the overlap, from the reference point of the wall. */
@@ -245,7 +245,7 @@ static void evaluate_batch(fl_world *w, int32_t chunk, batch *q, double dt, int 
         if (dt >= 0.0) save_contact(&c->contact, a, m);
         add_to_sum(&s->sum[c->i], a, m);
         add_to_load(w, load_of(w, chunk, c->j), c, rolls, q->n[m], a, m);
-        add_to_totals(&s->totals[chunk], a, m, q->contact[m]);
+        add_to_totals(&s->totals[chunk], a, m, c);
         if (survey)
             s->omega2[c->i] += fl_stiffness_of_point(&w->b, c->i, a->slope[m], a->spring_stiffness[m],
                                                      a->ri[m] - 0.5 * a->overlap[m],

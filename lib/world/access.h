@@ -13,13 +13,21 @@ static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(
 /* Number of bonds, of faces and of spheres. */
 static inline int32_t fl_world_bonds(const fl_world *w) { return w->bonds.n + w->discs.n; }
 
+/* True if the floe in place i is of the driven edge. */
+static inline int fl_floe_is_driven(const fl_world *w, int32_t i)
+{
+    const int32_t copy = w->inflow.absent ? w->inflow.source_floe[i] : -1, floe = copy < 0 ? i
+                                                                                  : w->inflow.join.first
+                                                                                      ? copy
+                                                                                      : INT32_MAX;
+    return floe < w->driven_floes.n && w->driven_floes.is_driven[floe];
+}
+
 /* Heave spring of driven floe i: returns its stiffness [N/m], 0 without a spring; *drawn is its extension
  * upwards [m]. */
 static inline double fl_driven_floe_spring(const fl_world *w, int32_t i, double *drawn)
 {
-    if (i >= w->driven_floes.n || !w->driven_floes.is_driven[i] ||
-        (w->inflow.absent && w->inflow.source_floe[i] >= 0))
-        return 0.0;
+    if (!fl_floe_is_driven(w, i)) return 0.0;
     *drawn = w->b.x[i].z - w->driven_floes.rest_height[i];
     return w->driven_floes.k[i];
 }

@@ -10,6 +10,20 @@
 /* After the end of a bond its pair is not in the neighbour list yet, or is. */
 enum fl_disc_end { FL_DISC_STANDS, FL_DISC_JUST_ENDED, FL_DISC_ENDED };
 
+/* A bond to be made of i < j, `length` long, with that image of j (0 without a periodic cell). */
+typedef struct {
+    int32_t i, j;
+    double length; /* [m] */
+    int32_t image[3];
+} fl_disc_birth;
+
+/* Bonds that have been removed with a sphere that left. */
+typedef struct {
+    int32_t broken, left;                     /* broken before; not broken */
+    double area;                              /* of those that were broken [m2] */
+    double dissipated, damped, friction_loss; /* [J] */
+} fl_disc_past;
+
 /* n = 0 and no memory where no spheres are bonded. */
 typedef struct {
     int32_t n, damaged; /* damaged: ever, with those that have ended */
@@ -23,6 +37,9 @@ typedef struct {
     double *pending;    /* [n] energy of the contact that a bond of this step leaves [J] */
     double *omega2;     /* [2 n] contribution of bond k to omega^2 of i and of j [1/s2] */
     double *max_omega2; /* [bodies] omega^2 by all bonds of a body while they are whole [1/s2] */
+    double largest_omega2, largest_max_omega2; /* of the field [1/s2] */
+    fl_disc_past past;
+    int is_renewed; /* the list is not that of the ice field any more */
     int64_t *first_i, *first_j;
     int32_t *of;       /* [n] bonds of each body j, ascending */
     double *force_sum; /* [n / FL_DISC_RUN + 1] sum of |F| */

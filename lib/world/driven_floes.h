@@ -9,9 +9,9 @@
  * rest_height. */
 typedef struct {
     int32_t n;           /* floes of the ice file; 0: no floe is driven */
-    uint8_t *is_driven;  /* [n] */
-    double *k;           /* [n] stiffness of the spring in heave [N/m] */
-    double *rest_height; /* [n] height at which that spring has no force [m] */
+    uint8_t *is_driven;  /* [n]; copies of an endless bonded sheet are driven like their floe */
+    double *k;           /* [places] stiffness of the spring in heave [N/m] */
+    double *rest_height; /* [places] height at which that spring has no force [m] */
     fl_track track;      /* n = 0: constant velocity */
 } fl_driven_floes;
 

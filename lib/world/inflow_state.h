@@ -8,11 +8,27 @@
  * at one speed.  Copy m of floe k is due when its foremost point reaches the bound, at
  *     t = (lag[k] + m pitch) / speed.
  * The floe is then guided until its last point is inside: x, y and the rotation about z are fixed, so that it
- * drifts with the sheet whatever is in its way. */
+ * drifts with the sheet whatever is in its way.  Bonded spheres are guided in all degrees of freedom. */
 #ifndef FL_WORLD_INFLOW_STATE_H
 #define FL_WORLD_INFLOW_STATE_H
 #include <stdint.h>
 #include "scene/ice_field.h"
+#include "world/disc_state.h"
+
+/* A floe that the sheet has `by` away, in the same copy or in the next one. */
+typedef struct {
+    int32_t floe;
+    fl_vec3 by; /* [m] */
+} fl_inflow_partner;
+
+/* Bonds of spheres that come in: sim/inflow_bonds.h.  All is NULL without them. */
+typedef struct {
+    int64_t *first;             /* [feed->n + 1] offsets into partner */
+    fl_inflow_partner *partner; /* those that floe k is bonded to */
+    int32_t *newest;            /* [feed->n] place of the latest copy of floe k, -1 none */
+    fl_disc_birth *birth;       /* [births] bonds to be made at the end of this step */
+    int32_t births, birth_cap;
+} fl_inflow_join;
 
 typedef struct {
     uint8_t *absent;     /* [n] the place is empty; NULL: no bound is free, and nothing else here is set */
@@ -32,6 +48,7 @@ typedef struct {
     uint8_t *guided;        /* [n] */
     uint8_t *own_fixed_dof; /* [n] degrees of freedom that stay fixed after the guidance ends */
     int32_t next_id;
+    fl_inflow_join join;
     int64_t n_blocked, n_dropped; /* floes whose place was taken when due; floes dropped a pitch later */
 } fl_inflow_state;
 

@@ -68,10 +68,10 @@ typedef struct {
 /* Totals over the contacts of a chunk. */
 typedef struct {
     int64_t touching;
-    double force_sum;            /* sum of |F| [N] */
-    double max_overlap;          /* largest overlap over the sum of the radii */
-    int32_t max_overlap_contact; /* the first contact that has it; ~k for wall contact k */
-    double elastic, spring;      /* energies; spring: the tangential part [J] */
+    double force_sum;                     /* sum of |F| [N] */
+    double max_overlap;                   /* largest overlap over the sum of the radii */
+    int32_t max_overlap_i, max_overlap_j; /* bodies of the first contact that has it; -1: none */
+    double elastic, spring;               /* energies; spring: the tangential part [J] */
 } fl_chunk_totals;
 
 typedef struct {

@@ -23,6 +23,7 @@
 #include "world/body_block.h"
 #include "world/bond_state.h"
 #include "world/contact_sums.h"
+#include "world/device_link.h"
 #include "world/disc_state.h"
 #include "world/driven_floes.h"
 #include "world/elastic_walls.h"
@@ -67,6 +68,7 @@ typedef struct {
     fl_elastic_walls elastic_walls;
     fl_inflow_state inflow;
     fl_driven_floes driven_floes;
+    fl_device_link device;
     fl_sleep sleep;
     fl_bond_list bonds;          /* faces */
     fl_disc_list discs;          /* of spheres */

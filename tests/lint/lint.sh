@@ -3,6 +3,8 @@
 # lint.sh [floors] -- rules that hold for every file; `floors` runs only the part that reads text, in a few seconds.
 #   floors    a library file includes from its own floor or those beneath, a program from the library or its own
 #             folder; C++ in lib/shim only; base names, include guards, licence lines, width of lines, left-over marks
+#   kernels   each *_kernel.h compiles alone, as C and as C++; a part of floors
+#   cards     where nvcc is: the plug-in for cards compiles without spilled registers and joined products
 #   warnings  every file under gcc, and under clang where there is one, with the warnings of config.mk as errors
 #   headers   each header compiles alone, as C
 #   format    clang-format agrees, where there is one
@@ -56,8 +58,44 @@ architecture()
     return $wrong
 }
 
+# The arithmetic that devices share: every *_kernel.h is C++17 as well as C17, alone.
+kernels()
+{
+    wrong=0
+    # shellcheck disable=SC2086 # a compiler may be two words, "ccache gcc"
+    for f in lib/*/*_kernel.h; do
+        echo "#include \"${f#lib/}\"" >"$scratch/kernel.cpp"
+        ${CXX:-g++} -std=c++17 -Wall -Wextra -Wno-missing-field-initializers -Werror -Ilib -fsyntax-only "$scratch/kernel.cpp" || wrong=1
+        echo "#include \"${f#lib/}\"" >"$scratch/kernel.c"
+        ${CC:-gcc} -std=c17 -Wall -Wextra -Werror -Ilib -fsyntax-only "$scratch/kernel.c" || wrong=1
+    done
+    return $wrong
+}
+
+# Where nvcc is: the plug-in compiles, no kernel spills registers, rows take at most 144 and bonds 168, and no product
+# is joined to a sum.
+cards()
+{
+    nvcc=$(command -v nvcc || ls /usr/local/cuda/bin/nvcc 2>/dev/null) || { echo "lint: cards skipped: there is no nvcc"; return 0; }
+    "$nvcc" -std=c++17 -O3 -fmad=false -Ilib -x cu -arch=sm_80 -Xptxas -v -cubin lib/gpu/cuda.cu -o "$scratch/cubin" \
+        >"$scratch/ptxas" 2>&1 || { cat "$scratch/ptxas"; return 1; }
+    awk '
+        /Compiling entry/ { name = $0; sub(/.*run_/, "", name); sub(/1?1?fl_gpu_view.*/, "", name) }
+        /spill stores/ && !/ 0 bytes spill stores, 0 bytes spill loads/ { print "cuda.cu: " name " spills: " $0; bad = 1 }
+        / Used / {
+            for (k = 1; k < NF; k++) if ($k == "Used") n = $(k + 1)
+            most = name ~ /^ROWS/ ? 144 : 168
+            if (n > most) { print "cuda.cu: " name " takes " n " registers, " most " are the most"; bad = 1 }
+        }
+        END { exit bad }' "$scratch/ptxas" || return 1
+    "$nvcc" -std=c++17 -O3 -fmad=false -Ilib -x cu -arch=compute_80 -ptx lib/gpu/cuda.cu -o "$scratch/ptx" || return 1
+    if grep -E 'fma\.rn\.f64|mad\.rn\.f64' "$scratch/ptx"; then echo "cuda.cu: a product is joined to a sum"; return 1; fi
+}
+
 floors
 verdict floors $?
+kernels
+verdict kernels $?
 architecture
 verdict architecture $?
 if [ "${1-}" = floors ]; then
@@ -65,6 +103,8 @@ if [ "${1-}" = floors ]; then
     [ $failed -eq 0 ]
     exit
 fi
+cards
+verdict cards $?
 
 # The builder's flags, as make sees them.
 # shellcheck disable=SC2016 # for make, not for the shell

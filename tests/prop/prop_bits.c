@@ -95,6 +95,8 @@ static uint64_t run(const variant *how, const case_of_run *it, int64_t steps, in
     }
     const uint64_t got = bits_of(&l.w);
     if (it->scene == scene_of_inflow) assert_true(l.w.inflow.n_entered > 0 && l.w.inflow.n_left > 0);
+    if (it->scene == scene_of_endless_sheet && steps >= 200)
+        assert_true(l.w.inflow.n_entered > 0 && l.w.inflow.n_left > 0 && l.w.discs.is_renewed);
     if (it->scene == scene_of_bonds && steps >= 200) {
         const fl_bond_counts c = fl_bond_list_counts(&l.w);
         assert_true(c.state[FL_BOND_DAMAGED] > 0 && c.state[FL_BOND_BROKEN] > 0 &&
@@ -124,7 +126,8 @@ static void compare(const variant *how, int ways, const case_of_run *it, int64_t
     /* the numbers of searches must differ, except for searches that every inflowing floe and every broken
      * bond causes */
     assert_true(most > (it->scene == scene_of_inflow || it->scene == scene_of_inflow_interval ||
-                                it->scene == scene_of_bonds || it->scene == scene_of_sheet
+                                it->scene == scene_of_bonds || it->scene == scene_of_sheet ||
+                                it->scene == scene_of_endless_sheet
                             ? 1
                             : 4) *
                            fewest);
@@ -159,7 +162,7 @@ static void laws(void **state)
         {scene_of_bonds, 3, "manual"},       {scene_of_water_interval, 3, "patch"},
         {scene_of_sea_interval, 3, "patch"}, {scene_of_inflow_interval, 3, "patch"},
         {scene_of_surrogates, 3, "patch"},   {scene_of_surrogates, 3, "quick"},
-        {scene_of_sheet, 3, "patch"}};
+        {scene_of_sheet, 3, "patch"},        {scene_of_endless_sheet, 3, "patch"}};
     const variant how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                            {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                            {1, 0, 1.0, 0, 0, 1}};

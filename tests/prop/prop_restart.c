@@ -78,7 +78,8 @@ static void a_run_resumes_at_any_step(void **state)
               {scene_of_bonds, "patch"},           {scene_of_sheet, "patch"},
               {scene_of_water_interval, "patch"},  {scene_of_sea_interval, "patch"},
               {scene_of_inflow_interval, "patch"}, {scene_of_surrogates, "patch"},
-              {scene_of_surrogates, "quick"},      {scene_of_joined_parts, "patch"}};
+              {scene_of_surrogates, "quick"},      {scene_of_joined_parts, "patch"},
+              {scene_of_endless_sheet, "patch"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
         lab whole;
@@ -105,7 +106,8 @@ static void a_run_resumes_at_any_step(void **state)
             pairs = whole.w.contact_steps;
             lab_free(&l);
         }
-        if (IT[k].scene == scene_of_sheet) { /* a sheet has contacts where bonds have ended alone */
+        if (IT[k].scene == scene_of_sheet ||
+            IT[k].scene == scene_of_endless_sheet) { /* a sheet has contacts where bonds have ended alone */
             const fl_bond_counts n = fl_bond_list_counts(&whole.w);
             assert_true(n.state[FL_BOND_ENDED] > 20 && n.state[FL_BOND_DAMAGED] > 2);
         } else assert_true(pairs > 3000 && whole.w.searches >= 2);

@@ -245,42 +245,20 @@ void scene_of_joined_parts(lab *l, int32_t side, const char *law)
     }
 }
 
-void scene_of_sheet(lab *l, int32_t side, const char *law)
+/* A sheet of two layers with its bonds, that moves at v, each sphere up to `scatter` faster; its length. */
+static double add_sheet(lab *l, int32_t side, double v, double scatter)
 {
-    static const char *const KEYS[] = {"material.ice.young=20 MPa",
-                                       "contact.friction=0.3",
-                                       "contact.restitution=0.4",
-                                       "run.gravity=9.81",
-                                       "ice.slab=0.33 m",
-                                       "contact.round_law=linear",
-                                       "bond.on=true",
-                                       "bond.normal_strength=30 kPa",
-                                       "bond.shear_strength=30 kPa",
-                                       "bond.softening=stretch",
-                                       "bond.damping=0.1",
-                                       "water.density=1025",
-                                       "water.current=1 0 0",
-                                       "water.added_mass=0 0 3",
-                                       "boundary.type=free",
-                                       "boundary.drive=1 0 0",
-                                       "boundary.drive_width=0.15",
-                                       "boundary.drive_fixed=x y rx rz",
-                                       "boundary.drive_foundation=10 kN/m3"};
-    const double r = 0.1;
+    const double r = 0.1, long_side = 4.01 * r * side, wide = 6.01 * r * side;
     fl_sphere_packing a;
     fl_err err = {0};
-    lab_start(l);
-    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
-    if (law) lab_setf(l, "contact.law=%s", law);
-    const double long_side = 4.01 * r * side, wide = 6.01 * r * side;
     if (fl_sphere_packing_make(&a, FL_PACKING_HCP, 2.0 * r, 2, (fl_vec2){-long_side, -0.5 * wide},
                                (fl_vec2){0.0, 0.5 * wide}, &err))
         exit(1);
-    const double draft = fl_sphere_packing_draft(&a, 900.0 / 1025.0);
+    const double draft = fl_sphere_packing_draft(&a, 900.0 / 1025.0), length = 2.0 * r * a.columns;
     for (int32_t k = 0; k < a.n; k++) {
         fl_rng g = fl_rng_of(8, k, FL_RNG_TEST);
-        lab_sphere(l, v3(a.x[k].x, a.x[k].y, a.x[k].z - draft), r,
-                   v3_add(v3(1, 0, 0), v3_scale(0.4, normal3(&g))), v3_scale(1.0, normal3(&g)));
+        const fl_vec3 more = v3_scale(0.4 * scatter, normal3(&g)), spin = v3_scale(scatter, normal3(&g));
+        lab_sphere(l, v3(a.x[k].x, a.x[k].y, a.x[k].z - draft), r, v3_add(v3(v, 0, 0), more), spin);
     }
     for (int32_t k = 0; k < a.pairs; k++) {
         const int32_t i = a.pair[k][0], j = a.pair[k][1];
@@ -289,5 +267,49 @@ void scene_of_sheet(lab *l, int32_t side, const char *law)
             exit(1);
     }
     fl_sphere_packing_free(&a);
+    return length;
+}
+
+static const char *const SHEET_KEYS[] = {"material.ice.young=20 MPa",
+                                         "contact.friction=0.3",
+                                         "contact.restitution=0.4",
+                                         "run.gravity=9.81",
+                                         "ice.slab=0.33 m",
+                                         "contact.round_law=linear",
+                                         "bond.on=true",
+                                         "bond.normal_strength=30 kPa",
+                                         "bond.shear_strength=30 kPa",
+                                         "bond.softening=stretch",
+                                         "bond.damping=0.1",
+                                         "water.density=1025",
+                                         "water.added_mass=0 0 3",
+                                         "boundary.type=free"};
+enum { SHEET_KEY_COUNT = sizeof SHEET_KEYS / sizeof *SHEET_KEYS };
+
+void scene_of_sheet(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"water.current=1 0 0", "boundary.drive=1 0 0",
+                                       "boundary.drive_width=0.15", "boundary.drive_fixed=x y rx rz",
+                                       "boundary.drive_foundation=10 kN/m3"};
+    lab_start(l);
+    for (size_t k = 0; k < SHEET_KEY_COUNT; k++) lab_set(l, SHEET_KEYS[k]);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+    if (law) lab_setf(l, "contact.law=%s", law);
+    add_sheet(l, side, 1.0, 1.0);
     lab_cone(l, (fl_cone){.p0 = v3(0.85, 0, -0.6), .p1 = v3(0.85, 0, 0.6), .r0 = 0.9, .r1 = 0.3});
+}
+
+void scene_of_endless_sheet(lab *l, int32_t side, const char *law)
+{
+    double front = -INFINITY;
+    lab_start(l);
+    for (size_t k = 0; k < SHEET_KEY_COUNT; k++) lab_set(l, SHEET_KEYS[k]);
+    lab_set(l, "water.current=8 0 0");
+    if (law) lab_setf(l, "contact.law=%s", law);
+    const double pitch = add_sheet(l, side, 8.0, 0.0);
+    for (int32_t k = 0; k < l->field.n; k++)
+        front = fmax(front, l->field.core[k].v[0].x + l->field.radius[k]);
+    lab_setf(l, "boundary.min=%.17g none none", front - pitch), lab_set(l, "boundary.max=-0.15 none none");
+    lab_set(l, "boundary.inflow=ice"), lab_setf(l, "boundary.inflow_pitch=%.17g", pitch);
+    lab_cone(l, (fl_cone){.p0 = v3(0.74, 0, -0.6), .p1 = v3(0.74, 0, 0.6), .r0 = 0.9, .r1 = 0.3});
 }

@@ -33,6 +33,9 @@ void scene_of_bonds(lab *l, int32_t side, const char *law);
  * driven. */
 void scene_of_sheet(lab *l, int32_t side, const char *law);
 
+/* The same sheet without end, at 8 m/s: rows come in, bonded to it, and others leave. */
+void scene_of_endless_sheet(lab *l, int32_t side, const char *law);
+
 /* scene_of_bonds() without boundaries along x: floes leave there at once, and copies of the field flow in. */
 void scene_of_inflow(lab *l, int32_t side, const char *law);
 /* The same with water evaluated in few steps. */

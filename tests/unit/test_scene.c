@@ -665,8 +665,9 @@ static void bonds_are_checked(void **state)
                    ":6: bonded floes do not sleep: either run.sleep or bond.on is expected");
     expect_refusal(
         ICE "[bond]\non = true\n[boundary]\ntype = free\nmin = 0 none none\nmax = 9 none none\ninflow = "
-            "ice\ninflow_speed = 1\n",
-        ":9: inflowing floes have no bonds: either boundary.inflow or bond.on is expected");
+            "file\ninflow_file = feed.dat\ninflow_speed = 1\n",
+        ":9: ice of another file would come in without bonds: boundary.inflow = ice, or bond.on = false, is "
+        "expected");
     expect_refusal(ICE "[bond]\non = true\nsoftening = weaken\n",
                    ":5: softening = weaken needs a fracture energy: bond.energy is expected");
     expect_refusal(ICE "[bond]\non = true\nenergy = 10\nnormal_strength = none\nsoftening = weaken\n",

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bonds between spheres and sheets of them: beams as V61 to V66 have them for faces, a strip that is lifted
- * at speed, a floating slab, and the books of a sheet that breaks on a cone (BS1 to BS6). */
+ * at speed, a floating slab, the books of a sheet that breaks on a cone, a floating beam, a block (BS1 to
+ * BS8; V68, V69; V67 is reported). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/pi.h"
 #include "body/integrate.h"
 #include "contact/bond_list.h"
+#include "ice/sphere_packing.h"
 #include "sim/energy_balance.h"
 #include "support/scenes.h"
 #include "support/small_world.h"
@@ -267,6 +269,128 @@ static void breaking_sheet(void)
     lab_free(&l);
 }
 
+/* V69.  A semi-infinite beam afloat, pushed down by P at the distance a from its end, has the moment
+ *     M = P/l e^(-s) (sin s - a l (cos s + sin s)),   s = l x,     l = (k/(4 E I))^(1/4),
+ * k being the buoyancy per length and depth.  It is largest where tan s = 1/(1 - 2 a l): at pi/4 of the
+ * characteristic length for a = 0.  P is what the water bears.  Spheres that float at their centres have a
+ * constant water plane; each stands for its D of the beam, the first one, too: a = D/2. */
+static void floating_beam(void)
+{
+    const int32_t n = 64;
+    const double young = 2e7, water = 1000.0, g = 9.81, strength = 4e3, k = water * g * AREA / D,
+                 root = pow(k / (4.0 * young * INERTIA), 0.25), off = 0.5 * D * root,
+                 s = atan(1.0 / (1.0 - 2.0 * off)), shape = exp(-s) * (sin(s) - off * (cos(s) + sin(s)));
+    lab l;
+    start_world(&l);
+    lab_setf(&l, "material.ice.young=%g", young), lab_setf(&l, "material.ice.density=%g", 0.5 * water);
+    lab_setf(&l, "water.density=%g", water), lab_setf(&l, "run.gravity=%g", g);
+    lab_set(&l, "water.drag_force_coef=0"), lab_set(&l, "bond.damping=0.1");
+    lab_setf(&l, "bond.normal_strength=%g", strength), lab_set(&l, "bond.shear_strength=none");
+    lab_set(&l, "bond.softening=stretch");
+    make_chain(&l, n);
+    lab_make(&l, 0);
+    hold(&l, 0, FL_DOF_X | FL_DOF_Y | FL_DOF_Z | FL_DOF_RX | FL_DOF_RZ, v3(0, 0, -1.5e-3));
+    int32_t first = -1;
+    while (first < 0 && fl_world_time(&l.w) < 10.0) {
+        must_run(&l, 20);
+        for (int32_t b = 0; b < l.w.discs.n && first < 0; b++)
+            if (!l.w.discs.at.is_whole[b]) first = b;
+    }
+    double load = 0.0;
+    for (int32_t i = 0; i < n; i++) load -= k * D * l.w.b.x[i].z;
+    verify_note("V69: characteristic length %.3g m, disc %d of %d breaks after %.2f s", 1.0 / root, first, n,
+                fl_world_time(&l.w));
+    verify_row("BS7", "V69 floating beam, load at the first crack [N]", load,
+               strength * INERTIA / R * root / shape, 0.03, VERIFY_REL);
+    verify_row("BS7", "V69 its place from the end [m]", (first + 1) * D, s / root, 0.5 * D, VERIFY_ABS);
+    lab_free(&l);
+}
+
+/* Spheres of a hexagonal close packing over lo .. hi, bonded with c = 1 MPa and a scatter of 15 %. */
+static void start_pack(lab *l, int32_t layers, fl_vec2 lo, fl_vec2 hi, double disc)
+{
+    fl_sphere_packing a;
+    fl_err err = {0};
+    start_world(l);
+    lab_set(l, "contact.round_law=linear"), lab_set(l, "contact.friction=0.3");
+    lab_set(l, "bond.normal_strength=1 MPa"), lab_set(l, "bond.shear_strength=1 MPa");
+    lab_set(l, "bond.softening=stretch"), lab_set(l, "bond.damping=0.1"), lab_set(l, "bond.scatter=0.15");
+    if (fl_sphere_packing_make(&a, FL_PACKING_HCP, D, layers, lo, hi, &err)) exit(1);
+    int32_t *at = calloc((size_t)a.n, sizeof *at), n = 0;
+    if (!at) exit(1);
+    for (int32_t k = 0; k < a.n; k++) {
+        at[k] = disc > 0.0 && hypot(a.x[k].x, a.x[k].y) > disc ? -1 : n++;
+        if (at[k] >= 0) lab_sphere(l, a.x[k], R, ZERO, ZERO);
+    }
+    for (int32_t k = 0; k < a.pairs; k++) {
+        const int32_t i = at[a.pair[k][0]], j = at[a.pair[k][1]];
+        if (i >= 0 && j >= 0 &&
+            fl_ice_field_add_bond(&l->field, i, j, AREA, D,
+                                  v3_lerp(l->field.core[i].v[0], l->field.core[j].v[0], 0.5), &err))
+            exit(1);
+    }
+    free(at);
+    fl_sphere_packing_free(&a);
+    lab_make(l, 0);
+}
+
+/* Moves spheres beyond +-y at v away from or towards each other until the load has fallen to half; the
+ * largest load [N].  first: height |y| of the middle of the first disc that softens [m]. */
+static double largest_load(lab *l, double y, double v, fl_vec3 *first)
+{
+    fl_world *w = &l->w;
+    double most = 0.0;
+    int found = 0;
+    for (int32_t i = 0; i < w->n; i++)
+        if (fabs(w->b.x[i].y) > y)
+            hold(l, i, FL_DOF_Y | FL_DOF_RX | FL_DOF_RZ, v3(0, w->b.x[i].y > 0 ? v : -v, 0));
+    for (double load = 0.0; load > 0.5 * most || fl_world_time(w) < 2e-3;) {
+        must_run(l, 20);
+        load = 0.0;
+        for (int32_t i = 0; i < w->n; i++)
+            if (w->b.x[i].y > y) load += (v > 0.0 ? -1.0 : 1.0) * w->b.f[i].y;
+        most = fmax(most, load);
+        for (int32_t b = 0; b < w->discs.n && !found; b++) {
+            if (w->discs.at.is_whole[b]) continue;
+            *first = fl_disc_list_load(w, b).x;
+            found = 1;
+        }
+    }
+    return most;
+}
+
+/* V68: a block in compression and in tension.  V67: a disc between plates, 2 P/(pi D t), against a strip. */
+static void packs(void)
+{
+    const double c = 1e6, side = 0.45, v = 0.02;
+    double load[2], area = 0.0;
+    fl_vec3 where = ZERO;
+    for (int pull = 0; pull < 2; pull++) {
+        lab l;
+        start_pack(&l, 5, (fl_vec2){-0.5 * side, -0.4}, (fl_vec2){0.5 * side, 0.4}, 0.0);
+        double half = 0.0;
+        for (int32_t i = 0; i < l.w.n; i++) half = fmax(half, fabs(l.w.b.x[i].y));
+        load[pull] = largest_load(&l, half - 0.5 * D, pull ? v : -v, &where);
+        area = 4.5 * D * 5.0 * sqrt(2.0 / 3.0) * D;
+        lab_free(&l);
+    }
+    verify_note("V68: compression %.2f c, tension %.2f c across rows", load[0] / (area * c),
+                load[1] / (area * c));
+    verify_row("BS8", "V68 compression over tension of a block", load[0] / load[1], 4.0, 3.0, VERIFY_ABS);
+    const double radius = 8.0 * D, thick = D;
+    double strip;
+    lab l;
+    start_pack(&l, 1, (fl_vec2){-3.0 * D, -8.0 * D}, (fl_vec2){3.0 * D, 8.0 * D}, 0.0);
+    strip = largest_load(&l, 6.5 * D, v, &where) / (5.5 * D * thick);
+    lab_free(&l);
+    start_pack(&l, 1, (fl_vec2){-radius, -radius}, (fl_vec2){radius, radius}, radius - R);
+    const double P = largest_load(&l, radius - 1.4 * D, -v, &where),
+                 splits = 2.0 * P / (PI * 2.0 * radius * thick);
+    lab_free(&l);
+    verify_note("V67: disc between grips %.2f c, strip in tension %.2f c; first crack at (%.2f, %.2f) radii",
+                splits / c, strip / c, where.x / radius, where.y / radius);
+}
+
 int main(void)
 {
     verify_begin("sheets of bonded spheres");
@@ -276,5 +400,7 @@ int main(void)
     lifted_strip();
     floating_slab();
     breaking_sheet();
+    floating_beam();
+    if (!verify_quick()) packs();
     return verify_end();
 }

@@ -20,6 +20,7 @@
 #include "scene/scene_check.h"
 #include "scene/scene_print.h"
 #include "scene/scene_read.h"
+#include "sim/device_step.h"
 #include "sim/setup.h"
 #include "step_choice.h"
 #include "targets.h"
@@ -309,6 +310,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
         r.loads_path = path;
     }
     if (targets_check(&in.scene, o, r.loads_path, err)) goto done;
+    if (fl_device_choose(&world, r.device, err)) goto done;
     choose_step(&r);
     if (check_step_count(&r, err)) goto done;
     if (!o->quiet && fl_world_bonds(&world)) note_long_bonds(&world, stderr);

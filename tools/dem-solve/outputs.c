@@ -6,6 +6,7 @@
 #include "out/frames.h"
 #include "out/tables.h"
 #include "scene/scene_print.h"
+#include "sim/device_step.h"
 #include "sim/energy_balance.h"
 #include "sim/moving_structure.h"
 #include "sim/sleep.h"
@@ -270,6 +271,7 @@ int write_due(struct run *r, struct outputs *u, fl_err *err)
         struct timer *const timer = &u->timer[k];
         if (!u->table[k].f || r->w->step < timer->due || TABLE[k].when == WITH_LOADS) continue;
         const double t = row_time(r, (double)timer->k * timer->every);
+        if (!TABLE[k].of_interval && fl_device_refresh(r->w, err)) return -1;
         if (!advanced && TABLE[k].needs_now) {
             fl_sleep_advance_to_now(r->w);
             advanced = 1;

@@ -139,6 +139,7 @@ int print_plan(struct run *r, FILE *f, fl_err *err)
     while (w->step < r->steps && (spent = wall_clock() - begun) < 0.5)
         if (fl_step(w, err)) return -1;
     print_bodies(w, f, &n);
+    fprintf(f, "device         %s\n", r->device);
     print_stages(w, f, &n, water);
     print_modes(w, f);
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate\n", w->dt, r->steps,

@@ -53,16 +53,19 @@ static void report_budget(const struct run *r, FILE *f, enum report_kind kind)
 
 static int has_failed_bonds(const fl_world *w)
 {
-    return fl_world_bonds(w) && fl_bond_list_counts(w).state[FL_BOND_INTACT] < fl_world_bonds(w);
+    const fl_bond_counts n = fl_bond_list_counts(w);
+    return n.state[FL_BOND_DAMAGED] + n.state[FL_BOND_BROKEN] + n.state[FL_BOND_ENDED] > 0;
 }
 
 static void report_bonds(const fl_world *w, FILE *f)
 {
     const fl_bond_counts n = fl_bond_list_counts(w);
     const int32_t broken = n.state[FL_BOND_BROKEN] + n.state[FL_BOND_ENDED];
-    fprintf(f, "bonds              %d whole, %d damaged, %d broken of %d: %.4g m2 of crack, %.4g J\n",
-            n.state[FL_BOND_INTACT], n.state[FL_BOND_DAMAGED], broken, fl_world_bonds(w), n.area,
-            w->ledger.fracture);
+    const int32_t all = n.state[FL_BOND_INTACT] + n.state[FL_BOND_DAMAGED] + broken + n.left;
+    fprintf(f, "bonds              %d whole, %d damaged, %d broken of %d: %.4g m2 of crack, %.4g J",
+            n.state[FL_BOND_INTACT], n.state[FL_BOND_DAMAGED], broken, all, n.area, w->ledger.fracture);
+    if (n.left) fprintf(f, "; %d left with their spheres", n.left);
+    putc('\n', f);
 }
 
 /* Members whose sections have yielded or ruptured. */

@@ -6,6 +6,7 @@
 #include "outputs.h"
 #include "run_record.h"
 #include "save.h"
+#include "sim/device_step.h"
 #include "sim/energy_balance.h"
 #include "sim/inflow.h"
 #include "sim/sleep.h"
@@ -48,6 +49,7 @@ static int save_if_due(struct run *r, struct outputs *u, int last, fl_err *err)
     if (!due && !save_signal && !stop_signal && !last) return 0;
     if (r->saves && r->saved_step == r->w->step) return 0;
     save_signal = 0;
+    if (fl_device_refresh(r->w, err)) return -1;
     while (r->w->step >= timer->due) set_timer(r, u, TIMER_SAVE, timer->k + 1);
     return save_write(r, u, err);
 }
@@ -138,7 +140,7 @@ static int run_steps(struct run *r, struct outputs *u, int show, double begun, f
     if (r->stopped) return save_if_due(r, u, 0, err); /* the signal may have come before the first step */
     /* A longer run would have no shorter last row and no energy check here, so the checkpoint that it
      * could resume comes before them. */
-    if (save_if_due(r, u, 1, err) || fl_energy_check(w, err)) return -1;
+    if (save_if_due(r, u, 1, err) || fl_device_refresh(w, err) || fl_energy_check(w, err)) return -1;
     return write_last_loads(r, u, err);
 }
 
@@ -160,7 +162,9 @@ int run_scene(struct run *r, fl_err *err)
         discard_outputs(&u);
         return -1;
     }
-    if (rc && err->code == FL_NUMERIC && r->w->step > 0 && r->scene->output.checkpoint[0] &&
+    fl_err gone = {0}; /* with the card went the state of the run */
+    if (fl_device_refresh(r->w, &gone) && !rc) *err = gone;
+    if (rc && !gone.code && err->code == FL_NUMERIC && r->w->step > 0 && r->scene->output.checkpoint[0] &&
         is_finite_state(r->w)) {
         fl_err why = {0}; /* the failure of the run is reported, not this one */
         save_write(r, &u, &why);
@@ -169,13 +173,13 @@ int run_scene(struct run *r, fl_err *err)
     r->cpu_time = cpu_clock() - cpu_begun;
     if (show) show_progress(r, begun, 1);
     fl_sleep_advance_to_now(r->w);
-    fl_energy_update(r->w);
+    if (!gone.code) fl_energy_update(r->w);
     /* After SIGPIPE a row could not be written. */
     const int ended_by = rc && pipe_signal && err->code == FL_SYSTEM ? SIGPIPE : r->stopped;
     const fl_err why = *err;
     const int lost = record_end(r, &u, &why, ended_by, err);
     /* Also after a failed run: the rows until then are good, and the tables keep their names. */
-    if (!close_outputs(&u, err) && !rc && !lost) return 0;
+    if (!close_outputs(&u, err) && !rc && !lost && !gone.code) return 0;
     if (!pipe_signal || err->code != FL_SYSTEM) return -1;
     r->stopped = SIGPIPE;
     *err = (fl_err){0};

@@ -5,6 +5,7 @@
 #include "options.h"
 #include "out/restart.h"
 #include "scene/plausibility.h"
+#include "sim/device_step.h"
 #include "sim/error_budget.h"
 
 /* Number of inputs that a checkpoint carries as texts: ice, structure, inflow. */
@@ -27,10 +28,11 @@ struct run {
     const char *loads_path;
     int gzip; /* the loads are compressed */
 
-    double critical;   /* 2/omega by prediction [s] */
-    int32_t step_body; /* body that sets the automatic step, -1: none */
-    char step_by[160]; /* what sets the step, for --plan and the report */
-    int64_t steps;     /* of the whole run */
+    double critical;             /* 2/omega by prediction [s] */
+    int32_t step_body;           /* body that sets the automatic step, -1: none */
+    char device[FL_DEVICE_NOTE]; /* who runs the spheres, and why */
+    char step_by[160];           /* what sets the step, for --plan and the report */
+    int64_t steps;               /* of the whole run */
 
     int64_t first_step; /* of this program, its time [s] and the contact-steps until then */
     double first_time;

@@ -20,8 +20,9 @@
 /* Keys that a resumed run may change, besides the paths of its tables.  The first two give it another step
  * from then on; the others change no step and no row. */
 enum { STEP_KEYS = 2 };
-static const char *const FREE_KEY[] = {"run.dt",      "run.safety",        "run.duration",
-                                       "run.threads", "output.checkpoint", "output.checkpoint_every"};
+static const char *const FREE_KEY[] = {
+    "run.dt",     "run.safety",        "run.duration",           "run.threads",
+    "run.device", "output.checkpoint", "output.checkpoint_every"};
 
 /* --- write ------------------------------------------------------------------------------------- */
 
@@ -158,7 +159,7 @@ static int change_key(fl_scene *scene, const char *set, fl_err *err)
     if (may) return fl_scene_set(scene, set, err);
     return fl_fail(err, FL_USAGE,
                    "--set: \"%.60s\" would change the run that is resumed; run.duration, "
-                   "run.threads, run.dt, run.safety and files of output may be changed",
+                   "run.threads, run.device, run.dt, run.safety and files of output may be changed",
                    set);
 }
 

@@ -87,6 +87,7 @@ static void warn_bonded_sheet(const struct run *r, FILE *f)
     if (!w->discs.n) return;
     warn_sheet_inside(r, f);
     for (int32_t i = 0; i < w->n; i++) {
+        if (fl_body_absent(w, i)) continue;
         weight += w->b.m[i] * v3_norm(w->gravity);
         if (w->sea.water) lift += w->sea.buoyancy[i];
         box = aabb_add(box, w->b.x[i]);

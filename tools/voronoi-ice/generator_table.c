@@ -10,7 +10,7 @@ const struct generator generator_table[] = {
      .argument = "KIND",
      .help = "spheres in close packing in place of floes: hcp, hex or square",
      .keys = "size origin thickness material ice-density water-density velocity bonded layers diameter rows "
-             "edges flexural compressive young scene certificate id format",
+             "edges endless flexural compressive young scene certificate id format",
      .check = sphere_sheet_check,
      .history = sphere_sheet_history,
      .make = sphere_sheet_make},

@@ -59,6 +59,7 @@ struct recipe {
     double diameter; /* of the spheres of a lattice [m]; 0: from the thickness of the sheet */
     int rows_across; /* rows of the lattice along y */
     int32_t edges;   /* rows at the sides and behind that get the group edge */
+    int endless;     /* whole periods along the drift, no rows behind, and the inflow in --scene */
     double flexural, compressive, young; /* of the sheet [Pa]; 0: not given */
     const char *scene;                   /* file for the bonds that give these, NULL: none */
     int gzip, quiet, verbose, threads, ended;

@@ -22,6 +22,9 @@ int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_
             "with --bonded");
     if (fl_sheet_strength_of(kind, o->layers, o->rows_across, &out->ratio, err)) return -1;
     if (o->flexural > 0.0) out->strength = o->flexural / out->ratio.flexural;
+    if (o->compressive > 0.0 && out->ratio.compressive == 0.0)
+        return fl_fail(err, FL_USAGE,
+                       "--compressive is calibrated for --lattice hcp alone: --flexural is expected");
     if (o->compressive > 0.0) out->strength = o->compressive / out->ratio.compressive;
     if (o->young > 0.0) out->young = o->young / out->ratio.young;
     return 0;
@@ -33,8 +36,19 @@ static void write_value(FILE *f, const char *key, double x, const char *unit)
     fprintf(f, "%s = %s%s%s\n", key, fl_number_text(x, text), *unit ? " " : "", unit);
 }
 
+static void write_inflow(FILE *f, const struct sheet_inflow *p)
+{
+    char text[FL_NUMBER_LEN];
+    fl_number_text(p->bound, text);
+    fprintf(f, "\n[boundary]\ntype = free\n%s = %s %s none\n", p->backwards ? "max" : "min",
+            p->along_y ? "none" : text, p->along_y ? text : "none");
+    fprintf(f, "inflow = ice\ninflow_from = %s%s\n", p->backwards ? "" : "-", p->along_y ? "y" : "x");
+    write_value(f, "inflow_pitch", p->pitch, "m");
+    if (p->speed > 0.0) write_value(f, "inflow_speed", p->speed, "m/s");
+}
+
 int sheet_scene_write(const struct recipe *o, const struct sheet_bonds *bonds, double slab,
-                      const fl_history_line *by, fl_err *err)
+                      const struct sheet_inflow *inflow, const fl_history_line *by, fl_err *err)
 {
     fl_out file = {0};
     if (fl_out_open(&file, o->scene, 0, err)) return -1;
@@ -58,5 +72,6 @@ int sheet_scene_write(const struct recipe *o, const struct sheet_bonds *bonds, d
     }
     fprintf(f, "\n[contact]\nround_law = linear\n");
     write_value(f, "tangential_ratio", 0.5 / (1.0 + FL_SHEET_POISSON), "");
+    if (inflow) write_inflow(f, inflow);
     return fl_out_close(&file, err);
 }

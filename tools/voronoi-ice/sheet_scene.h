@@ -11,12 +11,18 @@ struct sheet_bonds {
     fl_sheet_strength ratio; /* of the sheet over them */
 };
 
+/* The inflow of an endless sheet. */
+struct sheet_inflow {
+    double pitch, bound, speed; /* [m], [m], [m/s]; 0: that of the water */
+    int along_y, backwards;
+};
+
 /* Choose the bonds.  -1 with FL_USAGE. */
 int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_packing_kind kind,
                        fl_err *err);
 
-/* Write the file of --scene; slab: thickness of the sheet [m].  -1 with FL_SYSTEM. */
+/* Write the file of --scene; slab: thickness of the sheet [m]; inflow: NULL for none.  -1 with FL_SYSTEM. */
 int sheet_scene_write(const struct recipe *o, const struct sheet_bonds *bonds, double slab,
-                      const fl_history_line *by, fl_err *err);
+                      const struct sheet_inflow *inflow, const fl_history_line *by, fl_err *err);
 
 #endif

@@ -35,6 +35,7 @@ void sphere_sheet_history(const struct recipe *o, fl_history_line *by)
     recipe_history_numbers(by, "--diameter ", ',', 1, &o->diameter);
     if (o->rows_across) fl_history_line_add(by, "--rows across");
     if (o->edges) fl_history_line_add(by, "--edges %d", o->edges);
+    if (o->endless) fl_history_line_add(by, "--endless");
 }
 
 /* Thickness of a layer over the diameter; one alone is as thick as its spheres. */
@@ -55,16 +56,59 @@ static int set_thickness(struct recipe *o, enum fl_packing_kind kind, double *sl
     return 0;
 }
 
-/* The packing over the field; with rows across x the one along it with x and y exchanged. */
-static int make_packing(const struct recipe *o, enum fl_packing_kind kind, fl_sphere_packing *a, fl_err *err)
+/* True if the field drifts along y. */
+static int drifts_along_y(const struct recipe *o) { return fabs(o->velocity.y) > fabs(o->velocity.x); }
+
+/* True if it drifts towards smaller coordinates; at rest it moves along +x. */
+static int drifts_back(const struct recipe *o)
 {
-    const fl_vec2 lo = o->origin, hi = {lo.x + o->size.x, lo.y + o->size.y};
+    return drifts_along_y(o) ? o->velocity.y < 0.0 : o->velocity.x < 0.0;
+}
+
+/* Spacing of rows where the drift crosses them, of columns where it follows them [m].  Every second row is
+ * offset, but in a cubic lattice. */
+static double spacing_along(const struct recipe *o, enum fl_packing_kind kind, int *each)
+{
+    const int over_rows = drifts_along_y(o) != o->rows_across;
+    *each = over_rows && kind != FL_PACKING_SQUARE ? 2 : 1;
+    return *each == 2 ? sqrt(0.75) * o->diameter : o->diameter;
+}
+
+/* The packing over lo .. hi; with rows across x the one along it with x and y exchanged. */
+static int make_packing_over(const struct recipe *o, enum fl_packing_kind kind, fl_vec2 lo, fl_vec2 hi,
+                             fl_sphere_packing *a, fl_err *err)
+{
     if (!o->rows_across) return fl_sphere_packing_make(a, kind, o->diameter, o->layers, lo, hi, err);
     if (fl_sphere_packing_make(a, kind, o->diameter, o->layers, (fl_vec2){lo.y, lo.x}, (fl_vec2){hi.y, hi.x},
                                err))
         return -1;
     for (int32_t i = 0; i < a->n; i++) a->x[i] = v3(a->x[i].y, a->x[i].x, a->x[i].z);
     return 0;
+}
+
+/* Rows or columns along the drift. */
+static int32_t count_along(const struct recipe *o, const fl_sphere_packing *a)
+{
+    return drifts_along_y(o) != o->rows_across ? a->rows : a->columns;
+}
+
+/* The packing over the field; of an endless sheet without the row that would break its period. */
+static int make_packing(const struct recipe *o, enum fl_packing_kind kind, fl_sphere_packing *a, fl_err *err)
+{
+    fl_vec2 lo = o->origin, hi = {lo.x + o->size.x, lo.y + o->size.y};
+    int each;
+    const double step = spacing_along(o, kind, &each);
+    if (make_packing_over(o, kind, lo, hi, a, err)) return -1;
+    const int32_t n = count_along(o, a);
+    if (!o->endless || n % each == 0) return 0;
+    fl_sphere_packing_free(a);
+    if (n < each)
+        return fl_fail(err, FL_INPUT,
+                       "--endless needs two rows along the drift, and one fits: a longer --size is "
+                       "expected");
+    if (drifts_along_y(o)) drifts_back(o) ? (lo.y += step) : (hi.y -= step);
+    else drifts_back(o) ? (lo.x += step) : (hi.x -= step);
+    return make_packing_over(o, kind, lo, hi, a, err);
 }
 
 /* The box of the centres. */
@@ -90,13 +134,13 @@ static extent extent_of(const fl_sphere_packing *a)
 static int is_at_edge(const struct recipe *o, const extent *e, fl_vec3 x)
 {
     const double near = (o->edges - 1 + ROW_OFFSET) * o->diameter;
-    const int along_y = fabs(o->velocity.y) > fabs(o->velocity.x),
-              backwards = along_y ? o->velocity.y < 0.0 : o->velocity.x < 0.0;
+    const int along_y = drifts_along_y(o), backwards = drifts_back(o);
     const double left = x.x - e->lo.x, right = e->hi.x - x.x, front = x.y - e->lo.y, back = e->hi.y - x.y;
     const int beyond[4] = {left <= near, right <= near, front <= near, back <= near};
-    const int ahead = along_y ? (backwards ? 2 : 3) : (backwards ? 0 : 1);
+    const int ahead = along_y ? (backwards ? 2 : 3) : (backwards ? 0 : 1),
+              behind = o->endless ? ahead ^ 1 : -1; /* the sheet goes on there */
     int at = 0;
-    for (int k = 0; k < 4; k++) at |= k != ahead && beyond[k];
+    for (int k = 0; k < 4; k++) at |= k != ahead && k != behind && beyond[k];
     return o->edges > 0 && at;
 }
 
@@ -127,6 +171,22 @@ static int add_spheres(const struct recipe *o, const fl_sphere_packing *a, doubl
         if (fl_ice_field_add_bond(out, i, j, PI * r * r, 2.0 * r, x, err)) return -1;
     }
     return 0;
+}
+
+/* The inflow that continues the sheet. */
+static struct sheet_inflow inflow_of(const struct recipe *o, enum fl_packing_kind kind,
+                                     const fl_sphere_packing *a)
+{
+    const extent e = extent_of(a);
+    const double r = 0.5 * o->diameter, speed = drifts_along_y(o) ? o->velocity.y : o->velocity.x;
+    int each;
+    struct sheet_inflow out = {.pitch = count_along(o, a) * spacing_along(o, kind, &each),
+                               .along_y = drifts_along_y(o),
+                               .backwards = drifts_back(o),
+                               .speed = fabs(speed)};
+    const double lo = out.along_y ? e.lo.y : e.lo.x, hi = out.along_y ? e.hi.y : e.hi.x;
+    out.bound = out.backwards ? lo - r + out.pitch : hi + r - out.pitch;
+    return out;
 }
 
 /* Largest extent of a sphere beyond the field, and largest overlap of two touching spheres. */
@@ -160,8 +220,9 @@ static void add_sheet_rows(const struct recipe *o, enum fl_packing_kind kind, do
         certificate_add(t, "strength of the bonds [Pa]", none, b->strength, NO_DISTANCE, 6, NULL);
         certificate_add(t, "flexural strength [Pa]", o->flexural > 0.0 ? o->flexural : none, f, NO_DISTANCE,
                         6, "+- %.0f %% of it", 100.0 * b->ratio.flexural_spread);
-        certificate_add(t, "compressive strength [Pa]", o->compressive > 0.0 ? o->compressive : none, c,
-                        NO_DISTANCE, 6, NULL);
+        if (c > 0.0)
+            certificate_add(t, "compressive strength [Pa]", o->compressive > 0.0 ? o->compressive : none, c,
+                            NO_DISTANCE, 6, NULL);
     }
     if (b->young > 0.0) {
         certificate_add(t, "modulus of the bonds [Pa]", none, b->young, NO_DISTANCE, 6, NULL);
@@ -200,6 +261,8 @@ int sphere_sheet_make(struct recipe *o, fl_err *err)
     fl_history_line by;
     double draft, slab;
     int rc = -1;
+    if (o->endless && !o->scene)
+        return fl_fail(err, FL_USAGE, "--endless writes the inflow to --scene FILE, which is expected");
     if (set_thickness(o, kind, &slab, err) || sheet_bonds_choose(&bonds, o, kind, err) ||
         make_packing(o, kind, &a, err))
         return -1;
@@ -210,7 +273,8 @@ int sphere_sheet_make(struct recipe *o, fl_err *err)
     if (fl_out_open(&file, o->out, o->gzip, err)) goto done;
     fl_ice_field_write(file.f, &out, &by);
     if (fl_out_close(&file, err)) goto done;
-    if (o->scene && sheet_scene_write(o, &bonds, slab, &by, err)) goto done;
+    const struct sheet_inflow inflow = inflow_of(o, kind, &a);
+    if (o->scene && sheet_scene_write(o, &bonds, slab, o->endless ? &inflow : NULL, &by, err)) goto done;
     add_certificate_rows(o, &a, draft, &table);
     add_sheet_rows(o, kind, slab, &bonds, &table);
     if (o->certificate && certificate_write(&table, o->certificate, &by, err)) goto done;

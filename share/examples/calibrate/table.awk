@@ -6,6 +6,6 @@ function flush() {
     printf "%s\t%d\t%.3f\t%.3f\t%.3f\t%.3f\n", key, n, first/n, m, (v > 0 ? sqrt(v)/m : 0), young/n
     n = first = peak = peak2 = young = 0
 }
-BEGIN { print "test\tlayers\trows\tsamples\tfirst/c\tpeak/c\tspread\tE/E_b" }
-{ k = $1 "\t" $2 "\t" $3; if (k != key) flush(); key = k; n++; first += $5; peak += $6; peak2 += $6*$6; young += $7 }
+BEGIN { print "test\tlattice\tlayers\trows\tsamples\tfirst/c\tpeak/c\tspread\tE/E_b" }
+{ k = $1 "\t" $2 "\t" $3 "\t" $4; if (k != key) flush(); key = k; n++; first += $6; peak += $7; peak2 += $7*$7; young += $8 }
 END { flush() }

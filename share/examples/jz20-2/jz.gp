@@ -8,7 +8,7 @@ set grid lc rgb '#e0e0e0'
 set multiplot layout 2, 2
 set title 'load on the cone'
 set xlabel 't [s]'; set ylabel 'force [kN]'
-set key top right
+set key outside bottom center horizontal
 plot 'loads.dat' using 1:($3/1e3) with lines lw 1 lc rgb '#2a6f97' title 'along the drift', \
      'loads.dat' using 1:($5/1e3) with lines lw 1 lc rgb '#c8642d' title 'upwards', \
      117 with lines dt 2 lc rgb '#505050' title 'measured, largest'

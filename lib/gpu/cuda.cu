@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* cuda.cu -- the engine of gpu_engine.h on one NVIDIA card: a plug-in, built by nvcc.
+ *
+ * Built with -fmad=false: products and sums stay apart, as with -ffp-contract=off, and sqrt and divisions of
+ * doubles are those of IEEE 754.  So a kernel has the bits of gpu_serial.c. */
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
+#include <cuda_runtime.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The headers of the project are C: their inline functions are wanted on both sides. */
+#define inline __host__ __device__ __forceinline__
+#include "gpu/gpu_list_kernel.h"
+#include "gpu/gpu_step_kernel.h"
+#undef inline
+#include "gpu/gpu_engine.h"
+
+static char failure[256], card[200];
+static cudaStream_t stream;
+
+/* Keeps the sentence of a failure. */
+static int check(cudaError_t e, const char *what)
+{
+    if (e == cudaSuccess) return 0;
+    snprintf(failure, sizeof failure, "%s: %s", what, cudaGetErrorString(e));
+    return -1;
+}
+
+/* The oldest cards for which there is code. */
+enum { OLDEST = 75 };
+
+static int open_engine(void)
+{
+    int cards = 0;
+    cudaDeviceProp p;
+    if (check(cudaGetDeviceCount(&cards), "no card")) return -1;
+    if (cards == 0) {
+        snprintf(failure, sizeof failure, "there is no card");
+        return -1;
+    }
+    if (check(cudaGetDeviceProperties(&p, 0), "the card")) return -1;
+    snprintf(card, sizeof card, "%.150s", p.name);
+    if (10 * p.major + p.minor < OLDEST) {
+        snprintf(failure, sizeof failure, "%.100s has compute capability %d.%d, 7.5 or more is expected",
+                 p.name, p.major, p.minor);
+        return -1;
+    }
+    return check(cudaSetDevice(0), "the card") || check(cudaStreamCreate(&stream), "the card") ? -1 : 0;
+}
+
+static void close_engine(void)
+{
+    if (stream) cudaStreamDestroy(stream);
+    stream = NULL;
+}
+
+static const char *device_name(void) { return card; }
+static const char *last_failure(void) { return failure; }
+
+static double free_bytes(void)
+{
+    size_t unused = 0, all = 0;
+    return cudaMemGetInfo(&unused, &all) == cudaSuccess ? (double)unused : 0.0;
+}
+
+static int alloc_bytes(void **to, size_t bytes)
+{
+    *to = NULL;
+    if (!bytes) return 0;
+    return check(cudaMalloc(to, bytes), "memory of the card") ||
+                   check(cudaMemsetAsync(*to, 0, bytes, stream), "memory of the card")
+               ? -1
+               : 0;
+}
+
+static void release_bytes(void *p) { cudaFree(p); }
+
+static int upload_bytes(void *to, const void *from, size_t bytes)
+{
+    return check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream), "copying to the card");
+}
+
+static int download_bytes(void *to, const void *from, size_t bytes)
+{
+    return check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream), "copying from the card") ||
+                   check(cudaStreamSynchronize(stream), "a kernel")
+               ? -1
+               : 0;
+}
+
+/* Threads of a block, and blocks that shall fit a multiprocessor at a time: registers are the limit. */
+enum { THREADS = 128, BLOCKS_AT_ONCE = 3 };
+
+#define KERNEL(name, function)                                                                               \
+    static __global__ void __launch_bounds__(THREADS, BLOCKS_AT_ONCE)                                        \
+        run_##name(const __grid_constant__ fl_gpu_view v, int32_t n)                                         \
+    {                                                                                                        \
+        const int32_t k = (int32_t)(blockIdx.x * THREADS + threadIdx.x);                                     \
+        if (k < n) function(&v, k);                                                                          \
+    }
+FL_GPU_KERNELS(KERNEL)
+
+#define CASE(name, function)                                                                                 \
+    case FL_GPU_##name: run_##name<<<blocks, THREADS, 0, stream>>>(*v, n); break;
+
+static int launch_kernel(int kernel, int32_t n, const fl_gpu_view *v)
+{
+    const unsigned blocks = (unsigned)((n + THREADS - 1) / THREADS);
+    switch (kernel) {
+        FL_GPU_KERNELS(CASE)
+    default: snprintf(failure, sizeof failure, "a kernel that is not there"); return -1;
+    }
+    return check(cudaGetLastError(), "a kernel");
+}
+
+static int wait_engine(void) { return check(cudaStreamSynchronize(stream), "a kernel"); }
+
+/* Memory of the two below, kept. */
+static void *scratch;
+static size_t scratch_bytes;
+
+static int fit_scratch(size_t bytes)
+{
+    if (bytes <= scratch_bytes) return 0;
+    cudaFree(scratch);
+    scratch_bytes = bytes + bytes / 8;
+    return check(cudaMalloc(&scratch, scratch_bytes), "memory of the card");
+}
+
+static int sort_keys(uint64_t *key, int32_t *value, int32_t n)
+{
+    size_t need = 0;
+    const size_t room = ((size_t)n * 12 + 1023) / 512 * 512; /* sorted keys and values */
+    if (check(cub::DeviceRadixSort::SortPairs(NULL, need, key, key, value, value, n, 0, 64, stream),
+              "sorting") ||
+        fit_scratch(room + need))
+        return -1;
+    uint64_t *const keys = (uint64_t *)scratch;
+    int32_t *const values = (int32_t *)(keys + n);
+    return check(cub::DeviceRadixSort::SortPairs((char *)scratch + room, need, key, keys, value, values, n, 0,
+                                                 64, stream),
+                 "sorting") ||
+                   check(
+                       cudaMemcpyAsync(key, keys, (size_t)n * sizeof *key, cudaMemcpyDeviceToDevice, stream),
+                       "sorting") ||
+                   check(cudaMemcpyAsync(value, values, (size_t)n * sizeof *value, cudaMemcpyDeviceToDevice,
+                                         stream),
+                         "sorting")
+               ? -1
+               : 0;
+}
+
+static int make_offsets(int32_t *count, int32_t n)
+{
+    size_t need = 0;
+    return check(cub::DeviceScan::ExclusiveSum(NULL, need, count, count, n, stream), "adding up") ||
+                   fit_scratch(need) ||
+                   check(cub::DeviceScan::ExclusiveSum(scratch, need, count, count, n, stream), "adding up")
+               ? -1
+               : 0;
+}
+
+static const fl_gpu_engine CUDA = {FL_GPU_VERSION, (int32_t)sizeof(fl_gpu_view),
+                                   "cuda",         open_engine,
+                                   close_engine,   device_name,
+                                   last_failure,   free_bytes,
+                                   alloc_bytes,    release_bytes,
+                                   upload_bytes,   download_bytes,
+                                   launch_kernel,  wait_engine,
+                                   sort_keys,      make_offsets};
+
+extern "C" const fl_gpu_engine *fl_gpu_engine_cuda(void) { return &CUDA; }

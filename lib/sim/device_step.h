@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* device_step.h -- a step whose spheres run on a device (gpu/gpu_world.h), to the bits of the CPU's step.
+ *
+ * step.c calls the parts in their order.  Between two parts the CPU moves the guests of the device, evaluates
+ * all pairs that are not of spheres, moves the structure and keeps the books.  After a step bodies, contacts
+ * and bonds of the world are old: fl_device_refresh() is due before anything but loads is read. */
+#ifndef FL_SIM_DEVICE_STEP_H
+#define FL_SIM_DEVICE_STEP_H
+#include "world/world.h"
+
+enum { FL_DEVICE_NOTE = 400 };
+
+/* Chooses who runs the spheres, by run.device, before the first step.  note: one sentence, who and why.  -1
+ * with FL_SYSTEM: a card that was asked for by name is not there, or too small; FL_INPUT: the scene has what
+ * does not run there. */
+int fl_device_choose(fl_world *w, char note[FL_DEVICE_NOTE], fl_err *err);
+void fl_device_free(fl_world *w);
+
+/* Brings the world up to date.  -1 with FL_SYSTEM: the card is lost. */
+int fl_device_refresh(fl_world *w, fl_err *err);
+
+/* Drag, kick and drift; sets the largest paths of w->blocks. */
+int fl_device_first_half(fl_world *w, double h, fl_err *err);
+/* Before the neighbour list is made anew, and after.  fl_device_makes_lists(): the device lists pairs of
+ * spheres. */
+int fl_device_makes_lists(const fl_world *w);
+int fl_device_before_search(fl_world *w, fl_err *err);
+int fl_device_take_lists(fl_world *w, fl_err *err);
+int fl_device_contacts(fl_world *w, fl_err *err);
+int fl_device_sums(fl_world *w, fl_err *err);
+/* Forces, kick and drag; the books of blocks, chunks and bonds. */
+int fl_device_second_half(fl_world *w, double h, int stiffness, fl_err *err);
+
+#endif
