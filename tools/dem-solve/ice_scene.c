@@ -284,7 +284,7 @@ void ice_scene_warn_inflow(const struct run *r, FILE *f)
     const fl_inflow_state *t = &w->inflow;
     double area = 0.0, speed = 0.0;
     int32_t n = 0, behind = 0;
-    if (!t->feed || !w->sea.water) return;
+    if (!t->feed || !w->sea.water || fl_world_bonds(w)) return; /* a sheet pushes back as a whole */
     for (int32_t i = 0; i < w->n; i++)
         if (!fl_body_absent(w, i)) area += area_of_floe(w, i), n++;
     const double reach = n ? SIZES_BEHIND * sqrt(area / n) : 0.0;
