@@ -19,7 +19,9 @@ enum fl_rng_purpose {
     FL_RNG_STRENGTH,
     FL_RNG_WAVE_DIRECTION,
     FL_RNG_SCATTER,
-    FL_RNG_ORIENTATION
+    FL_RNG_ORIENTATION,
+    FL_RNG_JOINT_PLANE,
+    FL_RNG_PERSISTENCE
 };
 
 typedef struct {
