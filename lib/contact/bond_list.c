@@ -7,6 +7,7 @@
 #include "bond/common_face.h"
 #include "contact/bond_image.h"
 #include "contact/bond_list.h"
+#include "contact/joint_list.h"
 #include "geom/clip.h"
 #include "patch/stiffness_bound.h"
 #include "world/access.h"
@@ -162,15 +163,18 @@ static int bound_stiffness(fl_world *w, fl_err *err)
 {
     fl_bond_list *s = &w->bonds;
     fl_stiffness *all = fl_alloc(w->n, sizeof *all, err);
+    double *area = fl_alloc(s->n, sizeof *area, err);
     s->omega2 = fl_alloc(2 * (int64_t)s->n, sizeof *s->omega2, err);
     s->max_omega2 = fl_alloc(w->n, sizeof *s->max_omega2, err);
-    if (!all || !s->omega2 || !s->max_omega2) {
-        free(all);
+    if (!all || !area || !s->omega2 || !s->max_omega2) {
+        free(all), free(area);
         return -1;
     }
     for (int32_t k = 0; k < s->n; k++) {
         const fl_bond *c = &s->bond[k];
         double own[2];
+        area[k] = c->area;
+        s->bond[k].area = fl_joint_list_most_area(w, k);
         for (int e = 0; e < 2; e++) {
             fl_stiffness K = {0};
             add_stiffness(w, c, e == 0, 1.0, &K);
@@ -183,26 +187,36 @@ static int bound_stiffness(fl_world *w, fl_err *err)
         }
     }
     for (int32_t i = 0; i < w->n; i++) s->max_omega2[i] = fl_stiffness_bound(&all[i]);
-    free(all);
+    for (int32_t k = 0; k < s->n; k++) s->bond[k].area = area[k];
+    free(all), free(area);
     return 0;
 }
 
-int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
+/* Bonded faces that [bond] makes; -1. */
+static int32_t count_faces(fl_world *w, const fl_ice_field *field, fl_err *err)
 {
-    fl_bond_list *s = &w->bonds;
     if (!w->scene->bond.head.present || !w->scene->bond.on) return 0;
     if (field->bonds == 0)
         return fl_fail(err, FL_INPUT,
                        "%s: no bond in it, and [bond] is on: a field of voronoi-ice --bonded is expected",
                        w->scene->ice.file);
     if (fl_disc_list_make(w, field, err)) return -1;
-    const int32_t faces = field->bonds - w->discs.n;
-    if (faces == 0) return 0;
-    s->bond = fl_alloc(faces, sizeof *s->bond, err);
-    s->image = fl_alloc(3 * (int64_t)faces, sizeof *s->image, err);
-    s->radius_factor = fl_alloc(faces, sizeof *s->radius_factor, err);
-    if (!s->bond || !s->image || !s->radius_factor || make_all(w, field, err)) return -1;
-    s->n = faces;
+    return field->bonds - w->discs.n;
+}
+
+int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
+{
+    fl_bond_list *s = &w->bonds;
+    const int32_t faces = count_faces(w, field, err), n = faces + fl_joint_list_count(w, field);
+    if (faces < 0) return -1;
+    if (n == 0) return 0;
+    s->bond = fl_alloc(n, sizeof *s->bond, err);
+    s->image = fl_alloc(3 * (int64_t)n, sizeof *s->image, err);
+    s->radius_factor = fl_alloc(n, sizeof *s->radius_factor, err);
+    if (!s->bond || !s->image || !s->radius_factor || (faces && make_all(w, field, err))) return -1;
+    s->faces = faces;
+    if (n > faces && fl_joint_list_make(w, field, err)) return -1;
+    s->n = n;
     for (int32_t k = 0; k < s->n; k++) {
         const int32_t of[2] = {s->bond[k].i, s->bond[k].j};
         for (int e = 0; e < 2; e++) w->b.is_isotropic[of[e]] = 0;
@@ -214,6 +228,7 @@ void fl_bond_list_free(fl_bond_list *s)
 {
     free(s->bond), free(s->image), free(s->radius_factor), free(s->omega2), free(s->max_omega2),
         free(s->first), free(s->of);
+    fl_joint_list_free(s);
     *s = (fl_bond_list){0};
 }
 
@@ -261,7 +276,10 @@ void fl_bond_list_first_contact(fl_world *w, fl_pair *p)
 static void evaluate_bond(fl_world *w, int32_t k)
 {
     fl_bond *c = &w->bonds.bond[k];
-    if (c->state == FL_BOND_ENDED || !fl_bond_force(c, &w->b, image_offset(w, k))) return;
+    if (c->state == FL_BOND_ENDED) return;
+    if (!(fl_joint_of_bond(&w->bonds, k) ? fl_joint_list_force(w, k, image_offset(w, k))
+                                         : fl_bond_force(c, &w->b, image_offset(w, k))))
+        return;
 #pragma omp atomic write
     w->bonds.ended = 1;
 }
@@ -286,7 +304,7 @@ void fl_bond_list_evaluate(fl_world *w, int32_t from, int32_t to)
     for (int32_t k = from; k < to; k++) {
         const fl_bond *c = &w->bonds.bond[k];
         if (k + FL_LANE_COUNT < w->bonds.n) fl_prefetch(c + FL_LANE_COUNT, offsetof(fl_bond, force_friction));
-        if (c->state == FL_BOND_INTACT && c->wear == 0.0) intact[n++] = k;
+        if (c->state == FL_BOND_INTACT && c->wear == 0.0 && !fl_joint_of_bond(&w->bonds, k)) intact[n++] = k;
         else evaluate_bond(w, k);
         if (n == FL_LANE_COUNT) evaluate_intact(w, intact, n), n = 0;
     }
@@ -382,7 +400,7 @@ fl_bond_energies fl_bond_list_energies(const fl_world *w)
     }
     const fl_disc_energies discs = fl_disc_list_energies(w);
     sum.store += discs.store, sum.dissipated += discs.dissipated;
-    sum.damped = discs.damped, sum.friction_loss = discs.friction_loss;
+    sum.damped = discs.damped, sum.friction_loss = discs.friction_loss + fl_joint_list_friction_loss(w);
     return sum;
 }
 
@@ -414,7 +432,7 @@ fl_bond_counts fl_bond_list_counts(const fl_world *w)
     fl_bond_counts n = {0};
     double area = 0.0;
     count_discs(w, &n, &area);
-    for (int32_t k = 0; k < w->bonds.n; k++) {
+    for (int32_t k = 0; k < w->bonds.faces; k++) {
         const fl_bond *c = &w->bonds.bond[k];
         const double fracture = fl_bond_fracture_energy(c);
         n.state[c->state]++;

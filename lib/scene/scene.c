@@ -23,6 +23,8 @@ void fl_scene_free(fl_scene *scene)
     free(scene->contact);
     free(scene->group);
     free(scene->part);
+    free(scene->joint);
+    free(scene->stage);
     memset(scene, 0, sizeof *scene);
 }
 

@@ -36,6 +36,8 @@ void fl_scene_write(FILE *f, const fl_scene *scene)
             if (s == FL_SEC_MATERIAL) snprintf(names, sizeof names, " %s", scene->material[i].name);
             if (s == FL_SEC_GROUP) snprintf(names, sizeof names, " %s", scene->group[i].name);
             if (s == FL_SEC_PART) snprintf(names, sizeof names, " %s", scene->part[i].name);
+            if (s == FL_SEC_JOINT) snprintf(names, sizeof names, " %s", scene->joint[i].name);
+            if (s == FL_SEC_STAGE) snprintf(names, sizeof names, " %s", scene->stage[i].name);
             if (pair) snprintf(names, sizeof names, " %s %s", scene->contact[i].a, scene->contact[i].b);
             if (pair && scene->contact[i].a[0] == '\0') continue;
             if (fl_section_table[s].names || head->present || s == FL_SEC_RUN || s == FL_SEC_OUTPUT)

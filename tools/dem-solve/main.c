@@ -234,7 +234,8 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     fl_world world = {0};
     fl_error_budget budget = {0};
     char path[FL_SCENE_PATH];
-    int32_t *order = NULL;
+    int32_t *order = NULL, *group = NULL;
+    fl_string_table groups = {0};
     int rc = -1;
     if (o->explain) return fl_scene_explain(stdout, o->explain, err);
     if (read_inputs(&in, o, err)) goto done;
@@ -259,7 +260,12 @@ static int run(const struct options *o, int *stopped, fl_err *err)
          fl_error_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface,
                               members, err)))
         goto done;
-    if (!has_inflow) fl_ice_field_free(&in.field);
+    /* the groups of the bodies, for stages; the field goes */
+    if (!has_inflow) {
+        group = in.field.group, groups = in.field.groups;
+        in.field.group = NULL, in.field.groups = (fl_string_table){0};
+        fl_ice_field_free(&in.field);
+    }
     struct run r = {.o = o,
                     .scene = &in.scene,
                     .order = order,
@@ -273,6 +279,9 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                     .loads_path = o->out ? o->out : "-",
                     .gzip = o->gzip,
                     .w = &world,
+                    .group = group,
+                    .groups = &groups,
+                    .settles = in.scene.run.relax || in.scene.n_stage,
                     .budget = in.scene.run.error > 0.0 ? &budget : NULL};
     if (o->resume && !o->out) {
         const fl_restart_part *loads = fl_restart_find(&in.saved, "loads");
@@ -289,7 +298,8 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     *stopped = r.stopped;
     if (r.stopped && !o->quiet) print_stop(&r);
 done:
-    free(order);
+    free(order), free(group);
+    fl_string_table_free(&groups);
     for (int k = 0; k < INPUT_TEXTS; k++) free(in.text[k]);
     free(in.history);
     fl_restart_free(&in.saved);
