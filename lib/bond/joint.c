@@ -160,7 +160,7 @@ static void clear_joint(fl_bond *c)
     c->elastic_energy = c->friction_spring_energy = 0.0;
 }
 
-/* Clips the common part where the sides have moved, and lays the points anew where they have moved far. 
+/* Clips the common part where the sides have moved, and lays the points anew where they have moved far.
  * Returns 0 if nothing is left of it. */
 static int follow_area(fl_bond *c, fl_joint *j, fl_joint_pool pool, const fl_bodies *b, fl_vec3 way,
                        fl_bond_kinematics *q)

@@ -7,7 +7,7 @@
  * Area.  The common part of the two faces is clipped in the mid-plane as they move, and the tractions act on
  * its present area A_c.  Points are laid on it by its second moments.  They are laid anew when A_c has
  * changed by 2 %, or the sides have moved over each other by 2 % of the smaller half side: shear stress,
- * offset and slip go over as linear fields by least squares, strength and direction from the nearest point. 
+ * offset and slip go over as linear fields by least squares, strength and direction from the nearest point.
  * So a small block on a long bed keeps its area, and off the edge the area falls to 0.
  *
  * Law.  A point has a law of joint_law.h.  It may fail and close again any number of times.

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/stream.h"
 #include "mesh/gstruct.h"
+#include "factor.h"
 #include "options.h"
 #include "plan_probe.h"
 #include "report.h"
@@ -228,6 +229,13 @@ static void print_stop(const struct run *r)
             has_checkpoint ? checkpoint : "");
 }
 
+static int make_trial_world(void *with, fl_world *w, fl_err *err)
+{
+    const struct inputs *in = with;
+    return fl_world_make_with_inflow(w, &in->scene, &in->field, &in->field, in->surface.n ? &in->surface : NULL,
+                                     in->members.file ? &in->members : NULL, err);
+}
+
 static int run(const struct options *o, int *stopped, fl_err *err)
 {
     struct inputs in = {0};
@@ -261,7 +269,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                               members, err)))
         goto done;
     /* the groups of the bodies, for stages; the field goes */
-    if (!has_inflow) {
+    if (!has_inflow && !o->factor) {
         group = in.field.group, groups = in.field.groups;
         in.field.group = NULL, in.field.groups = (fl_string_table){0};
         fl_ice_field_free(&in.field);
@@ -289,6 +297,12 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                  loads ? (int)(loads->n < FL_SCENE_PATH ? loads->n : FL_SCENE_PATH) : 1,
                  loads ? loads->text : "-");
         r.loads_path = path;
+    }
+    if (o->factor) {
+        r.group = in.field.group, r.groups = &in.field.groups;
+        if (has_inflow) fl_fail(err, FL_USAGE, "--factor: boundary.inflow changes the model, none is expected");
+        else rc = factor_search(&r, o->factor, make_trial_world, &in, err);
+        goto done;
     }
     if (targets_check(&in.scene, o, r.loads_path, err)) goto done;
     choose_step(&r);
