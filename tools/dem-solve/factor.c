@@ -15,7 +15,7 @@
 #include "world/access.h"
 
 /* The first trial of either side, the range, and the width of the interval at the end. */
-static const double FIRST = 1.25, LARGEST = 100.0, WIDTH = 1.005;
+static const double FIRST = 1.25, LARGEST = 100.0, WIDTH = 1.002;
 /* A body that moves by this part of its size has failed. */
 static const double MOVED = 0.02;
 
@@ -43,11 +43,14 @@ static int read_key(struct factor_search *s, const char *key, fl_err *err)
         for (int k = 0; k < 3; k++)
             if (strcmp(dot + 1, WORD[k]) == 0) s->what = 1 << k;
     for (int32_t k = 0; dot && k < scene->n_joint; k++)
-        if (dot - key == 6 + (long)strlen(scene->joint[k].name) && strncmp(key + 6, scene->joint[k].name, strlen(scene->joint[k].name)) == 0)
+        if (dot - key == 6 + (long)strlen(scene->joint[k].name) &&
+            strncmp(key + 6, scene->joint[k].name, strlen(scene->joint[k].name)) == 0)
             s->joint = k;
     if (!s->what || (dot && s->joint < 0))
-        return fl_fail(err, FL_USAGE, "--factor is \"%.60s\", expected friction, strength or joint.NAME.friction, "
-                                      ".cohesion or .tension", key);
+        return fl_fail(err, FL_USAGE,
+                       "--factor is \"%.60s\", expected friction, strength or joint.NAME.friction, "
+                       ".cohesion or .tension",
+                       key);
     if (!scene->n_joint) return fl_fail(err, FL_USAGE, "--factor: the scene has no [joint NAME]");
     if (!scene->run.relax) return fl_fail(err, FL_USAGE, "--factor: run.relax is none, local is expected");
     return 0;
@@ -77,7 +80,8 @@ static double largest_displacement(const fl_world *w, const fl_vec3 *x)
 {
     double most = 0.0;
     for (int32_t k = 0; k < w->n; k++)
-        if (!fl_body_absent(w, k)) most = fmax(most, v3_norm(v3_sub(w->b.x[k], x[k])) / w->b.bounding_radius[k]);
+        if (!fl_body_absent(w, k))
+            most = fmax(most, v3_norm(v3_sub(w->b.x[k], x[k])) / w->b.bounding_radius[k]);
     return most;
 }
 
@@ -89,7 +93,8 @@ static int come_to_rest(struct run *r, fl_world *w, const fl_vec3 *x, int32_t *s
     while (w->step < end) {
         if (fl_step(w, err)) return -1;
         if ((w->step - w->stage_step) % FL_STAGE_EVERY) continue;
-        const int rest = fl_stage_update(w, stage, r->group, (const char *const *)r->groups->name, r->groups->n, err);
+        const int rest =
+            fl_stage_update(w, stage, r->group, (const char *const *)r->groups->name, r->groups->n, err);
         if (rest) return rest;
         if (x && largest_displacement(w, x) > MOVED) return 0;
     }
@@ -156,7 +161,8 @@ static int find_interval(struct factor_search *s, double *lo, double *hi, fl_err
     while (stands == up) {
         const double F = up ? *lo * step : *hi / step;
         if (F > LARGEST || F < 1.0 / LARGEST)
-            return fl_fail(err, FL_NO, "the model %s at every factor down to %g", up ? "stands" : "fails", up ? *lo : *hi);
+            return fl_fail(err, FL_NO, "the model %s at every factor down to %g", up ? "stands" : "fails",
+                           up ? *lo : *hi);
         stands = try_factor(s, F, err);
         if (stands < 0) return -1;
         if (stands) *lo = F;
