@@ -232,7 +232,8 @@ static void print_stop(const struct run *r)
 static int make_trial_world(void *with, fl_world *w, fl_err *err)
 {
     const struct inputs *in = with;
-    return fl_world_make_with_inflow(w, &in->scene, &in->field, &in->field, in->surface.n ? &in->surface : NULL,
+    return fl_world_make_with_inflow(w, &in->scene, &in->field, &in->field,
+                                     in->surface.n ? &in->surface : NULL,
                                      in->members.file ? &in->members : NULL, err);
 }
 
@@ -300,7 +301,8 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     }
     if (o->factor) {
         r.group = in.field.group, r.groups = &in.field.groups;
-        if (has_inflow) fl_fail(err, FL_USAGE, "--factor: boundary.inflow changes the model, none is expected");
+        if (has_inflow)
+            fl_fail(err, FL_USAGE, "--factor: boundary.inflow changes the model, none is expected");
         else rc = factor_search(&r, o->factor, make_trial_world, &in, err);
         goto done;
     }

@@ -97,7 +97,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     *o = (struct options){.probe = -1.0};
     if (fl_options_read(&TABLE, o, NULL, argc, argv, err)) return -1;
     if (o->ended) return 0;
-    if (o->resume && (o->factor || o->scene || o->ice || o->structure || o->plan || o->probe >= 0.0 || o->gzip))
+    if (o->resume &&
+        (o->factor || o->scene || o->ice || o->structure || o->plan || o->probe >= 0.0 || o->gzip))
         return fl_fail(
             err, FL_USAGE,
             "--resume continues what its checkpoint holds: it excludes a scene, --ice, --structure, "
