@@ -152,7 +152,8 @@ done:
 }
 
 /* Joins the sliver k to a neighbour; 1 if done. */
-static int join_sliver(fl_block_model *m, const fl_face_pairs *pairs, int32_t k, uint8_t *busy, fl_err *err)
+static int join_sliver(fl_block_model *m, const fl_face_pairs *pairs, const fl_sliver_rule *rule, int32_t k,
+                       uint8_t *busy, fl_err *err)
 {
     double below = INFINITY;
     for (;;) {
@@ -175,6 +176,10 @@ static int join_sliver(fl_block_model *m, const fl_face_pairs *pairs, int32_t k,
         const int rc = join_blocks(a, fk, b, fo, m->tol, &joined, err);
         if (rc < 0) return -1;
         if (rc == 0) continue;
+        if (rule->radius > 0.0 && !has_core(&joined, rule->radius)) { /* corners too flat for it */
+            fl_block_shape_free(&joined);
+            continue;
+        }
         fl_block_shape_free(&m->block[other]);
         m->block[other] = joined;
         busy[other] = 1;
@@ -203,7 +208,7 @@ static int32_t remove_round(fl_slivers *s, fl_block_model *m, const fl_face_pair
     if (!busy || !gone) taken = -1;
     for (int32_t k = 0; k < m->n && taken >= 0; k++) {
         if (busy[k] || !is_sliver(&m->block[k], rule)) continue;
-        const int joined = last ? 0 : join_sliver(m, pairs, k, busy, err);
+        const int joined = last ? 0 : join_sliver(m, pairs, rule, k, busy, err);
         if (joined < 0 || ((joined || last) && note_sliver(s, &m->block[k], joined, err))) taken = -1;
         else if (joined || last) gone[k] = busy[k] = 1, taken++;
     }

@@ -118,6 +118,19 @@ static void make_intact(const fl_world *w, fl_bond *c, fl_vec3 way)
     c->h0 = 0.0;
 }
 
+/* True if the two faces lie in one plane, to a millionth of the distance of their first corners, and face
+ * each other. */
+static int is_one_plane(const fl_bodies *b, const fl_bond *c, const fl_joint *q, const fl_vec3 *corner,
+                        fl_vec3 way)
+{
+    const fl_mat3 Ri = fl_body_axes(b, c->i), Rj = fl_body_axes(b, c->j);
+    const fl_vec3 xi = v3_add(b->x[c->i], m3_mul(Ri, corner[q->first])),
+                  xj = v3_add(v3_add(b->x[c->j], way), m3_mul(Rj, corner[q->first + q->ni])),
+                  n = m3_mul(Ri, c->ni), apart = v3_sub(xj, xi);
+    const double size = v3_norm(v3_sub(corner[q->first + 1], corner[q->first])) + v3_norm(apart);
+    return v3_dot(n, m3_mul(Rj, c->nj)) > 0.999 && fabs(v3_dot(n, apart)) < 1e-6 * size;
+}
+
 static int make_joint(fl_world *w, int32_t k, const fl_ice_field_joint *d, const char *name, int32_t law,
                       const fl_poly *shape, int32_t *cap, fl_err *err)
 {
@@ -146,11 +159,18 @@ static int make_joint(fl_world *w, int32_t k, const fl_ice_field_joint *d, const
     const double S[6] = {scene ? scene->initial_stress.x : 0.0, scene ? scene->initial_stress.y : 0.0,
                          scene ? scene->initial_stress.z : 0.0, scene ? scene->initial_shear.x : 0.0,
                          scene ? scene->initial_shear.y : 0.0,  scene ? scene->initial_shear.z : 0.0};
-    if (!fl_joint_start(c, q, pool, b, way, S))
+    if (!is_one_plane(b, c, q, s->corner, way))
         return fl_fail(err, FL_INPUT,
                        "%s: face %d of body %d and face %d of body %d of joint %s do not touch",
                        w->scene->ice.file, d->fi, w->id[d->i], d->fj, w->id[d->j], name);
+    if (!fl_joint_start(c, q, pool, b, way, S)) {
+        /* a common part without width, as of slivers, bears nothing */
+        c->kn = c->ks = 1.0;
+        c->area = 0.0;
+        fl_bond_end(c);
+    }
     q->material = law;
+    if (c->state == FL_BOND_ENDED) return 0;
     if (!scene) {
         make_intact(w, c, way);
         return 0;
