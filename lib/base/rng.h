@@ -20,6 +20,8 @@ enum fl_rng_purpose {
     FL_RNG_WAVE_DIRECTION,
     FL_RNG_SCATTER,
     FL_RNG_ORIENTATION,
+    FL_RNG_STRIP_GAP,
+    FL_RNG_STRIP_STRENGTH,
     FL_RNG_JOINT_PLANE,
     FL_RNG_PERSISTENCE
 };
@@ -33,6 +35,19 @@ typedef struct {
 static inline int64_t fl_rng_entity(int32_t i, int32_t j)
 {
     return (int64_t)((uint64_t)(uint32_t)i << 32 | (uint32_t)j);
+}
+
+/* The entity of four ids: a hash, so that two sets share one with a chance of 2^-64 a pair (SplitMix64). */
+static inline int64_t fl_rng_entity4(int32_t i, int32_t j, int32_t k, int32_t l)
+{
+    uint64_t x = (uint64_t)fl_rng_entity(i, j) + UINT64_C(0x9e3779b97f4a7c15);
+    for (int pass = 0; pass < 2; pass++) {
+        x = (x ^ x >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+        x = (x ^ x >> 27) * UINT64_C(0x94d049bb133111eb);
+        x ^= x >> 31;
+        if (pass == 0) x += (uint64_t)fl_rng_entity(k, l);
+    }
+    return (int64_t)x;
 }
 
 fl_rng fl_rng_of(uint64_t seed, int64_t entity, uint32_t purpose);

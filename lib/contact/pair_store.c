@@ -23,13 +23,14 @@ void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 void fl_pair_free(fl_pair *p)
 {
     if (p->feature_pairs) fl_mesh_under_face_free_pairs(p->feature_pairs);
-    free(p->feature_pairs), free(p->surrogate), free(p->rolling);
+    free(p->feature_pairs), free(p->surrogate), free(p->rolling), free(p->strip);
     if (p->quick_list) fl_quick_list_free(p->quick_list);
     free(p->quick_list);
     p->quick_list = NULL;
     p->feature_pairs = NULL;
     p->surrogate = NULL;
     p->rolling = NULL;
+    p->strip = NULL;
 }
 
 /* --- near pairs and their contacts ------------------------------------------------------------- */

@@ -5,7 +5,7 @@
 #include "base/number_text.h"
 #include "base/pi.h"
 
-enum { TRANSLATES = 1, ROTATES = 2 }; /* bits of enum fl_loads_motion_kind */
+enum { TRANSLATES = 1, ROTATES = 2, RATE = FL_LOADS_RATE }; /* bits of enum fl_loads_motion_kind */
 
 static const fl_column LOADS[] = {
     {"part", "", FL_COLUMN_TEXT, 0, offsetof(fl_loads_row, part)},
@@ -19,6 +19,8 @@ static const fl_column LOADS[] = {
     {"r", "deg", FL_COLUMN_VEC3_DEGREES, ROTATES, offsetof(fl_loads_row, motion.r)},
     {"w", "rad/s", FL_COLUMN_VEC3, ROTATES, offsetof(fl_loads_row, motion.w)},
     {"e", "rad/s2", FL_COLUMN_VEC3, ROTATES, offsetof(fl_loads_row, motion.e)},
+    {"closing", "m/s", FL_COLUMN_REAL, RATE, offsetof(fl_loads_row, closing)},
+    {"breaks", "", FL_COLUMN_REAL, RATE, offsetof(fl_loads_row, breaks)},
 };
 const fl_table_format fl_loads_table = {"loads", FL_TABLE_COLUMNS(LOADS)};
 
@@ -102,6 +104,13 @@ static void write_name(FILE *f, const fl_column *c)
 void fl_table_write_header(FILE *f, const fl_table_format *table, unsigned options, const char *history,
                            const fl_history_line *by, const char *sets, double start)
 {
+    fl_table_write_header_more(f, table, options, history, by, sets, start, NULL);
+}
+
+void fl_table_write_header_more(FILE *f, const fl_table_format *table, unsigned options, const char *history,
+                                const fl_history_line *by, const char *sets, double start,
+                                const fl_more_columns *more)
+{
     char text[FL_NUMBER_LEN];
     fl_write_file_header(f, table->kind, 1, history, by);
     if (sets) fputs(sets, f);
@@ -109,6 +118,8 @@ void fl_table_write_header(FILE *f, const fl_table_format *table, unsigned optio
     fputs("t[s]", f);
     for (int k = 0; k < table->columns; k++)
         if (is_present(&table->column[k], options)) write_name(f, &table->column[k]);
+    for (int32_t k = 0; more && k < more->n; k++)
+        fprintf(f, "\t%s%s[%s]", more->prefix, more->name[k], more->unit);
     putc('\n', f);
 }
 
@@ -164,12 +175,19 @@ static void write_value(FILE *f, enum fl_column_type type, const void *value)
 
 void fl_table_write_row(FILE *f, const fl_table_format *table, unsigned options, double t, const void *row)
 {
+    fl_table_write_row_more(f, table, options, t, row, NULL);
+}
+
+void fl_table_write_row_more(FILE *f, const fl_table_format *table, unsigned options, double t,
+                             const void *row, const fl_more_columns *more)
+{
     char text[FL_NUMBER_LEN];
     fputs(fl_number_text(t, text), f);
     for (int k = 0; k < table->columns; k++) {
         const fl_column *c = &table->column[k];
         if (is_present(c, options)) write_value(f, c->type, (const char *)row + c->offset);
     }
+    for (int32_t k = 0; more && k < more->n; k++) put_real(f, more->value[k]);
     putc('\n', f);
 }
 

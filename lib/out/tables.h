@@ -62,6 +62,21 @@ void fl_table_write_report(FILE *f, const char *text, const char *program);
 /* The last line of the table of a run that ended early: "#stopped STATUS at t = 1.5 s: why". */
 void fl_table_write_stopped(FILE *f, int status, double t, const char *why);
 
+/* Columns that depend on the scene: PREFIX NAME[UNIT], numbers, after all others. */
+typedef struct {
+    int32_t n;
+    const char *prefix, *unit;
+    const char *const *name; /* [n] */
+    const double *value;     /* [n] not read for the header */
+} fl_more_columns;
+
+/* The same with further columns; more NULL: none. */
+void fl_table_write_header_more(FILE *f, const fl_table_format *table, unsigned options, const char *history,
+                                const fl_history_line *by, const char *sets, double start,
+                                const fl_more_columns *more);
+void fl_table_write_row_more(FILE *f, const fl_table_format *table, unsigned options, double t,
+                             const void *row, const fl_more_columns *more);
+
 /* row: the row struct of the table; t [s]. */
 void fl_table_write_row(FILE *f, const fl_table_format *table, unsigned options, double t, const void *row);
 
@@ -75,6 +90,7 @@ typedef struct {
 
 /* The columns of motion that a table of loads has: the `options` of fl_loads_table. */
 enum fl_loads_motion_kind { FL_LOADS_FIXED = 0, FL_LOADS_TRANSLATION = 1, FL_LOADS_ROTATION = 3 };
+enum { FL_LOADS_RATE = 4 }; /* columns of crushing by speed; to be added to the above */
 
 typedef struct {
     const char *part;
@@ -82,6 +98,8 @@ typedef struct {
     double peak;            /* largest |force| of any step in it [N] */
     int32_t contacts;       /* bodies that touch the part at t */
     fl_loads_motion motion; /* not read with FL_LOADS_FIXED */
+    double closing;         /* mean speed of the ice against the part along its load [m/s] */
+    double breaks;          /* of elements of ice in the interval */
 } fl_loads_row;
 extern const fl_table_format fl_loads_table;
 

@@ -11,6 +11,8 @@
 /* Of the force of the waves, where none is given. */
 #define DEFAULT_WAVE_ERROR 0.003
 
+enum { MODES_OF_A_PART = 8 };
+
 static int add_missing_material(fl_scene *s, const char *name, fl_err *err)
 {
     if (fl_scene_find_material(s, name) >= 0) return 0;
@@ -84,8 +86,9 @@ static int check_outputs(const fl_scene *s, fl_err *err)
             if (strcmp(path[j], path[k]) == 0)
                 return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is %s already", key[k], path[k],
                                      key[j]);
-        if (path[k][0] && (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0 ||
-                           strcmp(path[k], s->structure.members) == 0))
+        if (path[k][0] &&
+            (strcmp(path[k], s->ice.file) == 0 || strcmp(path[k], s->structure.file) == 0 ||
+             strcmp(path[k], s->structure.members) == 0 || strcmp(path[k], s->structure.modes) == 0))
             return fl_scene_fail(s, key[k], err, "%s is \"%s\", which is an input", key[k], path[k]);
     }
     return 0;
@@ -159,7 +162,7 @@ static int check_drive(const fl_scene *s, fl_err *err)
     if (row && group)
         return fl_scene_fail(s, "boundary.drive_group", err,
                              "drive_width and drive_group both say which floes are driven: one is expected");
-    if (row && b->drive_edge == 0 && !(fabs(v[0]) > 0.0 || fabs(v[1]) > 0.0))
+    if (row && b->drive_edge == 0 && !b->drive_track[0] && !(fabs(v[0]) > 0.0 || fabs(v[1]) > 0.0))
         return fl_scene_fail(s, "boundary.drive_width", err,
                              "boundary.drive has no direction along x or y: drive_edge is expected");
     for (int c = 0; c < 3 && (row || group); c++)
@@ -537,10 +540,139 @@ static int check_members(const fl_scene *s, fl_err *err)
     if (strcmp(t->members, "-") == 0)
         return fl_scene_fail(s, "structure.members", err,
                              "structure.members is \"-\": a file is expected, as it is read twice");
-    if (m->free || m->track[0] || v3_nonzero(m->velocity) || v3_nonzero(m->spin) || s->n_part)
+    if (m->free || m->track[0] || v3_nonzero(m->velocity) || v3_nonzero(m->spin) || s->n_part || t->modes[0])
         return fl_scene_fail(s, s->n_part ? "part" : "structure.members", err,
                              "a structure of members moves by its own masses and supports: no %s is expected",
-                             s->n_part ? "[part NAME]" : "velocity, spin, track or free");
+                             s->n_part ? "[part NAME]" : "velocity, spin, track, free or modes");
+    return 0;
+}
+
+static int mode_fail(const fl_scene *s, int32_t k, const char *key, const char *what, fl_err *err)
+{
+    char at[3 * FL_SCENE_NAME];
+    snprintf(at, sizeof at, "mode %s%s%s", s->mode[k].name, key ? "." : "", key ? key : "");
+    return fl_scene_fail(s, at, err, "[mode %s]: %s", s->mode[k].name, what);
+}
+
+/* Number of modes of the part of mode k; -1 with err if one is the same as k. */
+static int count_modes(const fl_scene *s, int32_t k, fl_err *err)
+{
+    const fl_scene_mode *m = &s->mode[k];
+    char what[3 * FL_SCENE_NAME];
+    int n = 0;
+    for (int32_t j = 0; j < s->n_mode; j++) {
+        const fl_scene_mode *other = &s->mode[j];
+        if (strcmp(m->part, other->part) != 0) continue;
+        n++;
+        if (j >= k || m->frequency != other->frequency ||
+            (m->direction != other->direction && m->direction != FL_MODE_XY &&
+             other->direction != FL_MODE_XY))
+            continue;
+        snprintf(what, sizeof what, "it has the frequency and direction of [mode %s]", other->name);
+        return mode_fail(s, k, "frequency", what, err);
+    }
+    return n;
+}
+
+/* The motion of a part whose section need not be there; NULL: none. */
+static const fl_scene_motion *motion_of_part(const fl_scene *s, const char *part)
+{
+    if (!part[0]) return &s->structure.motion;
+    const int32_t k = fl_section_named(s, FL_SEC_PART, part, "");
+    return k < 0 ? NULL : &s->part[k].motion;
+}
+
+static int check_mode_motion(const fl_scene *s, const char *key, const fl_scene_motion *m, fl_err *err)
+{
+    if (m && (m->free || m->track[0] || v3_nonzero(m->velocity) || v3_nonzero(m->spin)))
+        return fl_scene_fail(s, key, err, "the part has modes and `%s` as well: one of the two is expected",
+                             m->free               ? "free"
+                             : m->track[0]         ? "track"
+                             : v3_nonzero(m->spin) ? "spin"
+                                                   : "velocity");
+    return 0;
+}
+
+/* Each part with a mode gets a section of its own. */
+static int check_modes(fl_scene *s, fl_err *err)
+{
+    char key[2 * FL_SCENE_NAME];
+    if (s->structure.head.present && s->structure.modes[0]) {
+        if (s->n_mode)
+            return mode_fail(s, 0, NULL, "structure.modes is given as well: one of the two is expected", err);
+        if (check_mode_motion(s, "structure.modes", &s->structure.motion, err)) return -1;
+    }
+    for (int32_t k = 0; k < s->n_mode; k++) {
+        const fl_scene_mode *m = &s->mode[k];
+        snprintf(key, sizeof key, "mode %s", m->name);
+        if (!s->structure.head.present)
+            return mode_fail(s, k, NULL, "there is no structure: [structure] is expected", err);
+        if (s->structure.members[0])
+            return mode_fail(s, k, NULL,
+                             "a structure of members moves by its own masses: structure.file is expected",
+                             err);
+        if (m->frequency == 0.0) return mode_fail(s, k, "frequency", "a frequency is expected", err);
+        if (m->mass == 0.0) return mode_fail(s, k, "mass", "a mass is expected", err);
+        if (m->shape == 0.0)
+            return mode_fail(s, k, "shape",
+                             "the waterline does not move in this mode: a shape other than 0 is expected",
+                             err);
+        const int n = count_modes(s, k, err);
+        if (n < 0 || check_mode_motion(s, key, motion_of_part(s, m->part), err)) return -1;
+        if (n > MODES_OF_A_PART) return mode_fail(s, k, NULL, "a part has at most 8 modes", err);
+    }
+    for (int32_t k = 0; k < s->n_mode; k++)
+        if (s->mode[k].part[0] && fl_section_named(s, FL_SEC_PART, s->mode[k].part, "") < 0 &&
+            fl_section_add(s, FL_SEC_PART, s->mode[k].part, "", err) < 0)
+            return -1;
+    return 0;
+}
+
+static int check_failure(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_failure *f = &s->failure;
+    if (!f->head.present || f->crushing == FL_CRUSHING_NONE) return 0;
+    if (f->crushing_law == FL_CRUSHING_PLAIN)
+        return fl_scene_fail(s, "failure.crushing", err,
+                             "crushing needs a law: failure.crushing_law = rate is expected");
+    if (!s->structure.head.present)
+        return fl_scene_fail(s, "failure.crushing_law", err,
+                             "there is no structure that ice crushes on: [structure] is expected");
+    if (f->creep_exponent == 2)
+        return fl_scene_fail(s, "failure.creep_exponent", err, "creep_exponent is 2, 1 or 3 is expected");
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(
+            s, "run.sleep", err,
+            "ice that crushes by its speed does not sleep: either run.sleep or crushing_law = rate "
+            "is expected");
+    if (s->run.error > 0.0)
+        return fl_scene_fail(
+            s, "run.error", err,
+            "run.error repeats windows with other steps, in which ice would break elsewhere: run.dt "
+            "is expected with crushing_law = rate");
+    if (s->bond.head.present && s->bond.on)
+        return fl_scene_fail(
+            s, "bond.on", err,
+            "bonded floes do not crush by their speed: either bond.on or crushing_law = rate is "
+            "expected");
+    return 0;
+}
+
+/* What a track of the drive excludes. */
+static int check_drive_track(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->boundary;
+    if (!b->head.present || !b->drive_track[0]) return 0;
+    if (v3_nonzero(b->drive))
+        return fl_scene_fail(s, "boundary.drive_track", err,
+                             "boundary.drive is given as well: one of the two is expected");
+    if (b->drive_width > 0.0 && b->drive_edge == 0)
+        return fl_scene_fail(s, "boundary.drive_track", err,
+                             "a track has no rear: boundary.drive_edge is expected");
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(
+            s, "boundary.drive_track", err,
+            "floes that follow a track do not sleep: either drive_track or run.sleep is expected");
     return 0;
 }
 
@@ -568,7 +700,9 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
                    check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) ||
-                   check_members(s, err) || check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
+                   check_members(s, err) || check_modes(s, err) || check_failure(s, err) ||
+                   check_drive_track(s, err) ||
+                   check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err) || check_statics(s, err)
                ? -1

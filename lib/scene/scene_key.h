@@ -21,8 +21,10 @@ enum fl_section_id {
     FL_SEC_WATER,
     FL_SEC_WIND,
     FL_SEC_BOND,
+    FL_SEC_FAILURE,
     FL_SEC_GROUP,
     FL_SEC_PART,
+    FL_SEC_MODE,
     FL_SEC_JOINT,
     FL_SEC_STAGE,
     FL_SECTIONS
@@ -80,7 +82,8 @@ enum fl_word_map {
     FL_MAP_Y,
     FL_MAP_Z,
     FL_MAP_BEAUFORT, /* U10 = 0.836 B^(3/2) m/s along x */
-    FL_MAP_BOUND     /* 1 rigid, 2 elastic, 3 periodic, 4 free */
+    FL_MAP_FRAMES, /* as FL_MAP_SAME; and frames are written, to ANIMATION_3D.DAT unless a key names a file */
+    FL_MAP_BOUND   /* 1 rigid, 2 elastic, 3 periodic, 4 free */
 };
 typedef struct {
     const char *word;

@@ -125,6 +125,8 @@ _Static_assert(sizeof(fl_scene_wind) <= SECTION_MAX, "[wind]");
 _Static_assert(sizeof(fl_scene_bond) <= SECTION_MAX, "[bond]");
 _Static_assert(sizeof(fl_scene_group) <= SECTION_MAX, "[group]");
 _Static_assert(sizeof(fl_scene_part) <= SECTION_MAX, "[part]");
+_Static_assert(sizeof(fl_scene_failure) <= SECTION_MAX, "[failure]");
+_Static_assert(sizeof(fl_scene_mode) <= SECTION_MAX, "[mode]");
 _Static_assert(sizeof(fl_scene_joint) <= SECTION_MAX, "[joint]");
 _Static_assert(sizeof(fl_scene_stage) <= SECTION_MAX, "[stage]");
 
@@ -156,6 +158,16 @@ static int set_key(const source *in, const fl_address *at, enum fl_word_map map,
     head->key[slot] = mark_of(in, parts);
     head->key[slot].is_auto = fl_value_is_special(&key, scratch);
     return 0;
+}
+
+/* Frames go to the file of the program of the manual, beside the scene.  The key is not marked as given, so
+ * that [output] frames replaces it. */
+static void ask_for_frames(const source *in)
+{
+    const fl_key *key = &fl_key_table[fl_key_find(FL_SEC_OUTPUT, "frames")];
+    char why[WHY];
+    if (in->scene->output.head.key[key - fl_key_table - fl_key_first(FL_SEC_OUTPUT)].line == 0)
+        fl_value_read(key, "ANIMATION_3D.DAT", in->folder, &in->scene->output, why, sizeof why);
 }
 
 /* --- lines ---------------------------------------------------------------------------------------------- */
@@ -314,7 +326,7 @@ static int handle_key(void *user, const char *section, const char *name, const c
             if (strcmp(w->word, name) != 0) continue;
             at = (fl_address){.section = (int)w->section, .key = fl_key_find((int)w->section, w->key)};
             if (w->name) memcpy(at.a, w->name, strlen(w->name) + 1);
-            set_key(in, &at, w->map, value);
+            if (set_key(in, &at, w->map, value) == 0 && w->map == FL_MAP_FRAMES) ask_for_frames(in);
         }
     }
     return in->err->code == 0;

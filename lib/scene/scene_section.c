@@ -20,7 +20,8 @@ typedef struct {
 static const named_kind NAMED_KINDS[FL_SECTIONS] = {
     [FL_SEC_MATERIAL] = NAMED(material, name), [FL_SEC_CONTACT] = NAMED(contact, a),
     [FL_SEC_GROUP] = NAMED(group, name),       [FL_SEC_PART] = NAMED(part, name),
-    [FL_SEC_JOINT] = NAMED(joint, name),       [FL_SEC_STAGE] = NAMED(stage, name)};
+    [FL_SEC_JOINT] = NAMED(joint, name),       [FL_SEC_STAGE] = NAMED(stage, name),
+    [FL_SEC_MODE] = NAMED(mode, name)};
 
 int32_t fl_section_count(const fl_scene *scene, int section)
 {

@@ -143,9 +143,11 @@ typedef struct {
 
 typedef struct {
     fl_scene_head head;
-    char file[FL_SCENE_PATH];    /* g_struct; "" not given */
-    char members[FL_SCENE_PATH]; /* members; "" not given */
-    double member_damping;       /* ratio of the lowest modes */
+    char file[FL_SCENE_PATH];       /* g_struct; "" not given */
+    char members[FL_SCENE_PATH];    /* members; "" not given */
+    double member_damping;          /* ratio of the lowest modes */
+    char modes[FL_SCENE_PATH];      /* table of modes; "" not given */
+    char modes_node[FL_SCENE_NAME]; /* its node at the waterline; "": it has directions */
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */
     fl_scene_motion motion;
@@ -158,6 +160,19 @@ typedef struct {
     fl_scene_motion motion;
 } fl_scene_part;
 
+/* A mode of a part of the structure, structure/modal_motion.h. */
+enum fl_mode_direction { FL_MODE_X, FL_MODE_Y, FL_MODE_XY };
+typedef struct {
+    fl_scene_head head;
+    char name[FL_SCENE_NAME];
+    char part[FL_SCENE_NAME]; /* "": all parts without a motion of their own */
+    int32_t direction;        /* enum fl_mode_direction */
+    double frequency;         /* [1/s]; 0: not given */
+    double mass;              /* of the shape [kg]; 0: not given */
+    double shape;             /* at the reference */
+    double damping_ratio;
+} fl_scene_mode;
+
 typedef struct {
     fl_scene_head head;
     int32_t type[3];  /* enum fl_boundary_type of x, y, z; an absent section is FL_BOUNDARY_FREE */
@@ -169,6 +184,7 @@ typedef struct {
     double inflow_speed;             /* [m/s]; 0: auto, that of the current */
     double inflow_pitch;             /* [m]; 0: auto, the length of the field */
     int32_t room;                    /* most floes at a time besides the initial ones; 0: auto */
+    char drive_track[FL_SCENE_PATH]; /* track(5) of the driven floes in place of `drive`; "": none */
     fl_vec3 drive;                   /* velocity of the driven edge row of floes [m/s] */
     char drive_group[FL_SCENE_NAME]; /* group of the driven floes; "": by drive_width */
     double drive_width;              /* [m]; 0: none */
@@ -239,6 +255,37 @@ typedef struct {
     int32_t seed;
 } fl_scene_bond;
 
+/* Contacts in which ice crushes, and laws of its pressure; polar classes 1 to 7 follow each other. */
+enum fl_crushing_of { FL_CRUSHING_NONE, FL_CRUSHING_STRUCTURE, FL_CRUSHING_ALL };
+enum fl_crushing_law { FL_CRUSHING_PLAIN, FL_CRUSHING_RATE };
+enum fl_pressure_law {
+    FL_PRESSURE_USER,
+    FL_PRESSURE_POLAR_1,
+    FL_PRESSURE_ISO_LOCAL = FL_PRESSURE_POLAR_1 + 7,
+    FL_PRESSURE_API
+};
+
+typedef struct {
+    fl_scene_head head;
+    int32_t crushing;         /* enum fl_crushing_of */
+    int32_t crushing_law;     /* enum fl_crushing_law */
+    int32_t pressure_law;     /* enum fl_pressure_law */
+    double pressure;          /* p0 [Pa] */
+    double pressure_area;     /* A0 [m2] */
+    double pressure_exponent; /* e */
+    double pressure_max;      /* [Pa] */
+    double peak_ratio;        /* R, and so on: of the law `rate`, failure/strip.h */
+    double break_deflection;  /* [m] */
+    double transition_speed;  /* [m/s] */
+    int32_t creep_exponent;   /* 1, 3 */
+    double delayed_stiffness; /* 0: none */
+    double delayed_time;      /* [s] */
+    double element_width;     /* [m]; 0: auto */
+    double scatter;           /* standard deviation over mean */
+    double scatter_length;    /* [m] */
+    int32_t seed;
+} fl_scene_failure;
+
 typedef struct {
     fl_scene_head head;
     char name[FL_SCENE_NAME];
@@ -283,14 +330,16 @@ typedef struct {
     fl_scene_water water;
     fl_scene_wind wind;
     fl_scene_bond bond;
+    fl_scene_failure failure;
     fl_scene_material *material; /* "ice" and "steel" are always there after fl_scene_check() */
     fl_scene_contact *contact;
     fl_scene_group *group;
     fl_scene_part *part;
+    fl_scene_mode *mode;
     fl_scene_joint *joint;
     fl_scene_stage *stage; /* in the order of the file */
-    int32_t n_material, n_contact, n_group, n_part, n_joint, n_stage;
-    int32_t cap_material, cap_contact, cap_group, cap_part, cap_joint, cap_stage;
+    int32_t n_material, n_contact, n_group, n_part, n_mode, n_joint, n_stage;
+    int32_t cap_material, cap_contact, cap_group, cap_part, cap_mode, cap_joint, cap_stage;
     char **file; /* names of the files read: the scene, then included files */
     int32_t n_file, cap_file;
 } fl_scene;

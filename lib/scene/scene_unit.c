@@ -98,6 +98,8 @@ static const struct unit {
     {FL_UNIT_SURFACE_ENERGY, "kJ/m2", 1e3, 1},
     {FL_UNIT_SURFACE_ENERGY, "kJ/m^2", 1e3, 1},
     {FL_UNIT_SURFACE_ENERGY, "N/m", 1, 1},
+    {FL_UNIT_FREQUENCY, "Hz", 1, 1},
+    {FL_UNIT_FREQUENCY, "mHz", 1, 1e3},
 };
 enum { N_UNIT = sizeof units / sizeof units[0] };
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/floe_setup.h"
+#include "sim/drive_track.h"
 #include <math.h>
 #include <stdio.h>
 #include "base/pi.h"
@@ -182,10 +183,11 @@ static void drive_body(fl_world *w, int32_t i)
     const fl_vec3 spin = b->w[i];
     const unsigned driven = s->drive_fixed, fixed = driven | b->fixed_dof[i];
     const double area = b->core[i].nv == 1 ? PI * b->radius[i] * b->radius[i] : w->max_face_area[i];
+    const fl_vec3 v = w->driven_floes.track.n ? fl_drive_track_velocity(w, 0.0) : s->drive;
     b->fixed_dof[i] = (uint8_t)fixed;
-    if (driven & FL_DOF_X) b->v[i].x = s->drive.x;
-    if (driven & FL_DOF_Y) b->v[i].y = s->drive.y;
-    if (driven & FL_DOF_Z) b->v[i].z = s->drive.z;
+    if (driven & FL_DOF_X) b->v[i].x = v.x;
+    if (driven & FL_DOF_Y) b->v[i].y = v.y;
+    if (driven & FL_DOF_Z) b->v[i].z = v.z;
     fl_body_set_spin(b, i,
                      v3(fixed & FL_DOF_RX ? 0.0 : spin.x, fixed & FL_DOF_RY ? 0.0 : spin.y,
                         fixed & FL_DOF_RZ ? 0.0 : spin.z));

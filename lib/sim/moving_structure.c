@@ -6,9 +6,12 @@
 #include "sim/energy_ledger.h"
 #include "sim/member_structure.h"
 
-static int has_motion(const fl_scene_motion *m)
+/* Motion m of [part PART], or of [structure], PART "": is there any? */
+static int has_motion(const fl_scene *s, const fl_scene_motion *m, const char *part)
 {
-    return v3_nonzero(m->velocity) || v3_nonzero(m->spin) || m->track[0] || m->free;
+    int modes = part[0] == '\0' && s->structure.modes[0];
+    for (int32_t k = 0; k < s->n_mode; k++) modes |= strcmp(s->mode[k].part, part) == 0;
+    return v3_nonzero(m->velocity) || v3_nonzero(m->spin) || m->track[0] || m->free || modes;
 }
 
 /* Set the stiffness matrix from periods, stiffnesses and couplings of the scene. */
@@ -62,9 +65,50 @@ static int add_hydrostatics(fl_world *w, int32_t k, fl_rigid_motion *out, const 
     return 0;
 }
 
+/* Adds the mode of the scene, along x (0) or y (1). */
+static void add_mode(fl_rigid_motion *out, const fl_scene_mode *m, int axis)
+{
+    fl_modal_dof one = {.mass = m->mass / (m->shape * m->shape),
+                        .omega = 2.0 * PI * m->frequency,
+                        .ratio = m->damping_ratio,
+                        .e = axis ? v3(0, 1, 0) : v3(1, 0, 0)};
+    snprintf(one.name, sizeof one.name, "%s%s", m->name,
+             m->direction != FL_MODE_XY ? ""
+             : axis                     ? "_y"
+                                        : "_x");
+    out->mode[out->modes++] = one;
+}
+
+/* The modes of [part PART], or of [structure], PART "". */
+static int set_modes(const fl_scene *s, const char *part, fl_rigid_motion *out, fl_err *err)
+{
+    int n = part[0] == '\0' && s->structure.modes[0];
+    for (int32_t k = 0; k < s->n_mode; k++) n += strcmp(s->mode[k].part, part) == 0;
+    if (n == 0) return 0;
+    out->mode = fl_alloc(FL_MODES_MOST, sizeof *out->mode, err);
+    if (!out->mode) return -1;
+    if (s->structure.modes[0] && part[0] == '\0')
+        out->modes = fl_modes_read(out->mode, s->structure.modes, s->structure.modes_node, err);
+    if (out->modes < 0) {
+        out->modes = 0;
+        return -1;
+    }
+    for (int32_t k = 0; k < s->n_mode; k++) {
+        if (strcmp(s->mode[k].part, part) != 0) continue;
+        if (s->mode[k].direction != FL_MODE_Y) add_mode(out, &s->mode[k], 0);
+        if (s->mode[k].direction != FL_MODE_X) add_mode(out, &s->mode[k], 1);
+    }
+    for (int32_t k = 0; k < out->modes; k++)
+        out->free_dof |= (out->mode[k].e.x != 0.0 ? FL_DOF_X : 0u) |
+                         (out->mode[k].e.y != 0.0 ? FL_DOF_Y : 0u) |
+                         (out->mode[k].e.z != 0.0 ? FL_DOF_Z : 0u);
+    out->mass = 1.0 / fl_modes_compliance(out->mode, out->modes);
+    return 0;
+}
+
 /* Add the mover of scene motion m, of a section; mover_of_part is set already. */
-static int add_mover(fl_world *w, const fl_scene_motion *m, const char *section, const fl_surface *surface,
-                     fl_err *err)
+static int add_mover(fl_world *w, const fl_scene_motion *m, const char *part, const char *section,
+                     const fl_surface *surface, fl_err *err)
 {
     fl_rigid_motion out = {.reference = m->reference,
                            .velocity = m->velocity,
@@ -76,10 +120,12 @@ static int add_mover(fl_world *w, const fl_scene_motion *m, const char *section,
     char key[3 * FL_SCENE_NAME];
     if (m->hydrostatic && add_hydrostatics(w, w->moving.movers.n, &out, surface, section, err)) return -1;
     set_dampers(&out, m);
-    if ((m->track[0] &&
+    if (set_modes(w->scene, part, &out, err) ||
+        (m->track[0] &&
          fl_track_read(&out.track, m->track, m->interpolation == FL_INTERPOLATION_CUBIC, err)) ||
         fl_rigid_motions_add(&w->moving.movers, &out, err) < 0) {
         fl_track_free(&out.track);
+        free(out.mode);
         return -1;
     }
     const fl_track *tr = &w->moving.movers.motion[w->moving.movers.n - 1].track;
@@ -96,12 +142,12 @@ static int add_mover(fl_world *w, const fl_scene_motion *m, const char *section,
 
 void fl_mover_of_parts(const fl_scene *s, const fl_surface *surface, int32_t *mover)
 {
-    int32_t next = has_motion(&s->structure.motion) ? 1 : 0;
+    int32_t next = has_motion(s, &s->structure.motion, "") ? 1 : 0;
     for (int32_t p = 0; p < surface->n; p++) mover[p] = next - 1;
     for (int32_t i = 0; i < s->n_part; i++) {
         const char *name = s->part[i].name;
         const int32_t p = fl_surface_find(surface, name, strlen(name)),
-                      own = has_motion(&s->part[i].motion) ? next++ : -1;
+                      own = has_motion(s, &s->part[i].motion, s->part[i].name) ? next++ : -1;
         if (p >= 0) mover[p] = own;
     }
 }
@@ -116,16 +162,21 @@ static int make_movers(fl_world *w, const fl_surface *surface, fl_err *err)
         const int32_t p = fl_surface_find(surface, name, strlen(name));
         char section[FL_SCENE_NAME + 8];
         snprintf(section, sizeof section, "part %s", name);
+        for (int32_t k = 0; p < 0 && k < s->n_mode; k++) /* the section may be there for a mode alone */
+            if (strcmp(s->mode[k].part, name) == 0 && s->part[i].head.heading.line == 0)
+                snprintf(section, sizeof section, "mode %s", s->mode[k].name);
         if (p < 0)
             return fl_scene_fail(s, section, err, "there is no part %s in %s", name, s->structure.file);
         w->part_reference[p] = s->part[i].motion.reference;
     }
-    if (has_motion(&s->structure.motion) && add_mover(w, &s->structure.motion, "structure", surface, err))
+    if (has_motion(s, &s->structure.motion, "") &&
+        add_mover(w, &s->structure.motion, "", "structure", surface, err))
         return -1;
     for (int32_t i = 0; i < s->n_part; i++) {
         char section[FL_SCENE_NAME + 8];
         snprintf(section, sizeof section, "part %s", s->part[i].name);
-        if (has_motion(&s->part[i].motion) && add_mover(w, &s->part[i].motion, section, surface, err))
+        if (has_motion(s, &s->part[i].motion, s->part[i].name) &&
+            add_mover(w, &s->part[i].motion, s->part[i].name, section, surface, err))
             return -1;
     }
     return 0;
@@ -172,7 +223,8 @@ int fl_moving_structure_make(fl_world *w, const fl_surface *surface, const fl_me
     const int32_t pieces = w->structure.n; /* walls have an entry, too */
     for (int32_t p = 0; p < w->parts; p++) w->part_reference[p] = w->scene->structure.motion.reference;
     if (members) return fl_member_structure_make(w, members, err);
-    if (!surface || (!has_motion(&w->scene->structure.motion) && w->scene->n_part == 0)) return 0;
+    if (!surface || (!has_motion(w->scene, &w->scene->structure.motion, "") && w->scene->n_part == 0))
+        return 0;
     r->mover_of_part = fl_alloc(w->parts, sizeof *r->mover_of_part, err);
     r->mover_of_piece = fl_alloc(pieces, sizeof *r->mover_of_piece, err);
     r->arm = fl_alloc(pieces, sizeof *r->arm, err);
@@ -338,8 +390,8 @@ fl_moving_energy fl_moving_structure_energy(const fl_world *w)
     }
     for (int32_t m = 0; m < v->n; m++) {
         all.kinetic += fl_rigid_motion_kinetic_energy(v, m);
-        all.spring += v->spring_energy[m];
-        all.damper_work += v->damper_loss[m];
+        all.spring += fl_rigid_motion_spring_energy(v, m);
+        all.damper_work += fl_rigid_motion_damper_loss(v, m);
         all.drive_work += v->prescribed_work[m] + v->b.work_of_constraints[m];
     }
     return all;
@@ -362,6 +414,21 @@ fl_vec3 fl_part_point(const fl_world *w, int32_t part, fl_vec3 x)
     const fl_rigid_motions *v = &w->moving.movers;
     const int32_t m = w->moving.mover_of_part[part];
     return v3_add(v->b.x[m], m3_mul(fl_body_axes(&v->b, m), v3_sub(x, v->motion[m].reference)));
+}
+
+int32_t fl_structure_modes(const fl_world *w)
+{
+    int32_t n = 0;
+    for (int32_t m = 0; m < w->moving.movers.n; m++) n += w->moving.movers.motion[m].modes;
+    return n;
+}
+
+const fl_modal_dof *fl_structure_mode(const fl_world *w, int32_t k, int32_t *mover)
+{
+    int32_t m = 0;
+    while (k >= w->moving.movers.motion[m].modes) k -= w->moving.movers.motion[m++].modes;
+    if (mover) *mover = m;
+    return &w->moving.movers.motion[m].mode[k];
 }
 
 int fl_structure_moves_freely(const fl_world *w)
@@ -401,9 +468,9 @@ const char *fl_mover_name(const fl_world *w, int32_t k)
 {
     const fl_scene *s = w->scene;
     if (fl_structure_has_members(w)) return "structure";
-    int32_t next = has_motion(&s->structure.motion) ? 1 : 0;
+    int32_t next = has_motion(s, &s->structure.motion, "") ? 1 : 0;
     if (k < next) return "structure";
     for (int32_t i = 0; i < s->n_part; i++)
-        if (has_motion(&s->part[i].motion) && next++ == k) return s->part[i].name;
+        if (has_motion(s, &s->part[i].motion, s->part[i].name) && next++ == k) return s->part[i].name;
     return "structure";
 }

@@ -51,6 +51,10 @@ void fl_part_motion(const fl_world *w, int32_t part, double t, fl_loads_motion *
 /* Position now of a point x of a moving part, given in the pose of the file. */
 fl_vec3 fl_part_point(const fl_world *w, int32_t part, fl_vec3 x);
 
+/* Number of modes of all movers, and the k-th of them with its mover (NULL: not asked). */
+int32_t fl_structure_modes(const fl_world *w);
+const fl_modal_dof *fl_structure_mode(const fl_world *w, int32_t k, int32_t *mover);
+
 /* 1 if a mover has free directions. */
 int fl_structure_moves_freely(const fl_world *w);
 

@@ -14,10 +14,12 @@
 #include "geom/mass.h"
 #include "ice/slab_fill.h"
 #include "sim/energy_ledger.h"
+#include "sim/drive_track.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
 #include "sim/moving_structure.h"
 #include "sim/sleep.h"
+#include "sim/strip_setup.h"
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
 #include "structure/region.h"
@@ -262,6 +264,7 @@ static int make_driven_floes(fl_world *w, const fl_ice_field *field, fl_err *err
     w->driven_floes.rest_height = fl_alloc(field->n, sizeof *w->driven_floes.rest_height, err);
     if (!w->driven_floes.is_driven || !w->driven_floes.k || !w->driven_floes.rest_height) return -1;
     w->driven_floes.n = field->n;
+    if (s->drive_track[0] && fl_drive_track_read(w, err)) return -1;
     for (int32_t k = 0; k < field->n; k++) back = fmin(back, fl_inflow_extent(&edge, field, k, -1.0));
     for (int32_t k = 0; k < field->n; k++) {
         const double middle =
@@ -413,8 +416,8 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         if (fl_world_place_floe(w, i, feed, w->inflow.source_floe[i], err)) goto fail;
     }
     if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
-        fl_panels_make(w, surface, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
-        fl_bond_list_make(w, field, err) || fl_relaxed_run_make(w, err))
+        fl_panels_make(w, surface, err) || fl_strips_make(w, err) || fl_sleep_make(w, err) ||
+        fl_pair_law_make_table(w, err) || fl_bond_list_make(w, field, err) || fl_relaxed_run_make(w, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
@@ -441,6 +444,7 @@ void fl_world_free(fl_world *w)
     for (int32_t i = 0; w->quick_shape && i < w->b.total; i++) fl_quick_shape_free(&w->quick_shape[i]);
     free(w->quick_shape), free(w->quick_scratch);
     free(w->elastic_walls.hull), free(w->elastic_walls.outer);
+    fl_track_free(&w->driven_floes.track);
     free(w->driven_floes.is_driven), free(w->driven_floes.k), free(w->driven_floes.rest_height);
     fl_inflow_free(&w->inflow);
     fl_neighbour_pairs_free(w);
@@ -462,6 +466,7 @@ void fl_world_free(fl_world *w)
     fl_relaxed_run_free(&w->relax);
     fl_disc_list_free(&w->discs);
     fl_panels_free(&w->panel_load);
+    fl_strips_free(&w->strips);
     fl_pairs_free(&w->candidates);
     fl_environment_free(&w->sea);
     fl_bodies_free(&w->b);

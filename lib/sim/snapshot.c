@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/snapshot.h"
+#include <string.h>
 #include "base/array.h"
 #include "base/parallel.h"
 #include "contact/bond_list.h"
@@ -31,6 +32,7 @@ static void exchange_ledger(fl_state_io *t, fl_world *w)
     fl_state_io_real(t, &g->damping);
     fl_state_io_real(t, &g->drive);
     fl_state_io_real(t, &g->carried);
+    fl_state_io_real(t, &g->crushing);
     fl_state_io_vec3(t, &w->imbalance);
     fl_state_io_real(t, &w->impulse_sum);
     fl_state_io_real(t, &w->max_overlap);
@@ -233,6 +235,34 @@ static void exchange_mover(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_real(t, &m->spring_energy[k]);
     fl_state_io_real(t, &m->damper_loss[k]);
     fl_state_io_real(t, &m->prescribed_work[k]);
+    fl_state_io_close(t);
+}
+
+/* The state of a mode; its name must be the same. */
+static void exchange_mode(fl_state_io *t, fl_world *w, int32_t k)
+{
+    int32_t mover;
+    fl_modal_dof *m = (fl_modal_dof *)(uintptr_t)fl_structure_mode(w, k, &mover);
+    fl_state_io_open(t, "mode");
+    if (fl_state_io_hash(t, fl_hash(FL_HASH_START, m->name, (int64_t)strlen(m->name))))
+        fl_text_fail(t->in, t->err, "the modes of %s have changed since the checkpoint",
+                     fl_mover_name(w, mover));
+    fl_state_io_real(t, &m->q);
+    fl_state_io_real(t, &m->v);
+    fl_state_io_real(t, &m->load);
+    fl_state_io_real(t, &m->force);
+    fl_state_io_real(t, &m->spring_energy);
+    fl_state_io_real(t, &m->damped);
+    fl_state_io_close(t);
+}
+
+/* The track of the driven floes is not stored, but must be the same. */
+static void exchange_drive_track(fl_state_io *t, const fl_track *tr)
+{
+    const uint64_t bits = fl_hash(FL_HASH_START, tr->t, tr->n * (int64_t)sizeof *tr->t);
+    fl_state_io_open(t, "drive");
+    if (fl_state_io_hash(t, fl_hash(bits, tr->value, tr->n * (int64_t)sizeof *tr->value)))
+        fl_text_fail(t->in, t->err, "the rows of boundary.drive_track have changed since the checkpoint");
     fl_state_io_close(t);
 }
 
@@ -488,6 +518,11 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         fl_state_io_vec3(t, &w->part_impulse[p]);
         fl_state_io_vec3(t, &w->part_moment[p]);
         fl_state_io_real(t, &w->part_peak[p]);
+        if (w->strips.wall) {
+            fl_state_io_real(t, &w->strips.part_closing[p]);
+            fl_state_io_real(t, &w->strips.part_seconds[p]);
+            fl_state_io_count(t, &w->strips.part_breaks[p]);
+        }
         fl_state_io_close(t);
     }
     if (w->inflow.absent && !t->err->code) exchange_inflow(t, w);
@@ -498,6 +533,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         if (t->in) w->sleep.n_resting += w->sleep.phase[k] == FL_RESTING;
     }
     for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) exchange_mover(t, w, k);
+    for (int32_t k = 0, n = fl_structure_modes(w); k < n && !t->err->code; k++) exchange_mode(t, w, k);
+    if (w->driven_floes.track.n && !t->err->code) exchange_drive_track(t, &w->driven_floes.track);
     if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
     for (int32_t k = w->bonds.faces; k < w->bonds.n && !t->err->code; k++)

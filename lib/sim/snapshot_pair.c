@@ -8,6 +8,7 @@
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "contact/rolling_pair.h"
+#include "contact/strip_contact.h"
 #include "sphere/contact_list.h"
 #include "sphere/sphere_pair.h"
 
@@ -40,8 +41,10 @@ static void exchange_memory(fl_state_io *t, fl_pair *p)
     fl_state_io_real(t, &p->free_travel);
     fl_state_io_real(t, &p->max_approach_speed);
     fl_state_io_real(t, &p->sustained_load);
-    fl_state_io_real(t, &p->sustained_step);
+    fl_state_io_real(t, &p->sustained_load_rate);
     fl_state_io_vec3(t, &p->sustained_spin);
+    fl_state_io_vec3(t, &p->sustained_spin_rate);
+    fl_state_io_real(t, &p->sustained_step);
     fl_state_io_vec3(t, &p->springs.force);
     fl_state_io_real(t, &p->springs.k);
     fl_state_io_real(t, &p->springs.moment);
@@ -150,6 +153,46 @@ static void rebuild_surrogate(fl_world *w, fl_pair *p, const fl_surrogate *surro
     p->surrogate->used = surrogate->used;
 }
 
+static void exchange_cell(fl_state_io *t, fl_strip_cell *c)
+{
+    int64_t count = c->ice.count;
+    fl_state_io_real(t, &c->ice.e);
+    fl_state_io_real(t, &c->ice.u);
+    fl_state_io_count(t, &count);
+    fl_state_io_real(t, &c->area);
+    fl_state_io_real(t, &c->middle);
+    fl_state_io_real(t, &c->load);
+    c->ice.count = (int32_t)count;
+}
+
+/* The strip of a touching pair with a wall. */
+static void exchange_strip(fl_state_io *t, const fl_world *w, fl_pair *p)
+{
+    if (!p->touching || !fl_pair_has_strip(w, p->j)) return;
+    if (!p->strip && !(p->strip = fl_strip_make(w->strips.wall[p->j - w->n].n))) {
+        fl_fail(t->err, FL_SYSTEM, "out of memory for pair %d and %d", p->i, p->j);
+        return;
+    }
+    fl_strip *q = p->strip;
+    fl_state_io_real(t, &q->largest_area);
+    fl_state_io_real(t, &q->k);
+    fl_state_io_real(t, &q->store);
+    fl_state_io_real(t, &q->work);
+    fl_state_io_vec3(t, &q->slid);
+    fl_state_io_vec3(t, &q->turned);
+    fl_state_io_vec3(t, &q->near_area);
+    fl_state_io_int(t, 0, 1, &q->near_known);
+    fl_state_io_real(t, &q->way);
+    fl_state_io_real(t, &q->farthest);
+    fl_state_io_real(t, &q->known_until);
+    fl_state_io_count(t, &q->strength.node);
+    fl_state_io_real(t, &q->strength.y0);
+    fl_state_io_real(t, &q->strength.y1);
+    fl_state_io_real(t, &q->closing);
+    fl_state_io_int(t, 0, INT32_MAX, &q->breaks);
+    for (int32_t k = 0; k < q->n && !t->err->code; k++) exchange_cell(t, &q->cell[k]);
+}
+
 void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
 {
     fl_neighbour_pair *near = &w->pair[c];
@@ -183,6 +226,7 @@ void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
     if (p->touching && j >= w->n && w->structure.piece[j - w->n].several_parts)
         fl_state_io_int(t, FL_LOAD_SHARED, w->parts - 1, &p->load_part);
     exchange_pair_rolling(t, w, p);
+    if (w->strips.wall) exchange_strip(t, w, p);
     fl_surrogate surrogate = {0};
     if (t->f && p->surrogate) surrogate = *p->surrogate;
     if (p->touching && p->law->surrogate_tolerance > 0.0) exchange_surrogate(t, p, &surrogate);

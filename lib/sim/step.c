@@ -13,6 +13,7 @@
 #include "contact/panel_load.h"
 #include "sim/body_step.h"
 #include "sim/critical_step.h"
+#include "sim/drive_track.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
 #include "sim/half_kicks.h"
@@ -22,6 +23,7 @@
 #include "sim/neighbour_list.h"
 #include "sim/sleep.h"
 #include "sim/stiffness_update.h"
+#include "sim/strip_setup.h"
 #include "sphere/contact_force.h"
 #include "sphere/contact_list.h"
 #include "world/access.h"
@@ -406,6 +408,7 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* moving structure: first half */
     fl_ledger_begin_step(w);
+    if (w->driven_floes.track.n) fl_drive_track_begin_step(w, fl_world_time(w));
     if (moves) fl_moving_structure_first_half(w, fl_world_time(w));
 
     /* tables of the waves */
@@ -425,6 +428,7 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* energy ledger, overlaps, momentum */
     fl_ledger_book_step(w);
+    if (w->strips.wall) fl_strips_book(w, dt);
     if (w->relax.kind) fl_relaxed_run_end_step(w);
     gather_overlaps(w, dt);
 
@@ -433,6 +437,7 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* critical step and checks */
     if (update_stiffness) fl_stiffness_update(w);
+    if (w->strips.wall && fl_strips_check(w, err)) return -1;
     if (check_state(w, update_stiffness, err) || check_energy_after_overlap(w, err)) return -1;
 
     /* outflow and inflow; a floe placed between two steps samples the water */

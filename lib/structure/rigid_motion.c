@@ -109,6 +109,7 @@ void fl_rigid_motions_set_step(fl_rigid_motions *v, double dt)
 {
     for (int32_t k = 0; k < v->n; k++) {
         const fl_rigid_motion *m = &v->motion[k];
+        if (m->modes) fl_modes_set_step(m->mode, m->modes, dt);
         const double h = 0.5 * dt, c[] = {m->c.x, m->c.y, m->c.z, m->ct.x, m->ct.y, m->ct.z};
         for (int i = 0; i < 3 && m->free_dof; i++) {
             set_component(&v->decay[k], i, exp(-c[i] * h / v->b.m[k]));
@@ -121,6 +122,11 @@ void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k)
 {
     fl_bodies *b = &v->b;
     const fl_rigid_motion *m = &v->motion[k];
+    if (m->modes) {
+        fl_modes_damp(m->mode, m->modes);
+        b->v[k] = fl_modes_velocity(m->mode, m->modes);
+        return;
+    }
     if (m->free_dof && v3_nonzero(m->c)) {
         const fl_vec3 pull = v->prescribed_velocity[k], old = v3_sub(b->v[k], pull), f = v->decay[k];
         const unsigned hold = b->fixed_dof[k];
@@ -143,6 +149,12 @@ void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k)
 
 static void kick_motion(fl_rigid_motions *v, int32_t k, double h)
 {
+    const fl_rigid_motion *m = &v->motion[k];
+    if (m->modes) {
+        fl_modes_kick(m->mode, m->modes, h);
+        v->b.v[k] = fl_modes_velocity(m->mode, m->modes);
+        return;
+    }
     fl_kick(&v->b, k, h);
     v->prescribed_work[k] += h * v3_dot(v->spring_force[k], v->prescribed_velocity[k]);
 }
@@ -161,6 +173,13 @@ void fl_rigid_motion_first_half(fl_rigid_motions *v, int32_t k, double t, double
     fl_bodies *b = &v->b;
     const fl_rigid_motion *m = &v->motion[k];
     fl_pose6 x, rate, second;
+    if (m->modes) {
+        fl_modes_damp(m->mode, m->modes);
+        kick_motion(v, k, 0.5 * dt);
+        fl_modes_drift(m->mode, m->modes, dt);
+        b->x[k] = v3_add(m->reference, fl_modes_displacement(m->mode, m->modes));
+        return;
+    }
     prescribed_at(m, t + dt, &x, &rate, &second);
     v->prescribed_velocity[k] = m->track.n ? v3_scale(1.0 / dt, v3_sub(x.x, v->prescribed[k])) : m->velocity;
     v->prescribed[k] = x.x;
@@ -186,6 +205,11 @@ void fl_rigid_motion_add_springs(fl_rigid_motions *v, int32_t k)
     fl_bodies *b = &v->b;
     const fl_rigid_motion *m = &v->motion[k];
     if (!m->free_dof) return;
+    if (m->modes) { /* b.f becomes the force that gives b.m the acceleration */
+        fl_modes_load(m->mode, m->modes, b->f[k]);
+        b->f[k] = v3_scale(b->m[k], fl_modes_acceleration(m->mode, m->modes, 0));
+        return;
+    }
     const fl_vec3 u = v3_sub(v3_sub(b->x[k], m->reference), v->prescribed[k]),
                   q = v3(b->q[k].x, b->q[k].y, b->q[k].z);
     const double y[6] = {u.x, u.y, u.z, 2.0 * q.x, 2.0 * q.y, 2.0 * q.z};
@@ -215,8 +239,28 @@ void fl_rigid_motion_second_kick(fl_rigid_motions *v, int32_t k, double t, doubl
     v->b.w[k] = angular_velocity(x.r, rate.r);
 }
 
+double fl_rigid_motion_spring_energy(const fl_rigid_motions *v, int32_t k)
+{
+    const fl_rigid_motion *m = &v->motion[k];
+    double sum = v->spring_energy[k];
+    for (int32_t j = 0; j < m->modes; j++) sum += m->mode[j].spring_energy;
+    return sum;
+}
+
+double fl_rigid_motion_damper_loss(const fl_rigid_motions *v, int32_t k)
+{
+    const fl_rigid_motion *m = &v->motion[k];
+    double sum = v->damper_loss[k];
+    for (int32_t j = 0; j < m->modes; j++) sum += m->mode[j].damped;
+    return sum;
+}
+
 double fl_rigid_motion_kinetic_energy(const fl_rigid_motions *v, int32_t k)
 {
+    const fl_rigid_motion *m = &v->motion[k];
+    double sum = 0.0;
+    for (int32_t j = 0; j < m->modes; j++) sum += fl_mode_kinetic_energy(&m->mode[j]);
+    if (m->modes) return sum;
     return v->motion[k].free_dof ? fl_body_kinetic_energy(&v->b, k) : 0.0;
 }
 
@@ -229,6 +273,11 @@ void fl_rigid_motion_acceleration(const fl_rigid_motions *v, int32_t k, double t
     const fl_bodies *b = &v->b;
     const fl_rigid_motion *m = &v->motion[k];
     fl_pose6 x, rate, second;
+    if (m->modes) {
+        *a = fl_modes_acceleration(m->mode, m->modes, 1);
+        *turn = v3(0, 0, 0);
+        return;
+    }
     prescribed_at(m, t, &x, &rate, &second);
     *a = second.x;
     /* w changes with r'' directly, and with r along r': a central difference */
@@ -259,6 +308,7 @@ static double inertia_of(const fl_rigid_motion *m, int k)
 double fl_rigid_motion_max_omega2(const fl_rigid_motion *m)
 {
     double most = 0.0;
+    if (m->modes) return fl_modes_max_omega2(m->mode, m->modes);
     for (int r = 0; r < 6; r++) {
         double row = 0.0;
         for (int c = 0; c < 6; c++)
@@ -272,6 +322,7 @@ double fl_rigid_motion_max_omega2(const fl_rigid_motion *m)
 double fl_rigid_motion_compliance(const fl_rigid_motion *m, double arm)
 {
     double turn = 0.0;
+    if (m->modes) return fl_modes_compliance(m->mode, m->modes);
     for (int k = 3; k < 6; k++)
         if (m->free_dof >> k & 1u && 1.0 / inertia_of(m, k) > turn) turn = 1.0 / inertia_of(m, k);
     return (m->free_dof & 7u ? 1.0 / m->mass : 0.0) + arm * arm * turn;
@@ -279,7 +330,10 @@ double fl_rigid_motion_compliance(const fl_rigid_motion *m, double arm)
 
 void fl_rigid_motions_free(fl_rigid_motions *v)
 {
-    for (int32_t k = 0; k < v->n; k++) fl_track_free(&v->motion[k].track);
+    for (int32_t k = 0; k < v->n; k++) {
+        fl_track_free(&v->motion[k].track);
+        free(v->motion[k].mode);
+    }
     free(v->motion), free(v->prescribed), free(v->prescribed_velocity), free(v->spring_force),
         free(v->spring_torque), free(v->spring_energy);
     free(v->damper_loss), free(v->prescribed_work), free(v->decay), free(v->angular_decay);

@@ -11,6 +11,9 @@
  * pose for rotations of any size: with g = dW/ds the torque is -(qw g + q x g). So energy is conserved
  * without transcendental functions. Weight and buoyancy at rest are in balance; only changes act.
  *
+ * Or a mover has modes (modal_motion.h): then its reference has the displacement of their sum, it does not
+ * rotate, and M, K and C are not used.
+ *
  * A step is symmetric: dampers h, kick h by forces and springs, drift dt, kick h, dampers h, h = dt/2. Kick
  * and drift are those of a floe, so that two-way coupling conserves momentum to rounding. Dampers are exact,
  *     v <- vd + (v - vd) exp(-c h/m)   along x y z,     L <- L exp(-c h/I)   about the own axes,
@@ -18,6 +21,7 @@
 #ifndef FL_STRUCTURE_RIGID_MOTION_H
 #define FL_STRUCTURE_RIGID_MOTION_H
 #include "body/body.h"
+#include "structure/modal_motion.h"
 #include "structure/prescribed_track.h"
 
 /* Parameters of a mover. */
@@ -26,10 +30,12 @@ typedef struct {
     fl_vec3 velocity, spin; /* prescribed, without a track [m/s], [rad/s] */
     fl_track track;         /* n = 0: none */
     unsigned free_dof;      /* FL_DOF_X | ...: free directions; 0: all is prescribed */
-    double mass;            /* [kg] */
+    double mass;            /* [kg]; with modes that of their compliance, 1/fl_modes_compliance() */
     fl_vec3 inertia;        /* [kg m2] */
     double K[6][6];         /* symmetric, x y z rx ry rz */
     fl_vec3 c, ct;          /* dashpots along x y z [N s/m], about the own axes [N m s] */
+    int32_t modes;          /* 0: none */
+    fl_modal_dof *mode;     /* [modes] owned, with their state */
 } fl_rigid_motion;
 
 typedef struct {
@@ -67,6 +73,10 @@ void fl_rigid_motion_second_kick(fl_rigid_motions *v, int32_t k, double t, doubl
 
 /* Dampers over half a step. */
 void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k);
+
+/* Energy of its springs, and what its dampers have removed so far [J]. */
+double fl_rigid_motion_spring_energy(const fl_rigid_motions *v, int32_t k);
+double fl_rigid_motion_damper_loss(const fl_rigid_motions *v, int32_t k);
 
 /* Kinetic energy of a mover with free directions, 0 of a prescribed one [J]. */
 double fl_rigid_motion_kinetic_energy(const fl_rigid_motions *v, int32_t k);

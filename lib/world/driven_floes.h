@@ -3,6 +3,7 @@
 #ifndef FL_WORLD_DRIVEN_FLOES_H
 #define FL_WORLD_DRIVEN_FLOES_H
 #include <stdint.h>
+#include "structure/prescribed_track.h"
 
 /* A driven floe has a prescribed velocity.  Where its heave is free, a spring of stiffness k pulls it to
  * rest_height. */
@@ -11,6 +12,7 @@ typedef struct {
     uint8_t *is_driven;  /* [n] */
     double *k;           /* [n] stiffness of the spring in heave [N/m] */
     double *rest_height; /* [n] height at which that spring has no force [m] */
+    fl_track track;      /* n = 0: constant velocity */
 } fl_driven_floes;
 
 #endif

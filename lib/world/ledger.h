@@ -15,6 +15,7 @@ typedef struct {
     double structure, spring,
         damper;             /* parts that move freely: kinetic and spring energy (stores), dashpots */
     double plastic;         /* sink: sections of members that yield, and members that part */
+    double crushing;        /* sink: ice that yields under pressure */
     double bond, fracture;  /* bonds: store; sink by damage */
     double carried;         /* source: floes that came in, less those that left */
     double start, residual; /* sum of the stores at the start; see above */

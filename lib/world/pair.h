@@ -12,6 +12,7 @@
 #include "patch/feature_pairs.h"
 #include "patch/quick_list.h"
 #include "patch/surrogate.h"
+#include "world/strip_state.h"
 
 /* The contact law of a pair of materials. */
 typedef struct {
@@ -48,6 +49,7 @@ typedef struct {
     fl_quick_list *quick_list;  /* the same of the law `quick`, or NULL */
     fl_surrogate *surrogate;    /* NULL until there is one */
     fl_rolling_spring *rolling; /* of a sphere, rolling_pair.h; NULL without rolling resistance */
+    fl_strip *strip;            /* of crushing by speed, strip_contact.h; NULL: none */
     fl_gjk_cache cache;         /* start of the distance query */
     fl_mode mode;               /* of the laws manual and manual-si */
     int32_t cores_overlap;      /* the cores overlap */
@@ -58,9 +60,10 @@ typedef struct {
     double exponent; /* n; 0 with FL_POINTS_PATCH */
     double mass;     /* reduced mass [kg] */
     double max_approach_speed; /* largest of this contact so far [m/s] */
-    double sustained_load;     /* load and spin behind a low pass, law/damping.h [N] */
-    double sustained_step;     /* the step of both */
-    fl_vec3 sustained_spin;    /* [rad/s] */
+    /* load [N] and spin [rad/s] behind a low pass, law/damping.h; their rates; the step of both */
+    double sustained_load, sustained_load_rate;
+    fl_vec3 sustained_spin, sustained_spin_rate;
+    double sustained_step;
     int32_t points;            /* enum fl_contact_points: what is evaluated */
     int32_t bond;              /* 1 + index of the bond that was here, 0: none; bond_list.h */
     double radius_factor;      /* multiplies both radii: 1, but less after a bond */

@@ -34,6 +34,7 @@
 #include "world/relax_state.h"
 #include "world/sleep_state.h"
 #include "world/sphere_contacts.h"
+#include "world/strip_state.h"
 
 /* Overlaps above this fraction of the sum of the radii are counted: no contact law is meant for them.  At 1
  * the cores meet. */
@@ -63,6 +64,7 @@ typedef struct {
     fl_periodic_cell cell;
     fl_moving_structure moving;
     fl_panel_loads panel_load;
+    fl_strips strips; /* crushing by speed */
     fl_elastic_walls elastic_walls;
     fl_inflow_state inflow;
     fl_driven_floes driven_floes;

@@ -29,7 +29,7 @@ struct table {
     int needs_now;   /* sleeping bodies are advanced to the time of now first */
 };
 
-static unsigned motion_columns(const fl_world *w) { return (unsigned)fl_motion_columns(w); }
+static unsigned motion_columns(const fl_world *w) { return loads_options(w); }
 
 static unsigned joint_column(const fl_world *w) { return fl_world_joints(w) ? FL_BONDS_JOINTS : 0; }
 
@@ -122,7 +122,8 @@ static fl_packed_writer *packed_writer(const struct run *r, struct outputs *u)
     return &u->packed;
 }
 
-/* The lines "#set ..." of a table, to be freed; NULL with FL_SYSTEM in err. */
+/* The lines "#set ..." of a table, and of contacts "#part NUMBER NAME", to be freed; NULL with FL_SYSTEM in
+ * err. */
 static char *make_sets(const struct run *r, int table, fl_err *err)
 {
     char interval[40], *text = NULL;
@@ -130,6 +131,9 @@ static char *make_sets(const struct run *r, int table, fl_err *err)
     FILE *f = open_memstream(&text, &n);
     snprintf(interval, sizeof interval, "%s_every", table_name(table));
     int bad = !f || fl_scene_write_sets(f, r->scene, interval, err);
+    /* Contacts have numbers for the parts of the structure. */
+    for (int32_t k = 0; f && TABLE[table].format == &fl_contacts_table && k < r->w->parts; k++)
+        fprintf(f, "#part %d %s\n", -1 - k, r->surface->part[k].name);
     if (f) bad |= fclose(f) != 0;
     if (!bad) return text;
     fl_fail(err, FL_SYSTEM, "out of memory for the head of a table");
@@ -147,10 +151,14 @@ int write_header(struct run *r, struct outputs *u, int table, fl_err *err)
         fl_frames_header(u->table[table].f, r->history, r->by, &now, r->frames_surface, packed);
         return 0;
     }
+    struct mode_columns modes;
+    const fl_more_columns *more = table == TABLE_LOADS    ? mode_displacements(r->w, -1, &modes)
+                                  : table == TABLE_ENERGY ? mode_energies(r->w, &modes)
+                                                          : NULL;
     char *const sets = make_sets(r, table, err);
     if (!sets) return -1;
-    fl_table_write_header(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history, r->by,
-                          sets, a->of_interval ? u->last_row : 0.0);
+    fl_table_write_header_more(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history,
+                               r->by, sets, a->of_interval ? u->last_row : 0.0, more);
     free(sets);
     return 0;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plan_probe.h"
 #include <inttypes.h>
+#include "base/pi.h"
 #include "clocks.h"
 #include "contact/pair_law.h"
 #include "out/tables.h"
@@ -8,6 +9,7 @@
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
 #include "sim/step.h"
+#include "sim/strip_setup.h"
 #include "sphere/contact_list.h"
 #include "step_choice.h"
 #include "table_rows.h"
@@ -97,6 +99,22 @@ static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, cha
     print_stage(f, "sleep", w->sleep.state != NULL, "steps of inactive floes are skipped");
 }
 
+/* Modes, and the speed of the ice below which each locks in. */
+static void print_modes(const fl_world *w, FILE *f)
+{
+    const int32_t n = w->moving.movers.n ? fl_structure_modes(w) : 0;
+    for (int32_t k = 0; k < n; k++) {
+        int32_t mover;
+        const fl_modal_dof *m = fl_structure_mode(w, k, &mover);
+        const double speed = w->strips.wall ? fl_strips_lock_in_speed(w, k) : 0.0;
+        fprintf(f, "mode           %s of %s: %.5g Hz, %.6g kg and %.4g N/m at the waterline, damping %.3g",
+                m->name, fl_mover_name(w, mover), m->omega / (2.0 * PI), m->mass,
+                m->mass * m->omega * m->omega, m->ratio);
+        if (speed > 0.0 && isfinite(speed)) fprintf(f, "; locks in below about %.3g m/s", speed);
+        putc('\n', f);
+    }
+}
+
 int print_plan(struct run *r, FILE *f, fl_err *err)
 {
     fl_world *w = r->w;
@@ -114,6 +132,7 @@ int print_plan(struct run *r, FILE *f, fl_err *err)
         if (fl_step(w, err)) return -1;
     print_bodies(w, f, &n);
     print_stages(w, f, &n, water);
+    print_modes(w, f);
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate\n", w->dt, r->steps,
             r->critical);
     fprintf(f, "set by         %s\n", r->step_by);

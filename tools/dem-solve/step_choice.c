@@ -3,6 +3,7 @@
 #include <string.h>
 #include "sim/critical_step.h"
 #include "sim/moving_structure.h"
+#include "sim/strip_setup.h"
 
 const char *body_name(const fl_world *w, int32_t k, char name[64])
 {
@@ -55,6 +56,8 @@ static void describe_step(struct run *r, double automatic)
         snprintf(to, n, "run.error, up to %.3g of the critical %.4g s",
                  r->budget->lateral_share * automatic / r->critical, r->critical);
     else if (s->dt > 0.0) snprintf(to, n, "run.dt");
+    else if (fl_strips_max_step(r->w) < fmin(automatic, fmin(every, s->duration)))
+        snprintf(to, n, "failure.break_deflection, a fifth of it closes in a step");
     else if (automatic >= fmin(every, s->duration))
         snprintf(to, n, every <= s->duration ? "output.loads_every" : "run.duration");
     else if (fl_world_bonds(r->w) &&
@@ -64,7 +67,9 @@ static void describe_step(struct run *r, double automatic)
     else if (automatic / r->critical < s->safety * (1.0 - TIME_ROUNDING))
         describe_damped_step(to, n, automatic / r->critical, left, r->critical);
     else snprintf(to, n, "run.safety, %.3g of the critical %.4g s", s->safety, r->critical);
-    if (s->dt > 0.0 || r->step_body < 0 || automatic >= fmin(every, s->duration)) return;
+    if (s->dt > 0.0 || r->step_body < 0 ||
+        automatic >= fmin(fl_strips_max_step(r->w), fmin(every, s->duration)))
+        return;
     const size_t used = strlen(to);
     snprintf(to + used, n - used, " of %s", body_name(r->w, r->step_body, name));
 }
@@ -79,7 +84,7 @@ void choose_step(struct run *r)
     if (r->budget) {
         dt = fl_error_budget_first_step(r->budget);
     } else if (dt <= 0.0) {
-        dt = fmin(automatic, fmin(every, r->scene->run.duration));
+        dt = fmin(fmin(automatic, fl_strips_max_step(r->w)), fmin(every, r->scene->run.duration));
         dt = every / ceil(every / dt * (1.0 - 1e-12));
     }
     r->w->dt = dt;

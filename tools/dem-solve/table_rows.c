@@ -42,6 +42,50 @@ static int32_t id_of_partner(fl_world *w, const fl_pair *p, fl_vec3 x)
     return piece && piece->several_parts ? -1 - fl_load_part_at(w, p->j, x) : fl_world_id(w, p->j);
 }
 
+/* The columns of all modes, without values; NULL where there are no modes, or too many for a table. */
+static const fl_more_columns *begin_mode_columns(const fl_world *w, struct mode_columns *c,
+                                                 const char *prefix, const char *unit)
+{
+    const int32_t n = w->moving.movers.n ? fl_structure_modes(w) : 0;
+    if (n == 0) return NULL;
+    c->more = (fl_more_columns){n < MODE_COLUMNS ? n : MODE_COLUMNS, prefix, unit, c->name, c->value};
+    for (int32_t k = 0; k < c->more.n; k++) c->name[k] = fl_structure_mode(w, k, NULL)->name;
+    return &c->more;
+}
+
+const fl_more_columns *mode_displacements(const fl_world *w, int32_t part, struct mode_columns *c)
+{
+    const fl_more_columns *more = begin_mode_columns(w, c, "q_", "m");
+    for (int32_t k = 0; more && k < more->n; k++) {
+        int32_t mover;
+        const fl_modal_dof *m = fl_structure_mode(w, k, &mover);
+        c->value[k] = part >= 0 && w->moving.mover_of_part[part] == mover ? m->q : 0.0;
+    }
+    return more;
+}
+
+const fl_more_columns *mode_energies(const fl_world *w, struct mode_columns *c)
+{
+    const fl_more_columns *more = begin_mode_columns(w, c, "mode_", "J");
+    for (int32_t k = 0; more && k < more->n; k++) c->value[k] = fl_mode_energy(fl_structure_mode(w, k, NULL));
+    return more;
+}
+
+unsigned loads_options(const fl_world *w)
+{
+    return (unsigned)fl_motion_columns(w) | (w->strips.wall ? FL_LOADS_RATE : 0u);
+}
+
+/* Fills the columns of crushing by speed, and begins the next interval. */
+static void take_closing(fl_world *w, int32_t part, fl_loads_row *row)
+{
+    fl_strips *s = &w->strips;
+    if (s->part_seconds[part] > 0.0) row->closing = s->part_closing[part] / s->part_seconds[part];
+    row->breaks = (double)s->part_breaks[part];
+    s->part_closing[part] = s->part_seconds[part] = 0.0;
+    s->part_breaks[part] = 0;
+}
+
 void write_loads(struct run *r, FILE *f, double t, double interval)
 {
     fl_world *w = r->w;
@@ -53,7 +97,10 @@ void write_loads(struct run *r, FILE *f, double t, double interval)
                             .peak = w->part_peak[p],
                             .contacts = bodies_touching(w, p)};
         if (moving) fl_part_motion(w, p, t, &row.motion);
-        fl_table_write_row(f, &fl_loads_table, moving, t, &row);
+        struct mode_columns modes;
+        if (w->strips.wall) take_closing(w, p, &row);
+        fl_table_write_row_more(f, &fl_loads_table, loads_options(w), t, &row,
+                                mode_displacements(w, p, &modes));
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
         w->part_peak[p] = 0.0;
     }
@@ -132,7 +179,9 @@ void write_energy(struct run *r, FILE *f, double t, double interval)
 {
     (void)interval;
     fl_energy_update(r->w);
-    fl_table_write_row(f, &fl_energy_table, fl_energy_table_options(r->w), t, &r->w->ledger);
+    struct mode_columns modes;
+    fl_table_write_row_more(f, &fl_energy_table, fl_energy_table_options(r->w), t, &r->w->ledger,
+                            mode_energies(r->w, &modes));
 }
 
 void write_contacts(struct run *r, FILE *f, double t, double interval)

@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <string.h>
 #include "base/pi.h"
+#include "scene/scene.h"
 #include "sim/energy_balance.h"
 #include "sim/moving_structure.h"
 #include "sim/sudden_contact.h"
@@ -184,6 +185,30 @@ static void warn_hulls(const struct run *r, FILE *f)
     }
 }
 
+/* Ice that may excite vibrations, and a structure that does not show them. */
+static void warn_vibration(const struct run *r, FILE *f)
+{
+    const fl_world *w = r->w;
+    const int32_t n = w->moving.movers.n ? fl_structure_modes(w) : 0;
+    const double every = r->scene->output.loads_every;
+    double highest = 0.0;
+    if (w->strips.wall && !fl_structure_moves_freely(w))
+        fprintf(f, "dem-solve: warning: the structure is fixed: with crushing_law = rate nothing vibrates; "
+                   "[mode NAME] or structure.modes lets it\n");
+    for (int32_t k = 0; k < n; k++) {
+        const fl_modal_dof *m = fl_structure_mode(w, k, NULL);
+        highest = fmax(highest, m->omega / (2.0 * PI));
+        if (m->ratio == 0.0)
+            fprintf(f, "dem-solve: warning: mode %s has no damping: it goes on vibrating\n", m->name);
+    }
+    if (every * highest > 0.1 * (1.0 + 1e-9))
+        fprintf(f,
+                "dem-solve: warning: output.loads_every is %g s, longer than a tenth of the period of the "
+                "mode of "
+                "%.4g Hz: its motion is not resolved\n",
+                every, highest);
+}
+
 /* A wave that would break is not linear. */
 static void warn_waves(const struct run *r, FILE *f)
 {
@@ -236,6 +261,7 @@ void warn_at_start(const struct run *r, FILE *f)
     warn_inside(r, f);
     warn_waves(r, f);
     warn_hulls(r, f);
+    warn_vibration(r, f);
     warn_sheets(r, f);
     warn_unjoined(r, f);
 }
@@ -281,17 +307,68 @@ static void warn_sudden(const fl_world *w, FILE *f)
             w->sudden.n == 1 ? "contact begins" : "contacts begin", fl_sudden_contact_text(w, text));
 }
 
+/* Overlap of an impact of given energy against the factor s of the stiffness: with W = s c d^p, d goes with
+ * s^(-1/p).  1/p = 0.446 for a floe that meets a leg, from runs with s from 0.02 to 1. */
+#define OVERLAP_POWER 0.446
+
+/* The deepest overlap that the radii allow without a warning, and one to aim at. */
+#define OVERLAP_TO_AIM_AT 0.4
+
+/* What made the first deep overlap. */
+enum overlap_cause { OF_START, OF_SUDDEN_CONTACT, OF_SOFT_CONTACT };
+
+static enum overlap_cause cause_of_overlap(const fl_world *w)
+{
+    const fl_sudden_contacts *s = &w->sudden;
+    if (w->deep_overlap_time <= 1.5 * w->dt) return OF_START;
+    if (s->n && fl_world_id(w, s->i) == w->deep_overlap_i && fl_world_id(w, s->j) == w->deep_overlap_j &&
+        fabs(s->time - w->deep_overlap_time) <= 1.5 * w->dt)
+        return OF_SUDDEN_CONTACT;
+    return OF_SOFT_CONTACT;
+}
+
+/* What to change where contacts are too soft. */
+static void advise_stiffness(const fl_world *w, FILE *f)
+{
+    const int32_t ice = fl_scene_find_material(w->scene, w->scene->ice.material);
+    const int32_t other = w->deep_overlap_j < 0 ? FL_SCENE_STRUCTURE : ice;
+    const fl_scene_contact c =
+        fl_scene_pair(w->scene, ice < 0 ? 0 : ice, other < 0 ? FL_SCENE_STRUCTURE : other);
+    const double more = pow(w->max_overlap / OVERLAP_TO_AIM_AT, 1.0 / OVERLAP_POWER);
+    if (c.stiffness > 0.0)
+        fprintf(f,
+                "contacts are too soft for these speeds: contact.stiffness %.3g times as large is expected",
+                more);
+    else if (more * c.stiffness_factor <= 1.0)
+        fprintf(
+            f,
+            "contacts are too soft for these speeds: contact.stiffness_factor of %.2g instead of %.3g is "
+            "expected, or a larger dilation radius; impulses and means of open drift do not depend on it, "
+            "peaks do",
+            more * c.stiffness_factor, c.stiffness_factor);
+    else
+        fputs(
+            "contacts are too soft for these speeds, with any contact.stiffness_factor up to 1: stiffer ice "
+            "(material.ice.young), a larger dilation radius (voronoi-ice --radius) or slower ice is expected",
+            f);
+}
+
 static void warn_overlapped(const fl_world *w, FILE *f)
 {
     if (!w->deep_overlap_steps) return;
-    fprintf(
-        f,
-        "dem-solve: warning: overlaps past half the radii in %" PRId64
-        " step%s, up to %.3g of them, first of body %d and %d at t = %.6g s: contacts are too soft for these "
-        "speeds%s\n",
-        w->deep_overlap_steps, w->deep_overlap_steps == 1 ? "" : "s", w->max_overlap, w->deep_overlap_i,
-        w->deep_overlap_j, w->deep_overlap_time,
-        w->max_overlap >= 1.0 ? ", and bodies may have gone through each other" : "");
+    fprintf(f,
+            "dem-solve: warning: overlaps past half the radii in %" PRId64
+            " step%s, up to %.3g of them, first of body %d and %d at t = %.6g s: ",
+            w->deep_overlap_steps, w->deep_overlap_steps == 1 ? "" : "s", w->max_overlap, w->deep_overlap_i,
+            w->deep_overlap_j, w->deep_overlap_time);
+    switch (cause_of_overlap(w)) {
+    case OF_START: fputs("they overlapped at the start; move them apart, see --probe 0", f); break;
+    case OF_SUDDEN_CONTACT:
+        fputs("the contact began that deep, which no stiffness changes: see the warning before this one", f);
+        break;
+    case OF_SOFT_CONTACT: advise_stiffness(w, f); break;
+    }
+    fprintf(f, "%s\n", w->max_overlap >= 1.0 ? "; bodies may have gone through each other" : "");
 }
 
 static void warn_energy(const fl_world *w, FILE *f)

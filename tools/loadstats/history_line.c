@@ -117,6 +117,7 @@ void history_line_run(const struct options *o, fl_history_line *by)
         fl_history_line_add(by, "--oscillator %s", o->oscillator[k].text);
     if ((uses & USES_SEGMENT) && o->segment > 0.0) add_number(by, "segment", o->segment);
     if ((uses & USES_SEGMENT) && o->taper) fl_history_line_add(by, "--taper %s", fl_taper_name(o->taper));
+    if ((uses & USES_MODES) && o->modes_text) fl_history_line_add(by, "--mode %s", o->modes_text);
     if ((uses & USES_SPEED) && o->speed > 0.0 && !o->skips) add_number(by, "speed", o->speed);
     for (int32_t k = 0; (uses & USES_SN) && k < o->sn_curves; k++) add_sn_curve(by, &o->sn[k]);
     if ((uses & USES_SN) && o->stress != 1.0) add_number(by, "stress", o->stress);

@@ -12,6 +12,7 @@
 #include "options.h"
 #include "options_check.h"
 #include "table_list.h"
+#include "table_regimes.h"
 
 static const char USAGE[] =
     "usage: loadstats [options] [FILE ...]\n"
@@ -28,10 +29,18 @@ static const char *const RESIDUES[] = {"half", "repeat", "none", NULL}; /* as fl
 static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none", NULL}; /* as fl_taper_name() */
 static const char *const FILTERS[] = {"low", "high", "band", "mean", NULL};        /* as fl_filter_name() */
 static const char *const PEAKS[] = {"max", "min", "abs", NULL}; /* as fl_peak_side_name() */
-static const char *const FORMATS[] = {"svg", "png", NULL};
+static const char *const FORMATS[] = {"svg", "png", "pdf", NULL};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 #define TINY 1e-300
 #define HUGE_NUMBER 1e300
+
+static int set_export(void *options, const char *text, fl_err *err)
+{
+    ((struct options *)options)->exports = 1;
+    return strcmp(text, "openfast") == 0
+               ? 0
+               : fl_fail(err, FL_USAGE, "--export is \"%.60s\", expected openfast", text);
+}
 
 static int choose_table(void *options, const char *text, fl_err *err)
 {
@@ -197,6 +206,15 @@ static int add_oscillator(void *options, const char *text, fl_err *err)
     return 0;
 }
 
+static int parse_mode(void *options, const char *word, fl_err *err)
+{
+    struct options *const o = options;
+    if (o->modes == MODES_MAX)
+        return fl_fail(err, FL_USAGE, "expected at most %d natural frequencies", MODES_MAX);
+    return fl_option_number("mode", word, 1e-100, 1e100, "a natural frequency above 0", &o->mode[o->modes++],
+                            err);
+}
+
 static int parse_area(void *options, const char *word, fl_err *err)
 {
     struct options *const o = options;
@@ -250,6 +268,14 @@ static int set_heights(void *options, const char *text, fl_err *err)
     o->heights = 0;
     o->heights_text = text;
     return fl_option_each("heights", text, parse_height, o, err);
+}
+
+static int set_modes(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    o->modes = 0;
+    o->modes_text = text;
+    return fl_option_each("mode", text, parse_mode, o, err);
 }
 
 static int add_returns(void *options, const char *text, fl_err *err)
@@ -552,6 +578,11 @@ static const fl_option OPTION[] = {
              "or mass, as 2e6kg; may be repeated",
      .kind = FL_OPTION_CALL,
      .call = add_oscillator},
+    {.word = "mode",
+     .argument = "LIST",
+     .help = "of regimes: natural frequencies in Hz; their windows are --segment long (20 s)",
+     .kind = FL_OPTION_CALL,
+     .call = set_modes},
     {.word = "return",
      .argument = "LIST",
      .help = "of levels: return periods, seconds or with a unit, 100h (s min h d a)",
@@ -576,6 +607,11 @@ static const fl_option OPTION[] = {
      .help = "draw history and peak distribution into DIR",
      .kind = FL_OPTION_TEXT,
      .at = AT(plot)},
+    {.word = "export",
+     .argument = "FORM",
+     .help = "write the load as input of another program: openfast, a prescribed force",
+     .kind = FL_OPTION_CALL,
+     .call = set_export},
     {.word = "report",
      .argument = "FILE",
      .help = "write numbers, pictures and history as one HTML page",
@@ -588,7 +624,7 @@ static const fl_option OPTION[] = {
      .at = AT(page)},
     {.word = "format",
      .argument = "FORMAT",
-     .help = "of the pictures, svg or png (svg)",
+     .help = "of the pictures, svg, png or pdf (svg)",
      .kind = FL_OPTION_CALL,
      .call = set_format},
     FL_COMMON_OPTIONS(struct options, "write there, - is standard output", "compress the table",
@@ -652,6 +688,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
         o->signal[k] = word;
         word += strlen(word) + 1;
     }
+    if (o->table->needs & NEEDS_MODES) o->signals = regime_signals(o->signal, o->speed > 0.0);
     return 0;
 }
 

@@ -32,6 +32,23 @@ static int check_contacts(const struct options *o, fl_err *err)
     return 0;
 }
 
+/* An exported load is rows of a record: no table, no pictures. */
+static int check_export(const struct options *o, fl_err *err)
+{
+    const char *not = o->signals        ? "column"
+                      : o->filter > 0.0 ? "filter"
+                      : o->table_given  ? "table"
+                      : o->plot         ? "plot"
+                      : o->report       ? "report"
+                      : o->merge        ? "merge"
+                      : o->stream       ? "stream"
+                      : o->follow > 0.0 ? "follow"
+                                        : NULL;
+    if (!o->exports || (!not &&o->files <= 1)) return 0;
+    if (not ) return fl_fail(err, FL_USAGE, "--export excludes --%s", not );
+    return fl_fail(err, FL_USAGE, "--export reads one record");
+}
+
 /* Options of summaries: constant memory, many files. */
 static int check_summary(struct options *o, fl_err *err)
 {
@@ -71,7 +88,7 @@ static int check_summary(struct options *o, fl_err *err)
 
 int options_check(struct options *o, fl_err *err)
 {
-    if (check_contacts(o, err) || check_summary(o, err)) return -1;
+    if (check_export(o, err) || check_contacts(o, err) || check_summary(o, err)) return -1;
     if (o->skips && !(o->speed > 0.0)) return fl_fail(err, FL_USAGE, "--skip needs --speed, that of the ice");
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);
@@ -92,6 +109,14 @@ int options_check(struct options *o, fl_err *err)
         return fl_fail(err, FL_USAGE, "--report - needs --output for the table");
     if ((o->table->needs & NEEDS_OSCILLATOR) && !o->oscillators)
         return fl_fail(err, FL_USAGE, "--table %s needs --oscillator, F,Z", o->table->name);
+    if ((o->table->needs & NEEDS_MODES) && !o->modes)
+        return fl_fail(err, FL_USAGE, "--table %s needs --mode, the natural frequencies", o->table->name);
+    if ((o->table->needs & NEEDS_MODES) && (o->signals || o->filter > 0.0 || o->over))
+        return fl_fail(err, FL_USAGE, "--%s is not for --table %s, which has columns of its own",
+                       o->signals ? "column"
+                       : o->over  ? "over"
+                                  : "filter",
+                       o->table->name);
     if ((o->table->needs & NEEDS_RETURNS) && !o->returns)
         return fl_fail(err, FL_USAGE, "--table %s needs --return, the return periods", o->table->name);
     return 0;

@@ -15,7 +15,8 @@ enum {
     SN_CURVES_MAX = 8,
     AREAS_MAX = 30,
     HEIGHTS_MAX = 200,
-    OSCILLATORS_MAX = 50
+    OSCILLATORS_MAX = 50,
+    MODES_MAX = 64
 };
 enum sample { SAMPLE_PEAKS, SAMPLE_POT, SAMPLE_BLOCKS, SAMPLE_RUNS };
 
@@ -69,9 +70,13 @@ struct options {
     int taper;             /* fl_taper */
     struct oscillator_case oscillator[OSCILLATORS_MAX];
     int32_t oscillators, oscillator_words;
-    double stress; /* per unit of the load */
-    double follow; /* data time between two outputs [s], 0 for one at the end */
-    int ended;     /* --help or --version was answered */
+    double mode[MODES_MAX]; /* natural frequencies [Hz] */
+    int32_t modes;
+    const char *modes_text; /* as given, or NULL; borrowed from argv */
+    double stress;          /* per unit of the load */
+    int exports;            /* 0, or 1 + the form of --export */
+    double follow;          /* data time between two outputs [s], 0 for one at the end */
+    int ended;              /* --help or --version was answered */
 };
 
 /* Start of the analysis [s], and the time to drop after the first load [s], 0 for none. */

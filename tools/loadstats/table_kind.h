@@ -33,7 +33,8 @@ enum table_option {
     USES_SEGMENT = 1 << 10,
     USES_SN = 1 << 11,
     USES_SPEED = 1 << 12,
-    USES_WATERLINE = 1 << 13
+    USES_WATERLINE = 1 << 13,
+    USES_MODES = 1 << 14
 };
 
 /* Options without which a table does not exist, and data without which the report omits it. */
@@ -45,11 +46,12 @@ enum table_need {
     NEEDS_RECORD = 1 << 4,  /* one whole record */
     NEEDS_RUNS = 1 << 5,    /* many runs */
     NEEDS_SEGMENT = 1 << 6, /* rows for one segment of a spectrum or more */
+    NEEDS_MODES = 1 << 7,
 };
 
 /* How the report prints a table: as it is; transposed, part by part; fits by likelihood only, the best one in
- * bold; or a selection of the numbers of runs. */
-enum report_layout { LAYOUT_ROWS, LAYOUT_TRANSPOSED, LAYOUT_FITS, LAYOUT_RUNS };
+ * bold; a selection of the numbers of runs; or intervals in one cell with their values. */
+enum report_layout { LAYOUT_ROWS, LAYOUT_TRANSPOSED, LAYOUT_FITS, LAYOUT_RUNS, LAYOUT_OVERVIEW };
 
 struct table {
     const char *name; /* of --table; also the kind of the file */

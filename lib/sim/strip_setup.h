@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* strip_setup.h -- walls and law of failure.crushing_law = rate, and what strips add to a step. */
+#ifndef FL_SIM_STRIP_SETUP_H
+#define FL_SIM_STRIP_SETUP_H
+#include "world/access.h"
+
+/* Fills w->strips if the scene has that law, after the pieces and floes have been placed.  -1 with FL_INPUT
+ * (no vertical wall at the height of the ice, spheres or bonded floes) or FL_SYSTEM. */
+int fl_strips_make(fl_world *w, fl_err *err);
+void fl_strips_free(fl_strips *s);
+
+/* After the contacts of a step of dt: books what was crushed, and the closing speeds of the parts. */
+void fl_strips_book(fl_world *w, double dt);
+
+/* -1 with FL_NUMERIC: a wall closed by more than a fifth of break_deflection in a step. */
+int fl_strips_check(const fl_world *w, fl_err *err);
+
+/* Longest step that the speeds at the start, of the ice, the drive and the current, allow; INFINITY without
+ * strips [s]. */
+double fl_strips_max_step(const fl_world *w);
+
+/* Speed below which mode k of the structure (fl_structure_mode) locks in by estimate:
+ * fl_strip_lock_in_speed() of the mean force on the walls of its part, seen along the mode, in ice of the
+ * largest thickness. 0: no wall; INFINITY: no damping [m/s]. */
+double fl_strips_lock_in_speed(const fl_world *w, int32_t k);
+
+#endif
