@@ -57,6 +57,7 @@ static const fl_column BONDS[] = {
     {"m", "N.m", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, moment)},
     {"area", "m2", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, area)},
     {"", "m", FL_COLUMN_VEC3, 0, offsetof(fl_bonds_row, x)},
+    {"joint", "", FL_COLUMN_TEXT, FL_BONDS_JOINTS, offsetof(fl_bonds_row, joint)},
 };
 const fl_table_format fl_bonds_table = {"bonds", FL_TABLE_COLUMNS(BONDS)};
 

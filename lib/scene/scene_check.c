@@ -371,8 +371,12 @@ static int check_bonds(const fl_scene *s, fl_err *err)
 {
     const fl_scene_bond *b = &s->bond;
     const int on = b->head.present && b->on;
-    if (!on && s->output.bonds[0])
-        return fl_scene_fail(s, "output.bonds", err, "there are no bonds: bond.on = true is expected");
+    if (s->n_joint && s->run.sleep > 0.0)
+        return fl_scene_fail(s, "run.sleep", err,
+                             "blocks with joints do not sleep: either run.sleep or [joint NAME] is expected");
+    if (!on && !s->n_joint && s->output.bonds[0])
+        return fl_scene_fail(s, "output.bonds", err,
+                             "there are no bonds: bond.on = true, or [joint NAME], is expected");
     if (!on) return 0;
     if (s->run.sleep > 0.0)
         return fl_scene_fail(s, "run.sleep", err,
@@ -388,6 +392,31 @@ static int check_bonds(const fl_scene *s, fl_err *err)
         return fl_scene_fail(
             s, "bond.softening", err,
             "softening = weaken lowers both strengths, but one is none: a number is expected");
+    return 0;
+}
+
+static int check_statics(const fl_scene *s, fl_err *err)
+{
+    for (int32_t k = 0; k < s->n_stage; k++)
+        if (s->stage[k].start < 0.0 && !s->run.relax)
+            return fl_fail(err, FL_INPUT, "[stage %s] begins when the run has settled, and run.relax is none",
+                           s->stage[k].name);
+    if (s->n_stage && s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
+        return fl_scene_fail(s, "boundary.inflow", err,
+                             "stages change a model without inflow: either is expected");
+    if (s->n_stage && s->output.checkpoint[0])
+        return fl_scene_fail(s, "output.checkpoint", err,
+                             "a run with stages is not saved: no checkpoint is expected");
+    if (!s->run.relax) return 0;
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(s, "run.sleep", err,
+                             "run.relax brings bodies to rest: either it or run.sleep is expected");
+    if (s->run.error > 0.0)
+        return fl_scene_fail(s, "run.error", err,
+                             "run.error is for motion in time: either it or run.relax is expected");
+    if (s->output.checkpoint[0])
+        return fl_scene_fail(s, "output.checkpoint", err,
+                             "a run with run.relax is not saved: no checkpoint is expected");
     return 0;
 }
 
@@ -676,7 +705,7 @@ int fl_scene_check(fl_scene *s, fl_err *err)
                    check_drive_track(s, err) ||
                    check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
-                   check_groups(s, err) || check_motions(s, err)
+                   check_groups(s, err) || check_motions(s, err) || check_statics(s, err)
                ? -1
                : 0;
 }

@@ -346,6 +346,7 @@ static fl_vec3 contact_force_on(const fl_world *w, int32_t i)
     const double k = w->driven_floes.n ? fl_driven_floe_spring(w, i, &extension) : 0.0;
     if (w->driven_floes.n) f.z += k * extension;
     f = v3_madd(f, -w->b.m[i], w->gravity);
+    if (w->relax.kind) f = v3_sub(f, fl_sums_now(w, i)->damping); /* dashpots cancel in the sum over bodies */
     return w->sea.water ? v3_sub(f, fl_environment_water_force(&w->sea, i)) : f;
 }
 
@@ -373,7 +374,7 @@ static void add_sphere_works(fl_body_block *own, const fl_free_batch_work *q, in
 static int32_t find_touching(const fl_world *w, const batch_list *c, int32_t busy[FL_BODY_BATCH])
 {
     const int32_t *at = c->at, n = c->n;
-    const int all = w->bonds.n > 0;
+    const int all = w->bonds.n > 0 || w->relax.kind;
     const int32_t *slot = w->contact_sums.slot, *previous = w->previous_sums.slot;
     int32_t n_busy = 0, any = 0;
     if (!w->contact_sums.one_each && !w->previous_sums.one_each) {

@@ -93,22 +93,32 @@ static int plan_inflow(fl_world *w, const fl_ice_field *field, const fl_ice_fiel
     return 0;
 }
 
+/* 1 if a stage takes bodies out. */
+static int has_removals(const fl_scene *s)
+{
+    for (int32_t k = 0; k < s->n_stage; k++)
+        if (s->stage[k].remove[0]) return 1;
+    return 0;
+}
+
 int fl_inflow_make(fl_world *w, const fl_ice_field *field, const fl_ice_field *feed, fl_err *err)
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_inflow_state *t = &w->inflow;
     const double none = INFINITY;
-    if (!s->head.present) return 0;
-    t->lo = v3(s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -none,
-               s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -none,
-               s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -none);
-    t->hi =
-        v3(s->type[0] == FL_BOUNDARY_FREE ? s->max.x : none, s->type[1] == FL_BOUNDARY_FREE ? s->max.y : none,
-           s->type[2] == FL_BOUNDARY_FREE ? s->max.z : none);
+    const int staged = has_removals(w->scene);
+    if (!s->head.present && !staged) return 0;
+    const int bounded = s->head.present;
+    t->lo = v3(bounded && s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -none,
+               bounded && s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -none,
+               bounded && s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -none);
+    t->hi = v3(bounded && s->type[0] == FL_BOUNDARY_FREE ? s->max.x : none,
+               bounded && s->type[1] == FL_BOUNDARY_FREE ? s->max.y : none,
+               bounded && s->type[2] == FL_BOUNDARY_FREE ? s->max.z : none);
     const int leave = t->lo.x > -none || t->lo.y > -none || t->lo.z > -none || t->hi.x < none ||
                       t->hi.y < none || t->hi.z < none;
-    if (!leave) return 0;
-    if (s->inflow != FL_INFLOW_NONE) {
+    if (!leave && !staged) return 0;
+    if (bounded && s->inflow != FL_INFLOW_NONE) {
         if (feed->n == 0)
             return fl_fail(err, FL_INPUT, "%s: the file has no body; an ice field expected", s->inflow_file);
         if (plan_inflow(w, field, feed, err)) return -1;
@@ -379,11 +389,42 @@ static int is_due(const fl_world *w)
     return 0;
 }
 
+/* Take out floes: those marked in gone, or those outside if that is NULL. */
+static int take_out(fl_world *w, const uint8_t *gone, fl_err *err)
+{
+    fl_inflow_state *t = &w->inflow;
+    fl_ledger *g = &w->ledger;
+    /* The works of the half kick to come are booked already; contacts that end will not do them. */
+    const fl_work before = fl_work_ahead(w);
+    for (int32_t i = 0; i < w->n; i++)
+        if (!t->absent[i] && (gone ? gone[i] : !t->guided[i] && is_outside(w, i))) remove_floe(w, i);
+    if (drop_pairs(w, err)) return -1;
+    fl_sleep_wake_resting(w);
+    const fl_work after = fl_work_ahead(w);
+    g->damping -= before.damping - after.damping;
+    g->friction -= before.friction - after.friction;
+    g->drive -= before.drive - after.drive;
+    return 0;
+}
+
+int fl_inflow_remove(fl_world *w, const uint8_t *gone, fl_err *err)
+{
+    fl_ledger *g = &w->ledger;
+    fl_sleep_advance_to_now(w);
+    fl_energy_update(w);
+    const double residual = g->residual, throughput = g->throughput;
+    if (take_out(w, gone, err)) return -1;
+    fl_energy_update(w);
+    g->carried += g->residual - residual;
+    g->throughput = throughput;
+    fl_sleep_restore(w);
+    return 0;
+}
+
 int fl_inflow_step(fl_world *w, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
     fl_ledger *g = &w->ledger;
-    fl_work before, after;
     int leaving = 0, came = 0;
     int32_t place = 0;
     if (t->feed) release_guided(w);
@@ -394,16 +435,7 @@ int fl_inflow_step(fl_world *w, fl_err *err)
     fl_energy_update(w);
     const double residual = g->residual, throughput = g->throughput;
     if (leaving) {
-        /* The works of the half kick to come are booked already; contacts that end will not do them. */
-        before = fl_work_ahead(w);
-        for (int32_t i = 0; i < w->n; i++)
-            if (!t->absent[i] && !t->guided[i] && is_outside(w, i)) remove_floe(w, i);
-        if (drop_pairs(w, err)) return -1;
-        fl_sleep_wake_resting(w);
-        after = fl_work_ahead(w);
-        g->damping -= before.damping - after.damping;
-        g->friction -= before.friction - after.friction;
-        g->drive -= before.drive - after.drive;
+        if (take_out(w, NULL, err)) return -1;
     }
     if (is_due(w) && fl_inflow_bonds_renew(w, err)) return -1;
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)

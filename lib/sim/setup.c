@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/relaxed_run.h"
 #include "sim/setup.h"
 #include <omp.h>
 #include <string.h>
@@ -419,7 +420,8 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     }
     if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
         fl_panels_make(w, surface, err) || fl_strips_make(w, err) || fl_sleep_make(w, err) ||
-        fl_pair_law_make_table(w, err) || fl_bond_list_make(w, field, err) || fl_inflow_bonds_make(w, err))
+        fl_pair_law_make_table(w, err) || fl_bond_list_make(w, field, err) || fl_inflow_bonds_make(w, err) ||
+        fl_relaxed_run_make(w, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
@@ -466,6 +468,7 @@ void fl_world_free(fl_world *w)
     fl_moving_structure_free(&w->moving);
     fl_sleep_free(&w->sleep);
     fl_bond_list_free(&w->bonds);
+    fl_relaxed_run_free(&w->relax);
     fl_disc_list_free(&w->discs);
     fl_panels_free(&w->panel_load);
     fl_strips_free(&w->strips);

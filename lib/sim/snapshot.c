@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "contact/bond_list.h"
 #include "contact/disc_setup.h"
+#include "contact/joint_list.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -394,6 +395,30 @@ static void exchange_load_shares(fl_state_io *t, fl_world *w)
     }
 }
 
+/* A joint: where its points lie, and their memory. */
+static void exchange_joint(fl_state_io *t, fl_bond *c, fl_joint *q)
+{
+    fl_vec3 *const place[] = {&c->pi, &c->pj, &c->ai, &c->aj, &c->bi, &c->bj};
+    fl_state_io_open(t, "joint");
+    fl_state_io_real(t, &c->area);
+    fl_state_io_real(t, &q->laid_area);
+    fl_state_io_real(t, &q->clipped[0]);
+    fl_state_io_real(t, &q->clipped[1]);
+    fl_state_io_real(t, &q->friction_loss);
+    fl_state_io_int(t, 0, FL_BOND_POINTS, &q->slips);
+    fl_state_io_int(t, 0, FL_BOND_POINTS, &q->opens);
+    for (int e = 0; e < 6; e++) fl_state_io_vec3(t, place[e]);
+    for (int e = 0; e < FL_BOND_POINTS; e++) {
+        fl_joint_point *p = &q->point[e];
+        double *const number[] = {&q->sigma[e], &p->sigma, &p->tau[0], &p->tau[1], &p->offset,
+                                  &p->slip,     &p->angle, &p->ratio,  &p->way[0], &p->way[1]};
+        for (int k = 0; k < 10; k++) fl_state_io_real(t, number[k]);
+        fl_state_io_int(t, 0, 1, &p->failed);
+        fl_state_io_int(t, 0, 1, &p->open);
+    }
+    fl_state_io_close(t);
+}
+
 /* A bond: its memory and its forces.  Separations follow from the poses of the bodies, face and law from the
  * scene. */
 static void exchange_bond(fl_state_io *t, fl_world *w, int32_t k)
@@ -553,6 +578,9 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     if (w->driven_floes.track.n && !t->err->code) exchange_drive_track(t, &w->driven_floes.track);
     if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
+    for (int32_t k = w->bonds.faces; k < w->bonds.n && !t->err->code; k++)
+        if (fl_joint_of_bond(&w->bonds, k))
+            exchange_joint(t, &w->bonds.bond[k], &w->bonds.joint[k - w->bonds.faces]);
     if (t->in && !t->err->code) fl_bond_list_refresh(w);
     if (w->discs.n && !t->err->code) exchange_discs(t, w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);

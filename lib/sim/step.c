@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/relaxed_run.h"
 #include "sim/step.h"
 #include <assert.h>
 #include <omp.h>
@@ -466,6 +467,7 @@ int fl_step(fl_world *w, fl_err *err)
     /* energy ledger, overlaps, momentum */
     fl_ledger_book_step(w);
     if (w->strips.wall) fl_strips_book(w, dt);
+    if (w->relax.kind) fl_relaxed_run_end_step(w);
     gather_overlaps(w, dt);
 
     /* loads: half a step of the new forces */

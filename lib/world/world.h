@@ -32,6 +32,7 @@
 #include "world/moving_parts.h"
 #include "world/pair.h"
 #include "world/panel_state.h"
+#include "world/relax_state.h"
 #include "world/sleep_state.h"
 #include "world/sphere_contacts.h"
 #include "world/strip_state.h"
@@ -70,6 +71,8 @@ typedef struct {
     fl_driven_floes driven_floes;
     fl_device_link device;
     fl_sleep sleep;
+    fl_relax_state relax;
+    int64_t stage_step;          /* step at which the last stage began */
     fl_bond_list bonds;          /* faces */
     fl_disc_list discs;          /* of spheres */
     fl_environment sea;          /* water and wind; n = 0 without them */

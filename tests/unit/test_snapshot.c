@@ -14,11 +14,10 @@
  * periodic domain or not, or with the last. With surrogates a touching pair states whether it has been
  * evaluated, and then its surrogate. A bond has its points once it is damaged. */
 static const char LAYOUT[] =
-    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|bonds 9|books 35|borne 15|budget 15|"
-    "disc 28|event 15|known 6|link 4|mark 16|mover 40|nap 13|next 2|pair 105|pair 106|pair 33|pair 34|pair "
-    "35|"
-    "pair 36|pair 41|pair 44|panel 5|part 8|place 6|pressed 5|sea 26|sea 38|sea 6|share 10|shared 2|"
-    "told 5|traffic 14|window 9|world 17|";
+    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|bonds 9|books 35|borne 15|"
+    "budget 15|disc 28|event 15|joint 134|known 6|link 4|mark 16|mover 40|nap 13|next 2|pair 105|"
+    "pair 106|pair 33|pair 34|pair 35|pair 36|pair 41|pair 44|panel 5|part 8|place 6|pressed 5|sea 26|"
+    "sea 38|sea 6|share 10|shared 2|told 5|traffic 14|window 9|world 17|";
 enum { LAYOUT_IS_OF = 16, KINDS = 64 };
 
 typedef struct {
@@ -134,6 +133,7 @@ static void each_layout_has_a_version_number(void **state)
     scene_of_bonds(&l, 3, NULL), collect_state(&all, &l, 1);
     scene_of_sheet(&l, 3, NULL), collect_state(&all, &l, 0);
     scene_of_endless_sheet(&l, 3, NULL), collect_state(&all, &l, 0);
+    scene_of_joints(&l, 3, NULL), collect_state(&all, &l, 0);
     scene_of_surrogates(&l, 2, NULL), collect_state(&all, &l, 0);
     scene_of_joined_parts(&l, 2, NULL), collect_state(&all, &l, 0);
     collect_budget(&all);

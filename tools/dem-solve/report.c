@@ -2,6 +2,7 @@
 #include "report.h"
 #include <inttypes.h>
 #include "contact/bond_list.h"
+#include "contact/joint_list.h"
 #include "sim/critical_step.h"
 #include "sim/energy_balance.h"
 #include "sim/inflow.h"
@@ -68,6 +69,15 @@ static void report_bonds(const fl_world *w, FILE *f)
     putc('\n', f);
 }
 
+static void report_joints(const fl_world *w, FILE *f)
+{
+    const fl_joint_counts n = fl_joint_list_counts(w);
+    fprintf(
+        f,
+        "joints             %d elastic, %d slip, %d open, %d ended: %.4g J of friction, %.4g J of strength\n",
+        n.elastic, n.slip, n.open, n.ended, fl_joint_list_friction_loss(w), w->ledger.fracture);
+}
+
 /* Members whose sections have yielded or ruptured. */
 static void report_members(const fl_world *w, FILE *f)
 {
@@ -95,7 +105,7 @@ void note_long_bonds(const fl_world *w, FILE *f)
     fprintf(f,
             "dem-solve: note: %d of %d bonds store more than the %.4g J/m2 of bond.energy at their strength: "
             "the longest is %.3g m, and the limit is %.3g m; a crack takes %.4g J/m2 in the mean%s\n",
-            n.coarse, fl_world_bonds(w), s->energy, n.longest, n.limit, n.energy,
+            n.coarse, fl_world_bonds(w) - fl_world_joints(w), s->energy, n.longest, n.limit, n.energy,
             s->softening == FL_SOFTENING_STRETCH ? "" : " (see bond.softening)");
 }
 
@@ -241,7 +251,8 @@ void write_report(const struct run *r, FILE *f, enum report_kind kind)
                 r->save_wall, fl_world_time(w));
     report_energy(w, f);
     report_momentum(w, f);
-    if (fl_world_bonds(w)) report_bonds(w, f);
+    if (fl_world_bonds(w) > fl_world_joints(w)) report_bonds(w, f);
+    if (fl_world_joints(w)) report_joints(w, f);
     if (w->moving.members.dynamics.chain.yielding) report_members(w, f);
     if (w->inflow.absent) report_inflow(w, f);
     report_overlaps(w, f);

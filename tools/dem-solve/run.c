@@ -10,6 +10,7 @@
 #include "sim/energy_balance.h"
 #include "sim/inflow.h"
 #include "sim/sleep.h"
+#include "sim/stage.h"
 #include "sim/step.h"
 #include "step_choice.h"
 #include "warnings.h"
@@ -114,6 +115,18 @@ static int start_run(struct run *r, struct outputs *u, fl_err *err)
     return write_due(r, u, err);
 }
 
+/* Stages, and whether the run has come to rest. */
+static int update_stage(struct run *r, fl_err *err)
+{
+    const int32_t before = r->stage;
+    const int settled =
+        fl_stage_update(r->w, &r->stage, r->group, (const char *const *)r->groups->name, r->groups->n, err);
+    if (r->stage > before && !r->o->quiet)
+        fprintf(stderr, "dem-solve: stage %s begins at %.6g s\n", r->scene->stage[before].name,
+                fl_world_time(r->w));
+    return settled;
+}
+
 static int run_steps(struct run *r, struct outputs *u, int show, double begun, fl_err *err)
 {
     fl_world *w = r->w;
@@ -124,6 +137,7 @@ static int run_steps(struct run *r, struct outputs *u, int show, double begun, f
         if (update_step(r, u, err)) return -1;
         if (stop_signal) break; /* an abandoned search is repeated when the run is resumed */
         r->body_steps += w->inflow.absent ? fl_floes_in_domain(w) : w->n;
+        if (r->settles && (r->settled = update_stage(r, err)) != 0) break;
         if (fl_step(w, err) || (r->budget && follow_run(r, err)) || write_due(r, u, err) ||
             save_if_due(r, u, 0, err))
             return -1;
@@ -132,7 +146,8 @@ static int run_steps(struct run *r, struct outputs *u, int show, double begun, f
             if (now - shown >= 0.5) show_progress(r, begun, 0), shown = now;
         }
     }
-    r->stopped = w->step < r->steps ? stop_signal : 0;
+    if (r->settled < 0) return -1;
+    r->stopped = w->step < r->steps && !r->settled ? stop_signal : 0;
     if (r->stopped) return save_if_due(r, u, 0, err); /* the signal may have come before the first step */
     /* A longer run would have no shorter last row and no energy check here, so the checkpoint that it
      * could resume comes before them. */
