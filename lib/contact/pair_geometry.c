@@ -401,7 +401,7 @@ int fl_pair_still_apart(const fl_world *w, fl_neighbour_pair *q)
     const int wall = piece && piece->kind == FL_PIECE_PLANE && !piece->elastic;
     const double R = b->radius[i] + b->radius[j];
     fl_pair *const p = q->contact; /* set if the contact has just opened */
-    if ((p && (p->touching || p->bond)) || b->core[i].nv == 1 ||
+    if ((p && (p->touching || p->bond || p->crush)) || b->core[i].nv == 1 ||
         fl_pair_law_of(w, i, j)->law->points != FL_POINTS_PATCH)
         return 0;
     if (!wall && (!(p ? p->has_axis : q->has_axis) || B->nv == 1 || (piece && piece->kind != FL_PIECE_SOLID)))

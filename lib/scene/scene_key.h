@@ -21,6 +21,7 @@ enum fl_section_id {
     FL_SEC_WATER,
     FL_SEC_WIND,
     FL_SEC_BOND,
+    FL_SEC_FAILURE,
     FL_SEC_GROUP,
     FL_SEC_PART,
     FL_SECTIONS

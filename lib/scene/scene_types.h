@@ -73,7 +73,8 @@ typedef struct {
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
         hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        members[FL_SCENE_PATH], checkpoint[FL_SCENE_PATH]; /* "": none */
+        members[FL_SCENE_PATH], failures[FL_SCENE_PATH], final_ice[FL_SCENE_PATH],
+        checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
 typedef struct {
@@ -236,6 +237,32 @@ typedef struct {
     int32_t seed;
 } fl_scene_bond;
 
+/* Contacts in which ice crushes, and laws of its pressure; polar classes 1 to 7 follow each other. */
+enum fl_crushing_of { FL_CRUSHING_NONE, FL_CRUSHING_STRUCTURE, FL_CRUSHING_ALL };
+enum fl_pressure_law {
+    FL_PRESSURE_USER,
+    FL_PRESSURE_POLAR_1,
+    FL_PRESSURE_ISO_LOCAL = FL_PRESSURE_POLAR_1 + 7,
+    FL_PRESSURE_API
+};
+
+typedef struct {
+    fl_scene_head head;
+    int32_t crushing;          /* enum fl_crushing_of */
+    int32_t crushing_law;      /* 0: plain */
+    int32_t pressure_law;      /* enum fl_pressure_law */
+    double pressure;           /* p0 [Pa] */
+    double pressure_area;      /* A0 [m2] */
+    double pressure_exponent;  /* e */
+    double pressure_max;       /* [Pa] */
+    int32_t wear;              /* 1: floes keep where they were crushed */
+    double flexural_strength;  /* [Pa]; INFINITY: none */
+    int32_t wedges;            /* that bend ahead of a contact */
+    double fracture_toughness; /* [Pa m^0.5]; INFINITY: none */
+    double fragment_min;       /* [m2]; 0: auto */
+    int32_t fragments_max;     /* 0: auto */
+} fl_scene_failure;
+
 typedef struct {
     fl_scene_head head;
     char name[FL_SCENE_NAME];
@@ -252,6 +279,7 @@ typedef struct {
     fl_scene_water water;
     fl_scene_wind wind;
     fl_scene_bond bond;
+    fl_scene_failure failure;
     fl_scene_material *material; /* "ice" and "steel" are always there after fl_scene_check() */
     fl_scene_contact *contact;
     fl_scene_group *group;

@@ -15,7 +15,7 @@
  * each off by 1e-16. */
 #define ROUNDING 1e-12
 
-enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8 };
+enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16 };
 
 static const fl_column COLUMNS[] = {
     {"kinetic", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, kinetic)},
@@ -36,13 +36,15 @@ static const fl_column COLUMNS[] = {
     {"bond", "J", FL_COLUMN_REAL, BONDS, offsetof(fl_ledger, bond)},
     {"fracture", "J", FL_COLUMN_REAL, BONDS, offsetof(fl_ledger, fracture)},
     {"plastic", "J", FL_COLUMN_REAL, YIELDING, offsetof(fl_ledger, plastic)},
+    {"crushing", "J", FL_COLUMN_REAL, CRUSHING, offsetof(fl_ledger, crushing)},
 };
 const fl_table_format fl_energy_table = {"energy", FL_TABLE_COLUMNS(COLUMNS)};
 
 unsigned fl_energy_table_options(const fl_world *w)
 {
     return (fl_structure_moves_freely(w) ? MOVING : 0u) | (w->sea.waves ? WAVES : 0u) |
-           (fl_world_bonds(w) ? BONDS : 0u) | (w->moving.members.dynamics.chain.yielding ? YIELDING : 0u);
+           (fl_world_bonds(w) ? BONDS : 0u) | (w->moving.members.dynamics.chain.yielding ? YIELDING : 0u) |
+           (w->crushing.of != FL_CRUSHING_NONE ? CRUSHING : 0u);
 }
 
 double fl_energy_stored(const fl_world *w)
@@ -142,11 +144,11 @@ void fl_energy_update(fl_world *w)
     const double drive = g->drive - ahead.drive + constraint;
     g->drive_now = drive;
     g->residual = kinetic + gravity + elastic + hydro + g->structure + g->spring + g->bond + g->fracture -
-                  g->start + g->damping_now + g->friction_now + drag + g->damper + g->plastic - wind - waves -
-                  drive - g->carried;
+                  g->start + g->damping_now + g->friction_now + drag + g->damper + g->plastic + g->crushing -
+                  wind - waves - drive - g->carried;
     const double throughput = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
                               fabs(waves) + fabs(drive) + kinetic + g->damper + g->plastic + g->structure +
-                              fabs(g->fracture);
+                              fabs(g->fracture) + fabs(g->crushing);
     if (throughput > g->throughput) g->throughput = throughput;
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -171,6 +172,7 @@ static void remove_floe(fl_world *w, int32_t i)
     t->n_left++;
     t->mass_left += b->m[i];
     t->momentum_left = v3_madd(t->momentum_left, b->m[i], b->v[i]);
+    fl_crushing_forget(w, i);
     b->v[i] = b->L[i] = b->w[i] = b->f[i] = b->t[i] = v3(0, 0, 0);
     fl_sums_clear(w, i);
 }

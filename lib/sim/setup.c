@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "base/pi.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -413,7 +414,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     }
     if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
         fl_panels_make(w, surface, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
-        fl_bond_list_make(w, field, err))
+        fl_bond_list_make(w, field, err) || fl_crushing_make(w, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
@@ -442,6 +443,7 @@ void fl_world_free(fl_world *w)
     free(w->elastic_walls.hull), free(w->elastic_walls.outer);
     free(w->driven_floes.is_driven), free(w->driven_floes.k), free(w->driven_floes.rest_height);
     fl_inflow_free(&w->inflow);
+    fl_crushing_free(w);
     fl_neighbour_pairs_free(w);
     free(w->first_pair_of_body), free(w->pairs_of_body), free(w->scratch), free(w->mesh_near),
         free(w->surrogate_counts);

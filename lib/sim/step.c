@@ -9,6 +9,7 @@
 #include "body/integrate.h"
 #include "contact/active_pairs.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/panel_load.h"
 #include "sim/body_step.h"
 #include "sim/critical_step.h"
@@ -425,6 +426,7 @@ int fl_step(fl_world *w, fl_err *err)
     /* energy ledger, overlaps, momentum */
     fl_ledger_book_step(w);
     gather_overlaps(w, dt);
+    if (w->crushing.of != FL_CRUSHING_NONE && fl_crushing_book(w, err)) return -1;
 
     /* loads: half a step of the new forces */
     if (add_loads(w, h, err)) return -1;

@@ -34,6 +34,21 @@ typedef struct {
     int32_t literal2, literal18;
 } fl_pair_law;
 
+/* Memory of a contact in which ice crushes, contact/crushing.h.  Vectors in the axes of floe A. */
+typedef struct {
+    fl_vec3 offset;       /* D: what is crushed [m] */
+    fl_vec3 centre;       /* of the contact when it last touched [m] */
+    double stiffening;    /* g */
+    double area;          /* largest nominal area since the contact began [m2] */
+    double work;          /* Q of the step work_step [J] */
+    double volume;        /* crushed since it was last booked [m3] */
+    double force;         /* y at the last yield [N] */
+    int64_t work_step;
+    int64_t yielded_step; /* of the last yield */
+    int32_t booked;       /* Q is in the ledger */
+    int32_t unsaved;      /* D has grown and is not yet in the floe */
+} fl_crush;
+
 /* A contact of two bodies: i is a floe; j a floe, piece or wall; i < j.
  * A new member that lasts from step to step must be added to snapshot_pair.c (and what is new in fl_world to
  * snapshot.c): prop_restart finds it missing once it changes a bit.  What lasts while the two do not touch
@@ -48,6 +63,7 @@ typedef struct {
     fl_quick_list *quick_list;  /* the same of the law `quick`, or NULL */
     fl_surrogate *surrogate;    /* NULL until there is one */
     fl_rolling_spring *rolling; /* of a sphere, rolling_pair.h; NULL without rolling resistance */
+    fl_crush *crush;            /* NULL while nothing is crushed */
     fl_gjk_cache cache;         /* start of the distance query */
     fl_mode mode;               /* of the laws manual and manual-si */
     int32_t cores_overlap;      /* the cores overlap */

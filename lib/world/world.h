@@ -23,6 +23,7 @@
 #include "world/body_block.h"
 #include "world/bond_state.h"
 #include "world/contact_sums.h"
+#include "world/crushing_state.h"
 #include "world/disc_state.h"
 #include "world/driven_floes.h"
 #include "world/elastic_walls.h"
@@ -64,6 +65,7 @@ typedef struct {
     fl_panel_loads panel_load;
     fl_elastic_walls elastic_walls;
     fl_inflow_state inflow;
+    fl_crushing_state crushing;
     fl_driven_floes driven_floes;
     fl_sleep sleep;
     fl_bond_list bonds;          /* faces */
