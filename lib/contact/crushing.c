@@ -11,6 +11,9 @@
 /* Bounds of the local exponent m: 2 is a face, 3 an edge, 4 a corner. */
 #define LEAST_EXPONENT 1.5
 #define MOST_EXPONENT 6.0
+/* An edge is flattened from this share of y on, where it stores more than a flat by this share. */
+#define FLATTENED 0.1
+#define SAME_ENERGY 0.01
 /* A dent counts for a contact whose normal is within 45 degrees of it. */
 #define SAME_SIDE 0.7
 
@@ -76,45 +79,47 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     const double F = exact->scale * v3_norm(q->gradient.f), W = exact->energy;
     fl_crush *c = p->crush;
     const fl_vec3 n = v3_unit(m3_tmul(r->M, q->gradient.f));
-    double A = c && p->touching ? c->area : 0.0, y = A > 0.0 ? A * fl_crushing_pressure(&s->law, A) : 0.0;
+    if (c && !p->touching) c->area = c->most = 0.0;
+    double A = c ? c->area : 0.0, y = A > 0.0 ? A * fl_crushing_pressure(&s->law, A) : 0.0;
     *limit = INFINITY;
     if (c) {
         const double turned = v3_dot(c->offset, n);
         if (turned < 0.0) c->offset = v3_madd(c->offset, -turned, n);
         c->centre = m3_tmul(r->M, v3_sub(centre, r->o));
-        c->area = A;
     }
-    if (!(F > y)) {
-        if (y > 0.0) *limit = y;
-        return 0;
-    }
+    if (y > 0.0) *limit = y;
+    if (!(F > y) && y > 0.0 && !(F > c->most)) return 0;
     A = fmax(A, area_of(w, p, r, centre));
     if (!(A > 0.0)) return 0;
     *limit = y = A * fl_crushing_pressure(&s->law, A);
     if (c) c->area = A;
-    if (!(F > y)) return 0;
+    if (!(F > FLATTENED * y)) return 0;
+    const double base = fl_pair_stiffness(w, p->i, p->j).k, to = fmin(F, y), flat = 2.0 * base * sqrt(A);
+    if (!(F > y) && !(W > (1.0 + SAME_ENERGY) * 0.5 * F * F / flat)) {
+        if (c) c->most = F;
+        return 0;
+    }
     if (!(c = record_of(p))) return -1;
     const double curve = W * exact->slope / (F * F),
                  m = fmin(fmax(curve < 1.0 ? 1.0 / (1.0 - curve) : MOST_EXPONENT, LEAST_EXPONENT), MOST_EXPONENT),
-                 base = fl_pair_stiffness(w, p->i, p->j).k, flat = 2.0 * base * sqrt(A),
-                 shrunk = fl_pow(y / F, 1.0 / (m - 1.0)), least = 0.5 * y * y / flat,
-                 W1 = fmin(W * shrunk * (y / F), least), ratio = (W1 / W) * (F / y), s0 = m * W / F;
+                 shrunk = fl_pow(to / F, 1.0 / (m - 1.0)),
+                 W1 = fmin(W * shrunk * (to / F), 0.5 * to * to / flat), ratio = (W1 / W) * (F / to);
     if (ratio < shrunk) {
-        c->stiffening *= (y / F) / fl_pow(ratio, m - 1.0);
+        c->stiffening *= (to / F) / fl_pow(ratio, m - 1.0);
         p->k = c->stiffening * base;
     }
-    const double deeper = s0 * (1.0 - ratio);
+    const double deeper = m * W / F * (1.0 - ratio);
     c->offset = v3_madd(c->offset, deeper, n);
     c->centre = m3_tmul(r->M, v3_sub(centre, r->o));
     c->area = A;
+    c->most = to;
     c->volume += A * deeper;
     c->unsaved = 1;
-    c->yielded_step = w->step;
-    c->force = y;
-    exact->scale *= y / F;
+    if (F > y) c->yielded_step = w->step, c->force = y;
+    exact->scale *= to / F;
     exact->energy = W1;
-    exact->slope = (m - 1.0) / m * y * y / W1;
-    return 1;
+    exact->slope = (m - 1.0) / m * to * to / W1;
+    return F > y;
 }
 
 fl_elastic_wrench fl_elastic_wrench_of(const fl_pair *p)

@@ -11,6 +11,9 @@
  * W = c s^m:
  *     if F > y:   s = m W/F,  W1 = min(W (y/F)^(m/(m-1)), y^2/(2 K_A)),  s1 = m W1/y,
  *                 D += (s - s1) n,   the wrench by y/F,   W by W1/W
+ * and from F > y/10 on, while F grows, the same at F itself (y replaced by F): what touches first is an edge,
+ * which is crushed flat before the contact as a whole yields.
+ *
  * D never shrinks but where the contact has turned round (D.n < 0), which only takes energy out.
  *
  * K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is flat, and a sharp

@@ -488,7 +488,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
         const double scale = exact.scale, slope = exact.slope;
         yields = fl_crushing_yield(w, p, r, &q, v3_madd(at, 1.0 / q.pressure, q.pressure_moment), &exact, &limit);
         if (yields < 0) return -1;
-        stiffer = yields ? fmax((exact.slope / slope) * (scale / exact.scale), 1.0) : 1.0;
+        stiffer = exact.slope != slope ? fmax((exact.slope / slope) * (scale / exact.scale), 1.0) : 1.0;
     }
     p->overlap = q.overlap;
     p->energy = exact.energy;

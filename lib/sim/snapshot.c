@@ -3,6 +3,7 @@
 #include "base/array.h"
 #include "base/parallel.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -115,6 +116,35 @@ static void exchange_inflow(fl_state_io *t, fl_world *w)
             continue;
         w->id[i] = id;
         fl_inflow_set_guided(w, i, guided);
+    }
+}
+
+/* What is crushed so far, and the dents of the floes. */
+static void exchange_crushing(fl_state_io *t, fl_world *w)
+{
+    fl_crushing_state *s = &w->crushing;
+    fl_state_io_open(t, "crushed");
+    fl_state_io_real(t, &w->ledger.crushing);
+    fl_state_io_real(t, &s->volume);
+    fl_state_io_real(t, &s->peak);
+    fl_state_io_count(t, &s->contact_steps);
+    fl_state_io_count(t, &s->dents_dropped);
+    fl_state_io_close(t);
+    for (int32_t i = 0; i < w->n && !t->err->code; i++) {
+        int32_t n = s->dents[i] ? s->dents[i]->n : 0;
+        fl_state_io_open(t, "dents");
+        fl_state_io_int(t, 0, FL_DENTS, &n);
+        if (t->in && n == 0) fl_crushing_forget(w, i);
+        else if (t->in && !s->dents[i] && !(s->dents[i] = fl_alloc(1, sizeof **s->dents, t->err))) return;
+        for (int32_t k = 0; k < n && !t->err->code; k++) {
+            fl_dent *d = &s->dents[i]->dent[k];
+            fl_state_io_vec3(t, &d->x);
+            fl_state_io_vec3(t, &d->offset);
+            fl_state_io_real(t, &d->half_width);
+            fl_state_io_real(t, &d->stiffening);
+        }
+        if (s->dents[i]) s->dents[i]->n = n;
+        fl_state_io_close(t);
     }
 }
 
@@ -466,6 +496,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         fl_state_io_close(t);
     }
     if (w->inflow.absent && !t->err->code) exchange_inflow(t, w);
+    if (w->crushing.of != FL_CRUSHING_NONE && !t->err->code) exchange_crushing(t, w);
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) exchange_body(t, w, k);
     if (t->in) w->sleep.n_resting = 0;
     for (int32_t k = 0; k < w->n && w->sleep.state && !t->err->code; k++) {

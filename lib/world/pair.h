@@ -40,6 +40,7 @@ typedef struct {
     fl_vec3 centre;       /* of the contact when it last touched [m] */
     double stiffening;    /* g */
     double area;          /* largest nominal area since the contact began [m2] */
+    double most;          /* largest force since then [N] */
     double work;          /* Q of the step work_step [J] */
     double volume;        /* crushed since it was last booked [m3] */
     double force;         /* y at the last yield [N] */

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Floes that bend and split: sections, beams, wedges and cracks against closed forms and plates. */
+#include <math.h>
+#include <stdio.h>
+#include "base/pi.h"
+#include "failure/bending.h"
+#include "failure/splitting.h"
+#include "support/verify.h"
+
+/* A convex plan from its corners. */
+static fl_plan plan_of_corners(int n, const fl_vec2 *p, double h)
+{
+    fl_plan q = {.n = n, .thickness = h, .bottom = -0.5 * h};
+    for (int k = 0; k < n; k++) q.p[k] = p[k];
+    return q;
+}
+
+static fl_plan rectangle(double x0, double x1, double b, double h)
+{
+    const fl_vec2 p[4] = {{x0, -0.5 * b}, {x1, -0.5 * b}, {x1, 0.5 * b}, {x0, 0.5 * b}};
+    return plan_of_corners(4, p, h);
+}
+
+/* FF12: rigid squares. */
+static void rigid_squares(void)
+{
+    const double L = 7.0, h = 0.5, P = 1000.0;
+    const fl_bending_law law = {.strength = 1.0, .young = 1e9, .wedges = 3};
+    fl_plan q = rectangle(-0.5 * L, 0.5 * L, L, h);
+    fl_plan_load at = {.x = {-0.5 * L, 0, 0}, .force = {0, 0, P}, .width = 100.0};
+    fl_bending r = fl_bending_of(&q, &law, &at, 1, 0);
+    verify_row("FF12", "load at mid side: M/(P L)", r.moment / (P * L), 4.0 / 27.0, 1e-10, VERIFY_REL);
+    verify_row("FF12", "its place over L", r.distance / L, 1.0 / 3.0, 1e-5, VERIFY_REL);
+    const double s = L / sqrt(2.0);
+    const fl_vec2 corner[4] = {{-s, 0}, {0, -s}, {s, 0}, {0, s}};
+    q = plan_of_corners(4, corner, h);
+    at = (fl_plan_load){.x = {-s, 0, 0}, .force = {0, 0, P}, .width = 1e-3};
+    r = fl_bending_of(&q, &law, &at, 1, 0);
+    verify_row("FF12", "load at a corner: 6 M/b over P", r.ratio * h * h / P, 3.0, 0.01, VERIFY_REL);
+}
+
+/* FF11: beams of three lengths, until they break. */
+static void beams(void)
+{
+    static const double L[3] = {5, 15, 60}, P[3] = {28.14, 9.728, 6.773}, X[3] = {1.666, 4.883, 7.494},
+                        W[3] = {2.24, 0.272, 0.141};
+    const fl_bending_law law = {.strength = 0.5e6, .young = 2e9, .foundation = 1025 * 9.81, .wedges = 3};
+    verify_row("FF11", "l_b [m]", fl_bending_length(&law, 0.5), 9.5413, 1e-4, VERIFY_REL);
+    for (int k = 0; k < 3; k++) {
+        char what[80];
+        const fl_plan q = rectangle(0, L[k], 1.0, 0.5);
+        const fl_plan_load at = {.x = {0, 0, 0}, .force = {0, 0, 1000.0}, .width = 1.0};
+        const fl_bending r = fl_bending_of(&q, &law, &at, 1, 0);
+        double width[FL_BEAM_NODES], M[FL_BEAM_NODES], end;
+        for (int n = 0; n < FL_BEAM_NODES; n++) width[n] = 1.0;
+        snprintf(what, sizeof what, "beam of %g m: load that breaks it [kN/m]", L[k]);
+        verify_row("FF11", what, 1.0 / r.ratio, P[k], 0.01, VERIFY_REL);
+        snprintf(what, sizeof what, "beam of %g m: place [m]", L[k]);
+        verify_row("FF11", what, r.distance, X[k], 0.03, VERIFY_REL);
+        fl_bending_beam(&law, 0.5, L[k], width, 1000.0 / r.ratio, 0.0, M, &end);
+        snprintf(what, sizeof what, "beam of %g m: deflection of its end [m]", L[k]);
+        verify_row("FF11", what, end, W[k], k ? 0.01 : 0.03, VERIFY_REL);
+    }
+}
+
+/* FF13: wedges against plates. */
+static void wedges(void)
+{
+    static const double OPENING[2] = {60, 90}, P[2] = {0.2415, 0.4067}, X[2] = {0.51, 0.51}; /* place: Nevel */
+    const double h = 1.0, nu = 0.3;
+    const fl_bending_law law = {.strength = 0.5e6, .young = 2e9 / (1 - nu * nu), .foundation = 1025 * 9.81,
+                                .wedges = 3};
+    const double l = sqrt(sqrt(2e9 / (1 - nu * nu) * h * h * h / 12.0 / law.foundation));
+    for (int k = 0; k < 2; k++) {
+        char what[80];
+        const double R = 8 * l, t = tan(0.5 * OPENING[k] * PI / 180.0);
+        const fl_vec2 p[3] = {{0, 0}, {R, -R * t}, {R, R * t}};
+        const fl_plan q = plan_of_corners(3, p, h);
+        /* a pressure on a sector of radius a acts at its centre, 2/3 a from the tip in a narrow one */
+        const double at = 0.1 * l * 2.0 / 3.0;
+        const fl_plan_load load = {.x = {at, 0, 0}, .force = {0, 0, 1e5}, .width = 2 * at * t};
+        const fl_bending r = fl_bending_of(&q, &law, &load, 1, 0);
+        snprintf(what, sizeof what, "wedge of %g deg: P/(s_f h2)", OPENING[k]);
+        verify_row("FF13", what, 1e5 / r.ratio / (law.strength * h * h), P[k], 0.04, VERIFY_REL);
+        snprintf(what, sizeof what, "wedge of %g deg: place over l", OPENING[k]);
+        verify_row("FF13", what, (r.distance + at) / l, X[k], 0.1, VERIFY_REL);
+    }
+}
+
+/* FF14: a floe that is carried at both ends in air. */
+static void carried(void)
+{
+    const double h = 0.5, rho = 900, g = 9.81, b = 1.0;
+    const fl_bending_law law = {.strength = 0.5e6, .young = 2e9, .wedges = 3};
+    double from = 4.0, to = 9.0;
+    for (int k = 0; k < 40; k++) {
+        const double L = 0.5 * (from + to), P = 0.5 * rho * g * h * b * L;
+        const fl_plan q = rectangle(-0.5 * L, 0.5 * L, b, h);
+        const fl_plan_load both[2] = {{.x = {-0.5 * L, 0, 0}, .force = {0, 0, P}, .width = b},
+                                      {.x = {0.5 * L, 0, 0}, .force = {0, 0, P}, .width = b}};
+        if (fl_bending_of(&q, &law, both, 2, 0).ratio > 1.0) to = L;
+        else from = L;
+    }
+    verify_row("FF14", "length that breaks by its weight, carried at its ends [m]", from, 6.14, 0.01, VERIFY_REL);
+}
+
+/* FF15, FF16: cracks. */
+static void cracks(void)
+{
+    static const double L[3] = {10, 40, 160}, Q[3] = {88.6, 177.3, 354.6};
+    for (int k = 0; k < 3; k++) {
+        char what[80];
+        const fl_split_line s = {.Q = 1e3, .length = L[k], .breadth = L[k], .thickness = 1.0, .width = 0.01};
+        snprintf(what, sizeof what, "pair that splits a square of %g m [kN]", L[k]);
+        verify_row("FF15", what, 150e3 / fl_split_intensity(&s), Q[k], 0.05, VERIFY_REL);
+    }
+    static const double MU[3] = {0, 0.15, 0.3}, F[3] = {697, 1575, INFINITY};
+    for (int k = 0; k < 3; k++) {
+        char what[80];
+        const double t = 1.0, part = (t - MU[k]) / (2.0 * (1.0 + MU[k] * t));
+        const fl_split_line s = {.Q = 1e3 * part, .F = 1e3, .length = 40, .breadth = 40, .thickness = 1.0, .width = 2};
+        const double force = 150e3 / fl_split_intensity(&s);
+        snprintf(what, sizeof what, "pile that splits a square of 40 m, friction %g [kN]", MU[k]);
+        if (k < 2) verify_row("FF16", what, force, F[k], 0.05, VERIFY_REL);
+        else verify_true("FF16", "pile with friction 0.3 closes every crack", !(force > 0.0));
+    }
+}
+
+int main(void)
+{
+    verify_begin("bending and splitting of floes");
+    rigid_squares();
+    beams();
+    wedges();
+    carried();
+    cracks();
+    return verify_end();
+}
