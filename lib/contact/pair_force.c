@@ -132,6 +132,7 @@ static void add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, doub
 {
     const fl_bodies *b = &w->b;
     const fl_pair_law *law = p->law;
+    if (w->breaking.on) p->load_point = v3_add(q->centre, r->off);
     if (!(law->friction > 0.0 && law->tangential_ratio > 0.0 && q->normal > 0.0)) {
         p->springs = (fl_friction_springs){0};
         return;

@@ -12,6 +12,7 @@
 #include "sim/body_step.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
+#include "sim/floe_cut.h"
 #include "sim/floe_setup.h"
 #include "sim/neighbour_list.h"
 #include "sim/sleep.h"
@@ -98,17 +99,19 @@ int fl_inflow_make(fl_world *w, const fl_ice_field *field, const fl_ice_field *f
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_inflow_state *t = &w->inflow;
     const double none = INFINITY;
-    if (!s->head.present) return 0;
-    t->lo = v3(s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -none,
-               s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -none,
-               s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -none);
-    t->hi =
-        v3(s->type[0] == FL_BOUNDARY_FREE ? s->max.x : none, s->type[1] == FL_BOUNDARY_FREE ? s->max.y : none,
-           s->type[2] == FL_BOUNDARY_FREE ? s->max.z : none);
+    const int32_t fragments = fl_fragment_places(w->scene, field);
+    const int bounded = s->head.present;
+    t->lo = v3(bounded && s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -none,
+               bounded && s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -none,
+               bounded && s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -none);
+    t->hi = v3(bounded && s->type[0] == FL_BOUNDARY_FREE ? s->max.x : none,
+               bounded && s->type[1] == FL_BOUNDARY_FREE ? s->max.y : none,
+               bounded && s->type[2] == FL_BOUNDARY_FREE ? s->max.z : none);
     const int leave = t->lo.x > -none || t->lo.y > -none || t->lo.z > -none || t->hi.x < none ||
                       t->hi.y < none || t->hi.z < none;
-    if (!leave) return 0;
-    if (s->inflow != FL_INFLOW_NONE) {
+    if (!leave && fragments == 0) return 0;
+    w->n += fragments;
+    if (leave && s->inflow != FL_INFLOW_NONE) {
         if (feed->n == 0)
             return fl_fail(err, FL_INPUT, "%s: the file has no body; an ice field expected", s->inflow_file);
         if (plan_inflow(w, field, feed, err)) return -1;
@@ -173,6 +176,7 @@ static void remove_floe(fl_world *w, int32_t i)
     t->mass_left += b->m[i];
     t->momentum_left = v3_madd(t->momentum_left, b->m[i], b->v[i]);
     fl_crushing_forget(w, i);
+    fl_breaking_forget(w, i);
     b->v[i] = b->L[i] = b->w[i] = b->f[i] = b->t[i] = v3(0, 0, 0);
     fl_sums_clear(w, i);
 }

@@ -14,6 +14,7 @@
 #include "geom/mass.h"
 #include "ice/slab_fill.h"
 #include "sim/energy_ledger.h"
+#include "sim/floe_cut.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
 #include "sim/moving_structure.h"
@@ -412,7 +413,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         w->inflow.absent[i] = 1;
         if (fl_world_place_floe(w, i, feed, w->inflow.source_floe[i], err)) goto fail;
     }
-    if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
+    if (fl_breaking_make(w, err) || place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
         fl_panels_make(w, surface, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
         fl_bond_list_make(w, field, err) || fl_crushing_make(w, err))
         goto fail;
@@ -444,6 +445,7 @@ void fl_world_free(fl_world *w)
     free(w->driven_floes.is_driven), free(w->driven_floes.k), free(w->driven_floes.rest_height);
     fl_inflow_free(&w->inflow);
     fl_crushing_free(w);
+    fl_breaking_free(w);
     fl_neighbour_pairs_free(w);
     free(w->first_pair_of_body), free(w->pairs_of_body), free(w->scratch), free(w->mesh_near),
         free(w->surrogate_counts);

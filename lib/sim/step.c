@@ -12,6 +12,7 @@
 #include "contact/crushing.h"
 #include "contact/panel_load.h"
 #include "sim/body_step.h"
+#include "sim/breaking.h"
 #include "sim/critical_step.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
@@ -435,8 +436,9 @@ int fl_step(fl_world *w, fl_err *err)
     if (update_stiffness) fl_stiffness_update(w);
     if (check_state(w, update_stiffness, err) || check_energy_after_overlap(w, err)) return -1;
 
-    /* outflow and inflow; a floe placed between two steps samples the water */
+    /* floes that break; outflow and inflow; a floe placed between two steps samples the water */
     w->sea.sample_now = 1;
+    if (w->breaking.on && fl_breaking_step(w, err)) return -1;
     if (w->inflow.absent && fl_inflow_step(w, err)) return -1;
 
     /* sleep */

@@ -90,6 +90,7 @@ typedef struct {
     double spring_energy;                                         /* its tangential part [J] */
     double overlap;                                               /* largest [m] */
     double omega2_i, omega2_j; /* bounds of omega^2 of this contact for i and j, the other fixed [1/s2] */
+    fl_vec3 load_point;        /* centre of pressure from the centre of i; set where floes may break [m] */
     int32_t index;             /* into fl_world.pair */
     int32_t load_part;         /* part that bears the load, FL_LOAD_SHARED: several; -1: a floe or wall */
 } fl_pair;

@@ -22,6 +22,7 @@
 #include "water/environment.h"
 #include "world/body_block.h"
 #include "world/bond_state.h"
+#include "world/breaking_state.h"
 #include "world/contact_sums.h"
 #include "world/crushing_state.h"
 #include "world/disc_state.h"
@@ -66,6 +67,7 @@ typedef struct {
     fl_elastic_walls elastic_walls;
     fl_inflow_state inflow;
     fl_crushing_state crushing;
+    fl_breaking_state breaking;
     fl_driven_floes driven_floes;
     fl_sleep sleep;
     fl_bond_list bonds;          /* faces */

@@ -5,6 +5,9 @@
 #include "base/pi.h"
 #include "failure/bending.h"
 #include "failure/splitting.h"
+#include "sim/energy_balance.h"
+#include "sim/floe_cut.h"
+#include "support/small_world.h"
 #include "support/verify.h"
 
 /* A convex plan from its corners. */
@@ -126,6 +129,50 @@ static void cracks(void)
     }
 }
 
+/* FF17: a cut keeps mass, momentum, spin and kinetic energy. */
+static void halves(void)
+{
+    lab l;
+    int32_t child;
+    fl_err err = {0};
+    lab_start(&l);
+    lab_set(&l, "material.ice.density=900");
+    lab_set(&l, "failure.flexural_strength=0.5 MPa");
+    lab_box(&l, v3(0, 0, 0), v3(5, 3, 0.5), 0.05, q_one(), v3(0.4, -0.1, 0.05), v3(0.02, -0.03, 0.1));
+    lab_make(&l, 1e-3);
+    fl_world *const w = &l.w;
+    const fl_bodies *b = &w->b;
+    const fl_vec3 p0 = v3_scale(b->m[0], b->v[0]), L0 = v3_add(b->L[0], v3_cross(b->x[0], p0));
+    const double m0 = b->m[0], T0 = fl_body_kinetic_energy(b, 0), c = PI / 6.0;
+    /* the plane is given in the pose of the file */
+    const fl_vec3 n = v3(cos(c), sin(c), 0), body_n = q_rotate(q_conj(b->q[0]), n);
+    verify_true("FF17", "the box is cut",
+                fl_floe_cut(w, 0, body_n, v3_dot(n, v3_sub(v3(1.2, 0.5, 0), b->x[0])), &child, &err) == 1);
+    static const fl_vec3 V[2] = {{0.426693, -0.267861, -0.005697}, {0.350672, 0.210194, 0.152924}};
+    static const double VOLUME[2] = {38.932051, 21.067949};
+    const int32_t half[2] = {0, child};
+    fl_vec3 p = v3(0, 0, 0), L = v3(0, 0, 0);
+    double m = 0.0, T = 0.0;
+    for (int k = 0; k < 2; k++) {
+        const int32_t i = half[k];
+        const fl_vec3 pi = v3_scale(b->m[i], b->v[i]);
+        p = v3_add(p, pi), L = v3_add(L, v3_add(b->L[i], v3_cross(b->x[i], pi)));
+        m += b->m[i], T += fl_body_kinetic_energy(b, i);
+        verify_row("FF17", k ? "volume of the smaller half [m3]" : "volume of the larger half [m3]", b->m[i] / 900,
+                   VOLUME[k], 5e-7, VERIFY_ABS);
+        verify_row("FF17", k ? "its velocity, error [m/s]" : "its velocity, error [m/s]",
+                   v3_norm(v3_sub(b->v[i], V[k])), 0.0, 2e-6, VERIFY_ABS);
+    }
+    verify_row("FF17", "mass", m / m0, 1.0, 1e-12, VERIFY_REL);
+    verify_row("FF17", "kinetic energy", T / T0, 1.0, 1e-12, VERIFY_REL);
+    verify_row("FF17", "momentum, error over |p|", v3_norm(v3_sub(p, p0)) / v3_norm(p0), 0.0, 1e-12, VERIFY_ABS);
+    verify_row("FF17", "spin about the origin, error over |L|", v3_norm(v3_sub(L, L0)) / v3_norm(L0), 0.0, 1e-12,
+               VERIFY_ABS);
+    fl_energy_update(w);
+    verify_below("FF17", "residual of the ledger over the kinetic energy", fabs(w->ledger.residual) / T0, 1e-12);
+    lab_free(&l);
+}
+
 int main(void)
 {
     verify_begin("bending and splitting of floes");
@@ -134,5 +181,6 @@ int main(void)
     wedges();
     carried();
     cracks();
+    halves();
     return verify_end();
 }

@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/floe_cut.h"
+#include <math.h>
+#include <stdlib.h>
+#include "base/array.h"
+#include "contact/active_pairs.h"
+#include "contact/crushing.h"
+#include "contact/pair_store.h"
+#include "geom/clip.h"
+#include "patch/mesh_under_face.h"
+#include "sim/body_step.h"
+#include "sim/energy_balance.h"
+#include "sim/energy_ledger.h"
+#include "sim/floe_setup.h"
+#include "sim/neighbour_list.h"
+#include "world/access.h"
+
+/* Fewest places where none are given. */
+enum { LEAST_ROOM = 64, ROOM_PER_FLOE = 2 };
+
+static int breaks(const fl_scene *s)
+{
+    return s->failure.head.present &&
+           (s->failure.flexural_strength < INFINITY || s->failure.fracture_toughness < INFINITY);
+}
+
+int32_t fl_fragment_places(const fl_scene *s, const fl_ice_field *field)
+{
+    if (!breaks(s)) return 0;
+    if (s->failure.fragments_max > 0) return s->failure.fragments_max;
+    return ROOM_PER_FLOE * field->n > LEAST_ROOM ? ROOM_PER_FLOE * field->n : LEAST_ROOM;
+}
+
+int fl_breaking_make(fl_world *w, fl_err *err)
+{
+    fl_breaking_state *s = &w->breaking;
+    if (!breaks(w->scene)) return 0;
+    s->on = 1;
+    s->least_area = w->scene->failure.fragment_min;
+    s->shape = fl_alloc(w->n, sizeof *s->shape, err);
+    s->last_load = fl_alloc(w->n, sizeof *s->last_load, err);
+    s->bend_gate = fl_alloc(w->n, sizeof *s->bend_gate, err);
+    s->split_gate = fl_alloc(w->n, sizeof *s->split_gate, err);
+    return s->shape && s->last_load && s->bend_gate && s->split_gate ? 0 : -1;
+}
+
+static void free_shape(fl_poly **p)
+{
+    if (*p) fl_poly_free(*p);
+    free(*p);
+    *p = NULL;
+}
+
+void fl_breaking_free(fl_world *w)
+{
+    fl_breaking_state *s = &w->breaking;
+    for (int32_t i = 0; s->shape && i < w->n; i++) free_shape(&s->shape[i]);
+    free(s->shape), free(s->last_load), free(s->bend_gate), free(s->split_gate), free(s->event);
+    *s = (fl_breaking_state){0};
+}
+
+void fl_breaking_forget(fl_world *w, int32_t i)
+{
+    fl_breaking_state *s = &w->breaking;
+    if (!s->on) return;
+    free_shape(&s->shape[i]);
+    s->last_load[i] = s->bend_gate[i] = s->split_gate[i] = 0.0;
+}
+
+/* --- the halves --------------------------------------------------------------------------------- */
+
+/* A half: its core in the axes of the ice file, about the centre of the whole floe. */
+typedef struct {
+    fl_poly core;
+    double volume; /* of the outer shape, for the choice of the larger one [m3] */
+} floe_half;
+
+static double volume_of(const fl_poly *p)
+{
+    double V = 0.0;
+    for (int32_t f = 0; f < p->nf; f++)
+        V += v3_dot(fl_poly_face_area_vector(p, f), p->v[p->loop[p->first[f]]]) / 3.0;
+    return V;
+}
+
+/* The part n.x <= c of `outer`; 1, 0 if it is too thin, -1 with FL_SYSTEM. */
+static int make_half(floe_half *h, const fl_poly *outer, double r, fl_mat3 to_ice, fl_vec3 n, double c, fl_err *err)
+{
+    fl_poly part = {0};
+    fl_err why = {0};
+    if (fl_poly_copy(&part, outer, err)) return -1;
+    if (fl_poly_cut(&part, n, c, &why) || part.nv == 0 || fl_poly_offset(&h->core, &part, -r, &why)) {
+        fl_poly_free(&part);
+        if (why.code != FL_SYSTEM) return 0;
+        *err = why;
+        return -1;
+    }
+    h->volume = volume_of(&part);
+    fl_poly_free(&part);
+    fl_poly_to_frame(&h->core, v3(0, 0, 0), to_ice);
+    return 1;
+}
+
+/* What is kept of the floe while its place is filled anew. */
+typedef struct {
+    fl_vec3 x, v, spin, flow;
+    fl_quat turn; /* ice file to world */
+    fl_mat3 to_ice; /* columns: axes of the ice file in body axes */
+    double odometer;
+} floe_before;
+
+static int place_half(fl_world *w, int32_t i, floe_half *h, double r, const floe_before *was, fl_err *err)
+{
+    fl_bodies *b = &w->b;
+    fl_poly *own = fl_alloc(1, sizeof *own, err);
+    if (!own) return -1;
+    *own = h->core;
+    h->core = (fl_poly){0};
+    free_shape(&w->breaking.shape[i]);
+    w->breaking.shape[i] = own;
+    w->breaking.last_load[i] = w->breaking.bend_gate[i] = w->breaking.split_gate[i] = 0.0;
+    if (fl_world_place_shape(w, i, own, r, err)) return -1;
+    const fl_vec3 way = q_rotate(was->turn, b->x[i]);
+    b->x[i] = v3_add(was->x, way);
+    b->q[i] = q_mul(was->turn, b->q[i]);
+    b->v[i] = v3_add(was->v, v3_cross(was->spin, way));
+    fl_body_set_spin(b, i, was->spin);
+    b->odometer[i] = w->odometer_at_search[i] = was->odometer;
+    if (b->flow_velocity) b->flow_velocity[i] = was->flow;
+    return 0;
+}
+
+/* --- contacts ----------------------------------------------------------------------------------- */
+
+/* Frees what a pair has learnt of the shape of its bodies. */
+static void forget_geometry(fl_pair *p)
+{
+    if (p->feature_pairs) fl_mesh_under_face_free_pairs(p->feature_pairs);
+    free(p->feature_pairs), free(p->surrogate);
+    if (p->quick_list) fl_quick_list_free(p->quick_list);
+    free(p->quick_list);
+    p->feature_pairs = NULL;
+    p->surrogate = NULL;
+    p->quick_list = NULL;
+    p->cache.n = 0;
+    p->has_axis = p->cores_overlap = 0;
+    p->free_travel = 0.0;
+}
+
+/* How a vector of the axes of the whole floe reads in those of a half. */
+typedef struct {
+    fl_quat turn;  /* axes of the whole to those of the half */
+    fl_vec3 shift; /* centre of the half, in axes of the whole [m] */
+} to_half;
+
+static fl_vec3 point_in_half(const to_half *t, fl_vec3 x) { return q_rotate(t->turn, v3_sub(x, t->shift)); }
+
+static to_half to_half_of(const fl_world *w, int32_t i, const floe_before *was, fl_quat q)
+{
+    return (to_half){q_mul(q_conj(w->b.q[i]), q), q_rotate(q_conj(q), v3_sub(w->b.x[i], was->x))};
+}
+
+static int compare_keys(const void *a, const void *b)
+{
+    const fl_neighbour_pair *p = a, *q = b;
+    if (p->i != q->i) return p->i < q->i ? -1 : 1;
+    if (p->j != q->j) return p->j < q->j ? -1 : 1;
+    for (int k = 0; k < 3; k++)
+        if (p->image[k] != q->image[k]) return p->image[k] < q->image[k] ? -1 : 1;
+    return 0;
+}
+
+/* Gives the near pairs of floe i to its halves, i and k; q: the attitude of the whole. */
+static void share_pairs(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, double side, fl_quat q,
+                        const floe_before *was)
+{
+    const to_half to[2] = {to_half_of(w, i, was, q), to_half_of(w, k, was, q)};
+    int32_t kept = 0;
+    for (int32_t a = 0; a < w->n_pair; a++) {
+        fl_neighbour_pair *p = &w->pair[a];
+        if (p->i != i && p->j != i) {
+            w->pair[kept++] = *p;
+            continue;
+        }
+        const int with_structure = p->j >= w->n;
+        int second = 0;
+        if (p->contact) {
+            fl_vec3 x = p->contact->load_point; /* from the centre of p->i */
+            if (p->i != i) x = v3_sub(x, fl_separation(w, p->i, p->j, p->image));
+            x = q_rotate(q_conj(q), x);
+            second = side * (v3_dot(n, x) - c) > 0.0;
+            if (p->contact->crush && !p->contact->touching) second = side * (v3_dot(n, p->contact->crush->centre) - c) > 0.0;
+        }
+        if (!p->contact || (second && !with_structure)) {
+            fl_neighbour_pair_free(w, p);
+            continue; /* the search makes it anew */
+        }
+        forget_geometry(p->contact);
+        fl_crush *const crush = p->contact->crush;
+        if (crush && p->i == i) {
+            crush->offset = q_rotate(to[second].turn, crush->offset);
+            crush->centre = point_in_half(&to[second], crush->centre);
+        }
+        if (second) p->i = p->contact->i = k;
+        p->cores_overlap = p->has_axis = 0;
+        p->cache_size = 0;
+        p->free_travel = 0.0;
+        w->pair[kept++] = *p;
+    }
+    w->n_pair = kept;
+    qsort(w->pair, (size_t)kept, sizeof *w->pair, compare_keys);
+}
+
+/* Gives the dents of floe i to its halves. */
+static int share_dents(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, double side, fl_quat q,
+                       const floe_before *was, fl_err *err)
+{
+    fl_floe_dents **const of = w->crushing.dents;
+    const to_half to[2] = {to_half_of(w, i, was, q), to_half_of(w, k, was, q)};
+    if (w->crushing.of == FL_CRUSHING_NONE || !of[i]) return 0;
+    if (!(of[k] = fl_alloc(1, sizeof **of, err))) return -1;
+    int32_t kept = 0;
+    for (int32_t a = 0; a < of[i]->n; a++) {
+        fl_dent d = of[i]->dent[a];
+        const int second = side * (v3_dot(n, d.x) - c) > 0.0;
+        d.x = point_in_half(&to[second], d.x);
+        d.offset = q_rotate(to[second].turn, d.offset);
+        if (second) of[k]->dent[of[k]->n++] = d;
+        else of[i]->dent[kept++] = d;
+    }
+    of[i]->n = kept;
+    return 0;
+}
+
+/* Searches the neighbours of both halves and evaluates their contacts. */
+static int find_contacts(fl_world *w, int32_t i, int32_t k, fl_err *err)
+{
+    w->last_search_step = -1;
+    if (fl_neighbour_list_update(w, err)) return -1;
+    for (int32_t c = 0; c < w->n_pair; c++) {
+        const fl_neighbour_pair *p = &w->pair[c];
+        if (p->i == i || p->j == i || p->i == k || p->j == k) fl_evaluate_neighbour_pair(w, c, 0, NULL, 0.0, 1);
+    }
+    if (fl_neighbour_list_index(w, err)) return -1;
+    for (int32_t a = 0; a < w->b.total; a++)
+        if (a >= w->n || !fl_body_absent(w, a)) fl_body_sum_forces(w, a);
+    return 0;
+}
+
+/* --- the cut ------------------------------------------------------------------------------------ */
+
+static int32_t free_place(const fl_world *w)
+{
+    for (int32_t k = 0; k < w->n; k++)
+        if (w->inflow.absent[k]) return k;
+    return -1;
+}
+
+/* Fills the places of both halves: half[0] goes to i, half[1] to k. */
+static int place_halves(fl_world *w, int32_t i, int32_t k, floe_half half[2], fl_err *err)
+{
+    fl_bodies *b = &w->b;
+    fl_inflow_state *t = &w->inflow;
+    const double r = b->radius[i];
+    const floe_before was = {.x = b->x[i],
+                             .v = b->v[i],
+                             .spin = b->w[i],
+                             .flow = b->flow_velocity ? b->flow_velocity[i] : v3(0, 0, 0),
+                             .turn = q_mul(b->q[i], q_conj(w->q0[i])),
+                             .odometer = b->odometer[i]};
+    w->material[k] = w->material[i];
+    b->fixed_dof[k] = b->fixed_dof[i];
+    t->absent[k] = 0;
+    t->source_floe[k] = -1;
+    t->guided[k] = 0;
+    t->entry_step[i] = t->entry_step[k] = w->step;
+    w->id[k] = t->next_id++;
+    if (b->flow_work) b->flow_work[k] = 0.0;
+    return place_half(w, i, &half[0], r, &was, err) || place_half(w, k, &half[1], r, &was, err) ? -1 : 0;
+}
+
+/* Works that were booked ahead for contacts which have ended. */
+static void unbook_works(fl_world *w, const fl_work *before)
+{
+    const fl_work after = fl_work_ahead(w);
+    w->ledger.damping -= before->damping - after.damping;
+    w->ledger.friction -= before->friction - after.friction;
+    w->ledger.drive -= before->drive - after.drive;
+}
+
+/* Replaces floe i by its halves, i and k. */
+static int replace_floe(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, double side, floe_half half[2],
+                        fl_err *err)
+{
+    fl_ledger *g = &w->ledger;
+    const floe_before was = {.x = w->b.x[i]};
+    const fl_quat q = w->b.q[i];
+    fl_energy_update(w);
+    const double residual = g->residual, throughput = g->throughput, elastic = g->elastic;
+    const fl_work before = fl_work_ahead(w);
+    if (place_halves(w, i, k, half, err)) return -1;
+    share_pairs(w, i, k, n, c, side, q, &was);
+    if (share_dents(w, i, k, n, c, side, q, &was, err) || find_contacts(w, i, k, err)) return -1;
+    unbook_works(w, &before);
+    fl_energy_update(w);
+    w->breaking.lost += elastic - g->elastic;
+    fl_energy_update(w);
+    g->carried += g->residual - residual;
+    g->residual = residual;
+    g->throughput = throughput;
+    w->critical_body = -1;
+    return 0;
+}
+
+int fl_floe_cut(fl_world *w, int32_t i, fl_vec3 n, double c, int32_t *child, fl_err *err)
+{
+    floe_half half[2] = {{.volume = 0.0}, {.volume = 0.0}};
+    fl_poly outer = {0};
+    const double r = w->b.radius[i];
+    const int32_t k = free_place(w);
+    if (k < 0 || w->inflow.next_id == INT32_MAX) {
+        w->breaking.no_room++;
+        return 0;
+    }
+    /* columns of `to_ice` are the axes of the ice file in body axes */
+    const fl_mat3 to_ice = q_matrix(q_conj(w->q0[i]));
+    if (fl_poly_offset(&outer, &w->b.core[i], r, err)) return -1;
+    const int first = make_half(&half[0], &outer, r, to_ice, n, c, err),
+              second = first > 0 ? make_half(&half[1], &outer, r, to_ice, v3_neg(n), -c, err) : 0;
+    fl_poly_free(&outer);
+    int rc = first < 0 || second < 0 ? -1 : first > 0 && second > 0;
+    if (rc == 0) w->breaking.too_small++;
+    if (rc > 0) {
+        /* the larger half keeps the place; equal ones: the first */
+        const double side = half[1].volume > half[0].volume ? -1.0 : 1.0;
+        if (side < 0.0) {
+            const floe_half swap = half[0];
+            half[0] = half[1], half[1] = swap;
+        }
+        *child = k;
+        if (replace_floe(w, i, k, n, c, side, half, err)) rc = -1;
+    }
+    fl_poly_free(&half[0].core), fl_poly_free(&half[1].core);
+    return rc;
+}
