@@ -816,7 +816,7 @@ static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pos
     const double rho = b->bounding_radius[p->i], apart = v3_norm(r->off) + rho,
                  moved = step_motion(b, p->i, rho, dt) + step_motion(b, p->j, apart, dt),
                  radii = b->radius[p->i] + b->radius[p->j];
-    if (w->step == 0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii) return;
+    if (w->step == 0 || dt == 0.0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii) return;
 #pragma omp critical(fl_sudden_contacts)
     {
         fl_sudden_contacts *const s = &w->sudden;

@@ -112,8 +112,8 @@ static fl_vec3 *rotate_normals(const fl_poly *a, const fl_mat3 *M)
 }
 
 /* Penetration of overlapping cores, which is rare; s holds the vertices of A. */
-static int find_penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl_patch_points *s,
-                            fl_mat3 M, fl_penetration *deep)
+static int find_penetration(fl_world *w, const fl_pair *p, const fl_poly *a, const fl_poly *b,
+                            const fl_patch_points *s, fl_mat3 M, fl_penetration *deep)
 {
     fl_vec3 *const n = rotate_normals(a, &M);
     if (!n) return -1;
@@ -121,6 +121,7 @@ static int find_penetration(fl_world *w, const fl_poly *a, const fl_poly *b, con
     fl_penetration_count count = {0};
     fl_penetration_find(&A, &B, &count, deep);
     free(n);
+    if (p->crush) return 0; /* worn away there (contact/crushing.h): no overlap of what is left */
 #pragma omp critical(fl_deep_statistics)
     {
         w->penetration_count.queries += count.queries;
@@ -161,7 +162,7 @@ static int find_separation(fl_world *w, fl_pair *p, const fl_poly *a, const fl_p
         *distance = gap->d;
         return 0;
     }
-    if (find_penetration(w, a, b, s, M, deep)) return -1;
+    if (find_penetration(w, p, a, b, s, M, deep)) return -1;
     p->axis = deep->n;
     p->has_axis = 1;
     p->cores_overlap = 1;

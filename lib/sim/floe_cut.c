@@ -67,6 +67,20 @@ void fl_breaking_forget(fl_world *w, int32_t i)
     s->last_load[i] = s->bend_gate[i] = s->split_gate[i] = 0.0;
 }
 
+int fl_breaking_set_shape(fl_world *w, int32_t i, fl_poly *core, double r, fl_err *err)
+{
+    fl_poly *own = fl_alloc(1, sizeof *own, err);
+    if (!own) {
+        fl_poly_free(core);
+        return -1;
+    }
+    *own = *core;
+    *core = (fl_poly){0};
+    fl_breaking_forget(w, i);
+    w->breaking.shape[i] = own;
+    return fl_world_place_shape(w, i, own, r, err);
+}
+
 /* --- the halves --------------------------------------------------------------------------------- */
 
 /* A half: its core in the axes of the ice file, about the centre of the whole floe. */
@@ -105,21 +119,17 @@ static int make_half(floe_half *h, const fl_poly *outer, double r, fl_mat3 to_ic
 typedef struct {
     fl_vec3 x, v, spin, flow;
     fl_quat turn; /* ice file to world */
-    fl_mat3 to_ice; /* columns: axes of the ice file in body axes */
     double odometer;
 } floe_before;
 
 static int place_half(fl_world *w, int32_t i, floe_half *h, double r, const floe_before *was, fl_err *err)
 {
     fl_bodies *b = &w->b;
-    fl_poly *own = fl_alloc(1, sizeof *own, err);
-    if (!own) return -1;
-    *own = h->core;
-    h->core = (fl_poly){0};
-    free_shape(&w->breaking.shape[i]);
-    w->breaking.shape[i] = own;
-    w->breaking.last_load[i] = w->breaking.bend_gate[i] = w->breaking.split_gate[i] = 0.0;
-    if (fl_world_place_shape(w, i, own, r, err)) return -1;
+    fl_poly own;
+    /* made anew from its vertices, as a checkpoint does */
+    if (fl_poly_make(&own, h->core.nv, h->core.v, h->core.nf, h->core.first, h->core.loop, err) ||
+        fl_breaking_set_shape(w, i, &own, r, err))
+        return -1;
     const fl_vec3 way = q_rotate(was->turn, b->x[i]);
     b->x[i] = v3_add(was->x, way);
     b->q[i] = q_mul(was->turn, b->q[i]);
@@ -170,65 +180,87 @@ static int compare_keys(const void *a, const void *b)
     return 0;
 }
 
+/* Turns the record of crushing of a contact of the whole floe into that of a half. */
+static void turn_crush(fl_crush *c, const to_half *t)
+{
+    c->offset = q_rotate(t->turn, c->offset);
+    c->centre = point_in_half(t, c->centre);
+}
+
+/* Appends the pair of the other half with the same thing, worn alike: a contact may reach over the cut. */
+static int add_worn_pair(fl_world *w, int32_t i, const fl_neighbour_pair *of, const to_half *t, fl_err *err)
+{
+    fl_pair p;
+    if (fl_grow(&w->pair, &w->pair_cap, (int64_t)w->n_pair + 1, sizeof *w->pair, err)) return -1;
+    fl_neighbour_pair *const q = &w->pair[w->n_pair];
+    fl_neighbour_pair_init(q, i, of->j, of->image);
+    fl_neighbour_pair_expand(w, q, &p);
+    if (!(p.crush = fl_alloc(1, sizeof *p.crush, err))) return -1;
+    *p.crush = *of->contact->crush;
+    p.crush->unsaved = 0;
+    p.crush->work = p.crush->volume = 0.0;
+    p.k = p.crush->stiffening * p.k;
+    turn_crush(p.crush, t);
+    if (fl_neighbour_pair_put_back(w, q, &p)) return fl_fail(err, FL_SYSTEM, "out of memory");
+    w->n_pair++;
+    return 0;
+}
+
 /* Gives the near pairs of floe i to its halves, i and k; q: the attitude of the whole. */
-static void share_pairs(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, double side, fl_quat q,
-                        const floe_before *was)
+static int share_pairs(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, double side, fl_quat q,
+                       const floe_before *was, fl_err *err)
 {
     const to_half to[2] = {to_half_of(w, i, was, q), to_half_of(w, k, was, q)};
+    const int32_t all = w->n_pair;
     int32_t kept = 0;
-    for (int32_t a = 0; a < w->n_pair; a++) {
-        fl_neighbour_pair *p = &w->pair[a];
-        if (p->i != i && p->j != i) {
-            w->pair[kept++] = *p;
+    w->pair_cap = w->n_pair; /* the search fits the list to its length */
+    for (int32_t a = 0; a < all; a++) {
+        const fl_neighbour_pair p = w->pair[a];
+        if ((p.i != i && p.j != i) || !p.contact) continue;
+        fl_vec3 x = p.contact->load_point; /* from the centre of p.i */
+        if (p.i != i) x = v3_sub(x, fl_separation(w, p.i, p.j, p.image));
+        x = q_rotate(q_conj(q), x);
+        if (p.contact->crush && !p.contact->touching && p.i == i) x = p.contact->crush->centre;
+        const int second = side * (v3_dot(n, x) - c) > 0.0;
+        forget_geometry(p.contact);
+        w->pair[a].cores_overlap = w->pair[a].has_axis = 0;
+        w->pair[a].cache_size = 0;
+        w->pair[a].free_travel = 0.0;
+        if (second && p.j < w->n) {
+            fl_neighbour_pair_free(w, &w->pair[a]); /* the search makes it anew */
             continue;
         }
-        const int with_structure = p->j >= w->n;
-        int second = 0;
-        if (p->contact) {
-            fl_vec3 x = p->contact->load_point; /* from the centre of p->i */
-            if (p->i != i) x = v3_sub(x, fl_separation(w, p->i, p->j, p->image));
-            x = q_rotate(q_conj(q), x);
-            second = side * (v3_dot(n, x) - c) > 0.0;
-            if (p->contact->crush && !p->contact->touching) second = side * (v3_dot(n, p->contact->crush->centre) - c) > 0.0;
-        }
-        if (!p->contact || (second && !with_structure)) {
-            fl_neighbour_pair_free(w, p);
-            continue; /* the search makes it anew */
-        }
-        forget_geometry(p->contact);
-        fl_crush *const crush = p->contact->crush;
-        if (crush && p->i == i) {
-            crush->offset = q_rotate(to[second].turn, crush->offset);
-            crush->centre = point_in_half(&to[second], crush->centre);
-        }
-        if (second) p->i = p->contact->i = k;
-        p->cores_overlap = p->has_axis = 0;
-        p->cache_size = 0;
-        p->free_travel = 0.0;
-        w->pair[kept++] = *p;
+        if (second) w->pair[a].i = p.contact->i = k;
+        if (!p.contact->crush || p.i != i) continue;
+        if (p.j >= w->n && add_worn_pair(w, second ? i : k, &p, &to[!second], err)) return -1;
+        turn_crush(p.contact->crush, &to[second]);
+    }
+    for (int32_t a = 0; a < w->n_pair; a++) {
+        const fl_neighbour_pair p = w->pair[a];
+        if ((p.i == i || p.j == i || p.i == k || p.j == k) && !p.contact) continue;
+        w->pair[kept++] = p;
     }
     w->n_pair = kept;
     qsort(w->pair, (size_t)kept, sizeof *w->pair, compare_keys);
+    return 0;
 }
 
-/* Gives the dents of floe i to its halves. */
-static int share_dents(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, double side, fl_quat q,
-                       const floe_before *was, fl_err *err)
+/* Gives both halves the dents of floe i: one may reach over the cut. */
+static int share_dents(fl_world *w, int32_t i, int32_t k, fl_quat q, const floe_before *was, fl_err *err)
 {
     fl_floe_dents **const of = w->crushing.dents;
-    const to_half to[2] = {to_half_of(w, i, was, q), to_half_of(w, k, was, q)};
+    const int32_t half[2] = {i, k};
     if (w->crushing.of == FL_CRUSHING_NONE || !of[i]) return 0;
     if (!(of[k] = fl_alloc(1, sizeof **of, err))) return -1;
-    int32_t kept = 0;
-    for (int32_t a = 0; a < of[i]->n; a++) {
-        fl_dent d = of[i]->dent[a];
-        const int second = side * (v3_dot(n, d.x) - c) > 0.0;
-        d.x = point_in_half(&to[second], d.x);
-        d.offset = q_rotate(to[second].turn, d.offset);
-        if (second) of[k]->dent[of[k]->n++] = d;
-        else of[i]->dent[kept++] = d;
+    *of[k] = *of[i];
+    for (int h = 0; h < 2; h++) {
+        const to_half to = to_half_of(w, half[h], was, q);
+        for (int32_t a = 0; a < of[half[h]]->n; a++) {
+            fl_dent *d = &of[half[h]]->dent[a];
+            d->x = point_in_half(&to, d->x);
+            d->offset = q_rotate(to.turn, d->offset);
+        }
     }
-    of[i]->n = kept;
     return 0;
 }
 
@@ -299,8 +331,9 @@ static int replace_floe(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, 
     const double residual = g->residual, throughput = g->throughput, elastic = g->elastic;
     const fl_work before = fl_work_ahead(w);
     if (place_halves(w, i, k, half, err)) return -1;
-    share_pairs(w, i, k, n, c, side, q, &was);
-    if (share_dents(w, i, k, n, c, side, q, &was, err) || find_contacts(w, i, k, err)) return -1;
+    if (share_pairs(w, i, k, n, c, side, q, &was, err) || share_dents(w, i, k, q, &was, err) ||
+        find_contacts(w, i, k, err))
+        return -1;
     unbook_works(w, &before);
     fl_energy_update(w);
     w->breaking.lost += elastic - g->elastic;

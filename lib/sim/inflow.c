@@ -110,6 +110,8 @@ int fl_inflow_make(fl_world *w, const fl_ice_field *field, const fl_ice_field *f
     const int leave = t->lo.x > -none || t->lo.y > -none || t->lo.z > -none || t->hi.x < none ||
                       t->hi.y < none || t->hi.z < none;
     if (!leave && fragments == 0) return 0;
+    t->leaves = leave;
+    w->breaking.room = fragments;
     w->n += fragments;
     if (leave && s->inflow != FL_INFLOW_NONE) {
         if (feed->n == 0)
@@ -387,7 +389,7 @@ int fl_inflow_step(fl_world *w, fl_err *err)
     int leaving = 0, came = 0;
     int32_t place = 0;
     if (t->feed) release_guided(w);
-    for (int32_t i = 0; i < w->n && !leaving; i++)
+    for (int32_t i = 0; t->leaves && i < w->n && !leaving; i++)
         leaving = !t->absent[i] && !t->guided[i] && is_outside(w, i);
     if (!leaving && !is_due(w)) return 0;
     fl_sleep_advance_to_now(w);

@@ -20,6 +20,7 @@ void write_contacts(struct run *r, FILE *f, double t, double interval);
 void write_hash(struct run *r, FILE *f, double t, double interval);
 void write_bonds(struct run *r, FILE *f, double t, double interval);
 void write_members(struct run *r, FILE *f, double t, double interval);
+void write_failures(struct run *r, FILE *f, double t, double interval);
 
 /* The contacts of all pairs nearer than `within` [m], with force 0: --probe. */
 void write_near_pairs(struct run *r, FILE *f, double within);
