@@ -181,8 +181,8 @@ typedef struct {
     int32_t n, k;
     balance balance;
     double ex, ey, at; /* e, and e.x of the load */
-    double length, behind;
-    int is_beam;
+    double length, behind, area; /* area: of the plan */
+    int is_beam, small;
     double M[FL_BEAM_NODES];
 } direction;
 
@@ -208,7 +208,7 @@ static double beam_moment(const direction *d, double x)
            d->M[n + 1] * (x - a) * (x - b) / ((c - a) * (c - b));
 }
 
-static double stress_at(const direction *d, double x, fl_bending *out)
+static double stress_at(direction *d, double x, fl_bending *out)
 {
     double whole, push, M;
     const double b = width_at(d, x, &whole), h = d->q->thickness;
@@ -229,7 +229,12 @@ static double stress_at(const direction *d, double x, fl_bending *out)
                         .distance = x,
                         .whole = whole};
     const double stiff = sqrt(d->law->foundation * d->law->young * h * h * h / 12.0) * b;
+    if (out->ratio > 1.0 && d->law->least_area > 0.0) {
+        const double area = fl_plan_part(d->q, d->ex, d->ey, d->at + x).area;
+        out->small = fmin(area, d->area - area) < d->law->least_area;
+    }
     out->buckles = d->law->foundation > 0.0 && push > MOST_PUSH * stiff;
+    if (out->small) d->small = 1, out->ratio = 0.0;
     return out->ratio;
 }
 
@@ -277,7 +282,8 @@ fl_bending fl_bending_of(const fl_plan *q, const fl_bending_law *law, const fl_p
                          int32_t k)
 {
     const fl_plan_moments all = fl_plan_part(q, 1.0, 0.0, INFINITY);
-    direction d = {.q = q, .law = law, .load = load, .n = n, .k = k, .balance = balance_of(q, load, n)};
+    direction d = {.q = q, .law = law, .load = load, .n = n, .k = k, .area = all.area,
+                   .balance = balance_of(q, load, n)};
     fl_bending best = {0};
     const double inward = fl_atan2(all.y / all.area - load[k].x.y, all.x / all.area - load[k].x.x),
                  step = PI / (FL_BENDING_DIRECTIONS + 1);
@@ -291,6 +297,6 @@ fl_bending fl_bending_of(const fl_plan *q, const fl_bending_law *law, const fl_p
         buckles |= one.ratio > 1.0 && one.buckles;
         if (!one.buckles && one.ratio > best.ratio * (1.0 + 1e-12)) best = one;
     }
-    best.buckles = buckles;
+    best.buckles = buckles, best.small = d.small;
     return best;
 }

@@ -30,6 +30,7 @@ typedef struct {
     double foundation; /* k = rho_w g; 0: no water [N/m3] */
     double density;    /* of the ice over that of water; 0: the foundation has no end */
     int32_t wedges;
+    double least_area; /* of what may be cut off, in plan [m2] */
 } fl_bending_law;
 
 typedef struct {
@@ -40,7 +41,8 @@ typedef struct {
     double width;    /* b [m] */
     double distance; /* x [m] */
     double whole;    /* width of the floe there [m] */
-    int buckles;     /* N is too large for the law; ratio is 0 */
+    int buckles;     /* in some direction N is too large for the law, which then does not count */
+    int small;       /* some section that would cut off less than least_area is above its strength */
 } fl_bending;
 
 enum { FL_BENDING_DIRECTIONS = 15 };

@@ -30,6 +30,13 @@ typedef struct {
 
 static double young_of(const fl_world *w, int32_t i) { return w->scene->material[w->material[i]].young; }
 
+/* Least area of a fragment of a floe of thickness h [m2]. */
+static double least_area_of(const fl_world *w, int32_t i, double h)
+{
+    const double r = w->b.radius[i];
+    return w->breaking.least_area > 0.0 ? w->breaking.least_area : fmax(0.25 * h * h, 16.0 * r * r);
+}
+
 static fl_bending_law bending_law_of(const fl_world *w, int32_t i)
 {
     const fl_scene_failure *s = &w->scene->failure;
@@ -149,12 +156,14 @@ typedef struct {
 
 static floe_break bend_of(fl_world *w, int32_t i, const floe_loads *q)
 {
-    const fl_bending_law law = bending_law_of(w, i);
+    fl_bending_law law = bending_law_of(w, i);
     floe_break best = {.ratio = 0.0, .mode = FL_FAILURE_BEND};
+    law.least_area = least_area_of(w, i, q->plan.thickness);
     for (int32_t k = 0; k < q->from_structure; k++) {
         if (fabs(q->load[k].force.z) <= w->breaking.bend_gate[i]) continue;
         const fl_bending r = fl_bending_of(&q->plan, &law, q->load, q->n, k);
         w->breaking.buckled += r.buckles;
+        w->breaking.too_small += r.small && !(r.ratio > 1.0);
         if (!(r.ratio > best.ratio)) continue;
         const double h = q->plan.thickness;
         best = (floe_break){.ratio = r.ratio, .mode = FL_FAILURE_BEND, .ex = r.ex, .ey = r.ey, .c = r.c,
@@ -284,9 +293,8 @@ static int cut_floe(fl_world *w, int32_t i, const floe_loads *q, const floe_brea
     fl_breaking_state *s = &w->breaking;
     const fl_plan_moments all = fl_plan_part(&q->plan, 1, 0, INFINITY),
                           part = fl_plan_part(&q->plan, by->ex, by->ey, by->c);
-    const double h = q->plan.thickness, r = w->b.radius[i],
-                 least = s->least_area > 0.0 ? s->least_area : fmax(0.25 * h * h, 16.0 * r * r);
-    if (fmin(part.area, all.area - part.area) < least) {
+    const double h = q->plan.thickness;
+    if (fmin(part.area, all.area - part.area) < least_area_of(w, i, h)) {
         s->too_small++;
         return 0;
     }

@@ -142,9 +142,13 @@ static int place_half(fl_world *w, int32_t i, floe_half *h, double r, const floe
 
 /* --- contacts ----------------------------------------------------------------------------------- */
 
-/* Frees what a pair has learnt of the shape of its bodies. */
-static void forget_geometry(fl_pair *p)
+/* Frees what a pair has learnt of the shape of its bodies, and takes over the mass of the half. */
+static void update_pair(const fl_world *w, fl_pair *p)
 {
+    fl_pair fresh;
+    fl_pair_init(w, &fresh, p->i, p->j);
+    p->mass = fresh.mass;
+    p->k = p->crush ? p->crush->stiffening * fresh.k : fresh.k;
     if (p->feature_pairs) fl_mesh_under_face_free_pairs(p->feature_pairs);
     free(p->feature_pairs), free(p->surrogate);
     if (p->quick_list) fl_quick_list_free(p->quick_list);
@@ -217,20 +221,24 @@ static int share_pairs(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, d
     for (int32_t a = 0; a < all; a++) {
         const fl_neighbour_pair p = w->pair[a];
         if ((p.i != i && p.j != i) || !p.contact) continue;
+        if (!p.contact->touching && !p.contact->crush) {
+            fl_neighbour_pair_free(w, &w->pair[a]); /* the search makes it anew */
+            continue;
+        }
         fl_vec3 x = p.contact->load_point; /* from the centre of p.i */
         if (p.i != i) x = v3_sub(x, fl_separation(w, p.i, p.j, p.image));
         x = q_rotate(q_conj(q), x);
         if (p.contact->crush && !p.contact->touching && p.i == i) x = p.contact->crush->centre;
         const int second = side * (v3_dot(n, x) - c) > 0.0;
-        forget_geometry(p.contact);
         w->pair[a].cores_overlap = w->pair[a].has_axis = 0;
         w->pair[a].cache_size = 0;
         w->pair[a].free_travel = 0.0;
         if (second && p.j < w->n) {
-            fl_neighbour_pair_free(w, &w->pair[a]); /* the search makes it anew */
+            fl_neighbour_pair_free(w, &w->pair[a]);
             continue;
         }
         if (second) w->pair[a].i = p.contact->i = k;
+        update_pair(w, p.contact);
         if (!p.contact->crush || p.i != i) continue;
         if (p.j >= w->n && add_worn_pair(w, second ? i : k, &p, &to[!second], err)) return -1;
         turn_crush(p.contact->crush, &to[second]);
@@ -271,7 +279,11 @@ static int find_contacts(fl_world *w, int32_t i, int32_t k, fl_err *err)
     if (fl_neighbour_list_update(w, err)) return -1;
     for (int32_t c = 0; c < w->n_pair; c++) {
         const fl_neighbour_pair *p = &w->pair[c];
-        if (p->i == i || p->j == i || p->i == k || p->j == k) fl_evaluate_neighbour_pair(w, c, 0, NULL, 0.0, 1);
+        if (p->i != i && p->j != i && p->i != k && p->j != k) continue;
+        fl_evaluate_neighbour_pair(w, c, 0, NULL, 0.0, 1);
+        if (!p->contact || !p->contact->crush) continue;
+        w->crushing.volume += p->contact->crush->volume;
+        p->contact->crush->volume = 0.0;
     }
     if (fl_neighbour_list_index(w, err)) return -1;
     for (int32_t a = 0; a < w->b.total; a++)

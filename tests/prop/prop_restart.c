@@ -78,7 +78,8 @@ static void a_run_resumes_at_any_step(void **state)
               {scene_of_bonds, "patch"},           {scene_of_sheet, "patch"},
               {scene_of_water_interval, "patch"},  {scene_of_sea_interval, "patch"},
               {scene_of_inflow_interval, "patch"}, {scene_of_surrogates, "patch"},
-              {scene_of_joined_parts, "patch"}};
+              {scene_of_joined_parts, "patch"},    {scene_of_failing_floes, "patch"},
+              {scene_of_failing_floes, "quick"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
         lab whole;
@@ -108,6 +109,8 @@ static void a_run_resumes_at_any_step(void **state)
         if (IT[k].scene == scene_of_sheet) { /* a sheet has contacts where bonds have ended alone */
             const fl_bond_counts n = fl_bond_list_counts(&whole.w);
             assert_true(n.state[FL_BOND_ENDED] > 20 && n.state[FL_BOND_DAMAGED] > 2);
+        } else if (IT[k].scene == scene_of_failing_floes) {
+            assert_true(whole.w.crushing.contact_steps > 20 && whole.w.breaking.bent > 1 && whole.w.breaking.bent + whole.w.breaking.split > 9);
         } else assert_true(pairs > 3000 && whole.w.searches >= 2);
         lab_free(&whole);
     }
