@@ -313,6 +313,77 @@ static void steps(void)
                VERIFY_REL);
 }
 
+/* FF5, FF10: a floe that is driven into a pile, back and in again. */
+static void driven(void)
+{
+    static const double H[2] = {1.0, 0.5}, R[2] = {2.0, 1.0}, P[2] = {1.5e6, 2e6}, DEPTH[2] = {0.2, 2.0};
+    for (int k = 0; k < 2; k++) {
+        lab l;
+        begin_lab(&l, P[k], 0.1);
+        lab_set(&l, "contact.stiffness_factor=0.1");
+        lab_box(&l, v3(6, 0, 0), v3(6, 8, 0.5 * H[k]), 0.02, q_one(), v3(-0.5, 0, 0), ZERO);
+        lab_cone(&l, (fl_cone){v3(-R[k] - 0.01, 0, -5), v3(-R[k] - 0.01, 0, 5), R[k], R[k]});
+        lab_make(&l, 5e-4);
+        fl_world *const w = &l.w;
+        w->b.fixed_dof[0] = ROTATIONS | FL_DOF_X | FL_DOF_Y | FL_DOF_Z; /* driven: its velocity stays */
+        double force = 0.0, work = 0.0, x = 0.0, begins = NAN;
+        while (x < DEPTH[k]) {
+            const double before = fabs(w->b.f[0].x);
+            lab_run(&l, 1);
+            x = 6.0 - w->b.x[0].x - 0.01;
+            force = fabs(w->b.f[0].x);
+            work += 0.5 * (before + force) * 0.5 * w->dt;
+        }
+        if (k) {
+            verify_row("FF10", "force of a floe driven through a pile, one diameter deep [kN]", 1e-3 * force, 2000.0,
+                       1e-3, VERIFY_REL);
+            lab_free(&l);
+            continue;
+        }
+        verify_row("FF5", "driven 0.2 m into a cylinder: force [kN]", 1e-3 * force, 2474.0, 0.01, VERIFY_REL);
+        verify_row("FF5", "driven 0.2 m into a cylinder: work [kJ]", 1e-3 * work, 344.5, 0.01, VERIFY_REL);
+        w->b.v[0].x = 0.5;
+        lab_run(&l, 600);
+        verify_true("FF5", "drawn back, it is free", w->n_touching == 0);
+        w->b.v[0].x = -0.5;
+        for (int n = 0; n < 1200 && isnan(begins); n++) {
+            lab_run(&l, 1);
+            if (w->b.f[0].x > 0.0) begins = 6.0 - w->b.x[0].x - 0.01;
+        }
+        verify_row("FF5", "again: begins at [m]", begins, 0.2, 0.1, VERIFY_REL);
+        while (6.0 - w->b.x[0].x - 0.01 < DEPTH[k]) lab_run(&l, 1);
+        verify_row("FF5", "again: force at the same depth [kN]", 1e-3 * fabs(w->b.f[0].x), 2474.0, 0.02, VERIFY_REL);
+        lab_free(&l);
+    }
+}
+
+/* Ice on ice: two equal corners, each half as deep. */
+static void ice_on_ice(void)
+{
+    double force[2];
+    for (int k = 0; k < 2; k++) {
+        lab l;
+        begin_lab(&l, 2e6, 0.1);
+        lab_set(&l, "failure.crushing=all");
+        lab_setf(&l, "contact.law=%s", k ? "quick" : "patch");
+        lab_box(&l, v3(2, 0, 0), v3(2, 1, 0.5), 0.02, q_one(), v3(-2, 0, 0), ZERO);
+        lab_box(&l, v3(-2.002, 0.5, 0), v3(2, 1, 0.5), 0.02, q_one(), v3(2, 0, 0), ZERO);
+        lab_make(&l, 2e-5);
+        for (int i = 0; i < 2; i++) l.w.b.fixed_dof[i] = ROTATIONS | FL_DOF_Y | FL_DOF_Z;
+        force[k] = 0.0;
+        for (int n = 0; n < 4000; n++) {
+            lab_run(&l, 1);
+            force[k] = fmax(force[k], fabs(l.w.b.f[0].x));
+        }
+        fl_energy_update(&l.w);
+        verify_below("FF9", "ice on ice: residual over the energy of the impact",
+                     fabs(l.w.ledger.residual) / (4.0 * l.w.b.m[0]), 1e-6);
+        lab_free(&l);
+    }
+    verify_row("FF6", "two faces that overlap on 1.5 m2 [kN]", 1e-3 * force[0], 2000.0 * pow(1.5, 0.9), 1e-3, VERIFY_REL);
+    verify_row("FF6", "the same under the law quick [kN]", 1e-3 * force[1], 2000.0 * pow(1.5, 0.9), 1e-3, VERIFY_REL);
+}
+
 int main(void)
 {
     verify_begin("crushing of floes");
@@ -323,5 +394,7 @@ int main(void)
     turned();
     bar();
     steps();
+    driven();
+    ice_on_ice();
     return verify_end();
 }
