@@ -29,7 +29,8 @@ fl_relative_pose fl_crushing_pose(const fl_pair *p, const fl_relative_pose *r)
 static fl_crush *record_of(fl_pair *p)
 {
     fl_err lost = {0};
-    if (!p->crush && (p->crush = fl_alloc(1, sizeof *p->crush, &lost))) *p->crush = (fl_crush){.stiffening = 1.0};
+    if (!p->crush && (p->crush = fl_alloc(1, sizeof *p->crush, &lost)))
+        *p->crush = (fl_crush){.stiffening = 1.0};
     return p->crush;
 }
 
@@ -72,8 +73,8 @@ static double area_of(const fl_world *w, const fl_pair *p, const fl_relative_pos
     return v3_norm(fl_area_vector_of_body(&a, &other).S);
 }
 
-int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const fl_force_sum *q, fl_vec3 centre,
-                      fl_exact_contact *exact, double *limit)
+int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const fl_force_sum *q,
+                      fl_vec3 centre, fl_exact_contact *exact, double *limit)
 {
     const fl_crushing_state *const s = &w->crushing;
     const double F = exact->scale * v3_norm(q->gradient.f), W = exact->energy;
@@ -101,7 +102,8 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     }
     if (!(c = record_of(p))) return -1;
     const double curve = W * exact->slope / (F * F),
-                 m = fmin(fmax(curve < 1.0 ? 1.0 / (1.0 - curve) : MOST_EXPONENT, LEAST_EXPONENT), MOST_EXPONENT),
+                 m = fmin(fmax(curve < 1.0 ? 1.0 / (1.0 - curve) : MOST_EXPONENT, LEAST_EXPONENT),
+                          MOST_EXPONENT),
                  shrunk = fl_pow(to / F, 1.0 / (m - 1.0)),
                  W1 = fmin(W * shrunk * (to / F), 0.5 * to * to / flat), ratio = (W1 / W) * (F / to);
     if (ratio < shrunk) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* crushing.h -- contacts in which ice yields.
  *
- * Below y = p(A) A (failure/pressure_area.h, A of failure/area_vector.h) a contact is elastic.  At y it yields:
- * the floe A is worn by the vector D, by which it stands away from its partner for the contact law,
+ * Below y = p(A) A (failure/pressure_area.h, A of failure/area_vector.h) a contact is elastic. At y it
+ * yields: the floe A is worn by the vector D, by which it stands away from its partner for the contact law,
  *     W = W_law(x_A + R_A D),      F = -dW/dx,  |F| <= y,
  * so W has the same derivatives as before: forces and torques act at the true place, action and reaction
  * balance, and D at rest costs no energy.
@@ -16,9 +16,9 @@
  *
  * D never shrinks but where the contact has turned round (D.n < 0), which only takes energy out.
  *
- * K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is flat, and a sharp
- * edge of the same force would store several times its energy.  So W is multiplied by g >= 1, which grows with
- * A, until y^2/(2 K_A) is what an edge stores.  The rebound of an impact of speed v is then
+ * K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is flat, and a
+ * sharp edge of the same force would store several times its energy. So W is multiplied by g >= 1, which
+ * grows with A, until y^2/(2 K_A) is what an edge stores. The rebound of an impact of speed v is then
  *     v_r = y/sqrt(K_A M).
  *
  * Work.  Crushing takes, in a step, the work of the elastic force by the trapezoid over the step less the
@@ -26,13 +26,13 @@
  *     Q = -dt/2 (F0 + F1).(v_A - v_B) - (W1 - W0)          (and the same of torques)
  * whose sum is int p dV.  Damping is off while a contact yields, and with the elastic force at most y after.
  *
- * Memory.  A pair keeps D in fl_crush, made at its first yield.  When the contact ends, D goes to the floe as a
- * dent at that place; a contact that begins within its half width, from the same side, takes it up again.  A
- * floe keeps FL_DENTS dents; the shallowest is dropped first.
+ * Memory. A pair keeps D in fl_crush, made at its first yield. When the contact ends, D goes to the floe as
+ * a dent at that place; a contact that begins within its half width, from the same side, takes it up again.
+ * A floe keeps FL_DENTS dents; the shallowest is dropped first.
  *
  * Limits.  D is one vector of a pair of bodies: a floe that is crushed at two places of one piece of the
- * structure wears as a whole.  A partner that slides along a face finds it worn by D everywhere, so a dent does
- * not resist sliding.  The outline of the floe, and its mass, stay. */
+ * structure wears as a whole. A partner that slides along a face finds it worn by D everywhere, so a dent
+ * does not resist sliding. The outline of the floe, and its mass, stay. */
 #ifndef FL_CONTACT_CRUSHING_H
 #define FL_CONTACT_CRUSHING_H
 #include "contact/pair_geometry.h"
@@ -59,8 +59,8 @@ int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_rela
  *   centre   of pressure, in the frame of B [m]
  *   limit    out: y, INFINITY where there is none [N]
  * 1 if the contact yields, 0 if not, -1 when memory runs out. */
-int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const fl_force_sum *q, fl_vec3 centre,
-                      fl_exact_contact *exact, double *limit);
+int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const fl_force_sum *q,
+                      fl_vec3 centre, fl_exact_contact *exact, double *limit);
 
 /* Elastic wrench and energy of a pair. */
 typedef struct {

@@ -474,8 +474,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const fl_mat3 R = r->R;
     fl_patch_points *s = &w->scratch[thread];
     const int crushes = fl_pair_crushes(w, p),
-              has_surrogate =
-                  p->law->surrogate_tolerance > 0.0 && !fl_panels_need_points(w, p) && !crushes;
+              has_surrogate = p->law->surrogate_tolerance > 0.0 && !fl_panels_need_points(w, p) && !crushes;
     if (s->n == 0) return 0;
     const fl_vec3 at = s->point[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
     fl_force_sum q;
@@ -487,7 +486,8 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     int yields = 0;
     if (crushes) {
         const double scale = exact.scale, slope = exact.slope;
-        yields = fl_crushing_yield(w, p, r, &q, v3_madd(at, 1.0 / q.pressure, q.pressure_moment), &exact, &limit);
+        yields =
+            fl_crushing_yield(w, p, r, &q, v3_madd(at, 1.0 / q.pressure, q.pressure_moment), &exact, &limit);
         if (yields < 0) return -1;
         stiffer = exact.slope != slope ? fmax((exact.slope / slope) * (scale / exact.scale), 1.0) : 1.0;
     }
@@ -513,7 +513,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     if (fl_force_sum_motion(s, v, turn, &q)) return -1;
     const double damping = damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass),
                  coming = q.pressure_rate / q.pressure, room = limit / v3_norm(elastic) - 1.0,
-                 chi = yields                          ? 0.0
+                 chi = yields                    ? 0.0
                        : coming * damping > room ? fmax(room, 0.0) / coming
                                                  : damping;
     const double sustained =
@@ -816,7 +816,8 @@ static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pos
     const double rho = b->bounding_radius[p->i], apart = v3_norm(r->off) + rho,
                  moved = step_motion(b, p->i, rho, dt) + step_motion(b, p->j, apart, dt),
                  radii = b->radius[p->i] + b->radius[p->j];
-    if (w->step == 0 || dt == 0.0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii) return;
+    if (w->step == 0 || dt == 0.0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii)
+        return;
 #pragma omp critical(fl_sudden_contacts)
     {
         fl_sudden_contacts *const s = &w->sudden;
@@ -827,7 +828,8 @@ static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pos
 }
 
 /* Finds the contact points with what is crushed taken off. */
-static int find_worn_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r, double *distance)
+static int find_worn_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r,
+                            double *distance)
 {
     fl_relative_pose worn = p->crush ? fl_crushing_pose(p, r) : *r;
     if (fl_pair_find_points(w, p, thread, &worn, distance)) return -1;

@@ -80,8 +80,8 @@ static fl_area_vector result_of(const area_sum *q)
     const double A2 = v3_norm2(q->S);
     fl_area_vector r = {q->S, {0, 0, 0}};
     if (!(A2 > 0.0)) return r;
-    const fl_vec3 sum = v3_madd(v3_madd(v3_scale(q->S.x, q->moment[0]), q->S.y, q->moment[1]), q->S.z,
-                                q->moment[2]);
+    const fl_vec3 sum =
+        v3_madd(v3_madd(v3_scale(q->S.x, q->moment[0]), q->S.y, q->moment[1]), q->S.z, q->moment[2]);
     r.centre = v3_scale(1.0 / A2, sum);
     return r;
 }
@@ -164,9 +164,9 @@ static void add_arc(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, 
     static const double X[GAUSS / 2] = {0.0950125098376374, 0.2816035507792589, 0.4580167776572274,
                                         0.6178762444026438, 0.7554044083550030, 0.8656312023878318,
                                         0.9445750230732326, 0.9894009349916499},
-                        W[GAUSS / 2] = {0.1894506104550685, 0.1826034150449236, 0.1691565193950025,
-                                        0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
-                                        0.0622535239386479, 0.0271524594117541};
+                                  W[GAUSS / 2] = {0.1894506104550685, 0.1826034150449236, 0.1691565193950025,
+                                                  0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
+                                                  0.0622535239386479, 0.0271524594117541};
     const double half = 0.5 * (to - from), mid = 0.5 * (to + from), slope = (cone->r1 - cone->r0) / cone->h;
     for (int k = 0; k < GAUSS; k++) {
         double c, s, t0, t1;
@@ -224,7 +224,8 @@ fl_area_vector fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spa
         const fl_vec3 n = b->normal[f], x = v3_unit(fabs(n.x) < 0.7 ? v3(0, n.z, -n.y) : v3(-n.z, 0, n.x)),
                       y = v3_cross(n, x), m = v3_madd(middle, b->c[f] - v3_dot(n, middle), n);
         fl_vec3 v[CORNERS] = {v3_madd(v3_madd(m, size, x), size, y), v3_madd(v3_madd(m, -size, x), size, y),
-                              v3_madd(v3_madd(m, -size, x), -size, y), v3_madd(v3_madd(m, size, x), -size, y)};
+                              v3_madd(v3_madd(m, -size, x), -size, y),
+                              v3_madd(v3_madd(m, size, x), -size, y)};
         const int corners = clip_polygon(b, f, v, 4);
         if (corners > 2) add_polygon(&q, v, clip_polygon(a, -1, v, corners));
     }

@@ -48,13 +48,13 @@ static balance balance_of(const fl_plan *q, const fl_plan_load *load, int32_t n)
 
 /* M and N of the section e.x = c: moment about it of what acts on the part e.x < c, and the force along e on
  * that part, which presses the section. */
-static double section_moment(const fl_plan *q, const balance *s, const fl_plan_load *load, int32_t n, double ex,
-                             double ey, double c, double *push)
+static double section_moment(const fl_plan *q, const balance *s, const fl_plan_load *load, int32_t n,
+                             double ex, double ey, double c, double *push)
 {
     const fl_plan_moments m = fl_plan_part(q, ex, ey, c);
-    const double area = s->a * m.area + s->gx * m.x + s->gy * m.y,
-                 first = s->a * (ex * m.x + ey * m.y) + s->gx * (ex * m.xx + ey * m.xy) +
-                         s->gy * (ex * m.xy + ey * m.yy);
+    const double area = s->a * m.area + s->gx * m.x + s->gy * m.y, first = s->a * (ex * m.x + ey * m.y) +
+                                                                           s->gx * (ex * m.xx + ey * m.xy) +
+                                                                           s->gy * (ex * m.xy + ey * m.yy);
     double M = c * area - first;
     *push = -(s->fx * ex + s->fy * ey) * m.area;
     for (int32_t k = 0; k < n; k++) {
@@ -87,12 +87,18 @@ static int solve_band(double a[UNKNOWNS][BAND], double *x)
     return 0;
 }
 
-/* Stiffness of a Hermite element of length l, and the consistent foundation over kb l/420; upper triangles. */
+/* Stiffness of a Hermite element of length l, and the consistent foundation over kb l/420; upper
+ * triangles. */
 static void element_of(double l, double EI, double kb, double B[4][4], double F[4][4])
 {
     const double s = EI / (l * l * l), f = kb * l / 420.0, l2 = l * l;
-    const double b[4][4] = {{12, 6 * l, -12, 6 * l}, {0, 4 * l2, -6 * l, 2 * l2}, {0, 0, 12, -6 * l}, {0, 0, 0, 4 * l2}},
-                 c[4][4] = {{156, 22 * l, 54, -13 * l}, {0, 4 * l2, 13 * l, -3 * l2}, {0, 0, 156, -22 * l},
+    const double b[4][4] = {{12, 6 * l, -12, 6 * l},
+                            {0, 4 * l2, -6 * l, 2 * l2},
+                            {0, 0, 12, -6 * l},
+                            {0, 0, 0, 4 * l2}},
+                 c[4][4] = {{156, 22 * l, 54, -13 * l},
+                            {0, 4 * l2, 13 * l, -3 * l2},
+                            {0, 0, 156, -22 * l},
                             {0, 0, 0, 4 * l2}};
     for (int i = 0; i < 4; i++)
         for (int j = i; j < 4; j++) B[i][j] = s * b[i][j], F[i][j] = f * c[i][j];
@@ -133,8 +139,8 @@ static void sum_moments(double P, double C, double L, const double k[], const be
     }
 }
 
-void fl_bending_beam(const fl_bending_law *law, double h, double L, const double width[FL_BEAM_NODES], double P,
-                     double C, double M[FL_BEAM_NODES], double *deflection)
+void fl_bending_beam(const fl_bending_law *law, double h, double L, const double width[FL_BEAM_NODES],
+                     double P, double C, double M[FL_BEAM_NODES], double *deflection)
 {
     const double rho = law->density, up = rho > 0.0 ? rho * h : INFINITY,
                  down = rho > 0.0 ? (1.0 - rho) * h : INFINITY; /* [m] */
@@ -180,7 +186,7 @@ typedef struct {
     const fl_plan_load *load;
     int32_t n, k;
     balance balance;
-    double ex, ey, at; /* e, and e.x of the load */
+    double ex, ey, at;           /* e, and e.x of the load */
     double length, behind, area; /* area: of the plan */
     int is_beam, small;
     double M[FL_BEAM_NODES];
@@ -266,7 +272,8 @@ static fl_bending search_direction(direction *d)
     }
     /* golden section between the neighbours of the best sample */
     const double gold = 0.6180339887498949;
-    double a = fmax(at - d->length / SAMPLES, 1e-3 * d->length), b = fmin(at + d->length / SAMPLES, d->length);
+    double a = fmax(at - d->length / SAMPLES, 1e-3 * d->length),
+           b = fmin(at + d->length / SAMPLES, d->length);
     for (int s = 0; s < REFINEMENTS && best.ratio > 0.0; s++) {
         const double x1 = b - gold * (b - a), x2 = a + gold * (b - a);
         fl_bending one, two;
@@ -282,7 +289,12 @@ fl_bending fl_bending_of(const fl_plan *q, const fl_bending_law *law, const fl_p
                          int32_t k)
 {
     const fl_plan_moments all = fl_plan_part(q, 1.0, 0.0, INFINITY);
-    direction d = {.q = q, .law = law, .load = load, .n = n, .k = k, .area = all.area,
+    direction d = {.q = q,
+                   .law = law,
+                   .load = load,
+                   .n = n,
+                   .k = k,
+                   .area = all.area,
                    .balance = balance_of(q, load, n)};
     fl_bending best = {0};
     const double inward = fl_atan2(all.y / all.area - load[k].x.y, all.x / all.area - load[k].x.x),

@@ -12,14 +12,14 @@
  * inertia, whose net load is the linear field
  *     q = a + g.x,      int q dA = -sum P,   int q x dA = -sum P x_k,
  * exact while the deck is dry and the bottom wet, in impact and at rest alike; M is the moment of loads and
- * field on the part cut off.  Long floes: a beam of width b(x) on an elastic foundation k b, end load P and end
- * moment, 32 Hermite elements; the foundation ends where the floe leaves the water or floods.
+ * field on the part cut off. Long floes: a beam of width b(x) on an elastic foundation k b, end load P and
+ * end moment, 32 Hermite elements; the foundation ends where the floe leaves the water or floods.
  *     l_b = (E h^3/(3 k))^(1/4),    k = rho_w g
  * Without water all floes count as short.
  *
  * Sources: Hetenyi (1946), beam of finite length; Nevel (1961, 1972), wedges.  At a corner, a wedge and a
- * narrow contact the result is within -10 to +17 % of a plate.  Limits: N above a third of sqrt(k E I) b, near
- * buckling, is not for this law; such loads are counted and do not break the floe. */
+ * narrow contact the result is within -10 to +17 % of a plate. Limits: N above a third of sqrt(k E I) b,
+ * near buckling, is not for this law; such loads are counted and do not break the floe. */
 #ifndef FL_FAILURE_BENDING_H
 #define FL_FAILURE_BENDING_H
 #include "failure/plan_polygon.h"
@@ -58,7 +58,7 @@ fl_bending fl_bending_of(const fl_plan *q, const fl_bending_law *law, const fl_p
  * FL_BEAM_NODES nodes; M at the nodes and deflection at the end. */
 enum { FL_BEAM_NODES = 33 };
 double fl_beam_node(double L, int n); /* place of node n: L (n/32)^2 [m] */
-void fl_bending_beam(const fl_bending_law *law, double h, double L, const double width[FL_BEAM_NODES], double P,
-                     double C, double M[FL_BEAM_NODES], double *deflection);
+void fl_bending_beam(const fl_bending_law *law, double h, double L, const double width[FL_BEAM_NODES],
+                     double P, double C, double M[FL_BEAM_NODES], double *deflection);
 
 #endif

@@ -24,8 +24,8 @@ static int32_t hull_of(const fl_vec2 *v, int32_t n, double same, fl_vec2 *out)
         const int32_t start = m;
         for (int32_t k = 0; k < n; k++) {
             const fl_vec2 p = pass ? v[n - 1 - k] : v[k];
-            while (m - start >= 2 &&
-                   cross_of(out[m - 2], out[m - 1], p) <= same * hypot(p.x - out[m - 2].x, p.y - out[m - 2].y))
+            while (m - start >= 2 && cross_of(out[m - 2], out[m - 1], p) <=
+                                         same * hypot(p.x - out[m - 2].x, p.y - out[m - 2].y))
                 m--;
             out[m++] = p;
         }

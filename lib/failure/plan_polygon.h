@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* plan_polygon.h -- the outline of a floe in its own plane, for its statics: moments of parts that a line cuts
- * off, and the loads on it. */
+/* plan_polygon.h -- the outline of a floe in its own plane, for its statics: moments of parts that a line
+ * cuts off, and the loads on it. */
 #ifndef FL_FAILURE_PLAN_POLYGON_H
 #define FL_FAILURE_PLAN_POLYGON_H
 #include "geom/poly.h"
@@ -17,8 +17,8 @@ typedef struct {
 
 /* Integrals over a part of the plan. */
 typedef struct {
-    double area, x, y;  /* int dA, int x dA, int y dA */
-    double xx, xy, yy;  /* int x x dA, ... */
+    double area, x, y; /* int dA, int x dA, int y dA */
+    double xx, xy, yy; /* int x x dA, ... */
 } fl_plan_moments;
 
 /* A contact load on a floe, in plan axes. */

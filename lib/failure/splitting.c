@@ -44,7 +44,8 @@ double fl_split_least(double Q, double F, double Q2, double S, double ratio, dou
         const double alpha = n < 0 ? from : ALPHA[n];
         if (alpha < from || alpha > ALPHA[NODES - 1]) continue;
         const double kQ = fl_split_opening(alpha, ratio);
-        least = fmin(least, Q * kQ - F * fl_split_closing(alpha, ratio) + Q2 * kQ + S * fl_split_tension(alpha));
+        least =
+            fmin(least, Q * kQ - F * fl_split_closing(alpha, ratio) + Q2 * kQ + S * fl_split_tension(alpha));
     }
     return least;
 }

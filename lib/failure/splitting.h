@@ -14,10 +14,11 @@
  * The contact is a pressure p on the area S of the structure inside the floe (area_vector.h).  With S_s the
  * part on one side of the line, along it (1) and across it (2), and mu the friction there,
  *     Q_s = p (S_s2 - mu S_s1),    F_s = p (S_s1 + mu S_s2),
- * so for a round pile and uniform pressure over the half angle t, Q/F = (tan(t/2) - mu)/(2 (1 + mu tan(t/2))):
- * a push alone closes the crack, and friction decides.
+ * so for a round pile and uniform pressure over the half angle t, Q/F = (tan(t/2) - mu)/(2 (1 + mu
+ * tan(t/2))): a push alone closes the crack, and friction decides.
  *
- * Of lines through the contact, at 45 degrees to the inward normal and less, the one that asks least splits. */
+ * Of lines through the contact, at 45 degrees to the inward normal and less, the one that asks least
+ * splits. */
 #ifndef FL_FAILURE_SPLITTING_H
 #define FL_FAILURE_SPLITTING_H
 #include "failure/plan_polygon.h"

@@ -69,14 +69,13 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames",  "output.state",     "output.energy", "output.contacts",
-                               "output.hash",    "output.panels",    "output.events", "output.bonds",
-                               "output.members", "output.failures",  "output.final_ice",
-                               "output.checkpoint"};
-    const char *const path[] = {s->output.frames,  s->output.state,     s->output.energy, s->output.contacts,
-                                s->output.hash,    s->output.panels,    s->output.events, s->output.bonds,
-                                s->output.members, s->output.failures,  s->output.final_ice,
-                                s->output.checkpoint};
+    const char *const key[] = {"output.frames",  "output.state",    "output.energy",    "output.contacts",
+                               "output.hash",    "output.panels",   "output.events",    "output.bonds",
+                               "output.members", "output.failures", "output.final_ice", "output.checkpoint"};
+    const char *const path[] = {s->output.frames,   s->output.state,     s->output.energy,
+                                s->output.contacts, s->output.hash,      s->output.panels,
+                                s->output.events,   s->output.bonds,     s->output.members,
+                                s->output.failures, s->output.final_ice, s->output.checkpoint};
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
@@ -390,25 +389,28 @@ static int check_failure(const fl_scene *s, fl_err *err)
             snprintf(key, sizeof key, "failure.%s", OF_LAW[k]);
             return fl_scene_fail(s, key, err,
                                  "failure.pressure_law names a law with constants of its own: pressure_law = "
-                                 "user is expected with %s", key);
+                                 "user is expected with %s",
+                                 key);
         }
     if (crushes && f->pressure_law == FL_PRESSURE_USER && f->pressure > f->pressure_max)
         return fl_scene_fail(s, "failure.pressure_max", err,
                              "failure.pressure_max is %g Pa, at least failure.pressure, %g Pa, is expected",
                              f->pressure_max, f->pressure);
     if (f->fracture_toughness < INFINITY && !crushes)
-        return fl_scene_fail(s, "failure.fracture_toughness", err,
-                             "what opens a crack follows from the area of a contact that crushes: failure.crushing "
-                             "= structure is expected with fracture_toughness");
+        return fl_scene_fail(
+            s, "failure.fracture_toughness", err,
+            "what opens a crack follows from the area of a contact that crushes: failure.crushing "
+            "= structure is expected with fracture_toughness");
     if (!breaks) return 0;
     if (s->ice.shape != FL_SHAPE_SHARP)
         return fl_scene_fail(s, "ice.shape", err,
                              "floes that break are cut along planes: ice.shape = sharp is expected with "
                              "flexural_strength or fracture_toughness");
     if (s->bond.head.present && s->bond.on)
-        return fl_scene_fail(s, "failure.flexural_strength", err,
-                             "floes that start bonded break at their bonds: either bond.on or flexural_strength "
-                             "and fracture_toughness are expected");
+        return fl_scene_fail(
+            s, "failure.flexural_strength", err,
+            "floes that start bonded break at their bonds: either bond.on or flexural_strength "
+            "and fracture_toughness are expected");
     if (s->run.sleep > 0.0)
         return fl_scene_fail(s, "run.sleep", err,
                              "floes that may break do not sleep: either run.sleep or flexural_strength and "
@@ -594,8 +596,9 @@ int fl_scene_check(fl_scene *s, fl_err *err)
         return -1;
     set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
-                   check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) || check_failure(s, err) ||
-                   check_members(s, err) || check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
+                   check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) ||
+                   check_failure(s, err) || check_members(s, err) ||
+                   check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
                    check_groups(s, err) || check_motions(s, err)
                ? -1

@@ -1452,8 +1452,9 @@ const fl_key fl_key_table[] = {
      .choices = "user|polar-class-1|polar-class-2|polar-class-3|polar-class-4|polar-class-5|polar-class-6|"
                 "polar-class-7|iso-local|api",
      .needs = {"crushing"},
-     .meaning = "constants of the pressure p0 (A/A0)^-e: user, those of the keys below; or by name.  iso-local "
-                "and api are envelopes of local design pressures, not of a process",
+     .meaning =
+         "constants of the pressure p0 (A/A0)^-e: user, those of the keys below; or by name.  iso-local "
+         "and api are envelopes of local design pressures, not of a process",
      .source = "UR I2 CFD = p0^0.389; ISO 19906 7.4 A^-0.7; API RP 2N 8.1 A^-0.5"},
     {.section = FL_SEC_FAILURE,
      .key = "pressure",

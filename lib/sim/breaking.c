@@ -98,7 +98,8 @@ static int set_gates(fl_world *w, int32_t i, fl_err *err)
     double width, half_tan;
     slender_of(&q, &width, &half_tan);
     const fl_bending_law law = bending_law_of(w, i);
-    const double h = q.thickness, lb = fl_bending_length(&law, h), L = sqrt(fl_plan_part(&q, 1, 0, INFINITY).area);
+    const double h = q.thickness, lb = fl_bending_length(&law, h),
+                 L = sqrt(fl_plan_part(&q, 1, 0, INFINITY).area);
     if (f->flexural_strength < INFINITY)
         s->bend_gate[i] = f->flexural_strength * h * h *
                           fmin(0.1, fmin(0.35 * half_tan, lb < INFINITY ? 0.5 * width / lb : h / L));
@@ -166,10 +167,17 @@ static floe_break bend_of(fl_world *w, int32_t i, const floe_loads *q)
         w->breaking.too_small += r.small && !(r.ratio > 1.0);
         if (!(r.ratio > best.ratio)) continue;
         const double h = q->plan.thickness;
-        best = (floe_break){.ratio = r.ratio, .mode = FL_FAILURE_BEND, .ex = r.ex, .ey = r.ey, .c = r.c,
-                            .length = r.whole, .load = v3_norm(q->load[k].force), .of = k,
+        best = (floe_break){.ratio = r.ratio,
+                            .mode = FL_FAILURE_BEND,
+                            .ex = r.ex,
+                            .ey = r.ey,
+                            .c = r.c,
+                            .length = r.whole,
+                            .load = v3_norm(q->load[k].force),
+                            .of = k,
                             /* of a beam whose moment falls off over the distance x on both sides */
-                            .energy = r.moment * r.moment * r.distance / (law.young * h * h * h * r.width / 4.0)};
+                            .energy =
+                                r.moment * r.moment * r.distance / (law.young * h * h * h * r.width / 4.0)};
     }
     return best;
 }
@@ -190,7 +198,8 @@ static void split_area(const fl_world *w, const floe_loads *q, const fl_pair *p,
     for (int s = 0; s < 2; s++) {
         a.normal[last] = s ? v3_neg(n) : n;
         a.c[last] = (s ? -1.0 : 1.0) * (c + v3_dot(n, r.o));
-        side[s] = m3_mul(q->to_plan, m3_mul(r.R, fl_area_vector_of_piece(&a, fl_world_piece(w, p->j), about).S));
+        side[s] =
+            m3_mul(q->to_plan, m3_mul(r.R, fl_area_vector_of_piece(&a, fl_world_piece(w, p->j), about).S));
     }
 }
 
@@ -225,7 +234,8 @@ static fl_split_line line_of(const fl_world *w, const floe_loads *q, int32_t k, 
     for (int32_t a = 0; a < q->n; a++) Fx += q->load[a].force.x, Fy += q->load[a].force.y;
     for (int32_t a = 0; a < q->n; a++) {
         const fl_plan_load *o = &q->load[a];
-        const double lateral = -(nx * o->force.x + ny * o->force.y), arm = (middle.x - o->x.x) * u.x + (middle.y - o->x.y) * u.y;
+        const double lateral = -(nx * o->force.x + ny * o->force.y),
+                     arm = (middle.x - o->x.x) * u.x + (middle.y - o->x.y) * u.y;
         if (a == k || nx * o->x.x + ny * o->x.y >= at) continue;
         N += lateral, M += lateral * arm;
     }
@@ -260,12 +270,21 @@ static floe_break split_of(fl_world *w, int32_t i, const floe_loads *q)
             }
             const fl_split_line s = line_of(w, q, k, u, &c);
             if (!(s.length > 0.0)) continue;
-            const double ratio = fl_split_intensity(&s) / tough, energy = tough * tough / E * q->plan.thickness * s.length;
-            if (!(ratio > best.ratio * (1.0 + 1e-9)) && !(ratio > 1.0 && best.ratio > 1.0 && s.length < shortest))
+            const double ratio = fl_split_intensity(&s) / tough,
+                         energy = tough * tough / E * q->plan.thickness * s.length;
+            if (!(ratio > best.ratio * (1.0 + 1e-9)) &&
+                !(ratio > 1.0 && best.ratio > 1.0 && s.length < shortest))
                 continue;
             shortest = s.length;
-            best = (floe_break){.ratio = ratio, .mode = FL_FAILURE_SPLIT, .ex = -u.y, .ey = u.x, .c = c,
-                                .length = s.length, .load = v3_norm(l->force), .energy = energy, .of = k};
+            best = (floe_break){.ratio = ratio,
+                                .mode = FL_FAILURE_SPLIT,
+                                .ex = -u.y,
+                                .ey = u.x,
+                                .c = c,
+                                .length = s.length,
+                                .load = v3_norm(l->force),
+                                .energy = energy,
+                                .of = k};
         }
     }
     /* the crack takes its energy from motion and contacts */
@@ -372,7 +391,8 @@ static int add_due(fl_world *w, int32_t i, due_floe **due, int32_t *n, int32_t *
     if (s->bend_gate[i] == 0.0 && set_gates(w, i, err)) return -1;
     const double load = load_of(w, i, &vertical);
     if (load < 0.5 * s->last_load[i]) s->last_load[i] = load;
-    if (!(vertical > s->bend_gate[i] || load > s->split_gate[i]) || !(load > GROWN * s->last_load[i])) return 0;
+    if (!(vertical > s->bend_gate[i] || load > s->split_gate[i]) || !(load > GROWN * s->last_load[i]))
+        return 0;
     s->last_load[i] = load;
     if (fl_grow(due, cap, (int64_t)*n + 1, sizeof **due, err)) return -1;
     (*due)[(*n)++] = (due_floe){w->id[i], i};

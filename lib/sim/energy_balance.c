@@ -43,7 +43,8 @@ const fl_table_format fl_energy_table = {"energy", FL_TABLE_COLUMNS(COLUMNS)};
 unsigned fl_energy_table_options(const fl_world *w)
 {
     return (fl_structure_moves_freely(w) ? MOVING : 0u) | (w->sea.waves ? WAVES : 0u) |
-           (fl_world_bonds(w) ? BONDS | FRACTURE : 0u) | (w->breaking.on ? FRACTURE : 0u) | (w->moving.members.dynamics.chain.yielding ? YIELDING : 0u) |
+           (fl_world_bonds(w) ? BONDS | FRACTURE : 0u) | (w->breaking.on ? FRACTURE : 0u) |
+           (w->moving.members.dynamics.chain.yielding ? YIELDING : 0u) |
            (w->crushing.of != FL_CRUSHING_NONE ? CRUSHING : 0u);
 }
 

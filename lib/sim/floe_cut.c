@@ -98,7 +98,8 @@ static double volume_of(const fl_poly *p)
 }
 
 /* The part n.x <= c of `outer`; 1, 0 if it is too thin, -1 with FL_SYSTEM. */
-static int make_half(floe_half *h, const fl_poly *outer, double r, fl_mat3 to_ice, fl_vec3 n, double c, fl_err *err)
+static int make_half(floe_half *h, const fl_poly *outer, double r, fl_mat3 to_ice, fl_vec3 n, double c,
+                     fl_err *err)
 {
     fl_poly part = {0};
     fl_err why = {0};
@@ -333,8 +334,8 @@ static void unbook_works(fl_world *w, const fl_work *before)
 }
 
 /* Replaces floe i by its halves, i and k. */
-static int replace_floe(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, double side, floe_half half[2],
-                        fl_err *err)
+static int replace_floe(fl_world *w, int32_t i, int32_t k, fl_vec3 n, double c, double side,
+                        floe_half half[2], fl_err *err)
 {
     fl_ledger *g = &w->ledger;
     const floe_before was = {.x = w->b.x[i]};

@@ -8,10 +8,9 @@
  * so do momentum, spin and kinetic energy.  Added mass does not: the difference is `carried` in the ledger.
  *
  * The larger half keeps the place, id and history of the floe; the other takes the first free place and the
- * next id.  A contact with the structure goes to the half where its centre of pressure is, with all its memory;
- * what is crushed there, and dents, go to both.  A contact with another floe keeps its memory where it stays with
- * the larger half.
- * Elastic energy of contacts that end is `fracture`. */
+ * next id. A contact with the structure goes to the half where its centre of pressure is, with all its
+ * memory; what is crushed there, and dents, go to both. A contact with another floe keeps its memory where
+ * it stays with the larger half. Elastic energy of contacts that end is `fracture`. */
 #ifndef FL_SIM_FLOE_CUT_H
 #define FL_SIM_FLOE_CUT_H
 #include "world/world.h"
@@ -28,8 +27,8 @@ int32_t fl_fragment_places(const fl_scene *s, const fl_ice_field *field);
 int fl_breaking_make(fl_world *w, fl_err *err);
 void fl_breaking_free(fl_world *w);
 
-/* Makes the core, in the axes of the ice file, that of the floe in place i.  It moves into w, also on failure:
- * -1 with FL_SYSTEM or FL_INPUT. */
+/* Makes the core, in the axes of the ice file, that of the floe in place i. It moves into w, also on
+ * failure: -1 with FL_SYSTEM or FL_INPUT. */
 int fl_breaking_set_shape(fl_world *w, int32_t i, fl_poly *core, double r, fl_err *err);
 
 /* Forgets what is known of the floe in place i, which has left. */

@@ -35,8 +35,8 @@ int fl_fail_floe(const fl_world *w, const fl_ice_field *field, int32_t k, fl_err
 /* Dilation of a core of radius 0, over its size: an edge without a radius has no stiffness. */
 #define SHARP 1e-6
 
-/* Build body i, of material w->material[i], from its core in the pose of the ice file: outer shape, mass, frame.
- * The outer shape is needed for the hull. */
+/* Build body i, of material w->material[i], from its core in the pose of the ice file: outer shape, mass,
+ * frame. The outer shape is needed for the hull. */
 static int make_shape(fl_world *w, int32_t i, const fl_poly *core, double r, fl_poly *outer, fl_err *why)
 {
     const fl_scene *s = w->scene;
@@ -220,7 +220,8 @@ static void clear_place(fl_world *w, int32_t i)
 static int make_hulls(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
 {
     if ((w->cell.periodic && check_size(w, i, err)) ||
-        (w->elastic_walls.hull && make_wall_hull(w, i, outer, err)) || (w->sea.n && make_hull(w, i, outer, err)))
+        (w->elastic_walls.hull && make_wall_hull(w, i, outer, err)) ||
+        (w->sea.n && make_hull(w, i, outer, err)))
         return -1;
     w->b.is_isotropic[i] = (uint8_t)fl_body_is_isotropic(&w->b, i);
     return 0;
@@ -244,8 +245,8 @@ int fl_world_place_shape(fl_world *w, int32_t i, const fl_poly *core, double r, 
 {
     fl_poly outer = {0};
     clear_place(w, i);
-    const int bad = make_shape(w, i, core, r, &outer, err) || share_topology(w, i, err) ||
-                    make_hulls(w, i, &outer, err);
+    const int bad =
+        make_shape(w, i, core, r, &outer, err) || share_topology(w, i, err) || make_hulls(w, i, &outer, err);
     fl_poly_free(&outer);
     return bad ? -1 : 0;
 }

@@ -86,8 +86,9 @@ static double other_bytes(const fl_world *w)
     for (int32_t i = 0; i < n && w->crushing.dents; i++)
         if (w->crushing.dents[i]) sum += ARRAY(w->crushing.dents[i], 1);
     if (w->breaking.on)
-        sum += ARRAY(w->breaking.shape, n) + ARRAY(w->breaking.last_load, n) + ARRAY(w->breaking.bend_gate, n) +
-               ARRAY(w->breaking.split_gate, n) + ARRAY(w->breaking.event, w->breaking.event_cap);
+        sum += ARRAY(w->breaking.shape, n) + ARRAY(w->breaking.last_load, n) +
+               ARRAY(w->breaking.bend_gate, n) + ARRAY(w->breaking.split_gate, n) +
+               ARRAY(w->breaking.event, w->breaking.event_cap);
     for (int32_t i = 0; i < n && w->breaking.on; i++)
         if (w->breaking.shape[i]) sum += fl_poly_bytes(w->breaking.shape[i]);
     if (t->feed) sum += ARRAY(t->lag, t->feed->n) + ARRAY(t->next_copy, t->feed->n);

@@ -107,7 +107,8 @@ static void exchange_shape(fl_state_io *t, fl_world *w, int32_t i)
         for (int32_t k = 0; k < nf; k++)
             if (first[0] || first[k + 1] < first[k] + 3 || first[nf] != loops)
                 fl_text_fail(t->in, t->err, "the faces of a fragment are not valid");
-        if (!t->err->code && (fl_poly_make(&p, nv, v, nf, first, loop, &why) || fl_breaking_set_shape(w, i, &p, r, &why)))
+        if (!t->err->code &&
+            (fl_poly_make(&p, nv, v, nf, first, loop, &why) || fl_breaking_set_shape(w, i, &p, r, &why)))
             fl_text_fail(t->in, t->err, "the shape of a fragment is not valid: %s", why.text);
     }
     free(v), free(first), free(loop);

@@ -23,12 +23,12 @@ typedef struct {
 } fl_failure_event;
 
 typedef struct {
-    int on;             /* floes may bend or split; else nothing below is used */
-    int32_t room;       /* places for fragments */
-    double least_area;  /* of a fragment in plan; 0: auto [m2] */
-    fl_poly **shape;    /* [n] core of a floe that is a fragment, axes of the ice file; NULL: not cut so far */
-    double *last_load;  /* [n] size of the loads at the last check [N] */
-    double *bend_gate;  /* [n] vertical load below which it is not checked for bending, 0: not known [N] */
+    int on;            /* floes may bend or split; else nothing below is used */
+    int32_t room;      /* places for fragments */
+    double least_area; /* of a fragment in plan; 0: auto [m2] */
+    fl_poly **shape;   /* [n] core of a floe that is a fragment, axes of the ice file; NULL: not cut so far */
+    double *last_load; /* [n] size of the loads at the last check [N] */
+    double *bend_gate; /* [n] vertical load below which it is not checked for bending, 0: not known [N] */
     double *split_gate; /* [n] load below which it is not checked for splitting [N] */
     int64_t checks, bent, split;
     int64_t too_small, no_room, buckled; /* breaks that did not take place */

@@ -36,14 +36,14 @@ typedef struct {
 
 /* Memory of a contact in which ice crushes, contact/crushing.h.  Vectors in the axes of floe A. */
 typedef struct {
-    fl_vec3 offset;       /* D: what is crushed [m] */
-    fl_vec3 centre;       /* of the contact when it last touched [m] */
-    double stiffening;    /* g */
-    double area;          /* largest nominal area since the contact began [m2] */
-    double most;          /* largest force since then [N] */
-    double work;          /* Q of the step work_step [J] */
-    double volume;        /* crushed since it was last booked [m3] */
-    double force;         /* y at the last yield [N] */
+    fl_vec3 offset;    /* D: what is crushed [m] */
+    fl_vec3 centre;    /* of the contact when it last touched [m] */
+    double stiffening; /* g */
+    double area;       /* largest nominal area since the contact began [m2] */
+    double most;       /* largest force since then [N] */
+    double work;       /* Q of the step work_step [J] */
+    double volume;     /* crushed since it was last booked [m3] */
+    double force;      /* y at the last yield [N] */
     int64_t work_step;
     int64_t yielded_step; /* of the last yield */
     int32_t booked;       /* Q is in the ledger */

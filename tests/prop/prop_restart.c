@@ -110,7 +110,8 @@ static void a_run_resumes_at_any_step(void **state)
             const fl_bond_counts n = fl_bond_list_counts(&whole.w);
             assert_true(n.state[FL_BOND_ENDED] > 20 && n.state[FL_BOND_DAMAGED] > 2);
         } else if (IT[k].scene == scene_of_failing_floes) {
-            assert_true(whole.w.crushing.contact_steps > 20 && whole.w.breaking.bent > 1 && whole.w.breaking.bent + whole.w.breaking.split > 9);
+            assert_true(whole.w.crushing.contact_steps > 20 && whole.w.breaking.bent > 1 &&
+                        whole.w.breaking.bent + whole.w.breaking.split > 9);
         } else assert_true(pairs > 3000 && whole.w.searches >= 2);
         lab_free(&whole);
     }

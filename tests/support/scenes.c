@@ -268,8 +268,9 @@ void scene_of_failing_floes(lab *l, int32_t side, const char *law)
                      far = fmax(0.82, 0.31 + 0.31 / tan(0.5 * PI / side));
         const fl_vec3 out = v3(cos(angle), sin(angle), 0);
         fl_rng g = fl_rng_of(11, k, FL_RNG_TEST);
-        lab_box(l, v3_add(v3(0, at, 0.01), v3_scale(far, out)), v3(0.3, 0.3, 0.05), 0.01, q_about_axis(2, angle),
-                v3_scale(-8.0 - fl_rng_in(&g, 0.0, 4.0), out), v3(0, 0, fl_rng_in(&g, -0.2, 0.2)));
+        lab_box(l, v3_add(v3(0, at, 0.01), v3_scale(far, out)), v3(0.3, 0.3, 0.05), 0.01,
+                q_about_axis(2, angle), v3_scale(-8.0 - fl_rng_in(&g, 0.0, 4.0), out),
+                v3(0, 0, fl_rng_in(&g, -0.2, 0.2)));
     }
 }
 

@@ -69,10 +69,11 @@ static void beams(void)
 /* FF13: wedges against plates. */
 static void wedges(void)
 {
-    static const double OPENING[2] = {60, 90}, P[2] = {0.2415, 0.4067}, X[2] = {0.51, 0.51}; /* place: Nevel */
+    static const double OPENING[2] = {60, 90}, P[2] = {0.2415, 0.4067},
+                        X[2] = {0.51, 0.51}; /* place: Nevel */
     const double h = 1.0, nu = 0.3;
-    const fl_bending_law law = {.strength = 0.5e6, .young = 2e9 / (1 - nu * nu), .foundation = 1025 * 9.81,
-                                .wedges = 3};
+    const fl_bending_law law = {
+        .strength = 0.5e6, .young = 2e9 / (1 - nu * nu), .foundation = 1025 * 9.81, .wedges = 3};
     const double l = sqrt(sqrt(2e9 / (1 - nu * nu) * h * h * h / 12.0 / law.foundation));
     for (int k = 0; k < 2; k++) {
         char what[80];
@@ -104,7 +105,8 @@ static void carried(void)
         if (fl_bending_of(&q, &law, both, 2, 0).ratio > 1.0) to = L;
         else from = L;
     }
-    verify_row("FF14", "length that breaks by its weight, carried at its ends [m]", from, 6.14, 0.01, VERIFY_REL);
+    verify_row("FF14", "length that breaks by its weight, carried at its ends [m]", from, 6.14, 0.01,
+               VERIFY_REL);
 }
 
 /* FF15, FF16: cracks. */
@@ -121,7 +123,8 @@ static void cracks(void)
     for (int k = 0; k < 3; k++) {
         char what[80];
         const double t = 1.0, part = (t - MU[k]) / (2.0 * (1.0 + MU[k] * t));
-        const fl_split_line s = {.Q = 1e3 * part, .F = 1e3, .length = 40, .breadth = 40, .thickness = 1.0, .width = 2};
+        const fl_split_line s = {
+            .Q = 1e3 * part, .F = 1e3, .length = 40, .breadth = 40, .thickness = 1.0, .width = 2};
         const double force = 150e3 / fl_split_intensity(&s);
         snprintf(what, sizeof what, "pile that splits a square of 40 m, friction %g [kN]", MU[k]);
         if (k < 2) verify_row("FF16", what, force, F[k], 0.05, VERIFY_REL);
@@ -158,18 +161,20 @@ static void halves(void)
         const fl_vec3 pi = v3_scale(b->m[i], b->v[i]);
         p = v3_add(p, pi), L = v3_add(L, v3_add(b->L[i], v3_cross(b->x[i], pi)));
         m += b->m[i], T += fl_body_kinetic_energy(b, i);
-        verify_row("FF17", k ? "volume of the smaller half [m3]" : "volume of the larger half [m3]", b->m[i] / 900,
-                   VOLUME[k], 5e-7, VERIFY_ABS);
+        verify_row("FF17", k ? "volume of the smaller half [m3]" : "volume of the larger half [m3]",
+                   b->m[i] / 900, VOLUME[k], 5e-7, VERIFY_ABS);
         verify_row("FF17", k ? "its velocity, error [m/s]" : "its velocity, error [m/s]",
                    v3_norm(v3_sub(b->v[i], V[k])), 0.0, 2e-6, VERIFY_ABS);
     }
     verify_row("FF17", "mass", m / m0, 1.0, 1e-12, VERIFY_REL);
     verify_row("FF17", "kinetic energy", T / T0, 1.0, 1e-12, VERIFY_REL);
-    verify_row("FF17", "momentum, error over |p|", v3_norm(v3_sub(p, p0)) / v3_norm(p0), 0.0, 1e-12, VERIFY_ABS);
-    verify_row("FF17", "spin about the origin, error over |L|", v3_norm(v3_sub(L, L0)) / v3_norm(L0), 0.0, 1e-12,
+    verify_row("FF17", "momentum, error over |p|", v3_norm(v3_sub(p, p0)) / v3_norm(p0), 0.0, 1e-12,
                VERIFY_ABS);
+    verify_row("FF17", "spin about the origin, error over |L|", v3_norm(v3_sub(L, L0)) / v3_norm(L0), 0.0,
+               1e-12, VERIFY_ABS);
     fl_energy_update(w);
-    verify_below("FF17", "residual of the ledger over the kinetic energy", fabs(w->ledger.residual) / T0, 1e-12);
+    verify_below("FF17", "residual of the ledger over the kinetic energy", fabs(w->ledger.residual) / T0,
+                 1e-12);
     lab_free(&l);
 }
 

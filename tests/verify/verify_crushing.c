@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Floes that crush: depth, force, time and rebound of impacts against closed forms of a pressure on the nominal
- * area (Popov et al. 1967; Daley 1999), elastic below, and the energy that it takes. */
+/* Floes that crush: depth, force, time and rebound of impacts against closed forms of a pressure on the
+ * nominal area (Popov et al. 1967; Daley 1999), elastic below, and the energy that it takes. */
 #include <math.h>
 #include <stdio.h>
 #include "base/pi.h"
@@ -17,9 +17,10 @@ enum { ROTATIONS = FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ };
 
 /* What an impact along -x on a wall at x = 0 gives. */
 typedef struct {
-    double depth, force, time, rebound; /* of the sharp shape; largest force; to the deepest point; speed after */
-    double start;                       /* depth at which the force passed a hundredth of its peak so far */
-    double least_work, work, residual;  /* least Q of a step, sum of Q [J], ledger residual */
+    double depth, force, time,
+        rebound;  /* of the sharp shape; largest force; to the deepest point; speed after */
+    double start; /* depth at which the force passed a hundredth of its peak so far */
+    double least_work, work, residual; /* least Q of a step, sum of Q [J], ledger residual */
     double peak_area;
 } impact;
 
@@ -108,8 +109,8 @@ static impact run_impact(lab *l, double contact_x, double until)
     return q;
 }
 
-static void print_impact(const char *id, const char *what, const impact *q, double depth, double force, double time,
-                         double tol)
+static void print_impact(const char *id, const char *what, const impact *q, double depth, double force,
+                         double time, double tol)
 {
     char text[120];
     snprintf(text, sizeof text, "%s: depth [m]", what);
@@ -184,7 +185,8 @@ static void corners(void)
 /* FF6: a face of area A flat on steel. */
 static void flats(void)
 {
-    static const double AREA[3] = {0.25, 1.0, 4.0}, F[3] = {574.3, 2000.0, 6964.0}, V[3] = {0.0763, 0.1879, 0.4627};
+    static const double AREA[3] = {0.25, 1.0, 4.0}, F[3] = {574.3, 2000.0, 6964.0},
+                        V[3] = {0.0763, 0.1879, 0.4627};
     for (int k = 0; k < 3; k++) {
         lab l;
         char what[80];
@@ -281,7 +283,8 @@ static void bar(void)
     verify_row("FF8", "end corner of a bar: force [kN]", 1e-3 * force, 473.0, 0.01, VERIFY_REL);
     verify_row("FF8", "end corner of a bar: time to the deepest point [s]", time, 0.3216, 0.01, VERIFY_REL);
     fl_energy_update(w);
-    verify_below("FF9", "end corner of a bar: residual over its energy", fabs(w->ledger.residual) / 4.5e4, 1e-5);
+    verify_below("FF9", "end corner of a bar: residual over its energy", fabs(w->ledger.residual) / 4.5e4,
+                 1e-5);
     lab_free(&l);
 }
 
@@ -309,8 +312,8 @@ static void steps(void)
         force[k] = run_impact(&l, -0.01, 3.0).force;
         lab_free(&l);
     }
-    verify_row("FF9", "force on a wall of 20 000 triangles over that on one of 2", force[1] / force[0], 1.0, 1e-9,
-               VERIFY_REL);
+    verify_row("FF9", "force on a wall of 20 000 triangles over that on one of 2", force[1] / force[0], 1.0,
+               1e-9, VERIFY_REL);
 }
 
 /* FF5, FF10: a floe that is driven into a pile, back and in again. */
@@ -335,8 +338,8 @@ static void driven(void)
             work += 0.5 * (before + force) * 0.5 * w->dt;
         }
         if (k) {
-            verify_row("FF10", "force of a floe driven through a pile, one diameter deep [kN]", 1e-3 * force, 2000.0,
-                       1e-3, VERIFY_REL);
+            verify_row("FF10", "force of a floe driven through a pile, one diameter deep [kN]", 1e-3 * force,
+                       2000.0, 1e-3, VERIFY_REL);
             lab_free(&l);
             continue;
         }
@@ -352,7 +355,8 @@ static void driven(void)
         }
         verify_row("FF5", "again: begins at [m]", begins, 0.2, 0.1, VERIFY_REL);
         while (6.0 - w->b.x[0].x - 0.01 < DEPTH[k]) lab_run(&l, 1);
-        verify_row("FF5", "again: force at the same depth [kN]", 1e-3 * fabs(w->b.f[0].x), 2474.0, 0.02, VERIFY_REL);
+        verify_row("FF5", "again: force at the same depth [kN]", 1e-3 * fabs(w->b.f[0].x), 2474.0, 0.02,
+                   VERIFY_REL);
         lab_free(&l);
     }
 }
@@ -380,8 +384,10 @@ static void ice_on_ice(void)
                      fabs(l.w.ledger.residual) / (4.0 * l.w.b.m[0]), 1e-6);
         lab_free(&l);
     }
-    verify_row("FF6", "two faces that overlap on 1.5 m2 [kN]", 1e-3 * force[0], 2000.0 * pow(1.5, 0.9), 1e-3, VERIFY_REL);
-    verify_row("FF6", "the same under the law quick [kN]", 1e-3 * force[1], 2000.0 * pow(1.5, 0.9), 1e-3, VERIFY_REL);
+    verify_row("FF6", "two faces that overlap on 1.5 m2 [kN]", 1e-3 * force[0], 2000.0 * pow(1.5, 0.9), 1e-3,
+               VERIFY_REL);
+    verify_row("FF6", "the same under the law quick [kN]", 1e-3 * force[1], 2000.0 * pow(1.5, 0.9), 1e-3,
+               VERIFY_REL);
 }
 
 int main(void)

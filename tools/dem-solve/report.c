@@ -207,17 +207,19 @@ static void report_inflow(const fl_world *w, FILE *f)
 static void report_crushing(const fl_world *w, FILE *f)
 {
     const fl_crushing_state *s = &w->crushing;
-    fprintf(f, "crushing           %.4g m3 of ice in %" PRId64 " contact-steps, %.4g J; largest force %.4g N\n",
+    fprintf(f,
+            "crushing           %.4g m3 of ice in %" PRId64 " contact-steps, %.4g J; largest force %.4g N\n",
             s->volume, s->contact_steps, w->ledger.crushing, s->peak);
     if (s->dents_dropped)
-        fprintf(f, "                   %" PRId64 " dents more than a floe keeps, %d\n", s->dents_dropped, FL_DENTS);
+        fprintf(f, "                   %" PRId64 " dents more than a floe keeps, %d\n", s->dents_dropped,
+                FL_DENTS);
 }
 
 static void report_breaking(const fl_world *w, FILE *f)
 {
     const fl_breaking_state *s = &w->breaking;
-    fprintf(f, "broken floes       %" PRId64 " bent, %" PRId64 " split, %" PRId64 " checks", s->bent, s->split,
-            s->checks);
+    fprintf(f, "broken floes       %" PRId64 " bent, %" PRId64 " split, %" PRId64 " checks", s->bent,
+            s->split, s->checks);
     if (s->too_small) fprintf(f, "; %" PRId64 " breaks too small (failure.fragment_min)", s->too_small);
     if (s->no_room) fprintf(f, "; %" PRId64 " without room (failure.fragments_max)", s->no_room);
     if (s->buckled) fprintf(f, "; %" PRId64 " loads near buckling", s->buckled);

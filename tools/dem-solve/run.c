@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 #include "clocks.h"
+#include "final_ice.h"
 #include "outputs.h"
 #include "save.h"
 #include "sim/energy_balance.h"
@@ -161,7 +162,7 @@ int run_scene(struct run *r, fl_err *err)
     fl_energy_update(r->w);
     warn_at_end(r, rc != 0);
     /* Also after a failed run: the rows until then are good, and the tables keep their names. */
-    if (!close_outputs(&u, err) && !rc) return 0;
+    if (!close_outputs(&u, err) && !rc) return r->stopped ? 0 : write_final_ice(r, err);
     if (!pipe_signal || err->code != FL_SYSTEM) return -1;
     r->stopped = SIGPIPE;
     *err = (fl_err){0};
