@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# DilatedDEM: make [all|demo|check|verify|bench|lint|install|clean] [SAN=address,undefined]
+# DilatedDEM: make [all|demo|check|verify|bench|lint|install|uninstall|deb|clean] [SAN=address,undefined]
 include config.mk
 
 B     = build$(if $(SAN),/san)
@@ -53,12 +53,21 @@ $(SUPPORT): $(HELPOBJ)
 	@rm -f $@
 	ar rcs $@ $^
 
+# What --version says of the sources: linked into the programs alone, so that a commit builds nothing else anew.
+$B/source.c: FORCE
+	@mkdir -p $(@D)
+	@printf '#include "base/tool.h"\nconst char fl_tool_source[] = "%s";\n' "$$(sh share/packaging/source.sh)" >$@.new
+	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+$B/source.o: $B/source.c
+	@$(CCALL) -c $< -o $@
+FORCE:
+
 # A program is the .c files of its folder on the two libraries; what it does not use is not linked.
 VIEW = $(if $(GL),,%/shot.c) $(if $(SDL),,%/window.c)
 $B/tools/ice-view/%.o: CFLAGS += $(if $(GL),-DFL_HAVE_GL) $(if $(SDL),-DFL_HAVE_WINDOW)
 $B/bin/ice-view: LIBS += $(if $(GL),-lepoxy) $(if $(SDL),-lSDL2) -ldl
 define tool
-$B/bin/$1: $(patsubst %.c,$B/%.o,$(filter-out $(VIEW),$(wildcard tools/$1/*.c))) $B/libfloe-shim.a $B/libfloe.a
+$B/bin/$1: $(patsubst %.c,$B/%.o,$(filter-out $(VIEW),$(wildcard tools/$1/*.c))) $B/source.o $B/libfloe-shim.a $B/libfloe.a
 	@mkdir -p $$(@D)
 	$$(CCALL) $$(LDFLAGS) -Wl,--start-group $$^ -Wl,--end-group $$(LIBS) $$(CGAL) -o $$@
 endef
@@ -102,16 +111,32 @@ golden-update: all
 lint:
 	@sh tests/lint/lint.sh
 
+# Programs are stripped; STRIP= keeps their symbols.  What runs of the examples left in out/ is not installed.
+STRIP = -s
+SHARED = $(DESTDIR)$(PREFIX)/share
+PAGES  = $(foreach s,1 5 7,$(addprefix man$s/,$(notdir $(wildcard tools/*/*.$s share/man$s/*.$s))))
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(foreach s,1 5 7,$(DESTDIR)$(PREFIX)/share/man/man$s) $(DESTDIR)$(PREFIX)/share/dilateddem
-	install $(TOOLS:%=$B/bin/%) $(DESTDIR)$(PREFIX)/bin
-	install -m 644 $(wildcard tools/*/*.1) $(DESTDIR)$(PREFIX)/share/man/man1
-	install -m 644 $(wildcard share/man5/*.5) $(DESTDIR)$(PREFIX)/share/man/man5
-	install -m 644 $(wildcard share/man7/*.7) $(DESTDIR)$(PREFIX)/share/man/man7
-	cp -R share/materials share/examples share/doc $(DESTDIR)$(PREFIX)/share/dilateddem
+	install -d $(DESTDIR)$(PREFIX)/bin $(foreach s,1 5 7,$(SHARED)/man/man$s) $(SHARED)/dilateddem $(SHARED)/doc/dilateddem \
+		$(SHARED)/bash-completion/completions $(SHARED)/zsh/site-functions
+	install $(STRIP) $(TOOLS:%=$B/bin/%) $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(wildcard tools/*/*.1) $(SHARED)/man/man1
+	install -m 644 $(wildcard share/man5/*.5) $(SHARED)/man/man5
+	install -m 644 $(wildcard share/man7/*.7) $(SHARED)/man/man7
+	install -m 644 README.md CHANGES.md COPYING $(wildcard share/doc/*.md share/doc/*.png) $(SHARED)/doc/dilateddem
+	tar -C share --exclude=out --exclude=__pycache__ -cf - materials examples python | tar -C $(SHARED)/dilateddem -xf -
+	install -m 644 share/packaging/smoke.sh $(SHARED)/dilateddem
+	sed 's/COMMANDS/$(TOOLS)/' share/completion/dilateddem.bash >$(SHARED)/bash-completion/completions/dem-solve
+	cd $(SHARED)/bash-completion/completions && for t in $(filter-out dem-solve,$(TOOLS)); do ln -sf dem-solve $$t; done
+	sed 's/COMMANDS/$(TOOLS)/' share/completion/_dilateddem >$(SHARED)/zsh/site-functions/_dilateddem
+uninstall:
+	rm -f $(TOOLS:%=$(DESTDIR)$(PREFIX)/bin/%) $(PAGES:%=$(SHARED)/man/%) $(SHARED)/zsh/site-functions/_dilateddem \
+		$(TOOLS:%=$(SHARED)/bash-completion/completions/%)
+	rm -rf $(SHARED)/dilateddem $(SHARED)/doc/dilateddem
+deb:
+	@sh share/packaging/deb.sh build
 clean:
 	rm -rf build
 
-.PHONY: all ladder tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install clean
+.PHONY: all FORCE ladder tests readers corpora setup demo check verify bench run-demo run-check run-verify run-bench golden-update lint install uninstall deb clean
 .SECONDARY:
 -include $(wildcard $B/*/*/*.d $B/*/*/*/*.d)

@@ -144,6 +144,7 @@ check)
         [ -f "tests/fuzz/$name.c" ] && add "corpus/${name#fuzz_}" "FLOE_FUZZ=0 exec $straight '${reader%.o}'"
     done
     add view/pictures "exec sh tests/view/pictures.sh '$build'"
+    add python/floe "exec sh tests/python.sh '$build'"
     add view/window "exec sh tests/view/window.sh '$build'"
     for c in tests/golden/*/cmd; do
         [ -f "$c" ] && add "golden/$(basename "${c%/cmd}")" "exec sh tests/golden.sh '${c%/cmd}' '$build'"

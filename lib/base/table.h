@@ -3,9 +3,11 @@
  *
  *     #loads 1
  *     #by dem-solve 0.1.0 tower.scene
+ *     #set run.duration = 10 s
  *     #start 0
  *     t[s]	part	fx[N]	...
  *     0.01	tower	1250.5	...
+ *     #report steps 1000 of 0.01 s
  *
  * Memory does not grow with the number of rows. */
 #ifndef FL_BASE_TABLE_H

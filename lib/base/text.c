@@ -37,6 +37,7 @@ void fl_text_close(fl_text *t)
     free(t->joined);
     free(t->field);
     free(t->history);
+    free(t->run_lines);
     *t = (fl_text){0};
 }
 
@@ -115,13 +116,25 @@ int fl_text_line(fl_text *t, fl_err *err)
     return 1;
 }
 
-static int keep_history(fl_text *t, fl_err *err)
+/* Append the current line to a text of lines. */
+static int append_line(const fl_text *t, char **to, int32_t *len, int32_t *cap, fl_err *err)
 {
-    if (fl_grow(&t->history, &t->history_cap, t->history_len + t->len + 2, 1, err)) return -1;
-    memcpy(t->history + t->history_len, t->line, (size_t)t->len);
-    t->history_len += t->len;
-    memcpy(t->history + t->history_len, "\n", 2);
-    t->history_len++;
+    if (fl_grow(to, cap, *len + t->len + 2, 1, err)) return -1;
+    memcpy(*to + *len, t->line, (size_t)t->len);
+    *len += t->len;
+    memcpy(*to + *len, "\n", 2);
+    ++*len;
+    return 0;
+}
+
+/* Keep a comment that is part of the history, or of the scene and the closing report of a run. */
+static int keep_comment(fl_text *t, fl_err *err)
+{
+    const char *p = t->line;
+    if (strncmp(p, "#by ", 4) == 0 || strncmp(p, "#stopped ", 9) == 0)
+        return append_line(t, &t->history, &t->history_len, &t->history_cap, err);
+    if (strncmp(p, "#set ", 5) == 0 || strncmp(p, "#report ", 8) == 0)
+        return append_line(t, &t->run_lines, &t->run_lines_len, &t->run_lines_cap, err);
     return 0;
 }
 
@@ -160,7 +173,7 @@ int fl_text_split(fl_text *t, fl_err *err)
 {
     char *p = t->line;
     t->n = t->next = 0;
-    if (strncmp(p, "#by ", 4) == 0 && keep_history(t, err)) return -1;
+    if (*p == '#' && keep_comment(t, err)) return -1;
     for (;;) {
         while (class_of(*p) == BLANK) p++;
         if (class_of(*p) == END) break;

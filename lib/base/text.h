@@ -19,8 +19,10 @@ typedef struct {
     int64_t line_number; /* line number, from 1 */
     char **field;        /* fields of the current row */
     int32_t n, next, field_cap;
-    char *history; /* the "#by ..." lines, each with its newline; NULL if none */
+    char *history; /* the "#by ..." and "#stopped ..." lines, each with its newline; NULL if none */
     int32_t history_len, history_cap;
+    char *run_lines; /* the "#set ..." and "#report ..." lines of a run, likewise */
+    int32_t run_lines_len, run_lines_cap;
     char kind[32]; /* kind and version, set by fl_text_magic() */
     int version;
 } fl_text;
@@ -39,12 +41,12 @@ int fl_text_magic(fl_text *t, const char *kind, int newest, fl_err *err);
  * 1, or 0 at the end of the file, or -1 with err (too long, a nul byte, read error). */
 int fl_text_line(fl_text *t, fl_err *err);
 
-/* Splits the line just read into field[0 .. n) at blanks and tabs, up to a "#", and sets next = 0.  A "#by"
- * line is added to the history.  1, or 0 if the line is empty, or -1 with err. */
+/* Splits the line just read into field[0 .. n) at blanks and tabs, up to a "#", and sets next = 0.
+ * Lines of the history and of the run are kept.  1, or 0 if the line is empty, or -1 with err. */
 int fl_text_split(fl_text *t, fl_err *err);
 
-/* Reads the next row: skips blank lines and comments (collecting "#by" lines), splits at blanks and tabs into
- * field[0 .. n), and sets next = 0.  1, 0 or -1 as above. */
+/* Reads the next row: skips blank lines and comments (keeping history and lines of the run), splits at
+ * blanks and tabs into field[0 .. n), and sets next = 0.  1, 0 or -1 as above. */
 int fl_text_row(fl_text *t, fl_err *err);
 
 /* Return the next field of the row.  `what` names it in the message if it is missing or invalid. */

@@ -39,7 +39,19 @@ void fl_write_file_header(FILE *f, const char *kind, int version, const char *hi
     fprintf(f, "#%s %d\n%s%s\n", kind, version, history ? history : "", by->text);
 }
 
-void fl_tool_version(const char *program) { printf("%s %s\n", program, FL_VERSION); }
+#if defined __clang__
+#define COMPILER "clang " __clang_version__
+#elif defined __GNUC__
+#define COMPILER "gcc " __VERSION__
+#else
+#define COMPILER "an unknown compiler"
+#endif
+
+void fl_tool_version(const char *program)
+{
+    printf("%s %s\n%s, by %s\nGPL-3.0-or-later, without warranty\n", program, FL_VERSION, fl_tool_source,
+           COMPILER);
+}
 
 void fl_tool_begin(void)
 {

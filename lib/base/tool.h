@@ -25,7 +25,11 @@ void fl_history_line_word(fl_history_line *by, const char *option, const char *w
 void fl_write_file_header(FILE *f, const char *kind, int version, const char *history,
                           const fl_history_line *by);
 
-/* Prints "program 0.1.0" to standard output, for --version. */
+/* Where the sources come from: "commit 0123456789ab".  The build links its own into the programs; the
+ * library's is "unknown commit". */
+extern const char fl_tool_source[];
+
+/* Prints the version, the source, the compiler and the licence to standard output, for --version. */
 void fl_tool_version(const char *program);
 
 /* Start of main, before any file is opened.  A closed standard input, output or error is replaced by a

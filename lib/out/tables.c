@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "out/tables.h"
 #include <inttypes.h>
+#include <string.h>
 #include "base/number_text.h"
 #include "base/pi.h"
 
@@ -113,15 +114,33 @@ static void write_name(FILE *f, const fl_column *c)
 }
 
 void fl_table_write_header(FILE *f, const fl_table_format *table, unsigned options, const char *history,
-                           const fl_history_line *by, double start)
+                           const fl_history_line *by, const char *sets, double start)
 {
     char text[FL_NUMBER_LEN];
     fl_write_file_header(f, table->kind, 1, history, by);
+    if (sets) fputs(sets, f);
     if (start > 0.0) fprintf(f, "#start %s\n", fl_number_text(start, text));
     fputs("t[s]", f);
     for (int k = 0; k < table->columns; k++)
         if (is_present(&table->column[k], options)) write_name(f, &table->column[k]);
     putc('\n', f);
+}
+
+void fl_table_write_report(FILE *f, const char *text, const char *program)
+{
+    const size_t skip = strlen(program);
+    while (*text) {
+        const size_t len = strcspn(text, "\n");
+        const char *from = strncmp(text, program, skip) == 0 ? text + skip : text;
+        fprintf(f, "#report %.*s\n", (int)(text + len - from), from);
+        text += len + (text[len] == '\n');
+    }
+}
+
+void fl_table_write_stopped(FILE *f, int status, double t, const char *why)
+{
+    char text[FL_NUMBER_LEN];
+    fprintf(f, "#stopped %d at t = %s s: %s\n", status, fl_number_text(t, text), why);
 }
 
 static void put_real(FILE *f, double x)

@@ -7,9 +7,9 @@
  * test_tables.c checks the manual page against it.  The table energy(5) has its columns in
  * sim/energy_balance.c, beside the ledger that it prints.
  *
- * A header has kind, version, history and column names.  A row is one line, tab-separated, with numbers
- * that read back to the same double.  Every table begins with the column t[s].  Write errors stay in the
- * stream. */
+ * A header has kind, version, history, scene and column names.  A row is one line, tab-separated, with
+ * numbers that read back to the same double.  Every table begins with the column t[s].  Write errors stay in
+ * the stream. */
 #ifndef FL_OUT_TABLES_H
 #define FL_OUT_TABLES_H
 #include <stddef.h>
@@ -50,9 +50,17 @@ typedef struct {
 
 #define FL_TABLE_COLUMNS(list) list, (int)(sizeof(list) / sizeof *(list))
 
-/* start: when the first interval begins [s]; a line "#start T" if above 0, as in a run that was resumed. */
+/* sets: the lines "#set ..." of the scene, or NULL.  start: when the first interval begins [s]; a line
+ * "#start T" if above 0, as in a run that was resumed. */
 void fl_table_write_header(FILE *f, const fl_table_format *table, unsigned options, const char *history,
-                           const fl_history_line *by, double start);
+                           const fl_history_line *by, const char *sets, double start);
+
+/* Write each line of a text after "#report ", as a comment that readers pass over; the word `program`, where
+ * a line begins with it, is left out. */
+void fl_table_write_report(FILE *f, const char *text, const char *program);
+
+/* The last line of the table of a run that ended early: "#stopped STATUS at t = 1.5 s: why". */
+void fl_table_write_stopped(FILE *f, int status, double t, const char *why);
 
 /* row: the row struct of the table; t [s]. */
 void fl_table_write_row(FILE *f, const fl_table_format *table, unsigned options, double t, const void *row);

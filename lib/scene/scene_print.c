@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
 #include <string.h>
+#include "base/array.h"
 #include "base/text.h"
 #include "scene/scene_section.h"
 #include "scene/scene_print.h"
@@ -17,6 +19,19 @@ static void write_section(FILE *f, int section, const char *names, const void *a
             fprintf(f, "%s = %s\n", fl_key_table[k].key, fl_value_text(&fl_key_table[k], at, text));
 }
 
+/* The names in the heading of section i of its kind, each after the mark: " ice steel". */
+static void name_section(const fl_scene *scene, int s, int32_t i, char mark,
+                         char names[2 * FL_SCENE_NAME + 2])
+{
+    const size_t size = 2 * FL_SCENE_NAME + 2;
+    names[0] = '\0';
+    if (s == FL_SEC_MATERIAL) snprintf(names, size, "%c%s", mark, scene->material[i].name);
+    if (s == FL_SEC_GROUP) snprintf(names, size, "%c%s", mark, scene->group[i].name);
+    if (s == FL_SEC_PART) snprintf(names, size, "%c%s", mark, scene->part[i].name);
+    if (s == FL_SEC_CONTACT && scene->contact[i].a[0])
+        snprintf(names, size, "%c%s%c%s", mark, scene->contact[i].a, mark, scene->contact[i].b);
+}
+
 void fl_scene_write(FILE *f, const fl_scene *scene)
 {
     char names[2 * FL_SCENE_NAME + 2];
@@ -32,16 +47,89 @@ void fl_scene_write(FILE *f, const fl_scene *scene)
         for (int32_t i = 0; i < fl_section_count(scene, s); i++) {
             const fl_scene_head *head = fl_section_at(scene, s, i);
             const int pair = s == FL_SEC_CONTACT;
-            names[0] = '\0';
-            if (s == FL_SEC_MATERIAL) snprintf(names, sizeof names, " %s", scene->material[i].name);
-            if (s == FL_SEC_GROUP) snprintf(names, sizeof names, " %s", scene->group[i].name);
-            if (s == FL_SEC_PART) snprintf(names, sizeof names, " %s", scene->part[i].name);
-            if (pair) snprintf(names, sizeof names, " %s %s", scene->contact[i].a, scene->contact[i].b);
             if (pair && scene->contact[i].a[0] == '\0') continue;
+            name_section(scene, s, i, ' ', names);
             if (fl_section_table[s].names || head->present || s == FL_SEC_RUN || s == FL_SEC_OUTPUT)
                 write_section(f, s, names, head, pair);
         }
     }
+}
+
+void fl_scene_write_given(FILE *f, const fl_scene *scene)
+{
+    char names[2 * FL_SCENE_NAME + 2];
+    for (int s = 0; s < FL_SECTIONS; s++)
+        for (int32_t i = 0; i < fl_section_count(scene, s); i++) {
+            const fl_scene_head *head = fl_section_at(scene, s, i);
+            name_section(scene, s, i, ' ', names);
+            if (head->present) write_section(f, s, names, head, 1);
+        }
+}
+
+/* 1 if a key that is given needs this one to be given too (unused_keys.h). */
+static int is_needed(const fl_scene_head *head, const fl_key *needed)
+{
+    const int first = fl_key_first((int)needed->section);
+    for (int k = first; k < fl_key_first((int)needed->section + 1); k++)
+        for (int c = 0; c < 2; c++)
+            if (fl_key_table[k].needs[c] && head->key[k - first].line &&
+                strcmp(fl_key_table[k].needs[c], needed->key) == 0)
+                return 1;
+    return 0;
+}
+
+/* 1 if a record of the run needs the key: it is given, and differs from its default.  Threads, paths and
+ * checkpoints change no number; of the intervals those of the loads and of the table itself count. */
+static int is_of_run(const fl_key *key, const fl_scene_head *head, const void *defaults, const char *interval)
+{
+    char text[FL_VALUE_TEXT], usual[FL_VALUE_TEXT];
+    const fl_scene_mark *mark = &head->key[key - fl_key_table - fl_key_first((int)key->section)];
+    if (mark->line == 0 || mark->is_auto) return 0;
+    if (key->section == FL_SEC_RUN && strcmp(key->key, "threads") == 0) return 0;
+    if (key->section == FL_SEC_OUTPUT && strcmp(key->key, "loads_every") != 0 &&
+        strcmp(key->key, interval) != 0)
+        return 0;
+    if (key->section == FL_SEC_CONTACT || is_needed(head, key)) return 1; /* it overrides [contact] */
+    return strcmp(fl_value_text(key, head, text), fl_value_text(key, defaults, usual)) != 0;
+}
+
+/* Write the keys of a section; a section without any is made present by the default of its first key. */
+static void write_section_sets(FILE *f, int s, const char *names, const fl_scene_head *head, void *defaults,
+                               const char *interval)
+{
+    char text[FL_VALUE_TEXT];
+    const char *section = fl_section_table[s].name;
+    const int first = fl_key_first(s);
+    int written = s == FL_SEC_RUN || s == FL_SEC_OUTPUT;
+    fl_section_defaults(s, names[0] ? names + 1 : "", defaults);
+    for (int k = first; k < fl_key_first(s + 1); k++) {
+        const fl_key *key = &fl_key_table[k];
+        if (!is_of_run(key, head, defaults, interval)) continue;
+        fprintf(f, "#set %s%s.%s = %s\n", section, names, key->key, fl_value_text(key, head, text));
+        written = 1;
+    }
+    if (!written) {
+        const fl_key *key = &fl_key_table[first];
+        fprintf(f, "#set %s%s.%s = %s\n", section, names, key->key, fl_value_text(key, defaults, text));
+    }
+}
+
+int fl_scene_write_sets(FILE *f, const fl_scene *scene, const char *interval, fl_err *err)
+{
+    char names[2 * FL_SCENE_NAME + 2];
+    size_t largest = 0;
+    for (int s = 0; s < FL_SECTIONS; s++)
+        if (fl_section_table[s].size > largest) largest = fl_section_table[s].size;
+    void *const defaults = fl_alloc((int64_t)largest, 1, err);
+    if (!defaults) return -1;
+    for (int s = 0; s < FL_SECTIONS; s++)
+        for (int32_t i = 0; i < fl_section_count(scene, s); i++) {
+            const fl_scene_head *head = fl_section_at(scene, s, i);
+            name_section(scene, s, i, '.', names);
+            if (head->present) write_section_sets(f, s, names, head, defaults, interval);
+        }
+    free(defaults);
+    return 0;
 }
 
 /* Print the words of "a|b|c". */

@@ -10,6 +10,15 @@
  * of the stream, see ferror(). */
 void fl_scene_write(FILE *f, const fl_scene *scene);
 
+/* Print the sections that are present with the keys that are given, without a first line. */
+void fl_scene_write_given(FILE *f, const fl_scene *scene);
+
+/* Print the lines "#set section.key = value" at the head of a table: the keys that are given and differ from
+ * their defaults, without those that change no number of it (run.threads and [output], but for loads_every
+ * and the key `interval` of the table, "" for none).  fl_scene_read_sets() makes the same scene of them.
+ * 0, or -1 with FL_SYSTEM in err. */
+int fl_scene_write_sets(FILE *f, const fl_scene *scene, const char *interval, fl_err *err);
+
 /* Print meaning, unit, range, default, old name, word of the manual and source of one key
  * ("water.density", also by its old name), of every key of a section ("water"), or, for "", of the
  * sections. Returns 0, or -1 with FL_USAGE and the nearest name for an unknown key. */

@@ -393,20 +393,78 @@ int fl_scene_read_text(fl_scene *scene, fl_text *text, fl_err *err)
     return rc;
 }
 
-int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err)
+/* Forget that the key was given: a later line of a table replaces an earlier one. */
+static void forget_key(const source *in, const fl_address *at)
 {
-    source in = {.scene = scene, .err = err, .file = FL_SCENE_ARGUMENT};
+    const int32_t i = fl_section_named(in->scene, at->section, at->a, at->b);
+    fl_scene_head *head = fl_section_at(in->scene, at->section, i);
+    if (head) head->key[at->key - fl_key_first(at->section)].line = 0;
+}
+
+static int assign(const source *in, const char *assignment)
+{
     fl_address at;
     char why[WHY], name[200], value[FL_VALUE_TEXT];
     const char *equals = strchr(assignment, '=');
     if (!equals || equals == assignment)
-        return fail_line(&in, "\"%.60s\" is not section.key=value", assignment);
+        return fail_line(in, "\"%.60s\" is not section.key=value", assignment);
     if ((size_t)(equals - assignment) >= sizeof name || strlen(equals + 1) >= sizeof value)
-        return fail_line(&in, "\"%.60s...\" is too long", assignment);
+        return fail_line(in, "\"%.60s...\" is too long", assignment);
     memcpy(name, assignment, (size_t)(equals - assignment));
     name[equals - assignment] = '\0';
     memcpy(value, equals + 1, strlen(equals + 1) + 1);
-    if (fl_address_read(trim_blanks(name), &at, why, sizeof why)) return fail_line(&in, "%s", why);
-    if (at.key < 0) return fail_line(&in, "\"%.60s\" is a section, section.key=value is expected", name);
-    return set_key(&in, &at, FL_MAP_SAME, trim_blanks(value));
+    if (fl_address_read(trim_blanks(name), &at, why, sizeof why)) return fail_line(in, "%s", why);
+    if (at.key < 0) return fail_line(in, "\"%.60s\" is a section, section.key=value is expected", name);
+    if (in->file != FL_SCENE_ARGUMENT) forget_key(in, &at);
+    return set_key(in, &at, FL_MAP_SAME, trim_blanks(value));
+}
+
+int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err)
+{
+    const source in = {.scene = scene, .err = err, .file = FL_SCENE_ARGUMENT};
+    return assign(&in, assignment);
+}
+
+/* Read the lines of an open table. */
+static int read_sets(source *in, fl_err *err)
+{
+    int more, sets = 0;
+    while ((more = fl_text_line(&in->text, err)) > 0) {
+        if (in->text.line[0] != '#') continue;
+        if (strncmp(in->text.line, "#set ", 5) == 0) {
+            if (assign(in, in->text.line + 5)) return -1;
+            sets++;
+        } else if (fl_text_split(&in->text, err) < 0) { /* keeps the history */
+            return -1;
+        }
+    }
+    if (more < 0) return -1;
+    if (sets == 0)
+        return fl_fail(err, FL_INPUT,
+                       "%s: no line \"#set section.key = value\": a table of dem-solve is expected",
+                       fl_in_name(in->text.in));
+    return 0;
+}
+
+int fl_scene_read_sets(fl_scene *scene, const char *path, char **history, fl_err *err)
+{
+    source *in = fl_alloc(1, sizeof *in, err);
+    fl_scene fresh;
+    int rc = -1;
+    *history = NULL;
+    fl_scene_init(&fresh);
+    if (!in) return -1;
+    in->scene = &fresh;
+    in->err = err;
+    if (fl_text_open(&in->text, path, err) || fl_text_magic(&in->text, NULL, 1, err)) goto done;
+    in->file = add_file_name(&fresh, fl_in_name(in->text.in), err);
+    if (in->file < 0 || read_sets(in, err)) goto done;
+    if (in->text.history && !(*history = fl_alloc_text(in->text.history, err))) goto done;
+    rc = 0;
+done:
+    fl_text_close(&in->text);
+    free(in);
+    if (rc) fl_scene_free(&fresh);
+    else *scene = fresh;
+    return rc;
 }

@@ -20,4 +20,10 @@ int fl_scene_read_text(fl_scene *scene, fl_text *text, fl_err *err);
  * 0, or -1 with FL_USAGE or FL_SYSTEM; the scene keeps its values then. */
 int fl_scene_set(fl_scene *scene, const char *assignment, fl_err *err);
 
+/* The scene of the run that wrote a table, by its lines "#set section.key = value" (fl_scene_write_sets); a
+ * later line replaces an earlier one.  *history: the history of the table, to be freed, or NULL.  Calls
+ * fl_scene_init(); 0, or -1 with FL_INPUT (no such line; an unknown key, with file and line) or FL_SYSTEM and
+ * the scene unchanged. */
+int fl_scene_read_sets(fl_scene *scene, const char *path, char **history, fl_err *err);
+
 #endif

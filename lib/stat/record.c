@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
@@ -434,6 +435,31 @@ int fl_record_next(fl_record *r, fl_err *err)
 }
 
 const char *fl_record_history(const fl_record *r) { return r->reader->table.text.history; }
+
+const char *fl_record_run_lines(const fl_record *r) { return r->reader->table.text.run_lines; }
+
+/* 1 if one of the lines begins with that word. */
+static int has_line(const char *lines, const char *word)
+{
+    for (const char *p = lines; p && *p; p = strchr(p, '\n') + 1)
+        if (strncmp(p, word, strlen(word)) == 0) return 1;
+    return 0;
+}
+
+enum fl_run_end fl_record_end(const fl_record *r, char why[FL_RUN_END_TEXT])
+{
+    static const char STOPPED[] = "#stopped ";
+    const char *lines = fl_record_run_lines(r);
+    why[0] = '\0';
+    for (const char *p = fl_record_history(r); p && *p; p = strchr(p, '\n') + 1) {
+        if (strncmp(p, STOPPED, strlen(STOPPED)) != 0) continue;
+        p += strlen(STOPPED);
+        snprintf(why, FL_RUN_END_TEXT, "%.*s", (int)strcspn(p, "\n"), p);
+        return FL_RUN_STOPPED;
+    }
+    return r->reader->loads && has_line(lines, "#set ") && !has_line(lines, "#report steps ") ? FL_RUN_OPEN
+                                                                                              : FL_RUN_ENDED;
+}
 
 const char *fl_record_name(const fl_record *r) { return fl_in_name(r->reader->table.text.in); }
 

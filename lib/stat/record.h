@@ -12,6 +12,8 @@
 /* Larger values are rejected.  No load is near it, and squares and sums of any number of rows stay finite. */
 #define FL_RECORD_LARGEST_VALUE 1e100
 
+enum { FL_RUN_END_TEXT = 400 };
+
 /* Signals and rows to read.
  *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total of
  *                    the summed components; signals = 0 selects fx, fy, fz, fh of a loads table
@@ -77,8 +79,19 @@ int fl_record_open(fl_record *r, const char *path, const fl_record_selection *se
  * after it, and so does any table whose rows are combined: their number is not known. */
 int fl_record_next(fl_record *r, fl_err *err);
 
-/* The "#by" lines of the table, or NULL; complete at the end of it.  Borrowed. */
+/* The history of the table, its "#by" and "#stopped" lines, or NULL; and the "#set" and "#report" lines of
+ * its run.  Complete at the end of the table.  Borrowed. */
 const char *fl_record_history(const fl_record *r);
+const char *fl_record_run_lines(const fl_record *r);
+
+/* How the run of a record ended, known at the end of the table. */
+enum fl_run_end {
+    FL_RUN_ENDED,   /* as it should, or the table does not say: it is of another program */
+    FL_RUN_STOPPED, /* early: why is the rest of its line "#stopped " */
+    FL_RUN_OPEN /* the loads of a run have a scene at their head and no report at the end: the run was killed,
+                    * or goes on */
+};
+enum fl_run_end fl_record_end(const fl_record *r, char why[FL_RUN_END_TEXT]);
 
 /* Name for messages. */
 const char *fl_record_name(const fl_record *r);

@@ -233,6 +233,7 @@ int fl_run_update(fl_run *r, fl_err *err)
 int fl_run_finish(fl_run *r, const char *by, fl_err *err)
 {
     const char *history = fl_record_history(&r->record);
+    r->end_of_run = fl_record_end(&r->record, r->why);
     if (!r->state || r->states == 0)
         return fl_fail(err, FL_INPUT, "%s: the cut leaves no row, the record ends at %.10g s",
                        fl_record_name(&r->record), r->record.edge[1]);
@@ -242,11 +243,14 @@ int fl_run_finish(fl_run *r, const char *by, fl_err *err)
     for (int32_t k = 0; k < r->states; k++)
         if (end_signal(r, &r->state[k], err)) return -1;
     if (fl_run_update(r, err)) return -1;
-    const size_t len = history ? strlen(history) : 0, own = strlen(by);
-    char *chain = fl_alloc((int64_t)(len + own) + 1, 1, err);
+    /* A table without its end is told by a line of its own. */
+    const char *open = r->end_of_run == FL_RUN_OPEN ? FL_RUN_OPEN_LINE : "";
+    const size_t len = history ? strlen(history) : 0, more = strlen(open), own = strlen(by);
+    char *chain = fl_alloc((int64_t)(len + more + own) + 1, 1, err);
     if (!chain) return -1;
     if (len) memcpy(chain, history, len);
-    memcpy(chain + len, by, own);
+    memcpy(chain + len, open, more);
+    memcpy(chain + len + more, by, own);
     const int rc = fl_summary_add_history(&r->sum, chain, err);
     free(chain);
     return rc;

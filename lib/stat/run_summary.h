@@ -5,6 +5,9 @@
 #include "stat/record.h"
 #include "stat/summary.h"
 
+/* The line that the summary of an unfinished table has in its history. */
+#define FL_RUN_OPEN_LINE "#stopped at an unknown time: the table has no closing report\n"
+
 /* A run being read. */
 typedef struct fl_run_state fl_run_state;
 typedef struct {
@@ -13,7 +16,9 @@ typedef struct {
     fl_run_state *state; /* [states] of each summarised signal, in the order of the record */
     int32_t states;
     fl_record_selection selection;
-    double end; /* end of the last row that counts [s] */
+    double end;                 /* end of the last row that counts [s] */
+    enum fl_run_end end_of_run; /* set by fl_run_finish() */
+    char why[FL_RUN_END_TEXT];
 } fl_run;
 
 /* Open a record as a run.  selection->last must be 0.  0, or -1 with the errors of fl_record_open(). */

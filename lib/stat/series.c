@@ -114,6 +114,11 @@ int fl_series_read(fl_series *s, const char *path, const fl_record_selection *se
         s->history = fl_alloc_text(fl_record_history(&r), err);
         if (!s->history) goto done;
     }
+    if (fl_record_run_lines(&r)) {
+        s->run_lines = fl_alloc_text(fl_record_run_lines(&r), err);
+        if (!s->run_lines) goto done;
+    }
+    s->end = fl_record_end(&r, s->why);
     rc = apply_cut(s, selection, fl_record_name(&r), err);
 done:
     fl_record_close(&r);
@@ -136,5 +141,6 @@ void fl_series_free(fl_series *s)
     free(s->edge);
     free(s->t);
     free(s->history);
+    free(s->run_lines);
     *s = (fl_series){0};
 }

@@ -10,10 +10,13 @@
 
 typedef struct {
     char kind[32];
-    char *history; /* the "#by" lines of the table, or NULL */
-    int32_t n;     /* rows in time, n >= 1 */
-    double *t;     /* [n] as written in the table [s] */
-    double *edge;  /* [n + 1] rising [s] */
+    char *history;   /* of the table, or NULL */
+    char *run_lines; /* "#set" and "#report" lines of its run, or NULL */
+    enum fl_run_end end;
+    char why[FL_RUN_END_TEXT]; /* of a run that stopped */
+    int32_t n;                 /* rows in time, n >= 1 */
+    double *t;                 /* [n] as written in the table [s] */
+    double *edge;              /* [n + 1] rising [s] */
     int32_t parts, signals;
     char **part;           /* [parts] the sum over the parts is the last one, "total" */
     char **signal, **unit; /* [signals] */

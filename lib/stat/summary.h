@@ -55,7 +55,8 @@ typedef struct {
 
 typedef struct {
     fl_summary_settings settings;
-    char *history; /* the chains of "#by" lines of all runs, each once, in alphabetical order; NULL: none */
+    /* The chains of "#by" and "#stopped" lines of all runs, each once, in alphabetical order; NULL: none. */
+    char *history;
     fl_summary_signal *entry; /* [n] by part, the total last, then by signal */
     int32_t n, cap;
 } fl_summary;

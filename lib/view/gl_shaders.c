@@ -237,9 +237,21 @@ const char fl_glsl_tube_pixel[] =
     "in vec3 w;\n"
     "in vec3 n;\n"
     "flat in vec3 tint;\n"
-    "uniform vec3 sun;\n"
+    "uniform vec3 sun, eye, ahead, deep;\n"
+    "uniform float level, clearness;\n"
+    "uniform int water, parallel;\n"
     "layout(location = 0) out vec4 o;\n"
-    "void main() { vec3 N = normalize(n); o = vec4(tint * (0.62 + 0.38 * max(dot(N, sun), 0.0)), 1); }\n";
+    "void main()\n"
+    "{\n"
+    "    vec3 c = tint * (0.62 + 0.38 * max(dot(normalize(n), sun), 0.0));\n"
+    "    vec3 d = parallel == 1 ? ahead : normalize(w - eye);\n"
+    "    // What lies under water is dimmed, but never lost: a chain of forces is to be seen whole.\n"
+    "    if (water == 1 && w.z < level && d.z < 0.0) {\n"
+    "        float path = (level - w.z) / max(-d.z, 0.05);\n"
+    "        c = mix(deep, c, max(exp2(-vec3(6.1, 1.95, 1.37) * clearness * path), vec3(0.4)));\n"
+    "    }\n"
+    "    o = vec4(c, 1);\n"
+    "}\n";
 
 const char fl_glsl_full_vertex[] =
     "out vec2 uv;\n"

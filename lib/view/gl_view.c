@@ -429,14 +429,23 @@ static void draw_transparent(fl_gl_view *g, const fl_view_frame *v, const fl_loo
     glDisable(GL_BLEND);
 }
 
-static void pass_tubes(fl_gl_view *g, const fl_view_frame *v)
+static void pass_tubes(fl_gl_view *g, const fl_view_frame *v, const fl_look *l)
 {
+    float deep[3];
     if (!v->tubes) return;
     glClear(GL_DEPTH_BUFFER_BIT); /* they are seen through the ice */
     glDisable(GL_CULL_FACE);
     glUseProgram(g->tube);
     fl_gl_set_matrix(g->tube, "both", &g->eye.both);
     fl_gl_set_vec3(g->tube, "sun", g->sun);
+    fl_gl_set_vec3(g->tube, "eye", g->eye.eye);
+    fl_gl_set_vec3(g->tube, "ahead", g->eye.ahead);
+    fl_gl_set_int(g->tube, "parallel", g->eye.parallel);
+    for (int k = 0; k < 3; k++) deep[k] = (float)l->water.colour.c[k] / 255.0f;
+    fl_gl_set_vec3(g->tube, "deep", deep);
+    fl_gl_set_float(g->tube, "level", (float)(l->water.level - v->origin.z));
+    fl_gl_set_float(g->tube, "clearness", (float)l->water.opacity);
+    fl_gl_set_int(g->tube, "water", l->water.shown);
     fl_gl_bodies_tubes(g->bodies);
 }
 
@@ -514,7 +523,7 @@ int fl_gl_view_draw(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, con
     if (l->ice.opacity >= 1.0) draw_ice(g, v, l, which, sea);
     else if (ice) draw_transparent(g, v, l, which, sea, 1);
     if (structure && l->structure.opacity < 1.0) draw_transparent(g, v, l, which, sea, 0);
-    pass_tubes(g, v);
+    pass_tubes(g, v, l);
     glDisable(GL_CLIP_DISTANCE0);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);

@@ -60,7 +60,7 @@ static names line_of(const fl_table_format *table, unsigned options, const void 
     FILE *f = open_memstream(&text, &n);
     assert_non_null(f);
     if (row) fl_table_write_row(f, table, options, 0.5, row);
-    else fl_table_write_header(f, table, options, NULL, &by, 0.0);
+    else fl_table_write_header(f, table, options, NULL, &by, NULL, 0.0);
     assert_int_equal(fclose(f), 0);
     char *last = text;
     for (char *p = text; (p = strchr(p, '\n')) && p[1];) last = ++p;

@@ -2,6 +2,7 @@
 /* dem-solve: a scene in, the load on the structure out. */
 #include <errno.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 #include "base/array.h"
@@ -70,10 +71,10 @@ static int open_report(const struct run *r, fl_out *report, fl_err *err)
 static int print_report(const struct run *r, fl_out *report, fl_err *err)
 {
     if (!r->o->report) {
-        if (!r->o->quiet) write_report(r, stderr);
+        if (!r->o->quiet) write_report(r, stderr, REPORT_WHOLE);
         return 0;
     }
-    write_report(r, report->f);
+    write_report(r, report->f, REPORT_WHOLE);
     return fl_out_close(report, err);
 }
 
@@ -228,6 +229,26 @@ static void print_stop(const struct run *r)
             has_checkpoint ? checkpoint : "");
 }
 
+/* The scene of the run that wrote a table, with the changes of the command line. */
+static int write_scene_again(const struct options *o, fl_err *err)
+{
+    fl_scene scene = {0};
+    fl_out out = {0};
+    char *history;
+    int rc = fl_scene_read_sets(&scene, o->again, &history, err);
+    for (int k = 0; k < o->sets && rc == 0; k++) rc = fl_scene_set(&scene, o->set[k], err);
+    if (rc == 0) rc = fl_out_open(&out, o->out ? o->out : "-", o->gzip, err);
+    if (rc == 0) {
+        fprintf(out.f, "#scene 1\n%s", history ? history : "");
+        fl_scene_write_given(out.f, &scene);
+        rc = fl_out_close(&out, err);
+    }
+    fl_out_abort(&out);
+    free(history);
+    fl_scene_free(&scene);
+    return rc ? -1 : 0;
+}
+
 static int run(const struct options *o, int *stopped, fl_err *err)
 {
     struct inputs in = {0};
@@ -237,6 +258,7 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     int32_t *order = NULL;
     int rc = -1;
     if (o->explain) return fl_scene_explain(stdout, o->explain, err);
+    if (o->again) return write_scene_again(o, err);
     if (read_inputs(&in, o, err)) goto done;
     if (o->echo) {
         fl_scene_write(stdout, &in.scene);

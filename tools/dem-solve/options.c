@@ -7,6 +7,7 @@
 static const char USAGE[] =
     "usage: dem-solve [options] SCENE\n"
     "       dem-solve [options] --resume CHECKPOINT\n"
+    "       dem-solve --again TABLE\n"
     "Move ice and water of a scene through time; the load on the structure goes to standard output.\n"
     "SCENE is a scene file, scene(5); - is standard input.\n"
     "\n";
@@ -54,6 +55,11 @@ static const fl_option OPTION[] = {
      .help = "continue the run whose checkpoint this is",
      .kind = FL_OPTION_TEXT,
      .at = AT(resume)},
+    {.word = "again",
+     .argument = "TABLE",
+     .help = "print the scene of the run that wrote this table, and stop",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(again)},
     {.word = "report",
      .letter = 'r',
      .argument = "FILE",
@@ -96,7 +102,11 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
             err, FL_USAGE,
             "--resume continues what its checkpoint holds: it excludes a scene, --ice, --structure, "
             "--gzip, --plan and --probe");
-    if (!o->scene && !o->explain && !o->resume)
+    if (o->again && (o->scene || o->resume || o->ice || o->structure))
+        return fl_fail(
+            err, FL_USAGE,
+            "--again takes the scene of its table: it excludes a scene, --ice, --structure and --resume");
+    if (!o->scene && !o->explain && !o->resume && !o->again)
         return fl_fail(err, FL_USAGE, "expected a scene file; see dem-solve --help");
     return 0;
 }

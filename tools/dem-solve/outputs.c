@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "outputs.h"
 #include <stddef.h>
+#include <stdlib.h>
 #include "base/number_text.h"
 #include "out/frames.h"
 #include "out/tables.h"
+#include "scene/scene_print.h"
 #include "sim/energy_balance.h"
 #include "sim/moving_structure.h"
 #include "sim/sleep.h"
@@ -120,7 +122,22 @@ static fl_packed_writer *packed_writer(const struct run *r, struct outputs *u)
     return &u->packed;
 }
 
-void write_header(struct run *r, struct outputs *u, int table)
+/* The lines "#set ..." of a table, to be freed; NULL with FL_SYSTEM in err. */
+static char *make_sets(const struct run *r, int table, fl_err *err)
+{
+    char interval[40], *text = NULL;
+    size_t n = 0;
+    FILE *f = open_memstream(&text, &n);
+    snprintf(interval, sizeof interval, "%s_every", table_name(table));
+    int bad = !f || fl_scene_write_sets(f, r->scene, interval, err);
+    if (f) bad |= fclose(f) != 0;
+    if (!bad) return text;
+    fl_fail(err, FL_SYSTEM, "out of memory for the head of a table");
+    free(text);
+    return NULL;
+}
+
+int write_header(struct run *r, struct outputs *u, int table, fl_err *err)
 {
     const struct table *a = &TABLE[table];
     if (!a->format) {
@@ -128,10 +145,14 @@ void write_header(struct run *r, struct outputs *u, int table)
         fl_packed_writer *const packed = packed_writer(r, u);
         if (packed) fl_packed_writer_restart(packed);
         fl_frames_header(u->table[table].f, r->history, r->by, &now, r->frames_surface, packed);
-        return;
+        return 0;
     }
+    char *const sets = make_sets(r, table, err);
+    if (!sets) return -1;
     fl_table_write_header(u->table[table].f, a->format, a->options ? a->options(r->w) : 0, r->history, r->by,
-                          a->of_interval ? u->last_row : 0.0);
+                          sets, a->of_interval ? u->last_row : 0.0);
+    free(sets);
+    return 0;
 }
 
 static int open_table(struct run *r, struct outputs *u, int table, fl_err *err)
@@ -146,7 +167,7 @@ int open_outputs(struct run *r, struct outputs *u, fl_err *err)
     for (int k = 0; k < TABLES; k++)
         if (open_table(r, u, k, err)) return -1;
     for (int k = 0; k < TABLES; k++)
-        if (u->table[k].f) write_header(r, u, k);
+        if (u->table[k].f && write_header(r, u, k, err)) return -1;
     for (int k = 0; k < TIMERS; k++) set_timer(r, u, k, k == TABLE_LOADS || k == TIMER_SAVE);
     return 0;
 }
@@ -212,7 +233,7 @@ static int write_frames(struct run *r, struct outputs *u, double t, fl_err *err)
         if (fl_out_close(&u->table[TABLE_FRAMES], err)) return -1;
         u->frame_file = file;
         if (open_table(r, u, TABLE_FRAMES, err)) return -1;
-        write_header(r, u, TABLE_FRAMES);
+        if (write_header(r, u, TABLE_FRAMES, err)) return -1;
         keep_outputs(u);
     }
     if (write_frame(r, u->table[TABLE_FRAMES].f, packed_writer(r, u), t, ice,

@@ -54,8 +54,8 @@ const char *scene_path(const fl_scene *s, int table);
 /* Set timer k of u to its row, with the interval of the scene. */
 void set_timer(struct run *r, struct outputs *u, int timer, int64_t row);
 
-/* Write the header of a table. */
-void write_header(struct run *r, struct outputs *u, int table);
+/* Write the header of a table.  -1 with FL_SYSTEM. */
+int write_header(struct run *r, struct outputs *u, int table, fl_err *err);
 
 /* Open all tables of a new run.  -1 with FL_SYSTEM. */
 int open_outputs(struct run *r, struct outputs *u, fl_err *err);

@@ -18,7 +18,7 @@ int print_probe(struct run *r, FILE *f, fl_err *err)
 {
     r->w->skin = r->o->probe;
     if (fl_neighbour_list_update(r->w, err)) return -1;
-    fl_table_write_header(f, &fl_contacts_table, 0, r->history, r->by, 0.0);
+    fl_table_write_header(f, &fl_contacts_table, 0, r->history, r->by, NULL, 0.0);
     write_near_pairs(r, f, r->o->probe);
     return 0;
 }
@@ -112,7 +112,7 @@ int print_plan(struct run *r, FILE *f, fl_err *err)
     char water[FL_WATER_FORCES_MAX][FL_FORCE_TEXT];
     const double chosen = w->dt;
     const int bad = fl_step_start(w, err);
-    if (!bad || err->code == FL_NUMERIC) warn_at_start(r); /* as before the run itself */
+    if (!bad || err->code == FL_NUMERIC) warn_at_start(r, stderr); /* as before the run itself */
     if (bad || update_chosen_step(r, chosen, err)) return -1;
     describe_forces(w, water);
     while (w->step < r->steps && (spent = wall_clock() - begun) < 0.5)

@@ -25,7 +25,7 @@ static void report_run_error(const fl_error_budget *g, FILE *f)
     putc('\n', f);
 }
 
-static void report_budget(const struct run *r, FILE *f)
+static void report_budget(const struct run *r, FILE *f, enum report_kind kind)
 {
     static const char *const OF[] = {"impulse", "peak", "fx", "fy", "fz", "mx", "my", "mz"};
     const fl_error_budget *g = r->budget;
@@ -37,10 +37,11 @@ static void report_budget(const struct run *r, FILE *f)
         fprintf(f, "%.2g by estimate, of order %.2g; %" PRId64 " searches, steps of %.3g s to %.3g s\n",
                 fl_error_budget_estimate(g, r->w->dt), g->window[last].order, g->n_searches, g->min_dt,
                 g->max_dt);
-    fprintf(f, "                   cost: %" PRId64 " steps in trials, %.3g of all, in %.3g s\n",
-            g->trial_steps,
-            g->trial_steps > 0 ? (double)g->trial_steps / (double)(g->trial_steps + r->w->step) : 0.0,
-            r->budget_wall);
+    if (kind == REPORT_WHOLE)
+        fprintf(f, "                   cost: %" PRId64 " steps in trials, %.3g of all, in %.3g s\n",
+                g->trial_steps,
+                g->trial_steps > 0 ? (double)g->trial_steps / (double)(g->trial_steps + r->w->step) : 0.0,
+                r->budget_wall);
     if (horizon < r->scene->run.duration)
         fprintf(
             f,
@@ -120,17 +121,18 @@ static void report_momentum(const fl_world *w, FILE *f)
     else fprintf(f, "momentum residual  unknown: the impulses are not finite\n");
 }
 
-static void report_step(const struct run *r, FILE *f)
+/* The rows of the step that a record has: those that do not depend on how the run was stopped. */
+static void report_step(const struct run *r, FILE *f, enum report_kind kind)
 {
     const fl_world *w = r->w;
     char name[64];
     fprintf(f, "steps              %" PRId64 " of %.4g s\n", w->step, w->dt);
-    fprintf(f, "set by             %s\n", r->step_by);
+    if (kind == REPORT_WHOLE) fprintf(f, "set by             %s\n", r->step_by);
     if (isfinite(w->dt_critical))
         fprintf(f, "step over critical %.3g (smallest 2/omega seen: %.4g s, %s)\n", w->dt / w->dt_critical,
                 w->dt_critical, body_name(w, w->critical_body, name));
     else fprintf(f, "step over critical no contact was made\n");
-    if (r->budget) report_budget(r, f);
+    if (r->budget) report_budget(r, f, kind);
     else if (isfinite(w->dt_critical_contacts))
         fprintf(
             f,
@@ -246,14 +248,14 @@ static void report_overlaps(const fl_world *w, FILE *f)
 }
 
 /* Speed is never printed without the errors: the two blocks belong together. */
-void write_report(const struct run *r, FILE *f)
+void write_report(const struct run *r, FILE *f, enum report_kind kind)
 {
     const fl_world *w = r->w;
-    report_step(r, f);
-    report_speed(r, f);
+    report_step(r, f, kind);
+    if (kind == REPORT_WHOLE) report_speed(r, f);
     if (w->sleep.state && w->step > 0 && w->n) report_sleep(w, f);
     if (w->surrogate_counts && w->contact_steps > 0) report_surrogate(w, f);
-    if (r->saves)
+    if (r->saves && kind == REPORT_WHOLE)
         fprintf(f, "checkpoints        %" PRId64 " in %.3g s, the last at t = %.6g s\n", r->saves,
                 r->save_wall, fl_world_time(w));
     report_energy(w, f);

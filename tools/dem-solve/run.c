@@ -5,6 +5,7 @@
 #include "clocks.h"
 #include "final_ice.h"
 #include "outputs.h"
+#include "run_record.h"
 #include "save.h"
 #include "sim/energy_balance.h"
 #include "sim/inflow.h"
@@ -105,7 +106,8 @@ static int start_run(struct run *r, struct outputs *u, fl_err *err)
 {
     const double chosen = r->w->dt;
     const int bad = fl_step_start(r->w, err);
-    if (!bad || err->code == FL_NUMERIC) warn_at_start(r); /* it may explain why the step is too long */
+    /* A warning may explain why the step is too long. */
+    if ((!bad || err->code == FL_NUMERIC) && record_start(r, u, err)) return -1;
     if (bad || update_chosen_step(r, chosen, err)) return -1;
     warn_at_row(r, 0.0);
     return write_due(r, u, err);
@@ -160,9 +162,12 @@ int run_scene(struct run *r, fl_err *err)
     if (show) show_progress(r, begun, 1);
     fl_sleep_advance_to_now(r->w);
     fl_energy_update(r->w);
-    warn_at_end(r, rc != 0);
+    /* After SIGPIPE a row could not be written. */
+    const int ended_by = rc && pipe_signal && err->code == FL_SYSTEM ? SIGPIPE : r->stopped;
+    const fl_err why = *err;
+    const int lost = record_end(r, &u, &why, ended_by, err);
     /* Also after a failed run: the rows until then are good, and the tables keep their names. */
-    if (!close_outputs(&u, err) && !rc) return r->stopped ? 0 : write_final_ice(r, err);
+    if (!close_outputs(&u, err) && !rc && !lost) return r->stopped ? 0 : write_final_ice(r, err);
     if (!pipe_signal || err->code != FL_SYSTEM) return -1;
     r->stopped = SIGPIPE;
     *err = (fl_err){0};

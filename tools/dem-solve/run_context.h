@@ -35,15 +35,16 @@ struct run {
     int64_t first_contact_steps;
     int64_t body_steps; /* of floes in the domain, by this program */
 
-    double step_wall;   /* time in steps [s] */
-    double cpu_time;    /* of all threads, in all of the run [s] */
-    double budget_wall; /* time for run.error [s] */
-    double save_wall;   /* time for checkpoints [s] */
-    int64_t saves;      /* checkpoints written */
-    int64_t saved_step; /* step of the last one */
-    int started;        /* there is something to report */
-    int warned_fast;    /* the warning of a body that moves by its thickness in a step was given */
-    int stopped;        /* number of the signal that ended the run, 0: none */
+    double step_wall;      /* time in steps [s] */
+    double cpu_time;       /* of all threads, in all of the run [s] */
+    double budget_wall;    /* time for run.error [s] */
+    double save_wall;      /* time for checkpoints [s] */
+    int64_t saves;         /* checkpoints written */
+    int64_t saved_step;    /* step of the last one */
+    char step_change[120]; /* a resumed run has another step: from when on; "" otherwise */
+    int started;           /* there is something to report */
+    int warned_fast;       /* the warning of a body that moves by its thickness in a step was given */
+    int stopped;           /* number of the signal that ended the run, 0: none */
 };
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "clocks.h"
 #include "mesh/gstruct.h"
+#include "run_record.h"
 #include "scene/scene_check.h"
 #include "scene/scene_print.h"
 #include "scene/scene_read.h"
@@ -279,21 +280,33 @@ static int change_step(struct run *r, double dt, fl_err *err)
     for (int k = 0; k < r->o->sets; k++)
         for (int c = 0; c < STEP_KEYS; c++) requested |= sets_key(r->o->set[k], FREE_KEY[c]);
     if (!requested || dt == r->w->dt) return 0;
-    if (!r->o->quiet)
-        fprintf(stderr, "dem-solve: note: from t = %.9g s on steps are %.4g s instead of %.4g s\n",
-                fl_world_time(r->w), dt, r->w->dt);
+    snprintf(r->step_change, sizeof r->step_change, "from t = %.9g s on steps are %.4g s instead of %.4g s",
+             fl_world_time(r->w), dt, r->w->dt);
+    if (!r->o->quiet) fprintf(stderr, "dem-solve: note: %s\n", r->step_change);
     fl_step_set_size(r->w, dt, fl_world_time(r->w));
     return fl_check_wave_sampling(r->w, err);
 }
 
+/* The duration that the checkpoint has [s]. */
+static int read_duration(const fl_restart *saved, double *duration, fl_err *err)
+{
+    fl_scene scene = {0};
+    fl_text text = {0};
+    if (fl_restart_open(saved, "scene", &text, err) || fl_scene_read_text(&scene, &text, err)) return -1;
+    *duration = scene.run.duration;
+    fl_scene_free(&scene);
+    return 0;
+}
+
 int save_restore(struct run *r, struct outputs *u, fl_err *err)
 {
+    double before;
     char path[FL_SCENE_PATH + 16];
     fl_file_mark mark[TABLES];
     fl_text in = {0};
     int written[TABLES] = {0}, is_new[TABLES] = {0};
     const double dt = r->w->dt; /* that of the scene */
-    if (fl_restart_open(r->resumed, "state", &in, err)) return -1;
+    if (read_duration(r->resumed, &before, err) || fl_restart_open(r->resumed, "state", &in, err)) return -1;
     fl_snapshot_read(r->w, &in, err);
     fl_text_close(&in);
     if (!err->code) change_step(r, dt, err);
@@ -334,6 +347,7 @@ int save_restore(struct run *r, struct outputs *u, fl_err *err)
             return -1;
     }
     for (int k = 0; k < TABLES; k++)
-        if (is_new[k]) write_header(r, u, k);
+        if (is_new[k] && write_header(r, u, k, err)) return -1;
+    record_changes(r, u, before, is_new);
     return 0;
 }

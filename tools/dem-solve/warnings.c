@@ -15,7 +15,7 @@
 
 /* Bodies that overlap at the start are pushed apart, with loads that belong to no case.  A run may take
  * hours, so this is said before it.  Rounded edges cannot overlap by more than the sum of the radii. */
-static void warn_overlaps(const struct run *r)
+static void warn_overlaps(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
     int32_t found = 0, i = -1, j = -1;
@@ -28,12 +28,12 @@ static void warn_overlaps(const struct run *r)
         if (!found++) i = p->i, j = p->j;
     }
     if (!found) return;
-    fprintf(stderr, "dem-solve: warning: %d %s at the start, first ", found,
+    fprintf(f, "dem-solve: warning: %d %s at the start, first ", found,
             found == 1 ? "pair overlaps by more than half its radii"
                        : "pairs overlap by more than half their radii");
     if (j < w->n + w->pieces) snprintf(other, sizeof other, "%d", fl_world_id(w, j));
     else fl_wall_name(w, j - w->n - w->pieces, other);
-    fprintf(stderr, "body %d and %s; they will be pushed apart\n", w->id[i], other);
+    fprintf(f, "body %d and %s; they will be pushed apart\n", w->id[i], other);
 }
 
 /* A sheet of bonded spheres that starts inside the structure by more than this share of a radius loses
@@ -47,7 +47,7 @@ static void warn_overlaps(const struct run *r)
 /* Breaking lengths that the shorter side of a sheet should have. */
 #define LENGTHS_OF_SHEET 4.0
 
-static void warn_sheet_inside(const struct run *r)
+static void warn_sheet_inside(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
     double most = 0.0;
@@ -62,7 +62,7 @@ static void warn_sheet_inside(const struct run *r)
     }
     if (found)
         fprintf(
-            stderr,
+            f,
             "dem-solve: warning: %d bonded spheres start inside the structure, up to %.3g m in part %s, and "
             "will be thrown off: a sheet farther away is expected\n",
             found, most, r->surface->part[w->structure.piece[part].part].name);
@@ -70,14 +70,14 @@ static void warn_sheet_inside(const struct run *r)
 
 /* Weight and buoyancy of a sheet, and its sides against the breaking length of a floating beam, pi/4
  * (E h^3/(3 rho g))^(1/4). */
-static void warn_bonded_sheet(const struct run *r)
+static void warn_bonded_sheet(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
     const double h = w->scene->ice.slab, E = w->discs.n ? w->law[0].round_young : 0.0;
     double weight = 0.0, lift = 0.0;
     fl_aabb box = aabb_empty();
     if (!w->discs.n) return;
-    warn_sheet_inside(r);
+    warn_sheet_inside(r, f);
     for (int32_t i = 0; i < w->n; i++) {
         weight += w->b.m[i] * v3_norm(w->gravity);
         if (w->sea.water) lift += w->sea.buoyancy[i];
@@ -85,7 +85,7 @@ static void warn_bonded_sheet(const struct run *r)
     }
     if (!w->sea.water || !(weight > 0.0)) return;
     if (!(lift >= LEAST_LIFT * weight && lift <= MOST_LIFT * weight))
-        fprintf(stderr,
+        fprintf(f,
                 "dem-solve: warning: the water bears %.3g of the weight of the spheres at the start: the "
                 "sheet %s; the "
                 "densities it was made with, or ice.slab, are expected\n",
@@ -93,7 +93,7 @@ static void warn_bonded_sheet(const struct run *r)
     const double side = fmin(box.hi.x - box.lo.x, box.hi.y - box.lo.y),
                  length = 0.25 * PI * pow(E * h * h * h / (3.0 * w->sea.specific_weight), 0.25);
     if (h > 0.0 && side < LENGTHS_OF_SHEET * length)
-        fprintf(stderr,
+        fprintf(f,
                 "dem-solve: warning: the sheet is %.3g m wide, less than four breaking lengths of a floating "
                 "beam, "
                 "%.3g m each: cracks may run to its edges\n",
@@ -115,7 +115,7 @@ static int is_inside(const fl_world *w, int32_t i, int32_t k)
 }
 
 /* Bodies inside the structure stay there, and the loads do not show it. */
-static void warn_inside(const struct run *r)
+static void warn_inside(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
     int32_t found = 0, body = -1, part = -1;
@@ -126,66 +126,66 @@ static void warn_inside(const struct run *r)
             part = w->structure.piece[k].part;
         }
     if (found)
-        fprintf(stderr,
+        fprintf(f,
                 "dem-solve: warning: %d %s inside the structure, first body %d in part %s; it feels the "
                 "structure only where it reaches the surface\n",
                 found, found == 1 ? "body is" : "bodies are", w->id[body], r->surface->part[part].name);
 }
 
 /* A flat sheet with an outline that is not convex is a surface with an inside, like a hull. */
-static void warn_sheets(const struct run *r)
+static void warn_sheets(const struct run *r, FILE *f)
 {
     const fl_structure *s = &r->w->structure;
     for (int32_t k = 0; k < s->n; k++)
         if (s->piece[k].one_sided)
-            fprintf(stderr,
+            fprintf(f,
                     "dem-solve: warning: part %s is a flat sheet whose outline is not convex: bodies feel it "
                     "only on the side of its normals\n",
                     r->surface->part[s->piece[k].part].name);
 }
 
 /* Parts that touch and yet are contacts of their own bear twice where they meet. */
-static void warn_unjoined(const struct run *r)
+static void warn_unjoined(const struct run *r, FILE *f)
 {
     const fl_structure *s = &r->w->structure;
     if (s->unjoined)
-        fprintf(stderr,
+        fprintf(f,
                 "dem-solve: warning: %d group%s of pieces that touch not joined to one surface, the last "
                 "that of part %s: where they meet, bodies feel each of them\n",
                 s->unjoined, s->unjoined == 1 ? "" : "s", r->surface->part[s->unjoined_part].name);
 }
 
 /* A hull that does not float in its pose: its motion is one about that pose. */
-static void warn_hulls(const struct run *r)
+static void warn_hulls(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
     for (int32_t k = 0; k < w->moving.movers.n; k++) {
-        const fl_hydrostatics *f = &w->moving.hydrostatics[k];
+        const fl_hydrostatics *h = &w->moving.hydrostatics[k];
         const fl_rigid_motion *m = &w->moving.movers.motion[k];
-        const double water = w->scene->water.density * f->volume, size = cbrt(f->volume);
+        const double water = w->scene->water.density * h->volume, size = cbrt(h->volume);
         const char *name = fl_mover_name(w, k);
-        if (f->volume == 0.0) continue;
+        if (h->volume == 0.0) continue;
         if (m->mass > 0.0 && fabs(m->mass - water) > AT_REST * water)
-            fprintf(stderr,
+            fprintf(f,
                     "dem-solve: warning: %s has %.6g kg and displaces %.6g kg of water: at rest it would lie "
                     "%.3g m %s\n",
-                    name, m->mass, water, fabs(m->mass - water) / (w->scene->water.density * f->area),
+                    name, m->mass, water, fabs(m->mass - water) / (w->scene->water.density * h->area),
                     m->mass < water ? "higher" : "deeper");
-        if (hypot(f->buoyancy_centre.x, f->buoyancy_centre.y) > AT_REST * size)
+        if (hypot(h->buoyancy_centre.x, h->buoyancy_centre.y) > AT_REST * size)
             fprintf(
-                stderr,
+                f,
                 "dem-solve: warning: the buoyancy of %s acts %.3g m in x and %.3g m in y from its reference "
                 "point: at rest it would lean\n",
-                name, fabs(f->buoyancy_centre.x) > 1e-9 * size ? f->buoyancy_centre.x : 0.0,
-                fabs(f->buoyancy_centre.y) > 1e-9 * size ? f->buoyancy_centre.y : 0.0);
+                name, fabs(h->buoyancy_centre.x) > 1e-9 * size ? h->buoyancy_centre.x : 0.0,
+                fabs(h->buoyancy_centre.y) > 1e-9 * size ? h->buoyancy_centre.y : 0.0);
         if ((m->free_dof & FL_DOF_RX && m->K[3][3] <= 0.0) || (m->free_dof & FL_DOF_RY && m->K[4][4] <= 0.0))
-            fprintf(stderr, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name,
+            fprintf(f, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name,
                     m->K[3][3], m->K[4][4]);
     }
 }
 
 /* A wave that would break is not linear. */
-static void warn_waves(const struct run *r)
+static void warn_waves(const struct run *r, FILE *f)
 {
     const fl_scene_water *s = &r->scene->water;
     double breaking;
@@ -193,7 +193,7 @@ static void warn_waves(const struct run *r)
     const double steep = fl_wave_steepness(s->height, s->period, s->depth, r->w->sea.wave.gravity, &breaking);
     if (steep > breaking)
         fprintf(
-            stderr,
+            f,
             "dem-solve: warning: waves of height over length %.3g, but waves break above %.3g: no such sea "
             "exists\n",
             steep, breaking);
@@ -203,7 +203,7 @@ static void warn_waves(const struct run *r)
     for (int32_t i = 0; i < r->w->n; i++) least = fmin(least, r->w->b.radius[i]);
     if (shortest < 2.0 * least)
         fprintf(
-            stderr,
+            f,
             "dem-solve: warning: the shortest waves are %.3g m, less than twice the dilation radius of the "
             "smallest floe, %.3g m: its corners are rounder than they are\n",
             shortest, least);
@@ -211,7 +211,7 @@ static void warn_waves(const struct run *r)
 
 /* A material of the scene file itself that nothing uses is likely misspelt.  Included files may have more
  * materials than needed, and floes that come in later may use any. */
-static void warn_materials(const struct run *r)
+static void warn_materials(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
     const fl_scene *s = r->scene;
@@ -222,22 +222,22 @@ static void warn_materials(const struct run *r)
                    (s->structure.head.present && strcmp(m->name, s->structure.material) == 0);
         for (int32_t i = 0; i < w->n && !used; i++) used = w->material[i] == k;
         if (used) continue;
-        fprintf(stderr, "dem-solve: warning: ");
-        if (at->file >= 0 && at->line) fprintf(stderr, "%s:%d: ", s->file[at->file], at->line);
-        fprintf(stderr, "no body and no structure is of [material %s]\n", m->name);
+        fprintf(f, "dem-solve: warning: ");
+        if (at->file >= 0 && at->line) fprintf(f, "%s:%d: ", s->file[at->file], at->line);
+        fprintf(f, "no body and no structure is of [material %s]\n", m->name);
     }
 }
 
-void warn_at_start(const struct run *r)
+void warn_at_start(const struct run *r, FILE *f)
 {
-    warn_materials(r);
-    warn_overlaps(r);
-    warn_bonded_sheet(r);
-    warn_inside(r);
-    warn_waves(r);
-    warn_hulls(r);
-    warn_sheets(r);
-    warn_unjoined(r);
+    warn_materials(r, f);
+    warn_overlaps(r, f);
+    warn_bonded_sheet(r, f);
+    warn_inside(r, f);
+    warn_waves(r, f);
+    warn_hulls(r, f);
+    warn_sheets(r, f);
+    warn_unjoined(r, f);
 }
 
 /* Thickness of a dilated body: smallest extent along the normals of its faces. */
@@ -273,20 +273,19 @@ void warn_at_row(struct run *r, double t)
     }
 }
 
-static void warn_sudden(const fl_world *w)
+static void warn_sudden(const fl_world *w, FILE *f)
 {
     char text[FL_SUDDEN_TEXT];
     if (!w->sudden.n) return;
-    fprintf(stderr, "dem-solve: warning: %" PRId64 " %s deeper than the bodies moved, first: %s\n",
-            w->sudden.n, w->sudden.n == 1 ? "contact begins" : "contacts begin",
-            fl_sudden_contact_text(w, text));
+    fprintf(f, "dem-solve: warning: %" PRId64 " %s deeper than the bodies moved, first: %s\n", w->sudden.n,
+            w->sudden.n == 1 ? "contact begins" : "contacts begin", fl_sudden_contact_text(w, text));
 }
 
-static void warn_overlapped(const fl_world *w)
+static void warn_overlapped(const fl_world *w, FILE *f)
 {
     if (!w->deep_overlap_steps) return;
     fprintf(
-        stderr,
+        f,
         "dem-solve: warning: overlaps past half the radii in %" PRId64
         " step%s, up to %.3g of them, first of body %d and %d at t = %.6g s: contacts are too soft for these "
         "speeds%s\n",
@@ -295,17 +294,17 @@ static void warn_overlapped(const fl_world *w)
         w->max_overlap >= 1.0 ? ", and bodies may have gone through each other" : "");
 }
 
-static void warn_energy(const fl_world *w)
+static void warn_energy(const fl_world *w, FILE *f)
 {
     if (!fl_energy_unbalanced(w)) return;
-    fprintf(stderr,
+    fprintf(f,
             "dem-solve: warning: the energy residual is %.2g of the throughput (%.3g J of %.3g J); above %g "
             "the loads should not be used: use a shorter step or another contact.law\n",
             fl_energy_error(w), w->ledger.residual, w->ledger.throughput, FL_ENERGY_ERROR_USABLE);
 }
 
 /* The goal of run.error is not reached; a shorter step need not help. */
-static void warn_budget(const struct run *r)
+static void warn_budget(const struct run *r, FILE *f)
 {
     double difference;
     const fl_error_budget *g = r->budget;
@@ -313,13 +312,13 @@ static void warn_budget(const struct run *r)
                  windows = fl_error_budget_estimate(g, r->w->dt);
     if (!isfinite(windows))
         fprintf(
-            stderr,
+            f,
             "dem-solve: warning: run.error: windows fail with every step that was tried, and the error of "
             "the "
             "loads is unknown: use another contact.law, stiffer contacts, or bodies that do not overlap at "
             "the start\n");
     else if (windows > FL_COMPANION_TOLERANCE * g->goal)
-        fprintf(stderr,
+        fprintf(f,
                 "dem-solve: warning: run.error: the goal is %.2g, and the error of windows is about %.2g "
                 "with every "
                 "step that was tried: states diverge within a window; shorter rows (output.loads_every) make "
@@ -327,7 +326,7 @@ static void warn_budget(const struct run *r)
                 g->goal, windows);
     if (g->companion.exceeded_since < 0.0) return;
     fprintf(
-        stderr,
+        f,
         "dem-solve: warning: run.error: the goal is %.2g, and the error of the whole load is about %.2g from "
         "t = %.4g s on: impacts amplify the error of any step, so the goal holds between two impacts only; "
         "use the mean load of several runs\n",
@@ -351,7 +350,7 @@ static int is_falling(const fl_world *w, int32_t i, double g)
 }
 
 /* Without water floes fall for the whole run, and the loads are worthless. */
-static void warn_fallen(const fl_world *w)
+static void warn_fallen(const fl_world *w, FILE *f)
 {
     const double g = v3_norm(w->gravity);
     int32_t n_falling = 0, first = 0;
@@ -359,18 +358,18 @@ static void warn_fallen(const fl_world *w)
     for (int32_t i = w->n - 1; i >= 0; i--)
         if (is_falling(w, i, g)) n_falling++, first = w->id[i];
     if (n_falling)
-        fprintf(stderr,
+        fprintf(f,
                 "dem-solve: warning: %d of %d bodies fall at the end with nothing below them, first body %d: "
                 "is a "
                 "section [water], a wall of [boundary] or gravity = 0 missing?\n",
                 n_falling, w->n, first);
 }
 
-void warn_at_end(const struct run *r, int failed)
+void warn_at_end(const struct run *r, int failed, FILE *f)
 {
-    if (!failed) warn_fallen(r->w);
-    warn_sudden(r->w);
-    warn_overlapped(r->w);
-    if (!failed && r->budget) warn_budget(r);
-    if (!failed) warn_energy(r->w); /* else the failure is reported */
+    if (!failed) warn_fallen(r->w, f);
+    warn_sudden(r->w, f);
+    warn_overlapped(r->w, f);
+    if (!failed && r->budget) warn_budget(r, f);
+    if (!failed) warn_energy(r->w, f); /* else the failure is reported */
 }

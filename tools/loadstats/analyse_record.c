@@ -11,6 +11,7 @@
 #include "history_line.h"
 #include "html_report.h"
 #include "plot.h"
+#include "run_end.h"
 #include "table_kind.h"
 
 /* --- views ---------------------------------------------------------------------------------------------- */
@@ -53,6 +54,10 @@ static int make_views(fl_signal_view *v, const fl_series *s, const struct option
 
 static void print_notes(const fl_series *s, const struct options *o)
 {
+    char text[RUN_END_NOTE];
+    if (s->end != FL_RUN_ENDED)
+        fprintf(stderr, "loadstats: warning: %s: %s\n", strcmp(o->in, "-") ? o->in : "<stdin>",
+                run_end_text(s->end, s->why, text));
     if (o->quiet) return;
     const double span = s->edge[s->n] - s->edge[0];
     if (o->verbose)
@@ -137,6 +142,7 @@ static int write_report(const struct record_views *r, const struct options *o, f
     const report_source from = {.what = r,
                                 .title = strcmp(s->kind, "loads") == 0 ? "Ice loads" : "Statistics",
                                 .history = s->history,
+                                .run_lines = s->run_lines,
                                 .legs = s->parts > 2,
                                 .spectra = s->n >= FL_SPECTRUM_SHORTEST_SEGMENT,
                                 .span = s->edge[s->n] - s->edge[0],

@@ -8,6 +8,7 @@
 #include "analyse_runs.h"
 #include "history_line.h"
 #include "html_report.h"
+#include "run_end.h"
 #include "table_kind.h"
 #include "table_summary.h"
 
@@ -83,6 +84,7 @@ static int read_run(fl_summary *one, const char *path, FILE *f, const struct opt
         if (write_progress(f, &run, o, &next, err)) goto done;
     }
     if (more < 0 || fl_run_finish(&run, by, err)) goto done;
+    if (!(o->follow > 0.0) && run_end_check(path, run.end_of_run, run.why, o, err)) goto done;
     rc = fl_summary_merge(one, &run.sum, path, err);
 done:
     fl_run_close(&run);
@@ -107,6 +109,7 @@ static int read_all(struct run_set *runs, FILE *f, const struct options *o, fl_e
         const char *path = o->file[k];
         fl_summary one = {0};
         int rc = o->merge ? fl_summary_read(&one, path, err) : read_run(&one, path, f, o, by, err);
+        if (rc == 0 && o->merge) rc = run_end_check_history(path, one.history, o, err);
         if (rc == 0) rc = fl_summary_merge(&runs->all, &one, path, err);
         if (rc == 0 && o->table->per_run) rc = ensemble_add(&runs->e, &runs->all, &one, path, err);
         fl_summary_free(&one);

@@ -12,7 +12,7 @@
 #include "html_report.h"
 #include "table_list.h"
 
-enum { PATH_LEN = 4096, DIR_LEN = 3000, WORD_MAX = 200, ROWS_MAX = 400 };
+enum { PATH_LEN = 4096, DIR_LEN = 3000, WORD_MAX = 200, LINE_MAX_SHOWN = 2000, ROWS_MAX = 400 };
 
 /* Beyond this many record lengths a level is an extrapolation of the distribution. */
 static const double REACH = 4.0;
@@ -376,6 +376,19 @@ static void remove_folder(const char *dir)
 
 /* --- the page ------------------------------------------------------------------------------------------- */
 
+/* The lines that begin with a word, without it. */
+static void write_lines_of(FILE *f, const char *lines, const char *word)
+{
+    char line[LINE_MAX_SHOWN];
+    const size_t skip = strlen(word);
+    for (const char *p = lines; p && *p; p = strchr(p, '\n') + 1) {
+        if (strncmp(p, word, skip) != 0) continue;
+        snprintf(line, sizeof line, "%.*s", (int)strcspn(p + skip, "\n"), p + skip);
+        write_text(f, line);
+        putc('\n', f);
+    }
+}
+
 static void write_head(FILE *f, const report_source *from, const struct options *o)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
@@ -385,6 +398,11 @@ static void write_head(FILE *f, const report_source *from, const struct options 
             STYLE, from->title);
     from->intro(f, from->what);
     fputs("</p>\n", f);
+    if (from->history && strstr(from->history, "#stopped ")) {
+        fputs("<p><strong>A run stopped early:</strong> ", f);
+        write_lines_of(f, from->history, "#stopped ");
+        fputs("</p>\n", f);
+    }
     if (o->page) {
         fputs("<p><a href=\"", f);
         write_text(f, o->page);
@@ -406,8 +424,24 @@ static int is_standard(const struct table *t, const report_source *from, const s
     return t->report.position && ((t->needs | t->report.needs) & ~available(from, o)) == 0;
 }
 
+/* The scene of the run, as far as it differs from defaults, and its closing report. */
+static void write_run(FILE *f, const report_source *from)
+{
+    if (!from->run_lines) return;
+    fputs(
+        "<h2>The run</h2>\n<p>Keys of the scene that differ from their defaults, scene(5); dem-solve --again "
+        "makes a scene of them.</p>\n<pre>",
+        f);
+    write_lines_of(f, from->run_lines, "#set ");
+    fputs("</pre>\n<p>The closing report of the run, dem-solve(1).</p>\n<pre>", f);
+    write_lines_of(f, from->run_lines, "#report ");
+    write_lines_of(f, from->history, "#stopped ");
+    fputs("</pre>\n", f);
+}
+
 static void write_end(FILE *f, const report_source *from, const fl_history_line *by)
 {
+    write_run(f, from);
     fputs("<h2>How to reproduce it</h2>\n<p>The programs in the order in which they ran, with their options; "
           "the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
           "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",

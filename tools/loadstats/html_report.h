@@ -10,12 +10,13 @@
 typedef struct {
     const void *what; /* passed to the functions below */
     const char *title;
-    int many;            /* many runs, not one record */
-    int legs;            /* there are two parts or more to compare */
-    int alone;           /* pictures and the table o->table only */
-    int spectra;         /* there are enough rows for a spectrum */
-    const char *history; /* the "#by" lines of the input, or NULL */
-    double span;         /* duration of the data [s] */
+    int many;              /* many runs, not one record */
+    int legs;              /* there are two parts or more to compare */
+    int alone;             /* pictures and the table o->table only */
+    int spectra;           /* there are enough rows for a spectrum */
+    const char *history;   /* of the input, or NULL */
+    const char *run_lines; /* scene and closing report of its run, or NULL */
+    double span;           /* duration of the data [s] */
     /* Print the paragraph below the title, as HTML. */
     void (*intro)(FILE *f, const void *what);
     /* Print the table o->table, as loadstats does.  0, or -1 with err. */

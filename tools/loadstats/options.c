@@ -335,6 +335,7 @@ static const fl_option OPTION[] = {
      .kind = FL_OPTION_CALL,
      .call = choose_summary},
     {.word = "merge", .help = "merge files that are summaries", .at = AT(merge)},
+    {.word = "force", .help = "count runs that stopped early among others", .at = AT(force)},
     {.word = "stream",
      .help = "stats, histogram in constant memory, values in classes of 0.8 %",
      .at = AT(stream)},

@@ -54,7 +54,7 @@ struct options {
     double level;               /* fraction of a peak or of the largest value; durations are above it */
     double period[RETURNS_MAX]; /* return periods [s] */
     int32_t returns, resamples, seed;
-    int gzip, quiet, verbose, threads;
+    int gzip, quiet, verbose, threads, force;
     int report_page;   /* the history line is that of a report, which holds several tables */
     char *const *file; /* [files] the inputs, in is the first of them */
     int files, merge, stream;
