@@ -35,6 +35,10 @@ int fl_breaking_make(fl_world *w, fl_err *err)
 {
     fl_breaking_state *s = &w->breaking;
     if (!breaks(w->scene)) return 0;
+    if (w->has_points)
+        return fl_scene_fail(w->scene, "failure.flexural_strength", err,
+                             "spheres do not bend or split, and %s has some: ice of polyhedra is expected",
+                             w->scene->ice.file);
     s->on = 1;
     s->least_area = w->scene->failure.fragment_min;
     s->shape = fl_alloc(w->n, sizeof *s->shape, err);
