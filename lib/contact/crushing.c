@@ -80,8 +80,8 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     const double F = exact->scale * v3_norm(q->gradient.f), W = exact->energy;
     fl_crush *c = p->crush;
     const fl_vec3 n = v3_unit(m3_tmul(r->M, q->gradient.f));
-    if (c && !p->touching) c->area = c->most = 0.0;
-    double A = c ? c->area : 0.0, y = A > 0.0 ? A * fl_crushing_pressure(&s->law, A) : 0.0;
+    if (!p->touching) p->nominal_area = p->crush_checked = 0.0;
+    double A = p->nominal_area, y = A > 0.0 ? A * fl_crushing_pressure(&s->law, A) : 0.0;
     *limit = INFINITY;
     if (c) {
         const double turned = v3_dot(c->offset, n);
@@ -89,15 +89,18 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
         c->centre = m3_tmul(r->M, v3_sub(centre, r->o));
     }
     if (y > 0.0) *limit = y;
-    if (!(F > y) && y > 0.0 && !(F > c->most)) return 0;
+    if (!(F > y) && y > 0.0 && !(F > p->crush_checked)) return 0;
     A = fmax(A, area_of(w, p, r, centre));
     if (!(A > 0.0)) return 0;
     *limit = y = A * fl_crushing_pressure(&s->law, A);
-    if (c) c->area = A;
-    if (!(F > FLATTENED * y)) return 0;
+    p->nominal_area = A;
+    if (!(F > FLATTENED * y)) {
+        p->crush_checked = FLATTENED * y;
+        return 0;
+    }
     const double base = fl_pair_stiffness(w, p->i, p->j).k, to = fmin(F, y), flat = 2.0 * base * sqrt(A);
     if (!(F > y) && !(W > (1.0 + SAME_ENERGY) * 0.5 * F * F / flat)) {
-        if (c) c->most = F;
+        p->crush_checked = F;
         return 0;
     }
     if (!(c = record_of(p))) return -1;
@@ -113,8 +116,8 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     const double deeper = m * W / F * (1.0 - ratio);
     c->offset = v3_madd(c->offset, deeper, n);
     c->centre = m3_tmul(r->M, v3_sub(centre, r->o));
-    c->area = A;
-    c->most = to;
+    p->nominal_area = A;
+    p->crush_checked = to;
     c->volume += A * deeper;
     c->unsaved = 1;
     if (F > y) c->yielded_step = w->step, c->force = y;
@@ -153,7 +156,7 @@ void fl_crushing_release(const fl_world *w, fl_pair *p)
 }
 
 /* Moves D of a contact that has ended into its floe. */
-static int keep_dent(fl_world *w, const fl_crush *c, int32_t i, fl_err *err)
+static int keep_dent(fl_world *w, const fl_crush *c, double area, int32_t i, fl_err *err)
 {
     fl_floe_dents **const of = &w->crushing.dents[i];
     if (!*of && !(*of = fl_alloc(1, sizeof **of, err))) return -1;
@@ -175,7 +178,7 @@ static int keep_dent(fl_world *w, const fl_crush *c, int32_t i, fl_err *err)
     } else if (at == d->n) {
         d->n++;
     }
-    d->dent[at] = (fl_dent){c->centre, c->offset, fmax(sqrt(c->area), w->b.radius[i]), c->stiffening};
+    d->dent[at] = (fl_dent){c->centre, c->offset, fmax(sqrt(area), w->b.radius[i]), c->stiffening};
     return 0;
 }
 
@@ -196,7 +199,7 @@ static int book_pair(fl_world *w, int32_t k, fl_err *err)
     c->volume = 0.0;
     if (p->touching || !c->unsaved) return 0;
     c->unsaved = 0;
-    return w->crushing.wear ? keep_dent(w, c, p->i, err) : 0;
+    return w->crushing.wear ? keep_dent(w, c, p->nominal_area, p->i, err) : 0;
 }
 
 int fl_crushing_book(fl_world *w, fl_err *err)

@@ -5,7 +5,11 @@
 #include "base/fast_math.h"
 #include "base/pi.h"
 
-enum { CORNERS = 96, ARCS = 64, BISECTIONS = 30, GAUSS = 16 };
+enum { CORNERS = 96, ARCS = 64, REFINEMENTS = 40, GAUSS = 8 };
+/* A plane is along a generator below this sine. */
+#define PARALLEL 1e-9
+/* Ends of an arc are found to this angle, and to this margin. */
+#define END 1e-13
 
 /* Offset of face f: the largest over its vertices. */
 static double offset_of_face(const fl_poly *p, int32_t f)
@@ -122,56 +126,76 @@ static void add_mesh(area_sum *q, const fl_half_spaces *a, const fl_piece *piece
     }
 }
 
-/* The part inside a of the generator of the cone at angle phi: from and to as shares of its length; 0 if
- * there is none. */
-static int clip_generator(const fl_half_spaces *a, const fl_piece *cone, double c, double s, double *from,
-                          double *to)
+/* The part inside a of the generator of the cone at an angle with cosine c and sine s: from and to as shares of
+ * its length.  Returns a margin, positive inside: of the length of that part, or of the distance to planes
+ * along the generator, over the size of the cone. */
+static double clip_generator(const fl_half_spaces *a, const fl_piece *cone, double c, double s, double *from,
+                             double *to)
 {
     const fl_vec3 x = v3(cone->r0 * c, cone->r0 * s, 0.0),
                   d = v3((cone->r1 - cone->r0) * c, (cone->r1 - cone->r0) * s, cone->h);
+    double beside = INFINITY;
     *from = 0.0, *to = 1.0;
     for (int k = 0; k < a->n; k++) {
         const double h = a->c[k] - v3_dot(a->normal[k], x), g = v3_dot(a->normal[k], d);
-        if (g > 0.0) *to = fmin(*to, h / g);
-        else if (g < 0.0) *from = fmax(*from, h / g);
-        else if (h < 0.0) return 0;
+        if (g > PARALLEL * cone->h) *to = fmin(*to, h / g);
+        else if (g < -PARALLEL * cone->h) *from = fmax(*from, h / g);
+        else beside = fmin(beside, h);
     }
-    return *from < *to;
+    return fmin(beside / cone->h, *to - *from);
 }
 
-static int is_inside(const fl_half_spaces *a, const fl_piece *cone, double phi)
+static double margin_at(const fl_half_spaces *a, const fl_piece *cone, double phi)
 {
     double c, s, from, to;
     fl_cos_sin(phi, &c, &s);
     return clip_generator(a, cone, c, s, &from, &to);
 }
 
-/* Angle between `out`, where the generator is outside, and `in`. */
-static double end_of_arc(const fl_half_spaces *a, const fl_piece *cone, double in, double out)
+/* Angle where the margin vanishes between `in` and `out`: false position, with the weight of the end that stays
+ * halved (Illinois). */
+static double end_of_arc(const fl_half_spaces *a, const fl_piece *cone, double in, double at_in, double out,
+                         double at_out)
 {
-    for (int k = 0; k < BISECTIONS; k++) {
-        const double mid = 0.5 * (in + out);
-        if (is_inside(a, cone, mid)) in = mid;
-        else out = mid;
+    for (int k = 0; k < REFINEMENTS && fabs(out - in) > END; k++) {
+        const double mid = (in * at_out - out * at_in) / (at_out - at_in), at = margin_at(a, cone, mid);
+        if (at > 0.0) {
+            in = mid, at_in = at, at_out *= 0.5;
+            if (at < END) break;
+        } else {
+            out = mid, at_out = at, at_in *= 0.5;
+        }
     }
     return in;
+}
+
+/* End of the arc from `in`, which is inside, in the direction of `step`: the step doubles until it is outside.
+ * in + 2 pi if it never is. */
+static double search_end(const fl_half_spaces *a, const fl_piece *cone, double in, double at_in, double step)
+{
+    const double start = in;
+    for (double way = step; fabs(in + way - start) < 2.0 * PI; way *= 2.0) {
+        const double out = in + way, at = margin_at(a, cone, out);
+        if (!(at > 0.0)) return end_of_arc(a, cone, in, at_in, out, at);
+        in = out, at_in = at;
+        if (fabs(way) > 0.25 * PI) way *= 0.5;
+    }
+    return start + (step > 0.0 ? 2.0 : -2.0) * PI;
 }
 
 /* Adds the arc between two angles: Gauss points of phi, exact along each generator, where n dA is
  * (cos, sin, -r') R(t) dphi dt h and R the radius there. */
 static void add_arc(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, double from, double to)
 {
-    static const double X[GAUSS / 2] = {0.0950125098376374, 0.2816035507792589, 0.4580167776572274,
-                                        0.6178762444026438, 0.7554044083550030, 0.8656312023878318,
-                                        0.9445750230732326, 0.9894009349916499},
-                                  W[GAUSS / 2] = {0.1894506104550685, 0.1826034150449236, 0.1691565193950025,
-                                                  0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
-                                                  0.0622535239386479, 0.0271524594117541};
+    static const double X[GAUSS / 2] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                        0.9602898564975363},
+                                  W[GAUSS / 2] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                                  0.1012285362903763};
     const double half = 0.5 * (to - from), mid = 0.5 * (to + from), slope = (cone->r1 - cone->r0) / cone->h;
     for (int k = 0; k < GAUSS; k++) {
         double c, s, t0, t1;
         fl_cos_sin(mid + (k % 2 ? half : -half) * X[k / 2], &c, &s);
-        if (!clip_generator(a, cone, c, s, &t0, &t1)) continue;
+        if (!(clip_generator(a, cone, c, s, &t0, &t1) > 0.0)) continue;
         const double r0 = cone->r0 + t0 * (cone->r1 - cone->r0), r1 = cone->r0 + t1 * (cone->r1 - cone->r0),
                      length = (t1 - t0) * cone->h, weight = half * W[k / 2] * 0.5 * (r0 + r1) * length,
                      r = 0.5 * (r0 + r1), z = 0.5 * (t0 + t1) * cone->h;
@@ -179,29 +203,29 @@ static void add_arc(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, 
     }
 }
 
-/* Arcs of the cone inside a.  The first one may pass through the angle 0. */
+/* Arc of the cone inside a about the contact, in quarters of a turn at most.  If the contact is not inside, the
+ * first arc of a scan. */
 static void add_cone(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, fl_vec3 about)
 {
-    const double step = 2.0 * PI / ARCS;
-    int in[ARCS], some = 0, all = 1;
-    /* a narrow arc lies about the contact */
-    const double start = fl_atan2(about.y, about.x);
-    for (int k = 0; k < ARCS; k++) {
-        in[k] = is_inside(a, cone, start + k * step);
-        some |= in[k], all &= in[k];
-    }
-    if (all) {
-        for (int k = 0; k < 4; k++) add_arc(q, a, cone, start + 0.5 * PI * k, start + 0.5 * PI * (k + 1));
-        return;
-    }
-    for (int k = 0; k < ARCS && some; k++) {
-        const int before = in[(k + ARCS - 1) % ARCS];
-        if (!in[k] || before) continue;
-        int last = k;
-        while (in[(last + 1) % ARCS]) last++;
-        add_arc(q, a, cone, end_of_arc(a, cone, start + k * step, start + (k - 1) * step),
-                end_of_arc(a, cone, start + last * step, start + (last + 1) * step));
-    }
+    const double step = 2.0 * PI / ARCS, start = fl_atan2(about.y, about.x);
+    double in = start, at = margin_at(a, cone, in);
+    for (int k = 1; k <= ARCS / 2 && !(at > 0.0); k++)
+        for (int side = -1; side <= 1 && !(at > 0.0); side += 2)
+            in = start + side * k * step, at = margin_at(a, cone, in);
+    if (!(at > 0.0)) return;
+    const double to = search_end(a, cone, in, at, step),
+                 from = to < in + 2.0 * PI ? search_end(a, cone, in, at, -step) : in;
+    const int parts = (int)ceil((to - from) / (0.5 * PI + 1e-9));
+    for (int k = 0; k < parts; k++)
+        add_arc(q, a, cone, from + (to - from) * k / parts, from + (to - from) * (k + 1) / parts);
+}
+
+/* True if the box of face f overlaps that of a. */
+static int face_is_near(const fl_half_spaces *a, const fl_poly *p, int32_t f)
+{
+    fl_aabb box = aabb_empty();
+    for (int32_t k = p->first[f]; k < p->first[f + 1]; k++) box = aabb_add(box, p->v[p->loop[k]]);
+    return aabb_overlap(box, a->box);
 }
 
 fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about)
@@ -210,7 +234,8 @@ fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *
     if (piece->kind == FL_PIECE_CONE) add_cone(&q, a, piece, about);
     else if (piece->kind == FL_PIECE_MESH) add_mesh(&q, a, piece);
     else if (piece->kind == FL_PIECE_SOLID)
-        for (int32_t f = 0; f < piece->core.nf; f++) add_face(&q, a, &piece->core, f);
+        for (int32_t f = 0; f < piece->core.nf; f++)
+            if (face_is_near(a, &piece->core, f)) add_face(&q, a, &piece->core, f);
     return result_of(&q);
 }
 

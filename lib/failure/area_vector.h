@@ -5,8 +5,8 @@
  *
  * V being the volume of the overlap, dV = S.dx for a displacement dx of A, so int p dV is the work of a
  * pressure p on it, and S depends neither on how B is divided into faces nor on what A looks like elsewhere.
- * The faces of B are clipped by the half-spaces of A (Sutherland, Hodgman 1974). On a cone, 32 generators
- * are clipped exactly, at Gauss points of the arc that is inside, whose ends are found by bisection.
+ * The faces of B are clipped by the half-spaces of A (Sutherland, Hodgman 1974). On a cone, generators
+ * are clipped exactly, at Gauss points of the arc that is inside about the contact.
  *
  * Limits.  All faces of B count, also where they form several separate contacts with A, of which each alone
  * would be stronger by 2^e (pressure_area.h).  The end discs of a cone do not count. */

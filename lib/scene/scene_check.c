@@ -399,10 +399,11 @@ static int check_failure(const fl_scene *s, fl_err *err)
     for (int32_t a = 0; a < s->n_material && crushes; a++) {
         const fl_contact_law *law = &fl_contact_laws[fl_scene_pair(s, a, FL_SCENE_STRUCTURE).law];
         if (law->points != FL_POINTS_PATCH)
-            return fl_scene_fail(s, "failure.crushing", err,
-                                 "contacts of %s with the structure have the law %s, which has no area: contact.law = "
-                                 "patch or quick is expected with failure.crushing",
-                                 s->material[a].name, law->name);
+            return fl_scene_fail(
+                s, "failure.crushing", err,
+                "contacts of %s with the structure have the law %s, which has no area: contact.law = "
+                "patch or quick is expected with failure.crushing",
+                s->material[a].name, law->name);
     }
     if (f->fracture_toughness < INFINITY && !crushes)
         return fl_scene_fail(

@@ -115,7 +115,7 @@ static void add_load(const fl_world *w, floe_loads *q, int32_t i, const fl_pair 
     const double sign = p->i == i ? 1.0 : -1.0;
     fl_vec3 x = p->load_point;
     if (p->i != i) x = v3_sub(x, fl_separation(w, p->i, p->j, p->image));
-    const double area = p->crush ? p->crush->area : 0.0, h = q->plan.thickness;
+    const double area = p->nominal_area, h = q->plan.thickness;
     fl_plan_load *l = &q->load[q->n];
     l->x = m3_mul(q->to_plan, x);
     l->x.z -= q->plan.bottom + 0.5 * h;

@@ -73,17 +73,17 @@ static void exchange_crush(fl_state_io *t, const fl_world *w, fl_pair *p)
 {
     int32_t there = p->crush != NULL;
     fl_state_io_int(t, 0, 1, &there);
+    fl_state_io_real(t, &p->nominal_area);
+    fl_state_io_real(t, &p->crush_checked);
     if (!there || t->err->code) return;
     if (!p->crush && !(p->crush = fl_alloc(1, sizeof *p->crush, t->err))) return;
     fl_crush *const c = p->crush;
     fl_state_io_vec3(t, &c->offset);
     fl_state_io_vec3(t, &c->centre);
     fl_state_io_real(t, &c->stiffening);
-    fl_state_io_real(t, &c->area);
-    fl_state_io_real(t, &c->most);
     fl_state_io_int(t, 0, 1, &c->unsaved);
     if (t->f || t->err->code) return;
-    if (!(c->stiffening > 0.0) || c->area < 0.0)
+    if (!(c->stiffening > 0.0) || p->nominal_area < 0.0)
         fl_text_fail(t->in, t->err, "the crushing of a contact has impossible values");
     p->k = c->stiffening * fl_pair_stiffness(w, p->i, p->j).k;
 }

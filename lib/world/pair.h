@@ -39,8 +39,6 @@ typedef struct {
     fl_vec3 offset;    /* D: what is crushed [m] */
     fl_vec3 centre;    /* of the contact when it last touched [m] */
     double stiffening; /* g */
-    double area;       /* largest nominal area since the contact began [m2] */
-    double most;       /* largest force since then [N] */
     double work;       /* Q of the step work_step [J] */
     double volume;     /* crushed since it was last booked [m3] */
     double force;      /* y at the last yield [N] */
@@ -71,9 +69,11 @@ typedef struct {
     int32_t has_axis;           /* axis is set */
     fl_vec3 axis;               /* from j to i, axes of j: separates the cores, now or at an earlier time */
     double free_travel;         /* the two cannot touch while the sum of their odometers is below this [m] */
-    double k;        /* FL_POINTS_PATCH: c of W = c sqrt(U) [N/m2]; else stiffness of one point [N/m^n] */
-    double exponent; /* n; 0 with FL_POINTS_PATCH */
-    double mass;     /* reduced mass [kg] */
+    double k;            /* FL_POINTS_PATCH: c of W = c sqrt(U) [N/m2]; else stiffness of one point [N/m^n] */
+    double exponent;     /* n; 0 with FL_POINTS_PATCH */
+    double mass;         /* reduced mass [kg] */
+    double nominal_area; /* where ice may crush: largest area of this contact that was needed [m2] */
+    double crush_checked;      /* and largest force that was held against it [N] */
     double max_approach_speed; /* largest of this contact so far [m/s] */
     double sustained_load;     /* load and spin behind a low pass, law/damping.h [N] */
     double sustained_step;     /* the step of both */
