@@ -126,8 +126,8 @@ static void add_mesh(area_sum *q, const fl_half_spaces *a, const fl_piece *piece
     }
 }
 
-/* The part inside a of the generator of the cone at an angle with cosine c and sine s: from and to as shares of
- * its length.  Returns a margin, positive inside: of the length of that part, or of the distance to planes
+/* The part inside a of the generator of the cone at an angle with cosine c and sine s: from and to as shares
+ * of its length.  Returns a margin, positive inside: of the length of that part, or of the distance to planes
  * along the generator, over the size of the cone. */
 static double clip_generator(const fl_half_spaces *a, const fl_piece *cone, double c, double s, double *from,
                              double *to)
@@ -152,8 +152,8 @@ static double margin_at(const fl_half_spaces *a, const fl_piece *cone, double ph
     return clip_generator(a, cone, c, s, &from, &to);
 }
 
-/* Angle where the margin vanishes between `in` and `out`: false position, with the weight of the end that stays
- * halved (Illinois). */
+/* Angle where the margin vanishes between `in` and `out`: false position, with the weight of the end that
+ * stays halved (Illinois). */
 static double end_of_arc(const fl_half_spaces *a, const fl_piece *cone, double in, double at_in, double out,
                          double at_out)
 {
@@ -169,8 +169,8 @@ static double end_of_arc(const fl_half_spaces *a, const fl_piece *cone, double i
     return in;
 }
 
-/* End of the arc from `in`, which is inside, in the direction of `step`: the step doubles until it is outside.
- * in + 2 pi if it never is. */
+/* End of the arc from `in`, which is inside, in the direction of `step`: the step doubles until it is
+ * outside. in + 2 pi if it never is. */
 static double search_end(const fl_half_spaces *a, const fl_piece *cone, double in, double at_in, double step)
 {
     const double start = in;
@@ -203,8 +203,8 @@ static void add_arc(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, 
     }
 }
 
-/* Arc of the cone inside a about the contact, in quarters of a turn at most.  If the contact is not inside, the
- * first arc of a scan. */
+/* Arc of the cone inside a about the contact, in quarters of a turn at most.  If the contact is not inside,
+ * the first arc of a scan. */
 static void add_cone(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, fl_vec3 about)
 {
     const double step = 2.0 * PI / ARCS, start = fl_atan2(about.y, about.x);

@@ -1549,8 +1549,7 @@ const fl_key fl_key_table[] = {
      .special_value = 0.0,
      .range = "[1,1000000]",
      .needs = {"flexural_strength", "fracture_toughness"},
-     .meaning = "room for new bodies; auto: twice the number of floes, at least 64, unless their areas give "
-                "fewer pieces"},
+     .meaning = "room for new bodies; auto: the number of floes, at least 64"},
     {.section = FL_SEC_GROUP,
      .key = "fixed",
      .type = FL_VALUE_FIXED,

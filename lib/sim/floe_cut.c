@@ -16,7 +16,7 @@
 #include "world/access.h"
 
 /* Fewest places where none are given. */
-enum { LEAST_ROOM = 64, ROOM_PER_FLOE = 2 };
+enum { LEAST_ROOM = 64 };
 
 static int breaks(const fl_scene *s)
 {
@@ -28,7 +28,7 @@ int32_t fl_fragment_places(const fl_scene *s, const fl_ice_field *field)
 {
     if (!breaks(s)) return 0;
     if (s->failure.fragments_max > 0) return s->failure.fragments_max;
-    return ROOM_PER_FLOE * field->n > LEAST_ROOM ? ROOM_PER_FLOE * field->n : LEAST_ROOM;
+    return field->n > LEAST_ROOM ? field->n : LEAST_ROOM;
 }
 
 int fl_breaking_make(fl_world *w, fl_err *err)
