@@ -14,6 +14,8 @@
 /* An edge is flattened from this share of y on, where it stores more than a flat by this share. */
 #define FLATTENED 0.1
 #define SAME_ENERGY 0.01
+/* Share of the stiffness of a flat below which W/F^2 shows that the contact has become a face. */
+#define SOFTER 0.67
 /* A dent counts for a contact whose normal is within 45 degrees of it. */
 #define SAME_SIDE 0.7
 
@@ -73,11 +75,17 @@ static double area_of(const fl_world *w, const fl_pair *p, const fl_relative_pos
     return v3_norm(fl_area_vector_of_body(&a, &other).S);
 }
 
+/* c of the law, without g. */
+static double law_stiffness(const fl_world *w, const fl_pair *p)
+{
+    return fl_pair_stiffness(w, p->i, p->j).k;
+}
+
 int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const fl_force_sum *q,
                       fl_vec3 centre, fl_exact_contact *exact, double *limit)
 {
     const fl_crushing_state *const s = &w->crushing;
-    const double F = exact->scale * v3_norm(q->gradient.f), W = exact->energy;
+    double F = exact->scale * v3_norm(q->gradient.f), W = exact->energy;
     fl_crush *c = p->crush;
     const fl_vec3 n = v3_unit(m3_tmul(r->M, q->gradient.f));
     if (!p->touching) p->nominal_area = p->crush_checked = 0.0;
@@ -87,6 +95,19 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
         const double turned = v3_dot(c->offset, n);
         if (turned < 0.0) c->offset = v3_madd(c->offset, -turned, n);
         c->centre = m3_tmul(r->M, v3_sub(centre, r->o));
+    }
+    if (c && c->stiffening > 1.0 && A > 0.0 && 4.0 * W * law_stiffness(w, p) * sqrt(A) < SOFTER * F * F) {
+        /* a flat that has turned to a face of the floe is no stiffer than that */
+        p->nominal_area = A = fmax(A, area_of(w, p, r, centre));
+        const double base = law_stiffness(w, p), part = 4.0 * W * base * sqrt(A) / (F * F),
+                     g = fmax(c->stiffening * part, 1.0), less = g / c->stiffening;
+        if (less < 1.0) {
+            c->stiffening = g;
+            p->k = g * base;
+            F *= less, W *= less;
+            exact->scale *= less, exact->energy = W, exact->slope *= less;
+        }
+        y = A * fl_crushing_pressure(&s->law, A);
     }
     if (y > 0.0) *limit = y;
     if (!(F > y) && y > 0.0 && !(F > p->crush_checked)) return 0;
@@ -98,7 +119,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
         p->crush_checked = FLATTENED * y;
         return 0;
     }
-    const double base = fl_pair_stiffness(w, p->i, p->j).k, to = fmin(F, y), flat = 2.0 * base * sqrt(A);
+    const double base = law_stiffness(w, p), to = fmin(F, y), flat = 2.0 * base * sqrt(A);
     if (!(F > y) && !(W > (1.0 + SAME_ENERGY) * 0.5 * F * F / flat)) {
         p->crush_checked = F;
         return 0;

@@ -18,7 +18,8 @@
  *
  * K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is flat, and a
  * sharp edge of the same force would store several times its energy. So W is multiplied by g >= 1, which
- * grows with A, until y^2/(2 K_A) is what an edge stores. The rebound of an impact of speed v is then
+ * grows with A, until y^2/(2 K_A) is what an edge stores; it falls where the contact is half as stiff again
+ * as K_A, as an edge that has turned to a face. The rebound of an impact of speed v is then
  *     v_r = y/sqrt(K_A M).
  *
  * Work.  Crushing takes, in a step, the work of the elastic force by the trapezoid over the step less the
