@@ -17,6 +17,8 @@
 
 /* Fewest places where none are given. */
 enum { LEAST_ROOM = 64 };
+/* Radii that are tried for a narrow half: r to r/16. */
+enum { RADII = 5 };
 
 static int breaks(const fl_scene *s)
 {
@@ -90,6 +92,7 @@ int fl_breaking_set_shape(fl_world *w, int32_t i, fl_poly *core, double r, fl_er
 /* A half: its core in the axes of the ice file, about the centre of the whole floe. */
 typedef struct {
     fl_poly core;
+    double radius; /* [m] */
     double volume; /* of the outer shape, for the choice of the larger one [m3] */
 } floe_half;
 
@@ -101,23 +104,41 @@ static double volume_of(const fl_poly *p)
     return V;
 }
 
+/* Core of a part that keeps all its faces: of radius r, or of r/2, r/4, ... where it is too narrow for that. 
+ * 1, 0 if it is too narrow for all of them, -1 with FL_SYSTEM. */
+static int inset_part(floe_half *h, const fl_poly *part, double r, fl_err *err)
+{
+    for (int k = 0; k < RADII; k++, r *= 0.5) {
+        fl_err why = {0};
+        if (fl_poly_offset(&h->core, part, -r, &why)) {
+            if (why.code != FL_SYSTEM) continue;
+            *err = why;
+            return -1;
+        }
+        h->radius = r;
+        if (h->core.nf == part->nf) return 1;
+        fl_poly_free(&h->core);
+    }
+    return 0;
+}
+
 /* The part n.x <= c of `outer`; 1, 0 if it is too thin, -1 with FL_SYSTEM. */
 static int make_half(floe_half *h, const fl_poly *outer, double r, fl_mat3 to_ice, fl_vec3 n, double c,
                      fl_err *err)
 {
     fl_poly part = {0};
     fl_err why = {0};
+    int rc = 0;
     if (fl_poly_copy(&part, outer, err)) return -1;
-    if (fl_poly_cut(&part, n, c, &why) || part.nv == 0 || fl_poly_offset(&h->core, &part, -r, &why)) {
-        fl_poly_free(&part);
-        if (why.code != FL_SYSTEM) return 0;
-        *err = why;
-        return -1;
+    if (fl_poly_cut(&part, n, c, &why) == 0 && part.nv > 0) rc = inset_part(h, &part, r, &why);
+    if (rc > 0) {
+        h->volume = volume_of(&part);
+        fl_poly_to_frame(&h->core, v3(0, 0, 0), to_ice);
     }
-    h->volume = volume_of(&part);
     fl_poly_free(&part);
-    fl_poly_to_frame(&h->core, v3(0, 0, 0), to_ice);
-    return 1;
+    if (why.code != FL_SYSTEM) return rc;
+    *err = why;
+    return -1;
 }
 
 /* What is kept of the floe while its place is filled anew. */
@@ -127,13 +148,13 @@ typedef struct {
     double odometer;
 } floe_before;
 
-static int place_half(fl_world *w, int32_t i, floe_half *h, double r, const floe_before *was, fl_err *err)
+static int place_half(fl_world *w, int32_t i, floe_half *h, const floe_before *was, fl_err *err)
 {
     fl_bodies *b = &w->b;
     fl_poly own;
     /* made anew from its vertices, as a checkpoint does */
     if (fl_poly_make(&own, h->core.nv, h->core.v, h->core.nf, h->core.first, h->core.loop, err) ||
-        fl_breaking_set_shape(w, i, &own, r, err))
+        fl_breaking_set_shape(w, i, &own, h->radius, err))
         return -1;
     const fl_vec3 way = q_rotate(was->turn, b->x[i]);
     b->x[i] = v3_add(was->x, way);
@@ -310,7 +331,6 @@ static int place_halves(fl_world *w, int32_t i, int32_t k, floe_half half[2], fl
 {
     fl_bodies *b = &w->b;
     fl_inflow_state *t = &w->inflow;
-    const double r = b->radius[i];
     const floe_before was = {.x = b->x[i],
                              .v = b->v[i],
                              .spin = b->w[i],
@@ -325,7 +345,7 @@ static int place_halves(fl_world *w, int32_t i, int32_t k, floe_half half[2], fl
     t->entry_step[i] = t->entry_step[k] = w->step;
     w->id[k] = t->next_id++;
     if (b->flow_work) b->flow_work[k] = 0.0;
-    return place_half(w, i, &half[0], r, &was, err) || place_half(w, k, &half[1], r, &was, err) ? -1 : 0;
+    return place_half(w, i, &half[0], &was, err) || place_half(w, k, &half[1], &was, err) ? -1 : 0;
 }
 
 /* Works that were booked ahead for contacts which have ended. */

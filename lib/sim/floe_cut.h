@@ -2,8 +2,8 @@
 /* floe_cut.h -- cut a floe in two by a plane, between two steps.
  *
  * The outer sharp shape of the floe, its core moved outward by r, is cut; the cores of the halves are these
- * moved inward by r, so the halves stand apart by nothing and their cores by 2r: no overlap and no force.
- * Mass and inertia partition exactly, and with
+ * moved inward by r (by r/2, r/4, ... r/16 where a face would vanish), so the halves stand apart by nothing
+ * and their cores by 2r: no overlap and no force. Mass and inertia partition exactly, and with
  *     v_h = v + w x (x_h - x),    w_h = w
  * so do momentum, spin and kinetic energy.  Added mass does not: the difference is `carried` in the ledger.
  *

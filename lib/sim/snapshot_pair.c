@@ -73,8 +73,7 @@ static void exchange_crush(fl_state_io *t, const fl_world *w, fl_pair *p)
 {
     int32_t there = p->crush != NULL;
     fl_state_io_int(t, 0, 1, &there);
-    fl_state_io_real(t, &p->nominal_area);
-    fl_state_io_real(t, &p->crush_checked);
+    if (p->touching || there) fl_state_io_real(t, &p->nominal_area), fl_state_io_real(t, &p->crush_checked);
     if (!there || t->err->code) return;
     if (!p->crush && !(p->crush = fl_alloc(1, sizeof *p->crush, t->err))) return;
     fl_crush *const c = p->crush;
