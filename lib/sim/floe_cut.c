@@ -104,7 +104,7 @@ static double volume_of(const fl_poly *p)
     return V;
 }
 
-/* Core of a part that keeps all its faces: of radius r, or of r/2, r/4, ... where it is too narrow for that. 
+/* Core of a part that keeps all its faces: of radius r, or of r/2, r/4, ... where it is too narrow for that.
  * 1, 0 if it is too narrow for all of them, -1 with FL_SYSTEM. */
 static int inset_part(floe_half *h, const fl_poly *part, double r, fl_err *err)
 {

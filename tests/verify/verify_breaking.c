@@ -7,6 +7,7 @@
 #include "failure/splitting.h"
 #include "sim/energy_balance.h"
 #include "sim/floe_cut.h"
+#include "support/scenes.h"
 #include "support/small_world.h"
 #include "support/verify.h"
 
@@ -178,6 +179,27 @@ static void halves(void)
     lab_free(&l);
 }
 
+/* Many floes that break: their mass stays, fragments do not move apart by themselves, the ledger closes. */
+static void many(void)
+{
+    lab l;
+    scene_of_failing_floes(&l, 3, "patch");
+    lab_make(&l, 0);
+    fl_world *const w = &l.w;
+    double before = 0.0, after = 0.0;
+    for (int32_t i = 0; i < w->n; i++) before += w->inflow.absent[i] ? 0.0 : w->b.m[i];
+    lab_run(&l, verify_quick() ? 300 : 1000);
+    for (int32_t i = 0; i < w->n; i++) after += w->inflow.absent[i] ? 0.0 : w->b.m[i];
+    fl_energy_update(w);
+    verify_note("%lld bent, %lld split, %.3g m3 crushed in %lld steps", (long long)w->breaking.bent,
+                (long long)w->breaking.split, w->crushing.volume, (long long)w->step);
+    verify_true("many", "more than 10 breaks", w->breaking.bent + w->breaking.split > 10);
+    verify_row("many", "mass of all floes", after / before, 1.0, 1e-9, VERIFY_REL);
+    verify_below("many", "residual of the ledger over the throughput",
+                 fabs(w->ledger.residual) / w->ledger.throughput, 1e-4);
+    lab_free(&l);
+}
+
 int main(void)
 {
     verify_begin("bending and splitting of floes");
@@ -187,5 +209,6 @@ int main(void)
     carried();
     cracks();
     halves();
+    many();
     return verify_end();
 }
