@@ -146,7 +146,7 @@ extern const fl_table_format fl_member_forces_table;
 /* --- failures(5) -------------------------------------------------------------------------------- */
 
 typedef struct {
-    const char *mode; /* bend or split */
+    const char *mode; /* bend, split or cusp */
     int32_t parent, child;
     fl_vec3 x, n;
     double length, load, ratio, mass, child_mass, energy; /* world/breaking_state.h */

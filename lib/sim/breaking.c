@@ -16,6 +16,8 @@
 enum { LOADS = 64, LINES = 8 };
 /* A load is looked at again when it has grown by this. */
 #define GROWN 1.02
+/* A strip wider than this multiple of what bends is cut to a cusp. */
+#define WIDE 1.5
 /* Share by which the volume of a prism may differ from area times thickness. */
 #define PRISM 0.02
 
@@ -152,7 +154,8 @@ typedef struct {
     int mode;
     double ex, ey, c; /* cut at e.x = c in plan */
     double length, load, energy;
-    int32_t of; /* number of the load */
+    double width, distance; /* of the beam that bends, at the cut [m] */
+    int32_t of;             /* number of the load */
 } floe_break;
 
 static floe_break bend_of(fl_world *w, int32_t i, const floe_loads *q)
@@ -173,6 +176,8 @@ static floe_break bend_of(fl_world *w, int32_t i, const floe_loads *q)
                             .ey = r.ey,
                             .c = r.c,
                             .length = r.whole,
+                            .width = r.width,
+                            .distance = r.distance,
                             .load = v3_norm(q->load[k].force),
                             .of = k,
                             /* of a beam whose moment falls off over the distance x on both sides */
@@ -306,6 +311,56 @@ static int record_failure(fl_world *w, const fl_failure_event *e, fl_err *err)
     return 0;
 }
 
+/* Cuts the strip that a bend has broken off, in place k, along a line from an end of the contact to an end of
+ * the width that bent; side: 1 or -1.  x: centre of the whole floe.  *cusp: the place of the part between. */
+static int cut_cusp(fl_world *w, int32_t k, const floe_loads *q, const floe_break *by, fl_vec3 x, double side,
+                    int32_t *cusp, fl_err *err)
+{
+    const fl_plan_load *l = &q->load[by->of];
+    const double tx = -by->ey, ty = by->ex, wide = 0.5 * (by->width - l->width), far = by->distance,
+                 size = sqrt(far * far + wide * wide), nx = (far * side * tx - wide * by->ex) / size,
+                 ny = (far * side * ty - wide * by->ey) / size;
+    const fl_vec3 at = v3(l->x.x + 0.5 * side * l->width * tx, l->x.y + 0.5 * side * l->width * ty, 0.0),
+                  own = m3_mul(q->to_plan, v3_sub(w->b.x[k], x));
+    const double c = nx * (at.x - own.x) + ny * (at.y - own.y);
+    fl_plan plan;
+    int32_t child;
+    *cusp = k;
+    if (make_plan(w, k, &plan, err)) return -1;
+    if (plan.n == 0) return 0;
+    const double all = fl_plan_part(&plan, 1, 0, INFINITY).area, part = fl_plan_part(&plan, nx, ny, c).area;
+    if (fmin(part, all - part) < least_area_of(w, k, plan.thickness)) return 0;
+    const fl_vec3 n = m3_tmul(q->to_plan, v3(nx, ny, 0.0));
+    fl_vec2 middle = {0, 0};
+    fl_failure_event e = {.time = fl_world_time(w),
+                          .mode = FL_FAILURE_CUSP,
+                          .parent = w->id[k],
+                          .n = n,
+                          .load = by->load,
+                          .ratio = by->ratio};
+    e.length = fl_plan_width(&plan, nx, ny, c, &middle);
+    e.x = v3_add(w->b.x[k], m3_tmul(q->to_plan, v3(middle.x, middle.y, plan.bottom + 0.5 * plan.thickness)));
+    const int cut = fl_floe_cut(w, k, m3_tmul(q_matrix(w->q0[k]), v3(nx, ny, 0.0)), c, &child, err);
+    if (cut <= 0) return cut;
+    if (v3_dot(v3_sub(w->b.x[child], e.x), n) < 0.0) *cusp = child;
+    else e.n = v3_neg(n);
+    e.child = w->id[child];
+    e.mass = w->b.m[k], e.child_mass = w->b.m[child];
+    w->breaking.cusps++;
+    return record_failure(w, &e, err);
+}
+
+/* A strip much wider than what bent: only the cusp ahead of the contact comes off, and two side pieces. */
+static int cut_sides(fl_world *w, int32_t i, int32_t child, const floe_loads *q, const floe_break *by,
+                     fl_vec3 x, fl_err *err)
+{
+    const fl_vec3 e = m3_tmul(q->to_plan, v3(by->ex, by->ey, 0.0));
+    int32_t k = v3_dot(e, v3_sub(w->b.x[child], w->b.x[i])) < 0.0 ? child : i; /* the one with the contact */
+    for (int side = -1; side <= 1; side += 2)
+        if (cut_cusp(w, k, q, by, x, side, &k, err) < 0) return -1;
+    return 0;
+}
+
 /* Cuts floe i; counts and records it. */
 static int cut_floe(fl_world *w, int32_t i, const floe_loads *q, const floe_break *by, fl_err *err)
 {
@@ -333,6 +388,7 @@ static int cut_floe(fl_world *w, int32_t i, const floe_loads *q, const floe_brea
                           .ratio = by->ratio,
                           .energy = by->energy};
     int32_t child;
+    const fl_vec3 centre = w->b.x[i];
     const int cut = fl_floe_cut(w, i, n, by->c, &child, err);
     if (cut <= 0) return cut;
     if (v3_dot(v3_sub(w->b.x[child], e.x), normal) > 0.0) e.n = v3_neg(e.n);
@@ -340,7 +396,10 @@ static int cut_floe(fl_world *w, int32_t i, const floe_loads *q, const floe_brea
     e.mass = w->b.m[i], e.child_mass = w->b.m[child];
     if (by->mode == FL_FAILURE_BEND) s->bent++;
     else s->split++;
-    return record_failure(w, &e, err);
+    if (record_failure(w, &e, err)) return -1;
+    return by->mode == FL_FAILURE_BEND && by->length > WIDE * by->width
+               ? cut_sides(w, i, child, q, by, centre, err)
+               : 0;
 }
 
 /* Checks floe i, whose loads have passed a gate; 1 if it was cut. */

@@ -10,6 +10,9 @@
  * 2 %. A floe that breaks is cut (floe_cut.h) across the direction, or along the line, that is loaded most:
  * in the order of floe ids, one cut a floe and step, bending before splitting.
  *
+ * A strip that is wider than 1.5 times what bent is cut twice more, from the ends of the contact to the ends
+ * of that width: the cusp between comes off, and the two side pieces are free.
+ *
  * Floes with fixed rotations about z do not split, and driven or guided floes do not break, nor do shapes
  * that are no upright prisms in the ice file. Nothing of less than fragment_min is cut off; such breaks are
  * counted. A rigid floe stores no bending energy, so none is released: it is in failures(5) only.

@@ -205,6 +205,7 @@ static void exchange_breaking(fl_state_io *t, fl_world *w)
     fl_state_io_count(t, &s->checks);
     fl_state_io_count(t, &s->bent);
     fl_state_io_count(t, &s->split);
+    fl_state_io_count(t, &s->cusps);
     fl_state_io_count(t, &s->too_small);
     fl_state_io_count(t, &s->no_room);
     fl_state_io_count(t, &s->buckled);
@@ -225,7 +226,7 @@ static void exchange_breaking(fl_state_io *t, fl_world *w)
         if (t->in) *e = (fl_failure_event){.mode = 0};
         fl_state_io_open(t, "failure");
         fl_state_io_real(t, &e->time);
-        fl_state_io_int(t, FL_FAILURE_BEND, FL_FAILURE_SPLIT, &e->mode);
+        fl_state_io_int(t, FL_FAILURE_BEND, FL_FAILURE_CUSP, &e->mode);
         fl_state_io_int(t, 0, INT32_MAX, &e->parent);
         fl_state_io_int(t, 0, INT32_MAX, &e->child);
         fl_state_io_vec3(t, &e->x);

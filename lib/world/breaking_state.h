@@ -7,7 +7,7 @@
 #include "geom/poly.h"
 
 /* How a floe broke. */
-enum fl_failure_mode { FL_FAILURE_BEND, FL_FAILURE_SPLIT };
+enum fl_failure_mode { FL_FAILURE_BEND, FL_FAILURE_SPLIT, FL_FAILURE_CUSP };
 
 /* A row of failures(5). */
 typedef struct {
@@ -30,7 +30,7 @@ typedef struct {
     double *last_load; /* [n] size of the loads at the last check [N] */
     double *bend_gate; /* [n] vertical load below which it is not checked for bending, 0: not known [N] */
     double *split_gate; /* [n] load below which it is not checked for splitting [N] */
-    int64_t checks, bent, split;
+    int64_t checks, bent, split, cusps;
     int64_t too_small, no_room, buckled; /* breaks that did not take place */
     double lost;                         /* elastic energy of contacts lost by cuts [J] */
     fl_failure_event *event;             /* [events] since the last row */

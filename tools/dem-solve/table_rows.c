@@ -176,11 +176,12 @@ static const char *const BOND_STATE[] = {"whole", "damaged", "broken", "ended"};
 
 void write_failures(struct run *r, FILE *f, double t, double interval)
 {
+    static const char *const MODE[] = {"bend", "split", "cusp"};
     fl_breaking_state *s = &r->w->breaking;
     (void)t, (void)interval; /* rows have the times of the failures */
     for (int32_t k = 0; k < s->events; k++) {
         const fl_failure_event *e = &s->event[k];
-        const fl_failures_row row = {.mode = e->mode == FL_FAILURE_BEND ? "bend" : "split",
+        const fl_failures_row row = {.mode = MODE[e->mode],
                                      .parent = e->parent,
                                      .child = e->child,
                                      .x = e->x,
