@@ -226,8 +226,9 @@ static int check_state(fl_world *w, int update_stiffness, fl_err *err)
         else snprintf(name, sizeof name, "body %d", w->id[i]);
         return fl_fail(err, FL_NUMERIC,
                        "%s: the step of %g s is above the critical %g s of its contacts in step %lld (t = %g "
-                       "s); set a smaller run.dt or run.safety",
-                       name, w->dt, w->dt_critical, (long long)w->step, fl_world_time(w));
+                       "s); set a smaller run.dt or run.safety%s",
+                       name, w->dt, w->dt_critical, (long long)w->step, fl_world_time(w),
+                       w->breaking.on ? ", or a larger failure.fragment_min" : "");
     }
     for (int32_t k = 0; k < w->moving.movers.n; k++)
         if (!v3_finite(w->moving.movers.b.x[k]) || !v3_finite(w->moving.movers.b.f[k]) ||
