@@ -70,7 +70,7 @@ awk -v n="$pairs" -v s="$seconds" 'BEGIN { for (k = 1; k <= n; k++) print "pair"
 xargs -L 1 -P "${JOBS:-2}" sh "$bench/jam.sh" <list || fail "not all pairs ran"
 {
     echo '#jam 1'
-    echo "#by $(dem-solve --version)"
+    echo "#by $(dem-solve --version | head -n 1)"
     echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
     echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the runs themselves being ${JOBS:-2}"
     echo "#seconds $seconds"

@@ -148,7 +148,7 @@ done
 
 {
     echo '#ladder 1'
-    echo "#by $(dem-solve --version)"
+    echo "#by $(dem-solve --version | head -n 1)"
     model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1)
     echo "#processor ${model:-unknown}, $(uname -m), $cores cores"
     echo "#compiler $(sh -c "${CC:-cc} --version" | head -n 1)"

@@ -124,7 +124,7 @@ for start in checkpoint state; do
 done >rows
 {
     echo '#late 1'
-    echo "#by $(dem-solve --version)"
+    echo "#by $(dem-solve --version | head -n 1)"
     echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
     load=$(uptime | sed 's/.*: //')
     echo "#load $load over 1, 5 and 15 minutes, the runs themselves being 1; least of $turns turns"

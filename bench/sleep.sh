@@ -87,7 +87,7 @@ done
 
 {
     echo '#sleep 1'
-    echo "#by $(dem-solve --version)"
+    echo "#by $(dem-solve --version | head -n 1)"
     echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
     echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the runs themselves being 1; least of $turns turns"
     printf 'scene\ttolerance\tsleep\tdt[s]\tcontacts\tsurrogate_share\tsleeping\tsteps_per_skip\tskip_error\t'

@@ -83,7 +83,7 @@ done
 
 {
     echo '#surrogate 1'
-    echo "#by $(dem-solve --version)"
+    echo "#by $(dem-solve --version | head -n 1)"
     echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
     echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the runs themselves being 1; least of $turns turns"
     printf 'scene\tstep\ttolerance\tdt[s]\tstep_over_critical\tcontacts\tsurrogate_share\tmissed\tworst\timpulse\tpeak\t'

@@ -98,7 +98,7 @@ done >rows
 
 {
     echo '#threads 1'
-    echo "#by $(dem-solve --version)"
+    echo "#by $(dem-solve --version | head -n 1)"
     model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1)
     echo "#processor ${model:-unknown}, $(uname -m), $cores cores"
     echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes; medians of $turns turns"

@@ -89,7 +89,7 @@ else
 fi
 {
     echo '#view 1'
-    printf '#by %s\n' "$(ice-view --version)"
+    printf '#by %s\n' "$(ice-view --version | head -n 1)"
     printf '#processor %s, %s\n' "$(awk -F ': ' '/^model name/ { print $2; exit }' /proc/cpuinfo 2>/dev/null)" "$(uname -m)"
     printf '#load %s over 1, 5 and 15 minutes\n' "$(cut -d ' ' -f 1-3 /proc/loadavg 2>/dev/null | tr ' ' ',')"
     printf 'what\tvalue\tunit\tat_most\n'

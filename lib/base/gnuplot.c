@@ -48,6 +48,12 @@ static int run_gnuplot(const char *dir, const char *setting, const char *script,
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+int fl_gnuplot_is_there(void)
+{
+    char message[200];
+    return run_gnuplot(".", "exit", "/dev/null", message, sizeof message) == 0;
+}
+
 /* The last line of gnuplot's stderr that is not empty: it names the error. */
 static const char *last_error_line(char *message)
 {

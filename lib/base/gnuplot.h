@@ -6,6 +6,9 @@
 
 enum { FL_GNUPLOT_STEM = 80 };
 
+/* 1 if a program gnuplot can be started. */
+int fl_gnuplot_is_there(void);
+
 /* Runs gnuplot in the folder dir on STEM.gp, which must write to the file named by its variable `out`.  The
  * complete picture gets the name STEM.FORMAT.  stem has less than FL_GNUPLOT_STEM bytes.  The user's start-up
  * file is ignored.

@@ -7,8 +7,9 @@
 /* The slot of word, or the free slot where it belongs.  slots > 0, and at least one slot is free. */
 static int32_t slot_of(const fl_string_table *s, const char *word)
 {
-    const uint64_t h = fl_hash(FL_HASH_START, word, (int64_t)strlen(word));
-    int32_t k = (int32_t)((h ^ h >> 32) & (uint64_t)(s->slots - 1));
+    uint64_t h = fl_hash(FL_HASH_START, word, (int64_t)strlen(word));
+    h = (h ^ h >> 32) * UINT64_C(0x9e3779b97f4a7c15); /* names of few letters differ in few bits of h */
+    int32_t k = (int32_t)(h >> 32 & (uint64_t)(s->slots - 1));
     while (s->slot[k] && strcmp(s->name[s->slot[k] - 1], word) != 0) k = (k + 1) & (s->slots - 1);
     return k;
 }

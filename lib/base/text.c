@@ -133,7 +133,7 @@ static int keep_comment(fl_text *t, fl_err *err)
     const char *p = t->line;
     if (strncmp(p, "#by ", 4) == 0 || strncmp(p, "#stopped ", 9) == 0)
         return append_line(t, &t->history, &t->history_len, &t->history_cap, err);
-    if (strncmp(p, "#set ", 5) == 0 || strncmp(p, "#report ", 8) == 0)
+    if (strncmp(p, "#set ", 5) == 0 || strncmp(p, "#report ", 8) == 0 || strncmp(p, "#part ", 6) == 0)
         return append_line(t, &t->run_lines, &t->run_lines_len, &t->run_lines_cap, err);
     return 0;
 }

@@ -21,7 +21,7 @@ typedef struct {
     int32_t n, next, field_cap;
     char *history; /* the "#by ..." and "#stopped ..." lines, each with its newline; NULL if none */
     int32_t history_len, history_cap;
-    char *run_lines; /* the "#set ..." and "#report ..." lines of a run, likewise */
+    char *run_lines; /* the "#set ...", "#part ..." and "#report ..." lines of a run, likewise */
     int32_t run_lines_len, run_lines_cap;
     char kind[32]; /* kind and version, set by fl_text_magic() */
     int version;

@@ -265,15 +265,21 @@ static int is_on_facets(const fl_world *w, const fl_pair *p)
 static double sustained_share(const fl_world *w, fl_pair *p, double load, double slope, double mass,
                               fl_vec3 u, fl_vec3 spin, double sigma2)
 {
-    const double now = (double)w->step, sustained = p->touching ? p->sustained_load : 0.0;
-    const fl_vec3 before = p->touching ? p->sustained_spin : v3(0, 0, 0);
-    const double omega2 = slope > 0.0 && mass < INFINITY ? slope / mass : 0.0,
-                 part = p->touching ? fl_damping_low_pass((now - p->sustained_step) * w->dt, omega2) : 0.0;
-    p->sustained_load = sustained + part * (load - sustained);
-    p->sustained_spin = v3_lerp(before, spin, part);
+    const double now = (double)w->step, omega2 = slope > 0.0 && mass < INFINITY ? slope / mass : 0.0,
+                 dt = p->touching ? (now - p->sustained_step) * w->dt : 0.0;
+    const fl_low_pass pass = fl_damping_low_pass(dt, omega2);
+    const fl_vec3 w0 = p->sustained_spin, g0 = p->sustained_spin_rate;
+    const double load_now = fl_low_pass_after(&pass, p->sustained_load, p->sustained_load_rate, load, dt);
+    const fl_vec3 spin_now = v3(fl_low_pass_after(&pass, w0.x, g0.x, spin.x, dt),
+                                fl_low_pass_after(&pass, w0.y, g0.y, spin.y, dt),
+                                fl_low_pass_after(&pass, w0.z, g0.z, spin.z, dt));
+    p->sustained_load = load_now;
+    p->sustained_load_rate = pass.rate * (load - load_now);
+    p->sustained_spin = spin_now;
+    p->sustained_spin_rate = v3_scale(pass.rate, v3_sub(spin, spin_now));
     p->sustained_step = now;
-    return fl_damping_sustained_share(sustained, load) * fl_damping_passing_share(v3_norm2(u), sigma2) *
-           fl_damping_steady_share(v3_dot(spin, before), v3_norm2(spin), v3_norm2(before));
+    return fl_damping_sustained_share(load_now, load) * fl_damping_passing_share(v3_norm2(u), sigma2) *
+           fl_damping_steady_share(v3_dot(spin, spin_now), v3_norm2(spin), v3_norm2(spin_now));
 }
 
 /* A contact point in world axes. */
@@ -907,8 +913,8 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     p->touching = 0;
     if (p->crush && release_worn(w, p, thread, &before, dt, &r, &distance)) goto failed;
     p->max_approach_speed = 0.0;
-    p->sustained_load = p->sustained_step = 0.0;
-    p->sustained_spin = v3(0, 0, 0);
+    p->sustained_load = p->sustained_load_rate = p->sustained_step = 0.0;
+    p->sustained_spin = p->sustained_spin_rate = v3(0, 0, 0);
     if (p->surrogate) p->surrogate->valid = 0;
     if (p->bond && p->radius_factor < 1.0) fl_bond_list_restore_radii(w, p, R, distance);
     fl_pair_set_free_travel(w, p, distance, R);

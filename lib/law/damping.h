@@ -94,11 +94,25 @@ static inline double fl_damping_steady_share(double product, double now2, double
     return !(most > 0.0) ? 1.0 : product > 0.0 ? product / most : 0.0;
 }
 
-/* Share of the new value in the low pass after dt [s]; omega2: stiffness over mass [1/s2]. */
-static inline double fl_damping_low_pass(double dt, double omega2)
+/* The low pass y' = r (x - y), r = omega/FL_SUSTAINED_PERIODS, over dt [s]: by the trapezoidal rule, so that
+ * forces keep the order of the step, and by backward Euler over stretches longer than 1/r. */
+typedef struct {
+    double part, rate; /* share of the new x; r [1/s] */
+    int trapezoid;
+} fl_low_pass;
+
+/* dt = 0: of a contact that begins.  omega2: stiffness over mass [1/s2]. */
+static inline fl_low_pass fl_damping_low_pass(double dt, double omega2)
 {
-    const double x = dt * sqrt(omega2) * (1.0 / FL_SUSTAINED_PERIODS);
-    return x / (1.0 + x);
+    const double rate = sqrt(omega2) * (1.0 / FL_SUSTAINED_PERIODS), x = dt * rate;
+    return x > 1.0 ? (fl_low_pass){x / (1.0 + x), rate, 0} : (fl_low_pass){0.5 * x / (1.0 + 0.5 * x), rate, 1};
+}
+
+/* y after dt.  gradient: y' before. */
+static inline double fl_low_pass_after(const fl_low_pass *f, double y, double gradient, double x, double dt)
+{
+    const double from = f->trapezoid ? y + 0.5 * dt * gradient : y;
+    return from + f->part * (x - from);
 }
 
 /* Share of the largest step 2/omega that Hunt and Crossley leave when damping uses fl_damping_end_speed(): at

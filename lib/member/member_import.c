@@ -79,8 +79,12 @@ static int make_section(importer *u, const fl_frame_section *s, int truss, const
             fl_frame_count_skipped(u->f, "section %s has no torsion constant: Iy + Iz is taken", name);
             j = iy + iz;
         }
-        *out = (fl_member_section){
-            .ea = e * a, .eiy = e * iy * l4, .eiz = e * iz * l4, .gj = g * j * l4, .mass = rho * a + more};
+        *out = (fl_member_section){.ea = e * a,
+                                   .eiy = e * iy * l4,
+                                   .eiz = e * iz * l4,
+                                   .gj = g * j * l4,
+                                   .mass = rho * a + more,
+                                   .radius = l * s->radius};
         return 1;
     }
     if (truss) {
@@ -195,10 +199,11 @@ int fl_member_import(fl_member_model *m, fl_frame_model *f, int32_t pieces, doub
     if (rc == 0 && f->extra_loads && fl_frame_count_skipped(f, "loads of sets besides the first")) rc = -1;
     if (rc == 0 && f->failed) rc = fl_fail(err, FL_SYSTEM, "%s: out of memory", file);
     if (rc == 0 && m->member_name.n == 0)
-        rc = fl_fail(err, FL_INPUT,
-                     "%s: no beam or truss with a section and a material: a deck of Abaqus, ANSYS or "
-                     "Nastran with such elements is expected",
-                     file);
+        rc = fl_fail(
+            err, FL_INPUT,
+            "%s: no beam or truss with a section and a modulus of elasticity: a deck that states them is "
+            "expected",
+            file);
     free(u.node), free(u.section);
     if (rc) fl_member_model_free(m);
     return rc;

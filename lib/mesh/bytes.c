@@ -277,6 +277,26 @@ static int skip_space(fl_bytes *b, fl_err *err)
     }
 }
 
+/* A number as FORTRAN writes it: D for E, or no letter before the sign of the exponent. */
+static int read_fortran(const char *p, int32_t len, double *x)
+{
+    char text[64];
+    int32_t n = 0;
+    int exponent = 0;
+    if (len < 1 || len > (int32_t)sizeof text - 3) return 0;
+    for (int32_t k = 0; k < len; k++) {
+        const char c = (char)(p[k] == 'd' || p[k] == 'D' ? 'e' : p[k]);
+        exponent |= c == 'e' || c == 'E';
+        if ((c == '+' || c == '-') && k > 0 && !exponent) {
+            text[n++] = 'e';
+            exponent = 1;
+        }
+        text[n++] = c;
+    }
+    text[n] = '\0';
+    return fl_decimal_read(text, x) == text + n;
+}
+
 int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
 {
     static const char ENDS[] = " \t\f\v\r\n";
@@ -300,7 +320,7 @@ int fl_bytes_real(fl_bytes *b, int any, double *x, fl_err *err)
     if (p[len] == '\0' && b->pos + len < b->n)
         return fl_bytes_fail(b, err, "a zero byte: this is not a text file");
     end = fl_decimal_read(p, x);
-    if (end != p + len) {
+    if (end != p + len && !(b->fortran && read_fortran(p, len, x))) {
         if (!any)
             return fl_bytes_fail(b, err, "\"%.*s\" was found, a number is expected", len < 40 ? len : 40, p);
         *x = 0.0;

@@ -21,6 +21,7 @@ typedef struct {
     int64_t offset; /* in the file, of data[0] */
     int32_t line;   /* of the current row; 0 in binary data */
     char comment;   /* opens a comment, '\0' for none */
+    int fortran;    /* fl_bytes_real() takes 1D5 and 1.5-3 too */
     char **field;   /* words of the current row */
     int32_t words, next, field_cap;
     char note[FL_MESH_NOTE]; /* remarks for the user, each with its newline */

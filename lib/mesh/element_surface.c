@@ -25,7 +25,7 @@ static void add_count(count_list *l, const char *name, int32_t n)
 
 static void report_counts(const fl_elements *e, fl_bytes *b)
 {
-    int32_t count[FL_SHAPES] = {0}, nodes = 0;
+    int32_t count[FL_SHAPES] = {0}, nodes = -e->own_nodes;
     count_list in = {{0}, 0}, out = {{0}, 0};
     for (int32_t k = 0; k < e->node_id.n; k++) nodes += !isnan(e->x[k].x);
     for (int32_t k = 0; k < e->element_id.n; k++) count[e->element[k].shape] += e->element[k].part >= 0;

@@ -71,6 +71,7 @@ typedef struct {
     int32_t *skip_count;  /* [skipped.n] number of elements of that type */
     double (*section)[2]; /* [sections] radius at either end */
     int32_t sections;
+    int32_t own_nodes;       /* nodes that the reader made, which are not counted in the report */
     int32_t moved, replaced; /* nodes moved and elements replaced by a later definition */
     int32_t file, line;      /* position of the next addition, set by the reader; file 0 is the deck itself */
     int32_t x_cap, element_cap, connectivity_cap, pick_cap, skip_cap, section_cap;

@@ -32,6 +32,7 @@ typedef struct {
     int32_t material;    /* -1: none */
     double a, iy, iz, j; /* FL_FRAME_GENERAL */
     double size[2];      /* pipe: outer diameter and wall; rectangle: along y, along z */
+    double radius;       /* of the circle round a general section; 0: not known */
     double other_mass;   /* per length, besides that of the material */
 } fl_frame_section;
 

@@ -13,6 +13,7 @@ typedef struct {
     fl_string_table *available;   /* out: names that can be selected; may be NULL */
     struct fl_frame_model *frame; /* NULL, or what beams and trusses of a deck become (frame_model.h); its
                                    * reader then adds no parts */
+    int has_unit;                 /* the user gave the unit of length: no hints about it */
     int subdivide;                /* split quadratic faces into triangles through their mid-side nodes */
 } fl_import_options;
 

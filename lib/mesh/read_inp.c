@@ -35,6 +35,7 @@ int fl_inp_is(const fl_bytes *b)
     int alone = 1; /* only comments so far */
     for (; *p; p += strspn(p, "\r\n")) {
         p += strspn(p, " \t\r\n\f\v");
+        if (strncasecmp(p, "*DIODORE", 8) == 0) return 0; /* another program with the same keywords */
         if (is_keyword(p)) return alone || begins_deck(p);
         alone &= p[0] == '\0' || p[0] == '*';
         p += strcspn(p, "\r\n");

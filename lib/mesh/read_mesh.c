@@ -4,19 +4,32 @@
 #include <string.h>
 #include <strings.h>
 #include "base/array.h"
-#include "mesh/rejected_formats.h"
 #include "mesh/gstruct.h"
+#include "mesh/read_aqwa.h"
 #include "mesh/read_bdf.h"
 #include "mesh/read_cdb.h"
+#include "mesh/read_gdf.h"
+#include "mesh/read_genie.h"
+#include "mesh/read_hams.h"
+#include "mesh/read_hydrostar.h"
 #include "mesh/read_inp.h"
 #include "mesh/read_mesh.h"
 #include "mesh/read_msh.h"
+#include "mesh/read_nemoh.h"
 #include "mesh/read_obj.h"
 #include "mesh/read_off.h"
+#include "mesh/read_openfast.h"
 #include "mesh/read_ply.h"
+#include "mesh/read_sacs.h"
+#include "mesh/read_salome_dat.h"
+#include "mesh/read_sesam.h"
 #include "mesh/read_stl.h"
+#include "mesh/read_tecplot.h"
+#include "mesh/read_unv.h"
+#include "mesh/read_usfos.h"
 #include "mesh/read_vtk.h"
 #include "mesh/read_vtk_xml.h"
+#include "mesh/rejected_formats.h"
 #include "mesh/single_precision.h"
 
 enum { NAME_MAX = 128 };
@@ -41,21 +54,61 @@ static void base_name(const char *path, char name[NAME_MAX])
     name[len] = '\0';
 }
 
-/* Order of trust: a format whose files cannot be mistaken for another comes first. */
+/* Order of trust: a format whose files cannot be mistaken for another comes first. Lines that begin with *
+ * look like Abaqus and are comments in others, so it stands behind them. */
 const fl_mesh_format FL_MESH_FORMATS[] = {
-    {"Gmsh", "Gmsh", fl_msh_is, fl_msh_read, 0, 1},
+    {"Gmsh", "Gmsh", fl_msh_is, fl_msh_read, 0, 1, "MSH 2 and 4.1: shells, solids", "points, lines",
+     "versions 1 and 4.0"},
+    {"GeniE", "GeniE", fl_genie_is, fl_genie_read, 1, 1, "straight beams of pipes, cones and boxes",
+     "other sections, plates, curved beams", "lengths of unknown units"},
     /* arrays of an XML file lie anywhere behind the tags, and several may share the same bytes */
-    {"VTK", "VTK", fl_vtk_xml_is, fl_vtk_xml_read, 1, 1},
-    {"VTK", "VTK", fl_vtk_is, fl_vtk_read, 0, 1},
-    {"ANSYS", "ANSYS archive", fl_cdb_is, fl_cdb_read, 0, 1},
-    {"Abaqus", "Abaqus, CalculiX", fl_inp_is, fl_inp_read, 0, 1},
-    {"STL", "STL", fl_stl_is, fl_stl_read, 0, 0},
-    {"PLY", "PLY", fl_ply_is, fl_ply_read, 0, 0},
-    {"g_struct", "g_struct", fl_gstruct_is, fl_gstruct_read_bytes, 0, 0},
-    {"OFF", "OFF", fl_off_is, fl_off_read, 0, 0},
-    {"OBJ", "OBJ", fl_obj_is, fl_obj_read, 0, 0},
+    {"VTK", "VTK", fl_vtk_xml_is, fl_vtk_xml_read, 1, 1, "POLYDATA, UNSTRUCTURED_GRID; vtp, vtu",
+     "points, lines", "structured grids"},
+    {"VTK", "VTK", fl_vtk_is, fl_vtk_read, 0, 1, "POLYDATA, UNSTRUCTURED_GRID; vtp, vtu", "points, lines",
+     "structured grids"},
+    {"SESAM", "SESAM", fl_sesam_is, fl_sesam_read, 0, 1,
+     "pipes and boxes with tapers and offsets, shells, solids, sets", "profiles, springs, masses",
+     "files of GELMNT2 alone; SIN, SIU"},
+    {"OpenFAST", "OpenFAST", fl_openfast_is, fl_openfast_read, 0, 1,
+     "SubDyn, HydroDyn: round and rectangular members with tapers",
+     "cables, rigid links, springs, arbitrary sections", "other modules"},
+    {"USFOS", "USFOS", fl_usfos_is, fl_usfos_read, 0, 1, "pipes and boxes with offsets, plates, groups",
+     "IHPROFIL, GENBEAM, loads", "nothing"},
+    {"SACS", "SACS", fl_sacs_is, fl_sacs_read, 0, 1, "tubulars and cones by segments, plates, groups",
+     "other sections, members of missing joints, springs", "files without units"},
+    {"UNV", "UNV", fl_unv_is, fl_unv_read, 0, 1, "shells and solids of datasets 2411, 2412, groups of 2467",
+     "beams, other datasets", "nothing"},
+    {"HAMS", "HAMS", fl_hams_is, fl_hams_read, 0, 0, "panels with symmetry", "nothing",
+     "panels across a plane of symmetry"},
+    {"HydroStar", "HydroStar", fl_hydrostar_is, fl_hydrostar_read, 0, 0, "panels of bodies with symmetry",
+     "all other blocks", "PANEL of other types"},
+    {"AQWA", "AQWA", fl_aqwa_is, fl_aqwa_read, 0, 0, "QPPL and TPPL of bodies with symmetry",
+     "tubes, discs, masses", "one SYMX or SYMY that fits no rim, or two"},
+    {"Tecplot", "Tecplot", fl_tecplot_is, fl_tecplot_read, 0, 0,
+     "zones of triangles and quadrilaterals, grids", "further variables", "data in blocks, zones of solids"},
+    {"ANSYS", "ANSYS archive", fl_cdb_is, fl_cdb_read, 0, 1,
+     "shells, solids, round beams and pipes, components", "fluids, contact, other sections",
+     "the unblocked format"},
+    {"Abaqus", "Abaqus, CalculiX", fl_inp_is, fl_inp_read, 0, 1,
+     "shells, solids, round beams and pipes, sets, assemblies", "fluids, other sections",
+     "*NCOPY, *NFILL, *PARAMETER, arcs"},
+    {"STL", "STL", fl_stl_is, fl_stl_read, 0, 0, "triangles, ASCII and binary", "colours", "nothing"},
+    {"PLY", "PLY", fl_ply_is, fl_ply_read, 0, 0, "faces, ASCII and binary", "other properties", "nothing"},
+    {"g_struct", "g_struct", fl_gstruct_is, fl_gstruct_read_bytes, 0, 0, "parts of triangles and cones",
+     "nothing", "versions to come"},
+    {"OFF", "OFF", fl_off_is, fl_off_read, 0, 0, "faces", "colours", "nothing"},
+    {"OBJ", "OBJ", fl_obj_is, fl_obj_read, 0, 0, "polygons, groups", "free-form surfaces, textures",
+     "nothing"},
+    /* numbers alone: the first lines decide */
+    {"NEMOH", "NEMOH", fl_nemoh_is, fl_nemoh_read, 0, 0, "panels with symmetry", "nothing",
+     "meshes of the free surface"},
+    {"Salome", "Salome", fl_salome_dat_is, fl_salome_dat_read, 0, 0, "triangles and quadrilaterals",
+     "lines, solids", "nothing"},
+    {"WAMIT", "WAMIT", fl_gdf_is, fl_gdf_read, 0, 0, "flat panels with symmetry", "dipole panels",
+     "IGDEF other than 0, lists of bodies, control surfaces"},
     /* a Nastran deck has no first word of its own */
-    {"Nastran", "Nastran", fl_bdf_is, fl_bdf_read, 0, 1},
+    {"Nastran", "Nastran", fl_bdf_is, fl_bdf_read, 0, 1, "shells, solids, round bars and tubes, properties",
+     "other sections, fluids", "replication, super-elements"},
     {0},
 };
 
@@ -85,7 +138,7 @@ static int is_listed(int k)
 /* Fail with the reason why no reader accepts the file. */
 static int refuse_file(const fl_bytes *b, fl_err *err)
 {
-    char list[200] = "";
+    char list[400] = "";
     size_t n = 0;
     if (b->n == 0) return fl_bytes_fail(b, err, "empty, a mesh is expected");
     if (fl_rejected_format(b)) return fl_bytes_fail(b, err, "%s", fl_rejected_format(b));

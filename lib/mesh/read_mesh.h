@@ -20,6 +20,8 @@ typedef struct {
 
     int needs_all; /* the whole file must be in memory before read() */
     int selects;   /* read() selects parts and sets itself; otherwise fl_mesh_read() selects parts after it */
+
+    const char *reads, *passes, *refuses; /* what is read, passed over and refused: struct-import(1) */
 } fl_mesh_format;
 
 /* All formats in the order in which they are tried; ends with a row whose name is NULL. */

@@ -4,8 +4,9 @@
 #define FL_MESH_REJECTED_FORMATS_H
 #include "mesh/bytes.h"
 
-/* A message like "a STEP file: ..." if b begins like STEP, IGES, DXF, Parasolid, glTF, FBX, 3MF and other
- * archives, HDF5 (MED, CGNS), NetCDF (Exodus), I-DEAS, MEDIT, Fluent, Radioss, LS-DYNA, PDF, or like ANSYS
+/* A message like "a STEP file: ..." if b begins like STEP, IGES, BREP, DXF, Parasolid, glTF, FBX, 3MF and
+ * other archives, HDF5 (MED, CGNS), NetCDF (Exodus), I-DEAS, MEDIT, Fluent, Radioss, LS-DYNA, DIODORE, MOSES,
+ * OrcaFlex, VRML, PDF, or like ANSYS
  * commands without a block of nodes or elements; NULL for anything else.  Only the first bytes are examined.
  */
 const char *fl_rejected_format(const fl_bytes *b);

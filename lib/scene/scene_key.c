@@ -1570,12 +1570,13 @@ const fl_key fl_key_table[] = {
 const int fl_key_count = sizeof fl_key_table / sizeof fl_key_table[0];
 
 const fl_manual_word fl_manual_table[] = {
-    {"expperiment duration", FL_SEC_RUN, NULL, "duration", FL_MAP_SAME},
+    {"expperiment duration", FL_SEC_RUN, NULL, "duration", FL_MAP_SAME}, /* as the manual prints it */
+    {"experiment duration", FL_SEC_RUN, NULL, "duration", FL_MAP_SAME},
     {"gravity", FL_SEC_RUN, NULL, "gravity", FL_MAP_SAME},
     {"nproc", FL_SEC_RUN, NULL, "threads", FL_MAP_SAME},
     {"ndtsrc", FL_SEC_RUN, NULL, "search_every", FL_MAP_SAME},
     {"dtoutInfo", FL_SEC_OUTPUT, NULL, "loads_every", FL_MAP_SAME},
-    {"dtoutAni", FL_SEC_OUTPUT, NULL, "frames_every", FL_MAP_SAME},
+    {"dtoutAni", FL_SEC_OUTPUT, NULL, "frames_every", FL_MAP_FRAMES},
     {"dtoutAni_draw", FL_SEC_OUTPUT, NULL, "ice_every", FL_MAP_SAME},
     {"dtoutfile", FL_SEC_OUTPUT, NULL, "until", FL_MAP_SAME},
     {"output file number", FL_SEC_OUTPUT, NULL, "files", FL_MAP_SAME},

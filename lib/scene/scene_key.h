@@ -79,7 +79,8 @@ enum fl_word_map {
     FL_MAP_Y,
     FL_MAP_Z,
     FL_MAP_BEAUFORT, /* U10 = 0.836 B^(3/2) m/s along x */
-    FL_MAP_BOUND     /* 1 rigid, 2 elastic, 3 periodic, 4 free */
+    FL_MAP_FRAMES, /* as FL_MAP_SAME; and frames are written, to ANIMATION_3D.DAT unless a key names a file */
+    FL_MAP_BOUND   /* 1 rigid, 2 elastic, 3 periodic, 4 free */
 };
 typedef struct {
     const char *word;

@@ -200,6 +200,41 @@ static int fail_unknown_word(const char *word, fl_err *err)
                    fl_section_table[of].name, best);
 }
 
+/* 1 if the name is that of the key now or before, or a word of the manual for it; whole: not only a part of
+ * it. */
+static int has_name(const fl_key *key, const char *name, int whole)
+{
+    const char *const own[] = {key->key, key->old_name};
+    for (int k = 0; k < 2; k++)
+        if (own[k] && (whole ? strcmp(own[k], name) == 0 : strstr(own[k], name) != NULL)) return 1;
+    for (int w = 0; w < fl_manual_count; w++) {
+        const fl_manual_word *m = &fl_manual_table[w];
+        if (m->section != key->section || strcmp(m->key, key->key) != 0) continue;
+        if (whole ? strcmp(m->word, name) == 0 : strstr(m->word, name) != NULL) return 1;
+    }
+    return 0;
+}
+
+/* Explain each key that a word alone may mean: those of that name, else list those whose names contain it.
+ * Returns how many there are. */
+static int explain_word(FILE *f, const char *word)
+{
+    int found = 0;
+    for (int k = 0; k < fl_key_count; k++) {
+        if (!has_name(&fl_key_table[k], word, 1)) continue;
+        explain_key(f, &fl_key_table[k]);
+        found++;
+    }
+    if (found || strlen(word) < 3) return found;
+    for (int k = 0; k < fl_key_count; k++) {
+        const fl_key *key = &fl_key_table[k];
+        if (!has_name(key, word, 0)) continue;
+        fprintf(f, "%s.%s: %s\n", fl_section_table[key->section].name, key->key, key->meaning);
+        found++;
+    }
+    return found;
+}
+
 int fl_scene_explain(FILE *f, const char *key, fl_err *err)
 {
     char text[200], why[400];
@@ -218,6 +253,8 @@ int fl_scene_explain(FILE *f, const char *key, fl_err *err)
         at = (fl_address){.section = section, .key = -1};
         if (dot && (at.key = fl_address_key(section, dot + 1, why, sizeof why)) < 0)
             return fl_fail(err, FL_USAGE, "%s", why);
+    } else if (!strchr(key, '.') && explain_word(f, key)) {
+        return 0;
     } else if (!strpbrk(key, ". ")) {
         return fail_unknown_word(key, err);
     } else if (fl_address_read(key, &at, why, sizeof why)) {

@@ -20,8 +20,10 @@ void fl_scene_write_given(FILE *f, const fl_scene *scene);
 int fl_scene_write_sets(FILE *f, const fl_scene *scene, const char *interval, fl_err *err);
 
 /* Print meaning, unit, range, default, old name, word of the manual and source of one key
- * ("water.density", also by its old name), of every key of a section ("water"), or, for "", of the
- * sections. Returns 0, or -1 with FL_USAGE and the nearest name for an unknown key. */
+ * ("water.density", also by its old name), of every key of a section ("water"), or, for "", of the sections.
+ * A word alone that is no section, "softening" or "mus": of every key of that name, old name or word of the
+ * manual, else a line for each whose names contain it.  Returns 0, or -1 with FL_USAGE and the nearest name
+ * for an unknown key. */
 int fl_scene_explain(FILE *f, const char *key, fl_err *err);
 
 #endif

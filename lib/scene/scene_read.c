@@ -156,6 +156,16 @@ static int set_key(const source *in, const fl_address *at, enum fl_word_map map,
     return 0;
 }
 
+/* Frames go to the file of the program of the manual, beside the scene.  The key is not marked as given, so
+ * that [output] frames replaces it. */
+static void ask_for_frames(const source *in)
+{
+    const fl_key *key = &fl_key_table[fl_key_find(FL_SEC_OUTPUT, "frames")];
+    char why[WHY];
+    if (in->scene->output.head.key[key - fl_key_table - fl_key_first(FL_SEC_OUTPUT)].line == 0)
+        fl_value_read(key, "ANIMATION_3D.DAT", in->folder, &in->scene->output, why, sizeof why);
+}
+
 /* --- lines ---------------------------------------------------------------------------------------------- */
 
 static char *trim_blanks(char *s)
@@ -312,7 +322,7 @@ static int handle_key(void *user, const char *section, const char *name, const c
             if (strcmp(w->word, name) != 0) continue;
             at = (fl_address){.section = (int)w->section, .key = fl_key_find((int)w->section, w->key)};
             if (w->name) memcpy(at.a, w->name, strlen(w->name) + 1);
-            set_key(in, &at, w->map, value);
+            if (set_key(in, &at, w->map, value) == 0 && w->map == FL_MAP_FRAMES) ask_for_frames(in);
         }
     }
     return in->err->code == 0;

@@ -41,8 +41,10 @@ static void exchange_memory(fl_state_io *t, fl_pair *p)
     fl_state_io_real(t, &p->free_travel);
     fl_state_io_real(t, &p->max_approach_speed);
     fl_state_io_real(t, &p->sustained_load);
-    fl_state_io_real(t, &p->sustained_step);
+    fl_state_io_real(t, &p->sustained_load_rate);
     fl_state_io_vec3(t, &p->sustained_spin);
+    fl_state_io_vec3(t, &p->sustained_spin_rate);
+    fl_state_io_real(t, &p->sustained_step);
     fl_state_io_vec3(t, &p->springs.force);
     fl_state_io_real(t, &p->springs.k);
     fl_state_io_real(t, &p->springs.moment);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
+#include "stat/integral_time.h"
 #include "stat/mean_interval.h"
 
 static const double TAIL = 0.025;
@@ -13,6 +14,19 @@ static double solve_for_t(double a, double y)
 {
     if (fabs(a) < SMALL_SKEWNESS) return y - a / 6.0 - a * y * y / 3.0;
     return 3.0 / a * (cbrt(1.0 + a * (y - a / 6.0)) - 1.0);
+}
+
+fl_mean_interval fl_mean_interval_of_sign(fl_mean_interval e, int sign)
+{
+    if (sign > 0 && e.mean > 0.0 && !(e.low > 0.0)) e.low = fl_interval_end(e.mean, e.mean - e.low);
+    if (sign < 0 && e.mean < 0.0 && !(e.high < 0.0)) e.high = fl_interval_end(e.mean, e.high - e.mean);
+    return e;
+}
+
+double fl_runs_for(double std, double mean, double share)
+{
+    const double z = gsl_cdf_ugaussian_Qinv(TAIL);
+    return ceil(pow(z * std / (share * mean), 2.0) + 2.0);
 }
 
 fl_mean_interval fl_mean_interval_of(int32_t n, const double *x)

@@ -28,4 +28,13 @@ typedef struct {
  * rounding.  Cannot fail. */
 fl_mean_interval fl_mean_interval_of(int32_t n, const double *x);
 
+/* The interval of a quantity that has this sign by its nature, +1 or -1, and 0 for any: where it would pass
+ * 0, its end there is mean exp(-d / |mean|), d the distance of that end, the interval of the logarithm to
+ * first order.  Samples of one sign are no reason for it: the mean of a normal quantity may lie beyond 0. */
+fl_mean_interval fl_mean_interval_of_sign(fl_mean_interval e, int sign);
+
+/* Number of runs whose interval is mean (1 +- share), by (z s / (share mean))^2 + 2, z = 1.96; the 2 stand
+ * for Student's t of few runs. */
+double fl_runs_for(double std, double mean, double share);
+
 #endif

@@ -11,9 +11,10 @@
 
 enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3 };
 
-/* A signal is the Euclidean length of one to three columns; of one column it is the column itself. */
+/* A signal is the Euclidean length of one to three columns; of one column it is the column itself.  The
+ * resistance is minus the component of a horizontal force along a horizontal velocity, of four columns. */
 typedef struct {
-    int raw[3], n; /* indices into the columns that are read */
+    int raw[4], n; /* indices into the columns that are read; n = 4: resistance */
     int adds;      /* the sum over the parts is meaningful */
 } formula;
 
@@ -83,13 +84,17 @@ static int add_signal(fl_record_reader *r, const fl_record_selection *selection,
 {
     static const char *const axis[] = {"fx", "fy", "fz"};
     formula *f = &r->form[r->signals];
-    const char *of[3] = {name, NULL, NULL};
+    const char *of[4] = {name, NULL, NULL, NULL};
     if (r->signals == SIGNAL_MAX)
         return fl_fail(err, FL_USAGE, "at most %d signals can be selected", SIGNAL_MAX);
     f->n = 1;
     if (fl_table_column(&r->table, name) < 0 && (strcmp(name, "fh") == 0 || strcmp(name, "f") == 0)) {
         f->n = name[1] == 'h' ? 2 : 3;
-        memcpy(of, axis, sizeof of);
+        memcpy(of, axis, sizeof axis);
+    }
+    if (fl_table_column(&r->table, name) < 0 && strcmp(name, "resistance") == 0) {
+        f->n = 4;
+        of[0] = "fx", of[1] = "fy", of[2] = "vx", of[3] = "vy";
     }
     f->adds = 1;
     for (int k = 0; k < f->n; k++) {
@@ -237,6 +242,10 @@ static double evaluate_formula(const double *raw, const formula *f)
 {
     if (f->n == 1) return raw[f->raw[0]];
     const double h = hypot(raw[f->raw[0]], raw[f->raw[1]]);
+    if (f->n == 4) {
+        const double vx = raw[f->raw[2]], vy = raw[f->raw[3]], v = hypot(vx, vy);
+        return v > 0.0 ? -(raw[f->raw[0]] * vx + raw[f->raw[1]] * vy) / v : 0.0;
+    }
     return f->n == 2 ? h : hypot(h, raw[f->raw[2]]);
 }
 
@@ -384,6 +393,7 @@ int fl_record_open(fl_record *r, const char *path, const fl_record_selection *se
     r->signals = own->signals;
     r->signal = own->name;
     r->unit = own->unit;
+    r->has_motion = fl_table_column(&own->table, "vx") >= 0;
     return 0;
 }
 

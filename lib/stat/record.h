@@ -16,7 +16,8 @@ enum { FL_RUN_END_TEXT = 400 };
 
 /* Signals and rows to read.
  *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total of
- *                    the summed components; signals = 0 selects fx, fy, fz, fh of a loads table
+ *                    the summed components, or resistance = -(fx vx + fy vy) / sqrt(vx^2 + vy^2) of a part
+ *                    that moves, 0 while it is at rest; signals = 0 selects fx, fy, fz, fh of a loads table
  *   part             one part or "total"; NULL selects all parts and the total
  *   reduction        how several rows at one time are combined, fl_time_reduction
  *   where[wheres]    "COLUMN=WORD": only rows with that word in the column
@@ -61,6 +62,7 @@ typedef struct {
     const char *const *signal, *const *unit; /* [signals] */
     const unsigned char *defined; /* [parts * signals] 0 where the sum over the parts is meaningless */
     int64_t n;                    /* times read so far */
+    int has_motion;               /* the table has velocities of the parts */
     double t, edge[2];            /* the time as written, and the interval of its row [s] */
     const double *x;              /* [parts * signals] of part p and signal s at x[p * signals + s] */
 } fl_record;

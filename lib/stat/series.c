@@ -119,6 +119,7 @@ int fl_series_read(fl_series *s, const char *path, const fl_record_selection *se
         if (!s->run_lines) goto done;
     }
     s->end = fl_record_end(&r, s->why);
+    s->has_motion = r.has_motion;
     rc = apply_cut(s, selection, fl_record_name(&r), err);
 done:
     fl_record_close(&r);

@@ -12,6 +12,7 @@ typedef struct {
     char kind[32];
     char *history;   /* of the table, or NULL */
     char *run_lines; /* "#set" and "#report" lines of its run, or NULL */
+    int has_motion;  /* the table has velocities of the parts */
     enum fl_run_end end;
     char why[FL_RUN_END_TEXT]; /* of a run that stopped */
     int32_t n;                 /* rows in time, n >= 1 */

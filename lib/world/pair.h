@@ -75,9 +75,10 @@ typedef struct {
     double nominal_area; /* where ice may crush: largest area of this contact that was needed [m2] */
     double crush_checked;      /* and largest force that was held against it [N] */
     double max_approach_speed; /* largest of this contact so far [m/s] */
-    double sustained_load;     /* load and spin behind a low pass, law/damping.h [N] */
-    double sustained_step;     /* the step of both */
-    fl_vec3 sustained_spin;    /* [rad/s] */
+    /* load [N] and spin [rad/s] behind a low pass, law/damping.h; their rates; the step of both */
+    double sustained_load, sustained_load_rate;
+    fl_vec3 sustained_spin, sustained_spin_rate;
+    double sustained_step;
     int32_t points;            /* enum fl_contact_points: what is evaluated */
     int32_t bond;              /* 1 + index of the bond that was here, 0: none; bond_list.h */
     double radius_factor;      /* multiplies both radii: 1, but less after a bond */

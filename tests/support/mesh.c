@@ -4,7 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include "geom/mesh_patch.h"
+#include "geom/mirror_half.h"
+#include "geom/raise_deck.h"
 #include "geom/weld.h"
+#include "member/member_import.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
 #include "support/fuzz.h"
@@ -148,4 +151,62 @@ int mesh_fuzz_all(const unsigned char *data, size_t n)
     fl_surface_free(&s);
     fl_string_table_free(&seen);
     return verdict;
+}
+
+/* 0, 1 if the part is broken, -1. */
+static int mirror_and_raise(fl_part *p, fl_err *err)
+{
+    fl_mesh_quality before, after;
+    fl_orient_counts o;
+    fl_deck_counts did;
+    fl_weld w;
+    int32_t crosses;
+    if (p->nt == 0 || p->nt > 100000) return 0;
+    if (fl_part_mirror_half(p, 0, 0.0, &crosses, err) || fl_part_weld(p, -1.0, &w, err)) return -1;
+    if (fl_part_orient(p, &before, &o, err) || fl_part_measure(p, &before, err)) return -1;
+    if (fl_part_raise_deck(p, 1.0, &did, err) || fl_part_measure(p, &after, err)) return -1;
+    if (p->nt && !part_is_valid(p)) return 1;
+    return did.rims && did.lids == 0 && before.branched == 0 && after.open > before.open;
+}
+
+int mesh_fuzz_hulls(const unsigned char *data, size_t n)
+{
+    fl_err err = {0};
+    fl_surface s = {0};
+    char note[FL_MESH_NOTE];
+    int verdict = mesh_fuzz_all(data, n);
+    if (verdict != FUZZ_READ) return verdict;
+    verdict = fuzz_verdict(fl_mesh_read(&s, fuzz_file(data, n), NULL, note, &err), &err);
+    for (int32_t i = 0; i < s.n && verdict == FUZZ_READ; i++) {
+        const int rc = mirror_and_raise(&s.part[i], &err);
+        verdict = rc > 0 ? FUZZ_BROKEN : fuzz_verdict(rc, &err);
+        if (verdict == FUZZ_REFUSED) { /* too large to weld */
+            err = (fl_err){0};
+            verdict = FUZZ_READ;
+        }
+    }
+    fl_surface_free(&s);
+    return verdict;
+}
+
+int mesh_fuzz_members(const unsigned char *data, size_t n)
+{
+    fl_err err = {0};
+    fl_surface s = {0};
+    fl_frame_model f = {0};
+    fl_member_model m = {0};
+    fl_import_options opt = {.frame = &f};
+    char note[FL_MESH_NOTE];
+    const int verdict = mesh_fuzz_all(data, n);
+    if (verdict == FUZZ_BROKEN || verdict == FUZZ_SYSTEM) return verdict;
+    const int rc = fl_mesh_read(&s, fuzz_file(data, n), &opt, note, &err) ||
+                           fl_member_import(&m, &f, 3, 1.0, (fl_vec3){0, 0, 0}, "deck", &err)
+                       ? -1
+                       : 0;
+    int framed = fuzz_verdict(rc, &err);
+    if ((framed == FUZZ_READ) != (m.member_name.n > 0)) framed = FUZZ_BROKEN;
+    fl_surface_free(&s);
+    fl_frame_model_free(&f);
+    fl_member_model_free(&m);
+    return framed == FUZZ_BROKEN || framed == FUZZ_SYSTEM ? framed : verdict;
 }

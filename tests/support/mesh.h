@@ -18,4 +18,11 @@ int mesh_fuzz(const unsigned char *data, size_t n);
 /* The same, then again with every part and every set selected and curved faces subdivided. */
 int mesh_fuzz_all(const unsigned char *data, size_t n);
 
+/* The same, then its halves are mirrored and a deck is raised: parts stay valid, and gain no open edge. */
+int mesh_fuzz_hulls(const unsigned char *data, size_t n);
+
+/* The same as mesh_fuzz_all(), then as a frame and the model of members that it becomes, which may be
+ * refused. */
+int mesh_fuzz_members(const unsigned char *data, size_t n);
+
 #endif

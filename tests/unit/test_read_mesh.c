@@ -264,10 +264,17 @@ static void unsupported_formats_are_named(void **state)
         size_t n; /* 0 for all of it */
         const char *says;
     } row[] = {
-        {"\r\nISO-10303-21;\nHEADER;\n", 0, ": a STEP file, which is geometry without a mesh: mesh it"},
+        {"\r\nISO-10303-21;\nHEADER;\n", 0,
+         ": a STEP file, which is geometry without a mesh: gmsh FILE -2 -setstring "},
+        {"DBRep_DrawableShape\n", 0, ": a BREP file, which is geometry without a mesh: gmsh FILE"},
+        {"*DIODORE\n*NODES\n", 0, ": a DIODORE file: export the panels as WAMIT GDF or STL"},
+        {"$ x\n&DIMEN -DIMEN METERS M-TONS\n", 0, ": commands of MOSES: export the panels as WAMIT GDF"},
+        {"%YAML 1.1\n# Type: Model\n", 0, ": a YAML file, as OrcaFlex and OrcaWave write: export the panels"},
+        {"#VRML V2.0 utf8\n", 0, ": a VRML scene: export the panels"},
+        {"title\n1 ILOWHICSF\n1 1\n", 0, ": a control surface of WAMIT, and no hull"},
         {"**ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefg\n**PARASOLID !\"#\n", 0, ": a Parasolid file"},
         {"                                                                        S      1\n", 0,
-         ": an IGES file"},
+         ": an IGES file, which is geometry without a mesh: gmsh FILE"},
         {"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", 0, ": a DXF drawing: export the surface as STL"},
         {"\377\376v\0 \0000\0\n\0", 10, ": text in UTF-16: save it as UTF-8"},
         {"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", 0, ": a pointer of Git LFS"},
@@ -275,9 +282,9 @@ static void unsupported_formats_are_named(void **state)
         {"{\"asset\": {\"version\": \"2.0\"}}", 0, ": a glTF scene"},
         {"Kaydara FBX Binary  \0\x1a", 22, ": an FBX scene"},
         {"PK\003\004\0\0", 6, ": a ZIP archive, as 3MF is"},
-        {"\211HDF\r\n\032\n", 0, ": an HDF5 file, as MED and CGNS are: export the mesh as Abaqus"},
+        {"\211HDF\r\n\032\n", 0, ": an HDF5 file, as MED and CGNS are: in Salome export the mesh as STL"},
         {"CDF\001\0\0\0\0", 8, ": a NetCDF file"},
-        {"    -1\n  2411\n", 0, ": a universal file of I-DEAS"},
+        {"    -1\n  2420\n", 0, ": a universal file of I-DEAS"},
         {"MeshVersionFormatted 2\n", 0, ": a MEDIT mesh"},
         {"(0 \"fluent\")\n(2 3)\n", 0, ": a mesh of Fluent"},
         {"$# comment\n*KEYWORD\n*NODE\n", 0, ": a deck of LS-DYNA: export it as"},
@@ -428,13 +435,14 @@ static void the_manual_page_lists_every_format(void **state)
     assert_non_null(to);
     for (const char *p = from; (p = strstr(p, "\n.It ")) != NULL && p < to; p++) entries++;
     for (const fl_mesh_format *f = FL_MESH_FORMATS; f->name; f++) {
-        char entry[100];
+        char entry[500];
         const char *at;
         int again = 0;
         for (const fl_mesh_format *g = FL_MESH_FORMATS; g < f; g++)
             again |= strcmp(f->heading, g->heading) == 0;
         formats += !again;
-        snprintf(entry, sizeof entry, "\n.It %s\n", f->heading);
+        snprintf(entry, sizeof entry, "\n.It %s\nRead: %s.\nPassed over: %s.\nRefused: %s.\n", f->heading,
+                 f->reads, f->passes, f->refuses);
         at = strstr(from, entry);
         if (!at || at > to) fail_msg("FORMATS of struct-import.1 lacks the entry %s", f->heading);
     }
@@ -442,20 +450,21 @@ static void the_manual_page_lists_every_format(void **state)
         fail_msg("FORMATS of struct-import.1 has %d entries for %d formats", entries, formats);
 }
 
-/* README.md lists in parentheses the formats of the table, but for g_struct, which this program writes. */
-static void the_readme_lists_every_format(void **state)
+/* A file lists in parentheses, the first of which is behind `start`, the formats of the table, but for
+ * g_struct, which this program writes. */
+static void lists_every_format(const char *file, const char *start)
 {
-    const char *from = strstr(file_text("README.md"), "STL"), *to;
+    const char *from = strstr(file_text(file), start), *to;
     int names = 0, formats = 0;
-    (void)state;
-    assert_non_null(from);
-    while (*from != '(' && *from != '\n') from--;
-    to = strchr(from, ')');
-    if (*from != '(' || !to) fail_msg("README.md has no list of formats in parentheses");
-    for (const char *p = from + 1; p < to; p += strspn(p, ", \n")) {
-        const size_t n = strcspn(p, ", \n)");
-        if (!is_format(p, n)) fail_msg("README.md lists %.*s, which is no format", (int)n, p);
-        names++;
+    from = from ? strchr(from, '(') : NULL;
+    to = from ? strchr(from, ')') : NULL;
+    if (!to) fail_msg("%s has no list of formats in parentheses", file);
+    for (const char *p = from + 1; p < to; p += strspn(p, ", \n\"\\")) {
+        const size_t n = strncmp(p, "n\"", 2) == 0 ? 1 : strcspn(p, ", \n)\"\\");
+        if (!(n == 1 && *p == 'n') && strncmp(p, "g_struct", n) != 0) {
+            if (!is_format(p, n)) fail_msg("%s lists %.*s, which is no format", file, (int)n, p);
+            names++;
+        }
         p += n;
     }
     for (const fl_mesh_format *f = FL_MESH_FORMATS; f->name; f++) {
@@ -463,10 +472,18 @@ static void the_readme_lists_every_format(void **state)
         const char *at = strstr(from, f->name);
         for (const fl_mesh_format *g = FL_MESH_FORMATS; g < f; g++) again |= strcmp(f->name, g->name) == 0;
         if (again) continue;
-        if (!at || at > to) fail_msg("README.md does not list %s", f->name);
+        if (!at || at > to) fail_msg("%s does not list %s", file, f->name);
         formats++;
     }
     assert_int_equal(names, formats);
+}
+
+static void pages_and_help_list_every_format(void **state)
+{
+    (void)state;
+    lists_every_format("README.md", "struct-import   a structure");
+    lists_every_format("share/man7/floe.7", "reads many formats");
+    lists_every_format("tools/struct-import/options.c", "FILE is one of");
 }
 
 /* So does --help of struct-import, whose text is in options.c. */
@@ -491,7 +508,7 @@ int main(void)
                                        cmocka_unit_test(size_decides_on_binary),
                                        cmocka_unit_test(the_refusal_lists_every_format),
                                        cmocka_unit_test(the_manual_page_lists_every_format),
-                                       cmocka_unit_test(the_readme_lists_every_format),
+                                       cmocka_unit_test(pages_and_help_list_every_format),
                                        cmocka_unit_test(help_lists_every_format)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

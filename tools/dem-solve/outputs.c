@@ -122,7 +122,8 @@ static fl_packed_writer *packed_writer(const struct run *r, struct outputs *u)
     return &u->packed;
 }
 
-/* The lines "#set ..." of a table, to be freed; NULL with FL_SYSTEM in err. */
+/* The lines "#set ..." of a table, and of contacts "#part NUMBER NAME", to be freed; NULL with FL_SYSTEM in
+ * err. */
 static char *make_sets(const struct run *r, int table, fl_err *err)
 {
     char interval[40], *text = NULL;
@@ -130,6 +131,9 @@ static char *make_sets(const struct run *r, int table, fl_err *err)
     FILE *f = open_memstream(&text, &n);
     snprintf(interval, sizeof interval, "%s_every", table_name(table));
     int bad = !f || fl_scene_write_sets(f, r->scene, interval, err);
+    /* Contacts have numbers for the parts of the structure. */
+    for (int32_t k = 0; f && TABLE[table].format == &fl_contacts_table && k < r->w->parts; k++)
+        fprintf(f, "#part %d %s\n", -1 - k, r->surface->part[k].name);
     if (f) bad |= fclose(f) != 0;
     if (!bad) return text;
     fl_fail(err, FL_SYSTEM, "out of memory for the head of a table");

@@ -52,6 +52,37 @@ static int make_views(fl_signal_view *v, const fl_series *s, const struct option
     return failed < n ? -1 : 0;
 }
 
+/* --- noise ---------------------------------------------------------------------------------------------- */
+
+/* A signal whose root mean square is below this share of the largest of its unit is rounding: the vertical
+ * force on a vertical wall. */
+static const double NOISE = 1e-9;
+
+static double root_mean_square(const fl_signal_view *v) { return hypot(v->stats.mean, v->stats.std); }
+
+/* Leave out signals that are rounding beside the others of their unit.  A signal that is 0 is a result. */
+static void drop_noise(fl_signal_view *v, const fl_series *s, int each, unsigned char *dropped)
+{
+    for (int32_t k = 0; k < s->parts * s->signals; k++) {
+        double most = 0.0;
+        for (int32_t j = 0; j < s->parts * s->signals; j++)
+            if (strcmp(s->unit[j % s->signals], s->unit[k % s->signals]) == 0 && v[j * each].n)
+                most = fmax(most, root_mean_square(&v[j * each]));
+        const double own = v[k * each].n ? root_mean_square(&v[k * each]) : 0.0;
+        dropped[k] = own > 0.0 && own < NOISE * most;
+    }
+    for (int32_t k = 0; k < s->parts * s->signals; k++)
+        for (int w = 0; dropped[k] && w < each; w++) fl_signal_view_free(&v[k * each + w]);
+}
+
+static void print_dropped(FILE *f, const fl_series *s, const unsigned char *dropped, const char *before)
+{
+    for (int32_t k = 0; dropped && k < s->parts * s->signals; k++)
+        if (dropped[k])
+            fprintf(f, "%s%s of %s is left out: below %g of the largest of its unit, rms, it is rounding\n",
+                    before, s->signal[k % s->signals], s->part[k / s->signals], NOISE);
+}
+
 static void print_notes(const fl_series *s, const struct options *o)
 {
     char text[RUN_END_NOTE];
@@ -70,6 +101,24 @@ static void print_notes(const fl_series *s, const struct options *o)
         fprintf(stderr,
                 "loadstats: the intervals are not equal, the filter works on %d equal ones of %.10g s\n",
                 s->n, span / s->n);
+}
+
+/* Peaks of the maxima say nothing of a load that acts the other way. */
+static const double OTHER_WAY = 10.0;
+
+static void warn_side(const struct record_views *r, const struct options *o)
+{
+    const int of_peaks = (o->table->uses & USES_SAMPLE) != 0 && strcmp(o->table->name, "overview") != 0;
+    for (int32_t k = 0; of_peaks && !o->peaks && k < r->series->parts * r->series->signals; k++) {
+        const fl_signal_view *v = find_view(r, k / r->series->signals, k % r->series->signals, 0);
+        if (!v || !(-v->stats.min > OTHER_WAY * v->stats.max)) continue;
+        fprintf(stderr,
+                "loadstats: %s of %s acts along its negative axis, from %.6g to %.6g: its peaks are those of "
+                "--peaks min or abs, not of max%s\n",
+                r->series->signal[k % r->series->signals], r->series->part[k / r->series->signals],
+                v->stats.min, v->stats.max,
+                r->series->has_motion ? "; of a hull under way, -c resistance is positive" : "");
+    }
 }
 
 /* --- table, pictures, report ---------------------------------------------------------------------------- */
@@ -118,6 +167,7 @@ static int write_table(FILE *f, const void *what, const struct options *o, fl_er
     history_line_run(o, &by);
     fl_write_file_header(f, t->name, 1, r->series->history, &by);
     write_loss(f, r, o);
+    print_dropped(f, r->series, r->dropped, "# ");
     table_write_columns(f, o);
     for (int32_t k = 0; k < parts * signals; k++) {
         const int32_t p = t->by_signal ? k % parts : k / signals, s = t->by_signal ? k / parts : k % signals;
@@ -157,6 +207,7 @@ int analyse_record(const struct options *o, fl_err *err)
     fl_series s = {0};
     fl_signal_view *views = NULL;
     fl_resampling_loss *loss = NULL;
+    unsigned char *dropped = NULL;
     fl_out out = {0};
     const int each = o->filter > 0.0 ? 2 : 1;
     const fl_record_selection selection = {.signal = o->signal,
@@ -177,9 +228,13 @@ int analyse_record(const struct options *o, fl_err *err)
     if (!loss || (o->step > 0.0 && fl_resample_uniform(&s, o->step, loss, err))) goto done;
     n = (int64_t)s.parts * s.signals * each;
     views = fl_alloc(n, sizeof *views, err);
-    if (!views || make_views(views, &s, o, each, err)) goto done;
+    dropped = fl_alloc((int64_t)s.parts * s.signals, 1, err);
+    if (!views || !dropped || make_views(views, &s, o, each, err)) goto done;
+    drop_noise(views, &s, each, dropped);
     print_notes(&s, o);
-    const struct record_views r = {&s, views, each, o->step > 0.0 ? loss : NULL};
+    if (!o->quiet) print_dropped(stderr, &s, dropped, "loadstats: ");
+    const struct record_views r = {&s, views, each, o->step > 0.0 ? loss : NULL, dropped};
+    if (!o->quiet) warn_side(&r, o);
     if (fl_out_open(&out, o->out, o->gzip, err) || write_table(out.f, &r, o, err) || fl_out_close(&out, err))
         goto done;
     if (o->plot && draw_pictures(&r, o, err)) goto done;
@@ -189,6 +244,7 @@ done:
     for (int64_t k = 0; views && k < n; k++) fl_signal_view_free(&views[k]);
     free(views);
     free(loss);
+    free(dropped);
     fl_series_free(&s);
     return rc;
 }

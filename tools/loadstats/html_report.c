@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>
@@ -6,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "base/array.h"
+#include "base/gnuplot.h"
 #include "base/number_text.h"
 #include "base/stream.h"
 #include "history_line.h"
@@ -288,6 +290,86 @@ static void write_some_runs(FILE *f, const sheet *s)
     fputs("</table></div>\n", f);
 }
 
+/* A field of a row by the name of its column, "" for none. */
+static void field_named(const sheet *s, int32_t row, const char *name, char word[WORD_MAX])
+{
+    const int k = column_of(s, name);
+    word[0] = '\0';
+    if (k >= 0) field_of(s->row[row], k, word);
+    if (strcmp(word, "-") == 0) word[0] = '\0';
+}
+
+static void write_field(FILE *f, const sheet *s, int32_t row, const char *name)
+{
+    char word[WORD_MAX];
+    field_named(s, row, name, word);
+    write_html_cell(f, word[0] ? word : "-");
+}
+
+/* Three digits or four, without an exponent where it can be. */
+static const char *short_number(double x, char text[32])
+{
+    snprintf(text, 32, fabs(x) >= 100.0 && fabs(x) < 1e7 ? "%.0f" : "%.3g", x);
+    return text;
+}
+
+/* "81.1 (51.8 to 110)" */
+static void write_with_interval(FILE *f, const sheet *s, int32_t row, const char *name)
+{
+    char word[WORD_MAX], low[WORD_MAX], high[WORD_MAX], column[WORD_MAX];
+    char short_x[32], short_a[32], short_b[32];
+    double x, a, b;
+    field_named(s, row, name, word);
+    snprintf(column, sizeof column, "%s_low", name);
+    field_named(s, row, column, low);
+    snprintf(column, sizeof column, "%s_high", name);
+    field_named(s, row, column, high);
+    if (fl_number_f64(word, &x)) fputs("<td>&ndash;</td>", f);
+    else if (fl_number_f64(low, &a) || fl_number_f64(high, &b))
+        fprintf(f, "<td>%s</td>", short_number(x, short_x));
+    else
+        fprintf(f, "<td><b>%s</b> (%s to %s)</td>", short_number(x, short_x), short_number(a, short_a),
+                short_number(b, short_b));
+}
+
+/* Values with their intervals, a row for each signal of each part. */
+static void write_overview(FILE *f, const sheet *s)
+{
+    static const char *const PLAIN[] = {"min", "max", "q95", "std"};
+    char period[WORD_MAX], word[WORD_MAX];
+    double T = 0.0;
+    field_named(s, 1, "T[s]", period);
+    if (fl_number_f64(period, &T)) T = 0.0;
+    fprintf(f,
+            "<div><table>\n<tr><th>part</th><th class=\"word\">signal</th><th>mean "
+            "(95&nbsp;%%)</th><th>smallest</th>"
+            "<th>largest</th><th>95&nbsp;%% of time</th><th>std</th><th>peaks</th><th>once in %.4g s "
+            "(95&nbsp;%%)</th>"
+            "<th class=\"word\">law</th></tr>\n",
+            T);
+    for (int32_t k = 1; k < s->rows; k++) {
+        fputs("<tr>", f);
+        write_field(f, s, k, "part");
+        fputs("<td class=\"word\">", f);
+        field_named(s, k, "signal", word);
+        write_text(f, word);
+        field_named(s, k, "unit", word);
+        fputs(word[0] ? " [" : "", f);
+        write_text(f, word);
+        fputs(word[0] ? "]" : "", f);
+        field_named(s, k, "view", word);
+        if (strcmp(word, "raw") != 0) fprintf(f, ", %s", word);
+        fputs("</td>", f);
+        write_with_interval(f, s, k, "mean");
+        for (size_t i = 0; i < sizeof PLAIN / sizeof *PLAIN; i++) write_field(f, s, k, PLAIN[i]);
+        write_field(f, s, k, "peaks");
+        write_with_interval(f, s, k, "level");
+        write_field(f, s, k, "law");
+        fputs("</tr>\n", f);
+    }
+    fputs("</table></div>\n", f);
+}
+
 static int write_section(FILE *f, const report_source *from, const struct options *o,
                          const struct table *table, const char *heading, fl_err *err)
 {
@@ -301,6 +383,7 @@ static int write_section(FILE *f, const report_source *from, const struct option
         case LAYOUT_TRANSPOSED: write_transposed(f, &s); break;
         case LAYOUT_FITS: write_likelihood_fits(f, &s); break;
         case LAYOUT_RUNS: write_some_runs(f, &s); break;
+        case LAYOUT_OVERVIEW: write_overview(f, &s); break;
         case LAYOUT_ROWS: write_all_rows(f, &s); break;
         }
     }
@@ -324,6 +407,49 @@ static void join_path(char path[PATH_LEN], const char *dir, const char *name)
     snprintf(path, PATH_LEN, "%.*s/%.*s", DIR_LEN, dir, PATH_LEN - DIR_LEN - 2, name);
 }
 
+/* Copy the text of a picture without groups that hold nothing and attributes that SVG has anyway, and with
+ * one decimal of a pixel in its paths: half of its size. */
+static void write_small_svg(FILE *f, const char *text)
+{
+    static const char *const POINTS[] = {" d='", " points = '"}, *const USUAL[] = {
+                                                                     " stroke-linecap=\"butt\"",
+                                                                     " stroke-linejoin=\"miter\"",
+                                                                     " stroke-width=\"1.00\""};
+    int in_path = 0;
+    while (*text) {
+        for (size_t k = 0; k < sizeof USUAL / sizeof *USUAL; k++)
+            if (strncmp(text, USUAL[k], strlen(USUAL[k])) == 0) text += strlen(USUAL[k]);
+        if (*text == '\'') in_path = 0;
+        for (size_t k = 0; k < sizeof POINTS / sizeof *POINTS; k++) {
+            if (strncmp(text, POINTS[k], strlen(POINTS[k])) != 0) continue;
+            fputs(POINTS[k], f);
+            text += strlen(POINTS[k]);
+            in_path = 1;
+        }
+        if (!*text) break;
+        if (strncmp(text, "<g ", 3) == 0) {
+            const char *end = strchr(text, '>'), *inside = end ? end + 1 : text + strlen(text);
+            inside += strspn(inside, "\n ");
+            if (end && strncmp(inside, "</g>", 4) == 0) {
+                text = inside + 4;
+                text += *text == '\n';
+                continue;
+            }
+        }
+        if (in_path && text[0] == '.' && isdigit((unsigned char)text[1]) && isdigit((unsigned char)text[2]) &&
+            !isdigit((unsigned char)text[3])) {
+            if (text[1] != '0') fprintf(f, ".%c", text[1]);
+            text += 3;
+            continue;
+        }
+        if (text[0] == '\n' && text[1] == '\n') {
+            text++;
+            continue;
+        }
+        putc(*text++, f);
+    }
+}
+
 /* The picture from its svg tag on, without the XML header of a separate file. */
 static int write_picture(FILE *f, const char *dir, const char *name, fl_err *err)
 {
@@ -340,7 +466,7 @@ static int write_picture(FILE *f, const char *dir, const char *name, fl_err *err
     if (in && k == 0) {
         text[n] = '\0';
         const char *tag = strstr(text, "<svg");
-        if (tag) fputs(tag, f);
+        if (tag) write_small_svg(f, tag);
         else k = fl_fail(err, FL_SYSTEM, "%s: gnuplot wrote no picture", name);
     }
     free(text);
@@ -353,6 +479,7 @@ static int write_pictures(FILE *f, const char *dir, fl_err *err)
     const int n = scandir(dir, &list, is_picture_entry, alphasort);
     int rc = n < 0 ? fl_fail(err, FL_SYSTEM, "%s: %s", dir, strerror(errno)) : 0;
     if (n > 0) fputs("<h2>Pictures</h2>\n", f);
+    else fputs("<p>gnuplot was not found when this page was made: it has no pictures.</p>\n", f);
     for (int k = 0; k < n; k++) {
         if (rc == 0) rc = write_picture(f, dir, list[k]->d_name, err);
         free(list[k]);
@@ -439,9 +566,34 @@ static void write_run(FILE *f, const report_source *from)
     fputs("</pre>\n", f);
 }
 
+/* What a reviewer asks of a load report: what this page has, and what its author adds. */
+static void write_review_list(FILE *f, const report_source *from)
+{
+    static const char *const HAS[] = {"statistics with intervals, fits and their rank, peaks of all parts",
+                                      "time history",
+                                      "scene, step, stiffness, residuals, overlaps and warnings",
+                                      "programs, versions, input and options, and how to repeat the run"};
+    static const char *const ADD[] = {
+        "basis and edition of the rules; site ice and the source of each value",
+        "which scene this is and what bounds its load: momentum, driving force or crushing",
+        "drawing of the geometry, draft, axes, points about which moments act",
+        "convergence: seeds, width and length of the field, floe size, stiffness, step",
+        "sensitivity to concentration, thickness, speed and friction",
+        "closed forms and measurements beside the numbers; local pressure against ISO 19906",
+        "a close-up of the largest event; fatigue cycles where they count",
+        "what is not modelled; the events a year of this scene, without which a maximum is no design load"};
+    fputs("<h2>For a load report</h2>\n<p>On this page:</p>\n<ul>\n", f);
+    for (size_t k = 0; k < sizeof HAS / sizeof *HAS; k++)
+        if (k != 2 || from->run_lines) fprintf(f, "<li>%s</li>\n", HAS[k]);
+    fputs("</ul>\n<p>To be added by its author:</p>\n<ul>\n", f);
+    for (size_t k = 0; k < sizeof ADD / sizeof *ADD; k++) fprintf(f, "<li>%s</li>\n", ADD[k]);
+    fputs("</ul>\n", f);
+}
+
 static void write_end(FILE *f, const report_source *from, const fl_history_line *by)
 {
     write_run(f, from);
+    if (!from->alone) write_review_list(f, from);
     fputs("<h2>How to reproduce it</h2>\n<p>The programs in the order in which they ran, with their options; "
           "the same line gives the same bytes. Numbers above are rounded to six digits; the tables that "
           "loadstats prints have all of them. loadstats(1) says how they are defined.</p>\n<pre>",
@@ -490,7 +642,9 @@ static int make_page(char **text, size_t *size, const report_source *from, const
     own.plot = dir;
     own.format = "svg";
     own.quiet = 1;
-    if (from->draw(from->what, &own, err) == 0) {
+    const int draws = fl_gnuplot_is_there();
+    if (!draws && !o->quiet) fputs("loadstats: gnuplot was not found: the report has no pictures\n", stderr);
+    if (!draws || from->draw(from->what, &own, err) == 0) {
         FILE *f = open_memstream(text, size);
         rc = f ? write_page(f, dir, from, o, &by, err) : fl_fail(err, FL_SYSTEM, "out of memory");
         if (f && fclose(f) != 0 && rc == 0) rc = fl_fail(err, FL_SYSTEM, "out of memory");

@@ -153,6 +153,25 @@ done:
 
 /* --- contacts ------------------------------------------------------------------------------------------- */
 
+/* A part by its number below 0, or by its name in a line "#part NUMBER NAME". */
+static int choose_part(fl_contact_events *h, const char *part, fl_err *err)
+{
+    int number, used;
+    if (fl_number_i32(part, INT32_MIN, -1, &h->selection.part) == 0) return 0;
+    for (const char *line = h->table.text.run_lines; line && *line; line = strchr(line, '\n') + 1) {
+        if (sscanf(line, "#part %d %n", &number, &used) != 1) continue;
+        if (strcspn(line + used, "\n") != strlen(part) || strncmp(line + used, part, strlen(part)) != 0)
+            continue;
+        h->selection.part = number;
+        return 0;
+    }
+    return fl_fail(
+        err, FL_USAGE,
+        "--part is \"%.40s\", expected a number below 0 for contacts, as -1, or a name in a line #part "
+        "of the table",
+        part);
+}
+
 static int read_contacts(load_map *p, fl_err *err)
 {
     const struct options *o = p->o;
@@ -163,11 +182,9 @@ static int read_contacts(load_map *p, fl_err *err)
     int64_t times;
     double step;
     const int windows = (o->table->uses & USES_AREAS) != 0;
-    if (o->part && (fl_number_i32(o->part, INT32_MIN, -1, &selection.part)))
-        return fl_fail(err, FL_USAGE, "--part is \"%.40s\", expected a number below 0 for contacts, as -1",
-                       o->part);
     if (!windows && make_grid(p, err)) return -1;
     if (fl_contact_events_open(&h, o->in, &selection, err)) goto done;
+    if (o->part && choose_part(&h, o->part, err)) goto done;
     while ((more = fl_contact_events_next(&h, err)) > 0) {
         if (windows ? add_pressures(p, &h, &w, err) : add_panel_loads(p, &h, err)) goto done;
     }
@@ -178,11 +195,25 @@ static int read_contacts(load_map *p, fl_err *err)
                 (long long)times, step, (long long)(times - h.times));
     if (h.table.text.history && !(p->history = strdup(h.table.text.history)))
         fl_fail(err, FL_SYSTEM, "out of memory");
+    else if (h.table.text.run_lines && !(p->run_lines = strdup(h.table.text.run_lines)))
+        fl_fail(err, FL_SYSTEM, "out of memory");
     else rc = 0;
 done:
     fl_window_work_free(&w);
     fl_contact_events_close(&h);
     return rc;
+}
+
+const char *load_map_part(const load_map *p, int32_t part, char text[PART_TEXT])
+{
+    int number, used;
+    for (const char *line = p->run_lines; line && *line; line = strchr(line, '\n') + 1)
+        if (sscanf(line, "#part %d %n", &number, &used) == 1 && number == part) {
+            snprintf(text, PART_TEXT, "%.*s", (int)strcspn(line + used, "\n"), line + used);
+            return text;
+        }
+    snprintf(text, PART_TEXT, "%d", part);
+    return text;
 }
 
 /* --- load map ------------------------------------------------------------------------------------------- */
@@ -206,5 +237,6 @@ void load_map_free(load_map *p)
     free(p->panel);
     free(p->part);
     free(p->history);
+    free(p->run_lines);
     *p = (load_map){0};
 }

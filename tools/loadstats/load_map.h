@@ -33,8 +33,8 @@ typedef struct {
 
 typedef struct load_map {
     const struct options *o;
-    char *history;
-    double weight; /* number of times, or seconds: a mean is sum / weight */
+    char *history, *run_lines; /* of the table; NULL: none */
+    double weight;             /* number of times, or seconds: a mean is sum / weight */
     part_pressure *part;
     int32_t parts, part_cap;
     fl_waterline line;
@@ -46,6 +46,11 @@ typedef struct load_map {
 
 /* Read contacts or panels, as o->table needs them.  0, or -1 with err; p is to be freed either way. */
 int load_map_read(load_map *p, const struct options *o, fl_err *err);
+
+/* Name of a part of the structure, -1 for the first, by a line "#part NUMBER NAME" of the table; the number
+ * where there is none.  Returns text. */
+enum { PART_TEXT = 100 };
+const char *load_map_part(const load_map *p, int32_t part, char text[PART_TEXT]);
 
 /* Fit c A^-k to the largest pressures of a part. */
 void fit_pressure_area(const load_map *p, const part_pressure *part, double *c, double *k);

@@ -7,6 +7,7 @@
 #include "analyse_contacts.h"
 #include "analyse_record.h"
 #include "analyse_runs.h"
+#include "export_loads.h"
 #include "options.h"
 #include "table_kind.h"
 
@@ -29,9 +30,10 @@ int main(int argc, char **argv)
     int rc = options_parse(&o, argc, argv, &err);
     if (rc == 0 && !o.ended) rc = check_targets(&o, &err);
     if (rc == 0 && !o.ended)
-        rc = o.table->source == FROM_CONTACTS ? analyse_contacts(&o, &err)
-             : runs_selected(&o)              ? analyse_runs(&o, &err)
-                                              : analyse_record(&o, &err);
+        rc = o.exports                          ? export_loads(&o, &err)
+             : o.table->source == FROM_CONTACTS ? analyse_contacts(&o, &err)
+             : runs_selected(&o)                ? analyse_runs(&o, &err)
+                                                : analyse_record(&o, &err);
     options_free(&o);
     return fl_tool_end("loadstats", rc, &err);
 }

@@ -28,10 +28,18 @@ static const char *const RESIDUES[] = {"half", "repeat", "none", NULL}; /* as fl
 static const char *const TAPERS[] = {"hann", "hamming", "blackman", "none", NULL}; /* as fl_taper_name() */
 static const char *const FILTERS[] = {"low", "high", "band", "mean", NULL};        /* as fl_filter_name() */
 static const char *const PEAKS[] = {"max", "min", "abs", NULL}; /* as fl_peak_side_name() */
-static const char *const FORMATS[] = {"svg", "png", NULL};
+static const char *const FORMATS[] = {"svg", "png", "pdf", NULL};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 #define TINY 1e-300
 #define HUGE_NUMBER 1e300
+
+static int set_export(void *options, const char *text, fl_err *err)
+{
+    ((struct options *)options)->exports = 1;
+    return strcmp(text, "openfast") == 0
+               ? 0
+               : fl_fail(err, FL_USAGE, "--export is \"%.60s\", expected openfast", text);
+}
 
 static int choose_table(void *options, const char *text, fl_err *err)
 {
@@ -576,6 +584,11 @@ static const fl_option OPTION[] = {
      .help = "draw history and peak distribution into DIR",
      .kind = FL_OPTION_TEXT,
      .at = AT(plot)},
+    {.word = "export",
+     .argument = "FORM",
+     .help = "write the load as input of another program: openfast, a prescribed force",
+     .kind = FL_OPTION_CALL,
+     .call = set_export},
     {.word = "report",
      .argument = "FILE",
      .help = "write numbers, pictures and history as one HTML page",
@@ -588,7 +601,7 @@ static const fl_option OPTION[] = {
      .at = AT(page)},
     {.word = "format",
      .argument = "FORMAT",
-     .help = "of the pictures, svg or png (svg)",
+     .help = "of the pictures, svg, png or pdf (svg)",
      .kind = FL_OPTION_CALL,
      .call = set_format},
     FL_COMMON_OPTIONS(struct options, "write there, - is standard output", "compress the table",

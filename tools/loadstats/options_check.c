@@ -32,6 +32,23 @@ static int check_contacts(const struct options *o, fl_err *err)
     return 0;
 }
 
+/* An exported load is rows of a record: no table, no pictures. */
+static int check_export(const struct options *o, fl_err *err)
+{
+    const char *not = o->signals        ? "column"
+                      : o->filter > 0.0 ? "filter"
+                      : o->table_given  ? "table"
+                      : o->plot         ? "plot"
+                      : o->report       ? "report"
+                      : o->merge        ? "merge"
+                      : o->stream       ? "stream"
+                      : o->follow > 0.0 ? "follow"
+                                        : NULL;
+    if (!o->exports || (!not &&o->files <= 1)) return 0;
+    if (not ) return fl_fail(err, FL_USAGE, "--export excludes --%s", not );
+    return fl_fail(err, FL_USAGE, "--export reads one record");
+}
+
 /* Options of summaries: constant memory, many files. */
 static int check_summary(struct options *o, fl_err *err)
 {
@@ -71,7 +88,7 @@ static int check_summary(struct options *o, fl_err *err)
 
 int options_check(struct options *o, fl_err *err)
 {
-    if (check_contacts(o, err) || check_summary(o, err)) return -1;
+    if (check_export(o, err) || check_contacts(o, err) || check_summary(o, err)) return -1;
     if (o->skips && !(o->speed > 0.0)) return fl_fail(err, FL_USAGE, "--skip needs --speed, that of the ice");
     if (!(o->from < o->to))
         return fl_fail(err, FL_USAGE, "--from %g s is not before --to %g s", o->from, o->to);

@@ -127,12 +127,17 @@ void plot_open(FILE *f, const char *stem, const char *format, int width, int hei
     if (strcmp(format, "png") == 0)
         fprintf(f, "set terminal pngcairo noenhanced size %d,%d font 'Sans,11' background '#ffffff'\n", width,
                 height);
+    else if (strcmp(format, "pdf") == 0) /* in inches, 96 pixels each */
+        fprintf(f, "set terminal pdfcairo noenhanced size %.4g,%.4g font 'Sans,11' background '#ffffff'\n",
+                width / 96.0, height / 96.0);
     else
         fprintf(f,
                 "set terminal svg noenhanced size %d,%d dynamic font 'sans-serif,14' background '#ffffff'\n",
                 width, height);
     fprintf(f, "set encoding utf8\nset output out\ndata = '%s.tsv'\n", stem);
 }
+
+int plot_head_size(const char *format) { return strcmp(format, "svg") == 0 ? 18 : 14; }
 
 static int height_of(const picture *p)
 {
@@ -153,12 +158,18 @@ int plot_part_varies(const picture *p, fl_err *err)
     return 0;
 }
 
+int picture_of_sum(const picture *p)
+{
+    const fl_series *s = p->r->series;
+    return s->parts <= 2 || p->part == s->parts - 1 || strcmp(s->part[s->parts - 1], "total") != 0;
+}
+
 int plot_is_loads(const picture *p) { return strcmp(p->r->series->kind, "loads") == 0; }
 
 void plot_start(const picture *p, const char *heading)
 {
     FILE *f = p->script;
-    const int height = height_of(p), png = strcmp(p->o->format, "png") == 0;
+    const int height = height_of(p);
     char title[200];
     plot_open(f, p->stem, p->o->format, WIDTH, height);
     fprintf(f, "%sset multiplot\n", STYLES);
@@ -168,7 +179,7 @@ void plot_start(const picture *p, const char *heading)
     fputs("set label 1 ", f);
     plot_quoted(f, title);
     fprintf(f, " at screen 0.5, screen %.4f center font ',%d' textcolor rgb '#111111'\n", 1.0 - 24.0 / height,
-            png ? 14 : 18);
+            plot_head_size(p->o->format));
     fprintf(f, "set key at screen 0.975, screen %.4f right top horizontal Left reverse samplen 2\n",
             1.0 - 40.0 / height);
 }

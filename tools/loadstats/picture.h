@@ -24,6 +24,9 @@ void plot_axis_label(char *label, size_t size, const char *signal, const char *u
 /* Start a script: its use, terminal, size in pixels, output, data = the name of its data. */
 void plot_open(FILE *f, const char *stem, const char *format, int width, int height);
 
+/* Size of the font of a title: points in svg, those of the screen in the others. */
+int plot_head_size(const char *format);
+
 /* DIR/STEM.END.  0, or -1 with FL_SYSTEM in err when it is too long. */
 enum { PLOT_PATH_LEN = 4096 };
 int plot_path(char path[PLOT_PATH_LEN], const char *dir, const char *stem, const char *end, fl_err *err);
@@ -92,6 +95,9 @@ double plot_tics(double range);
 /* True if signal s of the part exists and is not constant; the second one for any signal, as drawable(). */
 int plot_signal_varies(const picture *p, int32_t s);
 int plot_part_varies(const picture *p, fl_err *err);
+
+/* True if the picture is of the sum over the parts, or of the only part. */
+int picture_of_sum(const picture *p);
 
 /* True for a loads table, whose rows are means. */
 int plot_is_loads(const picture *p);

@@ -45,7 +45,12 @@ static int draw_kind(picture *p, const struct picture_kind *kind, int *made, fl_
 static int draw_part(picture *p, int *made, fl_err *err)
 {
     const int before = *made + 1;
-    if (draw_kind(p, &history_picture, made, err) || draw_kind(p, &peaks_picture, made, err)) return -1;
+    const int of_page = p->o->report_page && !picture_of_sum(p);
+    if (of_page && !plot_part_varies(p, err)) return 0; /* the overview has its zeros */
+    if (draw_kind(p, &history_picture, made, err)) return -1;
+    /* A report of several parts has all pictures of their sum, and the history of each of them. */
+    if (of_page) return 0;
+    if (draw_kind(p, &peaks_picture, made, err)) return -1;
     if (*made == before && !p->o->quiet)
         fprintf(stderr, "loadstats: %s has no peaks to draw\n", p->r->series->part[p->part]);
     for (int k = 0; k < table_count(); k++)

@@ -20,8 +20,8 @@ static int write_data(FILE *f, const ensemble *e, int32_t k, fl_err *err)
            largest = -INFINITY;
     if (!mean) return -1;
     for (int32_t n = 0; n < e->runs; n++) {
-        mean[n] = e->x[2 * ((int64_t)n * e->signals + k)];
-        max[n] = e->x[2 * ((int64_t)n * e->signals + k) + 1];
+        mean[n] = e->x[ENSEMBLE_VALUES * ((int64_t)n * e->signals + k)];
+        max[n] = e->x[ENSEMBLE_VALUES * ((int64_t)n * e->signals + k) + 1];
         const fl_mean_interval a = fl_mean_interval_of(n + 1, mean), b = fl_mean_interval_of(n + 1, max);
         largest = fmax(largest, max[n]);
         fprintf(f, "%d", n + 1);
@@ -66,7 +66,7 @@ static int draw_signal(const struct run_set *m, int32_t k, const struct options 
                        fl_err *err)
 {
     const fl_summary_signal *s = &m->all.entry[k];
-    const int newton = s->unit[0] == 'N', png = strcmp(o->format, "png") == 0;
+    const int newton = s->unit[0] == 'N';
     const double large = fmax(fabs(s->min), fabs(s->max));
     const char *prefix = !newton || large < 1e3 ? "" : large < 1e6 ? "k" : "M";
     char stem[60], path[PATH_LEN];
@@ -81,17 +81,8 @@ static int draw_signal(const struct run_set *m, int32_t k, const struct options 
     if (write_data(out.f, &m->e, k, err) || fl_out_close(&out, err)) goto done;
     snprintf(path, sizeof path, "%.4000s/%s.gp", o->plot, stem);
     if (fl_out_open(&out, path, 0, err)) goto done;
-    fprintf(out.f, "# gnuplot %s.gp draws %s.%s from %s.tsv\nif (!exists(\"out\")) out = '%s.%s'\n", stem,
-            stem, o->format, stem, stem, o->format);
-    fputs(
-        png ? "set terminal pngcairo noenhanced size 1000,380 font 'Sans,11' background '#ffffff'\n"
-            : "set terminal svg noenhanced size 1000,380 dynamic font 'sans-serif,14' background '#ffffff'\n",
-        out.f);
-    fprintf(out.f, "set output out\ndata = '%s.tsv'\nfactor = %s\n%s", stem,
-            prefix[0] == 'k'   ? "1e-3"
-            : prefix[0] == 'M' ? "1e-6"
-                               : "1",
-            SCRIPT);
+    plot_open(out.f, stem, o->format, 1000, 380);
+    fprintf(out.f, "factor = %s\n%s", prefix[0] == 'k' ? "1e-3" : prefix[0] == 'M' ? "1e-6" : "1", SCRIPT);
     /* The intervals of the first few runs are wide and would dominate the axis. */
     fprintf(out.f, "set xrange [%d:%d]\nset ylabel ", m->e.runs > 8 ? 4 : 1, m->e.runs > 1 ? m->e.runs : 2);
     char text[300];

@@ -6,7 +6,15 @@
 #include "stat/histogram.h"
 #include "plot_history.h"
 
-enum { GAP = 26, STRETCHES = 2000, CLASSES = 20, ALL_RANKS = 200 };
+enum {
+    GAP = 26,
+    STRETCHES = 875,
+    STRETCHES_OF_PAGE = 440,
+    STRETCHES_OF_PART = 200,
+    CLASSES = 20,
+    ALL_RANKS = 200,
+    ALL_RANKS_OF_PAGE = 40
+};
 
 /* Least relative range of an axis: a filtered constant varies by the rounding of its sums. */
 static const double FLAT = 1e-6;
@@ -19,13 +27,21 @@ static void write_history_row(const picture *p, int32_t s, int w, double t, doub
     plot_columns(p, 2, (double[]){t, x});
 }
 
+/* Stretches of a history.  A page has as many points as pixels, and fewer for each of several parts. */
+static int64_t most_stretches(const picture *p)
+{
+    if (!p->o->report_page) return STRETCHES;
+    return picture_of_sum(p) ? STRETCHES_OF_PAGE : STRETCHES_OF_PART;
+}
+
 /* A row of a loads table is the mean of an interval: drawn as a step in a short record, else at its
  * middle. */
 static void write_history_block(picture *p, int32_t s, int w)
 {
     const fl_signal_view *v = find_view(p->r, p->part, s, w);
-    const int means = strcmp(p->r->series->kind, "loads") == 0, steps = means && w == 0 && v->n <= STRETCHES;
-    const int64_t stretches = v->n > 2 * STRETCHES ? STRETCHES : v->n;
+    const int means = strcmp(p->r->series->kind, "loads") == 0,
+              steps = means && w == 0 && v->n <= most_stretches(p);
+    const int64_t stretches = v->n > 2 * most_stretches(p) ? most_stretches(p) : v->n;
     plot_block(p);
     for (int32_t k = 0; steps && k < v->n; k++) {
         write_history_row(p, s, w, v->edge[k], v->x[k]);
@@ -48,14 +64,18 @@ static void write_history_block(picture *p, int32_t s, int w)
 }
 
 /* All of the largest, then steps of a hundredth of the rank: the resolution of a picture. */
-static int32_t next_rank(int32_t k) { return k < ALL_RANKS ? k + 1 : k + k / (ALL_RANKS / 2); }
+static int32_t next_rank(const picture *p, int32_t k)
+{
+    const int32_t all = p->o->report_page ? ALL_RANKS_OF_PAGE : ALL_RANKS;
+    return k < all ? k + 1 : k + k / (all / 2);
+}
 
 static void write_exceedance_block(picture *p, int32_t s, int w)
 {
     const fl_signal_view *v = find_view(p->r, p->part, s, w);
     const int32_t n = v->peaks.n;
     plot_block(p);
-    for (int32_t k = 0; k < n; k = next_rank(k)) {
+    for (int32_t k = 0; k < n; k = next_rank(p, k)) {
         plot_label(p, s, w);
         plot_columns(p, 3,
                      (double[]){v->peak_value[k], fl_plotting_position(k + 1, n),
@@ -186,8 +206,15 @@ static void write_exceedance_panel(picture *p, int k, int32_t s)
     const plot_scale c = plot_scale_of_signal(p, s);
     plot_set_margins(p, k, 0.58, 0.97);
     plot_left_title(p, "Probability of exceedance", 0.508);
-    fputs("set xtics autofreq\nset logscale y\nset yrange [*:1]\nset ytics autofreq\nset format y '%g'\n",
-          p->script);
+    double lo = INFINITY, hi = -INFINITY;
+    for (int w = 0; w < p->r->view_count; w++) {
+        const fl_signal_view *v = find_view(p->r, p->part, s, w);
+        if (!v->peaks.n) continue;
+        hi = fmax(hi, v->peak_value[0]);
+        lo = fmin(lo, v->peak_value[v->peaks.n - 1]);
+    }
+    fprintf(p->script, "set xtics %.6g\n", plot_tics(c.factor * (hi > lo ? hi - lo : fabs(hi))));
+    fputs("set logscale y\nset yrange [*:1]\nset ytics autofreq\nset format y '%g'\n", p->script);
     for (int w = 0; w < p->r->view_count; w++) {
         if (!find_view(p->r, p->part, s, w)->peaks.n) continue;
         plot_curve(p);

@@ -56,7 +56,7 @@ static void write_panel(FILE *f, const struct record_views *r, int32_t s, int in
 
 static void write_script(FILE *f, const struct record_views *r, const struct options *o, int panels)
 {
-    const int png = strcmp(o->format, "png") == 0, height = HEAD + panels * PANEL;
+    const int height = HEAD + panels * PANEL;
     int index = 0;
     plot_open(f, "legs", o->format, 1000, height);
     fputs("set style line 1 lc rgb '#9ecae1'\nset style line 2 lc rgb '#4292c6'\nset style line 3 lc rgb "
@@ -67,7 +67,7 @@ static void write_script(FILE *f, const struct record_views *r, const struct opt
           "ytics back lc rgb '#dddddd' lw 0.8\n",
           f);
     fprintf(f, "set label 1 'Parts side by side' at screen 0.095, screen %.4f left font ',%d'\n",
-            1.0 - 24.0 / height, png ? 14 : 18);
+            1.0 - 24.0 / height, plot_head_size(o->format));
     fprintf(f,
             "set key at screen 0.975, screen %.4f right top horizontal Left reverse samplen 1 width -3 "
             "maxrows 1\n",

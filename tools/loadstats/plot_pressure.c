@@ -30,7 +30,8 @@ static void write_pressure_data(FILE *f, const load_map *p)
         fputs("\n\n", f);
         for (int32_t a = 0; a < p->o->areas; a++) {
             const panel_load_stats *l = &p->part[k].p[a];
-            fprintf(f, "%d", p->part[k].part);
+            char name[PART_TEXT];
+            fputs(load_map_part(p, p->part[k].part, name), f);
             write_cell(f, p->o->area[a]);
             write_cell(f, l->max > 0.0 ? 1e-6 * l->max : (double)NAN);
             write_cell(f, l->sum > 0.0 ? 1e-6 * l->sum / p->weight : (double)NAN);
@@ -58,8 +59,10 @@ static void write_pressure_script(FILE *f, const load_map *p)
           f);
     for (int32_t k = 0; k < parts; k++) {
         double c, e;
-        char name[60] = "";
-        if (parts > 1) snprintf(name, sizeof name, "part %d, ", p->part[k].part);
+        char name[PART_TEXT + 2] = "", part[PART_TEXT];
+        if (parts > 1) snprintf(name, sizeof name, "%s, ", load_map_part(p, p->part[k].part, part));
+        for (char *at = name; *at; at++)
+            if (*at == '\'') *at = '_'; /* it would end the title */
         fit_pressure_area(p, &p->part[k], &c, &e);
         fprintf(f, ", \\\n     data index %d using 2:3 with points pt 7 ps 0.8 lc rgb '%s' title '%slargest'",
                 k + 1, COLOUR[k], name);

@@ -76,10 +76,10 @@ static int write_matrix_panel(picture *p, int k, int32_t s, const count *n, fl_e
             c.factor * d->max, 1.02 * c.factor * n->largest);
     fprintf(f, "set xtics %.6g\nset ytics %.6g\n", plot_tics(c.factor * (d->max - d->min)),
             plot_tics(c.factor * n->largest));
-    fprintf(
-        f,
-        "set palette defined (0 '#deebf7', 1 '#9ecae1', 2 '#4292c6', 3 '#084594')\n%sset cbrange [%g:%g]\n",
-        most > MANY ? "set logscale cb\n" : "", most > MANY ? 0.5 : 0.0, fmax(1.0, most));
+    fprintf(f,
+            "set palette maxcolors 32\nset palette defined (0 '#deebf7', 1 '#9ecae1', 2 '#4292c6', 3 "
+            "'#084594')\n%sset cbrange [%g:%g]\n",
+            most > MANY ? "set logscale cb\n" : "", most > MANY ? 0.5 : 0.0, fmax(1.0, most));
     if (most <= MANY) fprintf(f, "set cbtics %g\n", plot_tics(fmax(1.0, most)));
     else fputs("set cbtics autofreq\n", f);
     fputs("set label 4 'cycles' at graph 1.05, graph 1.09 center\n", f);

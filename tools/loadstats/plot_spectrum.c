@@ -7,15 +7,17 @@
 /* Range of the axis below the highest density. */
 static const double DECADES = 4.5;
 
-/* Frequencies are drawn one by one up to this number, above it as means over 1 / ALL of the frequency. */
-enum { ALL = 400 };
+/* Frequencies are drawn one by one up to this number, above it as means over 1 / ALL of the frequency; on a
+ * page fewer of them. */
+enum { ALL = 400, ALL_OF_PAGE = 60 };
 
 static void write_spectrum_block(picture *p, int32_t s, int w, const fl_power_spectrum *a)
 {
+    const int32_t all = p->o->report_page ? ALL_OF_PAGE : ALL;
     plot_block(p);
     for (int32_t k = 1, next; k < a->n; k = next) {
         double psd = 0.0, low = 0.0, high = 0.0;
-        next = k < ALL ? k + 1 : k + k / ALL;
+        next = k < all ? k + 1 : k + k / all;
         if (next > a->n) next = a->n;
         for (int32_t i = k; i < next; i++) {
             double lo, hi;

@@ -70,6 +70,7 @@ struct options {
     struct oscillator_case oscillator[OSCILLATORS_MAX];
     int32_t oscillators, oscillator_words;
     double stress; /* per unit of the load */
+    int exports;   /* 0, or 1 + the form of --export */
     double follow; /* data time between two outputs [s], 0 for one at the end */
     int ended;     /* --help or --version was answered */
 };

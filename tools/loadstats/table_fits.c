@@ -12,9 +12,16 @@ enum { FEW = 20 }; /* values: a distribution fitted to fewer is unreliable */
 /* Beyond this many record lengths a level is an extrapolation of the distribution. */
 static const double REACH = 4.0;
 
+/* A distribution that lies as far from its sample as one in twenty of its own samples do has failed. */
+static const double REJECTED = 0.05;
+
+/* A level whose interval reaches beyond this many times the level is not determined by the sample. */
+static const double UNDETERMINED = 10.0;
+
 typedef struct {
     int found;
     fl_dist d;
+    double aic;
     fl_goodness_of_fit g;
     fl_return_level r[RETURNS_MAX];
 } law;
@@ -80,8 +87,38 @@ static int make_law(law *l, int kind, const extreme_sample *s, const struct opti
     } else {
         rc = 0;
     }
+    if (l->found) l->aic = fl_fit_aic(&l->d, fl_fit_log_likelihood(&l->d, s->n, s->x));
     fl_fit_work_free(&w);
     return rc;
+}
+
+/* 1 if the sample does not contradict the distribution, as far as resamples tell. */
+static int is_fit(const law *l)
+{
+    return l->found && isfinite(l->aic) && !(l->g.p_kolmogorov < REJECTED) && !(l->g.p_anderson < REJECTED);
+}
+
+/* Rank of a distribution among those that fit, by AIC, from 1; 0 for one that fails. */
+static int rank_of(const law *l, int kind)
+{
+    int rank = is_fit(&l[kind]);
+    for (int k = 0; k < FL_DISTS && rank; k++)
+        rank += is_fit(&l[k]) && (l[k].aic < l[kind].aic || (l[k].aic == l[kind].aic && k < kind));
+    return rank;
+}
+
+/* The distribution of a rank; -1 where there is none. */
+static int kind_of_rank(const law *l, int rank)
+{
+    for (int kind = 0; kind < FL_DISTS; kind++)
+        if (rank_of(l, kind) == rank) return kind;
+    return -1;
+}
+
+static int is_determined(const fl_return_level *v)
+{
+    return isfinite(v->level) && isfinite(v->profile[1]) &&
+           v->profile[1] <= UNDETERMINED * fmax(fabs(v->level), fabs(v->profile[0]));
 }
 
 static int make_laws(law *l, const extreme_sample *s, const struct options *o, int32_t levels, fl_err *err)
@@ -124,19 +161,21 @@ static int write_fits(FILE *f, const struct record_views *r, const struct option
             write_cell(f, best ? l[kind].g.p_kolmogorov : NAN);
             write_cell(f, ok ? fl_fit_anderson(&d, c->n, c->x) : NAN);
             write_cell(f, best ? l[kind].g.p_anderson : NAN);
-            putc('\n', f);
+            const int rank = best ? rank_of(l, kind) : 0;
+            if (rank) fprintf(f, "\t%d\n", rank);
+            else fputs("\t-\n", f);
         }
     }
     fl_fit_work_free(&work);
     return 0;
 }
 
+/* The distributions that fit, the best first. */
 static void write_levels(FILE *f, const struct record_views *r, const struct options *o, int32_t p, int32_t s,
                          int w, const extreme_sample *c, const law *l, double span)
 {
-    for (int kind = 0; kind < FL_DISTS; kind++) {
+    for (int rank = 1, kind; (kind = kind_of_rank(l, rank)) >= 0; rank++) {
         int32_t j = 0;
-        if (!l[kind].found) continue;
         for (int32_t k = 0; k < o->returns; k++) {
             const int known = c->rate * o->period[k] > 1.0;
             const fl_return_level none = {NAN, NAN, {NAN, NAN}, {NAN, NAN}},
@@ -150,9 +189,35 @@ static void write_levels(FILE *f, const struct record_views *r, const struct opt
             write_cell(f, v->bootstrap[0]);
             write_cell(f, v->bootstrap[1]);
             write_cell(f, o->period[k] / span);
-            putc('\n', f);
+            fprintf(f, "\t%d\n", rank);
         }
     }
+}
+
+/* The distributions without rows in the table levels, and levels that mean nothing. */
+static void warn_failed(const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
+                        int w, const extreme_sample *c, const law *l)
+{
+    const char *before = "";
+    int failed = 0, loose = 0;
+    for (int kind = 0; kind < FL_DISTS; kind++) {
+        failed += l[kind].found && !rank_of(l, kind);
+        for (int32_t k = 0, j = 0; k < o->returns; k++)
+            loose += c->rate * o->period[k] > 1.0 && rank_of(l, kind) && !is_determined(&l[kind].r[j++]);
+    }
+    if (o->quiet || !(failed || loose)) return;
+    fprintf(stderr, "loadstats: %s %s %s: ", r->series->part[part], r->series->signal[signal], view_name(w));
+    if (failed) fputs("the sample contradicts ", stderr);
+    for (int kind = 0; kind < FL_DISTS && failed; kind++) {
+        if (!l[kind].found || rank_of(l, kind)) continue;
+        fprintf(stderr, "%s%s", before, fl_dist_name(kind));
+        before = ", ";
+    }
+    if (failed && loose) fputs("; ", stderr);
+    if (loose)
+        fprintf(stderr, "%d level%s of no use: the interval has no end, or one beyond %g times the level",
+                loose, loose == 1 ? " is" : "s are", UNDETERMINED);
+    putc('\n', stderr);
 }
 
 static void warn_few(const struct record_views *r, const struct options *o, int32_t part, int32_t signal,
@@ -198,7 +263,30 @@ int levels_rows(FILE *f, const struct record_views *r, const struct options *o, 
     if (rc == 0) warn_few(r, o, part, signal, w, &s);
     if (rc == 0 && part == 0 && signal == 0 && w == 0) warn_extrapolation(o, span);
     if (rc == 0) rc = make_laws(l, &s, o, o->returns, err);
+    if (rc == 0) warn_failed(r, o, part, signal, w, &s, l);
     if (rc == 0) write_levels(f, r, o, part, signal, w, &s, l, span);
+    free(s.x);
+    free(l);
+    return rc;
+}
+
+int best_level_make(best_level *b, const fl_signal_view *v, const struct options *o, double period,
+                    fl_err *err)
+{
+    struct options own = *o;
+    extreme_sample s = {0};
+    law *l = fl_alloc(FL_DISTS, sizeof *l, err);
+    int rc = l ? extreme_sample_make(&s, v, o, err) : -1, kind = -1;
+    own.period[0] = period;
+    *b = (best_level){.n = s.n, .law = NULL, .level = NAN, .low = NAN, .high = NAN};
+    if (rc == 0 && s.n >= BEST_LEVEL_LEAST && s.rate * period > 1.0) {
+        rc = make_laws(l, &s, &own, 1, err);
+        for (int rank = 1; rc == 0 && !b->law && (kind = kind_of_rank(l, rank)) >= 0; rank++) {
+            const fl_return_level *q = &l[kind].r[0];
+            if (is_determined(q))
+                *b = (best_level){s.n, fl_dist_name(kind), q->level, q->profile[0], q->profile[1]};
+        }
+    }
     free(s.x);
     free(l);
     return rc;

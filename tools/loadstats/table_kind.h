@@ -48,8 +48,8 @@ enum table_need {
 };
 
 /* How the report prints a table: as it is; transposed, part by part; fits by likelihood only, the best one in
- * bold; or a selection of the numbers of runs. */
-enum report_layout { LAYOUT_ROWS, LAYOUT_TRANSPOSED, LAYOUT_FITS, LAYOUT_RUNS };
+ * bold; a selection of the numbers of runs; or intervals in one cell with their values. */
+enum report_layout { LAYOUT_ROWS, LAYOUT_TRANSPOSED, LAYOUT_FITS, LAYOUT_RUNS, LAYOUT_OVERVIEW };
 
 struct table {
     const char *name; /* of --table; also the kind of the file */

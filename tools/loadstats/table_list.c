@@ -10,6 +10,7 @@
 #include "plot_spectrum.h"
 #include "table_fits.h"
 #include "table_list.h"
+#include "table_overview.h"
 #include "table_parts.h"
 #include "table_pressure.h"
 #include "table_rainflow.h"
@@ -30,7 +31,22 @@ static const struct table TABLES[] = {
      .view_rows = stats_rows,
      .run_rows = stats_of_runs,
      .follows = 1,
-     .report = {.position = 1, .heading = "Numbers", .layout = LAYOUT_TRANSPOSED}},
+     .report = {.position = 2, .heading = "Numbers", .layout = LAYOUT_TRANSPOSED}},
+    {.name = "overview",
+     .uses = USES_SAMPLE | USES_RETURNS,
+     .columns = LABELS "\tmean\tmean_low\tmean_high\tstd\tmin\tmax\tlargest\tq95\tpeaks\tT[s]\tlaw\tlevel"
+                       "\tlevel_low\tlevel_high\ttau[s]\tindependent",
+     .view_rows = overview_rows,
+     .report =
+         {.position = 1,
+          .heading = "Overview",
+          .note = "Forces in kN, moments in kN.m. Mean with its 95 % interval, by the integral time tau of "
+                  "the record; smallest and largest value and largest magnitude; the value that is not "
+                  "passed for 95 % of the time, on the side of the largest magnitude; and the level that is "
+                  "exceeded once in T on average, of the distribution of the separate peaks that fits best, "
+                  "with its 95 % interval. There is none for fewer than 30 peaks: then the largest value is "
+                  "one event of one scene.",
+          .layout = LAYOUT_OVERVIEW}},
     {.name = "peaks", .columns = LABELS "\tt[s]\tpeak", .view_rows = peaks_rows},
     {.name = "histogram",
      .uses = USES_BINS,
@@ -40,10 +56,11 @@ static const struct table TABLES[] = {
     {.name = "exceedance", .columns = LABELS "\trank\tpeak\tP", .view_rows = exceedance_rows},
     {.name = "fits",
      .uses = USES_SAMPLE,
-     .columns = LABELS "\tsample\tn\tlaw\tmethod\tlocation\tscale\tshape\tlogL\tAIC\tks\tks_p\tad\tad_p",
+     .columns =
+         LABELS "\tsample\tn\tlaw\tmethod\tlocation\tscale\tshape\tlogL\tAIC\tks\tks_p\tad\tad_p\trank",
      .view_rows = fits_rows,
      .run_rows = fits_of_runs,
-     .report = {.position = 4,
+     .report = {.position = 5,
                 .heading = "Distributions of the peaks",
                 .heading_of_runs = "Distributions of the largest values",
                 .layout = LAYOUT_FITS}},
@@ -51,11 +68,11 @@ static const struct table TABLES[] = {
      .uses = USES_SAMPLE | USES_RETURNS,
      .needs = NEEDS_RETURNS,
      .columns = LABELS
-     "\tsample\tn\tlaw\tT[s]\tlevel\tprofile_low\tprofile_high\tbootstrap_low\tbootstrap_high\trecords",
+     "\tsample\tn\tlaw\tT[s]\tlevel\tprofile_low\tprofile_high\tbootstrap_low\tbootstrap_high\trecords\trank",
      .view_rows = levels_rows,
      .run_rows = fits_of_runs,
      .picture = &levels_picture,
-     .report = {.position = 5, .heading = "Return levels"}},
+     .report = {.position = 6, .heading = "Return levels"}},
     {.name = "legs",
      .uses = USES_LEVEL,
      .columns = LABELS "\tmean\tstd\tmin\tmax\tt_max[s]\tpeak_third\tpeak_tenth\timpulse\tabove[s]"
@@ -63,7 +80,7 @@ static const struct table TABLES[] = {
      .view_rows = legs_rows,
      .by_signal = 1,
      .picture = &parts_picture,
-     .report = {.position = 2,
+     .report = {.position = 3,
                 .needs = NEEDS_PARTS,
                 .heading = "Parts side by side",
                 .note = "Ratios are relative to the part with the largest load. at_total is the value at the "
@@ -85,7 +102,7 @@ static const struct table TABLES[] = {
      .signal_rows = damage_rows,
      .run_rows = damage_of_runs,
      .picture = &rainflow_picture,
-     .report = {.position = 7,
+     .report = {.position = 8,
                 .heading = "Fatigue",
                 .note = "Cycles by the named rule, with their residue; the equivalent range does the same "
                         "damage with the same number of cycles."}},
@@ -101,7 +118,7 @@ static const struct table TABLES[] = {
                        "unit^2/Hz]\tshare\tcrossings[Hz]\tlength[m]",
      .view_rows = frequency_rows,
      .picture = &spectrum_picture,
-     .report = {.position = 6,
+     .report = {.position = 7,
                 .needs = NEEDS_SEGMENT,
                 .heading = "Frequencies",
                 .note = "From Welch's spectrum: share is the fraction of the variance within two steps df of "
@@ -115,7 +132,7 @@ static const struct table TABLES[] = {
                        "max[m/s^2]\tf[Hz]\tshare\tlock_in\tstep[s]\terror",
      .view_rows = response_rows,
      .picture = &response_picture,
-     .report = {.position = 8,
+     .report = {.position = 9,
                 .needs = NEEDS_RECORD,
                 .heading = "Response of an oscillator",
                 .note = "Lock-in is flagged where the dominant frequency of the load is within 10 % of the "
@@ -156,12 +173,12 @@ static const struct table TABLES[] = {
     {.name = "ensemble",
      .source = FROM_RUNS,
      .uses = USES_BLOCK,
-     .columns =
-         RUN_LABELS "\truns\tmean\tmean_low\tmean_high\tmean_std\tmax\tmax_low\tmax_high\tmax_std\tlargest",
+     .columns = RUN_LABELS "\truns\tmean\tmean_low\tmean_high\tmean_std\tmax\tmax_low\tmax_high\tmax_"
+                           "std\tlargest\tsmallest\tmagnitude\truns_mean_5%\truns_max_5%",
      .run_rows = ensemble_rows,
      .per_run = 1,
      .draw_runs = plot_ensemble,
-     .report = {.position = 3,
+     .report = {.position = 4,
                 .needs = NEEDS_RUNS,
                 .heading = "Confidence of the estimates",
                 .note = "The first n runs: mean of their means and mean of their largest values, each with "

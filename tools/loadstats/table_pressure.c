@@ -14,12 +14,13 @@ void pressure_rows(FILE *f, const load_map *p)
 {
     for (int32_t k = 0; k < p->parts; k++) {
         const part_pressure *part = &p->part[k];
+        char name[PART_TEXT];
         double c, e;
         fit_pressure_area(p, part, &c, &e);
         for (int32_t a = 0; a < p->o->areas; a++) {
             const panel_load_stats *l = &part->p[a];
             const double area = p->o->area[a], none = l->max > 0.0 ? 1.0 : (double)NAN;
-            fprintf(f, "%d", part->part);
+            fputs(load_map_part(p, part->part, name), f);
             write_cell(f, area);
             write_cell(f, l->max);
             write_cell(f, l->sum / p->weight);

@@ -28,6 +28,8 @@ int stats_rows(FILE *f, const struct record_views *r, const struct options *o, i
     write_cell(f, n ? fl_mean_of_highest(n, v->peak_value, 1.0) : NAN);
     write_cell(f, n ? fl_mean_of_highest(n, v->peak_value, 1.0 / 3.0) : NAN);
     write_cell(f, n ? fl_mean_of_highest(n, v->peak_value, 0.1) : NAN);
+    write_cell(f, v->t[d->at_min]);
+    write_cell(f, fmax(fabs(d->min), fabs(d->max)));
     putc('\n', f);
     return 0;
 }
@@ -102,5 +104,5 @@ void stats_more_columns(FILE *f, const struct options *o)
 {
     char buf[FL_NUMBER_LEN];
     for (int32_t k = 0; k < o->quantiles; k++) fprintf(f, "\tq%s", fl_number_text(o->quantile[k], buf));
-    fputs("\tpeaks\tpeak_mean\tpeak_third\tpeak_tenth", f);
+    fputs("\tpeaks\tpeak_mean\tpeak_third\tpeak_tenth\tt_min[s]\tlargest", f);
 }

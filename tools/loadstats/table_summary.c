@@ -13,14 +13,16 @@ int ensemble_add(ensemble *e, const fl_summary *all, const fl_summary *one, cons
     if (e->runs == 0) e->signals = one->n;
     if (one->n != e->signals || all->n != e->signals)
         return fl_fail(err, FL_INPUT, "%s: its parts and signals differ from those of the runs before", name);
-    if (fl_grow(&e->x, &e->cap, 2 * ((int64_t)e->runs + 1) * e->signals, sizeof *e->x, err)) return -1;
-    double *x = e->x + 2 * (int64_t)e->runs * e->signals;
+    if (fl_grow(&e->x, &e->cap, ENSEMBLE_VALUES * ((int64_t)e->runs + 1) * e->signals, sizeof *e->x, err))
+        return -1;
+    double *x = e->x + ENSEMBLE_VALUES * (int64_t)e->runs * e->signals;
     for (int32_t k = 0; k < e->signals; k++) {
         const fl_summary_signal *s = &one->entry[k];
         if (fl_multiset_size(&s->run[FL_RUN_MEAN]) != 1)
             return fl_fail(err, FL_INPUT, "%s: a summary of several runs, expected one run per file", name);
         *x++ = s->run[FL_RUN_MEAN].v[0].x;
         *x++ = s->run[FL_RUN_MAX].v[0].x;
+        *x++ = s->run[FL_RUN_MIN].v[0].x;
     }
     e->runs++;
     return 0;
@@ -68,6 +70,8 @@ int stats_of_runs(FILE *f, const struct run_set *runs, int32_t entry, const stru
     write_cell(f, s->peaks ? fl_exact_value(&s->peak_sum) / (double)s->peaks : NAN);
     write_cell(f, s->peaks ? fl_log_histogram_mean_highest(s->peak.n, peak, 1.0 / 3.0, lo, hi) : NAN);
     write_cell(f, s->peaks ? fl_log_histogram_mean_highest(s->peak.n, peak, 0.1, lo, hi) : NAN);
+    write_cell(f, s->t_min);
+    write_cell(f, fmax(fabs(s->min), fabs(s->max)));
     putc('\n', f);
     free(level);
     free(peak);
@@ -86,19 +90,27 @@ int ensemble_rows(FILE *f, const struct run_set *runs, int32_t entry, const stru
 {
     const ensemble *e = &runs->e;
     double *mean = fl_alloc(2 * (int64_t)e->runs, sizeof *mean, err), *max = mean + e->runs;
-    double largest = -INFINITY;
+    double largest = -INFINITY, least = INFINITY;
     (void)o;
     if (!mean) return -1;
     for (int32_t n = 0; n < e->runs; n++) {
-        mean[n] = e->x[2 * ((int64_t)n * e->signals + entry)];
-        max[n] = e->x[2 * ((int64_t)n * e->signals + entry) + 1];
-        const fl_mean_interval a = fl_mean_interval_of(n + 1, mean), b = fl_mean_interval_of(n + 1, max);
+        const double *x = e->x + ENSEMBLE_VALUES * ((int64_t)n * e->signals + entry);
+        mean[n] = x[0];
+        max[n] = x[1];
         largest = fmax(largest, max[n]);
+        least = fmin(least, x[2]);
+        const int sign = least >= 0.0 ? 1 : largest <= 0.0 ? -1 : 0; /* of the signal in all runs */
+        const fl_mean_interval a = fl_mean_interval_of_sign(fl_mean_interval_of(n + 1, mean), sign),
+                               b = fl_mean_interval_of_sign(fl_mean_interval_of(n + 1, max), sign);
         write_run_labels(f, &runs->all.entry[entry]);
         fprintf(f, "\t%d", n + 1);
         write_interval(f, &a);
         write_interval(f, &b);
         write_cell(f, largest);
+        write_cell(f, least);
+        write_cell(f, fmax(fabs(least), fabs(largest)));
+        write_cell(f, n ? fl_runs_for(a.std, a.mean, 0.05) : NAN);
+        write_cell(f, n ? fl_runs_for(b.std, b.mean, 0.05) : NAN);
         putc('\n', f);
     }
     free(mean);

@@ -7,10 +7,11 @@
 #include "stat/summary.h"
 #include "settings.h"
 
-/* Mean and largest value of each run, in the order of the files. */
+/* Mean, largest and smallest value of each run, in the order of the files. */
+enum { ENSEMBLE_VALUES = 3 };
 typedef struct {
     int32_t runs, cap, signals;
-    double *x; /* [runs][signals][2] */
+    double *x; /* [runs][signals][ENSEMBLE_VALUES] */
 } ensemble;
 
 /* The summary of all runs.  Its multisets are sorted before rows are printed. */

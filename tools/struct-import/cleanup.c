@@ -348,5 +348,5 @@ int clean_part(fl_part *p, const struct options *o, struct cleanup *m, fl_err *e
                      : fl_fail(err, why.code, "part \"%.60s\": %s", p->name, why.text);
     }
     m->after = same ? m->before : fl_moments_of(p, 1);
-    return 0;
+    return m->quality.open ? fl_part_rims(p, &m->rim, err) : 0;
 }

@@ -4,6 +4,7 @@
 #define STRUCT_IMPORT_CLEANUP_H
 #include "geom/enclosed_volume.h"
 #include "geom/moments.h"
+#include "geom/raise_deck.h"
 #include "geom/mesh_patch.h"
 #include "geom/weld.h"
 #include "options.h"
@@ -28,6 +29,7 @@ struct cleanup {
     int32_t simplified;            /* decrease of the number of triangles */
     fl_crossing crossing;          /* in the result */
     fl_mesh_quality quality;
+    fl_deck_counts rim; /* rims at its top, if it is open */
     int closes_jointly; /* its open edges match those of other parts, and together these parts are closed */
     double deviation;   /* [m] largest distance of the result from the source */
     double rounding;    /* [m] by which the numbers of the output format move a vertex, included in both */

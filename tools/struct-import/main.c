@@ -7,6 +7,10 @@
 #include "base/stream.h"
 #include "base/output_guard.h"
 #include "geom/facet.h"
+#include "geom/mesh_patch.h"
+#include "geom/mirror_half.h"
+#include "geom/raise_deck.h"
+#include "geom/weld.h"
 #include "mesh/gstruct.h"
 #include "mesh/read_mesh.h"
 #include "mesh/single_precision.h"
@@ -51,6 +55,55 @@ static int rename_parts(fl_surface *s, int32_t first, const char *name, fl_err *
     return 0;
 }
 
+/* Apply --symmetry to the parts of a file. */
+static int add_halves(const struct options *o, fl_surface *s, int32_t first, const char *path, fl_err *err)
+{
+    static const double IN_PLANE = 1e-6; /* of the diagonal of a part */
+    for (int32_t i = first; i < s->n; i++)
+        for (int axis = 0; axis < 2; axis++) {
+            const fl_aabb box = fl_part_aabb(&s->part[i]);
+            int32_t crosses = -1;
+            if (!(o->symmetry >> axis & 1)) continue;
+            if (fl_part_mirror_half(&s->part[i], axis, IN_PLANE * v3_norm(v3_sub(box.hi, box.lo)), &crosses,
+                                    err))
+                return -1;
+            if (crosses >= 0)
+                return fl_fail(
+                    err, FL_INPUT,
+                    "%s: part \"%.60s\" lies on both sides of %c = 0, across which --symmetry %c mirrors it",
+                    path, s->part[i].name, 'x' + axis, 'x' + axis);
+        }
+    return 0;
+}
+
+/* Apply --deck: weld a part, orient it and raise its rims. */
+static int raise_decks(const struct options *o, fl_surface *s, fl_err *err)
+{
+    int32_t raised = 0;
+    for (int32_t i = 0; o->deck > 0.0 && i < s->n; i++) {
+        fl_part *p = &s->part[i];
+        fl_mesh_quality came;
+        fl_orient_counts turned;
+        fl_deck_counts did;
+        fl_weld w;
+        if (p->nt == 0) continue;
+        if (fl_part_weld(p, o->weld, &w, err) || fl_part_orient(p, &came, &turned, err) ||
+            fl_part_raise_deck(p, o->deck, &did, err))
+            return -1;
+        raised += did.rims;
+        if (did.rims && !o->quiet)
+            fprintf(
+                stderr,
+                "struct-import: %s: %d rims of %d edges at z = %.6g were raised by %g m and closed, %d of "
+                "them are holes; %d triangles at the waterline were left out\n",
+                p->name, did.rims, did.edges, did.top, o->deck, did.holes, did.lids);
+    }
+    if (o->deck > 0.0 && raised == 0)
+        return fl_fail(err, FL_INPUT, "--deck %g: no part has an open rim that lies flat at its top",
+                       o->deck);
+    return 0;
+}
+
 static int read_file(const struct options *o, const struct item *it, fl_import_options *w, fl_surface *s,
                      fl_err *err)
 {
@@ -59,7 +112,7 @@ static int read_file(const struct options *o, const struct item *it, fl_import_o
     const int rc = fl_mesh_read(s, it->path, w, note, err);
     for (char *p = note, *end; !o->quiet && (end = strchr(p, '\n')) != NULL; p = end + 1)
         fprintf(stderr, "struct-import: %s: %.*s\n", it->path, (int)(end - p), p);
-    if (rc || rename_parts(s, first, it->name, err)) return -1;
+    if (rc || rename_parts(s, first, it->name, err) || add_halves(o, s, first, it->path, err)) return -1;
     for (int32_t i = first; i < s->n; i++) fl_part_map(&s->part[i], &o->map);
     return 0;
 }
@@ -106,7 +159,9 @@ static int collect_parts(const struct options *o, fl_surface *s, fl_err *err)
     }
     if (!bad) bad = selection_check(&c, err);
     selection_free(&c);
-    if (bad || rename_all(o, s, err) || (o->to == TO_G_STRUCT && check_names(s, err))) return -1;
+    if (bad || rename_all(o, s, err) || raise_decks(o, s, err) ||
+        (o->to == TO_G_STRUCT && check_names(s, err)))
+        return -1;
     for (int32_t i = 0; facets && i < s->n; i++)
         if (facet_cones(&s->part[i], facets, err)) return -1;
     return 0;

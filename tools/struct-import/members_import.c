@@ -59,7 +59,7 @@ int import_members(const struct options *o, fl_err *err)
     fl_surface none = {0};
     fl_frame_model frame = {0};
     fl_member_model m = {0};
-    fl_import_options opt = {.frame = &frame};
+    fl_import_options opt = {.frame = &frame, .has_unit = o->unit != NULL};
     fl_history_line by;
     fl_out out = {0};
     int rc = fl_mesh_read(&none, path, &opt, note, err);

@@ -11,8 +11,9 @@
 static const char USAGE[] =
     "usage: struct-import [options] [FILE ...]\n"
     "Turn meshes and ready-made solids into a structure file (g_struct) for dem-solve.\n"
-    "FILE is STL, OBJ, OFF, PLY, VTK, g_struct, or a mesh of finite elements: Abaqus, ANSYS, Gmsh, Nastran,\n"
-    "recognised by content; - or nothing is standard input.\n"
+    "FILE is one of (STL, OBJ, OFF, PLY, VTK, g_struct, Abaqus, ANSYS, Gmsh, Nastran, SESAM, SACS, USFOS,\n"
+    "OpenFAST, WAMIT, NEMOH, HAMS, HydroStar, AQWA, Tecplot, Salome, GeniE, UNV), recognised by content;\n"
+    "- or nothing is standard input.\n"
     "\n";
 
 static const struct unit {
@@ -204,6 +205,15 @@ static int add_mirror(void *options, const char *text, fl_err *err)
     return 0;
 }
 
+static int add_symmetry(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    if (strlen(text) != 1 || !strchr("xy", *text))
+        return fl_fail(err, FL_USAGE, "--symmetry is \"%.60s\", expected x or y", text);
+    o->symmetry |= 1 << (*text - 'x');
+    return 0;
+}
+
 static int set_translation(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
@@ -303,6 +313,11 @@ static const fl_option OPTION[] = {
      .help = "mirror the files in the plane across x, y or z",
      .kind = FL_OPTION_CALL,
      .call = add_mirror},
+    {.word = "symmetry",
+     .argument = "AXIS",
+     .help = "add the mirrored half of the files in the plane across x or y",
+     .kind = FL_OPTION_CALL,
+     .call = add_symmetry},
     {.word = "rotate",
      .argument = "AX,AY,AZ,DEG",
      .help = "turn the files about an axis through the origin",
@@ -337,6 +352,13 @@ static const fl_option OPTION[] = {
      .at = AT(fill),
      LENGTH,
      .expected = "a length above 0"},
+    {.word = "deck",
+     .argument = "H",
+     .help = "raise rims at the top of parts by H [m] and close them by a deck",
+     .kind = FL_OPTION_NUMBER,
+     .at = AT(deck),
+     LENGTH,
+     .expected = "a height above the rim, above 0"},
     {.word = "repair",
      .help = "join bodies that cross, rebuild patches that cross themselves",
      .at = AT(repair)},
@@ -391,8 +413,8 @@ static int finish(struct options *o, fl_err *err)
     if (streams > 1) return fl_fail(err, FL_USAGE, "standard input is named %d times", streams);
     if (o->members && (o->items != 1 || o->item[0].kind != ITEM_FILE))
         return fl_fail(err, FL_USAGE, "--members reads one deck");
-    if (o->members && (o->turns || o->mirror || o->y_up || o->parts || o->aliases || o->plot || o->to ||
-                       o->repair || o->raw || o->item[0].name))
+    if (o->members && (o->symmetry || o->deck > 0.0 || o->turns || o->mirror || o->y_up || o->parts ||
+                       o->aliases || o->plot || o->to || o->repair || o->raw || o->item[0].name))
         return fl_fail(err, FL_USAGE,
                        "--members goes with --pieces, --unit, --scale, --translate and --strict alone");
     if (o->raw && o->fill_holes) return fl_fail(err, FL_USAGE, "--raw and --fill-holes exclude each other");
@@ -434,6 +456,8 @@ void options_by(const struct options *o, fl_history_line *by)
     if (o->y_up) fl_history_line_add(by, "--up y");
     for (int k = 0; k < 3; k++)
         if (o->mirror >> k & 1) fl_history_line_add(by, "--mirror %c", 'x' + k);
+    for (int k = 0; k < 2; k++)
+        if (o->symmetry >> k & 1) fl_history_line_add(by, "--symmetry %c", 'x' + k);
     for (int k = 0; k < o->turns; k++) fl_history_line_add(by, "--rotate %s", o->rotate[k]);
     if (v3_norm(o->map.t) > 0.0)
         fl_history_line_add(by, "--translate %s,%s,%s", fl_number_text(o->map.t.x, a),
@@ -441,6 +465,7 @@ void options_by(const struct options *o, fl_history_line *by)
     if (o->weld >= 0.0) fl_history_line_add(by, "--weld %s", fl_number_text(o->weld, a));
     if (o->fill_holes) fl_history_line_add(by, "--fill-holes %d", o->fill_holes);
     if (o->fill > 0.0) fl_history_line_add(by, "--fill %s", fl_number_text(o->fill, a));
+    if (o->deck > 0.0) fl_history_line_add(by, "--deck %s", fl_number_text(o->deck, a));
     if (o->repair) fl_history_line_add(by, "--repair");
     if (o->simplify > 0.0) fl_history_line_add(by, "--simplify %s", fl_number_text(o->simplify, a));
     if (o->remesh > 0.0)

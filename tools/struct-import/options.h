@@ -51,6 +51,8 @@ struct options {
     double weld;               /* [m]; < 0: automatic */
     int members;               /* write a model of members */
     int32_t pieces;            /* of a member */
+    int symmetry;              /* bits 0, 1: mirrored halves in x = 0, y = 0 are added */
+    double deck;               /* [m] by which rims are raised; 0 for none */
     int y_up, strict, raw, subdivide;
     int gzip, quiet, verbose, threads;
     int ended; /* --help or --version was answered */

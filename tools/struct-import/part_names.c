@@ -4,10 +4,14 @@
 #include <string.h>
 #include "base/array.h"
 #include "part_names.h"
+#include "mesh/merge_cylinders.h"
 
 int selection_start(struct selection *c, const struct options *o, fl_err *err)
 {
-    *c = (struct selection){.opt = {.pattern = o->part, .patterns = o->parts, .subdivide = o->subdivide}};
+    *c = (struct selection){.opt = {.pattern = o->part,
+                                    .patterns = o->parts,
+                                    .has_unit = o->unit != NULL,
+                                    .subdivide = o->subdivide}};
     c->opt.available = &c->available;
     c->opt.matched = fl_alloc(o->parts, 1, err);
     return c->opt.matched ? 0 : -1;
@@ -82,6 +86,7 @@ static int check_patterns(const struct options *o, const fl_surface *s, fl_err *
 int rename_all(const struct options *o, fl_surface *s, fl_err *err)
 {
     fl_surface to = {0};
+    fl_merged_cylinders merged = {0};
     int rc = -1;
     if (o->aliases == 0) return 0;
     if (check_patterns(o, s, err)) return -1;
@@ -101,6 +106,9 @@ int rename_all(const struct options *o, fl_surface *s, fl_err *err)
         to.part[at] = s->part[i];
         s->part[i] = (fl_part){0};
     }
+    /* a leg that came as several parts is one cylinder again */
+    for (int32_t i = 0; i < to.n && to.n < s->n; i++)
+        if (fl_part_merge_cylinders(&to.part[i], &merged, err)) goto done;
     to.history = s->history;
     s->history = NULL;
     fl_surface_free(s);

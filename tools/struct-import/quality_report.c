@@ -119,6 +119,13 @@ static void print_warnings(const char *name, const struct cleanup *m)
                 "struct-import: warning: %s: open patches have no outside: except for flat convex ones, ice "
                 "meets them on one side only, the side of most of their area\n",
                 name);
+    if (m->rim.rims && !m->closes_jointly &&
+        fabs(m->rim.top) <= FL_DECK_FLAT * v3_norm(v3_sub(m->quality.box.hi, m->quality.box.lo)))
+        fprintf(
+            stderr,
+            "struct-import: warning: %s: open at z = 0 along %d edges: ice goes in over the rim; --deck H "
+            "closes it\n",
+            name, m->rim.edges);
     if (m->fins)
         fprintf(stderr,
                 "struct-import: warning: %s: %d triangles of two-sided plates that stand on others were "
@@ -190,6 +197,43 @@ static int32_t measure_jointly(const fl_surface *s, const struct cleanup *m, fl_
     return joint;
 }
 
+/* 1 if a part came clean: nothing was mended, nothing is left to mend, and it did not move. */
+static int is_clean(const struct cleanup *m)
+{
+    const fl_mesh_quality *q = &m->quality;
+    const int mended = m->weld.merged || m->weld.collapsed || m->repair.degenerate || m->duplicates ||
+                       m->repair.duplicates || m->repair.holes || m->repair.stitched || m->orient.patches ||
+                       m->orient.triangles || m->untangle.joined || m->untangle.rebuilt || m->walls ||
+                       m->simplified || m->triangles_before != q->triangles,
+              left = q->open || q->branched || q->incoherent || q->degenerate || m->crossing.crossings ||
+                     m->crossing.touching;
+    return !mended && !left && m->deviation == 0.0 && m->source_deviation == 0.0;
+}
+
+static int all_clean(const fl_surface *s, const struct cleanup *m)
+{
+    for (int32_t i = 0; i < s->n; i++)
+        if (!is_clean(&m[i])) return 0;
+    return 1;
+}
+
+/* What was mended, and what that changed. */
+static void print_mending(const fl_surface *s, const struct cleanup *m, struct cleanup *sum, int width)
+{
+    fprintf(stderr, "\n%-*s %7s %10s %9s %7s %7s %7s %5s %12s %7s %7s %8s %8s\n", width, "part", "welded",
+            "degenerate", "duplicate", "flipped", "turned", "patches", "open", "non-manifold", "twisted",
+            "slivers", "crossing", "touching");
+    for (int32_t i = 0; i < s->n; i++) {
+        print_mesh(s->part[i].name, width, &m[i]);
+        add_counts(sum, &m[i]);
+    }
+    if (s->n > 1) print_mesh("total", width, sum);
+    fprintf(stderr, "\n%-*s %9s %9s %6s %6s %7s %10s %10s %10s %11s %9s %9s\n", width, "part", "came", "went",
+            "filled", "joined", "rebuilt", "volume[1]", "area[1]", "centre[m]", "inertia[1]", "strays[m]",
+            "misses[m]");
+    for (int32_t i = 0; i < s->n; i++) print_changes(s->part[i].name, width, &m[i]);
+}
+
 int print_report(const struct options *o, const fl_surface *s, const struct cleanup *m, fl_err *err)
 {
     struct cleanup sum = {0};
@@ -204,18 +248,9 @@ int print_report(const struct options *o, const fl_surface *s, const struct clea
             "area[m2]", "centroid[m]", "box[m]");
     for (int32_t i = 0; i < s->n; i++) print_shape(s->part[i].name, width, &m[i].quality);
     if (s->n > 1) print_shape("total", width, &sum.quality);
-    fprintf(stderr, "\n%-*s %7s %10s %9s %7s %7s %7s %5s %12s %7s %7s %8s %8s\n", width, "part", "welded",
-            "degenerate", "duplicate", "flipped", "turned", "patches", "open", "non-manifold", "twisted",
-            "slivers", "crossing", "touching");
-    for (int32_t i = 0; i < s->n; i++) {
-        print_mesh(s->part[i].name, width, &m[i]);
-        add_counts(&sum, &m[i]);
-    }
-    if (s->n > 1) print_mesh("total", width, &sum);
-    fprintf(stderr, "\n%-*s %9s %9s %6s %6s %7s %10s %10s %10s %11s %9s %9s\n", width, "part", "came", "went",
-            "filled", "joined", "rebuilt", "volume[1]", "area[1]", "centre[m]", "inertia[1]", "strays[m]",
-            "misses[m]");
-    for (int32_t i = 0; i < s->n; i++) print_changes(s->part[i].name, width, &m[i]);
+    if (all_clean(s, m) && !o->verbose)
+        fprintf(stderr, "\nnothing was mended: every surface came closed, without faults\n");
+    else print_mending(s, m, &sum, width);
     for (int32_t i = 0; i < s->n; i++) {
         if (o->verbose) print_details(&s->part[i], &m[i]);
         print_warnings(s->part[i].name, &m[i]);

@@ -33,7 +33,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.9439
 set bmargin at screen 0.7738
 set label 2 'Probability of exceedance' at screen 0.5080, graph 0.5 center rotate
-set xtics autofreq
+set xtics 20
 set logscale y
 set yrange [*:1]
 set ytics autofreq
@@ -61,7 +61,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.7058
 set bmargin at screen 0.5357
 set label 2 'Probability of exceedance' at screen 0.5080, graph 0.5 center rotate
-set xtics autofreq
+set xtics 5
 set logscale y
 set yrange [*:1]
 set ytics autofreq
@@ -89,7 +89,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.4677
 set bmargin at screen 0.2976
 set label 2 'Probability of exceedance' at screen 0.5080, graph 0.5 center rotate
-set xtics autofreq
+set xtics 0.005
 set logscale y
 set yrange [*:1]
 set ytics autofreq
@@ -116,7 +116,7 @@ set rmargin at screen 0.9700
 set tmargin at screen 0.2296
 set bmargin at screen 0.0595
 set label 2 'Probability of exceedance' at screen 0.5080, graph 0.5 center rotate
-set xtics autofreq
+set xtics 20
 set logscale y
 set yrange [*:1]
 set ytics autofreq
