@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# jam.awk -- means +- standard errors of jam.tsv without and with surrogates, and of the difference within a pair.
-# t is the difference over its standard error; deviations are those of single runs, without and with.
+# jam.awk -- means +- standard errors of jam.tsv of the first and of the second run of each pair, and of the difference
+# within a pair.  t is the difference over its standard error; deviations are those of single runs.
 BEGIN { FS = "\t" }
 /^#seconds/ { split($0, word, " "); seconds = word[2] }
 /^#/ { next }
 !("pair" in col) { for (k = 1; k <= NF; k++) { col[$k] = k; name[k] = $k }; next }
 {
-    with_surrogate = $col["tolerance"] > 0
-    if (with_surrogate) tol = $col["tolerance"]
-    else n++
-    runs++
-    for (k = col["impulse[kN.s]"]; k <= col["damping[kJ]"]; k++) x[$col["pair"], with_surrogate, k] = $k
+    which = runs++ % 2
+    if (!which) n++
+    way[which] = ("law" in col ? $col["law"] " " : "") $col["tolerance"]
+    for (k = col["impulse[kN.s]"]; k <= col["damping[kJ]"]; k++) x[$col["pair"], which, k] = $k
     if ($col["energy"] > worst) worst = $col["energy"]
-    cost[with_surrogate] += $col["cost[s/s]"]
+    cost[which] += $col["cost[s/s]"]
     pair[n] = $col["pair"]
 }
 # Mean, deviation and standard error of the runs, or of the differences in pairs (which = 2).
@@ -30,16 +29,16 @@ function sums(k, which,    i, p, v, s, ss) {
 function cell(k, which) { sums(k, which); return sprintf("%.2f +- %.2f", mean, error) }
 END {
     if (!n || runs != 2 * n) { print "jam.awk: two runs a pair are expected" >"/dev/stderr"; exit 3 }
-    printf "%d pairs of %s s\n%-14s %18s %18s %18s %8s %18s\n", n, seconds, "", "tolerance 0", tol,
+    printf "%d pairs of %s s\n%-16s %18s %18s %18s %8s %18s\n", n, seconds, "", way[0], way[1],
         "difference", "t", "deviations"
     for (k = col["impulse[kN.s]"]; k <= col["damping[kJ]"]; k++) {
         without = cell(k, 0); of = sprintf("%.2f", deviation)
         with = cell(k, 1); of = of sprintf(", %.2f", deviation)
         between = cell(k, 2)
         t = error > 0 ? sprintf("%.1f", mean / error) : "-"
-        printf "%-14s %18s %18s %18s %8s %18s\n", name[k], without, with, between, t, of
+        printf "%-16s %18s %18s %18s %8s %18s\n", name[k], without, with, between, t, of
     }
-    printf "%-14s %18.3g %18.3g %18s\n", "cost[s/s]", cost[0] / n, cost[1] / n,
+    printf "%-16s %18.3g %18.3g %18s\n", "cost[s/s]", cost[0] / n, cost[1] / n,
         sprintf("ratio %.2f", cost[1] / cost[0])
-    printf "%-14s %.1e of the throughput\n", "energy, worst", worst
+    printf "%-16s %.1e of the throughput\n", "energy, worst", worst
 }

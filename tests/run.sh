@@ -116,11 +116,19 @@ programs() # KIND
     done
 }
 
+under_quick() # NAME...: the verification programs NAME under the law quick
+{
+    for name in "$@"; do
+        add "verify/quick_$name" "FLOE_LAW=quick exec '$build/tests/verify/verify_$name'"
+    done
+}
+
 # The hard cases once more with surrogates.
 all_verify()
 {
     programs verify
     add verify/verify_hard_surrogate "FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
+    under_quick rigid energy friction contact many_contacts
 }
 
 # The memory map of the sanitizers may collide with randomised addresses.
@@ -154,6 +162,8 @@ check)
 verify)
     unset FLOE_QUICK
     all_verify
+    under_quick smooth step hard_cases
+    add verify/quick_hard_surrogate "FLOE_LAW=quick FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
     add view/page "exec sh tests/view/page.sh '$build'"
     add view/paraview "exec sh tests/view/paraview.sh '$build'"
     ;;

@@ -105,7 +105,8 @@ typedef struct {
 static inline fl_low_pass fl_damping_low_pass(double dt, double omega2)
 {
     const double rate = sqrt(omega2) * (1.0 / FL_SUSTAINED_PERIODS), x = dt * rate;
-    return x > 1.0 ? (fl_low_pass){x / (1.0 + x), rate, 0} : (fl_low_pass){0.5 * x / (1.0 + 0.5 * x), rate, 1};
+    const double half = 0.5 * x;
+    return x > 1.0 ? (fl_low_pass){x / (1.0 + x), rate, 0} : (fl_low_pass){half / (1.0 + half), rate, 1};
 }
 
 /* y after dt.  gradient: y' before. */

@@ -17,6 +17,7 @@
 #define FL_PATCH_FEATURE_PAIRS_H
 #include <stdint.h>
 #include "base/simd.h"
+#include "patch/list_range.h"
 #include "patch/patch_types.h"
 
 typedef enum {
@@ -175,11 +176,7 @@ int fl_feature_pairs_build(fl_feature_pairs *l, fl_patch_points *w, const fl_pat
 /* True if the list is valid in the pose M, o; counts an evaluation. */
 static inline int fl_feature_pairs_valid(fl_feature_pairs *l, const fl_mat3 *M, fl_vec3 o)
 {
-    double turn2 = 0.0;
-    if (!(v3_norm2(v3_sub(o, l->o)) < l->max_shift2)) return 0;
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) turn2 += (M->m[i][k] - l->M.m[i][k]) * (M->m[i][k] - l->M.m[i][k]);
-    if (!(turn2 < l->max_turn2)) return 0;
+    if (!fl_pose_in_range(M, o, &l->M, l->o, l->max_shift2, l->max_turn2)) return 0;
     l->uses++;
     return 1;
 }

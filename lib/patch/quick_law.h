@@ -21,7 +21,7 @@
  *           A_0 = min(R sqrt(a), a/2) of the smaller face a, D = int z^4/int z^3 over the part within 2R,
  *           z = s + R: at least 2R/3 where the faces touch
  *     o_i   1 over a face.  Beyond its rim o = H + (1 - H) (1 - g(S^2)) t(z): H falls to 0 where the
- *           direction from the nearest point leaves the normals of all faces by 20 degrees, 1 - g is the
+ *           direction from the nearest point leaves the normals of all faces by 32 degrees, 1 - g is the
  *           share of edges that are parallel to the nearest edge.  What is left crosses, and is a term of
  *           its own.
  *     S     sine of the angle of two edges;  g = h((S^2 - FL_QUICK_ALONG^2)/FL_QUICK_PARALLEL)
@@ -37,8 +37,10 @@
  * punch; W does not depend on which body is A.  The force is continuous but where two parallel rims pass each
  * other at the inset: there it jumps along the face by s/(8 sqrt A) of the normal force on an area A.
  *
- * Limits: those of `patch`, and: a point on an edge stands for a quarter of a part, so a line contact that is
- * shorter is uneven by some percent; edges that cross over a face count beside the face. */
+ * Limits: those of `patch`, and: a face tilted by 0.5 to 6 degrees, which bears on a strip no wider than
+ * some insets, has as little as 0.6 of the energy that `patch` gives it.  A point on an edge stands for a
+ * quarter of a part, so a line contact that is shorter is uneven by some percent; edges that cross over a
+ * face count beside the face. */
 #ifndef FL_PATCH_QUICK_LAW_H
 #define FL_PATCH_QUICK_LAW_H
 #include "narrow/penetration.h"

@@ -7,6 +7,7 @@
 #ifndef FL_PATCH_QUICK_LIST_H
 #define FL_PATCH_QUICK_LIST_H
 #include "geom/mat3.h"
+#include "patch/list_range.h"
 #include "patch/quick_shape.h"
 
 #define FL_QUICK_SEGMENT 16.0 /* longest part of an edge that four points stand for, over rho */
@@ -69,11 +70,7 @@ int fl_quick_list_build(fl_quick_list *l, const fl_quick_shape *a, const fl_quic
 /* True if the list is valid in the pose M, o; counts an evaluation. */
 static inline int fl_quick_list_valid(fl_quick_list *l, const fl_mat3 *M, fl_vec3 o)
 {
-    double turn2 = 0.0;
-    if (!(v3_norm2(v3_sub(o, l->o)) < l->max_shift2)) return 0;
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) turn2 += (M->m[i][k] - l->M.m[i][k]) * (M->m[i][k] - l->M.m[i][k]);
-    if (!(turn2 < l->max_turn2)) return 0;
+    if (!fl_pose_in_range(M, o, &l->M, l->o, l->max_shift2, l->max_turn2)) return 0;
     l->uses++;
     return 1;
 }

@@ -17,7 +17,7 @@
 #define FL_QUICK_FLAT 0.004     /* sine of the angle of two faces up to which they bear their edges */
 #define FL_QUICK_TILTED 0.025   /* from which on edges bear beside them */
 #define FL_QUICK_NEARNESS 0.6   /* over R, of D: see v */
-#define FL_QUICK_FACE_ONLY 0.94 /* cosine of 20 degrees */
+#define FL_QUICK_FACE_ONLY 0.85 /* cosine of 31.8 degrees */
 
 /* Scratch of one thread.  Zeroed to start; grows as needed. */
 typedef struct {

@@ -379,10 +379,10 @@ static void learn_curvature(fl_surrogate *s, fl_vec6 *springs, const fl_vec6 g,
 
 /* Starts a contact: the point is the centre of the pressures and stays fixed to A.  The pressures exist even
  * where bodies separate so fast that damping cancels all of them. */
-static void start_surrogate(fl_surrogate *s, const fl_exact_contact *seen, const fl_pressure_moments *q,
-                            double tolerance)
+static void start_surrogate(fl_surrogate *s, const fl_exact_contact *seen, double tolerance)
 {
-    const fl_vec3 centre = v3_add(seen->points->point[0].p, q->centre);
+    const fl_pressure_moments *q = seen->pressing;
+    const fl_vec3 centre = v3_add(seen->first, q->centre);
     *s = (fl_surrogate){.reach = FIRST_REACH * sqrt(tolerance)};
     s->max_change = fl_surrogate_max_change(tolerance);
     s->length = q->radius > seen->radii ? q->radius : seen->radii;
@@ -441,7 +441,7 @@ static double slope_of_energy(const fl_surrogate *s, const fl_exact_contact *see
     const fl_vec3 at = v3_add(seen->o, m3_mul(*seen->M, s->point_a));
     const fl_force_sum *q = seen->sums;
     const fl_wrench first = {v3_scale(seen->scale, q->gradient.f), v3_scale(seen->scale, q->gradient.m)};
-    const fl_wrench wrench = move_wrench(&first, v3_sub(seen->points->point[0].p, at));
+    const fl_wrench wrench = move_wrench(&first, v3_sub(seen->first, at));
     set_vec6(slope, v3_neg(wrench.f), v3_scale(-1.0 / s->length, wrench.m));
     return v3_norm(wrench.f);
 }
@@ -471,8 +471,9 @@ static void multiply_upper(fl_vec6 out, const double *A, const fl_vec6 x)
 
 /* Width and skewness of the pressure distribution that reproduce the no-tension correction of the exact
  * evaluation. */
-static void fit_no_tension(fl_surrogate *s, const fl_exact_contact *seen, const fl_pressure_moments *of)
+static void fit_no_tension(fl_surrogate *s, const fl_exact_contact *seen)
 {
+    const fl_pressure_moments *of = seen->pressing;
     const fl_force_sum *q = seen->sums;
     const double E = of->pressure, chi = seen->impact_damping;
     fl_vec6 V, still, moving, damped;
@@ -517,15 +518,16 @@ static void set_free_travel(fl_surrogate *s, const fl_exact_contact *seen)
 }
 
 static void set_from_evaluation(fl_surrogate *s, const fl_exact_contact *seen,
-                                const fl_pressure_moments *pressing, const fl_surrogate_record *last)
+                                const fl_surrogate_record *last)
 {
+    const fl_pressure_moments *pressing = seen->pressing;
     const fl_force_sum *q = seen->sums;
     fl_vec6 slope;
     s->valid = s->used = 0;
     s->force = slope_of_energy(s, seen, slope);
     if (!(s->force > 0.0 && seen->slope > 0.0 && pressing->pressure > 0.0)) return;
     s->M = *seen->M, s->o = seen->o, s->point = v3_add(s->o, m3_mul(s->M, s->point_a));
-    s->first_point = seen->points->point[0].p;
+    s->first_point = seen->first;
     s->counts_along_plane = seen->b_is_plane ? 0.0 : 1.0;
     s->overlap = q->overlap, s->energy = seen->energy, s->slope = seen->slope, s->inv_mass = seen->inv_mass,
     s->compliance = seen->compliance, s->turn_compliance = seen->turn_compliance;
@@ -547,9 +549,7 @@ static void add_defect_return(fl_surrogate *s)
 
 void fl_surrogate_set(fl_surrogate *s, const fl_exact_contact *seen)
 {
-    fl_pressure_moments pressing;
-    fl_force_sum_pressure(seen->points, &pressing);
-    set_from_evaluation(s, seen, &pressing, NULL);
+    set_from_evaluation(s, seen, NULL);
     add_defect_return(s);
 }
 
@@ -601,9 +601,7 @@ double fl_surrogate_update(fl_surrogate *s, const fl_surrogate_value *value, con
 {
     fl_vec6 slope;
     fl_surrogate_record last = {0};
-    fl_pressure_moments pressing;
     double off = 0.0, runs = 0.0;
-    fl_force_sum_pressure(seen->points, &pressing);
     if (value) {
         const double force = slope_of_energy(s, seen, slope);
         last = record_of(s, value);
@@ -611,13 +609,13 @@ double fl_surrogate_update(fl_surrogate *s, const fl_surrogate_value *value, con
         runs = jump_coefficient(s, value, seen->energy);
         if (force > 0.0) off = update_reach(s, value, &last, slope, force, seen->motion_force, tolerance);
         const double more = slope_error(s, value, seen->slope);
-        grow_length(s, &last, pressing.radius);
+        grow_length(s, &last, seen->pressing->radius);
         set_slope_trend(s, &last, more);
     } else {
-        start_surrogate(s, seen, &pressing, tolerance);
+        start_surrogate(s, seen, tolerance);
     }
-    set_from_evaluation(s, seen, &pressing, &last);
-    if (s->valid) fit_no_tension(s, seen, &pressing);
+    set_from_evaluation(s, seen, &last);
+    if (s->valid) fit_no_tension(s, seen);
     set_defect_return(s, runs, MAX_RETURN * tolerance);
     add_defect_return(s);
     if (s->valid && (seen->stiffness_i > 0.0 || seen->stiffness_j > 0.0))

@@ -164,7 +164,8 @@ typedef struct {
 typedef struct {
     const fl_mat3 *M; /* pose of A in the frame of B */
     fl_vec3 o;
-    const fl_patch_points *points; /* after fl_force_sum_elastic() */
+    fl_vec3 first;                       /* the first point, about which moments are [m] */
+    const fl_pressure_moments *pressing; /* of the points */
     const fl_force_sum *sums;
     const fl_spring_sums *springs; /* of the points */
     double scale, energy, slope;   /* dW/dU; W and slope as in fl_surrogate */
@@ -178,7 +179,8 @@ typedef struct {
     double motion_force;             /* force that the energy of the motion gives, over the force */
     double stiffness_i, stiffness_j; /* 0: not computed [1/s2] */
     fl_vec3 v, spin;                 /* of A relative to B at the first point, frame of B [m/s], [rad/s] */
-    double impact_damping, speed_offset; /* arguments of fl_force_sum_damping() [s/m], [m/s] */
+    /* arguments of fl_force_sum_damping() [s/m], [m/s]; 0 where damping is not that of points */
+    double impact_damping, speed_offset;
 } fl_exact_contact;
 
 /* Statistics, one for each thread. */

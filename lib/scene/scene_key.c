@@ -615,8 +615,8 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(contact, surrogate),
      .default_text = "0",
      .range = "[0,0.1]",
-     .meaning = "target relative force error of the surrogate, an expansion of the energy of "
-                "a patch contact that has moved little; not a guaranteed bound, the report "
+     .meaning = "target relative force error of the surrogate, an expansion of the energy of a "
+                "contact of patch or quick that has moved little; not a guaranteed bound, the report "
                 "lists the errors found; 0 evaluates every contact exactly in every step",
      .source = "share/doc/contact.md"},
     {.section = FL_SEC_CONTACT,

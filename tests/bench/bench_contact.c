@@ -3,8 +3,9 @@
  * from the gradient of its energy; and libccd's penetration of the same dilated shapes in the same run.
  *
  *     bench_contact               the table
- *     bench_contact CASE N [TOL]  N evaluations of one case, for instruction counts; with TOL, N of one of
- *                                 eight contacts by surrogates of that tolerance
+ *     bench_contact CASE N [TOL [LAW]]
+ *                                 N evaluations of one case, for instruction counts; with TOL above 0 one
+ *                                 of eight contacts by surrogates of that tolerance; without LAW `patch`
  *     bench_contact curves DIR    DIR/tilt.tsv and DIR/slide.tsv: the torque of a face that tilts on another,
  *                                 and the forces of one that slides off it, by law; DIR/friction.tsv: force
  *                                 and moment of a disc, a square, along and across a line that slide and spin
@@ -233,10 +234,11 @@ static double ask_ccd(lab *l, const fl_pair *p, int mpr, double *error)
 
 /* With surrogates: time per contact and step [s], share of exact evaluations, largest relative error of the
  * force. */
-static double time_with_surrogates(which c, double tolerance, double *exact_share, double *off)
+static double time_with_surrogates(which c, const char *law, double tolerance, double *exact_share,
+                                   double *off)
 {
     lab l;
-    make_contacts(&l, c, "patch", tolerance, EIGHT);
+    make_contacts(&l, c, law, tolerance, EIGHT);
     fl_pair *p = touching_pair(&l);
     *exact_share = 1.0, *off = INFINITY;
     if (!p) return INFINITY;
@@ -277,9 +279,10 @@ static int print_row(which c, const char *law)
     } else if (strcmp(law, "patch") == 0) {
         printf(" %10s %10s %10s %10s", "-", "-", "-", "-");
     }
-    if (p->points == FL_POINTS_PATCH && strcmp(law, "patch") == 0) {
+    if (strcmp(law, "quick") == 0) printf(" %10s %10s %10s %10s", "-", "-", "-", "-");
+    if (p->points == FL_POINTS_PATCH) {
         double exact_share, most;
-        const double t = time_with_surrogates(c, TOLERANCE, &exact_share, &most);
+        const double t = time_with_surrogates(c, law, TOLERANCE, &exact_share, &most);
         printf(" %8.0f %8.3f %9.1e", 1e9 * t, exact_share, most);
     }
     printf("\n");
@@ -376,12 +379,13 @@ int main(int argc, char **argv)
 {
     int bad = 0, rows = 0;
     if (argc == 3 && strcmp(argv[1], "curves") == 0) return write_curves(argv[2]);
-    if (argc == 3 || argc == 4) {
+    if (argc >= 3 && argc <= 5) {
         lab l;
-        make_contacts(&l, (which)atoi(argv[1]), "patch", argc == 4 ? atof(argv[3]) : 0.0,
-                      argc == 4 ? EIGHT : 1);
+        const double tolerance = argc > 3 ? atof(argv[3]) : 0.0;
+        make_contacts(&l, (which)atoi(argv[1]), argc > 4 ? argv[4] : "patch", tolerance,
+                      tolerance > 0.0 ? EIGHT : 1);
         fl_pair *p = touching_pair(&l);
-        if (p && argc == 4) evaluate_all(&l, atoi(argv[2]) / EIGHT);
+        if (p && tolerance > 0.0) evaluate_all(&l, atoi(argv[2]) / EIGHT);
         else if (p) evaluate(&l, p, atoi(argv[2]));
         lab_free(&l);
         return p == NULL;

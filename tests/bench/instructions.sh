@@ -5,6 +5,7 @@
 # for the vector width that valgrind supports.  Cases:
 #   1, 2, ...           one contact of that case of bench_contact
 #   surrogate-2, ...    the same with surrogates of 1e-3, one of eight contacts, exact evaluations included
+#   quick-2, ..., quick-surrogate-2, ...  both of the law quick
 #   wall, cylinder, hull  bench_structure: a wall of 20 000 triangles, an exact cylinder, a hull of 50 000
 #                       triangles; `-edge`: edge-on
 #   spheres, rolls      a contact and step of spheres in a lattice, everything included; with rolling resistance
@@ -25,13 +26,13 @@ fresh=$(mktemp)
 trap 'rm -f "$fresh"' EXIT
 
 counted() { # program, its arguments: instructions, and the number of units if the program prints it
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$BENCH/$1" "$2" "$3" ${4:+"$4"} 2>&1 |
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$BENCH/$1" "$2" "$3" ${4:+"$4"} ${5:+"$5"} 2>&1 |
         awk '/^[0-9]+$/ { units = $1 } /Collected/ { print $NF, units }'
 }
 
-each() { # name, program, its argument, few, many, units between the two if the program does not print them, tolerance
+each() { # name, program, its argument, few, many, units between the two if the program does not print them, tolerance, law
     [ -z "$ONLY" ] || [ "$ONLY" = "$1" ] || return 0
-    echo "$(counted "$2" "$3" "$4" "$7") $(counted "$2" "$3" "$5" "$7")" | awk -v name="$1" -v n="$6" '
+    echo "$(counted "$2" "$3" "$4" "$7" "$8") $(counted "$2" "$3" "$5" "$7" "$8")" | awk -v name="$1" -v n="$6" '
         { printf "%s %.0f\n", name, n ? ($2 - $1) / n : ($3 - $1) / ($4 - $2) }'
 }
 
@@ -42,6 +43,10 @@ all() {
         k=$((k + 1))
     done
     for k in 2 5 6; do each surrogate-$k bench_contact $k 4000 6000 2000 0.001; done
+    for k in 2 3 4 5 6 7; do
+        each quick-$k bench_contact $k $FEW $MANY $((MANY - FEW)) 0 quick
+        each quick-surrogate-$k bench_contact $k 4000 6000 2000 0.001 quick
+    done
     each wall bench_structure 4 $FEW $MANY $((MANY - FEW))
     each cylinder bench_structure 18 $FEW $MANY $((MANY - FEW))
     each cylinder-edge bench_structure 19 $FEW $MANY $((MANY - FEW))

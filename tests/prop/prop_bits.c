@@ -158,7 +158,8 @@ static void laws(void **state)
         {scene_of_spheres, 3, "patch"},      {scene_of_bonds, 3, "patch"},
         {scene_of_bonds, 3, "manual"},       {scene_of_water_interval, 3, "patch"},
         {scene_of_sea_interval, 3, "patch"}, {scene_of_inflow_interval, 3, "patch"},
-        {scene_of_surrogates, 3, "patch"},   {scene_of_sheet, 3, "patch"}};
+        {scene_of_surrogates, 3, "patch"},   {scene_of_surrogates, 3, "quick"},
+        {scene_of_sheet, 3, "patch"}};
     const variant how[] = {{1, 0, 1.0, 0, 0, 0}, {2, 5, 1.0, 0, 0, 0}, {1, 0, 0.1, 0, 0, 0},
                            {2, 0, 4.0, 0, 0, 0}, {1, 1, 1.0, 0, 0, 0}, {2, 0, 1.0, 57, 1, 0},
                            {1, 0, 1.0, 0, 0, 1}};

@@ -19,6 +19,8 @@ void lab_start(lab *l);
 /* contact.surrogate of labs of law patch: FLOE_SURROGATE of the environment; else 0: evaluation in every
  * step. */
 double lab_surrogate_tolerance(void);
+/* False under a FLOE_LAW without surrogates, where contact.surrogate is left out of the scene. */
+int lab_has_surrogates(void);
 void lab_set(lab *l, const char *assignment);
 void lab_setf(lab *l, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 void lab_box(lab *l, fl_vec3 centre, fl_vec3 outer_half, double radius, fl_quat q, fl_vec3 v, fl_vec3 spin);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/pi.h"
 #include "patch/patch_points.h"
 #include "sim/energy_balance.h"
@@ -347,8 +348,25 @@ static double parting_rate(double c, double weight)
     return rate;
 }
 
+/* The same of the law `quick`: faces end at the inset, so their common part stays, and they bear the edges.
+ * What is left is U = A s^4 + 8 V and U_ee = -20 V/(s h). */
+static double parting_rate_of_quick(double c, double weight)
+{
+    const double R = 0.2, rho = 0.1, w = 2.0 * FL_QUICK_INSET * rho, A = (1.8 - w) * (0.8 - w);
+    double s = 1e-6, rate = 0.0;
+    for (int k = 0; k < 50; k++) {
+        const double V = FL_PATCH_ROUND_FACTOR * 0.4 * PI * rho * pow(s, 5.0), s4 = s * s * s * s;
+        const double U = A * s4 + 8.0 * V, Us = (4.0 * A * s4 + 40.0 * V) / s;
+        rate = sqrt(G * 20.0 * V / (s * (R - s)) / Us);
+        s *= weight / (0.5 * c * Us / sqrt(U));
+    }
+    return rate;
+}
+
 static void frictionless_boxes(void)
 {
+    const char *law = getenv("FLOE_LAW");
+    const int quick = law && strcmp(law, "quick") == 0;
     const double start = 1e-9;
     lab l;
     lab_start(&l);
@@ -361,11 +379,13 @@ static void frictionless_boxes(void)
     lab_run(&l, 20000);
     l.w.b.x[1].x += start;
     l.w.b.v[1].x = 0.0;
-    const int64_t steps = (int64_t)((verify_quick() ? 1.0 : 5.0) / l.w.dt);
+    const double seconds = (verify_quick() ? 1.0 : 5.0) * (quick ? 10.0 : 1.0);
+    const int64_t steps = (int64_t)(seconds / l.w.dt);
     lab_run(&l, steps);
     verify_row("H02", "without friction: growth rate of the offset [1/s]",
                acosh(l.w.b.x[1].x / start) / ((double)steps * l.w.dt),
-               parting_rate(l.w.pair[0].contact->k, l.w.b.m[1] * G), 1e-3, VERIFY_REL);
+               (quick ? parting_rate_of_quick : parting_rate)(l.w.pair[0].contact->k, l.w.b.m[1] * G), 1e-3,
+               VERIFY_REL);
     lab_free(&l);
 }
 

@@ -65,7 +65,7 @@ static void elastic_gas(void)
         snprintf(what, sizeof what, "quick at %g of the critical step", h[k]);
         verify_below("gas", what, e[k], 1e-3);
     }
-    for (int k = 3; k <= 4; k++) {
+    for (int k = 3; k <= 4 && lab_has_surrogates(); k++) {
         char what[120];
         double surrogate_share;
         const double tolerance = pow(10.0, -k),
@@ -372,9 +372,11 @@ int main(void)
     stiffness_by_area();
     slide_off_face();
     elastic_gas();
-    energy_with_surrogates();
+    if (lab_has_surrogates()) {
+        energy_with_surrogates();
+        throws_by_tolerance();
+    }
     gain_of_free_bodies();
-    throws_by_tolerance();
     friction_cycles();
     return verify_end();
 }
