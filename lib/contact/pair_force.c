@@ -270,9 +270,9 @@ static double sustained_share(const fl_world *w, fl_pair *p, double load, double
     const fl_low_pass pass = fl_damping_low_pass(dt, omega2);
     const fl_vec3 w0 = p->sustained_spin, g0 = p->sustained_spin_rate;
     const double load_now = fl_low_pass_after(&pass, p->sustained_load, p->sustained_load_rate, load, dt);
-    const fl_vec3 spin_now = v3(fl_low_pass_after(&pass, w0.x, g0.x, spin.x, dt),
-                                fl_low_pass_after(&pass, w0.y, g0.y, spin.y, dt),
-                                fl_low_pass_after(&pass, w0.z, g0.z, spin.z, dt));
+    const fl_vec3 spin_now =
+        v3(fl_low_pass_after(&pass, w0.x, g0.x, spin.x, dt), fl_low_pass_after(&pass, w0.y, g0.y, spin.y, dt),
+           fl_low_pass_after(&pass, w0.z, g0.z, spin.z, dt));
     p->sustained_load = load_now;
     p->sustained_load_rate = pass.rate * (load - load_now);
     p->sustained_spin = spin_now;

@@ -79,10 +79,10 @@ typedef struct {
     double sustained_load, sustained_load_rate;
     fl_vec3 sustained_spin, sustained_spin_rate;
     double sustained_step;
-    int32_t points;            /* enum fl_contact_points: what is evaluated */
-    int32_t bond;              /* 1 + index of the bond that was here, 0: none; bond_list.h */
-    double radius_factor;      /* multiplies both radii: 1, but less after a bond */
-    const fl_pair_law *law;    /* borrowed */
+    int32_t points;         /* enum fl_contact_points: what is evaluated */
+    int32_t bond;           /* 1 + index of the bond that was here, 0: none; bond_list.h */
+    double radius_factor;   /* multiplies both radii: 1, but less after a bond */
+    const fl_pair_law *law; /* borrowed */
     /* results of the last evaluation: world axes, torques about the two centres, forces on i (-f on j) */
     fl_vec3 force, torque_i, torque_j;
     fl_vec3 force_damping, torque_i_damping, torque_j_damping;    /* the part of damping */
