@@ -163,6 +163,16 @@ typedef struct {
 } fl_member_forces_row;
 extern const fl_table_format fl_member_forces_table;
 
+/* --- failures(5) -------------------------------------------------------------------------------- */
+
+typedef struct {
+    const char *mode; /* bend, split or cusp */
+    int32_t parent, child;
+    fl_vec3 x, n;
+    double length, load, ratio, mass, child_mass, energy; /* world/breaking_state.h */
+} fl_failures_row;
+extern const fl_table_format fl_failures_table;
+
 /* --- hash(5) ------------------------------------------------------------------------------------ */
 
 typedef struct {

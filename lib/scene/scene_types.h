@@ -78,7 +78,8 @@ typedef struct {
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
         hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        members[FL_SCENE_PATH], checkpoint[FL_SCENE_PATH]; /* "": none */
+        members[FL_SCENE_PATH], failures[FL_SCENE_PATH], final_ice[FL_SCENE_PATH],
+        checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
 typedef struct {
@@ -286,6 +287,12 @@ typedef struct {
     double scatter;           /* standard deviation over mean */
     double scatter_length;    /* [m] */
     int32_t seed;
+    int32_t wear;              /* 1: floes keep where they were crushed */
+    double flexural_strength;  /* [Pa]; INFINITY: none */
+    int32_t wedges;            /* that bend ahead of a contact */
+    double fracture_toughness; /* [Pa m^0.5]; INFINITY: none */
+    double fragment_min;       /* [m2]; 0: auto */
+    int32_t fragments_max;     /* 0: auto */
 } fl_scene_failure;
 
 typedef struct {

@@ -39,6 +39,7 @@ static int32_t run_end(const uint8_t *a, uint8_t x, int32_t k, int32_t to)
  * Returns k if k is not such a body. */
 static int32_t simple_run_end(const fl_world *w, int32_t k, int32_t to)
 {
+    if (fl_body_absent(w, k)) return k;
     if (w->b.is_isotropic[k] && (w->b.added_mass || w->b.heave_mass || w->sea.waves)) return k;
     to = run_end(w->b.is_isotropic, w->b.is_isotropic[k], k, run_end(w->b.fixed_dof, 0, k, to));
     return w->inflow.absent ? run_end(w->inflow.absent, 0, k, to) : to;
@@ -501,6 +502,10 @@ static fl_velocity_change first_change_of(const fl_world *w, int32_t k, double h
 
 static void end_body(fl_world *w, int32_t k, double h, fl_body_block *own)
 {
+    if (fl_body_absent(w, k)) { /* its forces are 0 since it left */
+        fl_sums_clear(w, k);
+        return;
+    }
     const enum fl_sleep_phase kind = fl_sleep_phase_of(w, k);
     const fl_velocity_change first = first_change_of(w, k, h);
     fl_velocity_change back = {0};
@@ -509,7 +514,7 @@ static void end_body(fl_world *w, int32_t k, double h, fl_body_block *own)
             *fl_sums_now(w, k) = *fl_sums_before(w, k); /* forces on resting bodies stay */
     } else if (kind == FL_WAKING) fl_sleep_second_half(w, k);
     else fl_body_sum_forces(w, k);
-    if (fl_body_absent(w, k) || kind == FL_BALLISTIC) return;
+    if (kind == FL_BALLISTIC) return;
     add_contact_force(w, k, own);
     if (!(h > 0.0) || kind == FL_RESTING) { return; }
     if (kind == FL_WAKING) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -11,6 +12,7 @@
 #include "sim/body_step.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
+#include "sim/floe_cut.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow_bonds.h"
 #include "sim/neighbour_list.h"
@@ -107,7 +109,7 @@ int fl_inflow_make(fl_world *w, const fl_ice_field *field, const fl_ice_field *f
     fl_inflow_state *t = &w->inflow;
     const double none = INFINITY;
     const int staged = has_removals(w->scene);
-    if (!s->head.present && !staged) return 0;
+    const int32_t fragments = fl_fragment_places(w->scene, field);
     const int bounded = s->head.present;
     t->lo = v3(bounded && s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -none,
                bounded && s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -none,
@@ -117,8 +119,11 @@ int fl_inflow_make(fl_world *w, const fl_ice_field *field, const fl_ice_field *f
                bounded && s->type[2] == FL_BOUNDARY_FREE ? s->max.z : none);
     const int leave = t->lo.x > -none || t->lo.y > -none || t->lo.z > -none || t->hi.x < none ||
                       t->hi.y < none || t->hi.z < none;
-    if (!leave && !staged) return 0;
-    if (bounded && s->inflow != FL_INFLOW_NONE) {
+    if (!leave && fragments == 0 && !staged) return 0;
+    t->leaves = leave;
+    w->breaking.room = fragments;
+    w->n += fragments;
+    if (leave && s->inflow != FL_INFLOW_NONE) {
         if (feed->n == 0)
             return fl_fail(err, FL_INPUT, "%s: the file has no body; an ice field expected", s->inflow_file);
         if (plan_inflow(w, field, feed, err)) return -1;
@@ -183,6 +188,8 @@ static void remove_floe(fl_world *w, int32_t i)
     t->n_left++;
     t->mass_left += b->m[i];
     t->momentum_left = v3_madd(t->momentum_left, b->m[i], b->v[i]);
+    fl_crushing_forget(w, i);
+    fl_breaking_forget(w, i);
     b->v[i] = b->L[i] = b->w[i] = b->f[i] = b->t[i] = v3(0, 0, 0);
     fl_sums_clear(w, i);
 }
@@ -428,7 +435,7 @@ int fl_inflow_step(fl_world *w, fl_err *err)
     int leaving = 0, came = 0;
     int32_t place = 0;
     if (t->feed) release_guided(w);
-    for (int32_t i = 0; i < w->n && !leaving; i++)
+    for (int32_t i = 0; t->leaves && i < w->n && !leaving; i++)
         leaving = !t->absent[i] && !t->guided[i] && is_outside(w, i);
     if (!leaving && !is_due(w)) return 0;
     fl_sleep_advance_to_now(w);

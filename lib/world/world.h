@@ -22,7 +22,9 @@
 #include "water/environment.h"
 #include "world/body_block.h"
 #include "world/bond_state.h"
+#include "world/breaking_state.h"
 #include "world/contact_sums.h"
+#include "world/crushing_state.h"
 #include "world/device_link.h"
 #include "world/disc_state.h"
 #include "world/driven_floes.h"
@@ -68,6 +70,8 @@ typedef struct {
     fl_strips strips; /* crushing by speed */
     fl_elastic_walls elastic_walls;
     fl_inflow_state inflow;
+    fl_crushing_state crushing;
+    fl_breaking_state breaking;
     fl_driven_floes driven_floes;
     fl_device_link device;
     fl_sleep sleep;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "ice/sphere_packing.h"
 #include "support/scenes.h"
@@ -292,6 +293,34 @@ void scene_of_joined_parts(lab *l, int32_t side, const char *law)
         else
             lab_box(l, cell, v3(0.37, 0.37, 0.37), 0.05, k < side * side ? q_one() : q_of_vector(spin), v,
                     spin);
+    }
+}
+
+void scene_of_failing_floes(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"material.ice.young=20 MPa",
+                                       "contact.friction=0.2",
+                                       "contact.restitution=0.4",
+                                       "run.gravity=9.81",
+                                       "water.density=1000",
+                                       "failure.crushing=all",
+                                       "failure.pressure=60 kPa",
+                                       "failure.flexural_strength=20 kPa",
+                                       "failure.fracture_toughness=2 kPa.m^0.5",
+                                       "failure.fragment_min=0.02"};
+    lab_start(l);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+    if (law) lab_setf(l, "contact.law=%s", law);
+    lab_cone(l, (fl_cone){v3(0, 0, -1.0), v3(0, 0, 0.6), 1.0, 0.2});
+    lab_cone(l, (fl_cone){v3(0, 5, -1.0), v3(0, 5, 1.0), 0.4, 0.4});
+    for (int32_t k = 0; k < 4 * side; k++) {
+        const double angle = 2.0 * PI * k / (2 * side) + 0.1, at = k < 2 * side ? 0.0 : 5.0,
+                     far = fmax(0.82, 0.31 + 0.31 / tan(0.5 * PI / side));
+        const fl_vec3 out = v3(cos(angle), sin(angle), 0);
+        fl_rng g = fl_rng_of(11, k, FL_RNG_TEST);
+        lab_box(l, v3_add(v3(0, at, 0.01), v3_scale(far, out)), v3(0.3, 0.3, 0.05), 0.01,
+                q_about_axis(2, angle), v3_scale(-8.0 - fl_rng_in(&g, 0.0, 4.0), out),
+                v3(0, 0, fl_rng_in(&g, -0.2, 0.2)));
     }
 }
 

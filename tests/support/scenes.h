@@ -48,4 +48,7 @@ void scene_of_inflow_interval(lab *l, int32_t side, const char *law);
 /* Cubes and spheres on a floor of two parts with a leg of two more, all of which are one piece. */
 void scene_of_joined_parts(lab *l, int32_t side, const char *law);
 
+/* Plates that run from all sides into cones, crush, bend and split at once. */
+void scene_of_failing_floes(lab *l, int32_t side, const char *law);
+
 #endif

@@ -208,7 +208,7 @@ static void report_surrogate(const fl_world *w, FILE *f)
 static void report_inflow(const fl_world *w, FILE *f)
 {
     const fl_inflow_state *t = &w->inflow;
-    fprintf(f, "floes out          %" PRId64 " (%.4g kg)\n", t->n_left, t->mass_left);
+    if (t->leaves) fprintf(f, "floes out          %" PRId64 " (%.4g kg)\n", t->n_left, t->mass_left);
     if (t->feed) {
         fprintf(f, "floes in           %" PRId64 " (%.4g kg), %.4g kg/s", t->n_entered, t->mass_entered,
                 fl_world_time(w) > 0.0 ? t->mass_entered / fl_world_time(w) : 0.0);
@@ -217,6 +217,30 @@ static void report_inflow(const fl_world *w, FILE *f)
         fputc('\n', f);
     }
     fprintf(f, "floes in domain    %d (capacity %d)\n", fl_floes_in_domain(w), w->n);
+}
+
+static void report_crushing(const fl_world *w, FILE *f)
+{
+    const fl_crushing_state *s = &w->crushing;
+    fprintf(f,
+            "crushing           %.4g m3 of ice in %" PRId64 " contact-steps, %.4g J; largest force %.4g N\n",
+            s->volume, s->contact_steps, w->ledger.crushing, s->peak);
+    if (s->dents_dropped)
+        fprintf(f, "                   %" PRId64 " dents more than a floe keeps, %d\n", s->dents_dropped,
+                FL_DENTS);
+}
+
+static void report_breaking(const fl_world *w, FILE *f)
+{
+    const fl_breaking_state *s = &w->breaking;
+    fprintf(f,
+            "broken floes       %" PRId64 " bent, %" PRId64 " split, %" PRId64 " cut to cusps, %" PRId64
+            " checks",
+            s->bent, s->split, s->cusps, s->checks);
+    if (s->too_small) fprintf(f, "; %" PRId64 " breaks too small (failure.fragment_min)", s->too_small);
+    if (s->no_room) fprintf(f, "; %" PRId64 " without room (failure.fragments_max)", s->no_room);
+    if (s->buckled) fprintf(f, "; %" PRId64 " loads near buckling", s->buckled);
+    putc('\n', f);
 }
 
 static void report_overlaps(const fl_world *w, FILE *f)
@@ -254,6 +278,8 @@ void write_report(const struct run *r, FILE *f, enum report_kind kind)
     if (fl_world_bonds(w) > fl_world_joints(w)) report_bonds(w, f);
     if (fl_world_joints(w)) report_joints(w, f);
     if (w->moving.members.dynamics.chain.yielding) report_members(w, f);
+    if (w->crushing.of != FL_CRUSHING_NONE) report_crushing(w, f);
+    if (w->breaking.on) report_breaking(w, f);
     if (w->inflow.absent) report_inflow(w, f);
     report_overlaps(w, f);
     fprintf(f, "state hash         %016" PRIx64 "\n", fl_state_hash(w));

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 #include "clocks.h"
+#include "final_ice.h"
 #include "outputs.h"
 #include "run_record.h"
 #include "save.h"
@@ -185,7 +186,8 @@ int run_scene(struct run *r, fl_err *err)
     const fl_err why = *err;
     const int lost = record_end(r, &u, &why, ended_by, err);
     /* Also after a failed run: the rows until then are good, and the tables keep their names. */
-    if (!close_outputs(&u, err) && !rc && !lost && !gone.code) return 0;
+    if (!close_outputs(&u, err) && !rc && !lost && !gone.code)
+        return r->stopped ? 0 : write_final_ice(r, err);
     if (!pipe_signal || err->code != FL_SYSTEM) return -1;
     r->stopped = SIGPIPE;
     *err = (fl_err){0};

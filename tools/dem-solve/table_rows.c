@@ -224,6 +224,29 @@ void write_hash(struct run *r, FILE *f, double t, double interval)
 
 static const char *const BOND_STATE[] = {"whole", "damaged", "broken", "ended"};
 
+void write_failures(struct run *r, FILE *f, double t, double interval)
+{
+    static const char *const MODE[] = {"bend", "split", "cusp"};
+    fl_breaking_state *s = &r->w->breaking;
+    (void)t, (void)interval; /* rows have the times of the failures */
+    for (int32_t k = 0; k < s->events; k++) {
+        const fl_failure_event *e = &s->event[k];
+        const fl_failures_row row = {.mode = MODE[e->mode],
+                                     .parent = e->parent,
+                                     .child = e->child,
+                                     .x = e->x,
+                                     .n = e->n,
+                                     .length = e->length,
+                                     .load = e->load,
+                                     .ratio = e->ratio,
+                                     .mass = e->mass,
+                                     .child_mass = e->child_mass,
+                                     .energy = e->energy};
+        fl_table_write_row(f, &fl_failures_table, 0, e->time, &row);
+    }
+    s->events = 0;
+}
+
 /* Row of the bond k of two spheres. */
 static void write_disc(const fl_world *w, FILE *f, double t, int32_t k)
 {
