@@ -3,7 +3,7 @@
 include config.mk
 
 B     = build$(if $(SAN),/san)
-TOOLS = voronoi-ice struct-import dem-solve loadstats arc-path ice-view pack
+TOOLS = voronoi-ice struct-import dem-solve loadstats arc-path ice-view pack block-cut
 FLAGS = $(OPT) -g $(FLOAT) -fopenmp -Ilib -MMD -MP $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all)
 CCALL  = $(CC) -std=c17 -D_POSIX_C_SOURCE=200809L $(CWARN) $(FLAGS) $(CFLAGS)
 CXXALL = $(CXX) -std=c++17 $(WARN) $(FLAGS) $(CXXFLAGS)

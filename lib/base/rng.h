@@ -22,6 +22,8 @@ enum fl_rng_purpose {
     FL_RNG_ORIENTATION,
     FL_RNG_STRIP_GAP,
     FL_RNG_STRIP_STRENGTH,
+    FL_RNG_JOINT_PLANE,
+    FL_RNG_PERSISTENCE,
     FL_RNG_GAP
 };
 

@@ -9,6 +9,7 @@
 #include "contact/bond_list.h"
 #include "contact/bond_stiffness.h"
 #include "contact/disc_setup.h"
+#include "contact/joint_list.h"
 #include "geom/clip.h"
 #include "world/access.h"
 
@@ -148,10 +149,11 @@ static int32_t add_springs(const fl_world *w, int32_t bond, int end, double shar
     const int32_t k = is_i ? c->i : c->j;
     const fl_mat3 R = fl_body_axes(b, k);
     const fl_vec3 n = m3_mul(R, is_i ? c->ni : c->nj);
+    const double area = fl_joint_list_most_area(w, bond);
     if (b->fixed_dof[k] == ALL_FIXED) return k;
     for (int at = 0; at < FL_BOND_POINTS; at++) {
         double xi, eta;
-        const double wa = share * fl_bond_quadrature_point(at, &xi, &eta) * c->area;
+        const double wa = share * fl_bond_quadrature_point(at, &xi, &eta) * area;
         const fl_vec3 p = v3_madd(v3_madd(is_i ? c->pi : c->pj, xi, is_i ? c->ai : c->aj), eta,
                                   is_i ? c->bi : c->bj),
                       r = m3_mul(R, p);
@@ -161,22 +163,31 @@ static int32_t add_springs(const fl_world *w, int32_t bond, int end, double shar
     return k;
 }
 
-int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
+/* Bonded faces that [bond] makes; -1. */
+static int32_t count_faces(fl_world *w, const fl_ice_field *field, fl_err *err)
 {
-    fl_bond_list *s = &w->bonds;
     if (!w->scene->bond.head.present || !w->scene->bond.on) return 0;
     if (field->bonds == 0)
         return fl_fail(err, FL_INPUT,
                        "%s: no bond in it, and [bond] is on: a field of voronoi-ice --bonded is expected",
                        w->scene->ice.file);
     if (fl_disc_list_make(w, field, err)) return -1;
-    const int32_t faces = field->bonds - w->discs.n;
-    if (faces == 0) return 0;
-    s->bond = fl_alloc(faces, sizeof *s->bond, err);
-    s->image = fl_alloc(3 * (int64_t)faces, sizeof *s->image, err);
-    s->radius_factor = fl_alloc(faces, sizeof *s->radius_factor, err);
-    if (!s->bond || !s->image || !s->radius_factor || make_all(w, field, err)) return -1;
-    s->n = faces;
+    return field->bonds - w->discs.n;
+}
+
+int fl_bond_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
+{
+    fl_bond_list *s = &w->bonds;
+    const int32_t faces = count_faces(w, field, err), n = faces + fl_joint_list_count(w, field);
+    if (faces < 0) return -1;
+    if (n == 0) return 0;
+    s->bond = fl_alloc(n, sizeof *s->bond, err);
+    s->image = fl_alloc(3 * (int64_t)n, sizeof *s->image, err);
+    s->radius_factor = fl_alloc(n, sizeof *s->radius_factor, err);
+    if (!s->bond || !s->image || !s->radius_factor || (faces && make_all(w, field, err))) return -1;
+    s->faces = faces;
+    if (n > faces && fl_joint_list_make(w, field, err)) return -1;
+    s->n = n;
     for (int32_t k = 0; k < s->n; k++) {
         const int32_t of[2] = {s->bond[k].i, s->bond[k].j};
         for (int e = 0; e < 2; e++) w->b.is_isotropic[of[e]] = 0;
@@ -191,6 +202,7 @@ void fl_bond_list_free(fl_bond_list *s)
 {
     free(s->bond), free(s->image), free(s->radius_factor), free(s->omega2), free(s->max_omega2),
         free(s->first), free(s->of);
+    fl_joint_list_free(s);
     *s = (fl_bond_list){0};
 }
 
@@ -238,7 +250,10 @@ void fl_bond_list_first_contact(fl_world *w, fl_pair *p)
 static void evaluate_bond(fl_world *w, int32_t k)
 {
     fl_bond *c = &w->bonds.bond[k];
-    if (c->state == FL_BOND_ENDED || !fl_bond_force(c, &w->b, image_offset(w, k))) return;
+    if (c->state == FL_BOND_ENDED) return;
+    if (!(fl_joint_of_bond(&w->bonds, k) ? fl_joint_list_force(w, k, image_offset(w, k))
+                                         : fl_bond_force(c, &w->b, image_offset(w, k))))
+        return;
 #pragma omp atomic write
     w->bonds.ended = 1;
 }
@@ -263,7 +278,7 @@ void fl_bond_list_evaluate(fl_world *w, int32_t from, int32_t to)
     for (int32_t k = from; k < to; k++) {
         const fl_bond *c = &w->bonds.bond[k];
         if (k + FL_LANE_COUNT < w->bonds.n) fl_prefetch(c + FL_LANE_COUNT, offsetof(fl_bond, force_friction));
-        if (c->state == FL_BOND_INTACT && c->wear == 0.0) intact[n++] = k;
+        if (c->state == FL_BOND_INTACT && c->wear == 0.0 && !fl_joint_of_bond(&w->bonds, k)) intact[n++] = k;
         else evaluate_bond(w, k);
         if (n == FL_LANE_COUNT) evaluate_intact(w, intact, n), n = 0;
     }
@@ -359,7 +374,7 @@ fl_bond_energies fl_bond_list_energies(const fl_world *w)
     }
     const fl_disc_energies discs = fl_disc_list_energies(w);
     sum.store += discs.store, sum.dissipated += discs.dissipated;
-    sum.damped = discs.damped, sum.friction_loss = discs.friction_loss;
+    sum.damped = discs.damped, sum.friction_loss = discs.friction_loss + fl_joint_list_friction_loss(w);
     return sum;
 }
 
@@ -394,7 +409,7 @@ fl_bond_counts fl_bond_list_counts(const fl_world *w)
     fl_bond_counts n = {0};
     double area = 0.0;
     count_discs(w, &n, &area);
-    for (int32_t k = 0; k < w->bonds.n; k++) {
+    for (int32_t k = 0; k < w->bonds.faces; k++) {
         const fl_bond *c = &w->bonds.bond[k];
         const double fracture = fl_bond_fracture_energy(c);
         n.state[c->state]++;

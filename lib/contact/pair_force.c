@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/pair_force.h"
 #include "contact/pair_geometry.h"
 #include "contact/pair_law.h"
@@ -133,6 +134,7 @@ static void add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, doub
 {
     const fl_bodies *b = &w->b;
     const fl_pair_law *law = p->law;
+    if (w->breaking.on) p->load_point = v3_add(q->centre, r->off);
     if (!(law->friction > 0.0 && law->tangential_ratio > 0.0 && q->normal > 0.0)) {
         p->springs = (fl_friction_springs){0};
         return;
@@ -270,9 +272,9 @@ static double sustained_share(const fl_world *w, fl_pair *p, double load, double
     const fl_low_pass pass = fl_damping_low_pass(dt, omega2);
     const fl_vec3 w0 = p->sustained_spin, g0 = p->sustained_spin_rate;
     const double load_now = fl_low_pass_after(&pass, p->sustained_load, p->sustained_load_rate, load, dt);
-    const fl_vec3 spin_now = v3(fl_low_pass_after(&pass, w0.x, g0.x, spin.x, dt),
-                                fl_low_pass_after(&pass, w0.y, g0.y, spin.y, dt),
-                                fl_low_pass_after(&pass, w0.z, g0.z, spin.z, dt));
+    const fl_vec3 spin_now =
+        v3(fl_low_pass_after(&pass, w0.x, g0.x, spin.x, dt), fl_low_pass_after(&pass, w0.y, g0.y, spin.y, dt),
+           fl_low_pass_after(&pass, w0.z, g0.z, spin.z, dt));
     p->sustained_load = load_now;
     p->sustained_load_rate = pass.rate * (load - load_now);
     p->sustained_spin = spin_now;
@@ -479,7 +481,8 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const fl_bodies *b = &w->b;
     const fl_mat3 R = r->R;
     fl_patch_points *s = &w->scratch[thread];
-    const int has_surrogate = p->law->surrogate_tolerance > 0.0 && !fl_panels_need_points(w, p);
+    const int crushes = fl_pair_crushes(w, p),
+              has_surrogate = p->law->surrogate_tolerance > 0.0 && !fl_panels_need_points(w, p) && !crushes;
     if (s->n == 0) return 0;
     const fl_vec3 at = s->point[0].p, aj = m3_mul(R, at), ai = v3_add(aj, r->off);
     fl_force_sum q;
@@ -487,6 +490,15 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     if (!(q.u > 0.0 && q.overlap > ROUNDING * (v3_norm(r->o) + b->bounding_radius[p->i]))) return 0;
     fl_exact_contact exact;
     fl_exact_contact_find(w, p, s, r, &q, &exact);
+    double limit = INFINITY, stiffer = 1.0;
+    int yields = 0;
+    if (crushes) {
+        const double scale = exact.scale, slope = exact.slope;
+        yields =
+            fl_crushing_yield(w, p, r, &q, v3_madd(at, 1.0 / q.pressure, q.pressure_moment), &exact, &limit);
+        if (yields < 0) return -1;
+        stiffer = exact.slope != slope ? fmax((exact.slope / slope) * (scale / exact.scale), 1.0) : 1.0;
+    }
     p->overlap = q.overlap;
     p->energy = exact.energy;
     add_scaled_wrench(&p->force, &p->torque_i, &p->torque_j, &q.gradient, exact.scale, &R, ai, aj);
@@ -507,7 +519,11 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     const fl_vec3 spin = v3_add(v3_sub(b->w[p->i], b->w[p->j]), v3_sub(a->change.wi, a->change.wj));
     const fl_vec3 v = m3_tmul(R, end_velocity(b, p, a, ai, aj)), turn = m3_tmul(R, spin);
     if (fl_force_sum_motion(s, v, turn, &q)) return -1;
-    const double chi = damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass);
+    const double damping = damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass),
+                 coming = q.pressure_rate / q.pressure, room = limit / v3_norm(elastic) - 1.0,
+                 chi = yields                    ? 0.0
+                       : coming * damping > room ? fmax(room, 0.0) / coming
+                                                 : damping;
     const double sustained =
         is_on_facets(w, p) ? sustained_share_of_patch(w, p, s, &q, &exact, elastic, r, a, spin, mass) : 0.0;
     const double size = v3_norm(elastic),
@@ -520,7 +536,7 @@ static int evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_surr
     fl_spring_sums point_springs;
     if (survey || has_surrogate) fl_force_sum_springs(s, &point_springs);
     survey |= has_surrogate && (!t || stiffness_is_due(w));
-    if (survey) add_patch_stiffness(w, p, &point_springs, R, ai, aj, exact.scale, q.u, &si, &sj);
+    if (survey) add_patch_stiffness(w, p, &point_springs, R, ai, aj, stiffer * exact.scale, q.u, &si, &sj);
     if (t && fl_surrogate_in_double_range(p->surrogate, t) && fabs(exact.slope - t->slope) < 0.5 * t->slope)
         fl_tangent_rescale(&p->springs, exact.slope / t->slope, exact.slope < p->surrogate->slope);
     const fl_patch_result all =
@@ -879,7 +895,8 @@ static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pos
     const double rho = b->bounding_radius[p->i], apart = v3_norm(r->off) + rho,
                  moved = step_motion(b, p->i, rho, dt) + step_motion(b, p->j, apart, dt),
                  radii = b->radius[p->i] + b->radius[p->j];
-    if (w->step == 0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii) return;
+    if (w->step == 0 || dt == 0.0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii)
+        return;
 #pragma omp critical(fl_sudden_contacts)
     {
         fl_sudden_contacts *const s = &w->sudden;
@@ -889,6 +906,40 @@ static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pos
     }
 }
 
+/* Finds the contact points with what is crushed taken off. */
+static int find_worn_points(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r,
+                            double *distance)
+{
+    fl_relative_pose worn = p->crush ? fl_crushing_pose(p, r) : *r;
+    if (fl_pair_find_points(w, p, thread, &worn, distance)) return -1;
+    if (p->crush || !fl_pair_crushes(w, p) || w->scratch[thread].n == 0) return 0;
+    const int worn_here = fl_crushing_adopt(w, p, &w->scratch[thread], r);
+    if (worn_here <= 0) return worn_here;
+    worn = fl_crushing_pose(p, r);
+    return fl_pair_find_points(w, p, thread, &worn, distance);
+}
+
+/* A pair with a record of crushing does not touch: releases the record once the whole floes are apart.  Until
+ * then the pair is due in each step. */
+static int release_worn(fl_world *w, fl_pair *p, int32_t thread, const fl_elastic_wrench *before, double dt,
+                        const fl_relative_pose *r, double *distance)
+{
+    const double R = w->b.radius[p->i] + w->b.radius[p->j], worn = *distance;
+    fl_crushing_store_work(w, p, before, dt);
+    *distance = R;
+    if (p->crush->unsaved || before->energy > 0.0) return 0;
+    if (worn - v3_norm(p->crush->offset) > R) {
+        *distance = worn - v3_norm(p->crush->offset);
+    } else {
+        double whole;
+        if (fl_pair_find_points(w, p, thread, r, &whole)) return -1;
+        if (w->scratch[thread].n) return 0;
+        *distance = whole;
+    }
+    fl_crushing_release(w, p);
+    return 0;
+}
+
 void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_surrogate_value *t, double dt,
                             int survey)
 {
@@ -896,7 +947,9 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     const double R = b->radius[p->i] + b->radius[p->j];
     const int first =
         p->bond && p->radius_factor == 0.0 && p->touching == 0; /* evaluation since its bond ended */
-    const int begins = !p->touching;
+    const int begins = !p->touching, crushes = fl_pair_crushes(w, p);
+    const fl_elastic_wrench before =
+        crushes && p->touching ? fl_elastic_wrench_of(p) : (fl_elastic_wrench){.energy = 0.0};
     const fl_relative_pose r = fl_relative_pose_of(w, p);
     const prediction a = prediction_of(w, p, &r, dt);
     fl_patch_points *s = &w->scratch[thread];
@@ -917,7 +970,7 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     } else if (p->points == FL_POINTS_FEATURES) {
         if (evaluate_features(w, p, thread, &r, &a, survey, &distance)) goto failed;
         if (p->touching) goto touches;
-    } else if (fl_pair_is_quick(w, p)) {
+    } else if (fl_pair_is_quick(w, p) && !crushes) {
         fl_quick_sums sums;
         if (fl_pair_find_quick(w, p, thread, &r, &distance, &sums)) goto failed;
         const int touch = evaluate_quick(w, p, thread, &sums, t, &r, &a, survey);
@@ -926,7 +979,7 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     } else {
         const int shared = piece && piece->several_parts;
         s->keep_features = w->panel_load.panels || shared;
-        if (fl_pair_find_points(w, p, thread, &r, &distance)) goto failed;
+        if (find_worn_points(w, p, thread, &r, &distance)) goto failed;
         if (shared && s->n) fl_load_find_part(w, p, s);
         const int touch = p->points == FL_POINTS_PATCH ? evaluate_patch(w, p, thread, t, &r, &a, survey)
                           : s->n                       ? evaluate_points(w, p, s, &r, &a, survey)
@@ -937,6 +990,7 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     p->springs = (fl_friction_springs){0};
     if (p->rolling) *p->rolling = (fl_rolling_spring){.k = 0.0};
     p->touching = 0;
+    if (p->crush && release_worn(w, p, thread, &before, dt, &r, &distance)) goto failed;
     p->max_approach_speed = 0.0;
     p->sustained_load = p->sustained_load_rate = p->sustained_step = 0.0;
     p->sustained_spin = p->sustained_spin_rate = v3(0, 0, 0);
@@ -945,6 +999,7 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     fl_pair_set_free_travel(w, p, distance, R);
     return;
 touches:
+    if (p->crush) fl_crushing_store_work(w, p, &before, dt);
     if (begins) check_beginning(w, p, &r, dt);
     if (first) fl_bond_list_first_contact(w, p);
     return;

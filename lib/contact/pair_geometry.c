@@ -112,8 +112,8 @@ static fl_vec3 *rotate_normals(const fl_poly *a, const fl_mat3 *M)
 }
 
 /* Penetration of overlapping cores, which is rare; s holds the vertices of A. */
-static int find_penetration(fl_world *w, const fl_poly *a, const fl_poly *b, const fl_patch_points *s,
-                            fl_mat3 M, fl_penetration *deep)
+static int find_penetration(fl_world *w, const fl_pair *p, const fl_poly *a, const fl_poly *b,
+                            const fl_patch_points *s, fl_mat3 M, fl_penetration *deep)
 {
     fl_vec3 *const n = rotate_normals(a, &M);
     if (!n) return -1;
@@ -121,6 +121,7 @@ static int find_penetration(fl_world *w, const fl_poly *a, const fl_poly *b, con
     fl_penetration_count count = {0};
     fl_penetration_find(&A, &B, &count, deep);
     free(n);
+    if (p->crush) return 0; /* worn away there (contact/crushing.h): no overlap of what is left */
 #pragma omp critical(fl_deep_statistics)
     {
         w->penetration_count.queries += count.queries;
@@ -161,7 +162,7 @@ static int find_separation(fl_world *w, fl_pair *p, const fl_poly *a, const fl_p
         *distance = gap->d;
         return 0;
     }
-    if (find_penetration(w, a, b, s, M, deep)) return -1;
+    if (find_penetration(w, p, a, b, s, M, deep)) return -1;
     p->axis = deep->n;
     p->has_axis = 1;
     p->cores_overlap = 1;
@@ -401,7 +402,7 @@ int fl_pair_still_apart(const fl_world *w, fl_neighbour_pair *q)
     const int wall = piece && piece->kind == FL_PIECE_PLANE && !piece->elastic;
     const double R = b->radius[i] + b->radius[j];
     fl_pair *const p = q->contact; /* set if the contact has just opened */
-    if ((p && (p->touching || p->bond)) || b->core[i].nv == 1 ||
+    if ((p && (p->touching || p->bond || p->crush)) || b->core[i].nv == 1 ||
         fl_pair_law_of(w, i, j)->law->points != FL_POINTS_PATCH)
         return 0;
     if (!wall && (!(p ? p->has_axis : q->has_axis) || B->nv == 1 || (piece && piece->kind != FL_PIECE_SOLID)))

@@ -65,7 +65,8 @@ int fl_pair_law_make_table(fl_world *w, fl_err *err)
                 .slow_damping_factor = fl_damping_slow_factor(D),
                 .zeta = zeta,
                 .alpha = alpha,
-                .surrogate_tolerance = fl_contact_law_uses(row, "surrogate") ? t.surrogate : 0.0,
+                .surrogate_tolerance =
+                    fl_contact_law_uses(row, "surrogate") && !w->breaking.on ? t.surrogate : 0.0,
                 .stable_share = fl_contact_law_stable_share(row, D, zeta, alpha),
                 .literal2 = t.manual_eq2,
                 .literal18 = t.manual_eq18,

@@ -23,10 +23,11 @@ void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j)
 void fl_pair_free(fl_pair *p)
 {
     if (p->feature_pairs) fl_mesh_under_face_free_pairs(p->feature_pairs);
-    free(p->feature_pairs), free(p->surrogate), free(p->rolling), free(p->strip);
+    free(p->feature_pairs), free(p->surrogate), free(p->rolling), free(p->strip), free(p->crush);
     if (p->quick_list) fl_quick_list_free(p->quick_list);
     free(p->quick_list);
     p->quick_list = NULL;
+    p->crush = NULL;
     p->feature_pairs = NULL;
     p->surrogate = NULL;
     p->rolling = NULL;
@@ -134,7 +135,7 @@ void fl_neighbour_pair_free(fl_world *w, fl_neighbour_pair *q)
  * has so many vertices that the cache of the distance query does not fit. */
 static int needs_record(const fl_world *w, const fl_pair *p)
 {
-    return p->touching || p->feature_pairs || p->quick_list || p->surrogate || p->bond ||
+    return p->touching || p->feature_pairs || p->quick_list || p->surrogate || p->bond || p->crush ||
            w->b.core[p->i].nv > UINT8_MAX || w->b.core[p->j].nv > UINT8_MAX;
 }
 

@@ -10,7 +10,8 @@
 /* Initialises p as a pair that does not touch, without an image. */
 void fl_pair_init(const fl_world *w, fl_pair *p, int32_t i, int32_t j);
 
-/* Frees the memory that a pair owns: feature pairs, surrogate, rolling spring, strip. */
+/* Frees the memory that a pair owns: feature pairs, surrogate, rolling spring, strip, record of
+ * crushing. */
 void fl_pair_free(fl_pair *p);
 
 /* Initialises q as a near pair that does not touch. */

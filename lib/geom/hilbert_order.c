@@ -22,6 +22,31 @@ uint32_t fl_hilbert_index(uint32_t x, uint32_t y)
     return index;
 }
 
+enum { LEVELS3 = 21 };
+
+/* Skilling: the coordinates become the transposed index by undoing exchanges and inversions, then a Gray
+ * code. */
+uint64_t fl_hilbert_index3(uint32_t x, uint32_t y, uint32_t z)
+{
+    uint32_t a[3] = {x, y, z}, t = 0;
+    uint64_t index = 0;
+    for (uint32_t q = 1u << (LEVELS3 - 1); q > 1; q >>= 1) {
+        const uint32_t low = q - 1;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t differ = (a[0] ^ a[k]) & low;
+            if (a[k] & q) a[0] ^= low;
+            else a[0] ^= differ, a[k] ^= differ;
+        }
+    }
+    a[1] ^= a[0], a[2] ^= a[1];
+    for (uint32_t q = 1u << (LEVELS3 - 1); q > 1; q >>= 1)
+        if (a[2] & q) t ^= q - 1;
+    for (int k = 0; k < 3; k++) a[k] ^= t;
+    for (int bit = LEVELS3 - 1; bit >= 0; bit--)
+        for (int k = 0; k < 3; k++) index = index << 1 | (a[k] >> bit & 1);
+    return index;
+}
+
 struct indexed_point {
     uint32_t index;
     int32_t i;

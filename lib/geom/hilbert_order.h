@@ -12,6 +12,10 @@
  * Consecutive squares share a side.  Source: Hilbert, Math. Ann. 38 (1891) 459. */
 uint32_t fl_hilbert_index(uint32_t x, uint32_t y);
 
+/* Index of cube (x, y, z) of a 2^21 grid along the Hilbert curve in space; consecutive cubes share a face.
+ * Source: Skilling, AIP Conf. Proc. 707 (2004) 381. */
+uint64_t fl_hilbert_index3(uint32_t x, uint32_t y, uint32_t z);
+
 /* Sorts the finite points x[n] along the curve over the square around them; points in one grid square by
  * number.  O(n).
  *   order[n]  out: the number of the k-th point

@@ -57,7 +57,23 @@ static const fl_column BONDS[] = {
     {"m", "N.m", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, moment)},
     {"area", "m2", FL_COLUMN_REAL, 0, offsetof(fl_bonds_row, area)},
     {"", "m", FL_COLUMN_VEC3, 0, offsetof(fl_bonds_row, x)},
+    {"joint", "", FL_COLUMN_TEXT, FL_BONDS_JOINTS, offsetof(fl_bonds_row, joint)},
 };
+static const fl_column FAILURES[] = {
+    {"mode", "", FL_COLUMN_TEXT, 0, offsetof(fl_failures_row, mode)},
+    {"parent", "", FL_COLUMN_INT, 0, offsetof(fl_failures_row, parent)},
+    {"child", "", FL_COLUMN_INT, 0, offsetof(fl_failures_row, child)},
+    {"", "m", FL_COLUMN_VEC3, 0, offsetof(fl_failures_row, x)},
+    {"n", "", FL_COLUMN_VEC3, 0, offsetof(fl_failures_row, n)},
+    {"length", "m", FL_COLUMN_REAL, 0, offsetof(fl_failures_row, length)},
+    {"load", "N", FL_COLUMN_REAL, 0, offsetof(fl_failures_row, load)},
+    {"ratio", "", FL_COLUMN_REAL, 0, offsetof(fl_failures_row, ratio)},
+    {"mass1", "kg", FL_COLUMN_REAL, 0, offsetof(fl_failures_row, mass)},
+    {"mass2", "kg", FL_COLUMN_REAL, 0, offsetof(fl_failures_row, child_mass)},
+    {"energy", "J", FL_COLUMN_REAL, 0, offsetof(fl_failures_row, energy)},
+};
+const fl_table_format fl_failures_table = {"failures", FL_TABLE_COLUMNS(FAILURES)};
+
 const fl_table_format fl_bonds_table = {"bonds", FL_TABLE_COLUMNS(BONDS)};
 
 static const fl_column PANELS[] = {

@@ -133,10 +133,12 @@ extern const fl_table_format fl_contacts_table;
 
 typedef struct {
     int32_t i, j;
-    const char *state; /* whole, damaged, broken or ended */
+    const char *state; /* whole, damaged, broken or ended; of a joint elastic, slip or open */
     double damage, tension, shear, moment, area;
     fl_vec3 x;
+    const char *joint; /* name of its joint, - for a bonded face */
 } fl_bonds_row;
+enum { FL_BONDS_JOINTS = 1 }; /* the table has the column joint */
 extern const fl_table_format fl_bonds_table;
 
 /* --- panels(5) ---------------------------------------------------------------------------------- */
@@ -160,6 +162,16 @@ typedef struct {
     fl_vec3 u;             /* displacement from the unstrained state [m] */
 } fl_member_forces_row;
 extern const fl_table_format fl_member_forces_table;
+
+/* --- failures(5) -------------------------------------------------------------------------------- */
+
+typedef struct {
+    const char *mode; /* bend, split or cusp */
+    int32_t parent, child;
+    fl_vec3 x, n;
+    double length, load, ratio, mass, child_mass, energy; /* world/breaking_state.h */
+} fl_failures_row;
+extern const fl_table_format fl_failures_table;
 
 /* --- hash(5) ------------------------------------------------------------------------------------ */
 

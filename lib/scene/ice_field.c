@@ -56,6 +56,16 @@ int fl_ice_field_add_bond(fl_ice_field *a, int32_t i, int32_t j, double area, do
     return 0;
 }
 
+int fl_ice_field_add_joint(fl_ice_field *a, int32_t i, int32_t j, int32_t fi, int32_t fj, const char *name,
+                           fl_err *err)
+{
+    const int32_t k = fl_string_table_add(&a->joint_names, name, err);
+    if (k < 0 || fl_grow(&a->joint, &a->joint_cap, (int64_t)a->joints + 1, sizeof *a->joint, err)) return -1;
+    a->joint[a->joints++] =
+        i < j ? (fl_ice_field_joint){i, j, fi, fj, k} : (fl_ice_field_joint){j, i, fj, fi, k};
+    return 0;
+}
+
 void fl_ice_field_free(fl_ice_field *a)
 {
     for (int32_t i = 0; i < a->n; i++) fl_poly_free(&a->core[i]);
@@ -68,7 +78,9 @@ void fl_ice_field_free(fl_ice_field *a)
     free(a->velocity);
     free(a->spin);
     free(a->bond);
+    free(a->joint);
     free(a->history);
+    fl_string_table_free(&a->joint_names);
     fl_string_table_free(&a->materials);
     fl_string_table_free(&a->groups);
     *a = (fl_ice_field){0};
@@ -88,6 +100,8 @@ struct body {
     int32_t *first, *loop;
     int32_t *bond_line; /* [bonds] */
     int32_t bond_line_cap;
+    int32_t *joint_line; /* [joints] */
+    int32_t joint_line_cap;
 };
 
 static int fail_at(const fl_text *in, int32_t line, fl_err *err, const char *sentence)
@@ -316,18 +330,45 @@ static int read_bond(fl_ice_field *a, struct body *b, fl_text *in, fl_err *err)
     return fl_ice_field_add_bond(a, d.i, d.j, d.area, d.length, d.x, err);
 }
 
+/* Read a joint; i and j are ids and in the order of the row until all bodies are known. */
+static int read_joint(fl_ice_field *a, struct body *b, fl_text *in, fl_err *err)
+{
+    fl_ice_field_joint d = {0};
+    const char *name = "";
+    if (in->version < 3)
+        return fl_text_fail(in, err, "a joint is of g-polys 3, the file says g-polys %d", in->version);
+    if (finish_body(a, b, in, err)) return -1;
+    if (fl_text_i32(in, "id", 0, INT32_MAX, &d.i, err) || fl_text_i32(in, "id", 0, INT32_MAX, &d.j, err) ||
+        fl_text_i32(in, "face", 0, INT32_MAX, &d.fi, err) ||
+        fl_text_i32(in, "face", 0, INT32_MAX, &d.fj, err) ||
+        fl_text_word(in, "name of the joint", &name, err) || fl_text_no_more(in, err))
+        return -1;
+    if (d.i == d.j)
+        return fl_text_fail(in, err, "body %d has a joint with itself, two bodies are expected", d.i);
+    if ((d.name = fl_string_table_add(&a->joint_names, name, err)) < 0) return -1;
+    if (fl_grow(&b->joint_line, &b->joint_line_cap, (int64_t)a->joints + 1, sizeof *b->joint_line, err) ||
+        fl_grow(&a->joint, &a->joint_cap, (int64_t)a->joints + 1, sizeof *a->joint, err))
+        return -1;
+    b->joint_line[a->joints] = (int32_t)in->line_number;
+    a->joint[a->joints++] = d;
+    return 0;
+}
+
 static int read_record(fl_ice_field *a, struct body *b, fl_text *in, fl_err *err)
 {
-    static const char *const records[] = {"poly", "v", "f", "vel", "bond"};
+    static const char *const records[] = {"poly", "v", "f", "vel", "bond", "joint"};
     const char *word = "";
     if (fl_text_word(in, "record", &word, err)) return -1;
     if (strcmp(word, "poly") == 0) return read_poly(a, b, in, err);
     if (strcmp(word, "bond") == 0) return read_bond(a, b, in, err);
+    if (strcmp(word, "joint") == 0) return read_joint(a, b, in, err);
     if (strcmp(word, "v") != 0 && strcmp(word, "f") != 0 && strcmp(word, "vel") != 0)
         return fl_text_fail(in, err, "unknown record \"%.40s\", the nearest is \"%s\"", word,
-                            fl_text_nearest(word, records, in->version < 2 ? 4 : 5));
+                            fl_text_nearest(word, records, 3 + in->version));
     if (!b->open)
-        return fl_text_fail(in, err, a->bonds ? "%s found behind a bond" : "%s found before the first poly",
+        return fl_text_fail(in, err,
+                            a->bonds || a->joints ? "%s found behind a bond or joint"
+                                                  : "%s found before the first poly",
                             word);
     return word[0] == 'f' ? read_face(b, in, err) : word[1] ? read_vel(b, in, err) : read_vertex(b, in, err);
 }
@@ -410,8 +451,68 @@ static int resolve_bonds(fl_ice_field *a, const struct id_line *s, const int32_t
     return twice >= 0 ? -1 : 0;
 }
 
+struct joint_line {
+    fl_ice_field_joint joint;
+    int32_t line;
+};
+
+static int by_joined_pair(const void *a, const void *b)
+{
+    const struct joint_line *p = a, *q = b;
+    if (p->joint.i != q->joint.i) return (p->joint.i > q->joint.i) - (p->joint.i < q->joint.i);
+    if (p->joint.j != q->joint.j) return (p->joint.j > q->joint.j) - (p->joint.j < q->joint.j);
+    return (p->line > q->line) - (p->line < q->line);
+}
+
+/* Replace the ids of a joint by indices, ascending; -1 with a sentence in what. */
+static int resolve_joint(const fl_ice_field *a, const struct id_line *s, fl_ice_field_joint *d, char *what,
+                         size_t room)
+{
+    const int32_t id[2] = {d->i, d->j}, face[2] = {d->fi, d->fj};
+    int32_t at[2];
+    for (int e = 0; e < 2; e++) {
+        const int32_t p = find_id(s, a->n, id[e]);
+        if (p < 0) {
+            snprintf(what, room, "the joint names body %d, which is not in the file", id[e]);
+            return -1;
+        }
+        at[e] = s[p].body;
+        if (face[e] >= a->core[at[e]].nf) {
+            snprintf(what, room, "the joint names face %d of body %d, which has %d", face[e], id[e],
+                     a->core[at[e]].nf);
+            return -1;
+        }
+    }
+    const int turn = at[0] > at[1];
+    *d = (fl_ice_field_joint){at[turn], at[!turn], face[turn], face[!turn], d->name};
+    return 0;
+}
+
+/* The same for joints. */
+static int resolve_joints(fl_ice_field *a, const struct id_line *s, const int32_t *line, const fl_text *in,
+                          fl_err *err)
+{
+    struct joint_line *t = fl_alloc(a->joints, sizeof *t, err);
+    char what[120];
+    int rc = t ? 0 : -1;
+    for (int32_t k = 0; k < a->joints && rc == 0; k++) {
+        t[k] = (struct joint_line){a->joint[k], line[k]};
+        if (resolve_joint(a, s, &t[k].joint, what, sizeof what)) rc = fail_at(in, line[k], err, what);
+    }
+    if (rc == 0) qsort(t, (size_t)a->joints, sizeof *t, by_joined_pair);
+    for (int32_t k = 0; k < a->joints && rc == 0; k++) {
+        a->joint[k] = t[k].joint;
+        if (k == 0 || t[k].joint.i != t[k - 1].joint.i || t[k].joint.j != t[k - 1].joint.j) continue;
+        snprintf(what, sizeof what, "bodies %d and %d have a joint on line %d already", a->id[t[k].joint.i],
+                 a->id[t[k].joint.j], t[k - 1].line);
+        rc = fail_at(in, t[k].line, err, what);
+    }
+    free(t);
+    return rc;
+}
+
 /* Check that ids differ, by one sort at the end: n log n for any order of the file. */
-static int check_ids(fl_ice_field *a, const int32_t *bond_line, const fl_text *in, fl_err *err)
+static int check_ids(fl_ice_field *a, const struct body *b, const fl_text *in, fl_err *err)
 {
     struct id_line *s = fl_alloc(a->n, sizeof *s, err);
     int32_t at = -1;
@@ -427,7 +528,9 @@ static int check_ids(fl_ice_field *a, const int32_t *bond_line, const fl_text *i
                  s[at - 1].line);
         fail_at(in, s[at].line, err, what);
     }
-    rc = at >= 0 ? -1 : resolve_bonds(a, s, bond_line, in, err);
+    rc = at >= 0 || resolve_bonds(a, s, b->bond_line, in, err) || resolve_joints(a, s, b->joint_line, in, err)
+             ? -1
+             : 0;
     free(s);
     return rc;
 }
@@ -445,7 +548,7 @@ int fl_ice_field_read_text(fl_ice_field *out, fl_text *in, fl_err *err)
         fl_text_fail(in, err, "the file ends without a body, a poly record is expected");
         goto done;
     }
-    if (check_ids(&a, b.bond_line, in, err)) goto done;
+    if (check_ids(&a, &b, in, err)) goto done;
     a.history = in->history;
     in->history = NULL;
     *out = a;
@@ -456,6 +559,7 @@ done:
     free(b.first);
     free(b.loop);
     free(b.bond_line);
+    free(b.joint_line);
     fl_ice_field_free(&a);
     fl_text_close(in);
     return rc;
@@ -576,7 +680,7 @@ void fl_ice_field_write(FILE *f, const fl_ice_field *a, const fl_history_line *b
     struct writer o;
     o.f = f;
     o.n = o.z_len = 0;
-    fl_write_file_header(f, "g-polys", a->bonds ? 2 : 1, a->history, by);
+    fl_write_file_header(f, "g-polys", a->joints ? 3 : a->bonds ? 2 : 1, a->history, by);
     for (int32_t i = 0; i < a->n; i++) put_body(&o, a, i);
     for (int32_t k = 0; k < a->bonds; k++) {
         const fl_ice_field_bond *d = &a->bond[k];
@@ -589,6 +693,14 @@ void fl_ice_field_write(FILE *f, const fl_ice_field *a, const fl_history_line *b
         put_char(&o, ' ');
         put_f64(&o, d->length);
         put_vec3(&o, d->x);
+        put_char(&o, '\n');
+    }
+    for (int32_t k = 0; k < a->joints; k++) {
+        const fl_ice_field_joint *d = &a->joint[k];
+        const int32_t number[4] = {a->id[d->i], a->id[d->j], d->fi, d->fj};
+        put_text(&o, "joint", 5);
+        for (int e = 0; e < 4; e++) put_char(&o, ' '), put_int(&o, number[e]);
+        put_name(&o, " ", a->joint_names.name[d->name]);
         put_char(&o, '\n');
     }
     flush_buffer(&o);
@@ -616,6 +728,11 @@ uint64_t fl_ice_field_hash(const fl_ice_field *a)
         const double x[5] = {d->area, d->length, d->x.x, d->x.y, d->x.z};
         h = fl_hash(h, end, sizeof end);
         h = fl_hash(h, x, sizeof x);
+    }
+    for (int32_t k = 0; k < a->joints; k++) {
+        const fl_ice_field_joint *d = &a->joint[k];
+        const int32_t number[4] = {d->i, d->j, d->fi, d->fj};
+        h = fl_hash(h, number, sizeof number);
     }
     return h;
 }

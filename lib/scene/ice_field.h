@@ -10,8 +10,9 @@
 #include "base/tool.h"
 #include "geom/poly.h"
 
-/* Version 2 has bond records; a field without them is written as version 1. */
-enum { FL_ICE_FIELD_VERSION = 2 };
+/* Version 2 has bond records, version 3 joint records; a field is written as the oldest version that has its
+ * records. */
+enum { FL_ICE_FIELD_VERSION = 3 };
 
 /* Largest coordinate and radius in a file [m]: squares and cubes are finite, and one ulp is a tenth of a
  * micrometre. */
@@ -25,6 +26,13 @@ typedef struct {
     double length; /* horizontal length of the face; of touching spheres the smaller diameter [m] */
     fl_vec3 x;     /* centroid of the face [m] */
 } fl_ice_field_bond;
+
+/* A joint: face fi of body i lies on face fj of body j, i < j, indices in the field.  Its law is that of the
+ * section [joint NAME] of the scene. */
+typedef struct {
+    int32_t i, j, fi, fj;
+    int32_t name; /* index in joint_names */
+} fl_ice_field_joint;
 
 /* Body i is the Minkowski sum of core[i] and a ball of radius[i]. core[i].nv is 1 for a sphere, 2 for a
  * capsule.  The order is that of the file; memory grows with the rows read, independent of announced
@@ -42,7 +50,10 @@ typedef struct {
     fl_string_table materials, groups;
     int32_t bonds, bond_cap;
     fl_ice_field_bond *bond; /* [bonds] sorted by (i, j), no pair twice */
-    char *history;           /* "#by ..." lines of the file that was read, NULL for none; owned */
+    int32_t joints, joint_cap;
+    fl_ice_field_joint *joint; /* [joints] sorted by (i, j), no pair twice */
+    fl_string_table joint_names;
+    char *history; /* "#by ..." lines of the file that was read, NULL for none; owned */
 } fl_ice_field;
 
 /* Append a body; the core moves into the field and *core is left zeroed. material and group may be NULL.
@@ -54,6 +65,10 @@ int fl_ice_field_add(fl_ice_field *a, int32_t id, double radius, fl_poly *core, 
  * 0, or -1 with FL_SYSTEM. */
 int fl_ice_field_add_bond(fl_ice_field *a, int32_t i, int32_t j, double area, double length, fl_vec3 x,
                           fl_err *err);
+
+/* Append a joint of face fi of body i and face fj of body j, i != j.  Order and failure as above. */
+int fl_ice_field_add_joint(fl_ice_field *a, int32_t i, int32_t j, int32_t fi, int32_t fj, const char *name,
+                           fl_err *err);
 
 /* Read a file ("-" is standard input, gzip is unpacked).  Checks syntax, unique ids, indices and radii;
  * bonds (two bodies of the file, a pair once, area and length above 0); and with fl_poly_make() that every

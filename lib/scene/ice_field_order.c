@@ -44,6 +44,13 @@ static int by_pair(const void *x, const void *y)
     return (a->j > b->j) - (a->j < b->j);
 }
 
+static int by_joint(const void *x, const void *y)
+{
+    const fl_ice_field_joint *a = x, *b = y;
+    if (a->i != b->i) return (a->i > b->i) - (a->i < b->i);
+    return (a->j > b->j) - (a->j < b->j);
+}
+
 /* array[k] = array[from of s[k]]; spare has room for one array. */
 static void permute(void *array, size_t size, const struct sort_key *s, int32_t n, void *spare)
 {
@@ -96,6 +103,13 @@ int fl_ice_field_order(fl_ice_field *a, int32_t *at, fl_err *err)
         a->bond[k].j = i < j ? j : i;
     }
     if (a->bonds) qsort(a->bond, (size_t)a->bonds, sizeof *a->bond, by_pair);
+    for (int32_t k = 0; k < a->joints; k++) {
+        fl_ice_field_joint *d = &a->joint[k];
+        const int32_t i = at[d->i], j = at[d->j], fi = d->fi, fj = d->fj;
+        *d =
+            i < j ? (fl_ice_field_joint){i, j, fi, fj, d->name} : (fl_ice_field_joint){j, i, fj, fi, d->name};
+    }
+    if (a->joints) qsort(a->joint, (size_t)a->joints, sizeof *a->joint, by_joint);
     free(s);
     free(spare);
     return 0;

@@ -24,6 +24,8 @@ void fl_scene_free(fl_scene *scene)
     free(scene->group);
     free(scene->part);
     free(scene->mode);
+    free(scene->joint);
+    free(scene->stage);
     memset(scene, 0, sizeof *scene);
 }
 

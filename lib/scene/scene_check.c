@@ -71,12 +71,13 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames",  "output.state",     "output.energy", "output.contacts",
-                               "output.hash",    "output.panels",    "output.events", "output.bonds",
-                               "output.members", "output.checkpoint"};
-    const char *const path[] = {s->output.frames,  s->output.state,     s->output.energy, s->output.contacts,
-                                s->output.hash,    s->output.panels,    s->output.events, s->output.bonds,
-                                s->output.members, s->output.checkpoint};
+    const char *const key[] = {"output.frames",  "output.state",    "output.energy",    "output.contacts",
+                               "output.hash",    "output.panels",   "output.events",    "output.bonds",
+                               "output.members", "output.failures", "output.final_ice", "output.checkpoint"};
+    const char *const path[] = {s->output.frames,   s->output.state,     s->output.energy,
+                                s->output.contacts, s->output.hash,      s->output.panels,
+                                s->output.events,   s->output.bonds,     s->output.members,
+                                s->output.failures, s->output.final_ice, s->output.checkpoint};
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
@@ -367,12 +368,82 @@ static int check_ratios(const fl_scene *s, const char *key, fl_vec3 x, fl_err *e
     return 0;
 }
 
+/* 1 if the key of a section was given. */
+static int is_given(const fl_scene_head *h, enum fl_section_id section, const char *key)
+{
+    return h->key[fl_key_find(section, key) - fl_key_first(section)].line != 0;
+}
+
+static int check_failure(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_failure *f = &s->failure;
+    static const char *const OF_LAW[] = {"pressure", "pressure_area", "pressure_exponent"};
+    const int on = f->head.present,
+              breaks = on && (f->flexural_strength < INFINITY || f->fracture_toughness < INFINITY),
+              crushes = on && f->crushing != FL_CRUSHING_NONE;
+    if (!breaks && s->output.failures[0])
+        return fl_scene_fail(s, "output.failures", err,
+                             "floes do not break: failure.flexural_strength or failure.fracture_toughness is "
+                             "expected");
+    if (!on) return 0;
+    for (int k = 0; k < 3 && f->pressure_law != FL_PRESSURE_USER; k++)
+        if (is_given(&f->head, FL_SEC_FAILURE, OF_LAW[k])) {
+            char key[64];
+            snprintf(key, sizeof key, "failure.%s", OF_LAW[k]);
+            return fl_scene_fail(s, key, err,
+                                 "failure.pressure_law names a law with constants of its own: pressure_law = "
+                                 "user is expected with %s",
+                                 key);
+        }
+    if (crushes && f->pressure_law == FL_PRESSURE_USER && f->pressure > f->pressure_max)
+        return fl_scene_fail(s, "failure.pressure_max", err,
+                             "failure.pressure_max is %g Pa, at least failure.pressure, %g Pa, is expected",
+                             f->pressure_max, f->pressure);
+    for (int32_t a = 0; a < s->n_material && crushes; a++) {
+        const fl_contact_law *law = &fl_contact_laws[fl_scene_pair(s, a, FL_SCENE_STRUCTURE).law];
+        if (law->points != FL_POINTS_PATCH)
+            return fl_scene_fail(
+                s, "failure.crushing", err,
+                "contacts of %s with the structure have the law %s, which has no area: contact.law = "
+                "patch or quick is expected with failure.crushing",
+                s->material[a].name, law->name);
+    }
+    if (f->fracture_toughness < INFINITY && !crushes)
+        return fl_scene_fail(
+            s, "failure.fracture_toughness", err,
+            "what opens a crack follows from the area of a contact that crushes: failure.crushing "
+            "= structure is expected with fracture_toughness");
+    if (!breaks) return 0;
+    if (s->ice.shape != FL_SHAPE_SHARP)
+        return fl_scene_fail(s, "ice.shape", err,
+                             "floes that break are cut along planes: ice.shape = sharp is expected with "
+                             "flexural_strength or fracture_toughness");
+    if (s->bond.head.present && s->bond.on)
+        return fl_scene_fail(
+            s, "failure.flexural_strength", err,
+            "floes that start bonded break at their bonds: either bond.on or flexural_strength "
+            "and fracture_toughness are expected");
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(s, "run.sleep", err,
+                             "floes that may break do not sleep: either run.sleep or flexural_strength and "
+                             "fracture_toughness are expected");
+    if (s->run.error > 0.0)
+        return fl_scene_fail(s, "run.error", err,
+                             "run.error repeats windows, in which no floe can break: either run.error or "
+                             "flexural_strength and fracture_toughness are expected");
+    return 0;
+}
+
 static int check_bonds(const fl_scene *s, fl_err *err)
 {
     const fl_scene_bond *b = &s->bond;
     const int on = b->head.present && b->on;
-    if (!on && s->output.bonds[0])
-        return fl_scene_fail(s, "output.bonds", err, "there are no bonds: bond.on = true is expected");
+    if (s->n_joint && s->run.sleep > 0.0)
+        return fl_scene_fail(s, "run.sleep", err,
+                             "blocks with joints do not sleep: either run.sleep or [joint NAME] is expected");
+    if (!on && !s->n_joint && s->output.bonds[0])
+        return fl_scene_fail(s, "output.bonds", err,
+                             "there are no bonds: bond.on = true, or [joint NAME], is expected");
     if (!on) return 0;
     if (s->run.sleep > 0.0)
         return fl_scene_fail(s, "run.sleep", err,
@@ -388,6 +459,31 @@ static int check_bonds(const fl_scene *s, fl_err *err)
         return fl_scene_fail(
             s, "bond.softening", err,
             "softening = weaken lowers both strengths, but one is none: a number is expected");
+    return 0;
+}
+
+static int check_statics(const fl_scene *s, fl_err *err)
+{
+    for (int32_t k = 0; k < s->n_stage; k++)
+        if (s->stage[k].start < 0.0 && !s->run.relax)
+            return fl_fail(err, FL_INPUT, "[stage %s] begins when the run has settled, and run.relax is none",
+                           s->stage[k].name);
+    if (s->n_stage && s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
+        return fl_scene_fail(s, "boundary.inflow", err,
+                             "stages change a model without inflow: either is expected");
+    if (s->n_stage && s->output.checkpoint[0])
+        return fl_scene_fail(s, "output.checkpoint", err,
+                             "a run with stages is not saved: no checkpoint is expected");
+    if (!s->run.relax) return 0;
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(s, "run.sleep", err,
+                             "run.relax brings bodies to rest: either it or run.sleep is expected");
+    if (s->run.error > 0.0)
+        return fl_scene_fail(s, "run.error", err,
+                             "run.error is for motion in time: either it or run.relax is expected");
+    if (s->output.checkpoint[0])
+        return fl_scene_fail(s, "output.checkpoint", err,
+                             "a run with run.relax is not saved: no checkpoint is expected");
     return 0;
 }
 
@@ -600,16 +696,22 @@ static int check_modes(fl_scene *s, fl_err *err)
     return 0;
 }
 
-static int check_failure(const fl_scene *s, fl_err *err)
+/* What crushing by speed excludes. */
+static int check_crushing_rate(const fl_scene *s, fl_err *err)
 {
     const fl_scene_failure *f = &s->failure;
-    if (!f->head.present || f->crushing == FL_CRUSHING_NONE) return 0;
-    if (f->crushing_law == FL_CRUSHING_PLAIN)
-        return fl_scene_fail(s, "failure.crushing", err,
-                             "crushing needs a law: failure.crushing_law = rate is expected");
+    if (!f->head.present || f->crushing == FL_CRUSHING_NONE || f->crushing_law == FL_CRUSHING_PLAIN) return 0;
     if (!s->structure.head.present)
         return fl_scene_fail(s, "failure.crushing_law", err,
                              "there is no structure that ice crushes on: [structure] is expected");
+    if (f->crushing == FL_CRUSHING_ALL)
+        return fl_scene_fail(s, "failure.crushing", err,
+                             "ice crushes by its speed on the structure alone: crushing = structure is "
+                             "expected with crushing_law = rate");
+    if (f->flexural_strength < INFINITY || f->fracture_toughness < INFINITY)
+        return fl_scene_fail(s, "failure.crushing_law", err,
+                             "floes that break do not crush by their speed: crushing_law = plain is expected "
+                             "with flexural_strength and fracture_toughness");
     if (f->creep_exponent == 2)
         return fl_scene_fail(s, "failure.creep_exponent", err, "creep_exponent is 2, 1 or 3 is expected");
     if (s->run.sleep > 0.0)
@@ -672,11 +774,11 @@ int fl_scene_check(fl_scene *s, fl_err *err)
     set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
                    check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) ||
-                   check_members(s, err) || check_modes(s, err) || check_failure(s, err) ||
-                   check_drive_track(s, err) ||
+                   check_failure(s, err) || check_members(s, err) || check_modes(s, err) ||
+                   check_crushing_rate(s, err) || check_drive_track(s, err) ||
                    check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
-                   check_groups(s, err) || check_motions(s, err)
+                   check_groups(s, err) || check_motions(s, err) || check_statics(s, err)
                ? -1
                : 0;
 }

@@ -25,6 +25,8 @@ enum fl_section_id {
     FL_SEC_GROUP,
     FL_SEC_PART,
     FL_SEC_MODE,
+    FL_SEC_JOINT,
+    FL_SEC_STAGE,
     FL_SECTIONS
 };
 

@@ -29,6 +29,8 @@ static void name_section(const fl_scene *scene, int s, int32_t i, char mark,
     if (s == FL_SEC_GROUP) snprintf(names, size, "%c%s", mark, scene->group[i].name);
     if (s == FL_SEC_PART) snprintf(names, size, "%c%s", mark, scene->part[i].name);
     if (s == FL_SEC_MODE) snprintf(names, size, "%c%s", mark, scene->mode[i].name);
+    if (s == FL_SEC_JOINT) snprintf(names, size, "%c%s", mark, scene->joint[i].name);
+    if (s == FL_SEC_STAGE) snprintf(names, size, "%c%s", mark, scene->stage[i].name);
     if (s == FL_SEC_CONTACT && scene->contact[i].a[0])
         snprintf(names, size, "%c%s%c%s", mark, scene->contact[i].a, mark, scene->contact[i].b);
 }

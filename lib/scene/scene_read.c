@@ -127,6 +127,8 @@ _Static_assert(sizeof(fl_scene_group) <= SECTION_MAX, "[group]");
 _Static_assert(sizeof(fl_scene_part) <= SECTION_MAX, "[part]");
 _Static_assert(sizeof(fl_scene_failure) <= SECTION_MAX, "[failure]");
 _Static_assert(sizeof(fl_scene_mode) <= SECTION_MAX, "[mode]");
+_Static_assert(sizeof(fl_scene_joint) <= SECTION_MAX, "[joint]");
+_Static_assert(sizeof(fl_scene_stage) <= SECTION_MAX, "[stage]");
 
 /* Set a key to the value of the text.  The scene is unchanged on failure. */
 static int set_key(const source *in, const fl_address *at, enum fl_word_map map, const char *text)

@@ -17,11 +17,11 @@ typedef struct {
     {                                                                                                        \
         offsetof(fl_scene, n_##kind), offsetof(fl_scene, cap_##kind), offsetof(fl_scene_##kind, first_name)  \
     }
-static const named_kind NAMED_KINDS[FL_SECTIONS] = {[FL_SEC_MATERIAL] = NAMED(material, name),
-                                                    [FL_SEC_CONTACT] = NAMED(contact, a),
-                                                    [FL_SEC_GROUP] = NAMED(group, name),
-                                                    [FL_SEC_PART] = NAMED(part, name),
-                                                    [FL_SEC_MODE] = NAMED(mode, name)};
+static const named_kind NAMED_KINDS[FL_SECTIONS] = {
+    [FL_SEC_MATERIAL] = NAMED(material, name), [FL_SEC_CONTACT] = NAMED(contact, a),
+    [FL_SEC_GROUP] = NAMED(group, name),       [FL_SEC_PART] = NAMED(part, name),
+    [FL_SEC_JOINT] = NAMED(joint, name),       [FL_SEC_STAGE] = NAMED(stage, name),
+    [FL_SEC_MODE] = NAMED(mode, name)};
 
 int32_t fl_section_count(const fl_scene *scene, int section)
 {

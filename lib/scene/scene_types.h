@@ -44,6 +44,7 @@ enum fl_error_of {
     FL_ERROR_OF_MZ
 };
 enum fl_device { FL_DEVICE_AUTO, FL_DEVICE_CPU, FL_DEVICE_GPU, FL_DEVICE_SERIAL };
+enum fl_relax { FL_RELAX_NONE, FL_RELAX_LOCAL, FL_RELAX_KINETIC, FL_RELAX_ADAPTIVE };
 enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
 enum fl_frames_form { FL_FRAMES_TEXT, FL_FRAMES_PACKED };
 enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
@@ -62,6 +63,8 @@ typedef struct {
     int32_t device;       /* enum fl_device: who runs the spheres */
     double sleep;         /* allowed position error of a skip over the radius; 0: no floe sleeps */
     int32_t search_every; /* steps between neighbour searches; 0: auto, when the skin is used up */
+    int32_t relax;        /* enum fl_relax */
+    double relax_until;   /* force ratio at which a run or stage is settled */
 } fl_scene_run;
 
 typedef struct {
@@ -75,7 +78,8 @@ typedef struct {
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
         hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        members[FL_SCENE_PATH], checkpoint[FL_SCENE_PATH]; /* "": none */
+        members[FL_SCENE_PATH], failures[FL_SCENE_PATH], final_ice[FL_SCENE_PATH],
+        checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
 typedef struct {
@@ -283,6 +287,12 @@ typedef struct {
     double scatter;           /* standard deviation over mean */
     double scatter_length;    /* [m] */
     int32_t seed;
+    int32_t wear;              /* 1: floes keep where they were crushed */
+    double flexural_strength;  /* [Pa]; INFINITY: none */
+    int32_t wedges;            /* that bend ahead of a contact */
+    double fracture_toughness; /* [Pa m^0.5]; INFINITY: none */
+    double fragment_min;       /* [m2]; 0: auto */
+    int32_t fragments_max;     /* 0: auto */
 } fl_scene_failure;
 
 typedef struct {
@@ -291,6 +301,34 @@ typedef struct {
     uint32_t fixed;   /* FL_FIX_X | ...: fixed directions and rotations, world axes */
     fl_vec3 velocity; /* [m/s] of the fixed directions */
 } fl_scene_group;
+
+/* The law of the joints of that name, bond/joint_law.h. */
+typedef struct {
+    fl_scene_head head;
+    char name[FL_SCENE_NAME];
+    int32_t law;                              /* enum fl_joint_law_kind of bond/joint_law.h */
+    double normal_stiffness, shear_stiffness; /* [Pa/m]; 0: not given */
+    double friction, friction_angle;          /* tan phi; phi [deg], negative: not given */
+    double cohesion, tension;                 /* [Pa] */
+    double dilation, dilation_slip;           /* psi [deg]; [m], INFINITY: no end */
+    double residual_friction;                 /* negative: auto, as friction */
+    double residual_cohesion;                 /* [Pa] */
+    double water_pressure;                    /* [Pa] */
+    double damping;                           /* fraction of critical of the two bodies on the joint */
+    double roughness;                         /* R [m]; 0: not given */
+    double initial_angle;                     /* phi_m at first [deg]; 0: not given */
+    double normal_exponent, shear_exponent;
+    double largest_normal_stiffness, largest_shear_stiffness; /* [Pa/m]; INFINITY: none */
+    fl_vec3 initial_stress, initial_shear; /* xx yy zz and xy yz zx, compression positive [Pa] */
+} fl_scene_joint;
+
+/* A change of the model on the way to a state of rest. */
+typedef struct {
+    fl_scene_head head;
+    char name[FL_SCENE_NAME];
+    double start;               /* [s]; negative: when the stage before has settled */
+    char remove[FL_SCENE_NAME]; /* group whose bodies are taken out; "": none */
+} fl_scene_stage;
 
 typedef struct {
     fl_scene_run run;
@@ -307,8 +345,10 @@ typedef struct {
     fl_scene_group *group;
     fl_scene_part *part;
     fl_scene_mode *mode;
-    int32_t n_material, n_contact, n_group, n_part, n_mode;
-    int32_t cap_material, cap_contact, cap_group, cap_part, cap_mode;
+    fl_scene_joint *joint;
+    fl_scene_stage *stage; /* in the order of the file */
+    int32_t n_material, n_contact, n_group, n_part, n_mode, n_joint, n_stage;
+    int32_t cap_material, cap_contact, cap_group, cap_part, cap_mode, cap_joint, cap_stage;
     char **file; /* names of the files read: the scene, then included files */
     int32_t n_file, cap_file;
 } fl_scene;

@@ -100,6 +100,9 @@ static const struct unit {
     {FL_UNIT_SURFACE_ENERGY, "N/m", 1, 1},
     {FL_UNIT_FREQUENCY, "Hz", 1, 1},
     {FL_UNIT_FREQUENCY, "mHz", 1, 1e3},
+    {FL_UNIT_TOUGHNESS, "Pa.m^0.5", 1, 1},
+    {FL_UNIT_TOUGHNESS, "kPa.m^0.5", 1e3, 1},
+    {FL_UNIT_TOUGHNESS, "MPa.m^0.5", 1e6, 1},
 };
 enum { N_UNIT = sizeof units / sizeof units[0] };
 

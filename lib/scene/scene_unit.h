@@ -25,7 +25,8 @@ enum fl_unit_kind {
     FL_UNIT_ROTATIONAL_STIFFNESS, /* N.m/rad kN.m/rad MN.m/rad GN.m/rad, or N.m */
     FL_UNIT_ROTATIONAL_DAMPING,   /* N.m.s kN.m.s MN.m.s GN.m.s */
     FL_UNIT_SURFACE_ENERGY,       /* J/m2 J/m^2 kJ/m2 kJ/m^2 N/m */
-    FL_UNIT_FREQUENCY             /* Hz mHz */
+    FL_UNIT_FREQUENCY,            /* Hz mHz */
+    FL_UNIT_TOUGHNESS             /* Pa.m^0.5 kPa.m^0.5 MPa.m^0.5 */
 };
 
 /* Convert *x from the unit `word` to the first unit of the kind: *x * mul / div, where mul or div is 1 in

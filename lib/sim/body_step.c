@@ -2,6 +2,7 @@
 #include "sim/body_step.h"
 #include "body/integrate.h"
 #include "contact/bond_list.h"
+#include "sim/relaxed_run.h"
 #include "sphere/contact_force.h"
 #include "sphere/contact_list.h"
 #include "sphere/wall_contact.h"
@@ -53,6 +54,7 @@ int fl_body_contact_force(fl_world *w, int32_t k)
         fl_contact_sum_add(sum, p, p->i == k);
     }
     if (fl_body_has_bonds(w, k)) fl_bond_list_add_forces(w, k, &b->f[k], &b->t[k], sum);
+    if (w->relax.kind && k < w->n) fl_relaxed_run_damp(w, k, sum);
     return sum->contacts != 0;
 }
 

@@ -15,7 +15,7 @@
  * each off by 1e-16. */
 #define ROUNDING 1e-12
 
-enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16 };
+enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16, FRACTURE = 32 };
 
 static const fl_column COLUMNS[] = {
     {"kinetic", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, kinetic)},
@@ -34,7 +34,7 @@ static const fl_column COLUMNS[] = {
     {"damper", "J", FL_COLUMN_REAL, MOVING, offsetof(fl_ledger, damper)},
     {"waves", "J", FL_COLUMN_REAL, WAVES, offsetof(fl_ledger, waves)},
     {"bond", "J", FL_COLUMN_REAL, BONDS, offsetof(fl_ledger, bond)},
-    {"fracture", "J", FL_COLUMN_REAL, BONDS, offsetof(fl_ledger, fracture)},
+    {"fracture", "J", FL_COLUMN_REAL, FRACTURE, offsetof(fl_ledger, fracture)},
     {"plastic", "J", FL_COLUMN_REAL, YIELDING, offsetof(fl_ledger, plastic)},
     {"crushing", "J", FL_COLUMN_REAL, CRUSHING, offsetof(fl_ledger, crushing)},
 };
@@ -43,8 +43,9 @@ const fl_table_format fl_energy_table = {"energy", FL_TABLE_COLUMNS(COLUMNS)};
 unsigned fl_energy_table_options(const fl_world *w)
 {
     return (fl_structure_moves_freely(w) ? MOVING : 0u) | (w->sea.waves ? WAVES : 0u) |
-           (fl_world_bonds(w) ? BONDS : 0u) | (w->moving.members.dynamics.chain.yielding ? YIELDING : 0u) |
-           (w->strips.wall ? CRUSHING : 0u);
+           (fl_world_bonds(w) ? BONDS | FRACTURE : 0u) | (w->breaking.on ? FRACTURE : 0u) |
+           (w->moving.members.dynamics.chain.yielding ? YIELDING : 0u) |
+           (w->crushing.of != FL_CRUSHING_NONE || w->strips.wall ? CRUSHING : 0u);
 }
 
 double fl_energy_stored(const fl_world *w)
@@ -121,7 +122,7 @@ void fl_energy_update(fl_world *w)
     if (w->spheres.bodies) fl_contact_list_energy(w, &elastic, &spring);
     const fl_bond_energies bonds = fl_bond_list_energies(w);
     g->bond = bonds.store;
-    g->fracture = bonds.dissipated;
+    g->fracture = bonds.dissipated + w->breaking.lost;
     spring += bonds.spring - bonds.transferred;
     g->kinetic = kinetic;
     g->gravity = gravity;

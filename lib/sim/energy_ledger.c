@@ -79,7 +79,7 @@ static int32_t number_touching(const fl_world *w, int32_t *slot)
     return n;
 }
 
-static int needs_all_slots(const fl_world *w) { return w->bonds.n || w->sleep.n_resting; }
+static int needs_all_slots(const fl_world *w) { return w->bonds.n || w->sleep.n_resting || w->relax.kind; }
 
 void fl_contact_sums_assign(fl_world *w)
 {

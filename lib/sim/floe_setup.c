@@ -36,28 +36,16 @@ int fl_fail_floe(const fl_world *w, const fl_ice_field *field, int32_t k, fl_err
 /* Dilation of a core of radius 0, over its size: an edge without a radius has no stiffness. */
 #define SHARP 1e-6
 
-/* Build body i from record k of the field: outer shape, mass, frame, start. */
-static int make_body(fl_world *w, int32_t i, const fl_ice_field *field, int32_t k, fl_poly *outer,
-                     fl_err *err)
+/* Build body i, of material w->material[i], from its core in the pose of the ice file: outer shape, mass,
+ * frame. The outer shape is needed for the hull. */
+static int make_shape(fl_world *w, int32_t i, const fl_poly *core, double r, fl_poly *outer, fl_err *why)
 {
     const fl_scene *s = w->scene;
     fl_bodies *b = &w->b;
-    const fl_poly *core = &field->core[k];
-    const double r = field->radius[k];
     const int sharp = s->ice.shape == FL_SHAPE_SHARP && core->nf > 0;
-    const char *material =
-        field->material[k] >= 0 ? field->materials.name[field->material[k]] : s->ice.material;
     fl_mass mass;
-    fl_err why = {0};
-    w->id[i] = field->id[k];
-    w->material[i] = fl_scene_find_material(s, material);
-    if (w->material[i] < 0) {
-        char what[400];
-        snprintf(what, sizeof what, "material %.350s is not in the scene", material);
-        return fl_fail_floe(w, field, k, err, what);
-    }
-    if (sharp && (r > 0.0 ? fl_poly_offset(outer, core, r, &why) : fl_poly_copy(outer, core, &why))) goto bad;
-    if (fl_mass_of(&mass, sharp ? outer : core, sharp ? 0.0 : r, &why)) goto bad;
+    if (sharp && (r > 0.0 ? fl_poly_offset(outer, core, r, why) : fl_poly_copy(outer, core, why))) return -1;
+    if (fl_mass_of(&mass, sharp ? outer : core, sharp ? 0.0 : r, why)) return -1;
 
     const double rho = s->material[w->material[i]].density;
     const double solid = core->nv == 1 ? w->slab_fill * rho : rho;
@@ -66,9 +54,8 @@ static int make_body(fl_world *w, int32_t i, const fl_ice_field *field, int32_t 
     fl_body_set_inertia(b, i, v3_scale(solid, mass.inertia));
     b->x[i] = mass.centre;
     b->q[i] = q_of_matrix(mass.axes);
-    b->v[i] = field->velocity[k];
     const fl_mat3 axes = q_matrix(b->q[i]);
-    if (fl_poly_copy(&b->core[i], core, err)) return -1;
+    if (fl_poly_copy(&b->core[i], core, why)) return -1;
     fl_poly_to_frame(&b->core[i], b->x[i], axes);
     if (sharp) fl_poly_to_frame(outer, b->x[i], axes);
     for (int32_t v = 0; v < core->nv; v++)
@@ -76,20 +63,44 @@ static int make_body(fl_world *w, int32_t i, const fl_ice_field *field, int32_t 
     b->radius[i] = r > 0.0 ? r : SHARP * b->bounding_radius[i];
     w->max_face_area[i] = fl_poly_largest_face_area(&b->core[i]);
     if (w->quick_shape && b->core[i].nf > 0 &&
-        fl_quick_shape_make(&w->quick_shape[i], &b->core[i], b->radius[i], err))
+        fl_quick_shape_make(&w->quick_shape[i], &b->core[i], b->radius[i], why))
         return -1;
     w->q0[i] = b->q[i];
     fl_body_update_spin(b, i);
-    fl_body_set_spin(b, i, field->spin[k]);
-    if (field->group[k] >= 0) fix_body(w, i, field->groups.name[field->group[k]], field->spin[k]);
-    return fl_topologies_share(&w->topologies, &b->core[i],
+    return 0;
+}
+
+static int share_topology(fl_world *w, int32_t i, fl_err *err)
+{
+    return fl_topologies_share(&w->topologies, &w->b.core[i],
                                w->has_points ? FL_KEEP_ANGLES | FL_KEEP_OFFSETS : FL_KEEP_ANGLES, err);
-bad:
-    if (why.code == FL_SYSTEM) {
+}
+
+/* Build body i from record k of the field, with its start. */
+static int make_body(fl_world *w, int32_t i, const fl_ice_field *field, int32_t k, fl_poly *outer,
+                     fl_err *err)
+{
+    const fl_scene *s = w->scene;
+    fl_bodies *b = &w->b;
+    const char *material =
+        field->material[k] >= 0 ? field->materials.name[field->material[k]] : s->ice.material;
+    fl_err why = {0};
+    w->id[i] = field->id[k];
+    w->material[i] = fl_scene_find_material(s, material);
+    if (w->material[i] < 0) {
+        char what[400];
+        snprintf(what, sizeof what, "material %.350s is not in the scene", material);
+        return fl_fail_floe(w, field, k, err, what);
+    }
+    if (make_shape(w, i, &field->core[k], field->radius[k], outer, &why)) {
+        if (why.code != FL_SYSTEM) return fl_fail_floe(w, field, k, err, why.text);
         *err = why;
         return -1;
     }
-    return fl_fail_floe(w, field, k, err, why.text);
+    b->v[i] = field->velocity[k];
+    fl_body_set_spin(b, i, field->spin[k]);
+    if (field->group[k] >= 0) fix_body(w, i, field->groups.name[field->group[k]], field->spin[k]);
+    return share_topology(w, i, err);
 }
 
 /* Set added mass and inertia of body i, of shape p. */
@@ -195,23 +206,47 @@ static void drive_body(fl_world *w, int32_t i)
     w->driven_floes.rest_height[i] = b->x[i].z;
 }
 
-int fl_world_place_floe(fl_world *w, int32_t i, const fl_ice_field *field, int32_t k, fl_err *err)
+/* Free the shape in place i. */
+static void clear_place(fl_world *w, int32_t i)
 {
-    fl_poly outer = {0};
     fl_poly_free(&w->b.core[i]);
     if (w->quick_shape) fl_quick_shape_free(&w->quick_shape[i]);
     w->b.bounding_radius[i] = 0.0;
-    w->b.fixed_dof[i] = 0;
     w->b.is_isotropic[i] = 0;
     if (w->elastic_walls.hull)
         fl_hull_free(&w->elastic_walls.hull[i]), fl_poly_free(&w->elastic_walls.outer[i]);
     if (w->sea.n) fl_environment_clear_hull(&w->sea, i);
-    const int bad = make_body(w, i, field, k, &outer, err) || (w->cell.periodic && check_size(w, i, err)) ||
-                    (w->elastic_walls.hull && make_wall_hull(w, i, &outer, err)) ||
-                    (w->sea.n && make_hull(w, i, &outer, err));
+}
+
+/* What walls, water and wind need of body i. */
+static int make_hulls(fl_world *w, int32_t i, fl_poly *outer, fl_err *err)
+{
+    if ((w->cell.periodic && check_size(w, i, err)) ||
+        (w->elastic_walls.hull && make_wall_hull(w, i, outer, err)) ||
+        (w->sea.n && make_hull(w, i, outer, err)))
+        return -1;
+    w->b.is_isotropic[i] = (uint8_t)fl_body_is_isotropic(&w->b, i);
+    return 0;
+}
+
+int fl_world_place_floe(fl_world *w, int32_t i, const fl_ice_field *field, int32_t k, fl_err *err)
+{
+    fl_poly outer = {0};
+    clear_place(w, i);
+    w->b.fixed_dof[i] = 0;
+    const int bad = make_body(w, i, field, k, &outer, err) || make_hulls(w, i, &outer, err);
     fl_poly_free(&outer);
     if (bad) return -1;
-    w->b.is_isotropic[i] = (uint8_t)fl_body_is_isotropic(&w->b, i);
     if (fl_floe_is_driven(w, i)) drive_body(w, i);
     return 0;
+}
+
+int fl_world_place_shape(fl_world *w, int32_t i, const fl_poly *core, double r, fl_err *err)
+{
+    fl_poly outer = {0};
+    clear_place(w, i);
+    const int bad =
+        make_shape(w, i, core, r, &outer, err) || share_topology(w, i, err) || make_hulls(w, i, &outer, err);
+    fl_poly_free(&outer);
+    return bad ? -1 : 0;
 }

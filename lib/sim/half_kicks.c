@@ -39,6 +39,7 @@ static int32_t run_end(const uint8_t *a, uint8_t x, int32_t k, int32_t to)
  * Returns k if k is not such a body. */
 static int32_t simple_run_end(const fl_world *w, int32_t k, int32_t to)
 {
+    if (fl_body_absent(w, k)) return k;
     if (w->b.is_isotropic[k] && (w->b.added_mass || w->b.heave_mass || w->sea.waves)) return k;
     to = run_end(w->b.is_isotropic, w->b.is_isotropic[k], k, run_end(w->b.fixed_dof, 0, k, to));
     return w->inflow.absent ? run_end(w->inflow.absent, 0, k, to) : to;
@@ -346,6 +347,7 @@ static fl_vec3 contact_force_on(const fl_world *w, int32_t i)
     const double k = w->driven_floes.n ? fl_driven_floe_spring(w, i, &extension) : 0.0;
     if (w->driven_floes.n) f.z += k * extension;
     f = v3_madd(f, -w->b.m[i], w->gravity);
+    if (w->relax.kind) f = v3_sub(f, fl_sums_now(w, i)->damping); /* dashpots cancel in the sum over bodies */
     return w->sea.water ? v3_sub(f, fl_environment_water_force(&w->sea, i)) : f;
 }
 
@@ -373,7 +375,7 @@ static void add_sphere_works(fl_body_block *own, const fl_free_batch_work *q, in
 static int32_t find_touching(const fl_world *w, const batch_list *c, int32_t busy[FL_BODY_BATCH])
 {
     const int32_t *at = c->at, n = c->n;
-    const int all = w->bonds.n > 0;
+    const int all = w->bonds.n > 0 || w->relax.kind;
     const int32_t *slot = w->contact_sums.slot, *previous = w->previous_sums.slot;
     int32_t n_busy = 0, any = 0;
     if (!w->contact_sums.one_each && !w->previous_sums.one_each) {
@@ -500,6 +502,10 @@ static fl_velocity_change first_change_of(const fl_world *w, int32_t k, double h
 
 static void end_body(fl_world *w, int32_t k, double h, fl_body_block *own)
 {
+    if (fl_body_absent(w, k)) { /* its forces are 0 since it left */
+        fl_sums_clear(w, k);
+        return;
+    }
     const enum fl_sleep_phase kind = fl_sleep_phase_of(w, k);
     const fl_velocity_change first = first_change_of(w, k, h);
     fl_velocity_change back = {0};
@@ -508,7 +514,7 @@ static void end_body(fl_world *w, int32_t k, double h, fl_body_block *own)
             *fl_sums_now(w, k) = *fl_sums_before(w, k); /* forces on resting bodies stay */
     } else if (kind == FL_WAKING) fl_sleep_second_half(w, k);
     else fl_body_sum_forces(w, k);
-    if (fl_body_absent(w, k) || kind == FL_BALLISTIC) return;
+    if (kind == FL_BALLISTIC) return;
     add_contact_force(w, k, own);
     if (!(h > 0.0) || kind == FL_RESTING) { return; }
     if (kind == FL_WAKING) {

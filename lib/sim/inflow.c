@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
@@ -11,6 +12,7 @@
 #include "sim/body_step.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
+#include "sim/floe_cut.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow_bonds.h"
 #include "sim/neighbour_list.h"
@@ -93,22 +95,35 @@ static int plan_inflow(fl_world *w, const fl_ice_field *field, const fl_ice_fiel
     return 0;
 }
 
+/* 1 if a stage takes bodies out. */
+static int has_removals(const fl_scene *s)
+{
+    for (int32_t k = 0; k < s->n_stage; k++)
+        if (s->stage[k].remove[0]) return 1;
+    return 0;
+}
+
 int fl_inflow_make(fl_world *w, const fl_ice_field *field, const fl_ice_field *feed, fl_err *err)
 {
     const fl_scene_boundary *s = &w->scene->boundary;
     fl_inflow_state *t = &w->inflow;
     const double none = INFINITY;
-    if (!s->head.present) return 0;
-    t->lo = v3(s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -none,
-               s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -none,
-               s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -none);
-    t->hi =
-        v3(s->type[0] == FL_BOUNDARY_FREE ? s->max.x : none, s->type[1] == FL_BOUNDARY_FREE ? s->max.y : none,
-           s->type[2] == FL_BOUNDARY_FREE ? s->max.z : none);
+    const int staged = has_removals(w->scene);
+    const int32_t fragments = fl_fragment_places(w->scene, field);
+    const int bounded = s->head.present;
+    t->lo = v3(bounded && s->type[0] == FL_BOUNDARY_FREE ? s->min.x : -none,
+               bounded && s->type[1] == FL_BOUNDARY_FREE ? s->min.y : -none,
+               bounded && s->type[2] == FL_BOUNDARY_FREE ? s->min.z : -none);
+    t->hi = v3(bounded && s->type[0] == FL_BOUNDARY_FREE ? s->max.x : none,
+               bounded && s->type[1] == FL_BOUNDARY_FREE ? s->max.y : none,
+               bounded && s->type[2] == FL_BOUNDARY_FREE ? s->max.z : none);
     const int leave = t->lo.x > -none || t->lo.y > -none || t->lo.z > -none || t->hi.x < none ||
                       t->hi.y < none || t->hi.z < none;
-    if (!leave) return 0;
-    if (s->inflow != FL_INFLOW_NONE) {
+    if (!leave && fragments == 0 && !staged) return 0;
+    t->leaves = leave;
+    w->breaking.room = fragments;
+    w->n += fragments;
+    if (leave && s->inflow != FL_INFLOW_NONE) {
         if (feed->n == 0)
             return fl_fail(err, FL_INPUT, "%s: the file has no body; an ice field expected", s->inflow_file);
         if (plan_inflow(w, field, feed, err)) return -1;
@@ -173,6 +188,8 @@ static void remove_floe(fl_world *w, int32_t i)
     t->n_left++;
     t->mass_left += b->m[i];
     t->momentum_left = v3_madd(t->momentum_left, b->m[i], b->v[i]);
+    fl_crushing_forget(w, i);
+    fl_breaking_forget(w, i);
     b->v[i] = b->L[i] = b->w[i] = b->f[i] = b->t[i] = v3(0, 0, 0);
     fl_sums_clear(w, i);
 }
@@ -379,31 +396,53 @@ static int is_due(const fl_world *w)
     return 0;
 }
 
+/* Take out floes: those marked in gone, or those outside if that is NULL. */
+static int take_out(fl_world *w, const uint8_t *gone, fl_err *err)
+{
+    fl_inflow_state *t = &w->inflow;
+    fl_ledger *g = &w->ledger;
+    /* The works of the half kick to come are booked already; contacts that end will not do them. */
+    const fl_work before = fl_work_ahead(w);
+    for (int32_t i = 0; i < w->n; i++)
+        if (!t->absent[i] && (gone ? gone[i] : !t->guided[i] && is_outside(w, i))) remove_floe(w, i);
+    if (drop_pairs(w, err)) return -1;
+    fl_sleep_wake_resting(w);
+    const fl_work after = fl_work_ahead(w);
+    g->damping -= before.damping - after.damping;
+    g->friction -= before.friction - after.friction;
+    g->drive -= before.drive - after.drive;
+    return 0;
+}
+
+int fl_inflow_remove(fl_world *w, const uint8_t *gone, fl_err *err)
+{
+    fl_ledger *g = &w->ledger;
+    fl_sleep_advance_to_now(w);
+    fl_energy_update(w);
+    const double residual = g->residual, throughput = g->throughput;
+    if (take_out(w, gone, err)) return -1;
+    fl_energy_update(w);
+    g->carried += g->residual - residual;
+    g->throughput = throughput;
+    fl_sleep_restore(w);
+    return 0;
+}
+
 int fl_inflow_step(fl_world *w, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
     fl_ledger *g = &w->ledger;
-    fl_work before, after;
     int leaving = 0, came = 0;
     int32_t place = 0;
     if (t->feed) release_guided(w);
-    for (int32_t i = 0; i < w->n && !leaving; i++)
+    for (int32_t i = 0; t->leaves && i < w->n && !leaving; i++)
         leaving = !t->absent[i] && !t->guided[i] && is_outside(w, i);
     if (!leaving && !is_due(w)) return 0;
     fl_sleep_advance_to_now(w);
     fl_energy_update(w);
     const double residual = g->residual, throughput = g->throughput;
     if (leaving) {
-        /* The works of the half kick to come are booked already; contacts that end will not do them. */
-        before = fl_work_ahead(w);
-        for (int32_t i = 0; i < w->n; i++)
-            if (!t->absent[i] && !t->guided[i] && is_outside(w, i)) remove_floe(w, i);
-        if (drop_pairs(w, err)) return -1;
-        fl_sleep_wake_resting(w);
-        after = fl_work_ahead(w);
-        g->damping -= before.damping - after.damping;
-        g->friction -= before.friction - after.friction;
-        g->drive -= before.drive - after.drive;
+        if (take_out(w, NULL, err)) return -1;
     }
     if (is_due(w) && fl_inflow_bonds_renew(w, err)) return -1;
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)

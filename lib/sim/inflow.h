@@ -29,4 +29,8 @@ void fl_inflow_set_guided(fl_world *w, int32_t i, int guided);
 /* Number of floes in the domain. */
 int32_t fl_floes_in_domain(const fl_world *w);
 
+/* Takes the floes marked in gone[n] out of the domain, between two steps; there must be a free bound or a
+ * stage that removes. -1 with FL_SYSTEM. */
+int fl_inflow_remove(fl_world *w, const uint8_t *gone, fl_err *err);
+
 #endif

@@ -82,6 +82,15 @@ static double other_bytes(const fl_world *w)
     const int32_t n = w->n, fixed = w->b.total - n;
     double sum = ARRAY(t->absent, n) + ARRAY(t->entry_step, n) + ARRAY(t->source_floe, n) +
                  ARRAY(t->guided, n) + ARRAY(t->own_fixed_dof, n);
+    if (w->crushing.dents) sum += ARRAY(w->crushing.dents, n);
+    for (int32_t i = 0; i < n && w->crushing.dents; i++)
+        if (w->crushing.dents[i]) sum += ARRAY(w->crushing.dents[i], 1);
+    if (w->breaking.on)
+        sum += ARRAY(w->breaking.shape, n) + ARRAY(w->breaking.last_load, n) +
+               ARRAY(w->breaking.bend_gate, n) + ARRAY(w->breaking.split_gate, n) +
+               ARRAY(w->breaking.event, w->breaking.event_cap);
+    for (int32_t i = 0; i < n && w->breaking.on; i++)
+        if (w->breaking.shape[i]) sum += fl_poly_bytes(w->breaking.shape[i]);
     if (t->feed) sum += ARRAY(t->lag, t->feed->n) + ARRAY(t->next_copy, t->feed->n);
     if (t->join.first)
         sum += ARRAY(t->join.first, t->feed->n) + ARRAY(t->join.newest, t->feed->n) +

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/relaxed_run.h"
 #include "sim/setup.h"
 #include <omp.h>
 #include <string.h>
 #include "base/array.h"
 #include "base/pi.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/disc_setup.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
@@ -16,6 +18,7 @@
 #include "sim/device_step.h"
 #include "sim/energy_ledger.h"
 #include "sim/drive_track.h"
+#include "sim/floe_cut.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
 #include "sim/inflow_bonds.h"
@@ -416,10 +419,13 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         w->inflow.source_floe[i] = (i - field->n) % feed->n;
         w->inflow.absent[i] = 1;
         if (fl_world_place_floe(w, i, feed, w->inflow.source_floe[i], err)) goto fail;
+        if (!w->inflow.feed) w->inflow.source_floe[i] = -1;
     }
-    if (place_pieces(w, surface, err) || fl_moving_structure_make(w, surface, members, err) ||
-        fl_panels_make(w, surface, err) || fl_strips_make(w, err) || fl_sleep_make(w, err) ||
-        fl_pair_law_make_table(w, err) || fl_bond_list_make(w, field, err) || fl_inflow_bonds_make(w, err))
+    if (fl_breaking_make(w, err) || place_pieces(w, surface, err) ||
+        fl_moving_structure_make(w, surface, members, err) || fl_panels_make(w, surface, err) ||
+        fl_strips_make(w, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
+        fl_bond_list_make(w, field, err) || fl_inflow_bonds_make(w, err) || fl_relaxed_run_make(w, err) ||
+        fl_crushing_make(w, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
@@ -450,6 +456,8 @@ void fl_world_free(fl_world *w)
     free(w->driven_floes.is_driven), free(w->driven_floes.k), free(w->driven_floes.rest_height);
     fl_device_free(w);
     fl_inflow_free(&w->inflow);
+    fl_crushing_free(w);
+    fl_breaking_free(w);
     fl_neighbour_pairs_free(w);
     free(w->first_pair_of_body), free(w->pairs_of_body), free(w->scratch), free(w->mesh_near),
         free(w->surrogate_counts);
@@ -466,6 +474,7 @@ void fl_world_free(fl_world *w)
     fl_moving_structure_free(&w->moving);
     fl_sleep_free(&w->sleep);
     fl_bond_list_free(&w->bonds);
+    fl_relaxed_run_free(&w->relax);
     fl_disc_list_free(&w->discs);
     fl_panels_free(&w->panel_load);
     fl_strips_free(&w->strips);

@@ -3,6 +3,7 @@
 #include <string.h>
 #include "base/array.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/pair_surrogate.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
@@ -68,6 +69,25 @@ static void exchange_pair_rolling(fl_state_io *t, const fl_world *w, fl_pair *p)
     if (!p->touching || !fl_pair_has_rolling(w, p)) return;
     if (!p->rolling && !(p->rolling = fl_alloc(1, sizeof *p->rolling, t->err))) return;
     exchange_rolling(t, p->rolling);
+}
+
+/* Record of crushing, if there is one. */
+static void exchange_crush(fl_state_io *t, const fl_world *w, fl_pair *p)
+{
+    int32_t there = p->crush != NULL;
+    fl_state_io_int(t, 0, 1, &there);
+    if (p->touching || there) fl_state_io_real(t, &p->nominal_area), fl_state_io_real(t, &p->crush_checked);
+    if (!there || t->err->code) return;
+    if (!p->crush && !(p->crush = fl_alloc(1, sizeof *p->crush, t->err))) return;
+    fl_crush *const c = p->crush;
+    fl_state_io_vec3(t, &c->offset);
+    fl_state_io_vec3(t, &c->centre);
+    fl_state_io_real(t, &c->stiffening);
+    fl_state_io_int(t, 0, 1, &c->unsaved);
+    if (t->f || t->err->code) return;
+    if (!(c->stiffening > 0.0) || p->nominal_area < 0.0)
+        fl_text_fail(t->in, t->err, "the crushing of a contact has impossible values");
+    p->k = c->stiffening * fl_pair_stiffness(w, p->i, p->j).k;
 }
 
 /* Results of the last evaluation. */
@@ -227,6 +247,7 @@ void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
         fl_state_io_int(t, FL_LOAD_SHARED, w->parts - 1, &p->load_part);
     exchange_pair_rolling(t, w, p);
     if (w->strips.wall) exchange_strip(t, w, p);
+    if (fl_pair_crushes(w, p)) exchange_crush(t, w, p);
     fl_surrogate surrogate = {0};
     if (t->f && p->surrogate) surrogate = *p->surrogate;
     if (p->touching && p->law->surrogate_tolerance > 0.0) exchange_surrogate(t, p, &surrogate);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/relaxed_run.h"
 #include "sim/step.h"
 #include <assert.h>
 #include <omp.h>
@@ -9,8 +10,10 @@
 #include "body/integrate.h"
 #include "contact/active_pairs.h"
 #include "contact/bond_list.h"
+#include "contact/crushing.h"
 #include "contact/panel_load.h"
 #include "sim/body_step.h"
+#include "sim/breaking.h"
 #include "sim/critical_step.h"
 #include "sim/device_step.h"
 #include "sim/drive_track.h"
@@ -263,8 +266,9 @@ static int check_state(fl_world *w, int update_stiffness, fl_err *err)
         else snprintf(name, sizeof name, "body %d", w->id[i]);
         return fl_fail(err, FL_NUMERIC,
                        "%s: the step of %g s is above the critical %g s of its contacts in step %lld (t = %g "
-                       "s); set a smaller run.dt or run.safety",
-                       name, w->dt, w->dt_critical, (long long)w->step, fl_world_time(w));
+                       "s); set a smaller run.dt or run.safety%s",
+                       name, w->dt, w->dt_critical, (long long)w->step, fl_world_time(w),
+                       w->breaking.on ? ", or a larger failure.fragment_min" : "");
     }
     for (int32_t k = 0; k < w->moving.movers.n; k++)
         if (!v3_finite(w->moving.movers.b.x[k]) || !v3_finite(w->moving.movers.b.f[k]) ||
@@ -466,7 +470,9 @@ int fl_step(fl_world *w, fl_err *err)
     /* energy ledger, overlaps, momentum */
     fl_ledger_book_step(w);
     if (w->strips.wall) fl_strips_book(w, dt);
+    if (w->relax.kind) fl_relaxed_run_end_step(w);
     gather_overlaps(w, dt);
+    if (w->crushing.of != FL_CRUSHING_NONE && fl_crushing_book(w, err)) return -1;
 
     /* loads: half a step of the new forces */
     if (add_loads(w, h, err)) return -1;
@@ -476,8 +482,9 @@ int fl_step(fl_world *w, fl_err *err)
     if (w->strips.wall && fl_strips_check(w, err)) return -1;
     if (check_state(w, update_stiffness, err) || check_energy_after_overlap(w, err)) return -1;
 
-    /* outflow and inflow; a floe placed between two steps samples the water */
+    /* floes that break; outflow and inflow; a floe placed between two steps samples the water */
     w->sea.sample_now = 1;
+    if (w->breaking.on && fl_breaking_step(w, err)) return -1;
     if (w->inflow.absent && fl_inflow_step(w, err)) return -1;
 
     /* sleep */

@@ -12,6 +12,8 @@ static inline double fl_world_time(const fl_world *w) { return w->t0 + (double)(
 
 /* Number of bonds, of faces and of spheres. */
 static inline int32_t fl_world_bonds(const fl_world *w) { return w->bonds.n + w->discs.n; }
+/* Those that are joints of rock. */
+static inline int32_t fl_world_joints(const fl_world *w) { return w->bonds.n - w->bonds.faces; }
 
 /* True if the floe in place i is of the driven edge. */
 static inline int fl_floe_is_driven(const fl_world *w, int32_t i)

@@ -4,7 +4,7 @@
  * Indices: k bonds in the order of (i, j); bonds_of[first[b] .. first[b + 1]) are the bonds of body b. */
 #ifndef FL_WORLD_BOND_STATE_H
 #define FL_WORLD_BOND_STATE_H
-#include "bond/bond.h"
+#include "bond/joint.h"
 
 /* n = 0 and no memory where no faces are bonded. */
 typedef struct {
@@ -17,6 +17,11 @@ typedef struct {
     int64_t *first;        /* [bodies + 1] offsets into `of` */
     int32_t *of;           /* [2 n] bonds of each body, ascending */
     int ended;             /* a bond ended in this step */
+    /* joints are the bonds [faces, n); joint_list.h */
+    int32_t faces, corners;
+    fl_joint *joint;                   /* [n - faces] material -1: a bonded face without limit */
+    fl_vec3 *corner;                   /* [corners] of their faces, frames of the bodies [m] */
+    fl_joint_material *joint_material; /* [joint sections of the scene] */
 } fl_bond_list;
 
 #endif

@@ -32,6 +32,7 @@ typedef struct {
 
 typedef struct {
     uint8_t *absent;     /* [n] the place is empty; NULL: no bound is free, and nothing else here is set */
+    int leaves;          /* some bound is free; else places are for fragments alone */
     fl_vec3 lo, hi;      /* free bounds; a floe that is wholly beyond one leaves [m]; infinite: not free */
     int64_t *entry_step; /* [n] step in which the floe came in */
     int64_t n_left, n_entered;               /* floes that left and came in so far */

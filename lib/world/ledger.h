@@ -15,8 +15,8 @@ typedef struct {
     double structure, spring,
         damper;             /* parts that move freely: kinetic and spring energy (stores), dashpots */
     double plastic;         /* sink: sections of members that yield, and members that part */
-    double crushing;        /* sink: ice that yields under pressure */
     double bond, fracture;  /* bonds: store; sink by damage */
+    double crushing;        /* sink: ice that yields under pressure */
     double carried;         /* source: floes that came in, less those that left */
     double start, residual; /* sum of the stores at the start; see above */
     double throughput;      /* largest sum so far of kinetic energies, |sinks| and |sources|: the

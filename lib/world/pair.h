@@ -35,6 +35,20 @@ typedef struct {
     int32_t literal2, literal18;
 } fl_pair_law;
 
+/* Memory of a contact in which ice crushes, contact/crushing.h.  Vectors in the axes of floe A. */
+typedef struct {
+    fl_vec3 offset;    /* D: what is crushed [m] */
+    fl_vec3 centre;    /* of the contact when it last touched [m] */
+    double stiffening; /* g */
+    double work;       /* Q of the step work_step [J] */
+    double volume;     /* crushed since it was last booked [m3] */
+    double force;      /* y at the last yield [N] */
+    int64_t work_step;
+    int64_t yielded_step; /* of the last yield */
+    int32_t booked;       /* Q is in the ledger */
+    int32_t unsaved;      /* D has grown and is not yet in the floe */
+} fl_crush;
+
 /* A contact of two bodies: i is a floe; j a floe, piece or wall; i < j.
  * A new member that lasts from step to step must be added to snapshot_pair.c (and what is new in fl_world to
  * snapshot.c): prop_restart finds it missing once it changes a bit.  What lasts while the two do not touch
@@ -50,24 +64,27 @@ typedef struct {
     fl_surrogate *surrogate;    /* NULL until there is one */
     fl_rolling_spring *rolling; /* of a sphere, rolling_pair.h; NULL without rolling resistance */
     fl_strip *strip;            /* of crushing by speed, strip_contact.h; NULL: none */
+    fl_crush *crush;            /* NULL while nothing is crushed */
     fl_gjk_cache cache;         /* start of the distance query */
     fl_mode mode;               /* of the laws manual and manual-si */
     int32_t cores_overlap;      /* the cores overlap */
     int32_t has_axis;           /* axis is set */
     fl_vec3 axis;               /* from j to i, axes of j: separates the cores, now or at an earlier time */
     double free_travel;         /* the two cannot touch while the sum of their odometers is below this [m] */
-    double k;        /* FL_POINTS_PATCH: c of W = c sqrt(U) [N/m2]; else stiffness of one point [N/m^n] */
-    double exponent; /* n; 0 with FL_POINTS_PATCH */
-    double mass;     /* reduced mass [kg] */
+    double k;            /* FL_POINTS_PATCH: c of W = c sqrt(U) [N/m2]; else stiffness of one point [N/m^n] */
+    double exponent;     /* n; 0 with FL_POINTS_PATCH */
+    double mass;         /* reduced mass [kg] */
+    double nominal_area; /* where ice may crush: largest area of this contact that was needed [m2] */
+    double crush_checked;      /* and largest force that was held against it [N] */
     double max_approach_speed; /* largest of this contact so far [m/s] */
     /* load [N] and spin [rad/s] behind a low pass, law/damping.h; their rates; the step of both */
     double sustained_load, sustained_load_rate;
     fl_vec3 sustained_spin, sustained_spin_rate;
     double sustained_step;
-    int32_t points;            /* enum fl_contact_points: what is evaluated */
-    int32_t bond;              /* 1 + index of the bond that was here, 0: none; bond_list.h */
-    double radius_factor;      /* multiplies both radii: 1, but less after a bond */
-    const fl_pair_law *law;    /* borrowed */
+    int32_t points;         /* enum fl_contact_points: what is evaluated */
+    int32_t bond;           /* 1 + index of the bond that was here, 0: none; bond_list.h */
+    double radius_factor;   /* multiplies both radii: 1, but less after a bond */
+    const fl_pair_law *law; /* borrowed */
     /* results of the last evaluation: world axes, torques about the two centres, forces on i (-f on j) */
     fl_vec3 force, torque_i, torque_j;
     fl_vec3 force_damping, torque_i_damping, torque_j_damping;    /* the part of damping */
@@ -76,6 +93,7 @@ typedef struct {
     double spring_energy;                                         /* its tangential part [J] */
     double overlap;                                               /* largest [m] */
     double omega2_i, omega2_j; /* bounds of omega^2 of this contact for i and j, the other fixed [1/s2] */
+    fl_vec3 load_point;        /* centre of pressure from the centre of i; set where floes may break [m] */
     int32_t index;             /* into fl_world.pair */
     int32_t load_part;         /* part that bears the load, FL_LOAD_SHARED: several; -1: a floe or wall */
 } fl_pair;

@@ -22,7 +22,9 @@
 #include "water/environment.h"
 #include "world/body_block.h"
 #include "world/bond_state.h"
+#include "world/breaking_state.h"
 #include "world/contact_sums.h"
+#include "world/crushing_state.h"
 #include "world/device_link.h"
 #include "world/disc_state.h"
 #include "world/driven_floes.h"
@@ -32,6 +34,7 @@
 #include "world/moving_parts.h"
 #include "world/pair.h"
 #include "world/panel_state.h"
+#include "world/relax_state.h"
 #include "world/sleep_state.h"
 #include "world/sphere_contacts.h"
 #include "world/strip_state.h"
@@ -67,9 +70,13 @@ typedef struct {
     fl_strips strips; /* crushing by speed */
     fl_elastic_walls elastic_walls;
     fl_inflow_state inflow;
+    fl_crushing_state crushing;
+    fl_breaking_state breaking;
     fl_driven_floes driven_floes;
     fl_device_link device;
     fl_sleep sleep;
+    fl_relax_state relax;
+    int64_t stage_step;          /* step at which the last stage began */
     fl_bond_list bonds;          /* faces */
     fl_disc_list discs;          /* of spheres */
     fl_environment sea;          /* water and wind; n = 0 without them */

@@ -9,6 +9,7 @@
 #include "support/near.h"
 #include "base/rng.h"
 #include "contact/bond_list.h"
+#include "contact/joint_list.h"
 #include "sphere/contact_list.h"
 #include "sim/snapshot.h"
 #include "sim/step.h"
@@ -79,7 +80,9 @@ static void a_run_resumes_at_any_step(void **state)
               {scene_of_water_interval, "patch"},  {scene_of_sea_interval, "patch"},
               {scene_of_inflow_interval, "patch"}, {scene_of_surrogates, "patch"},
               {scene_of_surrogates, "quick"},      {scene_of_joined_parts, "patch"},
-              {scene_of_endless_sheet, "patch"}};
+              {scene_of_endless_sheet, "patch"},
+              {scene_of_joints, "patch"},
+              {scene_of_failing_floes, "patch"},   {scene_of_failing_floes, "quick"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {
         lab whole;
@@ -110,6 +113,12 @@ static void a_run_resumes_at_any_step(void **state)
             IT[k].scene == scene_of_endless_sheet) { /* a sheet has contacts where bonds have ended alone */
             const fl_bond_counts n = fl_bond_list_counts(&whole.w);
             assert_true(n.state[FL_BOND_ENDED] > 20 && n.state[FL_BOND_DAMAGED] > 2);
+        } else if (IT[k].scene == scene_of_joints) {
+            const fl_joint_counts n = fl_joint_list_counts(&whole.w);
+            assert_true(n.slip + n.open > 10);
+        } else if (IT[k].scene == scene_of_failing_floes) {
+            assert_true(whole.w.crushing.contact_steps > 20 && whole.w.breaking.bent > 1 &&
+                        whole.w.breaking.bent + whole.w.breaking.split > 9);
         } else assert_true(pairs > 3000 && whole.w.searches >= 2);
         lab_free(&whole);
     }

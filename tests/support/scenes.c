@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <stdlib.h>
+#include "base/pi.h"
 #include "base/rng.h"
 #include "ice/sphere_packing.h"
 #include "support/scenes.h"
@@ -167,6 +168,56 @@ void scene_of_bonds(lab *l, int32_t side, const char *law)
     }
 }
 
+void scene_of_joints(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"material.ice.young=10 MPa",
+                                       "run.gravity=9.81",
+                                       "contact.friction=0.3",
+                                       "group.base.fixed=x y z rx ry rz",
+                                       "joint.bed.normal_stiffness=1e7",
+                                       "joint.bed.shear_stiffness=5e6",
+                                       "joint.bed.friction_angle=20",
+                                       "joint.bed.cohesion=2 kPa",
+                                       "joint.bed.tension=1 kPa",
+                                       "joint.bed.dilation=5",
+                                       "joint.bed.damping=0.05",
+                                       "joint.bed.water_pressure=200",
+                                       "joint.wall.law=yielding",
+                                       "joint.wall.normal_stiffness=1e7",
+                                       "joint.wall.shear_stiffness=100",
+                                       "joint.wall.shear_exponent=1",
+                                       "joint.wall.largest_shear_stiffness=1e7",
+                                       "joint.wall.friction_angle=20",
+                                       "joint.wall.initial_angle=40",
+                                       "joint.wall.roughness=0.01",
+                                       "joint.wall.initial_stress=0 5e3 0"};
+    static const char *const NAME[3] = {"bed", "wall", "intact"};
+    static const int32_t FACE[3][2] = {{3, 5}, {4, 2}, {1, 0}};
+    fl_err err = {0};
+    lab_start(l);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+    if (law) lab_setf(l, "contact.law=%s", law);
+    for (int32_t k = 0; k < side * side * side; k++) {
+        static const fl_vec3 SQUARE[4] = {
+            {-0.45, -0.45, 0}, {0.45, -0.45, 0}, {0.45, 0.45, 0}, {-0.45, 0.45, 0}};
+        fl_rng g = fl_rng_of(9, k, FL_RNG_TEST);
+        const int32_t cell[3] = {k % side, k / side % side, k / (side * side)},
+                      step[3] = {1, side, side * side};
+        const fl_vec3 v = v3_scale(0.3, normal3(&g)), spin = v3_scale(0.2, normal3(&g));
+        fl_poly p = {0};
+        if (fl_poly_prism(&p, 4, SQUARE, -0.45, 0.45, &err)) exit(1);
+        shape_move(&p, q_one(), v3(cell[0], cell[1], cell[2]));
+        if (fl_ice_field_add(&l->field, k, 0.05, &p, NULL, cell[2] ? NULL : "base", cell[2] ? v : v3(0, 0, 0),
+                             cell[2] ? spin : v3(0, 0, 0), &err))
+            exit(1);
+        for (int e = 0; e < 3; e++)
+            if (cell[e] + 1 < side &&
+                fl_ice_field_add_joint(&l->field, k, k + step[e], FACE[e][0], FACE[e][1],
+                                       NAME[e == 2 && cell[2] == 0 ? 0 : e], &err))
+                exit(1);
+    }
+}
+
 void scene_of_seas(lab *l, int32_t side, const char *law)
 {
     static const char *const KEYS[] = {
@@ -242,6 +293,34 @@ void scene_of_joined_parts(lab *l, int32_t side, const char *law)
         else
             lab_box(l, cell, v3(0.37, 0.37, 0.37), 0.05, k < side * side ? q_one() : q_of_vector(spin), v,
                     spin);
+    }
+}
+
+void scene_of_failing_floes(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"material.ice.young=20 MPa",
+                                       "contact.friction=0.2",
+                                       "contact.restitution=0.4",
+                                       "run.gravity=9.81",
+                                       "water.density=1000",
+                                       "failure.crushing=all",
+                                       "failure.pressure=60 kPa",
+                                       "failure.flexural_strength=20 kPa",
+                                       "failure.fracture_toughness=2 kPa.m^0.5",
+                                       "failure.fragment_min=0.02"};
+    lab_start(l);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+    if (law) lab_setf(l, "contact.law=%s", law);
+    lab_cone(l, (fl_cone){v3(0, 0, -1.0), v3(0, 0, 0.6), 1.0, 0.2});
+    lab_cone(l, (fl_cone){v3(0, 5, -1.0), v3(0, 5, 1.0), 0.4, 0.4});
+    for (int32_t k = 0; k < 4 * side; k++) {
+        const double angle = 2.0 * PI * k / (2 * side) + 0.1, at = k < 2 * side ? 0.0 : 5.0,
+                     far = fmax(0.82, 0.31 + 0.31 / tan(0.5 * PI / side));
+        const fl_vec3 out = v3(cos(angle), sin(angle), 0);
+        fl_rng g = fl_rng_of(11, k, FL_RNG_TEST);
+        lab_box(l, v3_add(v3(0, at, 0.01), v3_scale(far, out)), v3(0.3, 0.3, 0.05), 0.01,
+                q_about_axis(2, angle), v3_scale(-8.0 - fl_rng_in(&g, 0.0, 4.0), out),
+                v3(0, 0, fl_rng_in(&g, -0.2, 0.2)));
     }
 }
 

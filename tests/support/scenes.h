@@ -29,6 +29,10 @@ void scene_of_spheres(lab *l, int32_t side, const char *law);
 /* side + 1 by side by side - 1 boxes and spheres bonded and breaking apart at once; periodic along x. */
 void scene_of_bonds(lab *l, int32_t side, const char *law);
 
+/* side x side x side boxes with joints of three laws that slip and open at once: coulomb along x, yielding
+ * along y, intact along z; the lowest layer is fixed. */
+void scene_of_joints(lab *l, int32_t side, const char *law);
+
 /* A floating sheet of 2 side by 3 side by 2 bonded spheres that breaks on a cone at once; its last row is
  * driven. */
 void scene_of_sheet(lab *l, int32_t side, const char *law);
@@ -43,5 +47,8 @@ void scene_of_inflow_interval(lab *l, int32_t side, const char *law);
 
 /* Cubes and spheres on a floor of two parts with a leg of two more, all of which are one piece. */
 void scene_of_joined_parts(lab *l, int32_t side, const char *law);
+
+/* Plates that run from all sides into cones, crush, bend and split at once. */
+void scene_of_failing_floes(lab *l, int32_t side, const char *law);
 
 #endif

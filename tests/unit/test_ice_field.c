@@ -94,7 +94,7 @@ static void faults_are_reported_with_their_line(void **state)
     (void)state;
     expect_refusal("", " empty, a g-polys file is expected");
     expect_refusal("#g_struct 1\n", "1: this is a g_struct file, a g-polys file is expected");
-    expect_refusal("#g-polys 3\n", "1: g-polys version 3 is newer than this program, which reads up to 2");
+    expect_refusal("#g-polys 4\n", "1: g-polys version 4 is newer than this program, which reads up to 3");
     expect_refusal("#g-polys 1\n\n", "2: the file ends without a body, a poly record is expected");
     expect_refusal("#g-polys 1\nv 0 0 0\n", "2: v found before the first poly");
     expect_refusal("#g-polys 1\nploy 1 1 1 0\n", "2: unknown record \"ploy\", the nearest is \"poly\"");

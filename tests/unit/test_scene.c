@@ -376,9 +376,9 @@ static void each_complaint_names_file_and_line(void **state)
                    ":4: run.error compares steps of different sizes, which a surrogate would disturb: either "
                    "run.error or surrogate in [contact ice boundary] is expected");
     expect_refusal("[contact]\nlaw = core\nsurrogate = 0.001\n" ICE,
-                   ":3: surrogate applies to law = patch only");
+                   ":3: surrogate applies to law = patch and quick only");
     expect_refusal("[contact]\nlaw = manual\n[contact ice boundary]\nsurrogate = 0.001\n" ICE,
-                   ":4: surrogate applies to law = patch only");
+                   ":4: surrogate applies to law = patch and quick only");
     expect_refusal("[contact]\nsurrogate = 0.5\n" ICE,
                    ":2: contact.surrogate is 0.5, a value at least 0 and at most 0.1 is expected");
     expect_refusal("[water]\nevery = 0\n" ICE,

@@ -14,11 +14,11 @@
  * periodic domain or not, or with the last. With surrogates a touching pair states whether it has been
  * evaluated, and then its surrogate. A bond has its points once it is damaged. */
 static const char LAYOUT[] =
-    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|bonds 9|books 35|borne 15|budget 15|"
-    "disc 28|event 15|known 6|link 4|mark 16|mover 40|nap 13|next 2|pair 105|pair 106|pair 33|pair 34|pair "
-    "35|"
-    "pair 36|pair 41|pair 44|panel 5|part 8|place 6|pressed 5|sea 26|sea 38|sea 6|share 10|shared 2|"
-    "told 5|traffic 14|window 9|world 17|";
+    "ball 13|ball 21|ball 24|beside 6|body 26|body 27|bond 36|bond 81|bonds 9|books 35|borne 15|"
+    "broken 10|budget 15|crushed 5|dents 2|disc 28|event 15|joint 134|known 6|link 4|load 2|mark 16|"
+    "mover 40|nap 13|next 2|pair 105|pair 106|pair 33|pair 34|pair 35|pair 36|pair 41|pair 44|panel 5|"
+    "part 8|place 6|place 7|pressed 5|sea 26|sea 38|sea 6|share 10|shared 2|told 5|traffic 14|window 9|"
+    "world 17|";
 enum { LAYOUT_IS_OF = 16, KINDS = 64 };
 
 typedef struct {
@@ -134,8 +134,10 @@ static void each_layout_has_a_version_number(void **state)
     scene_of_bonds(&l, 3, NULL), collect_state(&all, &l, 1);
     scene_of_sheet(&l, 3, NULL), collect_state(&all, &l, 0);
     scene_of_endless_sheet(&l, 3, NULL), collect_state(&all, &l, 0);
+    scene_of_joints(&l, 3, NULL), collect_state(&all, &l, 0);
     scene_of_surrogates(&l, 2, NULL), collect_state(&all, &l, 0);
     scene_of_joined_parts(&l, 2, NULL), collect_state(&all, &l, 0);
+    scene_of_failing_floes(&l, 2, NULL), collect_state(&all, &l, 0);
     collect_budget(&all);
     qsort(all.row, (size_t)all.n, sizeof *all.row, by_name);
     for (int k = 0; k < all.n; k++) strcat(found, all.row[k]);

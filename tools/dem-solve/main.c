@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/stream.h"
 #include "mesh/gstruct.h"
+#include "factor.h"
 #include "options.h"
 #include "plan_probe.h"
 #include "report.h"
@@ -234,6 +235,14 @@ static void print_stop(const struct run *r)
             has_checkpoint ? checkpoint : "");
 }
 
+static int make_trial_world(void *with, fl_world *w, fl_err *err)
+{
+    const struct inputs *in = with;
+    return fl_world_make_with_inflow(w, &in->scene, &in->field, &in->field,
+                                     in->surface.n ? &in->surface : NULL,
+                                     in->members.file ? &in->members : NULL, err);
+}
+
 /* The scene of the run that wrote a table, with the changes of the command line. */
 static int write_scene_again(const struct options *o, fl_err *err)
 {
@@ -260,7 +269,8 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     fl_world world = {0};
     fl_error_budget budget = {0};
     char path[FL_SCENE_PATH];
-    int32_t *order = NULL;
+    int32_t *order = NULL, *group = NULL;
+    fl_string_table groups = {0};
     int rc = -1;
     if (o->explain) return fl_scene_explain(stdout, o->explain, err);
     if (o->again) return write_scene_again(o, err);
@@ -286,7 +296,12 @@ static int run(const struct options *o, int *stopped, fl_err *err)
          fl_error_budget_make(&budget, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface,
                               members, err)))
         goto done;
-    if (!has_inflow) fl_ice_field_free(&in.field);
+    /* the groups of the bodies, for stages; the field goes */
+    if (!has_inflow && !o->factor) {
+        group = in.field.group, groups = in.field.groups;
+        in.field.group = NULL, in.field.groups = (fl_string_table){0};
+        fl_ice_field_free(&in.field);
+    }
     struct run r = {.o = o,
                     .scene = &in.scene,
                     .floes = in.floes,
@@ -301,6 +316,9 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                     .loads_path = o->out ? o->out : "-",
                     .gzip = o->gzip,
                     .w = &world,
+                    .group = group,
+                    .groups = &groups,
+                    .settles = in.scene.run.relax || in.scene.n_stage,
                     .budget = in.scene.run.error > 0.0 ? &budget : NULL};
     if (o->resume && !o->out) {
         const fl_restart_part *loads = fl_restart_find(&in.saved, "loads");
@@ -308,6 +326,13 @@ static int run(const struct options *o, int *stopped, fl_err *err)
                  loads ? (int)(loads->n < FL_SCENE_PATH ? loads->n : FL_SCENE_PATH) : 1,
                  loads ? loads->text : "-");
         r.loads_path = path;
+    }
+    if (o->factor) {
+        r.group = in.field.group, r.groups = &in.field.groups;
+        if (has_inflow)
+            fl_fail(err, FL_USAGE, "--factor: boundary.inflow changes the model, none is expected");
+        else rc = factor_search(&r, o->factor, make_trial_world, &in, err);
+        goto done;
     }
     if (targets_check(&in.scene, o, r.loads_path, err)) goto done;
     if (fl_device_choose(&world, r.device, err)) goto done;
@@ -318,7 +343,8 @@ static int run(const struct options *o, int *stopped, fl_err *err)
     *stopped = r.stopped;
     if (r.stopped && !o->quiet) print_stop(&r);
 done:
-    free(order);
+    free(order), free(group);
+    fl_string_table_free(&groups);
     for (int k = 0; k < INPUT_TEXTS; k++) free(in.text[k]);
     free(in.history);
     fl_restart_free(&in.saved);

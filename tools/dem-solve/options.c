@@ -87,6 +87,12 @@ static const fl_option OPTION[] = {
     {.word = "force",
      .help = "run values that no ice on earth has, and bodies that overlap or lie inside the structure",
      .at = AT(force)},
+    {.word = "factor",
+     .argument = "KEY",
+     .help = "search the factor by which a strength may be divided until the model fails: friction,\n"
+             "strength, or joint.NAME.friction, .cohesion, .tension; a table of trials",
+     .kind = FL_OPTION_WORD,
+     .at = AT(factor)},
     FL_COMMON_OPTIONS(struct options, "write the loads there, - is standard output", "compress the loads",
                       "threads, instead of run.threads; the result is the same for any number",
                       "no report and no progress on standard error",
@@ -100,7 +106,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     *o = (struct options){.probe = -1.0};
     if (fl_options_read(&TABLE, o, NULL, argc, argv, err)) return -1;
     if (o->ended) return 0;
-    if (o->resume && (o->scene || o->ice || o->structure || o->plan || o->probe >= 0.0 || o->gzip))
+    if (o->resume &&
+        (o->factor || o->scene || o->ice || o->structure || o->plan || o->probe >= 0.0 || o->gzip))
         return fl_fail(
             err, FL_USAGE,
             "--resume continues what its checkpoint holds: it excludes a scene, --ice, --structure, "

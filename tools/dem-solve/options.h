@@ -11,8 +11,8 @@ struct options {
     const char *scene, *ice, *structure; /* borrowed from argv; NULL: not given */
     const char *set[SETS_MAX];
     int sets;
-    const char *out, *report, *explain, *resume, *again; /* NULL: not given */
-    double probe;                                        /* < 0: not asked for [m] */
+    const char *out, *report, *explain, *resume, *again, *factor; /* NULL: not given */
+    double probe;                                                 /* < 0: not asked for [m] */
     int plan, echo, force, gzip, quiet, verbose, threads;
     int ended; /* --help or --version has said all there is to say */
 };

@@ -32,6 +32,8 @@ struct table {
 
 static unsigned motion_columns(const fl_world *w) { return loads_options(w); }
 
+static unsigned joint_column(const fl_world *w) { return fl_world_joints(w) ? FL_BONDS_JOINTS : 0; }
+
 #define PATH(key) offsetof(fl_scene_output, key)
 #define NO_PATH ((size_t)-1)
 
@@ -51,10 +53,12 @@ static const struct table TABLE[TABLES] = {
                       WITH_LOADS, 1, 0},
     [TABLE_EVENTS] = {"events", PATH(events), PATH(loads_every), &fl_contacts_table, NULL, write_events,
                       WITH_LOADS, 0, 0},
-    [TABLE_BONDS] = {"bonds", PATH(bonds), PATH(bonds_every), &fl_bonds_table, NULL, write_bonds, ALONE, 0,
-                     1},
+    [TABLE_BONDS] = {"bonds", PATH(bonds), PATH(bonds_every), &fl_bonds_table, joint_column, write_bonds,
+                     ALONE, 0, 1},
     [TABLE_MEMBERS] = {"members", PATH(members), PATH(members_every), &fl_member_forces_table, NULL,
                        write_members, ALONE, 0, 0},
+    [TABLE_FAILURES] = {"failures", PATH(failures), PATH(loads_every), &fl_failures_table, NULL,
+                        write_failures, WITH_LOADS, 0, 0},
 };
 
 const char *table_name(int table) { return TABLE[table].name; }

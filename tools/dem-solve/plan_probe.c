@@ -68,6 +68,7 @@ static void print_bodies(const fl_world *w, FILE *f, const struct bodies *n)
     fprintf(f, "structure      %d parts: %d solids and plates, %d cones, %d shells; %d walls\n", w->parts,
             kind[FL_PIECE_SOLID], kind[FL_PIECE_CONE], kind[FL_PIECE_MESH], w->walls);
     if (w->inflow.feed) fprintf(f, "capacity       %d more floes\n", w->n - n->present);
+    if (w->breaking.on) fprintf(f, "fragments      room for %d, of floes that break\n", w->breaking.room);
     fprintf(f, "near pairs     %d, next search after %.3g m\n", w->n_pair + fl_contact_list_size(w), w->skin);
     fprintf(f, "law            %s between like bodies%s\n",
             w->n ? fl_pair_law_of(w, 0, 0)->law->name : "none",
@@ -91,7 +92,11 @@ static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, cha
     print_stage(f, "panels", w->panel_load.panels > 0, "");
     print_stage(f, "walls", w->walls > 0, "");
     print_stage(f, "cell", w->cell.periodic, "periodic");
-    print_stage(f, "outflow", w->inflow.absent != NULL, "floes beyond a free bound are removed");
+    print_stage(f, "crushing", w->crushing.of != FL_CRUSHING_NONE,
+                w->crushing.of == FL_CRUSHING_ALL ? "all contacts of ice" : "contacts with the structure");
+    print_stage(f, "breaking", w->breaking.on, "");
+    print_stage(f, "outflow", w->inflow.absent != NULL && w->inflow.leaves,
+                "floes beyond a free bound are removed");
     print_stage(f, "inflow", w->inflow.feed != NULL, "");
     for (int32_t k = 0; k < fl_water_force_count; k++)
         print_stage(f, fl_water_forces[k].name, fl_water_forces[k].present(&w->sea, &w->b), water[k]);

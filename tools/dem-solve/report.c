@@ -2,6 +2,7 @@
 #include "report.h"
 #include <inttypes.h>
 #include "contact/bond_list.h"
+#include "contact/joint_list.h"
 #include "sim/critical_step.h"
 #include "sim/energy_balance.h"
 #include "sim/inflow.h"
@@ -68,6 +69,15 @@ static void report_bonds(const fl_world *w, FILE *f)
     putc('\n', f);
 }
 
+static void report_joints(const fl_world *w, FILE *f)
+{
+    const fl_joint_counts n = fl_joint_list_counts(w);
+    fprintf(
+        f,
+        "joints             %d elastic, %d slip, %d open, %d ended: %.4g J of friction, %.4g J of strength\n",
+        n.elastic, n.slip, n.open, n.ended, fl_joint_list_friction_loss(w), w->ledger.fracture);
+}
+
 /* Members whose sections have yielded or ruptured. */
 static void report_members(const fl_world *w, FILE *f)
 {
@@ -95,7 +105,7 @@ void note_long_bonds(const fl_world *w, FILE *f)
     fprintf(f,
             "dem-solve: note: %d of %d bonds store more than the %.4g J/m2 of bond.energy at their strength: "
             "the longest is %.3g m, and the limit is %.3g m; a crack takes %.4g J/m2 in the mean%s\n",
-            n.coarse, fl_world_bonds(w), s->energy, n.longest, n.limit, n.energy,
+            n.coarse, fl_world_bonds(w) - fl_world_joints(w), s->energy, n.longest, n.limit, n.energy,
             s->softening == FL_SOFTENING_STRETCH ? "" : " (see bond.softening)");
 }
 
@@ -198,7 +208,7 @@ static void report_surrogate(const fl_world *w, FILE *f)
 static void report_inflow(const fl_world *w, FILE *f)
 {
     const fl_inflow_state *t = &w->inflow;
-    fprintf(f, "floes out          %" PRId64 " (%.4g kg)\n", t->n_left, t->mass_left);
+    if (t->leaves) fprintf(f, "floes out          %" PRId64 " (%.4g kg)\n", t->n_left, t->mass_left);
     if (t->feed) {
         fprintf(f, "floes in           %" PRId64 " (%.4g kg), %.4g kg/s", t->n_entered, t->mass_entered,
                 fl_world_time(w) > 0.0 ? t->mass_entered / fl_world_time(w) : 0.0);
@@ -207,6 +217,30 @@ static void report_inflow(const fl_world *w, FILE *f)
         fputc('\n', f);
     }
     fprintf(f, "floes in domain    %d (capacity %d)\n", fl_floes_in_domain(w), w->n);
+}
+
+static void report_crushing(const fl_world *w, FILE *f)
+{
+    const fl_crushing_state *s = &w->crushing;
+    fprintf(f,
+            "crushing           %.4g m3 of ice in %" PRId64 " contact-steps, %.4g J; largest force %.4g N\n",
+            s->volume, s->contact_steps, w->ledger.crushing, s->peak);
+    if (s->dents_dropped)
+        fprintf(f, "                   %" PRId64 " dents more than a floe keeps, %d\n", s->dents_dropped,
+                FL_DENTS);
+}
+
+static void report_breaking(const fl_world *w, FILE *f)
+{
+    const fl_breaking_state *s = &w->breaking;
+    fprintf(f,
+            "broken floes       %" PRId64 " bent, %" PRId64 " split, %" PRId64 " cut to cusps, %" PRId64
+            " checks",
+            s->bent, s->split, s->cusps, s->checks);
+    if (s->too_small) fprintf(f, "; %" PRId64 " breaks too small (failure.fragment_min)", s->too_small);
+    if (s->no_room) fprintf(f, "; %" PRId64 " without room (failure.fragments_max)", s->no_room);
+    if (s->buckled) fprintf(f, "; %" PRId64 " loads near buckling", s->buckled);
+    putc('\n', f);
 }
 
 static void report_overlaps(const fl_world *w, FILE *f)
@@ -241,8 +275,11 @@ void write_report(const struct run *r, FILE *f, enum report_kind kind)
                 r->save_wall, fl_world_time(w));
     report_energy(w, f);
     report_momentum(w, f);
-    if (fl_world_bonds(w)) report_bonds(w, f);
+    if (fl_world_bonds(w) > fl_world_joints(w)) report_bonds(w, f);
+    if (fl_world_joints(w)) report_joints(w, f);
     if (w->moving.members.dynamics.chain.yielding) report_members(w, f);
+    if (w->crushing.of != FL_CRUSHING_NONE) report_crushing(w, f);
+    if (w->breaking.on) report_breaking(w, f);
     if (w->inflow.absent) report_inflow(w, f);
     report_overlaps(w, f);
     fprintf(f, "state hash         %016" PRIx64 "\n", fl_state_hash(w));

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 #include "clocks.h"
+#include "final_ice.h"
 #include "outputs.h"
 #include "run_record.h"
 #include "save.h"
@@ -10,6 +11,7 @@
 #include "sim/energy_balance.h"
 #include "sim/inflow.h"
 #include "sim/sleep.h"
+#include "sim/stage.h"
 #include "sim/step.h"
 #include "step_choice.h"
 #include "warnings.h"
@@ -118,6 +120,18 @@ static int start_run(struct run *r, struct outputs *u, fl_err *err)
     return write_due(r, u, err);
 }
 
+/* Stages, and whether the run has come to rest. */
+static int update_stage(struct run *r, fl_err *err)
+{
+    const int32_t before = r->stage;
+    const int settled =
+        fl_stage_update(r->w, &r->stage, r->group, (const char *const *)r->groups->name, r->groups->n, err);
+    if (r->stage > before && !r->o->quiet)
+        fprintf(stderr, "dem-solve: stage %s begins at %.6g s\n", r->scene->stage[before].name,
+                fl_world_time(r->w));
+    return settled;
+}
+
 static int run_steps(struct run *r, struct outputs *u, int show, double begun, fl_err *err)
 {
     fl_world *w = r->w;
@@ -128,6 +142,7 @@ static int run_steps(struct run *r, struct outputs *u, int show, double begun, f
         if (update_step(r, u, err)) return -1;
         if (stop_signal) break; /* an abandoned search is repeated when the run is resumed */
         r->body_steps += w->inflow.absent ? fl_floes_in_domain(w) : w->n;
+        if (r->settles && (r->settled = update_stage(r, err)) != 0) break;
         if (fl_step(w, err) || (r->budget && follow_run(r, err)) || write_due(r, u, err) ||
             save_if_due(r, u, 0, err))
             return -1;
@@ -136,7 +151,8 @@ static int run_steps(struct run *r, struct outputs *u, int show, double begun, f
             if (now - shown >= 0.5) show_progress(r, begun, 0), shown = now;
         }
     }
-    r->stopped = w->step < r->steps ? stop_signal : 0;
+    if (r->settled < 0) return -1;
+    r->stopped = w->step < r->steps && !r->settled ? stop_signal : 0;
     if (r->stopped) return save_if_due(r, u, 0, err); /* the signal may have come before the first step */
     /* A longer run would have no shorter last row and no energy check here, so the checkpoint that it
      * could resume comes before them. */
@@ -179,7 +195,8 @@ int run_scene(struct run *r, fl_err *err)
     const fl_err why = *err;
     const int lost = record_end(r, &u, &why, ended_by, err);
     /* Also after a failed run: the rows until then are good, and the tables keep their names. */
-    if (!close_outputs(&u, err) && !rc && !lost && !gone.code) return 0;
+    if (!close_outputs(&u, err) && !rc && !lost && !gone.code)
+        return r->stopped ? 0 : write_final_ice(r, err);
     if (!pipe_signal || err->code != FL_SYSTEM) return -1;
     r->stopped = SIGPIPE;
     *err = (fl_err){0};

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include "base/pi.h"
 #include "contact/bond_list.h"
+#include "contact/joint_list.h"
 #include "contact/pair_geometry.h"
 #include "contact/panel_load.h"
 #include "out/frames.h"
@@ -223,6 +224,29 @@ void write_hash(struct run *r, FILE *f, double t, double interval)
 
 static const char *const BOND_STATE[] = {"whole", "damaged", "broken", "ended"};
 
+void write_failures(struct run *r, FILE *f, double t, double interval)
+{
+    static const char *const MODE[] = {"bend", "split", "cusp"};
+    fl_breaking_state *s = &r->w->breaking;
+    (void)t, (void)interval; /* rows have the times of the failures */
+    for (int32_t k = 0; k < s->events; k++) {
+        const fl_failure_event *e = &s->event[k];
+        const fl_failures_row row = {.mode = MODE[e->mode],
+                                     .parent = e->parent,
+                                     .child = e->child,
+                                     .x = e->x,
+                                     .n = e->n,
+                                     .length = e->length,
+                                     .load = e->load,
+                                     .ratio = e->ratio,
+                                     .mass = e->mass,
+                                     .child_mass = e->child_mass,
+                                     .energy = e->energy};
+        fl_table_write_row(f, &fl_failures_table, 0, e->time, &row);
+    }
+    s->events = 0;
+}
+
 /* Row of the bond k of two spheres. */
 static void write_disc(const fl_world *w, FILE *f, double t, int32_t k)
 {
@@ -241,8 +265,17 @@ static void write_disc(const fl_world *w, FILE *f, double t, int32_t k)
                               .shear = q.shear,
                               .moment = q.moment,
                               .area = PI * c->radius * c->radius,
-                              .x = q.x};
-    fl_table_write_row(f, &fl_bonds_table, 0, t, &row);
+                              .x = q.x,
+                              .joint = "-"};
+    fl_table_write_row(f, &fl_bonds_table, fl_world_joints(w) ? FL_BONDS_JOINTS : 0, t, &row);
+}
+
+static const char *bond_state(const fl_world *w, int32_t k)
+{
+    const fl_joint *j = fl_joint_of_bond(&w->bonds, k);
+    const fl_bond *c = &w->bonds.bond[k];
+    if (!j || c->state == FL_BOND_ENDED) return BOND_STATE[c->state];
+    return j->opens == FL_BOND_POINTS ? "open" : j->slips || j->opens ? "slip" : "elastic";
 }
 
 void write_bonds(struct run *r, FILE *f, double t, double interval)
@@ -251,18 +284,22 @@ void write_bonds(struct run *r, FILE *f, double t, double interval)
     (void)interval;
     for (int32_t k = 0; k < w->bonds.n; k++) {
         const fl_bond *c = &w->bonds.bond[k];
+        const fl_joint *j = fl_joint_of_bond(&w->bonds, k);
         const fl_bond_load q = fl_bond_list_load(w, k);
         if (fl_body_absent(w, c->i) || fl_body_absent(w, c->j)) continue;
         const fl_bonds_row row = {.i = w->id[c->i],
                                   .j = w->id[c->j],
-                                  .state = BOND_STATE[c->state],
+                                  .state = bond_state(w, k),
                                   .damage = fl_bond_mean_damage(c),
                                   .tension = q.tension,
                                   .shear = q.shear,
                                   .moment = q.moment,
                                   .area = c->area,
-                                  .x = q.x};
-        fl_table_write_row(f, &fl_bonds_table, 0, t, &row);
+                                  .x = q.x,
+                                  .joint = j                    ? w->scene->joint[j->material].name
+                                           : k < w->bonds.faces ? "-"
+                                                                : "intact"};
+        fl_table_write_row(f, &fl_bonds_table, fl_world_joints(w) ? FL_BONDS_JOINTS : 0, t, &row);
     }
     for (int32_t k = 0; k < w->discs.n; k++) write_disc(w, f, t, k);
 }

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* crushing.h -- contacts in which ice yields.
+ *
+ * Below y = p(A) A (failure/pressure_area.h, A of failure/area_vector.h) a contact is elastic. At y it
+ * yields: the floe A is worn by the vector D, by which it stands away from its partner for the contact law,
+ *     W = W_law(x_A + R_A D),      F = -dW/dx,  |F| <= y,
+ * so W has the same derivatives as before: forces and torques act at the true place, action and reaction
+ * balance, and D at rest costs no energy.
+ *
+ * Return mapping, after each evaluation of the law, with F, W and m = 1/(1 - W F'/F^2), the local exponent of
+ * W = c s^m:
+ *     if F > y:   s = m W/F,  W1 = min(W (y/F)^(m/(m-1)), y^2/(2 K_A)),  s1 = m W1/y,
+ *                 D += (s - s1) n,   the wrench by y/F,   W by W1/W
+ * and from F > y/10 on, while F grows, the same at F itself (y replaced by F): what touches first is an edge,
+ * which is crushed flat before the contact as a whole yields.
+ *
+ * D never shrinks but where the contact has turned round (D.n < 0), which only takes energy out.
+ *
+ * K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is flat, and a
+ * sharp edge of the same force would store several times its energy. So W is multiplied by g >= 1, which
+ * grows with A, until y^2/(2 K_A) is what an edge stores; it falls where the contact is half as stiff again
+ * as K_A, as an edge that has turned to a face. The rebound of an impact of speed v is then
+ *     v_r = y/sqrt(K_A M).
+ *
+ * Work.  Crushing takes, in a step, the work of the elastic force by the trapezoid over the step less the
+ * change of W:
+ *     Q = -dt/2 (F0 + F1).(v_A - v_B) - (W1 - W0)          (and the same of torques)
+ * whose sum is int p dV.  Damping is off while a contact yields, and with the elastic force at most y after.
+ *
+ * Memory. A pair keeps D in fl_crush, made at its first yield. When the contact ends, D goes to the floe as
+ * a dent at that place; a contact that begins within its half width, from the same side, takes it up again.
+ * A floe keeps FL_DENTS dents; the shallowest is dropped first.
+ *
+ * Limits.  D is one vector of a pair of bodies: a floe that is crushed at two places of one piece of the
+ * structure wears as a whole. A partner that slides along a face finds it worn by D everywhere, so a dent
+ * does not resist sliding. The outline of the floe, and its mass, stay. */
+#ifndef FL_CONTACT_CRUSHING_H
+#define FL_CONTACT_CRUSHING_H
+#include "contact/pair_geometry.h"
+#include "contact/pair_surrogate.h"
+#include "world/world.h"
+
+/* True if the ice of pair p may crush: a polyhedron under the law `patch` against the structure, or, with
+ * crushing = all, against another. */
+static inline int fl_pair_crushes(const fl_world *w, const fl_pair *p)
+{
+    return w->crushing.of != FL_CRUSHING_NONE && p->points == FL_POINTS_PATCH && w->b.core[p->i].nf > 0 &&
+           (p->j >= w->n ? p->j < w->n + w->pieces
+                         : w->crushing.of == FL_CRUSHING_ALL && w->b.core[p->j].nf > 0);
+}
+
+/* The pose with A moved by D. */
+fl_relative_pose fl_crushing_pose(const fl_pair *p, const fl_relative_pose *r);
+
+/* If floe A has dents: gives p its record, with the dent that its points in s lie in.  1 if there is one, -1
+ * when memory runs out. */
+int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_relative_pose *r);
+
+/* Applies the return mapping to energy, scale and slope of an evaluation.
+ *   centre   of pressure, in the frame of B [m]
+ *   limit    out: y, INFINITY where there is none [N]
+ * 1 if the contact yields, 0 if not, -1 when memory runs out. */
+int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const fl_force_sum *q,
+                      fl_vec3 centre, fl_exact_contact *exact, double *limit);
+
+/* Elastic wrench and energy of a pair. */
+typedef struct {
+    fl_vec3 force, torque_i, torque_j;
+    double energy;
+} fl_elastic_wrench;
+fl_elastic_wrench fl_elastic_wrench_of(const fl_pair *p);
+
+/* Stores Q of a step of dt in the record, after the evaluation.  before: at the begin of the step. */
+void fl_crushing_store_work(const fl_world *w, fl_pair *p, const fl_elastic_wrench *before, double dt);
+
+/* Releases the record of p, which does not touch, with its stiffness back to that of the law. */
+void fl_crushing_release(const fl_world *w, fl_pair *p);
+
+/* After the contacts of a step, by one thread: books Q of all pairs, in their order, and moves D of contacts
+ * that have ended into their floes.  -1 with FL_SYSTEM. */
+int fl_crushing_book(fl_world *w, fl_err *err);
+
+/* Removes the dents of floe i. */
+void fl_crushing_forget(fl_world *w, int32_t i);
+
+/* Builds w->crushing from the scene; -1 with FL_SYSTEM. */
+int fl_crushing_make(fl_world *w, fl_err *err);
+void fl_crushing_free(fl_world *w);
+
+#endif

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* area_vector.h -- the nominal area of a contact: the area vector of the other body's surface inside a floe.
+ *
+ *     S = int n dA over the surface of B inside the outer sharp shape of A,    A = |S|
+ *
+ * V being the volume of the overlap, dV = S.dx for a displacement dx of A, so int p dV is the work of a
+ * pressure p on it, and S depends neither on how B is divided into faces nor on what A looks like elsewhere.
+ * The faces of B are clipped by the half-spaces of A (Sutherland, Hodgman 1974). On a cone, generators
+ * are clipped exactly, at Gauss points of the arc that is inside about the contact.
+ *
+ * Limits.  All faces of B count, also where they form several separate contacts with A, of which each alone
+ * would be stronger by 2^e (pressure_area.h).  The end discs of a cone do not count. */
+#ifndef FL_FAILURE_AREA_VECTOR_H
+#define FL_FAILURE_AREA_VECTOR_H
+#include "structure/structure.h"
+
+/* A convex body as the half-spaces n.x <= c. */
+enum { FL_HALF_SPACES = 64 };
+typedef struct {
+    int n;
+    fl_vec3 normal[FL_HALF_SPACES];
+    double c[FL_HALF_SPACES];
+    fl_aabb box; /* encloses the body */
+} fl_half_spaces;
+
+typedef struct {
+    fl_vec3 S;      /* area vector, points out of B [m2] */
+    fl_vec3 centre; /* of the area inside, weighted by n.S/|S| [m] */
+} fl_area_vector;
+
+/* Half-spaces of core p moved outward by r, in a frame where it stands at o with axes M.  Of more than
+ * FL_HALF_SPACES faces the first ones count, which encloses the body.  */
+void fl_half_spaces_of(fl_half_spaces *q, const fl_poly *p, double r, const fl_mat3 *M, fl_vec3 o);
+
+/* S of a piece of the structure in its own frame.
+ *   about   a point of the contact: on a cone, the arc inside a is looked for from there on */
+fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about);
+
+/* S of another convex body, in one frame. */
+fl_area_vector fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b);
+
+#endif

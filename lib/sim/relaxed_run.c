@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sim/relaxed_run.h"
+#include <stdlib.h>
+#include "base/array.h"
+#include "world/access.h"
+
+static const double LOCAL = 0.8;
+/* Largest rate times step: beyond it a force at the velocity in the middle of a step is unstable. */
+static const double LARGEST_SHARE = 0.5;
+
+int fl_relaxed_run_make(fl_world *w, fl_err *err)
+{
+    fl_relax_state *s = &w->relax;
+    s->kind = w->scene->run.relax;
+    if (!s->kind) return 0;
+    s->r = fl_relaxation_start(s->kind == FL_RELAX_KINETIC ? FL_RELAXATION_KINETIC : FL_RELAXATION_ADAPTIVE,
+                               0.0);
+    if (s->kind == FL_RELAX_ADAPTIVE && !(s->force = fl_alloc(w->n, sizeof *s->force, err))) return -1;
+    return 0;
+}
+
+void fl_relaxed_run_free(fl_relax_state *s)
+{
+    free(s->force);
+    *s = (fl_relax_state){0};
+}
+
+static double against(double force, double velocity)
+{
+    if (!(velocity > 0.0) && !(velocity < 0.0)) return 0.0;
+    return velocity > 0.0 ? -LOCAL * fabs(force) : LOCAL * fabs(force);
+}
+
+/* x without the components in fixed directions; a fixed rotation takes all of them. */
+static fl_vec3 free_part(const fl_bodies *b, int32_t k, fl_vec3 x)
+{
+    const unsigned held = b->fixed_dof[k];
+    return v3(held & FL_DOF_X ? 0.0 : x.x, held & FL_DOF_Y ? 0.0 : x.y, held & FL_DOF_Z ? 0.0 : x.z);
+}
+
+static fl_vec3 free_turn(const fl_bodies *b, int32_t k, fl_vec3 x)
+{
+    return b->fixed_dof[k] & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ) ? v3(0, 0, 0) : x;
+}
+
+void fl_relaxed_run_damp(fl_world *w, int32_t k, fl_contact_sum *sum)
+{
+    fl_bodies *b = &w->b;
+    const fl_vec3 v = b->v[k], spin = b->w[k];
+    fl_vec3 f, t;
+    if (w->relax.kind == FL_RELAX_LOCAL) {
+        f = v3(against(b->f[k].x, v.x), against(b->f[k].y, v.y), against(b->f[k].z, v.z));
+        t = v3(against(b->t[k].x, spin.x), against(b->t[k].y, spin.y), against(b->t[k].z, spin.z));
+    } else if (w->relax.kind == FL_RELAX_ADAPTIVE) {
+        f = v3_scale(-w->relax.rate * b->m[k], v);
+        t = v3_scale(-w->relax.rate, b->L[k]);
+    } else {
+        return;
+    }
+    f = free_part(b, k, f), t = free_turn(b, k, t);
+    b->f[k] = v3_add(b->f[k], f), b->t[k] = v3_add(b->t[k], t);
+    sum->contacts++;
+    sum->damping = v3_add(sum->damping, f), sum->damping_torque = v3_add(sum->damping_torque, t);
+}
+
+/* Kinetic energy of the bodies that damping may stop. */
+static double free_kinetic(const fl_world *w)
+{
+    double sum = 0.0;
+    for (int32_t k = 0; k < w->n; k++)
+        if (!w->b.fixed_dof[k] && !fl_body_absent(w, k)) sum += fl_body_kinetic_energy(&w->b, k);
+    return sum;
+}
+
+static void stop_bodies(fl_world *w)
+{
+    for (int32_t k = 0; k < w->n; k++)
+        if (!w->b.fixed_dof[k] && !fl_body_absent(w, k)) w->b.v[k] = w->b.w[k] = w->b.L[k] = v3(0, 0, 0);
+}
+
+/* The frequency of the motion from the work of the change of forces. */
+static void adapt_rate(fl_world *w)
+{
+    fl_relax_state *s = &w->relax;
+    const double dt = w->dt;
+    double work = 0.0, inertia = 0.0;
+    for (int32_t k = 0; k < w->n; k++) {
+        if (fl_body_absent(w, k) || w->b.fixed_dof[k]) continue;
+        const fl_vec3 v = w->b.v[k], f = v3_sub(w->b.f[k], fl_sums_now(w, k)->damping),
+                      change = v3_sub(f, s->force[k]);
+        work -= dt * v3_dot(v, change);
+        inertia += dt * dt * w->b.m[k] * v3_norm2(v);
+        s->force[k] = f;
+    }
+    fl_relaxation_adapt(&s->r, work, inertia, dt);
+    s->rate = fmin(s->r.c, LARGEST_SHARE) / dt;
+}
+
+void fl_relaxed_run_end_step(fl_world *w)
+{
+    fl_relax_state *s = &w->relax;
+    if (s->kind == FL_RELAX_ADAPTIVE) adapt_rate(w);
+    if (s->kind != FL_RELAX_KINETIC) return;
+    const double energy = free_kinetic(w);
+    if (!fl_relaxation_peak(&s->r, energy)) return;
+    stop_bodies(w);
+    w->ledger.damping += energy;
+}
+
+double fl_relaxed_run_ratio(const fl_world *w)
+{
+    double most = 0.0, sum = 0.0;
+    int64_t n = 0;
+    for (int32_t k = 0; k < w->n; k++) {
+        if (fl_body_absent(w, k)) continue;
+        const fl_vec3 f =
+            w->relax.kind == FL_RELAX_KINETIC ? w->b.f[k] : v3_sub(w->b.f[k], fl_sums_now(w, k)->damping);
+        most = fmax(most, v3_norm(free_part(&w->b, k, f)));
+    }
+    for (int32_t k = 0; k < w->bonds.n; k++) {
+        const double f = v3_norm(w->bonds.bond[k].force);
+        sum += f, n += f > 0.0;
+    }
+    for (int32_t c = 0; c < w->n_touching; c++) {
+        const double f = v3_norm(w->pair[w->touching_pairs[c]].contact->force);
+        sum += f, n += f > 0.0;
+    }
+    return sum > 0.0 ? most * (double)n / sum : INFINITY;
+}
