@@ -87,7 +87,8 @@ static int is_of_run(const fl_key *key, const fl_scene_head *head, const void *d
 {
     char text[FL_VALUE_TEXT], usual[FL_VALUE_TEXT];
     const fl_scene_mark *mark = &head->key[key - fl_key_table - fl_key_first((int)key->section)];
-    if (mark->line == 0 || mark->is_auto) return 0;
+    if (mark->line == 0) return 0;
+    if (mark->is_auto && strcmp(key->default_text, key->special) == 0) return 0;
     if (key->section == FL_SEC_RUN && strcmp(key->key, "threads") == 0) return 0;
     if (key->section == FL_SEC_OUTPUT && strcmp(key->key, "loads_every") != 0 &&
         strcmp(key->key, interval) != 0)

@@ -39,14 +39,16 @@ static void random_value(fl_rng *g, const fl_key *key, char *text, size_t size)
     char part[3][40], units[100], unit[40] = "", *save = NULL, *word;
     int count, k;
     fl_unit_list(key->unit, units, sizeof units);
+    /* another unit than the first could move the number out of a bounded range */
+    const int bounded = key->range && key->type == FL_VALUE_F64 && !strstr(key->range, "inf");
     for (word = strtok_r(units, " ", &save), k = 1; word; word = strtok_r(NULL, " ", &save), k++)
-        if (random_index(g, k) == 0) snprintf(unit, sizeof unit, "%s%s", random_index(g, 2) ? " " : "", word);
+        if (k == 1 || (!bounded && random_index(g, k) == 0))
+            snprintf(unit, sizeof unit, "%s%s", random_index(g, 2) ? " " : "", word);
     switch (key->type) {
     case FL_VALUE_F64:
         if (key->choices) snprintf(text, size, "%s", random_index(g, 2) ? "1" : "1.5");
         else {
             random_number(g, key, part[0], sizeof part[0]);
-            /* a unit could move the number out of a bounded range */
             snprintf(text, size, "%s%s", part[0],
                      (key->special && strcmp(part[0], key->special) == 0) || key->unit == FL_UNIT_ONE ? ""
                                                                                                       : unit);
@@ -58,7 +60,13 @@ static void random_value(fl_rng *g, const fl_key *key, char *text, size_t size)
         for (k = 0; k < 3; k++) count += key->special && strcmp(part[k], key->special) == 0;
         snprintf(text, size, "%s %s %s %s", part[0], part[1], part[2], count == 3 ? "" : unit);
         break;
-    case FL_VALUE_I32: snprintf(text, size, "%d", 1 + random_index(g, 1000)); break;
+    case FL_VALUE_I32: { /* "[lo,hi]" */
+        char *end;
+        const long lo = key->range ? strtol(key->range + 1, &end, 10) : 1,
+                   hi = key->range ? strtol(end + 1, NULL, 10) : 1000, most = hi - lo < 999 ? hi - lo : 999;
+        snprintf(text, size, "%ld", lo + random_index(g, (int)most + 1));
+        break;
+    }
     case FL_VALUE_WORDS:
     case FL_VALUE_WORD: { /* one of the choices */
         char copy[100];

@@ -23,8 +23,7 @@ static void a_law_uses_its_keys(void **state)
     for (int32_t k = 0; k < fl_contact_law_count; k++) {
         const fl_contact_law *law = &fl_contact_laws[k];
         assert_int_equal(fl_contact_law_uses(law, "exponent"), law->points == FL_POINTS_NEAREST);
-        assert_int_equal(fl_contact_law_uses(law, "surrogate"),
-                         law->points == FL_POINTS_PATCH && !law->quick);
+        assert_int_equal(fl_contact_law_uses(law, "surrogate"), law->points == FL_POINTS_PATCH);
         assert_int_equal(fl_contact_law_uses(law, "manual_eq2"), law->points == FL_POINTS_FEATURES);
         assert_int_equal(fl_contact_law_uses(law, "friction"), 0);
     }
