@@ -69,7 +69,7 @@ static void random_value(fl_rng *g, const fl_key *key, char *text, size_t size)
     }
     case FL_VALUE_WORDS:
     case FL_VALUE_WORD: { /* one of the choices */
-        char copy[100];
+        char copy[300];
         snprintf(copy, sizeof copy, "%s", key->choices);
         for (word = strtok_r(copy, "|", &save), k = 1; word; word = strtok_r(NULL, "|", &save))
             if (random_index(g, k++) == 0) snprintf(text, size, "%s", word);

@@ -72,7 +72,8 @@ static void a_word_explains_all_that_it_may_mean(void **state)
     assert_int_equal(lines_of("friction", "contact.friction: "), 1);
     assert_int_equal(lines_of("friction", "structure.friction: "), 1);
     assert_int_equal(lines_of("mus", "material.friction: "), 1);
-    assert_int_equal(lines_of("strength", "bond.") + lines_of("strength", "failure."), lines_of("strength", ""));
+    assert_int_equal(lines_of("strength", "bond.") + lines_of("strength", "failure."),
+                     lines_of("strength", ""));
     assert_true(lines_of("strength", "bond.") > 1);
     assert_true(lines_of("water", "water.density: ") == 1); /* a section is all of its keys */
     assert_int_equal(lines_of("friktion", ""), -1);
