@@ -207,8 +207,8 @@ FL_SIMD_INLINE double row_times(const fl_lane *A, int k, int r, fl_vec3 v, fl_ve
 /* a after a small rotation. */
 FL_SIMD_INLINE fl_vec3 rotated(fl_vec3 turn, fl_vec3 a) { return v3_add(a, v3_cross(turn, a)); }
 
-/* lambda of law/damping.h, as sustained_share_of_patch() of pair_force.c.  v: of A against B at the centre of
- * the pressures; w: relative spin; force: on A; all in world axes or all in the frame of B. */
+/* lambda of law/damping.h, as sustained_share_of_patch() of patch_force.c.  v: of A against B at the centre
+ * of the pressures; w: relative spin; force: on A; all in world axes or all in the frame of B. */
 FL_SIMD_INLINE double sustained_share(const batch *b, int k, fl_vec3 v, fl_vec3 w, fl_vec3 core_turn,
                                       fl_vec3 before, fl_vec3 force, double sigma2)
 {

@@ -5,13 +5,13 @@
 #include "scene/scene_check.h"
 #include "base/pi.h"
 #include "law/contact_law.h"
+#include "scene/scene_check_failure.h"
+#include "scene/scene_check_motion.h"
 #include "scene/unused_keys.h"
 #include "scene/scene_section.h"
 
 /* Of the force of the waves, where none is given. */
 #define DEFAULT_WAVE_ERROR 0.003
-
-enum { MODES_OF_A_PART = 8 };
 
 static int add_missing_material(fl_scene *s, const char *name, fl_err *err)
 {
@@ -368,100 +368,6 @@ static int check_ratios(const fl_scene *s, const char *key, fl_vec3 x, fl_err *e
     return 0;
 }
 
-/* 1 if the key of a section was given. */
-static int is_given(const fl_scene_head *h, enum fl_section_id section, const char *key)
-{
-    return h->key[fl_key_find((int)section, key) - fl_key_first((int)section)].line != 0;
-}
-
-static int check_failure(const fl_scene *s, fl_err *err)
-{
-    const fl_scene_failure *f = &s->failure;
-    static const char *const OF_LAW[] = {"pressure", "pressure_area", "pressure_exponent"};
-    const int on = f->head.present,
-              breaks = on && (f->flexural_strength < INFINITY || f->fracture_toughness < INFINITY),
-              crushes = on && f->crushing != FL_CRUSHING_NONE;
-    if (!breaks && s->output.failures[0])
-        return fl_scene_fail(s, "output.failures", err,
-                             "floes do not break: failure.flexural_strength or failure.fracture_toughness is "
-                             "expected");
-    if (!on) return 0;
-    for (int k = 0; k < 3 && f->pressure_law != FL_PRESSURE_USER; k++)
-        if (is_given(&f->head, FL_SEC_FAILURE, OF_LAW[k])) {
-            char key[64];
-            snprintf(key, sizeof key, "failure.%s", OF_LAW[k]);
-            return fl_scene_fail(s, key, err,
-                                 "failure.pressure_law names a law with constants of its own: pressure_law = "
-                                 "user is expected with %s",
-                                 key);
-        }
-    if (crushes && f->pressure_law == FL_PRESSURE_USER && f->pressure > f->pressure_max)
-        return fl_scene_fail(s, "failure.pressure_max", err,
-                             "failure.pressure_max is %g Pa, at least failure.pressure, %g Pa, is expected",
-                             f->pressure_max, f->pressure);
-    for (int32_t a = 0; a < s->n_material && crushes; a++) {
-        const fl_contact_law *law = &fl_contact_laws[fl_scene_pair(s, a, FL_SCENE_STRUCTURE).law];
-        if (law->points != FL_POINTS_PATCH)
-            return fl_scene_fail(
-                s, "failure.crushing", err,
-                "contacts of %s with the structure have the law %s, which has no area: contact.law = "
-                "patch or quick is expected with failure.crushing",
-                s->material[a].name, law->name);
-    }
-    if (f->fracture_toughness < INFINITY && !crushes)
-        return fl_scene_fail(
-            s, "failure.fracture_toughness", err,
-            "what opens a crack follows from the area of a contact that crushes: failure.crushing "
-            "= structure is expected with fracture_toughness");
-    if (!breaks) return 0;
-    if (s->ice.shape != FL_SHAPE_SHARP)
-        return fl_scene_fail(s, "ice.shape", err,
-                             "floes that break are cut along planes: ice.shape = sharp is expected with "
-                             "flexural_strength or fracture_toughness");
-    if (s->bond.head.present && s->bond.on)
-        return fl_scene_fail(
-            s, "failure.flexural_strength", err,
-            "floes that start bonded break at their bonds: either bond.on or flexural_strength "
-            "and fracture_toughness are expected");
-    if (s->run.sleep > 0.0)
-        return fl_scene_fail(s, "run.sleep", err,
-                             "floes that may break do not sleep: either run.sleep or flexural_strength and "
-                             "fracture_toughness are expected");
-    if (s->run.error > 0.0)
-        return fl_scene_fail(s, "run.error", err,
-                             "run.error repeats windows, in which no floe can break: either run.error or "
-                             "flexural_strength and fracture_toughness are expected");
-    return 0;
-}
-
-static int check_bonds(const fl_scene *s, fl_err *err)
-{
-    const fl_scene_bond *b = &s->bond;
-    const int on = b->head.present && b->on;
-    if (s->n_joint && s->run.sleep > 0.0)
-        return fl_scene_fail(s, "run.sleep", err,
-                             "blocks with joints do not sleep: either run.sleep or [joint NAME] is expected");
-    if (!on && !s->n_joint && s->output.bonds[0])
-        return fl_scene_fail(s, "output.bonds", err,
-                             "there are no bonds: bond.on = true, or [joint NAME], is expected");
-    if (!on) return 0;
-    if (s->run.sleep > 0.0)
-        return fl_scene_fail(s, "run.sleep", err,
-                             "bonded floes do not sleep: either run.sleep or bond.on is expected");
-    if (s->boundary.head.present && s->boundary.inflow == FL_INFLOW_FILE)
-        return fl_scene_fail(s, "boundary.inflow", err,
-                             "ice of another file would come in without bonds: boundary.inflow = ice, or "
-                             "bond.on = false, is expected");
-    if (b->softening == FL_SOFTENING_WEAKEN && b->energy == 0.0)
-        return fl_scene_fail(s, "bond.softening", err,
-                             "softening = weaken needs a fracture energy: bond.energy is expected");
-    if (b->softening == FL_SOFTENING_WEAKEN && (isinf(b->normal_strength) || isinf(b->shear_strength)))
-        return fl_scene_fail(
-            s, "bond.softening", err,
-            "softening = weaken lowers both strengths, but one is none: a number is expected");
-    return 0;
-}
-
 static int check_statics(const fl_scene *s, fl_err *err)
 {
     for (int32_t k = 0; k < s->n_stage; k++)
@@ -501,234 +407,6 @@ static int check_groups(const fl_scene *s, fl_err *err)
                     "group.velocity along %c is %g m/s, and %c is not among the fixed directions", 'x' + c,
                     v[c], 'x' + c);
     }
-    return 0;
-}
-
-/* Where a message about motion is written; of: "structure" or "part NAME". */
-typedef struct {
-    const fl_scene *s;
-    const char *of;
-    fl_err *err;
-} motion_check;
-
-static int motion_fail(const motion_check *c, const char *name, const char *what)
-{
-    char key[3 * FL_SCENE_NAME];
-    snprintf(key, sizeof key, "%s.%s", c->of, name);
-    return fl_scene_fail(c->s, key, c->err, "%s: %s", key, what);
-}
-
-/* Check values of free directions: none below 0, none in a direction that is not free. */
-static int check_free_values(const motion_check *c, const char *name, fl_vec3 x, uint32_t free)
-{
-    const double v[] = {x.x, x.y, x.z};
-    for (int k = 0; k < 3; k++) {
-        if (v[k] < 0.0) return motion_fail(c, name, "a value is below 0");
-        if (v[k] != 0.0 && !(free >> k & 1u))
-            return motion_fail(c, name, "a direction has a value that is not among the free ones");
-    }
-    return 0;
-}
-
-static int check_motion(const motion_check *c, const fl_scene_motion *m)
-{
-    const uint32_t turns = m->free >> 3;
-    const double I[] = {m->inertia.x, m->inertia.y, m->inertia.z},
-                 D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z},
-                 spring[] = {m->stiffness.x + m->period.x, m->stiffness.y + m->period.y,
-                             m->stiffness.z + m->period.z}; /* which directions have a spring */
-    if (m->track[0] && (v3_nonzero(m->velocity) || v3_nonzero(m->spin)))
-        return motion_fail(c, "track", "velocity and spin are given as well, one of the two is expected");
-    if (m->free && v3_nonzero(m->spin))
-        return motion_fail(
-            c, "spin",
-            "a body with free directions has no prescribed spin: spin or free is expected, not both");
-    if (check_free_values(c, "stiffness", m->stiffness, m->free) ||
-        check_free_values(c, "period", m->period, m->free) ||
-        check_free_values(c, "damping", m->damping, m->free) ||
-        check_free_values(c, "damping_ratio", m->damping_ratio, m->free) ||
-        check_free_values(c, "turn_stiffness", m->turn_stiffness, turns) ||
-        check_free_values(c, "turn_damping", m->turn_damping, turns) ||
-        check_free_values(c, "inertia", m->inertia, turns))
-        return -1;
-    if (v3_nonzero(m->period) && v3_nonzero(m->stiffness))
-        return motion_fail(c, "period", "stiffness is given as well, one of the two is expected");
-    if (v3_nonzero(m->damping) && v3_nonzero(m->damping_ratio))
-        return motion_fail(c, "damping_ratio", "damping is given as well, one of the two is expected");
-    if (m->hydrostatic && m->period.z > 0.0)
-        return motion_fail(c, "period",
-                           "hydrostatic stiffness acts along z as well: a stiffness is expected");
-    for (int k = 0; k < 3; k++)
-        if (D[k] > 0.0 && !(spring[k] > 0.0 || (k == 2 && m->hydrostatic)))
-            return motion_fail(c, "damping_ratio", "a direction without a spring has no critical damping");
-    if ((m->free & 7u) && m->mass == 0.0)
-        return motion_fail(c, "mass", "free directions need a mass, and none is given");
-    if (!(m->free & 7u) && m->mass != 0.0)
-        return motion_fail(c, "mass", "a mass applies to free directions, and none of x y z is free");
-    for (int k = 0; k < 3; k++)
-        if (turns >> k & 1u && !(I[k] > 0.0))
-            return motion_fail(c, "inertia", "every free rotation needs an inertia above 0");
-    if ((v3_nonzero(m->coupling) || m->hydrostatic) && !(m->free & (FL_FIX_Z | FL_FIX_RX | FL_FIX_RY)))
-        return motion_fail(c, m->hydrostatic ? "hydrostatic" : "coupling",
-                           "it applies to z, rx and ry, and none of them is free");
-    if (m->hydrostatic && !c->s->water.head.present)
-        return motion_fail(c, "hydrostatic", "there is no water: [water] is expected");
-    return 0;
-}
-
-static int check_motions(const fl_scene *s, fl_err *err)
-{
-    motion_check c = {s, "structure", err};
-    if (s->structure.head.present && check_motion(&c, &s->structure.motion)) return -1;
-    for (int32_t i = 0; i < s->n_part; i++) {
-        char of[FL_SCENE_NAME + 8];
-        snprintf(of, sizeof of, "part %s", s->part[i].name);
-        c.of = of;
-        if (!s->structure.head.present)
-            return fl_scene_fail(s, of, err, "[%s] needs a structure: [structure] is expected", of);
-        if (check_motion(&c, &s->part[i].motion)) return -1;
-    }
-    return 0;
-}
-
-/* A structure of members has no other motion, and no other pieces. */
-static int check_members(const fl_scene *s, fl_err *err)
-{
-    const fl_scene_structure *t = &s->structure;
-    const fl_scene_motion *m = &t->motion;
-    if (!t->head.present || !t->members[0]) {
-        if (s->output.members[0])
-            return fl_scene_fail(s, "output.members", err,
-                                 "there are no members: structure.members is expected");
-        return 0;
-    }
-    if (t->file[0])
-        return fl_scene_fail(s, "structure.members", err,
-                             "structure.file is given as well: one of the two is expected");
-    if (strcmp(t->members, "-") == 0)
-        return fl_scene_fail(s, "structure.members", err,
-                             "structure.members is \"-\": a file is expected, as it is read twice");
-    if (m->free || m->track[0] || v3_nonzero(m->velocity) || v3_nonzero(m->spin) || s->n_part || t->modes[0])
-        return fl_scene_fail(s, s->n_part ? "part" : "structure.members", err,
-                             "a structure of members moves by its own masses and supports: no %s is expected",
-                             s->n_part ? "[part NAME]" : "velocity, spin, track, free or modes");
-    return 0;
-}
-
-static int mode_fail(const fl_scene *s, int32_t k, const char *key, const char *what, fl_err *err)
-{
-    char at[3 * FL_SCENE_NAME];
-    snprintf(at, sizeof at, "mode %s%s%s", s->mode[k].name, key ? "." : "", key ? key : "");
-    return fl_scene_fail(s, at, err, "[mode %s]: %s", s->mode[k].name, what);
-}
-
-/* Number of modes of the part of mode k; -1 with err if one is the same as k. */
-static int count_modes(const fl_scene *s, int32_t k, fl_err *err)
-{
-    const fl_scene_mode *m = &s->mode[k];
-    char what[3 * FL_SCENE_NAME];
-    int n = 0;
-    for (int32_t j = 0; j < s->n_mode; j++) {
-        const fl_scene_mode *other = &s->mode[j];
-        if (strcmp(m->part, other->part) != 0) continue;
-        n++;
-        if (j >= k || m->frequency != other->frequency ||
-            (m->direction != other->direction && m->direction != FL_MODE_XY &&
-             other->direction != FL_MODE_XY))
-            continue;
-        snprintf(what, sizeof what, "it has the frequency and direction of [mode %s]", other->name);
-        return mode_fail(s, k, "frequency", what, err);
-    }
-    return n;
-}
-
-/* The motion of a part whose section need not be there; NULL: none. */
-static const fl_scene_motion *motion_of_part(const fl_scene *s, const char *part)
-{
-    if (!part[0]) return &s->structure.motion;
-    const int32_t k = fl_section_named(s, FL_SEC_PART, part, "");
-    return k < 0 ? NULL : &s->part[k].motion;
-}
-
-static int check_mode_motion(const fl_scene *s, const char *key, const fl_scene_motion *m, fl_err *err)
-{
-    if (m && (m->free || m->track[0] || v3_nonzero(m->velocity) || v3_nonzero(m->spin)))
-        return fl_scene_fail(s, key, err, "the part has modes and `%s` as well: one of the two is expected",
-                             m->free               ? "free"
-                             : m->track[0]         ? "track"
-                             : v3_nonzero(m->spin) ? "spin"
-                                                   : "velocity");
-    return 0;
-}
-
-/* Each part with a mode gets a section of its own. */
-static int check_modes(fl_scene *s, fl_err *err)
-{
-    char key[2 * FL_SCENE_NAME];
-    if (s->structure.head.present && s->structure.modes[0]) {
-        if (s->n_mode)
-            return mode_fail(s, 0, NULL, "structure.modes is given as well: one of the two is expected", err);
-        if (check_mode_motion(s, "structure.modes", &s->structure.motion, err)) return -1;
-    }
-    for (int32_t k = 0; k < s->n_mode; k++) {
-        const fl_scene_mode *m = &s->mode[k];
-        snprintf(key, sizeof key, "mode %s", m->name);
-        if (!s->structure.head.present)
-            return mode_fail(s, k, NULL, "there is no structure: [structure] is expected", err);
-        if (s->structure.members[0])
-            return mode_fail(s, k, NULL,
-                             "a structure of members moves by its own masses: structure.file is expected",
-                             err);
-        if (m->frequency == 0.0) return mode_fail(s, k, "frequency", "a frequency is expected", err);
-        if (m->mass == 0.0) return mode_fail(s, k, "mass", "a mass is expected", err);
-        if (m->shape == 0.0)
-            return mode_fail(s, k, "shape",
-                             "the waterline does not move in this mode: a shape other than 0 is expected",
-                             err);
-        const int n = count_modes(s, k, err);
-        if (n < 0 || check_mode_motion(s, key, motion_of_part(s, m->part), err)) return -1;
-        if (n > MODES_OF_A_PART) return mode_fail(s, k, NULL, "a part has at most 8 modes", err);
-    }
-    for (int32_t k = 0; k < s->n_mode; k++)
-        if (s->mode[k].part[0] && fl_section_named(s, FL_SEC_PART, s->mode[k].part, "") < 0 &&
-            fl_section_add(s, FL_SEC_PART, s->mode[k].part, "", err) < 0)
-            return -1;
-    return 0;
-}
-
-/* What crushing by speed excludes. */
-static int check_crushing_rate(const fl_scene *s, fl_err *err)
-{
-    const fl_scene_failure *f = &s->failure;
-    if (!f->head.present || f->crushing == FL_CRUSHING_NONE || f->crushing_law == FL_CRUSHING_PLAIN) return 0;
-    if (!s->structure.head.present)
-        return fl_scene_fail(s, "failure.crushing_law", err,
-                             "there is no structure that ice crushes on: [structure] is expected");
-    if (f->crushing == FL_CRUSHING_ALL)
-        return fl_scene_fail(s, "failure.crushing", err,
-                             "ice crushes by its speed on the structure alone: crushing = structure is "
-                             "expected with crushing_law = rate");
-    if (f->flexural_strength < INFINITY || f->fracture_toughness < INFINITY)
-        return fl_scene_fail(s, "failure.crushing_law", err,
-                             "floes that break do not crush by their speed: crushing_law = plain is expected "
-                             "with flexural_strength and fracture_toughness");
-    if (f->creep_exponent == 2)
-        return fl_scene_fail(s, "failure.creep_exponent", err, "creep_exponent is 2, 1 or 3 is expected");
-    if (s->run.sleep > 0.0)
-        return fl_scene_fail(
-            s, "run.sleep", err,
-            "ice that crushes by its speed does not sleep: either run.sleep or crushing_law = rate "
-            "is expected");
-    if (s->run.error > 0.0)
-        return fl_scene_fail(
-            s, "run.error", err,
-            "run.error repeats windows with other steps, in which ice would break elsewhere: run.dt "
-            "is expected with crushing_law = rate");
-    if (s->bond.head.present && s->bond.on)
-        return fl_scene_fail(
-            s, "bond.on", err,
-            "bonded floes do not crush by their speed: either bond.on or crushing_law = rate is "
-            "expected");
     return 0;
 }
 
@@ -773,12 +451,13 @@ int fl_scene_check(fl_scene *s, fl_err *err)
         return -1;
     set_default_wave_error(s);
     return check_boundary(s, err) || check_current(s, err) || check_weight(s, err) || check_waves(s, err) ||
-                   check_wave_error(s, err) || check_wind(s, err) || check_bonds(s, err) ||
-                   check_failure(s, err) || check_members(s, err) || check_modes(s, err) ||
-                   check_crushing_rate(s, err) || check_drive_track(s, err) ||
+                   check_wave_error(s, err) || check_wind(s, err) || fl_scene_check_bonds(s, err) ||
+                   fl_scene_check_failure(s, err) || fl_scene_check_members(s, err) ||
+                   fl_scene_check_modes(s, err) || fl_scene_check_crushing_rate(s, err) ||
+                   check_drive_track(s, err) ||
                    check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
-                   check_groups(s, err) || check_motions(s, err) || check_statics(s, err)
+                   check_groups(s, err) || fl_scene_check_motions(s, err) || check_statics(s, err)
                ? -1
                : 0;
 }

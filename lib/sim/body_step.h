@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* body_step.h -- forces, kick and drift of one body: the scalar form of half_kicks.h. */
+/* body_step.h -- forces, kick and drift of one body: the scalar form of first_half.h and second_half.h. */
 #ifndef FL_SIM_BODY_STEP_H
 #define FL_SIM_BODY_STEP_H
 #include "world/world.h"

@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include "base/array.h"
 #include "gpu/gpu_world.h"
-#include "sim/half_kicks.h"
+#include "sim/first_half.h"
+#include "sim/second_half.h"
 #include "sphere/contact_force.h"
 
 /* With fewer spheres the launches take longer than a core. */

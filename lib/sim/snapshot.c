@@ -4,17 +4,12 @@
 #include <string.h>
 #include "base/array.h"
 #include "base/parallel.h"
-#include "contact/bond_list.h"
-#include "contact/crushing.h"
-#include "contact/disc_setup.h"
-#include "contact/joint_list.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
 #include "contact/panel_load.h"
 #include "out/state_io.h"
 #include "sim/energy_ledger.h"
-#include "sim/floe_cut.h"
 #include "sim/floe_setup.h"
 #include "sim/inflow.h"
 #include "sim/inflow_bonds.h"
@@ -23,10 +18,10 @@
 #include "sim/neighbour_list.h"
 #include "sim/setup.h"
 #include "sim/sleep.h"
+#include "sim/snapshot_bond.h"
+#include "sim/snapshot_failure.h"
 #include "sim/snapshot_pair.h"
 #include "sphere/contact_list.h"
-
-enum { SHAPE_LIMIT = 65536 }; /* vertices, faces and corners of faces of a fragment */
 
 static void exchange_ledger(fl_state_io *t, fl_world *w)
 {
@@ -81,45 +76,6 @@ static void exchange_surrogate_counts(fl_state_io *t, fl_world *w)
     w->surrogate_counts[0] = all;
 }
 
-/* The core of a floe that has been cut, in the axes of the ice file, and its body made of it. */
-static void exchange_shape(fl_state_io *t, fl_world *w, int32_t i)
-{
-    fl_poly *const own = t->f ? w->breaking.shape[i] : NULL;
-    int32_t nv = own ? own->nv : 0, nf = own ? own->nf : 0, loops = own ? own->first[own->nf] : 0;
-    fl_vec3 *v = NULL;
-    int32_t *first = NULL, *loop = NULL;
-    double r = w->b.radius[i];
-    fl_state_io_open(t, "shape");
-    fl_state_io_int(t, 4, SHAPE_LIMIT, &nv);
-    fl_state_io_int(t, 4, SHAPE_LIMIT, &nf);
-    fl_state_io_int(t, 12, SHAPE_LIMIT, &loops);
-    fl_state_io_real(t, &r);
-    fl_state_io_int(t, 0, w->scene->n_material - 1, &w->material[i]);
-    fl_state_io_byte(t, 63, &w->b.fixed_dof[i]);
-    if (t->in && !t->err->code) {
-        v = fl_alloc(nv, sizeof *v, t->err);
-        first = fl_alloc((int64_t)nf + 1, sizeof *first, t->err);
-        loop = fl_alloc(loops, sizeof *loop, t->err);
-    }
-    for (int32_t k = 0; k < nv && !t->err->code; k++) fl_state_io_vec3(t, own ? &own->v[k] : &v[k]);
-    for (int32_t k = 0; k <= nf && !t->err->code; k++)
-        fl_state_io_int(t, 0, loops, own ? &own->first[k] : &first[k]);
-    for (int32_t k = 0; k < loops && !t->err->code; k++)
-        fl_state_io_int(t, 0, nv - 1, own ? &own->loop[k] : &loop[k]);
-    fl_state_io_close(t);
-    if (t->in && !t->err->code) {
-        fl_poly p = {0};
-        fl_err why = {0};
-        for (int32_t k = 0; k < nf; k++)
-            if (first[0] || first[k + 1] < first[k] + 3 || first[nf] != loops)
-                fl_text_fail(t->in, t->err, "the faces of a fragment are not valid");
-        if (!t->err->code &&
-            (fl_poly_make(&p, nv, v, nf, first, loop, &why) || fl_breaking_set_shape(w, i, &p, r, &why)))
-            fl_text_fail(t->in, t->err, "the shape of a fragment is not valid: %s", why.text);
-    }
-    free(v), free(first), free(loop);
-}
-
 /* Counts of outflow and inflow, and the floe in each place.  A floe that came in is built again before
  * its body is read. */
 static void exchange_inflow(fl_state_io *t, fl_world *w)
@@ -153,7 +109,7 @@ static void exchange_inflow(fl_state_io *t, fl_world *w)
         fl_state_io_byte(t, 1, &guided);
         if (w->breaking.on) fl_state_io_byte(t, 1, &cut);
         fl_state_io_close(t);
-        if (cut && !t->err->code) exchange_shape(t, w, i);
+        if (cut && !t->err->code) fl_snapshot_shape(t, w, i);
         if (t->f || t->err->code) continue;
         if (cut || (w->breaking.on && c->absent[i])) {
             c->source_floe[i] = floe;
@@ -173,79 +129,6 @@ static void exchange_inflow(fl_state_io *t, fl_world *w)
         fl_inflow_set_guided(w, i, guided);
     }
     if (t->in && !t->err->code) fl_inflow_bonds_refresh(w);
-}
-
-/* What is crushed so far, and the dents of the floes. */
-static void exchange_crushing(fl_state_io *t, fl_world *w)
-{
-    fl_crushing_state *s = &w->crushing;
-    fl_state_io_open(t, "crushed");
-    fl_state_io_real(t, &s->volume);
-    fl_state_io_real(t, &s->peak);
-    fl_state_io_count(t, &s->contact_steps);
-    fl_state_io_count(t, &s->dents_dropped);
-    fl_state_io_close(t);
-    for (int32_t i = 0; i < w->n && !t->err->code; i++) {
-        int32_t n = s->dents[i] ? s->dents[i]->n : 0;
-        fl_state_io_open(t, "dents");
-        fl_state_io_int(t, 0, FL_DENTS, &n);
-        if (t->in && n == 0) fl_crushing_forget(w, i);
-        else if (t->in && !s->dents[i] && !(s->dents[i] = fl_alloc(1, sizeof **s->dents, t->err))) return;
-        for (int32_t k = 0; k < n && !t->err->code; k++) {
-            fl_dent *d = &s->dents[i]->dent[k];
-            fl_state_io_vec3(t, &d->x);
-            fl_state_io_vec3(t, &d->offset);
-            fl_state_io_real(t, &d->half_width);
-            fl_state_io_real(t, &d->stiffening);
-        }
-        if (s->dents[i]) s->dents[i]->n = n;
-        fl_state_io_close(t);
-    }
-}
-
-/* Loads at the last checks, what broke so far, and failures that are not yet in the table. */
-static void exchange_breaking(fl_state_io *t, fl_world *w)
-{
-    fl_breaking_state *s = &w->breaking;
-    fl_state_io_open(t, "broken");
-    fl_state_io_count(t, &s->checks);
-    fl_state_io_count(t, &s->bent);
-    fl_state_io_count(t, &s->split);
-    fl_state_io_count(t, &s->cusps);
-    fl_state_io_count(t, &s->too_small);
-    fl_state_io_count(t, &s->no_room);
-    fl_state_io_count(t, &s->buckled);
-    fl_state_io_real(t, &s->lost);
-    fl_state_io_int(t, 0, INT32_MAX, &s->events);
-    fl_state_io_close(t);
-    for (int32_t i = 0; i < w->n && !t->err->code; i++) {
-        fl_state_io_open(t, "load");
-        fl_state_io_real(t, &s->last_load[i]);
-        fl_state_io_close(t);
-        if (t->in) s->bend_gate[i] = s->split_gate[i] = 0.0;
-    }
-    const int32_t events = s->events;
-    if (t->in) s->events = 0;
-    for (int32_t k = 0; k < events && !t->err->code; k++) { /* the number is a hint */
-        if (t->in && fl_grow(&s->event, &s->event_cap, (int64_t)k + 1, sizeof *s->event, t->err)) return;
-        fl_failure_event *e = &s->event[k];
-        if (t->in) *e = (fl_failure_event){.mode = 0};
-        fl_state_io_open(t, "failure");
-        fl_state_io_real(t, &e->time);
-        fl_state_io_int(t, FL_FAILURE_BEND, FL_FAILURE_CUSP, &e->mode);
-        fl_state_io_int(t, 0, INT32_MAX, &e->parent);
-        fl_state_io_int(t, 0, INT32_MAX, &e->child);
-        fl_state_io_vec3(t, &e->x);
-        fl_state_io_vec3(t, &e->n);
-        fl_state_io_real(t, &e->length);
-        fl_state_io_real(t, &e->load);
-        fl_state_io_real(t, &e->ratio);
-        fl_state_io_real(t, &e->mass);
-        fl_state_io_real(t, &e->child_mass);
-        fl_state_io_real(t, &e->energy);
-        fl_state_io_close(t);
-        s->events = k + 1;
-    }
 }
 
 /* The motion of a body, to the last bit: w does not always follow from L and q. */
@@ -518,134 +401,6 @@ static void exchange_load_shares(fl_state_io *t, fl_world *w)
     }
 }
 
-/* A joint: where its points lie, and their memory. */
-static void exchange_joint(fl_state_io *t, fl_bond *c, fl_joint *q)
-{
-    fl_vec3 *const place[] = {&c->pi, &c->pj, &c->ai, &c->aj, &c->bi, &c->bj};
-    fl_state_io_open(t, "joint");
-    fl_state_io_real(t, &c->area);
-    fl_state_io_real(t, &q->laid_area);
-    fl_state_io_real(t, &q->clipped[0]);
-    fl_state_io_real(t, &q->clipped[1]);
-    fl_state_io_real(t, &q->friction_loss);
-    fl_state_io_int(t, 0, FL_BOND_POINTS, &q->slips);
-    fl_state_io_int(t, 0, FL_BOND_POINTS, &q->opens);
-    for (int e = 0; e < 6; e++) fl_state_io_vec3(t, place[e]);
-    for (int e = 0; e < FL_BOND_POINTS; e++) {
-        fl_joint_point *p = &q->point[e];
-        double *const number[] = {&q->sigma[e], &p->sigma, &p->tau[0], &p->tau[1], &p->offset,
-                                  &p->slip,     &p->angle, &p->ratio,  &p->way[0], &p->way[1]};
-        for (int k = 0; k < 10; k++) fl_state_io_real(t, number[k]);
-        fl_state_io_int(t, 0, 1, &p->failed);
-        fl_state_io_int(t, 0, 1, &p->open);
-    }
-    fl_state_io_close(t);
-}
-
-/* A bond: its memory and its forces.  Separations follow from the poses of the bodies, face and law from the
- * scene. */
-static void exchange_bond(fl_state_io *t, fl_world *w, int32_t k)
-{
-    fl_bond *c = &w->bonds.bond[k];
-    fl_vec3 *const all[] = {&c->force,          &c->torque_i,          &c->torque_j,
-                            &c->force_damping,  &c->torque_i_damping,  &c->torque_j_damping,
-                            &c->force_friction, &c->torque_i_friction, &c->torque_j_friction};
-    fl_state_io_open(t, "bond");
-    fl_state_io_int(t, FL_BOND_INTACT, FL_BOND_ENDED, &c->state);
-    fl_state_io_real(t, &c->h0);
-    fl_state_io_real(t, &c->wear);
-    fl_state_io_real(t, &c->dissipated);
-    fl_state_io_real(t, &c->given_to_friction);
-    fl_state_io_real(t, &c->elastic_energy);
-    fl_state_io_real(t, &c->friction_spring_energy);
-    fl_state_io_real(t, &w->bonds.radius_factor[k]);
-    for (int e = 0; e < 9; e++) fl_state_io_vec3(t, all[e]);
-    for (int e = 0; e < FL_BOND_POINTS; e++) {
-        fl_bond_point *p = &c->point[e];
-        if (t->in) *p = (fl_bond_point){0};
-        if (c->state == FL_BOND_INTACT || t->err->code) continue;
-        fl_state_io_real(t, &p->d);
-        fl_state_io_real(t, &p->lambda_c);
-        fl_state_io_real(t, &p->lambda_f);
-        fl_state_io_real(t, &p->slip[0]);
-        fl_state_io_real(t, &p->slip[1]);
-        if (t->in && !t->err->code &&
-            !(p->d >= 0.0 && p->d <= 1.0 && p->lambda_c >= 0.0 && p->lambda_f >= p->lambda_c))
-            fl_text_fail(t->in, t->err, "damage %g between %g and %g is not possible in a bond", p->d,
-                         p->lambda_c, p->lambda_f);
-    }
-    fl_state_io_close(t);
-}
-
-/* A bond of spheres: its memory.  The forces of a step follow from it in the next one alone. */
-static void exchange_disc(fl_state_io *t, fl_world *w, int32_t k)
-{
-    fl_disc_list *s = &w->discs;
-    fl_disc_memory m = fl_disc_list_memory(s, k);
-    fl_disc_wrench *f = &s->at.out[k];
-    fl_state_io_open(t, "disc");
-    fl_state_io_byte(t, FL_DISC_ENDED, &s->has_ended[k]);
-    fl_state_io_vec3(t, &m.S), fl_state_io_vec3(t, &m.M);
-    fl_state_io_real(t, &m.lambda);
-    fl_state_io_real(t, &m.dissipated), fl_state_io_real(t, &m.friction_loss);
-    fl_state_io_real(t, &s->pending[k]);
-    fl_state_io_vec3(t, &f->force), fl_state_io_vec3(t, &f->couple_i), fl_state_io_vec3(t, &f->couple_j);
-    if (s->at.damped) {
-        fl_state_io_vec3(t, &m.damping_force), fl_state_io_vec3(t, &m.damping_couple);
-        fl_state_io_real(t, &m.damped);
-    }
-    fl_state_io_close(t);
-    if (!t->in || t->err->code) return;
-    if (!(m.lambda >= 0.0)) fl_text_fail(t->in, t->err, "lambda = %g is not possible in a bond", m.lambda);
-    else fl_disc_list_set_memory(s, k, &m);
-}
-
-/* Which bonds an endless sheet has by now, and what is kept of those that have left. */
-static void exchange_renewal(fl_state_io *t, fl_world *w)
-{
-    fl_disc_list *s = &w->discs;
-    int32_t n = s->n;
-    fl_disc_past *p = &s->past;
-    fl_disc_birth *all = NULL;
-    int32_t cap = 0;
-    fl_state_io_open(t, "bonds");
-    fl_state_io_int(t, 0, 1, &s->is_renewed);
-    fl_state_io_int(t, 0, INT32_MAX, &n);
-    fl_state_io_int(t, 0, INT32_MAX, &p->broken);
-    fl_state_io_int(t, 0, INT32_MAX, &p->left);
-    fl_state_io_real(t, &p->area);
-    fl_state_io_real(t, &p->dissipated), fl_state_io_real(t, &p->damped);
-    fl_state_io_real(t, &p->friction_loss);
-    fl_state_io_close(t);
-    for (int32_t k = 0; k < n && s->is_renewed && !t->err->code; k++) {
-        if (t->in && fl_grow(&all, &cap, (int64_t)k + 1, sizeof *all, t->err)) break;
-        fl_disc_birth d = t->f ? fl_disc_list_birth(s, k) : (fl_disc_birth){0};
-        fl_state_io_open(t, "link");
-        fl_state_io_int(t, 0, w->n - 1, &d.i);
-        fl_state_io_int(t, 0, w->n - 1, &d.j);
-        fl_state_io_real(t, &d.length);
-        for (int e = 0; e < 3 && w->cell.periodic; e++)
-            fl_state_io_int(t, -INT32_MAX, INT32_MAX, &d.image[e]);
-        fl_state_io_close(t);
-        if (!t->in || t->err->code) continue;
-        if (d.i >= d.j || !(d.length > 0.0) || (k > 0 && d.i < all[k - 1].i))
-            fl_text_fail(t->in, t->err, "a bond of spheres %d and %d is not possible here", d.i, d.j);
-        all[k] = d;
-    }
-    if (t->in && s->is_renewed && !t->err->code) fl_disc_list_restore(w, all, n, t->err);
-    free(all);
-}
-
-static void exchange_discs(fl_state_io *t, fl_world *w)
-{
-    fl_disc_list *s = &w->discs;
-    if (w->inflow.join.first) exchange_renewal(t, w);
-    for (int32_t k = 0; k < s->n && !t->err->code; k++) exchange_disc(t, w, k);
-    if (!t->in) return;
-    s->ended = 0;
-    for (int32_t k = 0; k < s->n; k++) s->ended += s->has_ended[k] == FL_DISC_JUST_ENDED;
-}
-
 /* Everything but the pairs; returns their number. */
 static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *spheres)
 {
@@ -690,8 +445,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         fl_state_io_close(t);
     }
     if (w->inflow.absent && !t->err->code) exchange_inflow(t, w);
-    if (w->crushing.of != FL_CRUSHING_NONE && !t->err->code) exchange_crushing(t, w);
-    if (w->breaking.on && !t->err->code) exchange_breaking(t, w);
+    if (w->crushing.of != FL_CRUSHING_NONE && !t->err->code) fl_snapshot_crushing(t, w);
+    if (w->breaking.on && !t->err->code) fl_snapshot_breaking(t, w);
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) exchange_body(t, w, k);
     if (t->in) w->sleep.n_resting = 0;
     for (int32_t k = 0; k < w->n && w->sleep.state && !t->err->code; k++) {
@@ -702,12 +457,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     for (int32_t k = 0, n = fl_structure_modes(w); k < n && !t->err->code; k++) exchange_mode(t, w, k);
     if (w->driven_floes.track.n && !t->err->code) exchange_drive_track(t, &w->driven_floes.track);
     if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
-    for (int32_t k = 0; k < w->bonds.n && !t->err->code; k++) exchange_bond(t, w, k);
-    for (int32_t k = w->bonds.faces; k < w->bonds.n && !t->err->code; k++)
-        if (fl_joint_of_bond(&w->bonds, k))
-            exchange_joint(t, &w->bonds.bond[k], &w->bonds.joint[k - w->bonds.faces]);
-    if (t->in && !t->err->code) fl_bond_list_refresh(w);
-    if (w->discs.n && !t->err->code) exchange_discs(t, w);
+    fl_snapshot_bonds(t, w);
+    if (w->discs.n && !t->err->code) fl_snapshot_discs(t, w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
     if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;

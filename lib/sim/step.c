@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/relaxed_run.h"
+#include "sim/first_half.h"
+#include "sim/second_half.h"
 #include "sim/step.h"
 #include <assert.h>
 #include <omp.h>
@@ -19,7 +21,6 @@
 #include "sim/drive_track.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
-#include "sim/half_kicks.h"
 #include "sim/inflow.h"
 #include "sim/member_structure.h"
 #include "sim/moving_structure.h"

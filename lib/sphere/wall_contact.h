@@ -5,9 +5,9 @@
  *
  * Other contacts of a floe with a wall or with the structure are evaluated as pairs:
  *   elastic wall                        contact/pair_force.c, evaluate_elastic_wall()
- *   flat or convex piece                contact/pair_geometry.c, then evaluate_points() or evaluate_patch()
+ *   flat or convex piece                contact/pair_geometry.c, then point_force.c or patch_force.c
  *   mesh                                structure/mesh_contact.c, for a sphere persistence_contact.c
- *   laws manual and manual-si           contact/pair_force.c, evaluate_features() */
+ *   laws manual and manual-si           contact/point_force.c */
 #ifndef FL_SPHERE_WALL_CONTACT_H
 #define FL_SPHERE_WALL_CONTACT_H
 #include "world/world.h"

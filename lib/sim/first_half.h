@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* half_kicks.h -- the two halves of a step for blocks of FL_BODY_BLOCK consecutive floes.
+/* first_half.h -- the first half of a step for blocks of FL_BODY_BLOCK consecutive floes: drag, kick, drift.
  *
  * One thread works on a block.  Bodies that need the same operations run several at a time (body_batch.h,
- * still_water_batch.h, free_batch.h), with the same bits as one by one (body_step.h). */
-#ifndef FL_SIM_HALF_KICKS_H
-#define FL_SIM_HALF_KICKS_H
+ * still_water_batch.h, floating_batch.h), with the same bits as one by one (body_step.h). */
+#ifndef FL_SIM_FIRST_HALF_H
+#define FL_SIM_FIRST_HALF_H
 #include "world/access.h"
 
 /* First half of a step of 2 h for blocks [g, last): drag h, kick h, drift 2 h of all floes that are awake.
@@ -14,13 +14,7 @@ void fl_blocks_first_half(fl_world *w, int32_t g, int32_t last, double h);
 /* The same for the floes that are FL_WAKING, each with the length of its own skip (sleep.h). */
 void fl_blocks_wake(fl_world *w, int32_t g, int32_t last);
 
-/* Second half for blocks [g, last): external and contact forces, kick h, drag h, works into w->blocks[].
- * h = 0 computes the forces only, at the start of a run. */
-void fl_blocks_second_half(fl_world *w, int32_t g, int32_t last, double h);
-
-/* The same for single floes, where a device moves the others: the first half of n floes, ascending, and the
- * second of one whose sums are there; returns its works. */
+/* The same for n single floes, ascending, where a device moves the others. */
 void fl_bodies_first_half(fl_world *w, const int32_t *body, int32_t n, double h);
-fl_body_block fl_body_second_half(fl_world *w, int32_t k, double h);
 
 #endif

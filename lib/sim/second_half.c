@@ -1,84 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sim/half_kicks.h"
-#include <string.h>
+#include "sim/second_half.h"
 #include "base/array.h"
 #include "base/simd.h"
-#include "body/body_batch.h"
-#include "body/integrate.h"
 #include "contact/bond_list.h"
 #include "sim/body_step.h"
 #include "sim/energy_ledger.h"
-#include "sim/sleep.h"
+#include "sim/half_kick_batch.h"
 #include "sphere/contact_force.h"
 #include "sphere/contact_list.h"
 #include "sphere/floating_batch.h"
 #include "sphere/free_batch.h"
-#include "water/still_water_batch.h"
-
-/* End of block g. */
-static int32_t block_end(const fl_world *w, int32_t g)
-{
-    const int32_t end = (g + 1) * FL_BODY_BLOCK;
-    return end < w->n ? end : w->n;
-}
-
-/* End of the run of values x that starts at a[k]; compares eight values at a time. */
-static int32_t run_end(const uint8_t *a, uint8_t x, int32_t k, int32_t to)
-{
-    const uint64_t all = UINT64_C(0x0101010101010101) * x;
-    for (; k + 8 <= to; k += 8) {
-        uint64_t eight;
-        memcpy(&eight, &a[k], sizeof eight);
-        if (eight != all) break;
-    }
-    while (k < to && a[k] == x) k++;
-    return k;
-}
-
-/* End of the run of bodies from k on that only need kick and drift, and that are spheres if k is one.
- * Returns k if k is not such a body. */
-static int32_t simple_run_end(const fl_world *w, int32_t k, int32_t to)
-{
-    if (fl_body_absent(w, k)) return k;
-    if (w->b.is_isotropic[k] && (w->b.added_mass || w->b.heave_mass || w->sea.waves)) return k;
-    to = run_end(w->b.is_isotropic, w->b.is_isotropic[k], k, run_end(w->b.fixed_dof, 0, k, to));
-    return w->inflow.absent ? run_end(w->inflow.absent, 0, k, to) : to;
-}
-
-/* 1 if body k only needs kick and drift and is no sphere. */
-static int is_simple(const fl_world *w, int32_t k)
-{
-    return !(w->b.is_isotropic[k] || w->b.fixed_dof[k] || fl_body_absent(w, k));
-}
-
-/* Indices of bodies that go into the next batch. */
-typedef struct {
-    int32_t n, at[FL_BODY_BATCH];
-} batch_list;
-
-/* Add bodies from [k, end) until the batch is full; returns the end of the bodies added. */
-static int32_t add_to_batch(batch_list *c, int32_t k, int32_t end)
-{
-    if (c->n == 0 && k + FL_BODY_BATCH <= end) {
-        for (int32_t i = 0; i < FL_BODY_BATCH; i++) c->at[i] = k + i;
-        c->n = FL_BODY_BATCH;
-        return k + FL_BODY_BATCH;
-    }
-    while (k < end && c->n < FL_BODY_BATCH) c->at[c->n++] = k++;
-    return k;
-}
-
-/* Half of the step of body k, which is longer if it wakes. */
-static double half_step_of(const fl_world *w, int32_t k, double h)
-{
-    return fl_sleep_phase_of(w, k) == FL_WAKING ? 0.5 * fl_sleep_duration(w, k) : h;
-}
-
-static void load_batch(const fl_world *w, fl_body_batch *s, batch_list *c, double h)
-{
-    fl_body_batch_load(s, &w->b, c->at, c->n, h);
-    for (int32_t k = 0; k < s->lanes && w->sleep.state; k++) s->h[k] = half_step_of(w, s->index[k], h);
-}
 
 /* 1 if body k has a contact that touches.  Listed pairs do not count: they depend on the last search. */
 static int has_contact(const fl_world *w, int32_t k)
@@ -86,258 +17,6 @@ static int has_contact(const fl_world *w, int32_t k)
     return w->body_touches[k] || (w->spheres.bodies && w->spheres.contact_count[k]) ||
            fl_body_has_bonds(w, k);
 }
-
-/* NULL without added mass. */
-static fl_body_batch_water *load_water(const fl_world *w, const fl_body_batch *s, fl_body_batch_water *a)
-{
-    if (!w->b.added_mass) return NULL;
-    fl_body_batch_load_water(a, &w->b, s);
-    return a;
-}
-
-/* Kick a batch, whose axes are up to date; in waves the work of the water is booked with it. */
-static void kick_batch(fl_world *w, fl_body_batch *s, const fl_body_batch_water *water)
-{
-    double v[3][FL_BODY_BATCH], spin[3][FL_BODY_BATCH];
-    if (w->sea.waves) memcpy(v, s->v, sizeof v), memcpy(spin, s->w, sizeof spin);
-    fl_body_batch_kick(s, water);
-    if (w->sea.waves) fl_still_water_batch_add_work(&w->sea, s, v, spin);
-}
-
-/* Velocity change by a kick of h: of a free sphere, */
-static fl_velocity_change sphere_change(const fl_bodies *b, int32_t k, double h)
-{
-    return (fl_velocity_change){v3_scale(h * b->invm[k], b->f[k]), v3_scale(h * b->invI[k].x, b->t[k])};
-}
-
-/* of any other free body, */
-static fl_velocity_change body_change(const fl_bodies *b, int32_t k, double h)
-{
-    const fl_vec3 f = b->f[k], turn = fl_body_apply_inverse_inertia(b, k, v3_scale(h, b->t[k]));
-    return (fl_velocity_change){b->added_mass || b->heave_mass
-                                    ? v3_scale(h, fl_body_velocity_of_momentum(b, k, f))
-                                    : v3_scale(h * b->invm[k], f),
-                                turn};
-}
-
-/* and of body k of a batch. */
-static fl_velocity_change batch_change(double (*g)[FL_BODY_BATCH], int32_t k)
-{
-    return (fl_velocity_change){v3(g[0][k], g[1][k], g[2][k]), v3(g[3][k], g[4][k], g[5][k])};
-}
-
-static fl_velocity_change velocities_of(const fl_bodies *b, int32_t k)
-{
-    return (fl_velocity_change){b->v[k], b->w[k]};
-}
-
-static fl_velocity_change batch_velocities(const fl_body_batch *s, int32_t k)
-{
-    return (fl_velocity_change){v3(s->v[0][k], s->v[1][k], s->v[2][k]),
-                                v3(s->w[0][k], s->w[1][k], s->w[2][k])};
-}
-
-/* Store the change by the first half of a step: by drag from `before` to `after`, then by the kick. */
-static void store_predicted_change(fl_world *w, int32_t k, fl_velocity_change before,
-                                   fl_velocity_change after, fl_velocity_change change)
-{
-    fl_set_predicted_change(w, k, v3_add(change.v, v3_sub(after.v, before.v)),
-                            v3_add(change.w, v3_sub(after.w, before.w)));
-}
-
-/* Store the change by drag in the first half of a step, which sphere contacts need. */
-static void store_drag_change(fl_world *w, int32_t k, fl_velocity_change before, fl_velocity_change after)
-{
-    if (w->drag_change)
-        w->drag_change[k] = (fl_velocity_change){v3_sub(after.v, before.v), v3_sub(after.w, before.w)};
-}
-
-/* Kick body k.  Before the kick w may be the mean of a step: for free rotations the change is not taken from
- * w. */
-static void kick_body(fl_world *w, int32_t k, double h, fl_velocity_change *change)
-{
-    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-    const int turns = !(w->b.fixed_dof[k] & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ));
-    *change = body_change(&w->b, k, h);
-    fl_body_kick(w, k, h);
-    if (w->b.fixed_dof[k]) change->v = v3_sub(w->b.v[k], v);
-    if (!turns) change->w = v3_sub(w->b.w[k], spin);
-}
-
-/* --- the first half ---------------------------------------------------------------------------- */
-
-/* First half for the bodies of a batch, which is empty afterwards. */
-static void begin_batch(fl_world *w, batch_list *c, double h)
-{
-    fl_bodies *b = &w->b;
-    fl_environment *sea = &w->sea;
-    const int kicks = b->added_mass || sea->waves;
-    const int32_t *previous = w->previous_sums.slot, *at = c->at, n = c->n;
-    int32_t busy[FL_BODY_BATCH], n_busy = 0, any = 0;
-    fl_velocity_change before[FL_BODY_BATCH];
-    double g[6][FL_BODY_BATCH];
-    fl_body_batch_water water_batch, *water;
-    fl_body_batch s;
-    if (n == 0) return;
-    for (int32_t k = 0; k < n; k++) any |= previous[at[k]];
-    for (int32_t k = 0; k < n && any; k++) {
-        busy[n_busy] = k;
-        n_busy += previous[at[k]] != 0;
-    }
-    for (int32_t k = 0; k < n_busy; k++) before[k] = velocities_of(b, at[busy[k]]);
-    load_batch(w, &s, c, h);
-    c->n = 0;
-    fl_body_batch_load_forces(&s, b);
-    fl_body_batch_load_pose(&s, b);
-    water = load_water(w, &s, &water_batch);
-    if (n_busy || kicks || sea->drag_surface) fl_body_batch_update_axes(&s);
-    if (sea->n) fl_still_water_batch_drag(sea, b, &s, water, 0);
-    if (n_busy) fl_body_batch_velocity_change(&s, water, g);
-    for (int32_t k = 0; k < n_busy; k++) {
-        const int32_t i = at[busy[k]];
-        const fl_velocity_change change = batch_change(g, busy[k]);
-        *fl_kick_change(w, i) = change;
-        store_predicted_change(w, i, before[k], batch_velocities(&s, busy[k]), change);
-    }
-    if (kicks) kick_batch(w, &s, water);
-    else fl_body_batch_kick_momentum(&s);
-    const int done = fl_body_batch_drift(&s, water);
-    fl_body_batch_store_velocities(&s, b);
-    if (done) fl_body_batch_store_pose(&s, b);
-    if (done && water) fl_body_batch_store_water(&s, water, b);
-    for (int32_t k = 0; k < n && !done; k++) fl_drift(b, at[k], 2.0 * s.h[k]);
-}
-
-static void begin_spheres(fl_world *w, int32_t from, int32_t to, double h)
-{
-    for (int32_t k = from; k < to && (w->sea.n || w->n_touching); k++) {
-        const fl_velocity_change before = velocities_of(&w->b, k);
-        if (w->sea.n) fl_environment_drag(&w->sea, &w->b, k, h, 0);
-        store_drag_change(w, k, before, velocities_of(&w->b, k));
-        store_predicted_change(w, k, before, velocities_of(&w->b, k), sphere_change(&w->b, k, h));
-    }
-    fl_kick_drift_isotropic(&w->b, from, to, h, 2.0 * h);
-}
-
-static void begin_body(fl_world *w, int32_t k, double h)
-{
-    if (fl_body_absent(w, k) || fl_sleep_phase_of(w, k) != FL_AWAKE) return;
-    fl_velocity_change change, *const stored = fl_kick_change(w, k);
-    const fl_velocity_change before = velocities_of(&w->b, k);
-    if (w->sea.n) fl_environment_drag(&w->sea, &w->b, k, h, 0);
-    const fl_velocity_change after = velocities_of(&w->b, k);
-    if (w->b.is_isotropic[k]) store_drag_change(w, k, before, after);
-    kick_body(w, k, h, stored ? stored : &change);
-    if (stored) store_predicted_change(w, k, before, after, *stored);
-    fl_drift(&w->b, k, 2.0 * h);
-}
-
-/* Bodies [from, to); the last of them may still be in the batch on return. */
-static void begin_bodies(fl_world *w, int32_t from, int32_t to, double h, batch_list *c)
-{
-    int32_t end;
-    const int floating = fl_floating_batch_applies(w);
-    for (int32_t k = from; k < to; k = end) {
-        end = floating ? fl_floating_run_end(w, k, k + FL_BODY_BLOCK < to ? k + FL_BODY_BLOCK : to, 0) : k;
-        if (end > k) {
-            fl_floating_batch_begin(w, k, end, h);
-            continue;
-        }
-        end = simple_run_end(w, k, to);
-        if (end == k) begin_body(w, end++, h);
-        else if (w->b.is_isotropic[k]) begin_spheres(w, k, end, h);
-        else
-            while (k < end) {
-                k = add_to_batch(c, k, end);
-                if (c->n == FL_BODY_BATCH) begin_batch(w, c, h);
-            }
-    }
-}
-
-/* The same for those of them that are awake. */
-static void begin_awake_bodies(fl_world *w, int32_t from, int32_t to, double h, batch_list *c)
-{
-    int32_t active[FL_BLOCKS_AT_ONCE * FL_BODY_BLOCK];
-    const int32_t n = fl_sleep_list_active(w, from, to, active);
-    for (int32_t i = 0; i < n; i++) {
-        const int32_t k = active[i], end = w->b.is_isotropic[k] ? simple_run_end(w, k, to) : k;
-        if (end > k) begin_spheres(w, k, end, h), i += end - k - 1; /* spheres never sleep */
-        else if (w->sleep.phase[k] != FL_AWAKE || !is_simple(w, k)) begin_body(w, k, h);
-        else c->at[c->n++] = k;
-        if (c->n == FL_BODY_BATCH) begin_batch(w, c, h);
-    }
-}
-
-/* The two largest paths since the last search: of each lane, then of all. */
-FL_SIMD_VERSIONS static void find_largest_moves(int32_t n, const double *restrict now,
-                                                const double *restrict found, double *restrict moved)
-{
-    fl_simd one = {0}, two = {0};
-    double first[2] = {0.0, 0.0};
-    int32_t k = 0;
-    for (; k + FL_SIMD_WIDTH <= n; k += FL_SIMD_WIDTH) {
-        const fl_simd move = FL_SIMD_LOAD(&now[k]) - FL_SIMD_LOAD(&found[k]);
-        const fl_simd_mask longer = move > one;
-        const fl_simd less = FL_SIMD_SELECT(longer, one, move);
-        one = FL_SIMD_SELECT(longer, move, one);
-        two = FL_SIMD_SELECT(less > two, less, two);
-    }
-    FL_SIMD_UNROLL
-    for (int l = 0; l < FL_SIMD_WIDTH; l++)
-        fl_update_two_largest(first, one[l]), fl_update_two_largest(first, two[l]);
-    for (; k < n; k++) fl_update_two_largest(first, now[k] - found[k]);
-    moved[0] = first[0], moved[1] = first[1];
-}
-
-void fl_blocks_first_half(fl_world *w, int32_t g, int32_t last, double h)
-{
-    const int32_t first = g * FL_BODY_BLOCK, all = block_end(w, last - 1);
-    batch_list c = {.n = 0};
-    if (w->sleep.state) begin_awake_bodies(w, first, all, h, &c);
-    else begin_bodies(w, first, all, h, &c);
-    begin_batch(w, &c, h);
-    for (int32_t k = g; k < last; k++) {
-        const int32_t from = k * FL_BODY_BLOCK, to = block_end(w, k);
-        if (w->spheres.bodies) fl_sphere_states_update(w, from, to, h);
-        find_largest_moves(to - from, w->b.odometer + from, w->odometer_at_search + from,
-                           w->blocks[k].largest_moves);
-    }
-}
-
-/* First half of the long step of a body that wakes; its path is in the odometer already. */
-static void wake_body(fl_world *w, int32_t k)
-{
-    const double odometer = w->b.odometer[k];
-    fl_body_first_half(w, k, fl_sleep_duration(w, k));
-    w->b.odometer[k] = odometer;
-}
-
-static void wake_batch(fl_world *w, batch_list *c)
-{
-    const int32_t n = c->n;
-    double odometer[FL_BODY_BATCH];
-    for (int32_t k = 0; k < n; k++) odometer[k] = w->b.odometer[c->at[k]];
-    begin_batch(w, c, 0.0);
-    for (int32_t k = 0; k < n; k++) w->b.odometer[c->at[k]] = odometer[k];
-}
-
-void fl_blocks_wake(fl_world *w, int32_t g, int32_t last)
-{
-    int32_t active[FL_BLOCKS_AT_ONCE * FL_BODY_BLOCK];
-    const int32_t n = fl_sleep_list_active(w, g * FL_BODY_BLOCK, block_end(w, last - 1), active);
-    batch_list c = {.n = 0};
-    for (int32_t i = 0; i < n; i++) {
-        const int32_t k = active[i];
-        if (w->sleep.phase[k] != FL_WAKING) continue;
-        fl_sleep_first_half(w, k);
-        if (!is_simple(w, k)) wake_body(w, k);
-        else c.at[c.n++] = k;
-        if (c.n == FL_BODY_BATCH) wake_batch(w, &c);
-    }
-    wake_batch(w, &c);
-}
-
-/* --- the second -------------------------------------------------------------------------------- */
 
 /* Contact force on floe i. */
 static fl_vec3 contact_force_on(const fl_world *w, int32_t i)
@@ -372,7 +51,7 @@ static void add_sphere_works(fl_body_block *own, const fl_free_batch_work *q, in
 }
 
 /* Find the bodies of a batch that have contacts now or had some in the step before; returns how many. */
-static int32_t find_touching(const fl_world *w, const batch_list *c, int32_t busy[FL_BODY_BATCH])
+static int32_t find_touching(const fl_world *w, const fl_batch_list *c, int32_t busy[FL_BODY_BATCH])
 {
     const int32_t *at = c->at, n = c->n;
     const int all = w->bonds.n > 0 || w->relax.kind;
@@ -432,7 +111,7 @@ static void find_waking(const fl_world *w, const fl_body_batch *s, waking_list *
 }
 
 /* Second half for the bodies of a batch, which is empty afterwards. */
-static void end_batch(fl_world *w, batch_list *c, double h)
+static void end_batch(fl_world *w, fl_batch_list *c, double h)
 {
     fl_bodies *b = &w->b;
     fl_environment *sea = &w->sea;
@@ -444,7 +123,7 @@ static void end_batch(fl_world *w, batch_list *c, double h)
     waking_list e;
     fl_body_batch s;
     if (n == 0) return;
-    load_batch(w, &s, c, h);
+    fl_batch_list_load(w, &s, c, h);
     c->n = 0;
     fl_body_batch_update_axes(&s);
     find_forces(w, &s);
@@ -452,8 +131,8 @@ static void end_batch(fl_world *w, batch_list *c, double h)
         fl_body_contact_force(w, at[busy[k]]);
         fl_body_batch_load_force(&s, b, busy[k]);
     }
-    water = load_water(w, &s, &water_batch);
-    kick_batch(w, &s, water);
+    water = fl_batch_load_water(w, &s, &water_batch);
+    fl_batch_kick(w, &s, water);
     find_waking(w, &s, &e);
     if (sea->n) fl_still_water_batch_drag(sea, b, &s, water, 1);
     fl_body_batch_store_velocities(&s, b);
@@ -464,7 +143,7 @@ static void end_batch(fl_world *w, batch_list *c, double h)
     if (n_busy) fl_body_batch_velocity_change(&s, water, g);
     for (int32_t k = 0; k < n_busy; k++) {
         const int32_t i = at[busy[k]];
-        const fl_velocity_change back = batch_change(g, busy[k]);
+        const fl_velocity_change back = fl_batch_kick_change(g, busy[k]);
         add_contact_force(w, i, block_of(w, i));
         add_works(block_of(w, i), fl_work_of_step(w, i, fl_kick_change(w, i), &back));
     }
@@ -476,12 +155,12 @@ static void end_free_spheres(fl_world *w, int32_t from, int32_t to, double h, fl
     fl_bodies *b = &w->b;
     fl_velocity_change first[FL_BODY_BLOCK];
     for (int32_t k = from; k < to; k++) {
-        first[k - from] = sphere_change(b, k, h);
+        first[k - from] = fl_sphere_kick_change(b, k, h);
         fl_body_sum_forces(w, k);
     }
     fl_kick_drift_isotropic(b, from, to, h, 0.0);
     for (int32_t k = from; k < to; k++) {
-        const fl_velocity_change back = sphere_change(b, k, h);
+        const fl_velocity_change back = fl_sphere_kick_change(b, k, h);
         if (w->sea.n) fl_environment_drag(&w->sea, b, k, h, 1);
         add_contact_force(w, k, own);
         add_works(own, fl_work_of_step(w, k, &first[k - from], &back));
@@ -520,7 +199,7 @@ static void end_body(fl_world *w, int32_t k, double h, fl_body_block *own)
     if (kind == FL_WAKING) {
         fl_sleep_set_awake(w, k);
     } else {
-        kick_body(w, k, h, &back);
+        fl_body_kick_stored(w, k, h, &back);
         if (w->sea.n) fl_environment_drag(&w->sea, &w->b, k, h, 1);
     }
     add_works(own, fl_work_of_step(w, k, &first, &back));
@@ -552,7 +231,7 @@ static int end_sphere_block(fl_world *w, int32_t from, int32_t to, double h, fl_
         w->contact_sums.one_each || !(h > 0.0))
         return 0;
     for (int32_t k = from; k < to; k++) touched |= slot[k] | previous[k];
-    if (touched || simple_run_end(w, from, to) < to) return 0;
+    if (touched || fl_simple_run_end(w, from, to) < to) return 0;
     *finite = fl_free_batch_end_step(w, from, to, h, &works);
     add_sphere_works(own, &works, to - from);
     for (int32_t k = from; k < to; k++)
@@ -595,7 +274,7 @@ static int32_t first_not_finite(const fl_bodies *b, int32_t from, int32_t to)
 /* Clear the results of block g, and collect the sphere sums of its bodies. */
 static void start_block(fl_world *w, int32_t g)
 {
-    const int32_t from = g * FL_BODY_BLOCK, to = block_end(w, g);
+    const int32_t from = g * FL_BODY_BLOCK, to = fl_block_end(w, g);
     w->blocks[g] = (fl_body_block){.not_finite = -1};
     if (!w->spheres.bodies) return;
     fl_prefetch(&w->spheres.previous_sum[to],
@@ -632,7 +311,7 @@ static int32_t end_sphere_run(fl_world *w, int32_t k, int32_t to, double h, int 
     *finite = 0;
     end = end_floating_spheres(w, k, to, h, own);
     if (end > k) return end;
-    end = h > 0.0 ? simple_run_end(w, k, to) : k;
+    end = h > 0.0 ? fl_simple_run_end(w, k, to) : k;
     if (end == k) {
         end_body(w, k, h, own);
         return k + 1;
@@ -643,9 +322,9 @@ static int32_t end_sphere_run(fl_world *w, int32_t k, int32_t to, double h, int 
 }
 
 /* Second half for block g; returns 1 if a number may not be finite. */
-static int end_block(fl_world *w, int32_t g, double h, batch_list *c)
+static int end_block(fl_world *w, int32_t g, double h, fl_batch_list *c)
 {
-    const int32_t from = g * FL_BODY_BLOCK, to = block_end(w, g);
+    const int32_t from = g * FL_BODY_BLOCK, to = fl_block_end(w, g);
     int finite = 1;
     start_block(w, g);
     if (end_sphere_block(w, from, to, h, &w->blocks[g], &finite)) return !finite;
@@ -656,14 +335,14 @@ static int end_block(fl_world *w, int32_t g, double h, batch_list *c)
             continue;
         }
         finite = 0;
-        end = h > 0.0 ? simple_run_end(w, k, to) : k;
+        end = h > 0.0 ? fl_simple_run_end(w, k, to) : k;
         if (end == k) {
             end_batch(w, c, h);
             end_body(w, end++, h, &w->blocks[g]);
             continue;
         }
         while (k < end) {
-            k = add_to_batch(c, k, end);
+            k = fl_batch_list_add(c, k, end);
             if (c->n == FL_BODY_BATCH) end_batch(w, c, h);
         }
     }
@@ -672,23 +351,23 @@ static int end_block(fl_world *w, int32_t g, double h, batch_list *c)
 
 /* Second half for the bodies of blocks [g, last) that are not ballistic.  suspect: 1 if a number may not be
  * finite. A body that wakes and is touched is handled alone, see fl_sleep_second_half(). */
-static void end_awake_bodies(fl_world *w, int32_t g, int32_t last, double h, batch_list *c,
+static void end_awake_bodies(fl_world *w, int32_t g, int32_t last, double h, fl_batch_list *c,
                              int suspect[FL_BLOCKS_AT_ONCE])
 {
     int32_t active[FL_BLOCKS_AT_ONCE * FL_BODY_BLOCK];
-    const int32_t n = fl_sleep_list_active(w, g * FL_BODY_BLOCK, block_end(w, last - 1), active);
+    const int32_t n = fl_sleep_list_active(w, g * FL_BODY_BLOCK, fl_block_end(w, last - 1), active);
     for (int32_t i = 0; i < n; i++) {
         const int32_t k = active[i];
         int finite = 1;
         suspect[k / FL_BODY_BLOCK - g] = 1;
         if (w->b.is_isotropic[k]) { /* spheres never sleep */
             end_batch(w, c, h);
-            i += end_sphere_run(w, k, block_end(w, k / FL_BODY_BLOCK), h, &finite) - k - 1;
+            i += end_sphere_run(w, k, fl_block_end(w, k / FL_BODY_BLOCK), h, &finite) - k - 1;
             continue;
         }
         const uint8_t kind = w->sleep.phase[k];
         const int goes = kind == FL_AWAKE || (kind == FL_WAKING && !w->body_touches[k]);
-        if (goes && h > 0.0 && is_simple(w, k)) {
+        if (goes && h > 0.0 && fl_body_is_simple(w, k)) {
             c->at[c->n++] = k;
             if (c->n == FL_BODY_BATCH) end_batch(w, c, h);
         } else {
@@ -700,7 +379,7 @@ static void end_awake_bodies(fl_world *w, int32_t g, int32_t last, double h, bat
 
 void fl_blocks_second_half(fl_world *w, int32_t g, int32_t last, double h)
 {
-    batch_list c = {.n = 0};
+    fl_batch_list c = {.n = 0};
     int suspect[FL_BLOCKS_AT_ONCE];
     if (w->sleep.state) {
         for (int32_t k = g; k < last; k++) start_block(w, k), suspect[k - g] = 0;
@@ -711,26 +390,17 @@ void fl_blocks_second_half(fl_world *w, int32_t g, int32_t last, double h)
     end_batch(w, &c, h);
     for (int32_t k = g; k < last; k++)
         if (suspect[k - g])
-            w->blocks[k].not_finite = first_not_finite(&w->b, k * FL_BODY_BLOCK, block_end(w, k));
-}
-
-/* --- single floes -------------------------------------------------------------------------------- */
-
-void fl_bodies_first_half(fl_world *w, const int32_t *body, int32_t n, double h)
-{
-    batch_list c = {.n = 0};
-    for (int32_t k = 0; k < n; k++) begin_bodies(w, body[k], body[k] + 1, h, &c);
-    begin_batch(w, &c, h);
+            w->blocks[k].not_finite = first_not_finite(&w->b, k * FL_BODY_BLOCK, fl_block_end(w, k));
 }
 
 fl_body_block fl_body_second_half(fl_world *w, int32_t k, double h)
 {
     fl_body_block *const own = block_of(w, k);
-    batch_list c = {.n = 0};
+    fl_batch_list c = {.n = 0};
     int finite = 1;
     *own = (fl_body_block){.not_finite = -1};
     if (w->b.is_isotropic[k]) end_sphere_run(w, k, k + 1, h, &finite);
-    else if (is_simple(w, k)) c.at[c.n++] = k;
+    else if (fl_body_is_simple(w, k)) c.at[c.n++] = k;
     else end_body(w, k, h, own);
     end_batch(w, &c, h);
     own->not_finite = first_not_finite(&w->b, k, k + 1);
