@@ -3,13 +3,15 @@
  *   B1 to B6  counts, volumes and areas found by other means: half-spaces intersected, strips multiplied
  *   J1 J2     closed forms;  CY-1 CY-3  integrated by a method of order 5 to 1e-11
  *   closure   d sigma = a sigma^e d u in closed form
- *   slide     a block on a bed;  wedge  Wyllie & Mah, Rock Slope Engineering (2004), ch. 7 */
+ *   start     stress at the start in the books;  slide  a block on a bed;  wedge  Wyllie & Mah, Rock Slope Engineering (2004), ch. 7 */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/pi.h"
 #include "bond/joint_law.h"
 #include "contact/bond_list.h"
+#include "contact/joint_list.h"
+#include "sim/energy_balance.h"
 #include "sim/relaxed_run.h"
 #include "support/block_cuts.h"
 #include "support/verify.h"
@@ -398,7 +400,7 @@ static int32_t face_along_z(const fl_poly *p, double sign)
 
 /* A block of 2 t on a bed under 30 degrees, gravity turned; degrees[0] friction, degrees[1]: p A over W cos
  * a, degrees[2]: damping. */
-static int32_t block_on_bed(lab *l, const double *degrees, const char *relax)
+static void begin_block_on_bed(lab *l, const double *degrees, const char *relax)
 {
     fl_err err = {0};
     lab_start(l);
@@ -416,6 +418,11 @@ static int32_t block_on_bed(lab *l, const double *degrees, const char *relax)
     if (fl_ice_field_add_joint(&l->field, 0, 1, face_along_z(&l->field.core[0], 1.0),
                                face_along_z(&l->field.core[1], -1.0), "bed", &err))
         exit(1);
+}
+
+static int32_t block_on_bed(lab *l, const double *degrees, const char *relax)
+{
+    begin_block_on_bed(l, degrees, relax);
     lab_make(l, 0.0);
     return 1;
 }
@@ -435,6 +442,31 @@ static void block_at_rest(void)
     verify_row("slide", "shifted at the bed [m]", x.x - 0.25 * turned, W * sin(a) / (k * A), 1e-4,
                VERIFY_REL);
     lab_free(&l);
+}
+
+/* Stress at the start is stored, and what is beyond the strength is lost before the first step: nothing moves,
+ * so that all of it was stored. */
+static void stress_at_start(void)
+{
+    static const double SHEAR[2] = {2e3, 1e4};
+    const double sigma = 1e4, k = 1e8, A = 4.0, limit = sigma * tan(20.0 * PI / 180.0);
+    for (int e = 0; e < 2; e++) {
+        lab l;
+        char stress[96];
+        snprintf(stress, sizeof stress, "joint.bed.initial_shear=0 0 %g Pa", SHEAR[e]);
+        begin_block_on_bed(&l, (const double[]){20, 0, 0}, "none");
+        lab_setf(&l, "joint.bed.initial_stress=0 0 %g Pa", sigma);
+        lab_set(&l, stress);
+        lab_make(&l, 0.0);
+        const double tau = fmin(SHEAR[e], limit), lost = A * (SHEAR[e] * SHEAR[e] - tau * tau) / (2.0 * k);
+        fl_energy_update(&l.w);
+        verify_row("start", e ? "stored, slipped at once [J]" : "stored [J]", l.w.ledger.bond,
+                   A * (sigma * sigma + tau * tau) / (2.0 * k), 1e-9, VERIFY_REL);
+        verify_row("start", "lost by slip [J]", fl_joint_list_friction_loss(&l.w), lost, 1e-9 * A,
+                   VERIFY_ABS);
+        verify_row("start", "residual of the energy [J]", l.w.ledger.residual, 0.0, 1e-9, VERIFY_ABS);
+        lab_free(&l);
+    }
 }
 
 static void block_slides(void)
@@ -536,6 +568,7 @@ int main(void)
     yielding_cyclic();
     closures();
     block_at_rest();
+    stress_at_start();
     block_slides();
     block_factors();
     wedge_factors();
