@@ -3,7 +3,8 @@
  *   B1 to B6  counts, volumes and areas found by other means: half-spaces intersected, strips multiplied
  *   J1 J2     closed forms;  CY-1 CY-3  integrated by a method of order 5 to 1e-11
  *   closure   d sigma = a sigma^e d u in closed form
- *   start     stress at the start in the books;  slide  a block on a bed;  wedge  Wyllie & Mah, Rock Slope Engineering (2004), ch. 7 */
+ *   slide     a block on a bed;  start  stress at the start in the books
+ *   wedge     Wyllie & Mah, Rock Slope Engineering (2004), ch. 7 */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -398,8 +399,8 @@ static int32_t face_along_z(const fl_poly *p, double sign)
     return -1;
 }
 
-/* A block of 2 t on a bed under 30 degrees, gravity turned; degrees[0] friction, degrees[1]: p A over W cos
- * a, degrees[2]: damping. */
+/* A block of 2 t on a bed under 30 degrees, gravity turned.  degrees[0] friction, degrees[1] p A over W cos
+ * a, degrees[2] damping. */
 static void begin_block_on_bed(lab *l, const double *degrees, const char *relax)
 {
     fl_err err = {0};
@@ -444,8 +445,8 @@ static void block_at_rest(void)
     lab_free(&l);
 }
 
-/* Stress at the start is stored, and what is beyond the strength is lost before the first step: nothing moves,
- * so that all of it was stored. */
+/* Stress at the start is stored, and what is beyond the strength is lost before the first step: nothing
+ * moves, so that all of it was stored. */
 static void stress_at_start(void)
 {
     static const double SHEAR[2] = {2e3, 1e4};
