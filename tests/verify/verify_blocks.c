@@ -13,6 +13,7 @@
 #include "contact/bond_list.h"
 #include "contact/joint_list.h"
 #include "sim/energy_balance.h"
+#include "sim/memory_use.h"
 #include "sim/relaxed_run.h"
 #include "support/block_cuts.h"
 #include "support/verify.h"
@@ -428,6 +429,21 @@ static int32_t block_on_bed(lab *l, const double *degrees, const char *relax)
     return 1;
 }
 
+/* The memory that --plan prints has the joint and its eight corners. */
+static void joint_memory(void)
+{
+    lab l;
+    block_on_bed(&l, (const double[]){40, 0, 0}, "none");
+    const double all = fl_memory_use_of(&l.w).others;
+    fl_bond_list *s = &l.w.bonds;
+    fl_joint *const joint = s->joint;
+    s->joint = NULL;
+    verify_row("slide", "memory of a joint [bytes]", all - fl_memory_use_of(&l.w).others,
+               (double)(sizeof(fl_joint) + sizeof(fl_joint_material) + 8 * sizeof(fl_vec3)), 0, VERIFY_ABS);
+    s->joint = joint;
+    lab_free(&l);
+}
+
 /* On its springs: W cos a/(kn A), W sin a/(ks A), and the turn by the moment W sin a h/2 over kn I. */
 static void block_at_rest(void)
 {
@@ -569,6 +585,7 @@ int main(void)
     yielding_cyclic();
     closures();
     block_at_rest();
+    joint_memory();
     stress_at_start();
     block_slides();
     block_factors();
