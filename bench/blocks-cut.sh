@@ -36,7 +36,8 @@ cut()
         }'
 }
 
-table=blocks-cut
+table=blocks-cut # of heading
+export table
 {
     heading "one thread; bodies of 1 m"
     printf 'blocks\tjoints\tcpu[s]\tblock[us]\tmemory[MiB]\tmemory[KiB/block]\tcount-error\tvolume-error\n'
