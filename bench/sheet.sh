@@ -18,7 +18,8 @@ trap 'rm -f "$table"' EXIT
 {
     heading "sheets of three layers, 0.094 m" | sed "s|^#$table|#sheet|"
     printf 'spheres\tbonds\tlanes[ns]\talone[ns]\tbond-step[ns]\tbody-step[ns]\tmemory[KiB]\tenergy-error\n'
-    { [ "${FLOE_QUICK:-0}" = 0 ] && "$build/tests/bench/bench_sheet" || "$build/tests/bench/bench_sheet" 1000 2000; } |
+    if [ "${FLOE_QUICK:-0}" = 0 ]; then "$build/tests/bench/bench_sheet"
+    else "$build/tests/bench/bench_sheet" 1000 2000; fi |
         awk '$1 ~ /^[0-9]+$/ && NF == 8 { $1 = $1; gsub(" ", "\t"); print }'
 } >"$table"
 cp "$table" "$out/sheet.tsv" && cat "$table"

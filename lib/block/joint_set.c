@@ -189,7 +189,10 @@ static int by_geometry(const void *a, const void *b)
     return strcmp(s->name, t->name);
 }
 
-void fl_joint_sets_sort(fl_joint_sets *s) { qsort(s->set, (size_t)s->n, sizeof *s->set, by_geometry); }
+void fl_joint_sets_sort(fl_joint_sets *s)
+{
+    if (s->n > 1) qsort(s->set, (size_t)s->n, sizeof *s->set, by_geometry);
+}
 
 /* --- planes ------------------------------------------------------------------------------------- */
 

@@ -202,9 +202,8 @@ fl_disc_load fl_disc_list_load(const fl_world *w, int32_t k)
 fl_disc_energies fl_disc_list_energies(const fl_world *w)
 {
     const fl_disc_list *s = &w->discs;
-    fl_disc_energies sum = {.dissipated = s->past.dissipated,
-                            .damped = s->past.damped,
-                            .friction_loss = s->past.friction_loss};
+    fl_disc_energies sum = {
+        .dissipated = s->past.dissipated, .damped = s->past.damped, .friction_loss = s->past.friction_loss};
     for (int32_t k = 0; k < s->n; k++) {
         const fl_disc_memory m = fl_disc_list_memory(s, k);
         sum.store += s->has_ended[k]

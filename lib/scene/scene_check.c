@@ -371,7 +371,7 @@ static int check_ratios(const fl_scene *s, const char *key, fl_vec3 x, fl_err *e
 /* 1 if the key of a section was given. */
 static int is_given(const fl_scene_head *h, enum fl_section_id section, const char *key)
 {
-    return h->key[fl_key_find(section, key) - fl_key_first(section)].line != 0;
+    return h->key[fl_key_find((int)section, key) - fl_key_first((int)section)].line != 0;
 }
 
 static int check_failure(const fl_scene *s, fl_err *err)

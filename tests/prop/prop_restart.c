@@ -80,8 +80,7 @@ static void a_run_resumes_at_any_step(void **state)
               {scene_of_water_interval, "patch"},  {scene_of_sea_interval, "patch"},
               {scene_of_inflow_interval, "patch"}, {scene_of_surrogates, "patch"},
               {scene_of_surrogates, "quick"},      {scene_of_joined_parts, "patch"},
-              {scene_of_endless_sheet, "patch"},
-              {scene_of_joints, "patch"},
+              {scene_of_endless_sheet, "patch"},   {scene_of_joints, "patch"},
               {scene_of_failing_floes, "patch"},   {scene_of_failing_floes, "quick"}};
     (void)state;
     for (size_t k = 0; k < sizeof IT / sizeof *IT; k++) {

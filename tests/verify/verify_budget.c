@@ -266,7 +266,7 @@ static int verify_scene(const scene *s, double goal, const char *of)
  * windows of the step search do not see. */
 static void crowded_floes(void)
 {
-    const scene s = {"a crowd", field, verify_quick() ? 4.0 : 8.0};
+    const scene s = {"a crowd", field, 8.0};
     const double goal = 1e-3;
     const result chosen = run(&s, goal, "impulse", 0);
     const int64_t m = lround(EVERY / chosen.shortest);
