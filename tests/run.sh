@@ -177,6 +177,7 @@ bench)
     add bench/late "exec sh bench/late.sh '$build'"
     add bench/threads "exec sh bench/threads.sh '$build'"
     add bench/peers "exec sh bench/peers.sh '$build'"
+    add bench/blocks_cut "exec sh bench/blocks-cut.sh '$build'"
     add bench/blocks "exec sh bench/blocks.sh '$build'"
     add bench/ladder "exec sh bench/ladder.sh '$build'"
     ;;

@@ -189,6 +189,15 @@ static int follow_area(fl_bond *c, fl_joint *j, fl_joint_pool pool, const fl_bod
     return 1;
 }
 
+/* What a point stores before any of its strength is lost [J/m2]. */
+static double stored_at_start(const fl_joint_material *m, fl_joint_point p, double s_n)
+{
+    static const double NO_SLIP[2] = {0.0, 0.0};
+    fl_joint_material strong = *m;
+    strong.cohesion = strong.tension = INFINITY;
+    return fl_joint_laws[m->law].step(&strong, &p, s_n, NO_SLIP).stored;
+}
+
 int fl_joint_start(fl_bond *c, fl_joint *j, fl_joint_pool pool, const fl_bodies *b, fl_vec3 way,
                    const double S[6])
 {
@@ -212,10 +221,14 @@ int fl_joint_start(fl_bond *c, fl_joint *j, fl_joint_pool pool, const fl_bodies 
                                   S[5] * n.x + S[4] * n.y + S[2] * n.z);
     /* the traction on i is -t; that of the law pulls i along the slip of j */
     const double sigma = v3_dot(n, t), tau[2] = {-v3_dot(q.ta, t), -v3_dot(q.tb, t)};
+    c->elastic_energy = 0.0;
     for (int k = 0; k < FL_BOND_POINTS; k++) {
+        double xi, eta;
         fl_joint_point_start(m, &j->point[k], sigma, tau);
         j->point[k].offset += q.s.x; /* rounding of the file, a part of the radius */
         j->sigma[k] = sigma + m->water_pressure;
+        c->elastic_energy += fl_bond_quadrature_point(k, &xi, &eta) * c->area *
+                             (stored_at_start(m, j->point[k], q.s.x) - m->water_pressure * q.s.x);
     }
     return 1;
 }

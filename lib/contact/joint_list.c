@@ -254,6 +254,21 @@ double fl_joint_list_most_area(const fl_world *w, int32_t k)
     return fmin(polygon_area(s->corner + q->first, q->ni), polygon_area(s->corner + q->first + q->ni, q->nj));
 }
 
+double fl_joint_list_omega2(const fl_world *w, int32_t i, int32_t *stiffest)
+{
+    const fl_bond_list *s = &w->bonds;
+    double sum = 0.0, most = 0.0;
+    *stiffest = -1;
+    for (int64_t at = s->n ? s->first[i] : 0; s->n && at < s->first[i + 1]; at++) {
+        const int32_t k = s->of[at];
+        const double part = s->omega2[2 * k + (s->bond[k].i != i)];
+        if (!fl_joint_of_bond(s, k)) continue;
+        sum += part;
+        if (part > most) most = part, *stiffest = k;
+    }
+    return s->n ? fmin(sum, s->max_omega2[i]) : 0.0;
+}
+
 double fl_joint_list_friction_loss(const fl_world *w)
 {
     double sum = 0.0;

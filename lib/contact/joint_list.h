@@ -31,6 +31,10 @@ int fl_joint_list_force(fl_world *w, int32_t k, fl_vec3 way);
 /* Largest area that bond k may get: of the smaller face of a joint [m2]. */
 double fl_joint_list_most_area(const fl_world *w, int32_t k);
 
+/* omega^2 that the joints of body i give it while they are whole [1/s2]; *stiffest: the bond that gives most
+ * of it, -1 without joints. */
+double fl_joint_list_omega2(const fl_world *w, int32_t i, int32_t *stiffest);
+
 /* Friction loss of all joints [J]. */
 double fl_joint_list_friction_loss(const fl_world *w);
 

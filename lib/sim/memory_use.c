@@ -101,6 +101,9 @@ static double other_bytes(const fl_world *w)
     sum += ARRAY(z->bond, z->n) + ARRAY(z->image, 3 * (double)z->n) + ARRAY(z->radius_factor, z->n) +
            ARRAY(z->omega2, 2 * (double)z->n) + ARRAY(z->of, 2 * (double)z->n) +
            ARRAY(z->max_omega2, w->b.total) + ARRAY(z->first, w->b.total + 1);
+    if (z->joint)
+        sum += ARRAY(z->joint, z->n - z->faces) + ARRAY(z->corner, z->corners) +
+               ARRAY(z->joint_material, w->scene->n_joint);
     const int32_t triangles = q->first_triangle ? q->first_triangle[q->pieces] : 0;
     sum += ARRAY(q->panel, q->all) + ARRAY(q->triangle, triangles) + ARRAY(q->box, triangles) +
            ARRAY(q->impulse, q->panels) + ARRAY(q->point, q->point_cap) + ARRAY(q->share, q->share_cap);

@@ -13,7 +13,7 @@ typedef struct {
     double pairs;           /* near pairs and contacts, without: */
     double feature_pairs;   /* their lists of features that may touch */
     double sphere_contacts; /* pairs of spheres */
-    double others;          /* structure, bonds, sleep, panels, inflow, scratch of the threads */
+    double others;          /* structure, bonds, joints, sleep, panels, inflow, scratch of the threads */
     double search_peak;     /* during a neighbour search, boxes and their tree; in no sum */
 } fl_memory_use;
 

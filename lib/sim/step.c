@@ -13,6 +13,7 @@
 #include "contact/active_pairs.h"
 #include "contact/bond_list.h"
 #include "contact/crushing.h"
+#include "contact/joint_list.h"
 #include "contact/panel_load.h"
 #include "sim/body_step.h"
 #include "sim/breaking.h"
@@ -434,7 +435,8 @@ int fl_step_start(fl_world *w, fl_err *err)
     book_work_ahead(w, 1.0);
     fl_energy_update(w);
     w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic +
-                      w->ledger.structure + w->ledger.spring + w->ledger.bond;
+                      w->ledger.structure + w->ledger.spring + w->ledger.bond + w->ledger.fracture +
+                      fl_joint_list_friction_loss(w); /* of joints that begin beyond their strength */
     fl_energy_update(w);
     return 0;
 }

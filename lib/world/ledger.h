@@ -18,7 +18,7 @@ typedef struct {
     double bond, fracture;  /* bonds: store; sink by damage */
     double crushing;        /* sink: ice that yields under pressure */
     double carried;         /* source: floes that came in, less those that left */
-    double start, residual; /* sum of the stores at the start; see above */
+    double start, residual; /* sum of the stores, and of what joints lost before the first step; see above */
     double throughput;      /* largest sum so far of kinetic energies, |sinks| and |sources|: the
                                        * scale of the residual */
     double friction, damping, drive; /* works booked so far, with those of the half kick to come */

@@ -4,171 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include "support/near.h"
+#include "support/block_cuts.h"
 #include "base/rng.h"
-#include "block/block_certificate.h"
 #include "block/closed_surface.h"
 #include "block/sliver.h"
 #include "geom/clip.h"
 #include "geom/facet.h"
 #include "geom/hilbert_order.h"
-
-/* A cut with its pairs and certificate. */
-typedef struct {
-    fl_joint_sets sets;
-    fl_block_model m;
-    fl_face_pairs pairs;
-    fl_block_certificate c;
-} cut;
-
-static void cut_box(cut *t, fl_vec3 hi, const char *const *set, uint64_t seed)
-{
-    fl_err err = {0};
-    *t = (cut){0};
-    for (; *set; set++) assert_int_equal(fl_joint_sets_add(&t->sets, *set, "test", &err), 0);
-    fl_joint_sets_sort(&t->sets);
-    assert_int_equal(fl_block_model_box(&t->m, v3(0, 0, 0), hi, &err), 0);
-    assert_int_equal(fl_block_model_cut(&t->m, &t->sets, seed, &err), 0);
-    assert_int_equal(fl_block_model_sort(&t->m, &err), 0);
-    assert_int_equal(fl_face_pairs_find(&t->pairs, &t->m, &t->sets, seed, &err), 0);
-    assert_int_equal(fl_block_certify(&t->c, &t->m, &t->pairs, &t->sets, &err), 0);
-}
-
-static void free_cut(cut *t)
-{
-    fl_block_certificate_free(&t->c);
-    fl_face_pairs_free(&t->pairs);
-    fl_block_model_free(&t->m);
-    fl_joint_sets_free(&t->sets);
-}
-
-static double area_of(const cut *t, const char *name)
-{
-    for (int32_t k = 0; k < t->sets.n; k++)
-        if (strcmp(t->sets.set[k].name, name) == 0) return t->c.area[k];
-    return NAN;
-}
-
-/* What a table of cuts has for one case; areas of the sets a, b, c. */
-typedef struct {
-    int32_t blocks;
-    double volume, least, least_tol, most, square_sum, area[3];
-} expected;
-
-static void check_cut(const cut *t, const expected *e)
-{
-    static const char *const NAME[] = {"a", "b", "c"};
-    const fl_block_certificate *c = &t->c;
-    assert_int_equal(c->blocks, e->blocks);
-    assert_int_equal(c->pieces + c->planes + c->lines + c->points, e->blocks);
-    assert_false(c->special);
-    assert_near(c->volume, e->volume, 1e-12);
-    assert_near(c->least, e->least, e->least_tol);
-    assert_near(c->most, e->most, 1e-8);
-    assert_near(c->square_sum, e->square_sum, 1e-8);
-    for (int k = 0; k < 3 && e->area[k] > 0.0; k++) {
-        assert_near(area_of(t, NAME[k]), e->area[k], 1e-8);
-        assert_near(c->area[k], c->section[k], 1e-9);
-    }
-}
-
-static void a_grid_of_joints_cuts_a_grid_of_boxes(void **state)
-{
-    (void)state;
-    static const char *const SET[] = {"name=a dip=0 dd=0 spacing=2 origin=0,0,1",
-                                      "name=b dip=90 dd=90 spacing=2.5 origin=1,0,0",
-                                      "name=c dip=90 dd=0 spacing=2 origin=0,.5,0", NULL};
-    cut t;
-    cut_box(&t, v3(10, 10, 10), SET, 1);
-    check_cut(&t, &(expected){180, 1000.0, 0.5, 1e-12, 10.0, 7326.0, {500, 400, 500}});
-    for (int32_t k = 0; k < t.m.n; k++) assert_int_equal(t.m.block[k].nf, 6);
-    assert_int_equal(t.pairs.n, 5 * 5 * 6 + 6 * 4 * 6 + 6 * 5 * 5);
-    free_cut(&t);
-}
-
-/* Counts, volumes and areas found by other means: half-spaces intersected, strips multiplied. */
-static void oblique_sets_cut_what_half_spaces_give(void **state)
-{
-    (void)state;
-    static const char *const B2[] = {"name=a dip=30 dd=180 spacing=2 origin=5.1,5.2,5.3",
-                                     "name=b dip=60 dd=60 spacing=3 origin=5.1,5.2,5.3",
-                                     "name=c dip=80 dd=300 spacing=2.5 origin=4,5.2,5.3", NULL};
-    static const char *const B4[] = {"name=a dip=70 dd=20 spacing=1.3 origin=.3,.4,.5",
-                                     "name=b dip=25 dd=200 spacing=1.7 origin=.1,.9,.2",
-                                     "name=c dip=85 dd=110 spacing=1.9 origin=.7,.2,.6", NULL};
-    cut t;
-    cut_box(&t, v3(10, 10, 10), B2, 1);
-    check_cut(
-        &t,
-        &(expected){
-            162, 1000.0, 1.48755088e-4, 1e-5, 16.3401078, 12400.0218, {507.623957, 335.770150, 399.672750}});
-    assert_int_equal(t.c.least_faces, 4);
-    assert_int_equal(t.c.most_faces, 9);
-    int32_t small = 0;
-    for (int32_t k = 0; k < t.m.n; k++) small += fl_block_shape_volume(&t.m.block[k], NULL) < 0.01;
-    assert_int_equal(small, 9);
-    free_cut(&t);
-    cut_box(&t, v3(12, 8, 6), B4, 1);
-    check_cut(&t,
-              &(expected){
-                  278, 576.0, 6.5169e-9, 1e-5, 4.23114026, 1961.75105, {442.970918, 338.852935, 304.519937}});
-    free_cut(&t);
-}
-
-/* Three planes of each set about the middle: k = -1, 0, 1. */
-static void a_number_of_planes_counts_from_the_origin(void **state)
-{
-    (void)state;
-    static const char *const SET[] = {"name=a dip=45 dd=135 spacing=3 n=3 origin=3.5,6.5,2.878679656440357",
-                                      "name=b dip=45 dd=315 spacing=3 n=3 origin=6.5,3.5,1.878679656440357",
-                                      NULL};
-    cut t;
-    cut_box(&t, v3(10, 10, 10), SET, 1);
-    check_cut(
-        &t, &(expected){16, 1000.0, 0.870453792, 1e-7, 112.596645, 81780.5453, {299.382684, 293.892352, 0}});
-    free_cut(&t);
-}
-
-static void a_plane_beside_the_model_cuts_nothing(void **state)
-{
-    (void)state;
-    static const char *const SET[] = {"name=a dip=40 dd=130 n=1 origin=6,6,6",
-                                      "name=b dip=60 dd=220 n=1 origin=6,5,6",
-                                      "name=c dip=90 dd=175 n=2 spacing=5 origin=3,3,3", NULL};
-    cut t;
-    int32_t idle = 0;
-    cut_box(&t, v3(12, 12, 12), SET, 1);
-    assert_int_equal(t.m.n, 8);
-    assert_int_equal(t.c.planes, 3);
-    for (int32_t p = 0; p < t.m.planes; p++) idle += t.m.cuts[p] == 0;
-    assert_int_equal(idle, 1);
-    free_cut(&t);
-}
-
-/* Mean (1+5p)(1+4p)(1+5p) = 36.75 at p = 1/2, standard deviation 13.922. */
-static void persistence_skips_blocks_by_chance(void **state)
-{
-    (void)state;
-    enum { SEEDS = 2000 };
-    double sum = 0.0, square = 0.0;
-    for (int seed = 1; seed <= SEEDS; seed++) {
-        fl_err err = {0};
-        fl_joint_sets sets = {0};
-        fl_block_model m;
-        static const char *const SET[] = {"dip=0 dd=0 spacing=2 origin=0,0,1 persistence=.5",
-                                          "dip=90 dd=90 spacing=2.5 origin=1,0,0 persistence=.5",
-                                          "dip=90 dd=0 spacing=2 origin=0,.5,0 persistence=.5"};
-        for (int k = 0; k < 3; k++) assert_int_equal(fl_joint_sets_add(&sets, SET[k], "test", &err), 0);
-        fl_joint_sets_sort(&sets);
-        assert_int_equal(fl_block_model_box(&m, v3(0, 0, 0), v3(10, 10, 10), &err), 0);
-        assert_int_equal(fl_block_model_cut(&m, &sets, (uint64_t)seed, &err), 0);
-        sum += m.n, square += (double)m.n * m.n;
-        fl_block_model_free(&m);
-        fl_joint_sets_free(&sets);
-    }
-    const double mean = sum / SEEDS;
-    assert_near_of(mean, 36.75, 3.0 / sqrt(SEEDS), 13.922);
-    assert_near(sqrt(square / SEEDS - mean * mean), 13.922, 0.07);
-}
 
 static void persistence_glues_pairs_by_chance(void **state)
 {
@@ -176,9 +18,9 @@ static void persistence_glues_pairs_by_chance(void **state)
     static const char *const SET[] = {
         "name=a dip=0 dd=0 spacing=.5 origin=0,0,.1 persistence=.3 meaning=glue",
         "name=b dip=90 dd=90 spacing=.5 origin=.1,0,0", NULL};
-    cut t;
+    rock_cut t;
     int32_t intact = 0, all = 0;
-    cut_box(&t, v3(10, 1, 10), SET, 5);
+    rock_cut_box(&t, v3(0, 0, 0), v3(10, 1, 10), SET, 5);
     for (int32_t k = 0; k < t.pairs.n; k++) {
         const int is_a = t.sets.set[t.m.plane[t.pairs.pair[k].plane].set].name[0] == 'a';
         all += is_a, intact += is_a && t.pairs.pair[k].intact;
@@ -186,7 +28,7 @@ static void persistence_glues_pairs_by_chance(void **state)
     }
     assert_int_equal(all, 20 * 21);
     assert_near_of(intact, 0.7 * all, 3.0, sqrt(0.21 * all));
-    free_cut(&t);
+    rock_cut_free(&t);
 }
 
 /* The faces of a pair have the same corners, bit for bit, where every block is cut. */
@@ -196,8 +38,8 @@ static void both_sides_of_a_cut_have_the_same_corners(void **state)
     static const char *const SET[] = {"dip=70 dd=20 spacing=1.3 origin=.3,.4,.5",
                                       "dip=25 dd=200 spacing=1.7 origin=.1,.9,.2",
                                       "dip=85 dd=110 spacing=1.9 origin=.7,.2,.6", NULL};
-    cut t;
-    cut_box(&t, v3(12, 8, 6), SET, 1);
+    rock_cut t;
+    rock_cut_box(&t, v3(0, 0, 0), v3(12, 8, 6), SET, 1);
     for (int32_t k = 0; k < t.pairs.n; k++) {
         const fl_face_pair *p = &t.pairs.pair[k];
         const fl_block_shape *a = &t.m.block[p->i], *b = &t.m.block[p->j];
@@ -213,7 +55,7 @@ static void both_sides_of_a_cut_have_the_same_corners(void **state)
             assert_int_equal(same, 1);
         }
     }
-    free_cut(&t);
+    rock_cut_free(&t);
 }
 
 /* Planes through corners, edges and each other's lines, and sets 0.01 degrees apart. */
@@ -228,8 +70,8 @@ static void special_positions_are_cut_without_splinters(void **state)
                                            "dip=80 dd=20 spacing=2.2 origin=1,1,1", NULL};
     const char *const *const all[] = {CORNERS, PARALLEL};
     for (int k = 0; k < 2; k++) {
-        cut t;
-        cut_box(&t, v3(10, 10, 10), all[k], 1);
+        rock_cut t;
+        rock_cut_box(&t, v3(0, 0, 0), v3(10, 10, 10), all[k], 1);
         assert_near(t.c.volume, 1000.0, 1e-12);
         for (int32_t s = 0; s < t.sets.n; s++) assert_near(t.c.area[s], t.c.section[s], 1e-9);
         for (int32_t b = 0; b < t.m.n; b++) {
@@ -238,7 +80,7 @@ static void special_positions_are_cut_without_splinters(void **state)
             assert_int_equal(fl_block_shape_poly(&t.m.block[b], &p, NULL, &err), 1);
             fl_poly_free(&p);
         }
-        free_cut(&t);
+        rock_cut_free(&t);
     }
 }
 
@@ -250,17 +92,17 @@ static void the_count_holds_for_random_planes(void **state)
         fl_rng g = fl_rng_of((uint64_t)seed, 0, FL_RNG_TEST);
         char text[8][160];
         const char *set[9] = {0};
-        cut t;
+        rock_cut t;
         for (int k = 0; k < 8; k++) {
             snprintf(text[k], sizeof text[k], "dip=%.17g dd=%.17g n=1 origin=%.17g,%.17g,%.17g",
                      fl_rng_in(&g, 0, 90), fl_rng_in(&g, 0, 360), fl_rng_in(&g, 0, 3), fl_rng_in(&g, 0, 2),
                      fl_rng_in(&g, 0, 1));
             set[k] = text[k];
         }
-        cut_box(&t, v3(3, 2, 1), set, 1);
+        rock_cut_box(&t, v3(0, 0, 0), v3(3, 2, 1), set, 1);
         assert_int_equal(t.c.pieces + t.c.planes + t.c.lines + t.c.points, t.m.n);
         assert_near(t.c.volume, 6.0, 1e-12);
-        free_cut(&t);
+        rock_cut_free(&t);
     }
 }
 
@@ -309,11 +151,11 @@ static void slivers_are_merged_with_neighbours(void **state)
                                       "dip=25 dd=200 spacing=1.7 origin=.1,.9,.2",
                                       "dip=85 dd=110 spacing=1.9 origin=.7,.2,.6", NULL};
     const double R = 0.0013;
-    cut t;
+    rock_cut t;
     fl_err err = {0};
     fl_slivers s;
     double volume = 0.0;
-    cut_box(&t, v3(12, 8, 6), SET, 1);
+    rock_cut_box(&t, v3(0, 0, 0), v3(12, 8, 6), SET, 1);
     assert_int_equal(fl_slivers_remove(&s, &t.m, &t.pairs, &t.sets, 1,
                                        &(fl_sliver_rule){.min_width = 2.2 * R, .radius = R}, &err),
                      0);
@@ -329,7 +171,7 @@ static void slivers_are_merged_with_neighbours(void **state)
     }
     assert_near(volume, 576.0, 1e-12);
     fl_slivers_free(&s);
-    free_cut(&t);
+    rock_cut_free(&t);
 }
 
 static void joints_that_coincide_are_refused(void **state)
@@ -396,11 +238,6 @@ static void the_curve_in_space_is_continuous(void **state)
 int main(void)
 {
     const struct CMUnitTest test[] = {
-        cmocka_unit_test(a_grid_of_joints_cuts_a_grid_of_boxes),
-        cmocka_unit_test(oblique_sets_cut_what_half_spaces_give),
-        cmocka_unit_test(a_number_of_planes_counts_from_the_origin),
-        cmocka_unit_test(a_plane_beside_the_model_cuts_nothing),
-        cmocka_unit_test(persistence_skips_blocks_by_chance),
         cmocka_unit_test(persistence_glues_pairs_by_chance),
         cmocka_unit_test(both_sides_of_a_cut_have_the_same_corners),
         cmocka_unit_test(special_positions_are_cut_without_splinters),

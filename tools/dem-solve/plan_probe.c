@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include "base/pi.h"
 #include "clocks.h"
+#include "contact/joint_list.h"
 #include "contact/pair_law.h"
 #include "ice_scene.h"
 #include "out/tables.h"
@@ -121,6 +122,20 @@ static void print_modes(const fl_world *w, FILE *f)
     }
 }
 
+/* Where joints are most of what gives the critical step: which, and their part of its omega^2. */
+static void print_joints(const struct run *r, FILE *f)
+{
+    const fl_world *w = r->w;
+    const int32_t i = r->step_body;
+    int32_t k;
+    char name[64];
+    if (!fl_world_joints(w) || r->scene->run.dt > 0.0 || i < 0 || i >= w->n) return;
+    const double part = 0.25 * r->critical * r->critical * fl_joint_list_omega2(w, i, &k);
+    if (k < 0 || part < 0.5) return;
+    fprintf(f, "joints         set the step: %.2g of the stiffness of %s, most of it by [joint %s]\n", part,
+            body_name(w, i, name), r->scene->joint[fl_joint_of_bond(&w->bonds, k)->material].name);
+}
+
 int print_plan(struct run *r, FILE *f, fl_err *err)
 {
     fl_world *w = r->w;
@@ -150,6 +165,7 @@ int print_plan(struct run *r, FILE *f, fl_err *err)
     fprintf(f, "step           %.4g s, %" PRId64 " steps; critical %.4g s by estimate\n", w->dt, r->steps,
             r->critical);
     fprintf(f, "set by         %s\n", r->step_by);
+    print_joints(r, f);
     if (r->budget)
         fprintf(f,
                 "error budget   %g of the load: the step above is the largest allowed, and is adapted during "
