@@ -7,7 +7,7 @@ set xrange [-3:93]
 set xtics 15
 set yrange [0:*]
 set grid ytics lc rgb "#dddddd"
-set key outside below maxrows 2
+set key at graph 0.97,0.42 right
 plot table using 1:2 with linespoints lw 2 pt 7 lc rgb "#1f77b4" title "largest on a leg, ice fails", \
      table using 1:5 with linespoints lw 2 pt 5 lc rgb "#d62728" title "largest on a leg, rigid floes", \
      table using 1:4 with linespoints lw 2 dt 2 pt 7 lc rgb "#1f77b4" title "mean on all, ice fails", \
