@@ -5,7 +5,7 @@
 #            corpus of fuzz under the sanitizers, where BUILD/san has the programs
 #   verify   every verification program in full, with its table, and a line for each hard case
 #   bench    every benchmark, one at a time, and the scripts of bench/ that renew bench/results: the kernel,
-#            surrogates, sleep, late jams, threads, peers, blocks and the ladder
+#            surrogates, sleep, late jams, threads, peers, blocks, sheets, packings, frames and the ladder
 #   update   rewrite the expected files of the golden cases; CASE='name*' limits it to some of them
 # Prints one line per program, the output of those that failed, the ten longest, and at the end "N passed, N failed".
 # BUILD/durations.tsv has the seconds of all: of processor, which hardly depend on what else runs, and of the clock.
@@ -179,6 +179,9 @@ bench)
     add bench/peers "exec sh bench/peers.sh '$build'"
     add bench/blocks_cut "exec sh bench/blocks-cut.sh '$build'"
     add bench/blocks "exec sh bench/blocks.sh '$build'"
+    add bench/sheet "exec sh bench/sheet.sh '$build'"
+    add bench/pack "exec sh bench/pack.sh '$build'"
+    add bench/view "exec sh bench/view.sh '$build'"
     add bench/ladder "exec sh bench/ladder.sh '$build'"
     ;;
 esac
