@@ -27,11 +27,10 @@ cd "$out/dilateddem-$version"
 mv share/packaging/debian debian
 printf 'dilateddem (%s) unstable; urgency=medium\n\n  * See CHANGES.md.\n\n -- DilatedDEM developers <dilateddem@example.org>  %s\n' \
     "$version" "$(date -R -d "@${SOURCE_DATE_EPOCH:-$(stat -c %Y CHANGES.md)}")" >debian/changelog
-kind=-b
-dpkg-source -b . || exit
+dpkg-source -b .
 if [ "${2-}" = source ]; then
     ls "$out"/*.dsc
 else
-    dpkg-buildpackage $kind -us -uc
+    dpkg-buildpackage -b -us -uc
     ls "$out"/*.deb
 fi
