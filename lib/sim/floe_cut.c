@@ -319,10 +319,11 @@ static int find_contacts(fl_world *w, int32_t i, int32_t k, fl_err *err)
 
 /* --- the cut ------------------------------------------------------------------------------------ */
 
+/* The place of a driven floe that has left stays free: what it held would be driven. */
 static int32_t free_place(const fl_world *w)
 {
     for (int32_t k = 0; k < w->n; k++)
-        if (w->inflow.absent[k]) return k;
+        if (w->inflow.absent[k] && !(k < w->driven_floes.n && w->driven_floes.is_driven[k])) return k;
     return -1;
 }
 

@@ -10,6 +10,7 @@
 #include "support/scenes.h"
 #include "support/small_world.h"
 #include "support/verify.h"
+#include "world/access.h"
 
 /* A convex plan from its corners. */
 static fl_plan plan_of_corners(int n, const fl_vec2 *p, double h)
@@ -179,6 +180,28 @@ static void halves(void)
     lab_free(&l);
 }
 
+/* The place of a driven floe that has left is not that of a fragment, which would be driven. */
+static void place_of_a_driven_floe(void)
+{
+    lab l;
+    int32_t child = -1;
+    fl_err err = {0};
+    lab_start(&l);
+    lab_set(&l, "material.ice.density=900");
+    lab_set(&l, "failure.flexural_strength=0.5 MPa");
+    lab_set(&l, "boundary.drive=0.1 0 0");
+    lab_set(&l, "boundary.drive_width=4");
+    lab_set(&l, "boundary.type=free");
+    lab_box(&l, v3(0, 0, 0), v3(5, 3, 0.5), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_box(&l, v3(-30, 0, 0), v3(2, 2, 0.5), 0.05, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_make(&l, 1e-3);
+    verify_true("place", "the floe at the edge is driven", fl_floe_is_driven(&l.w, 1));
+    l.w.inflow.absent[1] = 1;
+    verify_true("place", "the box is cut", fl_floe_cut(&l.w, 0, v3(1, 0, 0), 1.0, &child, &err) == 1);
+    verify_true("place", "its fragment is not driven", child > 1 && !fl_floe_is_driven(&l.w, child));
+    lab_free(&l);
+}
+
 /* Many floes that break: their mass stays, fragments do not move apart by themselves, the ledger closes. */
 static void many(void)
 {
@@ -209,6 +232,7 @@ int main(void)
     carried();
     cracks();
     halves();
+    place_of_a_driven_floe();
     many();
     return verify_end();
 }
