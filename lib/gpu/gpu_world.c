@@ -122,7 +122,7 @@ static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
         g->guest = fl_alloc(w->n, sizeof *g->guest, err);
         g->guest_state = fl_alloc(w->n, sizeof *g->guest_state, err);
         g->guest_sum = fl_alloc(w->n, sizeof *g->guest_sum, err);
-        g->moves = fl_alloc(2 * ((int64_t)fl_block_count(w) + 1), sizeof *g->moves, err);
+        g->moves = fl_alloc(2 * ((int64_t)w->n / FL_BODY_BLOCK + 2), sizeof *g->moves, err);
         if (!g->host || !g->guest || !g->guest_state || !g->guest_sum || !g->moves) return -1;
     }
     g->guests = g->guest_discs = 0;

@@ -341,6 +341,8 @@ static int place_halves(fl_world *w, int32_t i, int32_t k, floe_half half[2], fl
     w->material[k] = w->material[i];
     b->fixed_dof[k] = b->fixed_dof[i];
     t->absent[k] = 0;
+    t->floes++;
+    if (k >= t->places) t->places = k + 1;
     t->source_floe[k] = -1;
     t->guided[k] = 0;
     t->entry_step[i] = t->entry_step[k] = w->step;

@@ -15,8 +15,8 @@
 /* End of block g. */
 static inline int32_t fl_block_end(const fl_world *w, int32_t g)
 {
-    const int32_t end = (g + 1) * FL_BODY_BLOCK;
-    return end < w->n ? end : w->n;
+    const int32_t end = (g + 1) * FL_BODY_BLOCK, all = fl_places_end(w);
+    return end < all ? end : all;
 }
 
 /* End of the run of values x that starts at a[k]; compares eight values at a time. */

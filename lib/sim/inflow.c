@@ -156,12 +156,7 @@ void fl_inflow_free(fl_inflow_state *t)
     *t = (fl_inflow_state){0};
 }
 
-int32_t fl_floes_in_domain(const fl_world *w)
-{
-    int32_t n = 0;
-    for (int32_t i = 0; i < w->n; i++) n += !fl_body_absent(w, i);
-    return n;
-}
+int32_t fl_floes_in_domain(const fl_world *w) { return w->inflow.absent ? w->inflow.floes : w->n; }
 
 static double coordinate_along(const fl_inflow_state *t, fl_vec3 x)
 {
@@ -184,6 +179,7 @@ static void remove_floe(fl_world *w, int32_t i)
     fl_inflow_state *t = &w->inflow;
     fl_bodies *b = &w->b;
     t->absent[i] = 1;
+    t->floes--;
     if (w->critical_body == i) w->critical_body = -1; /* its id is free again */
     t->n_left++;
     t->mass_left += b->m[i];
@@ -317,6 +313,8 @@ static int admit_floe(fl_world *w, int32_t i, fl_err *err)
     fl_inflow_state *t = &w->inflow;
     fl_bodies *b = &w->b;
     t->absent[i] = 0;
+    t->floes++;
+    if (i >= t->places) t->places = i + 1;
     fl_sleep_reset_body(w, i);
     fl_inflow_set_guided(w, i, 1);
     w->id[i] = t->next_id++;

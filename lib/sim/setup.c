@@ -414,6 +414,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         if (fl_world_place_floe(w, i, field, i, err)) goto fail;
         bound += w->b.bounding_radius[i] + w->b.radius[i];
     }
+    w->inflow.places = w->inflow.floes = field->n;
     /* Places for floes to come are filled with such floes, so that the step is chosen for them, too. */
     for (int32_t i = field->n; i < w->n; i++) {
         w->inflow.source_floe[i] = (i - field->n) % feed->n;

@@ -98,11 +98,14 @@ static void exchange_inflow(fl_state_io *t, fl_world *w)
         fl_state_io_count(t, &c->next_copy[k]);
         fl_state_io_close(t);
     }
+    c->floes = 0;
     for (int32_t i = 0; i < w->n && !t->err->code; i++) {
         int32_t floe = c->source_floe[i], id = w->id[i];
         uint8_t guided = c->guided[i], cut = w->breaking.on && w->breaking.shape[i];
         fl_state_io_open(t, "place");
         fl_state_io_byte(t, 1, &c->absent[i]);
+        c->floes += !c->absent[i];
+        if (!c->absent[i] && i >= c->places) c->places = i + 1;
         fl_state_io_int(t, -1, feed - 1, &floe);
         fl_state_io_int(t, 0, INT32_MAX, &id);
         fl_state_io_count(t, &c->entry_step[i]);

@@ -59,7 +59,7 @@ static void find_least(const fl_world *w, limits *least, int32_t *body)
     limits own = {w->dt_critical_contacts, w->dt_critical};
     int32_t i_own = INT32_MAX;
 #pragma omp for schedule(static) nowait
-    for (int32_t i = 0; i < w->n; i++) {
+    for (int32_t i = 0; i < fl_places_end(w); i++) {
         if (!has_contacts(w, i)) continue;
         const limits it = limits_of_body(w, i);
         if (it.contacts < own.contacts) own.contacts = it.contacts;

@@ -68,8 +68,14 @@ static inline int fl_body_absent(const fl_world *w, int32_t i)
     return w->inflow.absent && w->inflow.absent[i];
 }
 
+/* End of the places that have held a floe: those beyond, for floes to come and fragments, cost no step. */
+static inline int32_t fl_places_end(const fl_world *w) { return w->inflow.absent ? w->inflow.places : w->n; }
+
 /* Number of blocks of FL_BODY_BLOCK floes. */
-static inline int32_t fl_block_count(const fl_world *w) { return (w->n + FL_BODY_BLOCK - 1) / FL_BODY_BLOCK; }
+static inline int32_t fl_block_count(const fl_world *w)
+{
+    return (fl_places_end(w) + FL_BODY_BLOCK - 1) / FL_BODY_BLOCK;
+}
 
 /* Largest number of blocks that a thread takes at a time. */
 enum { FL_BLOCKS_AT_ONCE = 8 };

@@ -32,6 +32,8 @@ typedef struct {
 
 typedef struct {
     uint8_t *absent;     /* [n] the place is empty; NULL: no bound is free, and nothing else here is set */
+    int32_t places;      /* end of the places that have held a floe so far */
+    int32_t floes;       /* in the domain now */
     int leaves;          /* some bound is free; else places are for fragments alone */
     fl_vec3 lo, hi;      /* free bounds; a floe that is wholly beyond one leaves [m]; infinite: not free */
     int64_t *entry_step; /* [n] step in which the floe came in */
