@@ -9,6 +9,7 @@
 #include "mesh/beam_deck.h"
 
 enum { WORDS = 24, HEAD_LINES = 3 };
+static const unsigned ALL_MOMENTS = 7; /* pins of a spherical joint */
 
 /* Sections by their numbers: those of each form are numbered on their own, which is the scope. */
 enum { CIRCLES, RECTANGLES, CONSTANTS };
@@ -16,6 +17,7 @@ enum { CIRCLES, RECTANGLES, CONSTANTS };
 typedef struct {
     fl_beam_deck k;
     fl_id_map section_id; /* scope: one of the above; the index is that in k.section */
+    fl_id_map ball_joint; /* joints at which no member is clamped */
     double down;          /* MSL2SWL */
     int growth;           /* depths with marine growth */
     char *word[WORDS];    /* of the current row */
@@ -134,9 +136,15 @@ static int read_joint(openfast_reader *r, fl_err *err)
     if (get_id(r, 0, "the joint", &id, err)) return -1;
     for (int c = 0; c < 3; c++)
         if (get_real(r, c + 1, "a coordinate of the joint", &x[c], err)) return -1;
-    const int type = find_column_named(r, "JointType");
-    if (type >= 0 && type < r->words && strcmp(r->word[type], "1") != 0 && r->k.frame)
-        fl_frame_count_skipped(r->k.frame, "releases of joints of type %.10s", r->word[type]);
+    const int at = find_column_named(r, "JointType");
+    int64_t type = 1;
+    if (at >= 0 && at < r->words && (get_id(r, at, "the type of the joint", &type, err) || type > 4))
+        return err->code ? -1 : fl_deck_fail(&r->k.d, err, "JointType is %lld, 1 to 4 are expected",
+                                             (long long)type);
+    if (type == 4 && fl_id_map_add(&r->ball_joint, 0, id, err) < 0) return -1;
+    if (r->k.frame && (type == 2 || type == 3))
+        fl_frame_count_skipped(r->k.frame, "%s joints (JointType %d), whose members are clamped here",
+                               type == 2 ? "universal" : "revolute", (int)type);
     return fl_elements_add_node(&r->k.e, 0, id, v3(x[0], x[1], x[2] - r->down), err) < 0 ? -1 : 0;
 }
 
@@ -320,6 +328,8 @@ static int finish_members(openfast_reader *r, fl_err *err)
                       i1 = fl_id_map_find(&r->k.e.node_id, 0, b->node[1]);
         const double degrees = b->across.x;
         b->across = v3(0, 0, 0);
+        for (int s = 0; s < 2; s++)
+            if (fl_id_map_find(&r->ball_joint, 0, b->node[s]) >= 0) b->pins[s] = ALL_MOMENTS;
         if (form == RECTANGLES && i0 >= 0 && i1 >= 0) {
             const fl_vec3 d = v3_sub(r->k.e.x[i1], r->k.e.x[i0]);
             if (v3_norm(d) > 0.0) b->across = side_b(v3_unit(d), degrees);
@@ -394,5 +404,6 @@ int fl_openfast_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_opt
 done:
     fl_beam_deck_free(&r.k);
     fl_id_map_free(&r.section_id);
+    fl_id_map_free(&r.ball_joint);
     return rc;
 }

@@ -217,6 +217,56 @@ static void short_members_join_their_nodes(void **state)
     fl_frame_model_free(&f);
 }
 
+/* Reads the deck as a frame; freed by the caller. */
+static fl_frame_model frame_of(const char *deck)
+{
+    fl_frame_model f = {0};
+    fl_import_options w = {.frame = &f};
+    if (read_some(deck, &w)) fail_msg("%s", err.text);
+    return f;
+}
+
+static void counts_skipped(const fl_frame_model *f, const char *what, int times)
+{
+    const int32_t at = fl_string_table_find(&f->skipped_name, what);
+    if (at < 0 || f->skipped[at] != times) fail_msg("\"%s\" is not counted %d times", what, times);
+}
+
+/* Joint 3 is spherical, joint 2 revolute: no end there is clamped, or all are and it is told. */
+static void joints_of_subdyn_release_their_members(void **state)
+{
+    (void)state;
+    static const char deck[] =
+        "SubDyn\n4 NJoints\nid x y z JointType\n-\n1 0 0 -9 1\n2 0 0 -5 3\n3 0 0 -1 4\n4 3 0 -1 1\n3 NMembers\n"
+        "MemberID a b p q\n-\n1 1 2 1 1\n2 2 3 1 1\n3 3 4 1 1\n1 NPropSets\nid YoungE ShearG MatDens XsecD "
+        "XsecT\n-\n1 2e11 8e10 7850 2 .1\n";
+    fl_frame_model f = frame_of(deck);
+    assert_int_equal(f.element_id.n, 3);
+    assert_true(f.element[0].pins[0] == 0 && f.element[0].pins[1] == 0);
+    assert_true(f.element[1].pins[0] == 0 && f.element[1].pins[1] == 7);
+    assert_true(f.element[2].pins[0] == 7 && f.element[2].pins[1] == 0);
+    counts_skipped(&f, "revolute joints (JointType 3), whose members are clamped here", 1);
+    fl_frame_model_free(&f);
+    refuses("SubDyn\n1 NJoints\nid x y z JointType\n-\n1 0 0 -9 5\n", "deck:5: JointType is 5, 1 to 4 are");
+}
+
+/* Columns 23 to 34 of MEMBER: forces and moments that either end releases. */
+static void members_of_sacs_are_released(void **state)
+{
+    (void)state;
+    static const char deck[] = "OPTIONS      MN\nGRUP SEG         100.00 2.000 20.008.00034.50"
+                               "                                2.0\n"
+                               "GRUP SEG          90.00 2.000 20.008.00034.50\n"
+                               "MEMBER 00010002 SEG   000011001111\n"
+                               "JOINT 0001      0.     0.   -30.\nJOINT 0002      0.     0.     0.\nEND\n";
+    fl_frame_model f = frame_of(deck);
+    assert_int_equal(f.element_id.n, 2);
+    assert_true(f.element[0].pins[0] == 6 && f.element[0].pins[1] == 0);
+    assert_true(f.element[1].pins[0] == 0 && f.element[1].pins[1] == 7);
+    says("released forces of 1 members are not carried over");
+    fl_frame_model_free(&f);
+}
+
 /* --- panels --------------------------------------------------------------------------------------------- */
 
 static void check_hull(const char *path, const char *name, int panels, int triangles, double hull,
@@ -428,6 +478,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(genie_has_its_beams, setup, clear),
         cmocka_unit_test_setup_teardown(unv_has_its_shells_and_solids, setup, clear),
         cmocka_unit_test_setup_teardown(short_members_join_their_nodes, setup, clear),
+        cmocka_unit_test_setup_teardown(joints_of_subdyn_release_their_members, setup, clear),
+        cmocka_unit_test_setup_teardown(members_of_sacs_are_released, setup, clear),
         cmocka_unit_test_setup_teardown(hulls_have_their_panels, setup, clear),
         cmocka_unit_test_setup_teardown(aqwa_knows_its_structures, setup, clear),
         cmocka_unit_test_setup_teardown(aqwa_finds_its_plane, setup, clear),
