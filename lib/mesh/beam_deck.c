@@ -88,14 +88,14 @@ static int fail_beam(const fl_beam_deck *k, const fl_beam *b, fl_err *err, const
 }
 
 /* Positions of the ends; of a member with an unknown node or without a length the line is told. */
-static int find_ends(const fl_beam_deck *k, const fl_beam *b, fl_vec3 x[2], int with_offset, fl_err *err)
+static int find_ends(const fl_beam_deck *k, const fl_beam *b, fl_vec3 x[2], fl_err *err)
 {
     for (int s = 0; s < 2; s++) {
         const int32_t at = fl_id_map_find(&k->e.node_id, b->scope[s], b->node[s]);
         if (at < 0 || isnan(k->e.x[at].x))
             return fail_beam(k, b, err, "member %lld ends at node %lld, which is not defined",
                              (long long)b->node[s]);
-        x[s] = with_offset ? v3_add(k->e.x[at], b->offset[s]) : k->e.x[at];
+        x[s] = v3_add(k->e.x[at], b->offset[s]);
     }
     if (!(v3_norm(v3_sub(x[1], x[0])) > 0.0)) return fail_beam(k, b, err, "member %lld has no length", 0);
     return 0;
@@ -280,7 +280,7 @@ static int make_surface(fl_beam_deck *k, fl_surface *s, fl_err *err)
         const fl_beam_section *p = &k->section[b->section[0]];
         fl_vec3 x[2];
         of_beam[i] = -1;
-        if (find_ends(k, b, x, 1, err) || check_sizes(k, b, err)) goto done;
+        if (find_ends(k, b, x, err) || check_sizes(k, b, err)) goto done;
         if (p->form != FL_FRAME_PIPE && p->form != FL_FRAME_RECTANGLE) {
             if (fl_elements_skip(&k->e, p->kind, err)) goto done;
             continue;
@@ -422,31 +422,32 @@ static int frame_beam(fl_beam_deck *k, const fl_beam *b, fl_err *err)
     fl_frame_model *f = k->frame;
     const fl_beam_section *p = &k->section[b->section[0]], *q = &k->section[b->section[1]];
     const int steps = is_taper(p, q) ? FL_BEAM_STEPS : 1;
+    const fl_vec3 none = v3(0, 0, 0);
     fl_vec3 x[2], y, z;
-    if (find_ends(k, b, x, 0, err) || check_sizes(k, b, err)) return -1;
+    if (find_ends(k, b, x, err) || check_sizes(k, b, err)) return -1;
     if (p->form == FL_FRAME_NONE) return fl_frame_count_skipped(f, "%s", p->kind);
-    if (v3_nonzero(b->offset[0]) || v3_nonzero(b->offset[1]))
-        fl_frame_count_skipped(f, "offsets of members, which run from node to node");
     if (steps > 1) fl_frame_count_skipped(f, "tapers; %d steps each are taken", FL_BEAM_STEPS);
     if (b->node[2] > 0) fl_frame_count_skipped(f, "middles of curved members, which run straight");
     beam_axes(b, x, &y, &z);
     int32_t end[2];
+    fl_vec3 at_node[2];
     for (int s = 0; s < 2; s++) {
         end[s] = common_node(k, fl_id_map_find(&k->e.node_id, b->scope[s], b->node[s]));
-        x[s] = k->e.x[end[s]];
+        at_node[s] = k->e.x[end[s]];
+        x[s] = v3_add(at_node[s], b->offset[s]);
     }
     if (end[0] == end[1])
         return fl_frame_count_skipped(f, "members shorter than %g of their diameter, whose ends are one node",
                                       FL_BEAM_SHORT);
-    int32_t from = frame_node(k, k->e.node_id.scope[end[0]], k->e.node_id.id[end[0]], x[0], err);
+    int32_t from = frame_node(k, k->e.node_id.scope[end[0]], k->e.node_id.id[end[0]], at_node[0], err);
     const int32_t part = frame_part(k, b, err);
     for (int step = 0; step < steps; step++) {
         const int last = step == steps - 1;
         const fl_vec3 at = v3_madd(x[0], (step + 1.0) / steps, v3_sub(x[1], x[0]));
         const int32_t scope = steps > 1 ? b->piece * FL_BEAM_STEPS + step + 1 : b->piece;
-        const int32_t to = last
-                               ? frame_node(k, k->e.node_id.scope[end[1]], k->e.node_id.id[end[1]], x[1], err)
-                               : frame_node(k, scope + 1, b->id, at, err);
+        const int32_t to =
+            last ? frame_node(k, k->e.node_id.scope[end[1]], k->e.node_id.id[end[1]], at_node[1], err)
+                 : frame_node(k, scope + 1, b->id, at, err);
         const int32_t section = frame_section(k, b, step, steps, err);
         const int32_t i = fl_frame_element_of(f, scope, b->id, err);
         if (from < 0 || to < 0 || part < 0 || section < 0 || i < 0) return -1;
@@ -456,6 +457,7 @@ static int frame_beam(fl_beam_deck *k, const fl_beam *b, fl_err *err)
                                            .truss = b->truss,
                                            .has_z = p->form != FL_FRAME_PIPE,
                                            .across = z,
+                                           .offset = {step ? none : b->offset[0], last ? b->offset[1] : none},
                                            .pins = {step ? 0u : b->pins[0], last ? b->pins[1] : 0u},
                                            .id = b->id};
         from = to;

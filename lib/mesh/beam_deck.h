@@ -6,8 +6,7 @@
  *             the two outlines; other sections have no outline and are counted
  *   frame     members with their walls and materials (frame_model.h).  A taper becomes FL_BEAM_STEPS
  *             cylinders of the diameters and walls at their middles, an error of second order in their
- *             length. Offsets are counted: in a frame members run from node to node. Members shorter than
- *             FL_BEAM_SHORT of their diameter make their nodes one
+ *             length. Members shorter than FL_BEAM_SHORT of their diameter make their nodes one
  * A member or plate belongs to the smallest of the sets that hold it; else to the part its reader gives; else
  * to one of its size: "D_1.2", "10x5", "cones" for a taper, "plates", "solids". */
 #ifndef FL_MESH_BEAM_DECK_H

@@ -8,7 +8,7 @@
 #include "base/pi.h"
 #include "mesh/beam_deck.h"
 
-enum { WORDS = 24, HEAD_LINES = 3 };
+enum { WORDS = 24, HEAD_LINES = 3, LONGEST_NAME = 40 };
 static const unsigned ALL_MOMENTS = 7; /* pins of a spherical joint */
 
 /* Sections by their numbers: those of each form are numbered on their own, which is the scope. */
@@ -139,8 +139,9 @@ static int read_joint(openfast_reader *r, fl_err *err)
     const int at = find_column_named(r, "JointType");
     int64_t type = 1;
     if (at >= 0 && at < r->words && (get_id(r, at, "the type of the joint", &type, err) || type > 4))
-        return err->code ? -1 : fl_deck_fail(&r->k.d, err, "JointType is %lld, 1 to 4 are expected",
-                                             (long long)type);
+        return err->code
+                   ? -1
+                   : fl_deck_fail(&r->k.d, err, "JointType is %lld, 1 to 4 are expected", (long long)type);
     if (type == 4 && fl_id_map_add(&r->ball_joint, 0, id, err) < 0) return -1;
     if (r->k.frame && (type == 2 || type == 3))
         fl_frame_count_skipped(r->k.frame, "%s joints (JointType %d), whose members are clamped here",
@@ -165,13 +166,14 @@ static int read_mass(openfast_reader *r, fl_err *err)
     return fl_beam_deck_mass(&r->k, id, mass, err);
 }
 
-/* The comment of a row without quotes and blanks around it. */
+/* The comment of a row without quotes and blanks around it; a long one is a remark and no name. */
 static void name_part(const openfast_reader *r, char part[FL_BEAM_NAME])
 {
     const char *p = r->comment ? r->comment : "";
     p += strspn(p, " \t!#\"'");
     size_t n = strcspn(p, "\r\n");
     while (n > 0 && strchr(" \t\"'", p[n - 1])) n--;
+    if (n > LONGEST_NAME) n = 0;
     snprintf(part, FL_BEAM_NAME, "%.*s", n < FL_BEAM_NAME ? (int)n : FL_BEAM_NAME - 1, p);
 }
 

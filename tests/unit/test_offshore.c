@@ -10,7 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "geom/weld.h"
-#include "mesh/frame_model.h"
+#include "mesh/beam_deck.h"
 #include "support/decks.h"
 
 static const double ANSWER = 1e-8; /* of its size: digits of the answers that came with the files */
@@ -237,7 +237,8 @@ static void joints_of_subdyn_release_their_members(void **state)
 {
     (void)state;
     static const char deck[] =
-        "SubDyn\n4 NJoints\nid x y z JointType\n-\n1 0 0 -9 1\n2 0 0 -5 3\n3 0 0 -1 4\n4 3 0 -1 1\n3 NMembers\n"
+        "SubDyn\n4 NJoints\nid x y z JointType\n-\n1 0 0 -9 1\n2 0 0 -5 3\n3 0 0 -1 4\n4 3 0 -1 1\n3 "
+        "NMembers\n"
         "MemberID a b p q\n-\n1 1 2 1 1\n2 2 3 1 1\n3 3 4 1 1\n1 NPropSets\nid YoungE ShearG MatDens XsecD "
         "XsecT\n-\n1 2e11 8e10 7850 2 .1\n";
     fl_frame_model f = frame_of(deck);
@@ -264,6 +265,34 @@ static void members_of_sacs_are_released(void **state)
     assert_true(f.element[0].pins[0] == 6 && f.element[0].pins[1] == 0);
     assert_true(f.element[1].pins[0] == 0 && f.element[1].pins[1] == 7);
     says("released forces of 1 members are not carried over");
+    fl_frame_model_free(&f);
+}
+
+/* Ends of members stand off their nodes, and a taper does so at its ends only. */
+static void offsets_are_those_of_the_ends(void **state)
+{
+    (void)state;
+    fl_frame_model f = {0};
+    fl_import_options w = {.frame = &f};
+    assert_int_equal(fl_mesh_read(&s, "tests/fuzz/sacs/good_frame", &w, note, &err), 0);
+    for (int32_t k = 0; k < f.element_id.n; k++) {
+        const fl_frame_element *e = &f.element[k];
+        const int brace = strcmp(f.part_name.name[e->part], "BRC") == 0;
+        near_answer("offset of end A", e->offset[0].x, brace ? 0.6 : 0.0);
+        near_answer("offset of end B", e->offset[1].x, brace ? -0.4 : 0.0);
+    }
+    fl_frame_model_free(&f);
+    f = frame_of(
+        "NODE 1 0 0 -5\nNODE 2 0 0 5\nBEAM 1 1 2 1 1 0 1 2\nPIPE 1 2 .1 0 0 1\nMISOIEP 1 2e11 .3 3e8 7850\n"
+        "ECCENT 1 0 1 0\nECCENT 2 0 0 -1\n");
+    assert_int_equal(f.element_id.n, FL_BEAM_STEPS);
+    for (int k = 0; k < FL_BEAM_STEPS; k++) {
+        near_answer("y of the first end", f.element[k].offset[0].y, k == 0);
+        near_answer("z of the last end", f.element[k].offset[1].z, k == FL_BEAM_STEPS - 1 ? -1.0 : 0.0);
+    }
+    const fl_frame_node *n = &f.node[f.element[0].node[1]];
+    near_answer("y of a node between the ends", n->x.y, 0.75);
+    near_answer("z", n->x.z, -2.75);
     fl_frame_model_free(&f);
 }
 
@@ -480,6 +509,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(short_members_join_their_nodes, setup, clear),
         cmocka_unit_test_setup_teardown(joints_of_subdyn_release_their_members, setup, clear),
         cmocka_unit_test_setup_teardown(members_of_sacs_are_released, setup, clear),
+        cmocka_unit_test_setup_teardown(offsets_are_those_of_the_ends, setup, clear),
         cmocka_unit_test_setup_teardown(hulls_have_their_panels, setup, clear),
         cmocka_unit_test_setup_teardown(aqwa_knows_its_structures, setup, clear),
         cmocka_unit_test_setup_teardown(aqwa_finds_its_plane, setup, clear),
