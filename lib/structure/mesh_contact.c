@@ -388,16 +388,12 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
 
 /* Sets *distance to reach if no face is in reach now. The list may be an old one, and the free travel
  * computed from the distance has to be the same with a new list. */
-static int bound_distance(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece_mesh *mesh, double reach, double *distance)
+static void bound_distance(const fl_patch_points *w, const fl_poly *a, const fl_piece_mesh *mesh,
+                           double reach, double *distance)
 {
-    fl_feature_set *walls = &near->of_mesh;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < a->nv; v++) box = aabb_add(box, w->va[v]);
-    walls->faces = query_boxes(&mesh->tree, mesh->box, aabb_grow(box, reach), &walls->face, &walls->face_cap);
-    if (walls->faces < 0) return -1;
-    if (walls->faces == 0) *distance = reach;
-    return 0;
+    if (!fl_bvh_meets(&mesh->tree, mesh->box, aabb_grow(box, reach))) *distance = reach;
 }
 
 static int add_listed_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
@@ -465,7 +461,7 @@ static int add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_p
     if (add_vertices_behind(w, near, &A, &B, &b->mesh, l, ra, of, &behind)) return -1;
     if (behind) { /* a vertex farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
-        if (bound_distance(w, near, a, &b->mesh, ra, &beside)) return -1;
+        bound_distance(w, a, &b->mesh, ra, &beside);
         if (beside == ra) {
             w->n = before;
             return 0;
@@ -495,7 +491,8 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
     if (add_points(w, near, a, b, ra, reach, NULL, l)) return -1;
     if (l->out_of_reach) return 0;
     *distance = ra; /* a face is near: no bound is claimed */
-    return w->n ? 0 : bound_distance(w, near, a, &b->mesh, reach, distance);
+    if (w->n == 0) bound_distance(w, a, &b->mesh, reach, distance);
+    return 0;
 }
 
 int fl_mesh_contact_add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
@@ -511,13 +508,12 @@ int fl_mesh_contact_reserve_cones(fl_mesh_contact_work *near, int32_t n)
     return fl_reserve(&near->is_free, &near->free_cap, n, 1);
 }
 
-int fl_mesh_contact_bound(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece *b, double reach, double *distance)
+void fl_mesh_contact_bound(const fl_patch_points *w, const fl_poly *a, const fl_piece *b, double reach,
+                           double *distance)
 {
     double far = 0.0;
-    if (bound_distance(w, near, a, &b->mesh, reach + b->facet_error, &far)) return -1;
+    bound_distance(w, a, &b->mesh, reach + b->facet_error, &far);
     if (far > 0.0) *distance = reach;
-    return 0;
 }
 
 /* Lists the faces that the point may meet until it has moved by the margin: those that can be the nearest if

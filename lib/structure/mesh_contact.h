@@ -45,8 +45,8 @@ int fl_mesh_contact_add_points(fl_patch_points *w, fl_mesh_contact_work *near, c
 int fl_mesh_contact_reserve_cones(fl_mesh_contact_work *near, int32_t n);
 
 /* Sets *distance to reach if nothing of the piece is within reach. */
-int fl_mesh_contact_bound(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece *b, double reach, double *distance);
+void fl_mesh_contact_bound(const fl_patch_points *w, const fl_poly *a, const fl_piece *b, double reach,
+                           double *distance);
 
 /* The same for a core that is a point, for laws other than `patch`: the walls that the sphere touches. Needs
  * the seams of persistence_contact.h. *distance is that of the point if nothing touches. */
