@@ -19,8 +19,8 @@
  *               N = EA/L (l - L),  g = 3/L (EIz s_y A e2 + EIy s_z A e3),  T = (g - (g.e) e)/l
  *               on h: N e + T,    on b: -(N e + T) and the moment e x g
  *   bar     neither does: N = EA/L (l - L)
- *   arms    an end may stand off its ball by an arm a that turns with it: x_i + Q_i a_i is in the place of x_i,
- *           and Q_i a_i x f adds to the moment on i (on j: -Q_j a_j x f)
+ *   arms    an end may stand off its ball by an arm a that turns with it: x_i + Q_i a_i is in the place of
+ *           x_i, and Q_i a_i x f adds to the moment on i (on j: -Q_j a_j x f)
  *
  * Pieces of a section that yields have the plastic stretch and curvatures of member_fibres.h subtracted;
  * energy is then what is stored.

@@ -94,8 +94,8 @@ struct fl_feature_pairs {
     int out_of_reach;                      /* set by the caller: nothing of the mesh is within reach */
     int single_wall;                       /* set by the caller: the point touches at most one wall */
     struct fl_mesh_under_face *under_face; /* of a mesh, owned by the caller (mesh_under_face.h), or NULL */
-    /* set by the caller: lists of parts of a joined piece (mesh_contact.c), of cone `only`, or with -1 of all but
-     * the marked cones, ascending */
+    /* set by the caller: lists of parts of a joined piece (mesh_contact.c), of cone `only`, or with -1 of all
+     * but the marked cones, ascending */
     struct fl_feature_pairs *part;
     int32_t parts, part_cap, only, marks, mark[FL_PART_MARKS];
 };

@@ -174,8 +174,8 @@ static void keep_selected(fl_feature_set *r, const fl_poly *p, const fl_piece_me
     if (of->only >= 0) r->vertices = 0;
 }
 
-/* True if the piece is a union of cones and x is farther than `far` from all of them.  Facets are long, and those
- * of a slanting cone have large boxes: the cones themselves tell it soonest. */
+/* True if the piece is a union of cones and x is farther than `far` from all of them.  Facets are long, and
+ * those of a slanting cone have large boxes: the cones themselves tell it soonest. */
 static int is_outside_cones(const fl_piece *b, fl_vec3 x, double far)
 {
     far += 2.0 * b->facet_error;

@@ -78,8 +78,8 @@ static void mechanisms_are_told_from_spins(void **state)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) assert_int_equal(is_mechanism(bad[k]), 1);
 }
 
-/* A cantilever of 2 m whose end stands 0.5 m above its node: forces at the node bend and twist it by their arm.
- * EA 100, EIy 3, EIz 5, GJ 2, a = 0.5, l = 2:
+/* A cantilever of 2 m whose end stands 0.5 m above its node: forces at the node bend and twist it by their
+ * arm. EA 100, EIy 3, EIz 5, GJ 2, a = 0.5, l = 2:
  *     FX: x moves by l/EA + a2 l/EIy, z by a l2/(2 EIy)
  *     FY: y moves by l3/(3 EIz) + a2 l/GJ,    FZ: z by l3/(3 EIy), x by a l2/(2 EIy) */
 static void an_arm_turns_with_its_node(void **state)
