@@ -272,7 +272,7 @@ static int read_member(openfast_reader *r, fl_err *err)
         get_id(r, 2, "its second joint", &b.node[1], err))
         return -1;
     if (type >= 0 && strcmp(word, "2") == 0) return fl_beam_deck_skip(&r->k, "cable", err);
-    if (type >= 0 && strcmp(word, "3") == 0) return fl_beam_deck_skip(&r->k, "rigid link", err);
+    if (type >= 0 && strcmp(word, "3") == 0) return fl_beam_deck_link(&r->k, b.node[0], b.node[1], err);
     if (type >= 0 && strcmp(word, "5") == 0) return fl_beam_deck_skip(&r->k, "spring", err);
     int32_t form = CIRCLES;
     if (strcasecmp(word, "1r") == 0 || (geometry >= 0 && type < 0 && strcmp(word, "2") == 0))

@@ -251,6 +251,27 @@ static void joints_of_subdyn_release_their_members(void **state)
     refuses("SubDyn\n1 NJoints\nid x y z JointType\n-\n1 0 0 -9 5\n", "deck:5: JointType is 5, 1 to 4 are");
 }
 
+/* A beam whose end hangs on two rigid links from a mass: it has an offset from the node of the mass. */
+static void rigid_links_of_subdyn_carry_members(void **state)
+{
+    (void)state;
+    static const char deck[] =
+        "SubDyn\n4 NJoints\nid x y z\n-\n1 0 0 0\n2 8 0 0\n3 9 0 1\n4 10 0 5\n3 NMembers\n"
+        "MemberID a b p q MType\n-\n1 1 2 1 1 1c\n2 2 3 1 1 3\n3 3 4 1 1 3\n1 NPropSets\n"
+        "id YoungE ShearG MatDens XsecD XsecT\n-\n1 2e11 8e10 7850 2 .1\n"
+        "1 NReact\nid\n-\n1 1 1 1 1 1 1\n1 NCmass\nid\n-\n4 500\n";
+    fl_frame_model f = frame_of(deck);
+    assert_int_equal(f.element_id.n, 1);
+    const fl_frame_element *e = &f.element[0];
+    near_answer("z of the node", f.node[e->node[1]].x.z, 5.0);
+    near_answer("mass", f.node[e->node[1]].mass, 500.0);
+    near_answer("x of the offset", e->offset[1].x, -2.0);
+    near_answer("z of the offset", e->offset[1].z, -5.0);
+    assert_int_equal(f.node[e->node[0]].fixed, 63);
+    assert_true(f.skipped_name.n == 0 && e->offset[0].x == 0.0);
+    fl_frame_model_free(&f);
+}
+
 /* Columns 23 to 34 of MEMBER: forces and moments that either end releases. */
 static void members_of_sacs_are_released(void **state)
 {
@@ -508,6 +529,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(unv_has_its_shells_and_solids, setup, clear),
         cmocka_unit_test_setup_teardown(short_members_join_their_nodes, setup, clear),
         cmocka_unit_test_setup_teardown(joints_of_subdyn_release_their_members, setup, clear),
+        cmocka_unit_test_setup_teardown(rigid_links_of_subdyn_carry_members, setup, clear),
         cmocka_unit_test_setup_teardown(members_of_sacs_are_released, setup, clear),
         cmocka_unit_test_setup_teardown(offsets_are_those_of_the_ends, setup, clear),
         cmocka_unit_test_setup_teardown(hulls_have_their_panels, setup, clear),
