@@ -344,7 +344,7 @@ static int join_short_members(fl_beam_deck *k, fl_err *err)
     return 0;
 }
 
-/* Which of two nodes on rigid links stands for both: one with a mass, else one that is held, else the first. */
+/* Which of two nodes on rigid links stands for both: one with a mass, else one held, else the first. */
 static int is_better_hub(const fl_beam_deck *k, int32_t a, int32_t b)
 {
     int rank[2];
