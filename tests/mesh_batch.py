@@ -269,6 +269,8 @@ def run_import(program, options, path, seconds):
     volume = area = opened = None
     for k, line in enumerate(lines):
         w = line.split()
+        if line.startswith("nothing was mended: every surface came closed"):
+            opened = 0
         if not w or w[0] != "part":
             continue
         rows = []

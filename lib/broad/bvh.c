@@ -127,6 +127,23 @@ int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *ou
     return found;
 }
 
+int fl_bvh_meets(const fl_bvh *t, const fl_aabb *box, fl_aabb q)
+{
+    int32_t stack[FL_BVH_STACK], top = 0;
+    if (t->nodes) stack[top++] = 0;
+    while (top > 0) {
+        const fl_bvh_node *node = &t->node[stack[--top]];
+        if (!aabb_overlap(node->box, q)) continue;
+        for (int32_t k = node->first; k < node->first + node->count; k++)
+            if (aabb_overlap(box[t->order[k]], q)) return 1;
+        if (node->count == 0) {
+            stack[top++] = node->first;
+            stack[top++] = node->first + 1;
+        }
+    }
+    return 0;
+}
+
 fl_bvh_walk fl_bvh_walk_from(const fl_bvh *t, const fl_aabb *box, fl_vec3 x)
 {
     fl_bvh_walk w;

@@ -32,6 +32,9 @@ int fl_bvh_build_present(fl_bvh *t, const fl_aabb *box, int32_t n, int32_t m, co
  * Returns their number, which may exceed room; the caller then enlarges out and repeats.  Cannot fail. */
 int32_t fl_bvh_query(const fl_bvh *t, const fl_aabb *box, fl_aabb q, int32_t *out, int32_t room);
 
+/* True if some box[k] overlaps q. */
+int fl_bvh_meets(const fl_bvh *t, const fl_aabb *box, fl_aabb q);
+
 /* Traversal of the boxes about a point, the nearer half of each node first. */
 enum { FL_BVH_STACK = 64 };
 typedef struct {

@@ -234,7 +234,7 @@ void fl_bond_list_restore_radii(fl_world *w, fl_pair *p, double R, double distan
     if (factor > p->radius_factor) {
         p->radius_factor = factor < 1.0 ? factor : 1.0;
         if (p->feature_pairs)
-            p->feature_pairs->max_shift2 = 0.0; /* the listed features depend on the radii */
+            fl_feature_pairs_forget(p->feature_pairs); /* the listed features depend on the radii */
         if (p->quick_list) p->quick_list->max_shift2 = 0.0;
     }
     w->bonds.radius_factor[p->bond - 1] = p->radius_factor;

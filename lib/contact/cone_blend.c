@@ -159,5 +159,6 @@ int fl_joined_find_points(fl_patch_points *s, fl_mesh_contact_work *near, const 
         if (add_free_cone(s, near, a, piece, &r, k, &of, ra, l)) return -1;
     }
     *distance = ra;
-    return s->n ? 0 : fl_mesh_contact_bound(s, near, a, piece, reach, distance);
+    if (s->n == 0) fl_mesh_contact_bound(s, a, piece, reach, distance);
+    return 0;
 }

@@ -2,6 +2,7 @@
 #include "member/mechanism.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/array.h"
 #include "member/profile_matrix.h"
 
@@ -38,7 +39,8 @@ static int number_freedoms(profile *p, const fl_member_model *m, fl_err *err)
     char *turns = fl_alloc(nodes, 1, err);
     for (int32_t k = 0; k < m->member_name.n && !err->code; k++)
         for (int s = 0; s < 2; s++)
-            if (!is_released(m, &m->member[k], s)) turns[m->member[k].end[s]] = 1;
+            if (!is_released(m, &m->member[k], s) || v3_nonzero(m->member[k].arm[s]))
+                turns[m->member[k].end[s]] = 1;
     for (int32_t d = 0; d < 6 * nodes && !err->code; d++) {
         const int held = m->node[d / 6].fixed >> d % 6 & 1;
         p->number[d] = held || (d % 6 > 2 && !turns[d / 6]) ? -1 : p->n;
@@ -66,19 +68,23 @@ static int make_profile(profile *p, const fl_member_model *m, fl_err *err)
     return p->mode ? fl_profile_allocate(&p->k, FL_MECHANISM_MOST, err) : -1;
 }
 
-/* Adds stiff (g.u)2/2 for a linear form g over the 12 freedoms of a member. */
-static void add_form(profile *p, const fl_member *b, const double g[12], double stiff)
-{
-    int32_t which[12];
-    unknowns_of(p, b, which);
-    fl_profile_add_form(&p->k, 12, which, g, stiff);
-}
-
 static void put_vector(double *g, double s, fl_vec3 a)
 {
     g[0] += s * a.x;
     g[1] += s * a.y;
     g[2] += s * a.z;
+}
+
+/* Adds stiff (g.u)2/2 for a linear form g over the 12 freedoms of the ends of a member. */
+static void add_form(profile *p, const fl_member *b, const double g[12], double stiff)
+{
+    int32_t which[12];
+    double of_nodes[12];
+    memcpy(of_nodes, g, sizeof of_nodes);
+    for (int s = 0; s < 2; s++) /* an end moves by u + r x arm, g.(r x arm) = r.(arm x g) */
+        put_vector(of_nodes + 6 * s + 3, 1.0, v3_cross(b->arm[s], v3(g[6 * s], g[6 * s + 1], g[6 * s + 2])));
+    unknowns_of(p, b, which);
+    fl_profile_add_form(&p->k, 12, which, of_nodes, stiff);
 }
 
 /* Bending in one plane: `across` the direction of deflection, `about` the axis of rotation, sign of the

@@ -82,7 +82,7 @@ static int make_member(fl_member_chain *c, const fl_member_model *m, int32_t k, 
     fl_vec3 e[3];
     double length;
     if (fl_member_frame(m, k, e, &length, err)) return -1;
-    const fl_vec3 x = c->ball[b->end[0]].x0;
+    const fl_vec3 x = fl_member_end(m, k, 0);
     int32_t last = b->end[0];
     const int hinge_i = b->released[0] || m->node[b->end[0]].hinge,
               hinge_j = b->released[1] || m->node[b->end[1]].hinge;
@@ -102,7 +102,10 @@ static int make_member(fl_member_chain *c, const fl_member_model *m, int32_t k, 
                     : at_i       ? FL_MEMBER_HINGE_I
                     : at_j       ? FL_MEMBER_HINGE_J
                                  : FL_MEMBER_BEAM;
-        const fl_vec3 d = v3_sub(c->ball[next].x0, c->ball[last].x0);
+        if (p == 1) out->arm[0] = b->arm[0];
+        if (p == b->pieces) out->arm[1] = b->arm[1];
+        out->arms = v3_nonzero(out->arm[0]) || v3_nonzero(out->arm[1]);
+        const fl_vec3 d = v3_sub(fl_member_contact_start(c, out, 1), fl_member_contact_start(c, out, 0));
         if (!(v3_norm(d) > 0.0))
             return fl_fail(err, FL_INPUT, "%s:%lld: a piece of member %s has no length", m->file,
                            (long long)b->line, m->member_name.name[k]);
@@ -148,8 +151,10 @@ void fl_member_chain_masses(fl_member_chain *c, double margin)
         } else if (e->kind != FL_MEMBER_BAR) {
             inertia[e->kind == FL_MEMBER_HINGE_I] = s * bend;
         }
-        c->ball[e->i].over_m += m;
-        c->ball[e->j].over_m += m;
+        const double whole = e->arms ? 2.0 * m : m;
+        for (int end = 0; end < 2 && e->arms; end++) inertia[end] += whole * v3_norm2(e->arm[end]);
+        c->ball[e->i].over_m += whole;
+        c->ball[e->j].over_m += whole;
         c->ball[e->i].over_i += inertia[0];
         c->ball[e->j].over_i += inertia[1];
     }

@@ -7,10 +7,11 @@
  *
  * Masses are fictitious.  Each contact gives both of its balls
  *     m += s dt2 max(EA/L, 12 EI/L3),    I += s dt2 [max(EI, GJ)/L + L2/4 (12 EI/L3 + c sin(t/2)2 EA/L)]
- * (hinged: EA/L, and 3 EI/L to the ball that transmits moments), which keeps omega2 below 3.5/(s dt2) by
- * Rayleigh's theorem; s = 2, since thick short pieces fail at s = 1 (Ye & Xu, Engineering Mechanics 41(3),
- * 2024, and our own).  The last term is the lever that the axial force of a bent piece has about its balls, t
- * its relative rotation: without it slender pieces fail at 0.2 rad.  It is renewed before each point.
+ * (hinged: EA/L, and 3 EI/L to the ball that transmits moments; to a ball with an arm a twice m, and 2 m a2
+ * to I, since the end moves by v + w x a), which keeps omega2 below 3.5/(s dt2) by Rayleigh's theorem; s = 2,
+ * since thick short pieces fail at s = 1 (Ye & Xu, Engineering Mechanics 41(3), 2024, and our own).  The last
+ * term is the lever that the axial force of a bent piece has about its balls, t its relative rotation:
+ * without it slender pieces fail at 0.2 rad.  It is renewed before each point.
  *
  * A step with load factor lambda, internal force F and damping c1, c2 (body/relaxation.h):
  *     v <- c1 v + c2 dt (lambda P - F)/m,   d <- d + dt v,   and the same for rotations, q <- exp(dt w) q
@@ -69,6 +70,19 @@ typedef struct {
     fl_member_fibre_section *fibre_section; /* [sections of the model] n = 0: elastic */
     int32_t sections;
 } fl_member_chain;
+
+/* Where an end of a contact is, and where it was at the start: at the ball, or at its arm. */
+static inline fl_vec3 fl_member_contact_end(const fl_member_chain *c, const fl_member_contact *e, int end)
+{
+    const fl_member_ball *b = &c->ball[end ? e->j : e->i];
+    const fl_vec3 x = v3_add(b->x0, b->d);
+    return e->arms ? v3_add(x, q_rotate(b->q, e->arm[end])) : x;
+}
+static inline fl_vec3 fl_member_contact_start(const fl_member_chain *c, const fl_member_contact *e, int end)
+{
+    const fl_vec3 x = c->ball[end ? e->j : e->i].x0;
+    return e->arms ? v3_add(x, e->arm[end]) : x;
+}
 
 /* The parts of a vector along freedoms that are free; held: x y z in the lowest three bits. */
 static inline fl_vec3 fl_member_free_part(fl_vec3 a, int held)

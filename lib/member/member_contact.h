@@ -19,6 +19,8 @@
  *               N = EA/L (l - L),  g = 3/L (EIz s_y A e2 + EIy s_z A e3),  T = (g - (g.e) e)/l
  *               on h: N e + T,    on b: -(N e + T) and the moment e x g
  *   bar     neither does: N = EA/L (l - L)
+ *   arms    an end may stand off its ball by an arm a that turns with it: x_i + Q_i a_i is in the place of
+ *           x_i, and Q_i a_i x f adds to the moment on i (on j: -Q_j a_j x f)
  *
  * Pieces of a section that yields have the plastic stretch and curvatures of member_fibres.h subtracted;
  * energy is then what is stored.
@@ -53,6 +55,8 @@ typedef struct {
     double axial;             /* EA/L */
     double shear[2];          /* beam: 12 EIz/L3 along e2, 12 EIy/L3 along e3; hinged: 3 EIz/L, 3 EIy/L */
     double turn[3];           /* beam: GJ/L, EIy/L, EIz/L */
+    int arms;                 /* some end stands off its ball */
+    fl_vec3 arm[2];           /* from ball to end, at the start */
     fl_member_fibres *fibres; /* of a section that yields, borrowed; NULL: elastic */
 } fl_member_contact;
 
@@ -159,12 +163,9 @@ static inline fl_member_force fl_member_hinged(const fl_member_contact *c, fl_ve
     return (fl_member_force){f, hinge_i ? none : m, hinge_i ? m : none};
 }
 
-/* Force of a contact whose balls are dx = x_j - x_i apart.
- *   energy     NULL, or the energy of the contact
- *   rotation2  square of the relative rotation [rad2]; of a hinged contact, the square of
- *              the sine between ball and line of centres over that of 1 rad */
-static inline fl_member_force fl_member_contact_force(const fl_member_contact *c, fl_vec3 dx, fl_quat qi,
-                                                      fl_quat qj, double *energy, double *rotation2)
+/* Force of a contact whose ends are dx apart, and the moments about the ends; as the next otherwise. */
+static inline fl_member_force fl_member_end_force(const fl_member_contact *c, fl_vec3 dx, fl_quat qi,
+                                                  fl_quat qj, double *energy, double *rotation2)
 {
     *rotation2 = 0.0;
     if (c->fibres && c->fibres->ruptured) {
@@ -175,6 +176,21 @@ static inline fl_member_force fl_member_contact_force(const fl_member_contact *c
     if (c->kind == FL_MEMBER_BAR) return fl_member_bar(c, dx, energy);
     return fl_member_hinged(c, dx, c->kind == FL_MEMBER_HINGE_I ? qj : qi, c->kind == FL_MEMBER_HINGE_I,
                             energy, rotation2);
+}
+
+/* Force of a contact whose balls are dx = x_j - x_i apart.
+ *   energy     NULL, or the energy of the contact
+ *   rotation2  square of the relative rotation [rad2]; of a hinged contact, the square of
+ *              the sine between ball and line of centres over that of 1 rad */
+static inline fl_member_force fl_member_contact_force(const fl_member_contact *c, fl_vec3 dx, fl_quat qi,
+                                                      fl_quat qj, double *energy, double *rotation2)
+{
+    if (!c->arms) return fl_member_end_force(c, dx, qi, qj, energy, rotation2);
+    const fl_vec3 ai = q_rotate(qi, c->arm[0]), aj = q_rotate(qj, c->arm[1]);
+    fl_member_force r = fl_member_end_force(c, v3_add(dx, v3_sub(aj, ai)), qi, qj, energy, rotation2);
+    r.mi = v3_add(r.mi, v3_cross(ai, r.f));
+    r.mj = v3_sub(r.mj, v3_cross(aj, r.f));
+    return r;
 }
 
 #endif

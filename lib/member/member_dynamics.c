@@ -15,13 +15,29 @@ enum { BALANCE_STEPS = 60 };
 
 /* --- making it --------------------------------------------------------------------------------- */
 
+/* What bending and torsion add where an end has an arm. */
+static double arms_omega2(const fl_member_contact *e, double half, double inertia)
+{
+    double sum = 0.0;
+    const double l2 = e->length * e->length, bend = e->shear[0] + e->shear[1];
+    if (e->kind == FL_MEMBER_BEAM) {
+        sum = bend * (6.0 / half + l2 / inertia);
+        for (int k = 0; k < 3; k++) sum += 4.0 * e->turn[k] / inertia;
+    } else if (e->kind != FL_MEMBER_BAR) {
+        sum = bend * (6.0 / (l2 * half) + 2.0 / inertia);
+    }
+    return sum;
+}
+
 /* omega2 of a contact between two balls that have but its own share of the masses; forms as in
- * member_stiffness.h, which are orthogonal in M^-1. */
+ * member_stiffness.h, which are orthogonal in M^-1.  With arms they are not: their sum, each at three times
+ * what it is at the balls, as an arm has (r x a)2 <= 2 a2 r2 of an inertia that holds a2. */
 static double contact_omega2(const fl_member_contact *e, const fl_member_section *s)
 {
     const double l = e->length, half = 0.5 * s->mass * l,
                  inertia = half * (l * l / 12.0 + 0.5 * (s->eiy + s->eiz) / s->ea);
     double most = 2.0 * e->axial / half;
+    if (e->arms) return 3.0 * most + arms_omega2(e, half, inertia);
     const double bend = fmax(e->shear[0], e->shear[1]);
     if (e->kind == FL_MEMBER_BEAM) {
         most = fmax(most, bend * (2.0 / half + 0.5 * l * l / inertia));
@@ -310,8 +326,8 @@ void fl_member_section_forces(const fl_member_chain *c, int32_t contact, fl_vec3
     const fl_member_contact *e = &c->contact[contact];
     const fl_member_ball *i = &c->ball[e->i], *j = &c->ball[e->j];
     double rotation2;
-    const fl_vec3 dx = v3_sub(v3_add(j->x0, j->d), v3_add(i->x0, i->d));
-    const fl_member_force r = fl_member_contact_force(e, dx, i->q, j->q, NULL, &rotation2);
+    const fl_vec3 dx = v3_sub(fl_member_contact_end(c, e, 1), fl_member_contact_end(c, e, 0));
+    const fl_member_force r = fl_member_end_force(e, dx, i->q, j->q, NULL, &rotation2);
     const int turned_j = e->kind == FL_MEMBER_HINGE_I;
     /* Axes: along the line of centres, those across from the rotation of an end that transmits moments. */
     fl_vec3 a[3];

@@ -126,10 +126,12 @@ static int import_element(importer *u, const fl_frame_element *e, int32_t scope,
     if (b.section == -2)
         return fl_frame_count_skipped(u->f, "elements of section %s, which has no area or material",
                                       u->f->section_name.name[e->section]);
-    if (v3_norm(v3_sub(u->f->node[e->node[1]].x, u->f->node[e->node[0]].x)) == 0.0)
-        return fl_frame_count_skipped(u->f, "elements without length");
+    const fl_vec3 chord = v3_sub(v3_add(u->f->node[e->node[1]].x, e->offset[1]),
+                                 v3_add(u->f->node[e->node[0]].x, e->offset[0]));
+    if (v3_norm(chord) == 0.0) return fl_frame_count_skipped(u->f, "elements without length");
     for (int s = 0; s < 2; s++) {
         if ((b.end[s] = import_node(u, e->node[s], err)) < 0) return -1;
+        b.arm[s] = v3_scale(u->l, e->offset[s]);
         const unsigned bends = e->pins[s] & 6u;
         b.released[s] = e->truss || bends == 6u;
         if (bends != 0u && bends != 6u && fl_frame_count_skipped(u->f, "releases of one bending moment"))
@@ -140,7 +142,7 @@ static int import_element(importer *u, const fl_frame_element *e, int32_t scope,
         if (bends == 0u && e->pins[s] && fl_frame_count_skipped(u->f, "releases of torsion alone")) return -1;
     }
     if (!e->truss && (e->has_y || e->has_z)) {
-        const fl_vec3 along = v3_unit(v3_sub(u->f->node[e->node[1]].x, u->f->node[e->node[0]].x));
+        const fl_vec3 along = v3_unit(chord);
         const fl_vec3 z = e->has_z ? e->across : v3_cross(along, e->across);
         const double size = v3_norm(z);
         if (v3_norm(v3_cross(along, z)) > 1e-6 * v3_norm(e->across)) {

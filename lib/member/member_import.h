@@ -2,8 +2,8 @@
 /* member_import.h -- a model of members from the frame of a finite element deck.
  *
  * Nodes are called n1 by their numbers (n2.1 in scope 2 of an assembly), members e1. An element becomes a
- * member of `pieces` pieces, a truss a bar. A release of both bending moments of an end is a hinge; of one
- * alone it is not carried over. Nodes that no element uses are left out.
+ * member of `pieces` pieces, a truss a bar; its offsets are arms. A release of both bending moments of an end
+ * is a hinge; of one alone it is not carried over. Nodes that no element uses are left out.
  *
  * The deck is in N, s and a length of l metres, as mm, N, t and MPa are with l = 0.001: of the model
  * lengths are times l, moduli over l2, masses over l, densities over l4, moments times l. Source:

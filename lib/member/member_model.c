@@ -9,13 +9,12 @@ static const double PARALLEL = 1e-6;
 int fl_member_frame(const fl_member_model *m, int32_t k, fl_vec3 e[3], double *length, fl_err *err)
 {
     const fl_member *b = &m->member[k];
-    const fl_member_node *i = &m->node[b->end[0]], *j = &m->node[b->end[1]];
-    const fl_vec3 d = v3_sub(v3_add(j->x, j->offset), v3_add(i->x, i->offset));
+    const fl_vec3 d = v3_sub(fl_member_end(m, k, 1), fl_member_end(m, k, 0));
     *length = v3_norm(d);
     if (!(*length > 0.0))
         return fl_fail(err, FL_INPUT,
-                       "%s:%lld: member %s has no length: its nodes %s and %s are at one place", m->file,
-                       (long long)b->line, m->member_name.name[k], m->node_name.name[b->end[0]],
+                       "%s:%lld: member %s has no length: its ends at nodes %s and %s are at one place",
+                       m->file, (long long)b->line, m->member_name.name[k], m->node_name.name[b->end[0]],
                        m->node_name.name[b->end[1]]);
     e[0] = v3_scale(1.0 / *length, d);
     fl_vec3 ref = b->has_ref ? b->ref : v3(0, 0, 1);

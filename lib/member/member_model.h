@@ -33,6 +33,7 @@ typedef struct {
 typedef struct {
     int32_t end[2], section, pieces, part;
     int released[2]; /* the end transmits no moment */
+    fl_vec3 arm[2];  /* rigid, from the node to the end, at the start */
     int has_ref;
     fl_vec3 ref;       /* lies in the plane of e1 and e3 */
     double bow;        /* amplitude of a half sine wave without stress */
@@ -50,6 +51,13 @@ typedef struct {
     char *file;    /* that it was read from, for messages */
     char *history; /* its "#by" lines, NULL for none */
 } fl_member_model;
+
+/* Place of an end: 0 for i, 1 for j. */
+static inline fl_vec3 fl_member_end(const fl_member_model *m, int32_t k, int end)
+{
+    const fl_member_node *n = &m->node[m->member[k].end[end]];
+    return v3_add(v3_add(n->x, n->offset), m->member[k].arm[end]);
+}
 
 /* Frame of a member from end to end: e[0] along it, e[2] the part of `ref` at right angles to it, which is z
  * where none was given, and x for a member along z.  0, or -1 with FL_INPUT: no length, or ref along the

@@ -33,8 +33,8 @@ int fl_member_masses(const fl_member_chain *c, const fl_member_model *m, double 
                 m->section_name.name[b->section]);
         mass[e->i] += half;
         mass[e->j] += half;
-        inertia[e->i] += half * (l2 + r2);
-        inertia[e->j] += half * (l2 + r2);
+        inertia[e->i] += half * (l2 + r2 + v3_norm2(e->arm[0]));
+        inertia[e->j] += half * (l2 + r2 + v3_norm2(e->arm[1]));
     }
     return 0;
 }

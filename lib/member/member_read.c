@@ -121,16 +121,21 @@ static int read_section(fl_member_model *m, fl_text *in, fl_err *err)
     return 0;
 }
 
-/* What may follow the pieces of a member: hinge-i, hinge-j, ref X Y Z, bow A y|z, cylinders N. */
+/* What may follow the pieces of a member: hinge-i, hinge-j, arm-i X Y Z, arm-j X Y Z, ref X Y Z, bow A y|z,
+ * cylinders N. */
 static int read_member_word(fl_member *b, fl_text *in, fl_err *err)
 {
-    static const char *const xyz[3] = {"x of ref", "y of ref", "z of ref"};
+    static const char *const xyz[3] = {"x of ref", "y of ref", "z of ref"}, *const arm[3] = {"x of the arm",
+                                                                                             "y of the arm",
+                                                                                             "z of the arm"};
     const char *word, *axis;
     if (fl_text_word(in, "word", &word, err)) return -1;
     if (strcmp(word, "hinge-i") == 0 || strcmp(word, "hinge-j") == 0) {
         b->released[word[6] == 'j'] = 1;
         return 0;
     }
+    if (strcmp(word, "arm-i") == 0 || strcmp(word, "arm-j") == 0)
+        return read_vector(in, arm, &b->arm[word[4] == 'j'], err);
     if (strcmp(word, "ref") == 0) {
         b->has_ref = 1;
         return read_vector(in, xyz, &b->ref, err);
@@ -145,7 +150,8 @@ static int read_member_word(fl_member *b, fl_text *in, fl_err *err)
     }
     if (strcmp(word, "cylinders") == 0)
         return fl_text_i32(in, "cylinders", 1, FL_MEMBER_PIECES_MAX, &b->cylinders, err);
-    return fl_text_fail(in, err, "\"%s\" found, expected hinge-i, hinge-j, ref, bow or cylinders", word);
+    return fl_text_fail(in, err,
+                        "\"%s\" found, expected hinge-i, hinge-j, arm-i, arm-j, ref, bow or cylinders", word);
 }
 
 static int read_member(fl_member_model *m, fl_text *in, fl_err *err)

@@ -9,7 +9,8 @@ static const double SPIN = 1e-11;
 
 static int turns_ball(const fl_member_contact *e, int at_j)
 {
-    return e->kind == FL_MEMBER_BEAM || e->kind == (at_j ? FL_MEMBER_HINGE_I : FL_MEMBER_HINGE_J);
+    return v3_nonzero(e->arm[at_j]) || e->kind == FL_MEMBER_BEAM ||
+           e->kind == (at_j ? FL_MEMBER_HINGE_I : FL_MEMBER_HINGE_J);
 }
 
 static int number_freedoms(fl_member_stiffness *s, const fl_member_chain *c, fl_err *err)
@@ -57,6 +58,8 @@ static void add_form(fl_member_stiffness *s, const fl_member_contact *e, fl_vec3
     put_vector(g + 6, over, across);
     put_vector(g + 3, turn_i, about);
     put_vector(g + 9, turn_j, about);
+    for (int end = 0; end < 2 && e->arms; end++) /* (r x a).across = r.(a x across) */
+        put_vector(g + 3 + 6 * end, end ? over : -over, v3_cross(e->arm[end], across));
     fl_profile_add_form(&s->k, 12, which, g, stiff);
 }
 

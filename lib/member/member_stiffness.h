@@ -7,8 +7,8 @@
  *     beam    D.e1,   D.e2 - L/2 S.e3,   D.e3 + L/2 S.e2   and   (r_j - r_i).e1, e2, e3
  *     hinged  D.e1,   D.e2/L - r_b.e3,   D.e3/L + r_b.e2
  *     bar     D.e1
- * each with the stiffness of the same name in the contact. K is kept as L D L^T (profile_matrix.h), balls
- * between nodes first. */
+ * each with the stiffness of the same name in the contact; an end on an arm a moves by u + r x a. K is kept
+ * as L D L^T (profile_matrix.h), balls between nodes first. */
 #ifndef FL_MEMBER_MEMBER_STIFFNESS_H
 #define FL_MEMBER_MEMBER_STIFFNESS_H
 #include "member/member_chain.h"

@@ -53,6 +53,11 @@ static void write_member(FILE *f, const fl_member_model *m, int32_t k)
             m->node_name.name[b->end[1]], m->section_name.name[b->section], (int)b->pieces);
     if (b->released[0] && !bar) fputs(" hinge-i", f);
     if (b->released[1] && !bar) fputs(" hinge-j", f);
+    for (int s = 0; s < 2; s++)
+        if (v3_nonzero(b->arm[s])) {
+            fputs(s ? " arm-j" : " arm-i", f);
+            put_vector(f, b->arm[s]);
+        }
     if (b->has_ref) {
         fputs(" ref", f);
         put_vector(f, b->ref);

@@ -37,6 +37,7 @@ uint64_t fl_path_hash(const fl_path *p)
         h = fl_hash(h, &e->axial, sizeof e->axial);
         h = fl_hash(h, e->shear, sizeof e->shear);
         h = fl_hash(h, e->turn, sizeof e->turn);
+        if (e->arms) h = hash_vector(hash_vector(h, e->arm[0]), e->arm[1]);
         if (!e->fibres) continue;
         const double yields[] = {e->fibres->section->yield, e->fibres->section->back,
                                  e->fibres->section->limit};

@@ -72,6 +72,15 @@ int fl_beam_deck_mass(fl_beam_deck *k, int64_t node, double mass, fl_err *err)
     return 0;
 }
 
+int fl_beam_deck_link(fl_beam_deck *k, int64_t a, int64_t b, fl_err *err)
+{
+    if (!k->frame) return fl_beam_deck_skip(k, "rigid link", err);
+    if (fl_grow(&k->link, &k->link_cap, (int64_t)k->links + 1, sizeof *k->link, err)) return -1;
+    k->link[k->links][0] = a;
+    k->link[k->links++][1] = b;
+    return 0;
+}
+
 int fl_beam_deck_skip(fl_beam_deck *k, const char *kind, fl_err *err)
 {
     if (k->frame) return fl_frame_count_skipped(k->frame, "%s", kind);
@@ -88,14 +97,14 @@ static int fail_beam(const fl_beam_deck *k, const fl_beam *b, fl_err *err, const
 }
 
 /* Positions of the ends; of a member with an unknown node or without a length the line is told. */
-static int find_ends(const fl_beam_deck *k, const fl_beam *b, fl_vec3 x[2], int with_offset, fl_err *err)
+static int find_ends(const fl_beam_deck *k, const fl_beam *b, fl_vec3 x[2], fl_err *err)
 {
     for (int s = 0; s < 2; s++) {
         const int32_t at = fl_id_map_find(&k->e.node_id, b->scope[s], b->node[s]);
         if (at < 0 || isnan(k->e.x[at].x))
             return fail_beam(k, b, err, "member %lld ends at node %lld, which is not defined",
                              (long long)b->node[s]);
-        x[s] = with_offset ? v3_add(k->e.x[at], b->offset[s]) : k->e.x[at];
+        x[s] = v3_add(k->e.x[at], b->offset[s]);
     }
     if (!(v3_norm(v3_sub(x[1], x[0])) > 0.0)) return fail_beam(k, b, err, "member %lld has no length", 0);
     return 0;
@@ -280,7 +289,7 @@ static int make_surface(fl_beam_deck *k, fl_surface *s, fl_err *err)
         const fl_beam_section *p = &k->section[b->section[0]];
         fl_vec3 x[2];
         of_beam[i] = -1;
-        if (find_ends(k, b, x, 1, err) || check_sizes(k, b, err)) goto done;
+        if (find_ends(k, b, x, err) || check_sizes(k, b, err)) goto done;
         if (p->form != FL_FRAME_PIPE && p->form != FL_FRAME_RECTANGLE) {
             if (fl_elements_skip(&k->e, p->kind, err)) goto done;
             continue;
@@ -335,6 +344,45 @@ static int join_short_members(fl_beam_deck *k, fl_err *err)
     return 0;
 }
 
+/* Which of two nodes on rigid links stands for both: one with a mass, else one held, else the first. */
+static int is_better_hub(const fl_beam_deck *k, int32_t a, int32_t b)
+{
+    int rank[2];
+    for (int s = 0; s < 2; s++) {
+        const int32_t v = s ? b : a,
+                      at = fl_id_map_find(&k->frame->node_id, k->e.node_id.scope[v], k->e.node_id.id[v]);
+        rank[s] = at < 0 ? 0 : k->frame->node[at].mass > 0.0 ? 2 : k->frame->node[at].fixed != 0;
+    }
+    return rank[0] != rank[1] ? rank[0] > rank[1] : a < b;
+}
+
+static int32_t hub_of(const fl_beam_deck *k, int32_t v)
+{
+    while (k->hub[v] != v) v = k->hub[v];
+    return v;
+}
+
+static int join_rigid_links(fl_beam_deck *k, fl_err *err)
+{
+    k->hub = fl_alloc(k->e.node_id.n, sizeof *k->hub, err);
+    if (!k->hub) return -1;
+    for (int32_t v = 0; v < k->e.node_id.n; v++) k->hub[v] = v;
+    for (int32_t i = 0; i < k->links; i++) {
+        int32_t v[2];
+        for (int s = 0; s < 2; s++) {
+            v[s] = fl_id_map_find(&k->e.node_id, 0, k->link[i][s]);
+            v[s] = v[s] < 0 || isnan(k->e.x[v[s]].x) ? -1 : hub_of(k, common_node(k, v[s]));
+        }
+        if (v[0] < 0 || v[1] < 0) {
+            if (fl_frame_count_skipped(k->frame, "rigid links of nodes that are not defined")) return -1;
+        } else if (v[0] != v[1]) {
+            const int first = is_better_hub(k, v[0], v[1]);
+            k->hub[v[first]] = v[!first];
+        }
+    }
+    return 0;
+}
+
 /* Supports and masses of nodes that became another one. */
 static int move_supports(fl_beam_deck *k, fl_err *err)
 {
@@ -342,8 +390,12 @@ static int move_supports(fl_beam_deck *k, fl_err *err)
         const fl_frame_node n = k->frame->node[i];
         const int32_t scope = k->frame->node_id.scope[i];
         const int32_t v = scope > 1 ? -1 : fl_id_map_find(&k->e.node_id, scope, k->frame->node_id.id[i]);
-        const int32_t to = v < 0 ? v : common_node(k, v);
+        const int32_t to = v < 0 ? v : hub_of(k, common_node(k, v));
         if (to == v || (n.fixed == 0 && n.mass == 0.0)) continue;
+        const int moved = v3_norm(v3_sub(k->e.x[to], k->e.x[v])) > 0.0 && hub_of(k, v) != v;
+        if (moved && (n.mass > 0.0 || n.fixed != 63) &&
+            fl_frame_count_skipped(k->frame, "lever of masses and partial supports on rigid links"))
+            return -1;
         const int32_t at = fl_frame_node_of(k->frame, k->e.node_id.scope[to], k->e.node_id.id[to], err);
         if (at < 0) return -1;
         k->frame->node[at].fixed |= n.fixed;
@@ -422,31 +474,37 @@ static int frame_beam(fl_beam_deck *k, const fl_beam *b, fl_err *err)
     fl_frame_model *f = k->frame;
     const fl_beam_section *p = &k->section[b->section[0]], *q = &k->section[b->section[1]];
     const int steps = is_taper(p, q) ? FL_BEAM_STEPS : 1;
+    const fl_vec3 none = v3(0, 0, 0);
     fl_vec3 x[2], y, z;
-    if (find_ends(k, b, x, 0, err) || check_sizes(k, b, err)) return -1;
+    if (find_ends(k, b, x, err) || check_sizes(k, b, err)) return -1;
     if (p->form == FL_FRAME_NONE) return fl_frame_count_skipped(f, "%s", p->kind);
-    if (v3_nonzero(b->offset[0]) || v3_nonzero(b->offset[1]))
-        fl_frame_count_skipped(f, "offsets of members, which run from node to node");
     if (steps > 1) fl_frame_count_skipped(f, "tapers; %d steps each are taken", FL_BEAM_STEPS);
     if (b->node[2] > 0) fl_frame_count_skipped(f, "middles of curved members, which run straight");
     beam_axes(b, x, &y, &z);
-    int32_t end[2];
+    int32_t end[2], own_first = -1;
+    fl_vec3 at_node[2], offset[2];
     for (int s = 0; s < 2; s++) {
-        end[s] = common_node(k, fl_id_map_find(&k->e.node_id, b->scope[s], b->node[s]));
-        x[s] = k->e.x[end[s]];
+        const int32_t v = common_node(k, fl_id_map_find(&k->e.node_id, b->scope[s], b->node[s]));
+        end[s] = hub_of(k, v);
+        at_node[s] = k->e.x[end[s]];
+        offset[s] = v3_add(b->offset[s], v3_sub(k->e.x[v], at_node[s]));
+        x[s] = v3_add(at_node[s], offset[s]);
+        if (s == 0) own_first = v;
+        else if (end[0] == end[1] && v != own_first)
+            return fl_frame_count_skipped(f, "members between nodes of one rigid link");
     }
     if (end[0] == end[1])
         return fl_frame_count_skipped(f, "members shorter than %g of their diameter, whose ends are one node",
                                       FL_BEAM_SHORT);
-    int32_t from = frame_node(k, k->e.node_id.scope[end[0]], k->e.node_id.id[end[0]], x[0], err);
+    int32_t from = frame_node(k, k->e.node_id.scope[end[0]], k->e.node_id.id[end[0]], at_node[0], err);
     const int32_t part = frame_part(k, b, err);
     for (int step = 0; step < steps; step++) {
         const int last = step == steps - 1;
         const fl_vec3 at = v3_madd(x[0], (step + 1.0) / steps, v3_sub(x[1], x[0]));
         const int32_t scope = steps > 1 ? b->piece * FL_BEAM_STEPS + step + 1 : b->piece;
-        const int32_t to = last
-                               ? frame_node(k, k->e.node_id.scope[end[1]], k->e.node_id.id[end[1]], x[1], err)
-                               : frame_node(k, scope + 1, b->id, at, err);
+        const int32_t to =
+            last ? frame_node(k, k->e.node_id.scope[end[1]], k->e.node_id.id[end[1]], at_node[1], err)
+                 : frame_node(k, scope + 1, b->id, at, err);
         const int32_t section = frame_section(k, b, step, steps, err);
         const int32_t i = fl_frame_element_of(f, scope, b->id, err);
         if (from < 0 || to < 0 || part < 0 || section < 0 || i < 0) return -1;
@@ -456,6 +514,7 @@ static int frame_beam(fl_beam_deck *k, const fl_beam *b, fl_err *err)
                                            .truss = b->truss,
                                            .has_z = p->form != FL_FRAME_PIPE,
                                            .across = z,
+                                           .offset = {step ? none : offset[0], last ? offset[1] : none},
                                            .pins = {step ? 0u : b->pins[0], last ? b->pins[1] : 0u},
                                            .id = b->id};
         from = to;
@@ -465,7 +524,7 @@ static int frame_beam(fl_beam_deck *k, const fl_beam *b, fl_err *err)
 
 static int make_frame(fl_beam_deck *k, fl_err *err)
 {
-    if (sort_sets(k, err) || join_short_members(k, err)) return -1;
+    if (sort_sets(k, err) || join_short_members(k, err) || join_rigid_links(k, err)) return -1;
     for (int32_t i = 0; i < k->beams; i++)
         if (frame_beam(k, &k->beam[i], err)) return -1;
     for (int32_t i = 0; i < k->e.element_id.n; i++)
@@ -495,5 +554,7 @@ void fl_beam_deck_free(fl_beam_deck *k)
     free(k->set_is_part);
     free(k->set_size);
     free(k->same);
+    free(k->hub);
+    free(k->link);
     *k = (fl_beam_deck){0};
 }

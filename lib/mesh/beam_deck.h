@@ -6,8 +6,9 @@
  *             the two outlines; other sections have no outline and are counted
  *   frame     members with their walls and materials (frame_model.h).  A taper becomes FL_BEAM_STEPS
  *             cylinders of the diameters and walls at their middles, an error of second order in their
- *             length. Offsets are counted: in a frame members run from node to node. Members shorter than
- *             FL_BEAM_SHORT of their diameter make their nodes one
+ *             length. Members shorter than FL_BEAM_SHORT of their diameter make their nodes one. Nodes on
+ *             rigid links are one too, the first that has a mass, else a support, else the first; members at
+ *             the others have an offset from it
  * A member or plate belongs to the smallest of the sets that hold it; else to the part its reader gives; else
  * to one of its size: "D_1.2", "10x5", "cones" for a taper, "plates", "solids". */
 #ifndef FL_MESH_BEAM_DECK_H
@@ -61,8 +62,10 @@ typedef struct {
     } * entry;
     int8_t *set_is_part; /* [set_name.n] 0: a set to ask for only */
     int32_t *same;       /* [e.node_id.n] of a frame: the node that stands for this one */
+    int32_t *hub;        /* [e.node_id.n] of a frame: the node that a rigid link carries this one with */
+    int64_t (*link)[2];  /* nodes of rigid links, numbers in scope 0 */
     int32_t *set_size;   /* [set_name.n] its elements, once they are sorted */
-    int32_t beams, beam_cap, sections, section_cap, entries, entry_cap, set_cap;
+    int32_t beams, beam_cap, sections, section_cap, entries, entry_cap, set_cap, links, link_cap;
     int32_t tapers, prisms, made_nodes, offsets;
 } fl_beam_deck;
 
@@ -83,6 +86,9 @@ int fl_beam_deck_set_add(fl_beam_deck *k, int32_t set, int64_t element, fl_err *
 /* Support, mass: kept for a frame only.  -1 with FL_SYSTEM. */
 int fl_beam_deck_hold(fl_beam_deck *k, int64_t node, int fixed, fl_err *err);
 int fl_beam_deck_mass(fl_beam_deck *k, int64_t node, double mass, fl_err *err);
+
+/* A massless rigid link: of a frame its nodes move as one; of a surface it is counted.  -1 with FL_SYSTEM. */
+int fl_beam_deck_link(fl_beam_deck *k, int64_t a, int64_t b, fl_err *err);
 
 /* Counts what is not carried over, by kind.  -1 with FL_SYSTEM. */
 int fl_beam_deck_skip(fl_beam_deck *k, const char *kind, fl_err *err);

@@ -126,6 +126,24 @@ static int read_orientation(fl_frame_model *f, const fl_bdf_entry *a, fl_frame_e
     return 0;
 }
 
+/* Offsets from grids to ends, three fields each; OFFT (field 8), GGG unless given, says in which axes. */
+static int read_ends_off(fl_frame_model *f, const fl_bdf_entry *a, int first, fl_frame_element *e,
+                         fl_err *err)
+{
+    const char *offt = fl_bdf_field(a, 7);
+    for (int s = 0; s < 2; s++) {
+        fl_vec3 w;
+        if (fl_bdf_point(a, first + 3 * s, &w, err)) return -1;
+        if (!v3_nonzero(w)) continue;
+        if (strlen(offt) == 3 && offt[1 + s] != 'G' && offt[1 + s] != 'g') {
+            if (fl_frame_count_skipped(f, "%s: offsets in axes of the element (OFFT)", a->name)) return -1;
+            continue;
+        }
+        e->offset[s] = w;
+    }
+    return 0;
+}
+
 static int read_element(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
 {
     const int rod = strcmp(a->name, "CONROD") == 0, beam = a->name[1] == 'B', first = rod ? 1 : 2;
@@ -156,14 +174,7 @@ static int read_element(fl_frame_model *f, const fl_bdf_entry *a, fl_err *err)
         if (read_orientation(f, a, &e, err) || read_pins(f, a, X, &e.pins[0]) ||
             read_pins(f, a, X + 1, &e.pins[1]))
             return -1;
-        int offset = 0;
-        for (int d = X + 2; d < X + 8; d++) {
-            double w = 0.0;
-            if (fl_bdf_real(a, d, &w, err)) return -1;
-            offset |= w != 0.0;
-        }
-        if (offset && fl_frame_count_skipped(f, "%s: offsets; the member runs from grid to grid", a->name))
-            return -1;
+        if (read_ends_off(f, a, X + 2, &e, err)) return -1;
     }
     if ((e.part = fl_frame_part_of(f, part, err)) < 0) return -1;
     f->element[k] = e;

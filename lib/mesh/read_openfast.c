@@ -8,7 +8,8 @@
 #include "base/pi.h"
 #include "mesh/beam_deck.h"
 
-enum { WORDS = 24, HEAD_LINES = 3 };
+enum { WORDS = 24, HEAD_LINES = 3, LONGEST_NAME = 40 };
+static const unsigned ALL_MOMENTS = 7; /* pins of a spherical joint */
 
 /* Sections by their numbers: those of each form are numbered on their own, which is the scope. */
 enum { CIRCLES, RECTANGLES, CONSTANTS };
@@ -16,6 +17,7 @@ enum { CIRCLES, RECTANGLES, CONSTANTS };
 typedef struct {
     fl_beam_deck k;
     fl_id_map section_id; /* scope: one of the above; the index is that in k.section */
+    fl_id_map ball_joint; /* joints at which no member is clamped */
     double down;          /* MSL2SWL */
     int growth;           /* depths with marine growth */
     char *word[WORDS];    /* of the current row */
@@ -134,9 +136,16 @@ static int read_joint(openfast_reader *r, fl_err *err)
     if (get_id(r, 0, "the joint", &id, err)) return -1;
     for (int c = 0; c < 3; c++)
         if (get_real(r, c + 1, "a coordinate of the joint", &x[c], err)) return -1;
-    const int type = find_column_named(r, "JointType");
-    if (type >= 0 && type < r->words && strcmp(r->word[type], "1") != 0 && r->k.frame)
-        fl_frame_count_skipped(r->k.frame, "releases of joints of type %.10s", r->word[type]);
+    const int at = find_column_named(r, "JointType");
+    int64_t type = 1;
+    if (at >= 0 && at < r->words && (get_id(r, at, "the type of the joint", &type, err) || type > 4))
+        return err->code
+                   ? -1
+                   : fl_deck_fail(&r->k.d, err, "JointType is %lld, 1 to 4 are expected", (long long)type);
+    if (type == 4 && fl_id_map_add(&r->ball_joint, 0, id, err) < 0) return -1;
+    if (r->k.frame && (type == 2 || type == 3))
+        fl_frame_count_skipped(r->k.frame, "%s joints (JointType %d), whose members are clamped here",
+                               type == 2 ? "universal" : "revolute", (int)type);
     return fl_elements_add_node(&r->k.e, 0, id, v3(x[0], x[1], x[2] - r->down), err) < 0 ? -1 : 0;
 }
 
@@ -157,13 +166,14 @@ static int read_mass(openfast_reader *r, fl_err *err)
     return fl_beam_deck_mass(&r->k, id, mass, err);
 }
 
-/* The comment of a row without quotes and blanks around it. */
+/* The comment of a row without quotes and blanks around it; a long one is a remark and no name. */
 static void name_part(const openfast_reader *r, char part[FL_BEAM_NAME])
 {
     const char *p = r->comment ? r->comment : "";
     p += strspn(p, " \t!#\"'");
     size_t n = strcspn(p, "\r\n");
     while (n > 0 && strchr(" \t\"'", p[n - 1])) n--;
+    if (n > LONGEST_NAME) n = 0;
     snprintf(part, FL_BEAM_NAME, "%.*s", n < FL_BEAM_NAME ? (int)n : FL_BEAM_NAME - 1, p);
 }
 
@@ -262,7 +272,7 @@ static int read_member(openfast_reader *r, fl_err *err)
         get_id(r, 2, "its second joint", &b.node[1], err))
         return -1;
     if (type >= 0 && strcmp(word, "2") == 0) return fl_beam_deck_skip(&r->k, "cable", err);
-    if (type >= 0 && strcmp(word, "3") == 0) return fl_beam_deck_skip(&r->k, "rigid link", err);
+    if (type >= 0 && strcmp(word, "3") == 0) return fl_beam_deck_link(&r->k, b.node[0], b.node[1], err);
     if (type >= 0 && strcmp(word, "5") == 0) return fl_beam_deck_skip(&r->k, "spring", err);
     int32_t form = CIRCLES;
     if (strcasecmp(word, "1r") == 0 || (geometry >= 0 && type < 0 && strcmp(word, "2") == 0))
@@ -320,6 +330,8 @@ static int finish_members(openfast_reader *r, fl_err *err)
                       i1 = fl_id_map_find(&r->k.e.node_id, 0, b->node[1]);
         const double degrees = b->across.x;
         b->across = v3(0, 0, 0);
+        for (int s = 0; s < 2; s++)
+            if (fl_id_map_find(&r->ball_joint, 0, b->node[s]) >= 0) b->pins[s] = ALL_MOMENTS;
         if (form == RECTANGLES && i0 >= 0 && i1 >= 0) {
             const fl_vec3 d = v3_sub(r->k.e.x[i1], r->k.e.x[i0]);
             if (v3_norm(d) > 0.0) b->across = side_b(v3_unit(d), degrees);
@@ -394,5 +406,6 @@ int fl_openfast_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_opt
 done:
     fl_beam_deck_free(&r.k);
     fl_id_map_free(&r.section_id);
+    fl_id_map_free(&r.ball_joint);
     return rc;
 }

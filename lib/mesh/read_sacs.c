@@ -24,6 +24,7 @@ typedef struct {
     char group[4];
     int local;
     fl_vec3 offset[2];
+    unsigned pins[2]; /* as in fl_frame_element */
     int32_t line;
 } sacs_member;
 
@@ -45,7 +46,7 @@ typedef struct {
         plate_cap;
     double length, small;        /* metres in a unit of coordinates, and of sizes; 0: not known */
     double stress, density, rho; /* Pa in a unit of moduli, kg/m3 in one of densities */
-    int32_t local_offsets, pile_heads;
+    int32_t local_offsets, pile_heads, sliding; /* sliding: members with a released force */
 } sacs_reader;
 
 /* --- columns -------------------------------------------------------------------------------------------- */
@@ -179,6 +180,18 @@ static int sacs_offsets(sacs_reader *r, fl_err *err)
     return 0;
 }
 
+/* Six digits of one end, forces and moments along local x y z: 1 is released. */
+static unsigned released_moments(sacs_reader *r, int from, int *force)
+{
+    unsigned pins = 0;
+    for (int k = 0; k < 6 && from - 1 + k < r->k.d.len; k++) {
+        if (r->k.d.line[from - 1 + k] != '1') continue;
+        if (k < 3) *force = 1;
+        else pins |= 1u << (k - 3);
+    }
+    return pins;
+}
+
 static int sacs_add_member(sacs_reader *r, fl_err *err)
 {
     sacs_member m = {.line = r->k.e.line};
@@ -191,6 +204,9 @@ static int sacs_add_member(sacs_reader *r, fl_err *err)
     cut_columns(line, len, 12, 15, m.joint[1], sizeof m.joint[1]);
     cut_columns(line, len, 17, 19, m.group, sizeof m.group);
     if (!m.joint[0][0] || !m.joint[1][0]) return 0;
+    int force = 0;
+    for (int s = 0; s < 2; s++) m.pins[s] = released_moments(r, 23 + 6 * s, &force);
+    r->sliding += force;
     if (fl_grow(&r->member, &r->member_cap, (int64_t)r->members + 1, sizeof *r->member, err)) return -1;
     r->member[r->members++] = m;
     return 0;
@@ -379,6 +395,7 @@ static int place_member(sacs_reader *r, const sacs_member *m, int64_t id, fl_err
     fl_beam b = {.id = id, .part = part, .piece = single ? 0 : 1};
     b.node[0] = r->k.e.node_id.id[at[0]];
     b.offset[0] = v3_scale(r->small, m->offset[0]);
+    b.pins[0] = m->pins[0];
     for (int32_t i = r->head[group]; i >= 0 && part >= 0; i = r->segment[i].next, b.piece++) {
         const sacs_segment *g = &r->segment[i];
         done += single ? whole : g->length > 0.0 ? r->length * g->length : rest;
@@ -388,6 +405,7 @@ static int place_member(sacs_reader *r, const sacs_member *m, int64_t id, fl_err
             b.node[1] = r->k.e.node_id.id[at[1]];
             b.scope[1] = 0;
             b.offset[1] = v3_scale(r->small, m->offset[1]);
+            b.pins[1] = m->pins[1];
             return fl_beam_deck_add(&r->k, &b, err) < 0 ? -1 : 0;
         }
         if (!(g->length > 0.0) && !(rest > 0.0)) continue;
@@ -398,6 +416,7 @@ static int place_member(sacs_reader *r, const sacs_member *m, int64_t id, fl_err
         b.node[0] = b.node[1];
         b.scope[0] = 1;
         b.offset[0] = v3(0, 0, 0);
+        b.pins[0] = 0;
     }
     return -1;
 }
@@ -432,6 +451,8 @@ int fl_sacs_read(fl_surface *s, fl_bytes *b, const char *name, fl_import_options
         if (place_plate(&r, &r.plate[i], (int64_t)r.members + i + 1, err)) goto done;
     if (r.local_offsets)
         fl_bytes_note(b, "offsets of %d members are in local axes and were ignored", r.local_offsets);
+    if (r.sliding && r.k.frame)
+        fl_bytes_note(b, "released forces of %d members are not carried over, their moments are", r.sliding);
     if (r.pile_heads && r.k.frame) fl_bytes_note(b, "%d pile heads are clamped", r.pile_heads);
     rc = fl_beam_deck_finish(&r.k, s, err);
 done:

@@ -51,6 +51,7 @@ static const struct {
     {"*DIODORE", "a DIODORE file: " PANELS},
     {"&DIMEN", "commands of MOSES: " PANELS},
     {"&MODEL_DEF", "commands of MOSES: " PANELS},
+    {"&DESCRIBE", "commands of MOSES: " PANELS},
     {"/PREP7", "commands of ANSYS without NBLOCK or EBLOCK: write the mesh with CDWRITE,DB,,,,,,BLOCKED"},
 };
 

@@ -611,13 +611,21 @@ void fl_feature_draft_free(list_draft *d)
     free(d);
 }
 
+void fl_feature_pairs_forget(fl_feature_pairs *l)
+{
+    l->max_shift2 = 0.0;
+    for (int32_t k = 0; k < l->parts; k++) l->part[k].max_shift2 = 0.0;
+}
+
 void fl_feature_pairs_free(fl_feature_pairs *l)
 {
-    free(l->block), free(l->candidate);
+    free(l->block), free(l->candidate), free(l->part);
     *l = (fl_feature_pairs){0};
 }
 
 double fl_feature_pairs_bytes(const fl_feature_pairs *l)
 {
-    return (double)(sizeof *l + (size_t)l->size + (size_t)l->candidate_cap * sizeof(int32_t));
+    double sum = (double)(sizeof *l + (size_t)l->size + (size_t)l->candidate_cap * sizeof(int32_t));
+    for (int32_t k = 0; k < l->parts; k++) sum += fl_feature_pairs_bytes(&l->part[k]);
+    return sum;
 }

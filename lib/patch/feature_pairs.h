@@ -67,6 +67,8 @@ typedef struct {
     int32_t n, planes[2];
 } fl_row_selection;
 
+enum { FL_PART_MARKS = 8 };
+
 /* Zeroed to start: no list. */
 struct fl_feature_pairs {
     void *block;
@@ -92,6 +94,10 @@ struct fl_feature_pairs {
     int out_of_reach;                      /* set by the caller: nothing of the mesh is within reach */
     int single_wall;                       /* set by the caller: the point touches at most one wall */
     struct fl_mesh_under_face *under_face; /* of a mesh, owned by the caller (mesh_under_face.h), or NULL */
+    /* set by the caller: lists of parts of a joined piece (mesh_contact.c), of cone `only`, or with -1 of all
+     * but the marked cones, ascending */
+    struct fl_feature_pairs *part;
+    int32_t parts, part_cap, only, marks, mark[FL_PART_MARKS];
 };
 
 /* Length of a table row for so many vertices: full registers. */
@@ -193,6 +199,9 @@ void fl_feature_pairs_make_planes(const fl_feature_pairs *l, int direction, cons
 
 /* Memory of the list [B]. */
 double fl_feature_pairs_bytes(const fl_feature_pairs *l);
+
+/* Makes the list and those of its parts invalid. */
+void fl_feature_pairs_forget(fl_feature_pairs *l);
 
 void fl_feature_pairs_free(fl_feature_pairs *l);
 void fl_feature_draft_free(struct fl_feature_draft *d); /* takes NULL */

@@ -628,6 +628,7 @@ void fl_mesh_under_face_free(fl_mesh_under_face *o)
 
 void fl_mesh_under_face_free_pairs(fl_feature_pairs *l)
 {
+    for (int32_t k = 0; k < l->parts; k++) fl_mesh_under_face_free_pairs(&l->part[k]);
     fl_mesh_under_face_free(l->under_face);
     fl_feature_pairs_free(l);
 }

@@ -170,6 +170,13 @@ int fl_member_structure_check(const fl_world *w, fl_err *err)
     return 0;
 }
 
+/* Displacement of an end of a contact. */
+static fl_vec3 end_moved(const fl_member_chain *c, const fl_member_contact *e, int end)
+{
+    if (!e->arms) return c->ball[end ? e->j : e->i].d;
+    return v3_sub(fl_member_contact_end(c, e, end), fl_member_contact_start(c, e, end));
+}
+
 fl_member_forces_row fl_member_structure_row(const fl_world *w, int32_t contact)
 {
     const fl_member_motion *v = &w->moving.members;
@@ -180,7 +187,7 @@ fl_member_forces_row fl_member_structure_row(const fl_world *w, int32_t contact)
     fl_member_forces_row row = {.member = v->model->member_name.name[e->member],
                                 .piece = contact - first + 1,
                                 .at = (contact - first + 0.5) * e->length,
-                                .u = v3_scale(0.5, v3_add(c->ball[e->i].d, c->ball[e->j].d))};
+                                .u = v3_scale(0.5, v3_add(end_moved(c, e, 0), end_moved(c, e, 1)))};
     fl_member_section_forces(c, contact, &row.force, &row.moment);
     return row;
 }

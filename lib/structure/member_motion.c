@@ -37,8 +37,7 @@ static int32_t carrying_piece(fl_vec3 a, fl_vec3 b, int32_t pieces, int32_t from
 static int32_t add_cylinders(const fl_member_model *m, int32_t k, double z, fl_member_cylinder *out)
 {
     const fl_member *b = &m->member[k];
-    const fl_member_node *i = &m->node[b->end[0]], *j = &m->node[b->end[1]];
-    const fl_vec3 x0 = v3_add(i->x, i->offset), x1 = v3_add(j->x, j->offset);
+    const fl_vec3 x0 = fl_member_end(m, k, 0), x1 = fl_member_end(m, k, 1);
     const int32_t n = cylinders_of(m, k), first = out ? first_contact(m, k) : 0;
     for (int32_t c = 0; c < n && out; c++) {
         const int32_t from = (int32_t)((int64_t)c * b->pieces / n),
@@ -100,7 +99,9 @@ int fl_member_motion_frames_surface(fl_surface *s, const fl_member_model *m, fl_
         const int32_t p = fl_surface_add(s, name, strlen(name), err);
         if (p < 0) rc = -1;
         else if (radius > 0.0)
-            rc = fl_surface_cone(&s->part[p], (fl_cone){c.ball[e->i].x0, c.ball[e->j].x0, radius, radius},
+            rc = fl_surface_cone(&s->part[p],
+                                 (fl_cone){fl_member_contact_start(&c, e, 0),
+                                           fl_member_contact_start(&c, e, 1), radius, radius},
                                  err);
     }
     fl_member_chain_free(&c);
@@ -118,7 +119,8 @@ static piece_frame frame_of(const fl_member_chain *c, int32_t contact)
 {
     const fl_member_contact *k = &c->contact[contact];
     const fl_member_ball *i = &c->ball[k->i], *j = &c->ball[k->j];
-    const fl_vec3 xi = v3_add(i->x0, i->d), xj = v3_add(j->x0, j->d), dx = v3_sub(xj, xi);
+    const fl_vec3 xi = fl_member_contact_end(c, k, 0), xj = fl_member_contact_end(c, k, 1),
+                  dx = v3_sub(xj, xi);
     piece_frame f = {.c = v3_scale(0.5, v3_add(xi, xj)), .length = v3_norm(dx)};
     f.e = v3_scale(1.0 / f.length, dx);
     fl_quat q = k->kind == FL_MEMBER_HINGE_I ? j->q : k->kind == FL_MEMBER_BAR ? q_one() : i->q;
@@ -132,11 +134,16 @@ static piece_frame frame_of(const fl_member_chain *c, int32_t contact)
     return f;
 }
 
+static fl_vec3 middle_at_start(const fl_member_chain *c, const fl_member_contact *e)
+{
+    return v3_scale(0.5, v3_add(fl_member_contact_start(c, e, 0), fl_member_contact_start(c, e, 1)));
+}
+
 static void place_cylinder(fl_member_motion *v, fl_member_cylinder *k)
 {
     const fl_member_chain *c = &v->dynamics.chain;
     const fl_member_contact *e = &c->contact[k->contact];
-    const fl_vec3 middle = v3_scale(0.5, v3_add(c->ball[e->i].x0, c->ball[e->j].x0));
+    const fl_vec3 middle = middle_at_start(c, e);
     const fl_vec3 z = v3_unit(v3_sub(k->p1, k->p0)), x = v3_normal_to(z), y = v3_cross(z, x);
     k->arm = v3_sub(k->p0, middle);
     k->turn = q_of_matrix((fl_mat3){{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}});
@@ -195,7 +202,7 @@ void fl_member_motion_piece_pose(const fl_member_motion *v, int32_t contact, fl_
     const fl_member_chain *c = &v->dynamics.chain;
     const fl_member_contact *e = &c->contact[contact];
     const piece_frame f = frame_of(c, contact);
-    const fl_vec3 middle = v3_scale(0.5, v3_add(c->ball[e->i].x0, c->ball[e->j].x0));
+    const fl_vec3 middle = middle_at_start(c, e);
     *q = f.q;
     *x = v3_sub(f.c, q_rotate(f.q, middle));
 }
@@ -205,7 +212,13 @@ static int transmits(const fl_member_contact *e, int at_j)
     return e->kind == FL_MEMBER_BEAM || e->kind == (at_j ? FL_MEMBER_HINGE_I : FL_MEMBER_HINGE_J);
 }
 
-/* Velocities of the piece from any vectors of its balls. */
+/* The arm of an end as it is now. */
+static fl_vec3 arm_now(const fl_member_chain *c, const fl_member_contact *e, int end)
+{
+    return e->arms ? q_rotate(c->ball[end ? e->j : e->i].q, e->arm[end]) : v3(0, 0, 0);
+}
+
+/* Velocities of the piece from any vectors of its ends. */
 static void combine(const piece_frame *f, const fl_member_contact *e, fl_vec3 vi, fl_vec3 vj, fl_vec3 wi,
                     fl_vec3 wj, fl_vec3 x, fl_vec3 *speed, fl_vec3 *spin)
 {
@@ -222,7 +235,12 @@ void fl_member_motion_velocity(const fl_member_motion *v, int32_t k, fl_vec3 x, 
     const fl_member_contact *e = &c->contact[v->cylinder[k].contact];
     const fl_member_ball *i = &c->ball[e->i], *j = &c->ball[e->j];
     const piece_frame f = frame_of(c, v->cylinder[k].contact);
-    combine(&f, e, i->v, j->v, i->w, j->w, x, speed, spin);
+    fl_vec3 vi = i->v, vj = j->v;
+    if (e->arms) {
+        vi = v3_add(vi, v3_cross(i->w, arm_now(c, e, 0)));
+        vj = v3_add(vj, v3_cross(j->w, arm_now(c, e, 1)));
+    }
+    combine(&f, e, vi, vj, i->w, j->w, x, speed, spin);
 }
 
 void fl_member_motion_acceleration(const fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 *a, fl_vec3 *turn)
@@ -237,6 +255,7 @@ void fl_member_motion_acceleration(const fl_member_motion *v, int32_t k, fl_vec3
         by[s] =
             v3_scale(ball->over_m, fl_member_free_part(d->force[b], ball->fixed & FL_MEMBER_TRANSLATIONS));
         turns[s] = v3_scale(ball->over_i, fl_member_free_part(d->moment[b], ball->fixed >> 3));
+        if (e->arms) by[s] = v3_add(by[s], v3_cross(turns[s], arm_now(&d->chain, e, s)));
     }
     combine(&f, e, by[0], by[1], turns[0], turns[1], x, a, turn);
 }
@@ -258,6 +277,11 @@ void fl_member_motion_load(fl_member_motion *v, int32_t k, fl_vec3 x, fl_vec3 f,
                   pair = v3_scale(1.0 / at.length, v3_cross(at.e, torque)), half = v3_scale(0.5, f);
     d->force[e->i] = v3_add(d->force[e->i], v3_add(half, pair));
     d->force[e->j] = v3_add(d->force[e->j], v3_sub(half, pair));
+    for (int s = 0; s < 2 && e->arms; s++) {
+        fl_vec3 *const moment = &d->moment[s ? e->j : e->i];
+        const fl_vec3 end = s ? v3_sub(half, pair) : v3_add(half, pair);
+        *moment = v3_add(*moment, v3_cross(arm_now(&d->chain, e, s), end));
+    }
     const int i = transmits(e, 0), j = transmits(e, 1);
     if (!i && !j) return;
     const fl_vec3 twist = v3_scale(v3_dot(at.e, torque) / (i + j), at.e);
@@ -274,6 +298,11 @@ double fl_member_motion_compliance(const fl_member_motion *v, int32_t k, double 
 {
     const fl_member_chain *c = &v->dynamics.chain;
     const fl_member_contact *e = &c->contact[v->cylinder[k].contact];
-    const double i = c->ball[e->i].over_m, j = c->ball[e->j].over_m, lever = arm / e->length;
+    double i = c->ball[e->i].over_m, j = c->ball[e->j].over_m;
+    const double lever = arm / e->length;
+    if (e->arms) { /* of the ends */
+        i += v3_norm2(e->arm[0]) * c->ball[e->i].over_i;
+        j += v3_norm2(e->arm[1]) * c->ball[e->j].over_i;
+    }
     return (0.5 + lever) * (0.5 + lever) * fmax(i, j) + (0.5 - lever) * (0.5 - lever) * fmin(i, j);
 }

@@ -4,16 +4,17 @@
  *
  * A member whose section has a radius has one cylinder from end to end, or as many of equal length as its
  * word `cylinders` says. A cylinder is rigid: it rides on one piece of the chain, that of its range which
- * is nearest to the surface of the water, or at its middle where no piece reaches it. With balls i and j of
- * that piece,
+ * is nearest to the surface of the water, or at its middle where no piece reaches it. With the ends x_i and
+ * x_j of that piece, at its balls i and j or on arms that turn with them,
  *     c = (x_i + x_j)/2,    e = (x_j - x_i)/l,
  * the cylinder keeps its place in the axes of the piece, turned so that the first is along e. A force F and a
  * torque T about c go to the balls as what moves c and e does,
  *     on i: F/2 + e x T/l,    on j: F/2 - e x T/l,
- * and the torque along e as moments, half to each ball that transmits moments; a bar takes none. Velocities
- * are v = (v_i + v_j)/2 and w = e x (v_j - v_i)/l + e (e.w_ball), so that the work of ice on cylinder and
- * chain is the same. Limits: a cylinder stays straight, and ice far from its piece bends the chain as a
- * couple would; nodes at the edges of the ice belt, or more cylinders, bring it nearer. */
+ * with the moment of an arm about its ball, and the torque along e as moments, half to each ball that
+ * transmits moments; a bar takes none. Velocities are v = (v_i + v_j)/2 and w = e x (v_j - v_i)/l +
+ * e (e.w_ball), so that the work of ice on cylinder and chain is the same. Limits: a cylinder stays straight,
+ * and ice far from its piece bends the chain as a couple would; nodes at the edges of the ice belt, or more
+ * cylinders, bring it nearer. */
 #ifndef FL_STRUCTURE_MEMBER_MOTION_H
 #define FL_STRUCTURE_MEMBER_MOTION_H
 #include "geom/surface.h"

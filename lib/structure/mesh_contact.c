@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
+#include <string.h>
 #include "base/array.h"
 #include "structure/free_cone.h"
 #include "structure/mesh_contact.h"
@@ -141,8 +142,8 @@ static fl_closest_point signed_nearest(const fl_poly *p, const fl_piece_mesh *sh
 
 /* A part of a joined piece: the facets of one cone, or, with only = -1, all but those of the cones marked. */
 typedef struct {
-    const uint8_t *is_free;
-    int32_t only;
+    const uint8_t *is_free; /* [cones] */
+    int32_t only, cones;
 } mesh_selection;
 
 /* True if something of that cone (-1: of none) counts; of: NULL for all of a mesh. */
@@ -171,6 +172,22 @@ static void keep_selected(fl_feature_set *r, const fl_poly *p, const fl_piece_me
         if (is_selected(of, cone_of_edge(p, sh, r->edge[k]))) r->edge[n++] = r->edge[k];
     r->edges = n;
     if (of->only >= 0) r->vertices = 0;
+}
+
+/* True if the piece is a union of cones and x is farther than `far` from all of them.  Facets are long, and
+ * those of a slanting cone have large boxes: the cones themselves tell it soonest. */
+static int is_outside_cones(const fl_piece *b, fl_vec3 x, double far)
+{
+    far += 2.0 * b->facet_error;
+    for (int32_t k = 0; k < b->cones; k++) {
+        const fl_free_cone *c = &b->free_cone[k];
+        const double reach = fmax(c->r0, c->r1) + c->h + far;
+        const fl_vec3 r = v3_sub(x, c->x);
+        if (!(c->h > 0.0)) return 0; /* a body of another kind */
+        if (v3_norm2(r) > reach * reach) continue;
+        if (fl_closest_on_cone(c->r0, c->r1, c->h, q_rotate(q_conj(c->q), r)).d < far) return 0;
+    }
+    return b->cones > 0;
 }
 
 /* True if x is behind the surface, or may pass behind when it moves by the margin. That is excluded if x is
@@ -342,9 +359,10 @@ static void keep_facing(fl_feature_set *r, const fl_poly *p, const fl_piece_mesh
 /* Lists the walls within reach, and the features of them and of the core that may have contact points, until
  * the pair has moved by the margin.  facing: of sheets only the sides that face the middle of the core. */
 static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
-                              const fl_patch_core *B, const fl_piece_mesh *mesh, double ra, double reach,
+                              const fl_patch_core *B, const fl_piece *piece, double ra, double reach,
                               const mesh_selection *of, int facing, fl_feature_pairs *l)
 {
+    const fl_piece_mesh *const mesh = &piece->mesh;
     const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * (A->p->size + B->p->size),
                  margin_behind = margin + EDGE_TOL * B->p->size;
     fl_feature_set *walls = &near->of_mesh, *all = &near->of_core;
@@ -357,7 +375,9 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
     l->candidates = 0;
     if (fl_reserve(&l->candidate, &l->candidate_cap, A->p->nv, sizeof *l->candidate)) return -1;
     for (int32_t v = 0; v < A->p->nv && !l->out_of_reach; v++)
-        if (may_pass_behind(B->p, mesh, w->va[v], margin_behind)) l->candidate[l->candidates++] = v;
+        if (!is_outside_cones(piece, w->va[v], margin_behind) &&
+            may_pass_behind(B->p, mesh, w->va[v], margin_behind))
+            l->candidate[l->candidates++] = v;
     keep_near(walls, A, B, ra + margin + same);
     if (facing) keep_facing(walls, B->p, mesh, middle_of(w->va, A->p->nv));
     return list_all_features(all, A->p) || fl_feature_pairs_build(l, w, A, all, B, walls, ra, ra, margin) ||
@@ -368,16 +388,12 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
 
 /* Sets *distance to reach if no face is in reach now. The list may be an old one, and the free travel
  * computed from the distance has to be the same with a new list. */
-static int bound_distance(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece_mesh *mesh, double reach, double *distance)
+static void bound_distance(const fl_patch_points *w, const fl_poly *a, const fl_piece_mesh *mesh,
+                           double reach, double *distance)
 {
-    fl_feature_set *walls = &near->of_mesh;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < a->nv; v++) box = aabb_add(box, w->va[v]);
-    walls->faces = query_boxes(&mesh->tree, mesh->box, aabb_grow(box, reach), &walls->face, &walls->face_cap);
-    if (walls->faces < 0) return -1;
-    if (walls->faces == 0) *distance = reach;
-    return 0;
+    if (!fl_bvh_meets(&mesh->tree, mesh->box, aabb_grow(box, reach))) *distance = reach;
 }
 
 static int add_listed_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_patch_core *A,
@@ -399,6 +415,34 @@ static int has_core_contact(const fl_patch_points *w, int32_t from, double ra)
     return 0;
 }
 
+/* The list of a part among those of the pair, invalid where it was one without other cones.  NULL when memory
+ * runs out. */
+static fl_feature_pairs *list_of_part(fl_feature_pairs *l, const mesh_selection *of)
+{
+    fl_err lost = {0};
+    fl_feature_pairs now = {.only = of->only};
+    int32_t k = 0;
+    for (int32_t c = 0; of->only < 0 && c < of->cones; c++) {
+        if (!of->is_free[c]) continue;
+        if (now.marks < FL_PART_MARKS) now.mark[now.marks] = c;
+        now.marks++;
+    }
+    while (k < l->parts && l->part[k].only != of->only) k++;
+    if (k == l->parts) {
+        if (fl_grow(&l->part, &l->part_cap, (int64_t)k + 1, sizeof *l->part, &lost)) return NULL;
+        l->part[l->parts++] = (fl_feature_pairs){.only = of->only};
+    }
+    fl_feature_pairs *const own = &l->part[k];
+    int same = own->marks == now.marks && now.marks <= FL_PART_MARKS;
+    for (int32_t c = 0; c < now.marks && same; c++) same = own->mark[c] == now.mark[c];
+    if (!same) {
+        own->max_shift2 = 0.0;
+        own->marks = now.marks;
+        memcpy(own->mark, now.mark, sizeof now.mark);
+    }
+    return own;
+}
+
 /* Adds the points of a mesh, or of a part of it.  l->out_of_reach is set if no face is near. */
 static int add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a, const fl_piece *b,
                       double ra, double reach, const mesh_selection *of, fl_feature_pairs *l)
@@ -407,18 +451,17 @@ static int add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_p
     const fl_patch_core A = {a, w->va, w->na, ra, 1.0}, B = {core, core->v, core->n, 0.0, -1.0};
     const int32_t before = w->n;
     int behind;
-    if ((of || !fl_feature_pairs_valid(l, &w->M, w->o)) &&
-        list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, of, 0, l))
+    if (!fl_feature_pairs_valid(l, &w->M, w->o) &&
+        list_feature_pairs(w, near, &A, &B, b, ra, reach, of, 0, l))
         return -1;
-    if (of) l->max_shift2 = 0.0; /* a list of a part of the mesh holds for this evaluation only */
     if (l->out_of_reach) {
-        l->max_shift2 = 0.0; /* not near now: no list is kept */
+        if (!of) l->max_shift2 = 0.0; /* not near now: no list is kept, since the distance is asked for */
         return 0;
     }
     if (add_vertices_behind(w, near, &A, &B, &b->mesh, l, ra, of, &behind)) return -1;
     if (behind) { /* a vertex farther behind than all faces reach is beyond the surface, not in it */
         double beside = 0.0;
-        if (bound_distance(w, near, a, &b->mesh, ra, &beside)) return -1;
+        bound_distance(w, a, &b->mesh, ra, &beside);
         if (beside == ra) {
             w->n = before;
             return 0;
@@ -431,7 +474,7 @@ static int add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_p
     if (b->mesh.thin &&
         (behind || has_core_contact(w, before, ra))) { /* the far side of the sheet is in the core */
         w->n = vertices, w->features = features, w->couple = couple;
-        if (list_feature_pairs(w, near, &A, &B, &b->mesh, ra, reach, of, 1, l) ||
+        if (list_feature_pairs(w, near, &A, &B, b, ra, reach, of, 1, l) ||
             add_listed_points(w, near, &A, &B, ra, far, l))
             return -1;
         l->max_shift2 = 0.0; /* so does one with the far side */
@@ -448,14 +491,16 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
     if (add_points(w, near, a, b, ra, reach, NULL, l)) return -1;
     if (l->out_of_reach) return 0;
     *distance = ra; /* a face is near: no bound is claimed */
-    return w->n ? 0 : bound_distance(w, near, a, &b->mesh, reach, distance);
+    if (w->n == 0) bound_distance(w, a, &b->mesh, reach, distance);
+    return 0;
 }
 
 int fl_mesh_contact_add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
                                const fl_piece *b, double ra, int32_t only, fl_feature_pairs *l)
 {
-    const mesh_selection of = {near->is_free, only};
-    return add_points(w, near, a, b, ra, ra, &of, l);
+    const mesh_selection of = {near->is_free, only, b->cones};
+    fl_feature_pairs *const own = list_of_part(l, &of);
+    return own ? add_points(w, near, a, b, ra, ra, &of, own) : -1;
 }
 
 int fl_mesh_contact_reserve_cones(fl_mesh_contact_work *near, int32_t n)
@@ -463,13 +508,12 @@ int fl_mesh_contact_reserve_cones(fl_mesh_contact_work *near, int32_t n)
     return fl_reserve(&near->is_free, &near->free_cap, n, 1);
 }
 
-int fl_mesh_contact_bound(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece *b, double reach, double *distance)
+void fl_mesh_contact_bound(const fl_patch_points *w, const fl_poly *a, const fl_piece *b, double reach,
+                           double *distance)
 {
     double far = 0.0;
-    if (bound_distance(w, near, a, &b->mesh, reach + b->facet_error, &far)) return -1;
+    bound_distance(w, a, &b->mesh, reach + b->facet_error, &far);
     if (far > 0.0) *distance = reach;
-    return 0;
 }
 
 /* Lists the faces that the point may meet until it has moved by the margin: those that can be the nearest if

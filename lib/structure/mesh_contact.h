@@ -35,8 +35,8 @@ int fl_mesh_contact_points(fl_patch_points *w, fl_mesh_contact_work *near, const
                            const fl_piece *b, double ra, double reach, fl_feature_pairs *l, double *distance);
 
 /* Adds the points of a part of a joined piece with cones to those of w: of the facets of cone `only`, or with
- * only = -1 of all but the facets of cones marked in near->is_free.  l: of the pair, which loses its list.
- * Returns -1 when memory runs out. */
+ * only = -1 of all but the facets of cones marked in near->is_free.  l: of the pair, which keeps a list for
+ * each part. Returns -1 when memory runs out. */
 int fl_mesh_contact_add_points(fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
                                const fl_piece *b, double ra, int32_t only, fl_feature_pairs *l);
 
@@ -44,8 +44,8 @@ int fl_mesh_contact_add_points(fl_patch_points *w, fl_mesh_contact_work *near, c
 int fl_mesh_contact_reserve_cones(fl_mesh_contact_work *near, int32_t n);
 
 /* Sets *distance to reach if nothing of the piece is within reach. */
-int fl_mesh_contact_bound(const fl_patch_points *w, fl_mesh_contact_work *near, const fl_poly *a,
-                          const fl_piece *b, double reach, double *distance);
+void fl_mesh_contact_bound(const fl_patch_points *w, const fl_poly *a, const fl_piece *b, double reach,
+                           double *distance);
 
 /* The same for a core that is a point, for laws other than `patch`: the walls that the sphere touches. Needs
  * the seams of persistence_contact.h. *distance is that of the point if nothing touches. */

@@ -9,7 +9,7 @@
  *
  * Pieces that move apart stay separate: only those of parts with the same mover are joined.  So do those
  * whose union is longer than a period, those of which no closed surface results, and
- * more than 16 cones without other pieces: near the facets of a jacket a step took 50 times as long.
+ * more than 250 cones without other pieces, which would take half a minute to join.
  *
  * Limits.  Members touch if they are within 1e-6 of the size of the region.  A cone in a region is a
  * frustum of FL_CONE_SIDES sides and the same cross-section, but exact again for what is far enough from

@@ -39,6 +39,7 @@ typedef struct {
     int32_t n, cap;
 } bytes;
 
+fuzz_fn *fuzz_target;
 static bytes *corpus;
 static int32_t files, files_cap;
 static char now[700]; /* the current input, for the signal handler */
@@ -416,6 +417,8 @@ int fuzz_main(int argc, char **argv, const char *name, fuzz_fn *one)
     uint64_t most = verify_quick() ? 400 : 4000;
     int failed = 0;
     bytes work = {0};
+    fuzz_target = one;
+    if (argc == 0) return 0;
     if (argc == 4 && strcmp(argv[1], "--print") == 0) return print_copy(argv[2], argv[3]);
     if (argc > 2 || (asked && fl_number_u64(asked, &most))) {
         fprintf(stderr, "usage: fuzz_%s [FOLDER] | --print FILE M; FLOE_FUZZ, if set, is a number\n", name);

@@ -45,7 +45,9 @@ const char *fuzz_file(const unsigned char *data, size_t n);
  *
  *     program [FOLDER]           the corpus, tests/fuzz/<name> unless named
  *     program --print FILE M     write damaged copy M of FILE to standard output, to examine a failure
- * Prints "N passed, N failed", a file being one, and returns the exit status. */
+ * Prints "N passed, N failed", a file being one, and returns the exit status.  With argc 0 it only stores
+ * the reader in fuzz_target, for inputs that libFuzzer makes (tests/guided_fuzz.sh). */
 int fuzz_main(int argc, char **argv, const char *name, fuzz_fn *one);
+extern fuzz_fn *fuzz_target;
 
 #endif

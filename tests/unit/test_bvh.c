@@ -29,6 +29,7 @@ static void compare_with_brute_force(const fl_bvh *t, const fl_aabb *box, int32_
     assert_non_null(out);
     const int32_t found = fl_bvh_query(t, box, q, out, n + 1);
     assert_true(found >= 0 && found <= n);
+    assert_int_equal(fl_bvh_meets(t, box, q), found > 0);
     qsort(out, (size_t)found, sizeof *out, ascending);
     int32_t at = 0;
     for (int32_t k = 0; k < n; k++) {

@@ -12,6 +12,7 @@
 #include "member/imperfection.h"
 #include "member/mechanism.h"
 #include "member/member_path.h"
+#include "member/member_stiffness.h"
 
 static void read_model(fl_member_model *m, const char *text)
 {
@@ -75,6 +76,54 @@ static void mechanisms_are_told_from_spins(void **state)
         "#members 1\nnode a 0 0 0\nnode b 1 0 0\nsection s 1 1 1 1\nmember 1 a b s 3\n"};
     for (size_t k = 0; k < sizeof good / sizeof *good; k++) assert_int_equal(is_mechanism(good[k]), 0);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) assert_int_equal(is_mechanism(bad[k]), 1);
+}
+
+/* A cantilever of 2 m whose end stands 0.5 m above its node: forces at the node bend and twist it by their
+ * arm. EA 100, EIy 3, EIz 5, GJ 2, a = 0.5, l = 2:
+ *     FX: x moves by l/EA + a2 l/EIy, z by a l2/(2 EIy)
+ *     FY: y moves by l3/(3 EIz) + a2 l/GJ,    FZ: z by l3/(3 EIy), x by a l2/(2 EIy) */
+static void an_arm_turns_with_its_node(void **state)
+{
+    (void)state;
+    static const double l = 2.0, a = 0.5, load = 1e-4;
+    for (int pieces = 1; pieces <= 4; pieces += 3)
+        for (int axis = 0; axis < 3; axis++) {
+            char text[400];
+            fl_member_model m = {0};
+            fl_member_chain c = {0};
+            fl_path p = {0};
+            fl_err err = {0};
+            snprintf(text, sizeof text,
+                     "#members 1\nnode a 0 0 0.7\nnode b 2 0 -0.5\nsection s 100 3 5 2\n"
+                     "member 1 a b s %d arm-i 0 0 -0.7 arm-j 0 0 0.5\nfix a clamped\nload b %d %d %d\n",
+                     pieces, axis == 0, axis == 1, axis == 2);
+            read_model(&m, text);
+            assert_int_equal(fl_member_check_mechanism(&m, &err), 0);
+            assert_int_equal(fl_member_chain_make(&c, &m, 1.0, &err), 0);
+            fl_path_options o = fl_path_defaults();
+            o.constraint = FL_ARC_LOAD;
+            o.first = load;
+            o.chi = 1e-7;
+            o.damping = FL_RELAXATION_ADAPTIVE;
+            assert_int_equal(fl_path_start(&p, &c, &o, &err), 0);
+            assert_int_equal(fl_path_next(&p, &err), 0);
+            const double expected[3] = {l / 100.0 + a * a * l / 3.0, l * l * l / 15.0 + a * a * l / 2.0,
+                                        l * l * l / 9.0},
+                         beside = a * l * l / 6.0, d = v3_at(c.ball[1].d, axis) / load;
+            assert_true(fabs(d / expected[axis] - 1.0) < 2e-4);
+            if (axis != 1) assert_true(fabs(fabs(v3_at(c.ball[1].d, 2 - axis)) / load / beside - 1.0) < 2e-4);
+            fl_member_stiffness s = {0};
+            assert_int_equal(fl_member_stiffness_make(&s, &c, "model", &err), 0);
+            double x[6 * 8] = {0};
+            for (int32_t k = 0; k < s.n; k++) x[k] = s.dof[k] == 6 + axis;
+            fl_member_stiffness_solve(&s, x);
+            for (int32_t k = 0; k < s.n; k++)
+                if (s.dof[k] == 6 + axis) assert_true(fabs(x[k] / expected[axis] - 1.0) < 1e-12);
+            fl_member_stiffness_free(&s);
+            fl_path_free(&p);
+            fl_member_chain_free(&c);
+            fl_member_model_free(&m);
+        }
 }
 
 /* A cantilever under a small load: the Euler-Bernoulli element for any number of pieces. */
@@ -168,6 +217,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sections_are_those_of_handbooks),
                                        cmocka_unit_test(mechanisms_are_told_from_spins),
+                                       cmocka_unit_test(an_arm_turns_with_its_node),
                                        cmocka_unit_test(a_chain_is_the_beam_where_displacements_are_small),
                                        cmocka_unit_test(threads_change_no_bit)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -93,6 +93,28 @@ static void force_is_the_gradient_of_energy(void **state)
         }
 }
 
+/* The ends stand off the balls: forces and moments are still the gradient, and no momentum is made. */
+static void arms_turn_with_their_balls(void **state)
+{
+    (void)state;
+    fl_rng g = fl_rng_of(3, 0, FL_RNG_TEST);
+    for (int n = 0; n < 80; n++) {
+        struct state s = random_state(&g, n % 4, 0.4);
+        double r2;
+        s.c.arms = 1;
+        for (int k = 0; k < 2; k++) s.c.arm[k] = random_vector(&g, 0.4);
+        s.xi = v3_sub(s.xi, q_rotate(s.qi, s.c.arm[0]));
+        s.xj = v3_sub(s.xj, q_rotate(s.qj, s.c.arm[1]));
+        const fl_vec3 dx = v3_sub(s.xj, s.xi);
+        const fl_member_force f = fl_member_contact_force(&s.c, dx, s.qi, s.qj, NULL, &r2);
+        assert_near(gradient(&s, 0), f.f, DIFFERENCE);
+        assert_near(gradient(&s, 1), v3_neg(f.f), DIFFERENCE);
+        assert_near(gradient(&s, 2), f.mi, DIFFERENCE);
+        assert_near(gradient(&s, 3), f.mj, DIFFERENCE);
+        assert_near(v3_add(f.mi, f.mj), v3_cross(dx, f.f), 1e-13 * 40.0);
+    }
+}
+
 static void momentum_balances(void **state)
 {
     (void)state;
@@ -149,6 +171,7 @@ static void arcsine_is_that_of_the_library(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(force_is_the_gradient_of_energy),
+                                       cmocka_unit_test(arms_turn_with_their_balls),
                                        cmocka_unit_test(momentum_balances),
                                        cmocka_unit_test(a_rotation_of_all_makes_no_force),
                                        cmocka_unit_test(a_hinged_piece_has_three_ei_over_l3),

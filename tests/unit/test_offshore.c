@@ -10,7 +10,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "geom/weld.h"
-#include "mesh/frame_model.h"
+#include "mesh/beam_deck.h"
 #include "support/decks.h"
 
 static const double ANSWER = 1e-8; /* of its size: digits of the answers that came with the files */
@@ -214,6 +214,106 @@ static void short_members_join_their_nodes(void **state)
     assert_int_equal(f.node[f.element[0].node[0]].fixed, 63);
     assert_string_equal(f.skipped_name.name[0],
                         "members shorter than 0.01 of their diameter, whose ends are one node");
+    fl_frame_model_free(&f);
+}
+
+/* Reads the deck as a frame; freed by the caller. */
+static fl_frame_model frame_of(const char *deck)
+{
+    fl_frame_model f = {0};
+    fl_import_options w = {.frame = &f};
+    if (read_some(deck, &w)) fail_msg("%s", err.text);
+    return f;
+}
+
+static void counts_skipped(const fl_frame_model *f, const char *what, int times)
+{
+    const int32_t at = fl_string_table_find(&f->skipped_name, what);
+    if (at < 0 || f->skipped[at] != times) fail_msg("\"%s\" is not counted %d times", what, times);
+}
+
+/* Joint 3 is spherical, joint 2 revolute: no end there is clamped, or all are and it is told. */
+static void joints_of_subdyn_release_their_members(void **state)
+{
+    (void)state;
+    static const char deck[] =
+        "SubDyn\n4 NJoints\nid x y z JointType\n-\n1 0 0 -9 1\n2 0 0 -5 3\n3 0 0 -1 4\n4 3 0 -1 1\n3 "
+        "NMembers\n"
+        "MemberID a b p q\n-\n1 1 2 1 1\n2 2 3 1 1\n3 3 4 1 1\n1 NPropSets\nid YoungE ShearG MatDens XsecD "
+        "XsecT\n-\n1 2e11 8e10 7850 2 .1\n";
+    fl_frame_model f = frame_of(deck);
+    assert_int_equal(f.element_id.n, 3);
+    assert_true(f.element[0].pins[0] == 0 && f.element[0].pins[1] == 0);
+    assert_true(f.element[1].pins[0] == 0 && f.element[1].pins[1] == 7);
+    assert_true(f.element[2].pins[0] == 7 && f.element[2].pins[1] == 0);
+    counts_skipped(&f, "revolute joints (JointType 3), whose members are clamped here", 1);
+    fl_frame_model_free(&f);
+    refuses("SubDyn\n1 NJoints\nid x y z JointType\n-\n1 0 0 -9 5\n", "deck:5: JointType is 5, 1 to 4 are");
+}
+
+/* A beam whose end hangs on two rigid links from a mass: it has an offset from the node of the mass. */
+static void rigid_links_of_subdyn_carry_members(void **state)
+{
+    (void)state;
+    static const char deck[] =
+        "SubDyn\n4 NJoints\nid x y z\n-\n1 0 0 0\n2 8 0 0\n3 9 0 1\n4 10 0 5\n3 NMembers\n"
+        "MemberID a b p q MType\n-\n1 1 2 1 1 1c\n2 2 3 1 1 3\n3 3 4 1 1 3\n1 NPropSets\n"
+        "id YoungE ShearG MatDens XsecD XsecT\n-\n1 2e11 8e10 7850 2 .1\n"
+        "1 NReact\nid\n-\n1 1 1 1 1 1 1\n1 NCmass\nid\n-\n4 500\n";
+    fl_frame_model f = frame_of(deck);
+    assert_int_equal(f.element_id.n, 1);
+    const fl_frame_element *e = &f.element[0];
+    near_answer("z of the node", f.node[e->node[1]].x.z, 5.0);
+    near_answer("mass", f.node[e->node[1]].mass, 500.0);
+    near_answer("x of the offset", e->offset[1].x, -2.0);
+    near_answer("z of the offset", e->offset[1].z, -5.0);
+    assert_int_equal(f.node[e->node[0]].fixed, 63);
+    assert_true(f.skipped_name.n == 0 && e->offset[0].x == 0.0);
+    fl_frame_model_free(&f);
+}
+
+/* Columns 23 to 34 of MEMBER: forces and moments that either end releases. */
+static void members_of_sacs_are_released(void **state)
+{
+    (void)state;
+    static const char deck[] = "OPTIONS      MN\nGRUP SEG         100.00 2.000 20.008.00034.50"
+                               "                                2.0\n"
+                               "GRUP SEG          90.00 2.000 20.008.00034.50\n"
+                               "MEMBER 00010002 SEG   000011001111\n"
+                               "JOINT 0001      0.     0.   -30.\nJOINT 0002      0.     0.     0.\nEND\n";
+    fl_frame_model f = frame_of(deck);
+    assert_int_equal(f.element_id.n, 2);
+    assert_true(f.element[0].pins[0] == 6 && f.element[0].pins[1] == 0);
+    assert_true(f.element[1].pins[0] == 0 && f.element[1].pins[1] == 7);
+    says("released forces of 1 members are not carried over");
+    fl_frame_model_free(&f);
+}
+
+/* Ends of members stand off their nodes, and a taper does so at its ends only. */
+static void offsets_are_those_of_the_ends(void **state)
+{
+    (void)state;
+    fl_frame_model f = {0};
+    fl_import_options w = {.frame = &f};
+    assert_int_equal(fl_mesh_read(&s, "tests/fuzz/sacs/good_frame", &w, note, &err), 0);
+    for (int32_t k = 0; k < f.element_id.n; k++) {
+        const fl_frame_element *e = &f.element[k];
+        const int brace = strcmp(f.part_name.name[e->part], "BRC") == 0;
+        near_answer("offset of end A", e->offset[0].x, brace ? 0.6 : 0.0);
+        near_answer("offset of end B", e->offset[1].x, brace ? -0.4 : 0.0);
+    }
+    fl_frame_model_free(&f);
+    f = frame_of(
+        "NODE 1 0 0 -5\nNODE 2 0 0 5\nBEAM 1 1 2 1 1 0 1 2\nPIPE 1 2 .1 0 0 1\nMISOIEP 1 2e11 .3 3e8 7850\n"
+        "ECCENT 1 0 1 0\nECCENT 2 0 0 -1\n");
+    assert_int_equal(f.element_id.n, FL_BEAM_STEPS);
+    for (int k = 0; k < FL_BEAM_STEPS; k++) {
+        near_answer("y of the first end", f.element[k].offset[0].y, k == 0);
+        near_answer("z of the last end", f.element[k].offset[1].z, k == FL_BEAM_STEPS - 1 ? -1.0 : 0.0);
+    }
+    const fl_frame_node *n = &f.node[f.element[0].node[1]];
+    near_answer("y of a node between the ends", n->x.y, 0.75);
+    near_answer("z", n->x.z, -2.75);
     fl_frame_model_free(&f);
 }
 
@@ -428,6 +528,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(genie_has_its_beams, setup, clear),
         cmocka_unit_test_setup_teardown(unv_has_its_shells_and_solids, setup, clear),
         cmocka_unit_test_setup_teardown(short_members_join_their_nodes, setup, clear),
+        cmocka_unit_test_setup_teardown(joints_of_subdyn_release_their_members, setup, clear),
+        cmocka_unit_test_setup_teardown(rigid_links_of_subdyn_carry_members, setup, clear),
+        cmocka_unit_test_setup_teardown(members_of_sacs_are_released, setup, clear),
+        cmocka_unit_test_setup_teardown(offsets_are_those_of_the_ends, setup, clear),
         cmocka_unit_test_setup_teardown(hulls_have_their_panels, setup, clear),
         cmocka_unit_test_setup_teardown(aqwa_knows_its_structures, setup, clear),
         cmocka_unit_test_setup_teardown(aqwa_finds_its_plane, setup, clear),

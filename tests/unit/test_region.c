@@ -6,6 +6,8 @@
 #include <string.h>
 #include "base/pi.h"
 #include "base/rng.h"
+#include "contact/pair_force.h"
+#include "contact/pair_store.h"
 #include "contact/panel_load.h"
 #include "narrow/closest_point.h"
 #include "structure/mesh_contact.h"
@@ -391,6 +393,34 @@ static void forces_on_a_joined_piece_have_a_potential(void **state)
     lab_free(&l);
 }
 
+/* A floe drifts past the leg and the brace: lists of parts kept on the way change no bit. */
+static void lists_of_parts_are_kept_and_change_no_bit(void **state)
+{
+    (void)state;
+    lab l;
+    fl_pair kept;
+    int touching = 0, kept_lists = 0;
+    make_jacket(&l);
+    fl_pair_init(&l.w, &kept, 0, 1);
+    for (int c = 0; c < 1500; c++) {
+        const double t = 1.0 + 0.0006 * c;
+        lab_pose(&l.w, 0, v3(0.98 + 0.4 * t, 0.5 - 0.3 * t, 3.0 - t), q_of_vector(v3(0.1 * t, 0.2, 0.5 * t)));
+        fl_pair_evaluate(&l.w, &kept, 0, 0.0, 0);
+        if (c % 20) continue;
+        const fl_pair fresh = lab_evaluate_pair(&l.w, 0, 1);
+        assert_int_equal(kept.touching, fresh.touching);
+        assert_memory_equal(&kept.force, &fresh.force, sizeof fresh.force);
+        assert_memory_equal(&kept.torque_i, &fresh.torque_i, sizeof fresh.torque_i);
+        touching += fresh.touching;
+        for (int32_t k = 0; kept.feature_pairs && k < kept.feature_pairs->parts; k++)
+            kept_lists += kept.feature_pairs->part[k].uses > 1;
+    }
+    if (touching < 20 || kept_lists < 20)
+        fail_msg("touching in %d poses, lists kept %d times", touching, kept_lists);
+    fl_pair_free(&kept);
+    lab_free(&l);
+}
+
 /* --- loads -------------------------------------------------------------------------------------- */
 
 static void parts_share_the_load(void **state)
@@ -462,6 +492,7 @@ int main(void)
         cmocka_unit_test(cones_that_continue_are_one),
         cmocka_unit_test(a_joint_bears_as_one_wall),
         cmocka_unit_test(forces_on_a_joined_piece_have_a_potential),
+        cmocka_unit_test(lists_of_parts_are_kept_and_change_no_bit),
         cmocka_unit_test(parts_share_the_load),
         cmocka_unit_test(parts_that_move_apart_stay_separate),
     };

@@ -39,12 +39,10 @@ static void write_members(FILE *f, const fl_member_chain *c)
     int32_t member = -1;
     for (int32_t k = 0; k < c->contacts; k++) {
         const fl_member_contact *e = &c->contact[k];
-        const int32_t ends[2] = {e->i, e->j};
         if (e->member != member && member >= 0) putc('\n', f);
         for (int s = e->member == member; s < 2; s++) {
-            const fl_member_ball *b = &c->ball[ends[s]];
-            fprintf(f, "%.9g %.9g %.9g %.9g %.9g %.9g\n", b->x0.x + b->d.x, b->x0.y + b->d.y,
-                    b->x0.z + b->d.z, b->x0.x, b->x0.y, b->x0.z);
+            const fl_vec3 x = fl_member_contact_end(c, e, s), x0 = fl_member_contact_start(c, e, s);
+            fprintf(f, "%.9g %.9g %.9g %.9g %.9g %.9g\n", x.x, x.y, x.z, x0.x, x0.y, x0.z);
         }
         member = e->member;
     }
