@@ -41,8 +41,11 @@ typedef struct {
     fl_spring_sums springs; /* of sectors near the ice, about the origin; only with survey */
 } fl_strip_result;
 
-/* A strip of n elements, none of which is in ice; NULL when memory runs out. */
-fl_strip *fl_strip_make(int32_t n);
+/* A strip in front of a wall, no element of which is in ice; NULL when memory runs out. */
+fl_strip *fl_strip_make(const fl_wall *wall);
+
+/* Puts element k of the strip to the height of FL_STRIP_MIDDLE. */
+void fl_strip_place(fl_strip *q, const fl_wall *wall, int32_t k);
 
 /* Advances the strip of pair p by dt and evaluates it; makes p->strip. -1 when memory runs out. */
 int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, int survey,

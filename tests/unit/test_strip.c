@@ -4,6 +4,7 @@
 #include "support/near.h"
 #include <math.h>
 #include "base/pi.h"
+#include "failure/strip_lanes.h"
 #include "failure/strip_wall.h"
 #include "sim/energy_balance.h"
 #include "support/small_world.h"
@@ -42,6 +43,35 @@ static void slow_ice_creeps(void **state)
     for (int k = 0; k < 20000; k++) fl_strip_advance(&step, &s, 0.01 * 2e-3, (fl_strip_id){0, 0, 0});
     assert_int_equal(s.count, 0);
     assert_near(fl_strip_deflection(&s), 5e-3 * cbrt(0.2), 1e-12);
+}
+
+/* Four at a time: the same bits, through contact, breaks, retreats and gaps, for both exponents. */
+static void lanes_have_the_bits_of_one_element(void **state)
+{
+    const fl_strip_law laws[2] = {LAW, {2.5, 5e-3, 10e-3, 1, 0.0, 1.0, 7}};
+    (void)state;
+    for (int l = 0; l < 2; l++) {
+        const fl_strip_step step = fl_strip_step_of(&laws[l], 4e-3);
+        fl_strip_element one[4] = {{1e-4, 0, 0}, {-3e-3, 0, 0}, {4.9e-3, 0, 0}, {-1.0, 0, 0}};
+        int32_t broken = 0;
+        for (int k = 0; k < 3000; k++) {
+            fl_simd e = {one[0].e, one[1].e, one[2].e, one[3].e},
+                    u = {one[0].u, one[1].u, one[2].u, one[3].u}, dq, rest;
+            fl_simd_mask breaks;
+            const fl_simd_mask in = {-1, -1, -1, k % 3 ? -1 : 0};
+            for (int j = 0; j < 4; j++) dq[j] = 4e-3 * (0.03 + 0.01 * j + 0.08 * sin(0.01 * k * (j + 1)));
+            const fl_simd way = dq;
+            fl_strip_lanes_advance(&step, &in, &way, &e, &u, &breaks, &rest);
+            for (int j = 0; j < 4; j++) {
+                const fl_strip_id id = {0, 0, j};
+                fl_strip_element lane = {e[j], u[j], one[j].count};
+                if (breaks[j]) fl_strip_break(&laws[l], &lane, rest[j], id);
+                if (in[j]) broken += fl_strip_advance(&step, &one[j], dq[j], id);
+                assert_true(lane.e == one[j].e && lane.u == one[j].u && lane.count == one[j].count);
+            }
+        }
+        assert_true(broken > 100);
+    }
 }
 
 /* Gaps are functions of seed and element, uniform up to (R - 2) delta. */
@@ -187,6 +217,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(work_is_store_creep_and_delay),
                                        cmocka_unit_test(slow_ice_creeps),
+                                       cmocka_unit_test(lanes_have_the_bits_of_one_element),
                                        cmocka_unit_test(gaps_are_uniform),
                                        cmocka_unit_test(strength_has_its_deviation),
                                        cmocka_unit_test(speeds_of_lock_in_are_those_of_the_formulas),
