@@ -11,6 +11,10 @@
 enum { AUTO_RING = 16 };
 #define STEP_SHARE 0.2
 
+/* Closing speed over that of the ice, at most, where the structure is free to swing: in slow cycles its peaks are
+ * twice the speed of the ice on the mean (IV5 of verify_vibration). */
+#define SWING 4.0
+
 /* Pressure of the law `rate` where none is given, times peak_ratio [Pa]. */
 #define PEAK_PRESSURE 2e6
 
@@ -133,7 +137,7 @@ double fl_strips_max_step(const fl_world *w)
         fl_track_evaluate(tr, tr->t[k], &x, &rate, &second);
         fastest = fmax(fastest, v3_norm(rate.x));
     }
-    fastest = fmax(fastest, w->moving.max_speed);
+    fastest = fmax(fl_structure_moves_freely(w) ? SWING * fastest : fastest, w->moving.max_speed);
     return fastest > 0.0 ? STEP_SHARE * w->strips.law.delta / fastest : INFINITY;
 }
 
@@ -146,6 +150,21 @@ static double width_along(const fl_world *w, int32_t piece, fl_vec3 e)
     for (int32_t k = 0; k < wall->n; k++)
         sum += wall->sector[k].width * fmax(0.0, v3_dot(wall->sector[k].n, d));
     return sum;
+}
+
+/* Largest value of y of fl_strip_strength_at(), sqrt(3) times that of a sum of four uniforms. */
+#define MOST_STRENGTH 3.4641016151377544
+
+/* sum k |S_i| over all sectors; the pressure is that of half of their area, which is more than of all. */
+double fl_strips_stiffness(const fl_world *w, int32_t piece)
+{
+    const fl_strips *s = &w->strips;
+    double z, thickest, width = 0.0;
+    ice_at_start(w, &z, &thickest);
+    for (int32_t k = 0; k < s->wall[piece].n; k++) width += s->wall[piece].sector[k].width;
+    const double A = thickest * width;
+    return (1.0 + MOST_STRENGTH * s->scatter) * s->law.peak_ratio * A *
+           fl_crushing_pressure(&s->pressure, 0.5 * A) / s->law.delta;
 }
 
 double fl_strips_lock_in_speed(const fl_world *w, int32_t k)

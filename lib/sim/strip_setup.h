@@ -15,9 +15,13 @@ void fl_strips_book(fl_world *w, double dt);
 /* -1 with FL_NUMERIC: a wall closed by more than a fifth of break_deflection in a step. */
 int fl_strips_check(const fl_world *w, fl_err *err);
 
-/* Longest step that the speeds at the start, of the ice, the drive and the current, allow; INFINITY without
- * strips [s]. */
+/* Longest step that the speeds at the start, of the ice, the drive and the current, allow, a quarter of it if
+ * the structure can swing against them; INFINITY without strips [s]. */
 double fl_strips_max_step(const fl_world *w);
+
+/* Bound of the stiffness of ice in front of a piece with a wall, for ice of the largest thickness all around, at
+ * its greatest strength [N/m]. */
+double fl_strips_stiffness(const fl_world *w, int32_t piece);
 
 /* Speed below which mode k of the structure (fl_structure_mode) locks in by estimate:
  * fl_strip_lock_in_speed() of the mean force on the walls of its part, seen along the mode, in ice of the

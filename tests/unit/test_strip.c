@@ -7,6 +7,7 @@
 #include "failure/strip_lanes.h"
 #include "failure/strip_wall.h"
 #include "sim/energy_balance.h"
+#include "sim/strip_setup.h"
 #include "support/small_world.h"
 
 static const fl_strip_law LAW = {2.5, 5e-3, 10e-3, 3, 0.2, 2.0, 7};
@@ -213,6 +214,33 @@ static void fast_ice_ends_the_run(void **state)
     lab_free(&l);
 }
 
+/* The automatic step of a floe before a wall goes with the root of delta over the pressure. */
+static void the_step_is_that_of_the_ice(void **state)
+{
+    double step[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        lab l;
+        lab_start(&l);
+        lab_set(&l, "failure.crushing=structure");
+        lab_set(&l, "failure.crushing_law=rate");
+        lab_set(&l, "failure.pressure_exponent=0");
+        lab_setf(&l, "failure.pressure=%g", k == 1 ? 4e5 : 1e5);
+        lab_setf(&l, "failure.break_deflection=%g", k == 2 ? 0.02 : 0.005);
+        lab_set(&l, "output.loads_every=1");
+        lab_wall(&l, v3(0, -2, -3), v3(1, 2, 3), 1);
+        lab_box(&l, v3(-20, 0, 0), v3(5, 5, 0.25), 0.05, q_one(), ZERO, ZERO);
+        lab_make(&l, 0.0);
+        /* R p/delta over all of the wall, 2 (4 + 1) m by 0.5 m */
+        assert_near(fl_strips_stiffness(&l.w, 0), 2.5 * (k == 1 ? 4e5 : 1e5) * 5.0 / (k == 2 ? 0.02 : 0.005),
+                    1e-9);
+        step[k] = l.w.dt;
+        lab_free(&l);
+    }
+    assert_near(step[1], 0.5 * step[0], 1e-9);
+    assert_near(step[2], 2.0 * step[0], 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(work_is_store_creep_and_delay),
@@ -224,6 +252,7 @@ int main(void)
                                        cmocka_unit_test(a_cone_has_a_ring_of_sectors),
                                        cmocka_unit_test(a_prism_has_columns),
                                        cmocka_unit_test(the_ledger_closes),
-                                       cmocka_unit_test(fast_ice_ends_the_run)};
+                                       cmocka_unit_test(fast_ice_ends_the_run),
+                                       cmocka_unit_test(the_step_is_that_of_the_ice)};
     return cmocka_run_group_tests_name("strip", tests, NULL, NULL);
 }
