@@ -11,8 +11,8 @@
 enum { AUTO_RING = 16 };
 #define STEP_SHARE 0.2
 
-/* Closing speed over that of the ice, at most, where the structure is free to swing: in slow cycles its peaks are
- * twice the speed of the ice on the mean (IV5 of verify_vibration). */
+/* Closing speed over that of the ice, at most, where the structure is free to swing: in slow cycles its peaks
+ * are twice the speed of the ice on the mean (IV5 of verify_vibration). */
 #define SWING 4.0
 
 /* Pressure of the law `rate` where none is given, times peak_ratio [Pa]. */

@@ -19,8 +19,8 @@ int fl_strips_check(const fl_world *w, fl_err *err);
  * the structure can swing against them; INFINITY without strips [s]. */
 double fl_strips_max_step(const fl_world *w);
 
-/* Bound of the stiffness of ice in front of a piece with a wall, for ice of the largest thickness all around, at
- * its greatest strength [N/m]. */
+/* Bound of the stiffness of ice in front of a piece with a wall, for ice of the largest thickness all around,
+ * at its greatest strength [N/m]. */
 double fl_strips_stiffness(const fl_world *w, int32_t piece);
 
 /* Speed below which mode k of the structure (fl_structure_mode) locks in by estimate:
