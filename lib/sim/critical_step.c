@@ -270,7 +270,7 @@ static int has_strip(const fl_world *w, int32_t j)
     return w->strips.wall && w->strips.wall[j - w->n].n > 0;
 }
 
-/* Largest stiffness of ice that crushes by its speed, which has no damping; *moving: on a piece that moves. */
+/* Largest stiffness of ice that crushes by its speed, without damping; *moving: on a piece that moves. */
 static double strip_slope(const fl_world *w, double *moving)
 {
     double largest = 0.0;
