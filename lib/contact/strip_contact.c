@@ -4,6 +4,7 @@
 #include <string.h>
 #include "base/simd.h"
 #include "contact/pair_response.h"
+#include "contact/strip_dent.h"
 #include "failure/strip_lanes.h"
 
 /* Share of the width of a sector after which areas are found anew, and of delta that a step may close. */
@@ -117,11 +118,15 @@ static void update_areas(fl_world *w, const fl_pair *p, const fl_relative_pose *
         room = fmin(room, KNOWN_SHARE * wall->sector[k].width);
         fl_strip_place(q, wall, k);
         if (*area != before) q->near_known = 0;
+        if (before > 0.0 && *area == 0.0 && w->scene->failure.wear)
+            fl_strip_leave(q, wall, r, k, w->strips.law.peak_ratio * w->strips.law.delta);
         if (before > 0.0 || *area == 0.0) continue;
         const fl_strip_id id = id_of(w, p, k); /* it enters */
         fl_strip_column(q, FL_STRIP_U)[k] = 0.0;
         fl_strip_column(q, FL_STRIP_E)[k] =
-            -fl_strip_gap(&w->strips.law, fl_rng_entity4(id.floe, id.region, id.sector, q->count[k]));
+            -fl_strip_gap(&w->strips.law, fl_rng_entity4(id.floe, id.region, id.sector, q->count[k])) -
+            fl_strip_missing_ice(w, p, r, k);
+        fl_strip_column(q, FL_STRIP_LEFT)[k] = 0.0;
     }
     q->known_until = now + room;
 }
@@ -383,6 +388,7 @@ int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r,
     out->normal = sum.normal;
     out->slope = sum.stiffness;
     out->touches = sum.touching;
+    q->apart = !sum.touching;
     out->max_depth = sum.depth;
     if (sum.normal > 0.0) out->centre = v3_scale(1.0 / sum.normal, sum.weighted);
     if (survey) add_springs(q, step.gap, &out->springs);

@@ -9,7 +9,8 @@
  * |sum S_i|, or of sum max(0, S_i.d) with d against the motion of the ice, over sectors with e > -4 delta R:
  * of a pile D h, whether ice is in front of it or all around. In a step the wall closes by dq_i = -dt
  * v_i.n_i, v_i the velocity of the ice against the wall.
- *   - A sector that enters the floe has a gap e = -r. Behind a pile e falls: the channel bears no load.
+ *   - A sector that enters the floe has a gap e = -r, and more where a wall has been (contact/strip_dent.h).
+ *     Behind a pile e falls: the channel bears no load.
  *   - Ice that slides by s along the wall is passed on, e_i -= |s|/b (e_i - e_upwind), and u alike, once per
  *     hundredth of a sector's width of motion.
  * The law of the pair is not evaluated; its friction acts at the centre of the forces.

@@ -182,6 +182,7 @@ static void exchange_element(fl_state_io *t, fl_strip *q, int32_t k)
     fl_state_io_real(t, &fl_strip_column(q, FL_STRIP_AREA)[k]);
     fl_state_io_real(t, &fl_strip_column(q, FL_STRIP_MIDDLE)[k]);
     fl_state_io_real(t, &fl_strip_column(q, FL_STRIP_LOAD)[k]);
+    for (int c = FL_STRIP_LEFT; c < FL_STRIP_COLUMNS; c++) fl_state_io_real(t, &fl_strip_column(q, c)[k]);
     q->count[k] = (int32_t)count;
 }
 
@@ -203,6 +204,7 @@ static void exchange_strip(fl_state_io *t, const fl_world *w, fl_pair *p)
     fl_state_io_vec3(t, &q->turned);
     fl_state_io_vec3(t, &q->near_area);
     fl_state_io_int(t, 0, 1, &q->near_known);
+    fl_state_io_int(t, 0, 1, &q->apart);
     fl_state_io_real(t, &q->way);
     fl_state_io_real(t, &q->farthest);
     fl_state_io_real(t, &q->known_until);

@@ -20,7 +20,10 @@ enum fl_strip_column {
     FL_STRIP_NORMAL,                       /* of the wall */
     FL_STRIP_CENTRE = FL_STRIP_NORMAL + 3, /* of the area [m] */
     FL_STRIP_ARM = FL_STRIP_CENTRE + 3,    /* centre x normal [m] */
-    FL_STRIP_COLUMNS = FL_STRIP_ARM + 3
+    FL_STRIP_LEFT = FL_STRIP_ARM + 3,      /* -e with which it left the floe [m]; 0: it did not */
+    FL_STRIP_LEFT_AT,                      /* where, and the normal of the wall, axes of the floe */
+    FL_STRIP_LEFT_ALONG = FL_STRIP_LEFT_AT + 3,
+    FL_STRIP_COLUMNS = FL_STRIP_LEFT_ALONG + 3
 };
 
 typedef struct {
@@ -34,6 +37,7 @@ typedef struct {
         turned;        /* motion since ice was last passed on along the wall, frame of the piece [m], [rad] */
     fl_vec3 near_area; /* sum of the area vectors of the ice near the wall [m2] */
     int32_t near_known; /* 0: it has to be summed anew */
+    int32_t apart;      /* no sector is in the floe */
     double way;         /* of the ice against the wall [m] */
     double farthest;    /* largest so far */
     double known_until; /* areas hold while the odometers of the two are below this [m] */

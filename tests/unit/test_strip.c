@@ -208,9 +208,76 @@ static void fast_ice_ends_the_run(void **state)
     lab_set(&l, "failure.crushing=structure");
     lab_set(&l, "failure.crushing_law=rate");
     lab_cone(&l, (fl_cone){v3(0, 0, -2), v3(0, 0, 2), 1, 1});
-    lab_box(&l, v3(-9.0001, 0.4, 0), v3(8, 7, 0.25), 0.05, q_one(), v3(2.0, 0, 0), ZERO);
+    lab_box(&l, v3(-9.0001, 0.4, 0), v3(8, 7, 0.25), 0.05, q_one(), v3(0.9, 0, 0), ZERO);
     lab_make(&l, 1e-3);
+    l.w.b.v[0].x = 2.0; /* it was 0.9, or the run would not have begun */
     assert_int_equal(lab_run(&l, 50), FL_NUMERIC);
+    lab_free(&l);
+}
+
+/* A floe that is moved against a pile of 1 m, and its edge along y. */
+static void start_moved(lab *l, int wears)
+{
+    lab_start(l);
+    lab_set(l, "boundary.type=free");
+    lab_set(l, "boundary.drive_width=1000");
+    lab_set(l, "boundary.drive_edge=-x");
+    lab_set(l, "boundary.drive_fixed=x y z rx ry rz");
+    lab_set(l, "boundary.drive=0.4");
+    lab_set(l, "failure.crushing=structure");
+    lab_set(l, "failure.crushing_law=rate");
+    lab_set(l, "failure.pressure=50 kPa");
+    lab_set(l, "failure.element_width=0.1");
+    lab_set(l, wears ? "failure.wear=true" : "failure.wear=false");
+    lab_cone(l, (fl_cone){v3(0, 0, -2), v3(0, 0, 2), 1, 1});
+    lab_box(l, v3(-9.0001, 0, 0), v3(8, 7, 0.25), 0.05, q_one(), v3(0.4, 0, 0), ZERO);
+    lab_make(l, 1e-3);
+}
+
+/* What is crushed while the floe moves by (x, y) at 0.4 m/s. */
+static double crushed_by(lab *l, double x, double y)
+{
+    const double before = l->w.ledger.crushing, way = hypot(x, y);
+    l->w.b.v[0] = v3(0.4 * x / way, 0.4 * y / way, 0.0);
+    assert_int_equal(lab_run(l, (int64_t)(way / 0.4e-3 + 0.5)), 0);
+    return l->w.ledger.crushing - before;
+}
+
+static void a_floe_keeps_its_dent(void **state)
+{
+    /* segment of a circle of 1 m, 0.6 m deep */
+    const double d = 0.6, chord = 2.0 * sqrt(2.0 * d - d * d), area = acos(1.0 - d) - (1.0 - d) * 0.5 * chord;
+    (void)state;
+    lab l;
+    start_moved(&l, 1);
+    const double first = crushed_by(&l, 0.6, 0), back = crushed_by(&l, -1.0, 0);
+    assert_true(first > 0.25 * 50e3 * chord * d * 0.5 && back < 0.01 * first);
+    const fl_floe_dents *kept = l.w.crushing.dents[0];
+    assert_non_null(kept);
+    assert_int_equal(kept->n, 1);
+    const fl_dent *t = &kept->dent[0];
+    assert_near(v3_norm(t->offset), d, 0.03);
+    assert_near(t->half_width, 0.5 * chord, 0.1);
+    assert_near(2.0 * t->half_width * v3_norm(t->offset) * t->stiffening / (1.0 + t->stiffening), area, 0.05);
+    /* in again: nothing but the front, where gaps are drawn anew; deeper, as if it had never been out */
+    const double again = crushed_by(&l, 1.0, 0), deeper = crushed_by(&l, 0.2, 0);
+    assert_true(again < 0.04 * first);
+    assert_true(deeper > 0.8 * first * 0.2 / 0.6);
+    crushed_by(&l, -1.2, 0);
+    assert_int_equal(kept->n, 1); /* the same, deeper */
+    assert_near(v3_norm(t->offset), 0.8, 0.03);
+    /* beside it the ice is whole */
+    crushed_by(&l, 0.0, 3.0);
+    assert_near(crushed_by(&l, 1.0, 0.0), first, 0.05);
+    crushed_by(&l, -1.2, 0);
+    assert_int_equal(kept->n, 2);
+    lab_free(&l);
+    start_moved(&l, 0); /* worn ice forgotten */
+    const double whole = crushed_by(&l, 0.6, 0);
+    assert_near(whole, first, 1e-12);
+    crushed_by(&l, -1.0, 0);
+    assert_null(l.w.crushing.dents[0]);
+    assert_near(crushed_by(&l, 1.0, 0), first, 0.05);
     lab_free(&l);
 }
 
@@ -253,6 +320,7 @@ int main(void)
                                        cmocka_unit_test(a_prism_has_columns),
                                        cmocka_unit_test(the_ledger_closes),
                                        cmocka_unit_test(fast_ice_ends_the_run),
-                                       cmocka_unit_test(the_step_is_that_of_the_ice)};
+                                       cmocka_unit_test(the_step_is_that_of_the_ice),
+                                       cmocka_unit_test(a_floe_keeps_its_dent)};
     return cmocka_run_group_tests_name("strip", tests, NULL, NULL);
 }
