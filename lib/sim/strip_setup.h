@@ -16,8 +16,8 @@ int fl_strips_book(fl_world *w, double dt, fl_err *err);
 /* -1 with FL_NUMERIC: a wall closed by more than a fifth of break_deflection in a step. */
 int fl_strips_check(const fl_world *w, fl_err *err);
 
-/* Before the first step: -1 with FL_INPUT if run.dt lets ice close by more than that at its speed then, or at the
- * largest of the drive. */
+/* Before the first step: -1 with FL_INPUT if run.dt lets ice close by more than that at its speed then, or at
+ * the largest of the drive. */
 int fl_strips_check_start(const fl_world *w, fl_err *err);
 
 /* Longest step that the speeds at the start, of the ice, the drive and the current, allow, a quarter of it if
