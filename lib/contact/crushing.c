@@ -238,7 +238,7 @@ int fl_crushing_book(fl_world *w, fl_err *err)
 
 void fl_crushing_forget(fl_world *w, int32_t i)
 {
-    if (w->crushing.of == FL_CRUSHING_NONE) return;
+    if (!w->crushing.dents) return;
     free(w->crushing.dents[i]);
     w->crushing.dents[i] = NULL;
 }

@@ -12,6 +12,7 @@
 #include "contact/point_force.h"
 #include "contact/quick_force.h"
 #include "contact/strip_contact.h"
+#include "contact/strip_dent.h"
 #include "contact/surrogate_batch.h"
 #include "patch/patch_law.h"
 
@@ -76,7 +77,8 @@ static int evaluate_strip(fl_world *w, fl_pair *p, int32_t thread, const fl_rela
     const fl_piece *piece = fl_world_piece(w, p->j);
     fl_strip_result q;
     if (fl_strip_contact_advance(w, p, r, dt, survey, &q)) return -1;
-    p->touching = q.touches || store > 0.0 || work != 0.0; /* until its last work is booked */
+    /* until its last work is booked, and its dent kept */
+    p->touching = q.touches || store > 0.0 || work != 0.0 || fl_strip_has_left(p->strip);
     if (!p->touching) {
         free(p->strip);
         p->strip = NULL;

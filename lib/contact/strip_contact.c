@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contact/strip_contact.h"
 #include <stdlib.h>
-#include "base/array.h"
+#include <string.h>
+#include "base/simd.h"
 #include "contact/pair_response.h"
+#include "contact/strip_dent.h"
+#include "failure/strip_lanes.h"
 
 /* Share of the width of a sector after which areas are found anew, and of delta that a step may close. */
 #define KNOWN_SHARE 0.1
@@ -58,10 +61,40 @@ static double sector_area(const floe_planes *q, const fl_wall_sector *s, double 
     return length * fmax(0.0, s->width + s->taper * *middle);
 }
 
-fl_strip *fl_strip_make(int32_t n)
+/* The three arrays of a vector from element k on. */
+static inline void set_vector(fl_strip *q, int column, int32_t k, fl_vec3 v)
 {
-    fl_strip *q = calloc(1, sizeof *q + (size_t)n * sizeof *q->cell);
-    if (q) q->n = n, q->strength.node = -1, q->known_until = -1.0;
+    fl_strip_column(q, column)[k] = v.x;
+    fl_strip_column(q, column + 1)[k] = v.y;
+    fl_strip_column(q, column + 2)[k] = v.z;
+}
+
+static inline fl_vec3 vector_of(fl_strip *q, int column, int32_t k)
+{
+    return v3(fl_strip_column(q, column)[k], fl_strip_column(q, column + 1)[k],
+              fl_strip_column(q, column + 2)[k]);
+}
+
+void fl_strip_place(fl_strip *q, const fl_wall *wall, int32_t k)
+{
+    const fl_wall_sector *s = &wall->sector[k];
+    const fl_vec3 x = v3_madd(s->x, fl_strip_column(q, FL_STRIP_MIDDLE)[k], s->up);
+    set_vector(q, FL_STRIP_CENTRE, k, x);
+    set_vector(q, FL_STRIP_ARM, k, v3_cross(x, s->n));
+}
+
+fl_strip *fl_strip_make(const fl_wall *wall)
+{
+    const int32_t lanes = (wall->n + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH * FL_SIMD_WIDTH;
+    const size_t numbers = (size_t)FL_STRIP_COLUMNS * (size_t)lanes;
+    fl_strip *q = calloc(1, sizeof *q + numbers * sizeof *q->data + (size_t)lanes * sizeof *q->count);
+    if (!q) return NULL;
+    q->n = wall->n, q->lanes = lanes, q->strength.node = -1, q->known_until = -1.0;
+    q->count = (int32_t *)(void *)(q->data + numbers);
+    for (int32_t k = 0; k < q->n; k++) {
+        set_vector(q, FL_STRIP_NORMAL, k, wall->sector[k].n);
+        fl_strip_place(q, wall, k);
+    }
     return q;
 }
 
@@ -80,15 +113,20 @@ static void update_areas(fl_world *w, const fl_pair *p, const fl_relative_pose *
     if (now < q->known_until) return;
     find_planes(&planes, &w->b, p, r);
     for (int32_t k = 0; k < q->n; k++) {
-        fl_strip_cell *c = &q->cell[k];
-        const double before = c->area;
-        c->area = sector_area(&planes, &wall->sector[k], &c->middle, &room);
+        double *const area = &fl_strip_column(q, FL_STRIP_AREA)[k], before = *area;
+        *area = sector_area(&planes, &wall->sector[k], &fl_strip_column(q, FL_STRIP_MIDDLE)[k], &room);
         room = fmin(room, KNOWN_SHARE * wall->sector[k].width);
-        if (c->area != before) q->near_known = 0;
-        if (before > 0.0 || c->area == 0.0) continue;
+        fl_strip_place(q, wall, k);
+        if (*area != before) q->near_known = 0;
+        if (before > 0.0 && *area == 0.0 && w->scene->failure.wear)
+            fl_strip_leave(q, wall, r, k, w->strips.law.peak_ratio * w->strips.law.delta);
+        if (before > 0.0 || *area == 0.0) continue;
         const fl_strip_id id = id_of(w, p, k); /* it enters */
-        c->ice.u = 0.0;
-        c->ice.e = -fl_strip_gap(&w->strips.law, fl_rng_entity4(id.floe, id.region, id.sector, c->ice.count));
+        fl_strip_column(q, FL_STRIP_U)[k] = 0.0;
+        fl_strip_column(q, FL_STRIP_E)[k] =
+            -fl_strip_gap(&w->strips.law, fl_rng_entity4(id.floe, id.region, id.sector, q->count[k])) -
+            fl_strip_missing_ice(w, p, r, k);
+        fl_strip_column(q, FL_STRIP_LEFT)[k] = 0.0;
     }
     q->known_until = now + room;
 }
@@ -98,12 +136,6 @@ typedef struct {
     fl_vec3 base, spin;
     int turns; /* spin is not 0 */
 } wall_motion;
-
-/* Way by which the wall closes on the ice at x along n in dt. */
-static inline double closing_way(const wall_motion *v, fl_vec3 n, fl_vec3 x, double dt)
-{
-    return -dt * v3_dot(n, v->turns ? v3_add(v->base, v3_cross(v->spin, x)) : v->base);
-}
 
 static wall_motion motion_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, double dt)
 {
@@ -122,16 +154,20 @@ static void transport(fl_strip *q, const fl_wall *wall, const wall_motion *v, do
     q->turned = v3_madd(q->turned, dt, v->spin);
     far = v3_norm(q->slid) + v3_norm(q->turned) * v3_norm(wall->sector[0].x);
     if (far < PASS_SHARE * wall->sector[0].width) return;
-    for (int32_t k = 0; k < q->n; k++) q->cell[k].e = q->cell[k].ice.e, q->cell[k].u = q->cell[k].ice.u;
+    double *const e = fl_strip_column(q, FL_STRIP_E), *const u = fl_strip_column(q, FL_STRIP_U),
+                  *const old_e = fl_strip_column(q, FL_STRIP_OLD_E),
+                  *const old_u = fl_strip_column(q, FL_STRIP_OLD_U),
+                  *const area = fl_strip_column(q, FL_STRIP_AREA);
+    memcpy(old_e, e, (size_t)q->n * sizeof *e);
+    memcpy(old_u, u, (size_t)q->n * sizeof *u);
     for (int32_t k = 0; k < q->n; k++) {
         const fl_wall_sector *s = &wall->sector[k];
-        fl_strip_cell *c = &q->cell[k];
         const double slid = v3_dot(s->along, v3_add(q->slid, v3_cross(q->turned, s->x)));
         const int32_t from = slid > 0.0 ? s->left : s->right;
-        if (c->area == 0.0 || slid == 0.0 || from < 0 || q->cell[from].area == 0.0) continue;
+        if (area[k] == 0.0 || slid == 0.0 || from < 0 || area[from] == 0.0) continue;
         const double part = fmin(1.0, fabs(slid) / s->width);
-        c->ice.e -= part * (c->e - q->cell[from].e);
-        c->ice.u -= part * (c->u - q->cell[from].u);
+        e[k] -= part * (old_e[k] - old_e[from]);
+        u[k] -= part * (old_u[k] - old_u[from]);
     }
     q->slid = q->turned = v3(0, 0, 0);
     q->near_known = 0;
@@ -146,15 +182,17 @@ static void sum_near_area(const fl_world *w, fl_strip *q, const fl_wall *wall, f
 {
     const double least = near_limit(w), speed = v3_norm(v);
     const fl_vec3 d = speed > 0.0 ? v3_scale(-1.0 / speed, v) : v3(0, 0, 0);
-    double seen = 0.0;
+    const double *e = fl_strip_column(q, FL_STRIP_E), *area = fl_strip_column(q, FL_STRIP_AREA);
+    double seen = 0.0, before = q->largest_area;
     q->near_area = v3(0, 0, 0);
     for (int32_t k = 0; k < q->n; k++) {
-        if (!(q->cell[k].area > 0.0) || !(q->cell[k].ice.e > least)) continue;
+        if (!(area[k] > 0.0) || !(e[k] > least)) continue;
         const double facing = v3_dot(wall->sector[k].n, d);
-        q->near_area = v3_madd(q->near_area, q->cell[k].area, wall->sector[k].n);
-        if (facing > 0.0) seen += q->cell[k].area * facing;
+        q->near_area = v3_madd(q->near_area, area[k], wall->sector[k].n);
+        if (facing > 0.0) seen += area[k] * facing;
     }
     q->largest_area = fmax(q->largest_area, fmax(v3_norm(q->near_area), seen));
+    if (q->largest_area > before) q->pressure = 0.0;
     q->near_known = speed > 0.0;
 }
 
@@ -170,7 +208,8 @@ static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, 
     q->way += dt * q->closing;
     q->farthest = fmax(q->farthest, q->way);
     if (q->largest_area == 0.0) return 0.0;
-    double k = s->law.peak_ratio * fl_crushing_pressure(&s->pressure, q->largest_area) / s->law.delta;
+    if (q->pressure == 0.0) q->pressure = fl_crushing_pressure(&s->pressure, q->largest_area);
+    double k = s->law.peak_ratio * q->pressure / s->law.delta;
     if (s->scatter > 0.0)
         k *= fl_strip_strength_at(&q->strength, &s->law, s->scatter, s->scatter_length, q->farthest,
                                   w->id[p->i], p->j - w->n);
@@ -178,14 +217,13 @@ static double stiffness_now(fl_world *w, const fl_pair *p, const fl_wall *wall, 
 }
 
 /* Adds the springs of the sectors that touch the ice, or may soon. */
-static void add_springs(const fl_strip *q, const fl_wall *wall, double gap, fl_spring_sums *sum)
+static void add_springs(fl_strip *q, double gap, fl_spring_sums *sum)
 {
+    const double *e = fl_strip_column(q, FL_STRIP_E), *area = fl_strip_column(q, FL_STRIP_AREA);
     for (int32_t j = 0; j < q->n; j++) {
-        const fl_strip_cell *c = &q->cell[j];
-        const fl_wall_sector *s = &wall->sector[j];
-        if (!(c->area > 0.0) || c->ice.e < -gap) continue;
-        const fl_vec3 arm = v3_cross(v3_madd(s->x, c->middle, s->up), s->n);
-        const double k = q->k * c->area, N[3] = {s->n.x, s->n.y, s->n.z}, M[3] = {arm.x, arm.y, arm.z};
+        if (!(area[j] > 0.0) || e[j] < -gap) continue;
+        const fl_vec3 n = vector_of(q, FL_STRIP_NORMAL, j), arm = vector_of(q, FL_STRIP_ARM, j);
+        const double k = q->k * area[j], N[3] = {n.x, n.y, n.z}, M[3] = {arm.x, arm.y, arm.z};
         for (int r = 0; r < 3; r++)
             for (int i = 0; i < 3; i++) {
                 sum->linear[r][i] += k * N[r] * N[i];
@@ -202,57 +240,130 @@ static void note_speed(fl_world *w, double closes)
     if (closes > w->strips.too_fast) w->strips.too_fast = closes;
 }
 
-/* What the cells of a step add up to, frame of the piece. */
+/* What the elements of a step add up to, frame of the piece. */
 typedef struct {
     fl_vec3 force, moment, weighted; /* sum of f, of x x f, and of |f| x */
     double normal, stiffness, depth, work, store, fastest;
     int32_t breaks, touching, crossing; /* crossing: some came near the wall or left it */
-} cell_sums;
+} strip_sums;
 
-/* Advances all cells by the step; those that stay in a gap are done with it at once. */
-static cell_sums advance_cells(const fl_world *w, const fl_pair *p, const fl_strip_step *step,
-                               const wall_motion *v, double dt)
+/* The same, lane by lane. */
+typedef struct {
+    fl_simd force[3], moment[3], weighted[3], normal, stiffness, depth, work, store, fastest;
+    fl_simd_mask touching, crossing;
+    int32_t breaks;
+} lane_sums;
+
+FL_SIMD_INLINE void load_vectors(fl_strip *q, int column, int32_t j, fl_simd v[3])
 {
-    const fl_wall *wall = &w->strips.wall[p->j - w->n];
-    const double least = near_limit(w), k = p->strip->k;
-    fl_strip *const q = p->strip;
-    cell_sums sum = {.normal = 0.0};
-    for (int32_t j = 0; j < q->n; j++) {
-        fl_strip_cell *const c = &q->cell[j];
-        const fl_wall_sector *const s = &wall->sector[j];
-        const double e = c->ice.e;
-        if (!(c->area > 0.0) && c->load == 0.0) continue;
-        fl_vec3 x = s->x;
-        if (v->turns || c->load > 0.0) x = v3_madd(s->x, c->middle, s->up);
-        const double dq = closing_way(v, s->n, x, dt);
-        if (!(c->area > 0.0)) { /* the sector has left the ice: the last of its load does work */
-            sum.work += 0.5 * c->load * dq;
-            c->load = 0.0;
-            continue;
-        }
-        sum.touching = 1;
-        if (dq > sum.fastest) sum.fastest = dq;
-        if (c->load == 0.0 && c->ice.u == 0.0 && e + dq <= 0.0) {
-            c->ice.e = e + dq;
-            sum.crossing |= (e > least) != (e + dq > least);
-            continue;
-        }
-        const double stiff = k * c->area;
-        sum.breaks += fl_strip_advance(step, &c->ice, dq, id_of(w, p, j));
-        const double z = fl_strip_deflection(&c->ice), f = stiff * z;
-        sum.store += stiff * fl_strip_store(step->law, &c->ice);
-        sum.work += 0.5 * (c->load + f) * dq;
-        c->load = f;
-        if (!(z > 0.0)) continue;
-        if (z > sum.depth) sum.depth = z;
-        const fl_vec3 force = v3_scale(f, s->n), at = v3_madd(s->x, c->middle, s->up);
-        sum.force = v3_add(sum.force, force);
-        sum.moment = v3_add(sum.moment, v3_cross(at, force));
-        sum.weighted = v3_madd(sum.weighted, f, at);
-        sum.normal += f;
-        sum.stiffness += stiff;
+    FL_SIMD_UNROLL
+    for (int c = 0; c < 3; c++) v[c] = FL_SIMD_LOAD(fl_strip_column(q, column + c) + j);
+}
+
+/* Breaks the elements of the lanes of `breaks`, whose wall is `rest` further on. */
+static int32_t break_lanes(const fl_strip_law *law, fl_strip *q, int32_t j, const fl_simd_mask *breaks,
+                           const fl_simd *rest, fl_strip_id id)
+{
+    int32_t before = 0, after = 0;
+    for (int32_t k = j; k < j + FL_SIMD_WIDTH; k++) {
+        if (!(*breaks)[k - j]) continue;
+        fl_strip_element one = {0.0, 0.0, q->count[k]};
+        id.sector = k;
+        before += one.count;
+        fl_strip_break(law, &one, (*rest)[k - j], id);
+        fl_strip_column(q, FL_STRIP_E)[k] = one.e;
+        fl_strip_column(q, FL_STRIP_U)[k] = one.u;
+        after += q->count[k] = one.count;
     }
-    return sum;
+    return after - before;
+}
+
+/* Adds what four elements with the loads f and the stiffnesses k press. */
+FL_SIMD_INLINE void add_loads(fl_strip *q, int32_t j, const fl_simd *f, const fl_simd *k, const fl_simd n[3],
+                              const fl_simd arm[3], lane_sums *sum)
+{
+    fl_simd x[3];
+    load_vectors(q, FL_STRIP_CENTRE, j, x);
+    FL_SIMD_UNROLL
+    for (int c = 0; c < 3; c++) {
+        sum->force[c] += *f * n[c];
+        sum->moment[c] += *f * arm[c];
+        sum->weighted[c] += *f * x[c];
+    }
+    sum->normal += *f;
+    sum->stiffness += FL_SIMD_MASKED(*f > 0.0, *k);
+}
+
+/* Advances the four elements from j on; those that stay in a gap are done with it at once. */
+FL_SIMD_INLINE void advance_four(fl_strip *q, const fl_strip_step *step, const wall_motion *v, double dt,
+                                 double least, int32_t j, fl_strip_id id, lane_sums *sum)
+{
+    double *const at_e = fl_strip_column(q, FL_STRIP_E) + j, *const at_u = fl_strip_column(q, FL_STRIP_U) + j,
+                  *const at_load = fl_strip_column(q, FL_STRIP_LOAD) + j;
+    const fl_simd area = FL_SIMD_LOAD(fl_strip_column(q, FL_STRIP_AREA) + j), load = FL_SIMD_LOAD(at_load),
+                  stiff = q->k * area;
+    const fl_simd_mask in = area > 0.0, loaded = load > 0.0, used = in | loaded;
+    if (!fl_simd_any(&used)) return;
+    fl_simd e = FL_SIMD_LOAD(at_e), u = FL_SIMD_LOAD(at_u), n[3], arm[3], z, rest;
+    const fl_simd before = e;
+    load_vectors(q, FL_STRIP_NORMAL, j, n);
+    load_vectors(q, FL_STRIP_ARM, j, arm);
+    fl_simd speed = n[0] * v->base.x + n[1] * v->base.y + n[2] * v->base.z;
+    if (v->turns) speed += arm[0] * v->spin.x + arm[1] * v->spin.y + arm[2] * v->spin.z;
+    const fl_simd dq = -dt * speed, ahead = e + dq, closes = FL_SIMD_MASKED(in, dq);
+    const fl_simd_mask live = (in & ((u != 0.0) | (ahead > 0.0))) | loaded;
+    sum->touching |= in;
+    sum->fastest = FL_SIMD_MAX(closes, sum->fastest);
+    if (!fl_simd_any(&live)) {
+        e = FL_SIMD_SELECT(in, ahead, e);
+        FL_SIMD_STORE(at_e) = e;
+        sum->crossing |= in & ((before > least) ^ (e > least));
+        return;
+    }
+    fl_simd_mask breaks;
+    fl_strip_lanes_advance(step, &in, &dq, &e, &u, &breaks, &rest);
+    FL_SIMD_STORE(at_e) = e;
+    FL_SIMD_STORE(at_u) = u;
+    if (fl_simd_any(&breaks)) {
+        sum->breaks += break_lanes(step->law, q, j, &breaks, &rest, id);
+        e = FL_SIMD_LOAD(at_e), u = FL_SIMD_LOAD(at_u);
+    }
+    sum->crossing |= in & ((before > least) ^ (e > least));
+    fl_strip_lanes_deflection(&e, &u, &z);
+    z = FL_SIMD_MASKED(in, z);
+    const fl_simd f = stiff * z;
+    sum->store += stiff * (0.5 * (z * z + step->law->kappa * u * u));
+    sum->work += 0.5 * (load + f) * dq; /* of a sector that has left the ice: of the last of its load */
+    sum->depth = FL_SIMD_MAX(z, sum->depth);
+    FL_SIMD_STORE(at_load) = f;
+    add_loads(q, j, &f, &stiff, n, arm, sum);
+}
+
+static fl_vec3 sum_of_lanes(const fl_simd v[3])
+{
+    return v3(fl_simd_sum(&v[0]), fl_simd_sum(&v[1]), fl_simd_sum(&v[2]));
+}
+
+static double most_of_lanes(const fl_simd *a) { return fmax(fmax((*a)[0], (*a)[1]), fmax((*a)[2], (*a)[3])); }
+
+/* Advances all elements by the step. */
+FL_SIMD4_VERSIONS static void advance_elements(fl_strip *q, const fl_strip_step *step, const wall_motion *v,
+                                               double dt, double least, fl_strip_id id, strip_sums *out)
+{
+    lane_sums sum = {.breaks = 0};
+    for (int32_t j = 0; j < q->n; j += FL_SIMD_WIDTH) advance_four(q, step, v, dt, least, j, id, &sum);
+    *out = (strip_sums){.force = sum_of_lanes(sum.force),
+                        .moment = sum_of_lanes(sum.moment),
+                        .weighted = sum_of_lanes(sum.weighted),
+                        .normal = fl_simd_sum(&sum.normal),
+                        .stiffness = fl_simd_sum(&sum.stiffness),
+                        .depth = most_of_lanes(&sum.depth),
+                        .work = fl_simd_sum(&sum.work),
+                        .store = fl_simd_sum(&sum.store),
+                        .fastest = most_of_lanes(&sum.fastest),
+                        .breaks = sum.breaks,
+                        .touching = fl_simd_any(&sum.touching),
+                        .crossing = fl_simd_any(&sum.crossing)};
 }
 
 int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, int survey,
@@ -260,14 +371,15 @@ int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r,
 {
     const fl_wall *wall = &w->strips.wall[p->j - w->n];
     *out = (fl_strip_result){0};
-    if (!p->strip && !(p->strip = fl_strip_make(wall->n))) return -1;
+    if (!p->strip && !(p->strip = fl_strip_make(wall))) return -1;
     fl_strip *const q = p->strip;
     const wall_motion v = motion_of(w, p, r, dt);
     const fl_strip_step step = fl_strip_step_of(&w->strips.law, dt);
     update_areas(w, p, r, wall);
     transport(q, wall, &v, dt);
     q->k = stiffness_now(w, p, wall, &v, dt);
-    const cell_sums sum = advance_cells(w, p, &step, &v, dt);
+    strip_sums sum;
+    advance_elements(q, &step, &v, dt, near_limit(w), id_of(w, p, 0), &sum);
     if (sum.crossing) q->near_known = 0;
     q->breaks = sum.breaks;
     q->work = sum.work - (sum.store - q->store);
@@ -276,9 +388,10 @@ int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r,
     out->normal = sum.normal;
     out->slope = sum.stiffness;
     out->touches = sum.touching;
+    q->apart = !sum.touching;
     out->max_depth = sum.depth;
     if (sum.normal > 0.0) out->centre = v3_scale(1.0 / sum.normal, sum.weighted);
-    if (survey) add_springs(q, wall, step.gap, &out->springs);
+    if (survey) add_springs(q, step.gap, &out->springs);
     note_speed(w, sum.fastest);
     return 0;
 }

@@ -9,7 +9,8 @@
  * |sum S_i|, or of sum max(0, S_i.d) with d against the motion of the ice, over sectors with e > -4 delta R:
  * of a pile D h, whether ice is in front of it or all around. In a step the wall closes by dq_i = -dt
  * v_i.n_i, v_i the velocity of the ice against the wall.
- *   - A sector that enters the floe has a gap e = -r. Behind a pile e falls: the channel bears no load.
+ *   - A sector that enters the floe has a gap e = -r, and more where a wall has been (contact/strip_dent.h).
+ *     Behind a pile e falls: the channel bears no load.
  *   - Ice that slides by s along the wall is passed on, e_i -= |s|/b (e_i - e_upwind), and u alike, once per
  *     hundredth of a sector's width of motion.
  * The law of the pair is not evaluated; its friction acts at the centre of the forces.
@@ -41,8 +42,11 @@ typedef struct {
     fl_spring_sums springs; /* of sectors near the ice, about the origin; only with survey */
 } fl_strip_result;
 
-/* A strip of n elements, none of which is in ice; NULL when memory runs out. */
-fl_strip *fl_strip_make(int32_t n);
+/* A strip in front of a wall, no element of which is in ice; NULL when memory runs out. */
+fl_strip *fl_strip_make(const fl_wall *wall);
+
+/* Puts element k of the strip to the height of FL_STRIP_MIDDLE. */
+void fl_strip_place(fl_strip *q, const fl_wall *wall, int32_t k);
 
 /* Advances the strip of pair p by dt and evaluates it; makes p->strip. -1 when memory runs out. */
 int fl_strip_contact_advance(fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt, int survey,

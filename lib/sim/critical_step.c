@@ -9,6 +9,7 @@
 #include "law/damping.h"
 #include "patch/stiffness_bound.h"
 #include "sim/moving_structure.h"
+#include "sim/strip_setup.h"
 
 /* Assumed number of faces that a body rests on at once. */
 #define FACES_PER_BODY 2.0
@@ -264,6 +265,24 @@ static void lower_shares(const fl_world *w, damping_shares *r, const fl_pair_law
     r->many = fmin(r->many, stable_share_of(law, times / few * many) / sqrt(many));
 }
 
+static int has_strip(const fl_world *w, int32_t j)
+{
+    return w->strips.wall && w->strips.wall[j - w->n].n > 0;
+}
+
+/* Largest stiffness of ice that crushes by its speed, without damping; *moving: on a piece that moves. */
+static double strip_slope(const fl_world *w, double *moving)
+{
+    double largest = 0.0;
+    for (int32_t j = w->n; j < w->b.total && w->strips.wall; j++) {
+        if (!has_strip(w, j)) continue;
+        const double slope = fl_strips_stiffness(w, j - w->n);
+        largest = fmax(largest, slope);
+        if (fl_piece_moves(w, j)) *moving = fmax(*moving, slope);
+    }
+    return largest;
+}
+
 /* Largest omega^2 of any body, which *body has it, and the shares of its critical step that damping leaves.
  *   edges  include bodies that stand on edges, and round ones between two others
  *   bonds  weight of the omega^2 of bonds beside that of contacts */
@@ -272,6 +291,7 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
     const extremes hit = extremes_of(w);
     const rolling_load load = rolling_load_of(w);
     double largest = 0.0, mover_slope = 0.0;
+    const double crushed = strip_slope(w, &mover_slope);
     *shares = (damping_shares){
         .one = 1.0, .many = 1.0, .alone = 0.5, .measured = 0.5, .bonds_alone = 0.5, .bonds_measured = 0.5};
     *body = -1;
@@ -284,7 +304,9 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
         double times = tangential_factor(law, round, rotates);
         const double few = edges && round ? 2.0 : 1.0;
         stiffest *= round ? times : 1.0;
-        lower_shares(w, shares, law, 0, times, few, contacts_per_motion(w, round, times));
+        if (w->strips.wall && w->n == 1 && !w->cell.periodic) stiffest = 0.0; /* there is none */
+        else lower_shares(w, shares, law, 0, times, few, contacts_per_motion(w, round, times));
+        stiffest = fmax(stiffest, crushed);
         for (int32_t j = w->n; j < w->b.total; j++) {
             times = tangential_factor(law = fl_pair_law_of(w, i, j), round, rotates);
             const double stiffer = round ? times : 1.0;
@@ -292,6 +314,7 @@ static double find_stiffest(const fl_world *w, int edges, double bonds, int32_t 
                 stiffest = fmax(stiffest, stiffer * elastic_wall_stiffness(w, i));
                 continue;
             }
+            if (has_strip(w, j)) continue;
             const double slope = tangent_stiffness(w, i, j, fl_pair_stiffness(w, i, j), hit);
             stiffest = fmax(stiffest, stiffer * slope);
             if (fl_piece_moves(w, j)) mover_slope = fmax(mover_slope, places * slope);

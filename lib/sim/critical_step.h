@@ -12,8 +12,9 @@
 
 /* The automatic step [s]; *body: the body that sets it.
  *
- * omega^2 of a body is bounded by the stiffest face that it can meet, at its most compliant vertex.  The
- * step is run.safety times 2/omega, lowered for damping to
+ * omega^2 of a body is bounded by the stiffest face that it can meet, at its most compliant vertex, or by ice
+ * that crushes by its speed, fl_strips_stiffness(), where it meets walls.  The step is run.safety times
+ * 2/omega, lowered for damping to
  *     half of the share that damping of one late contact leaves,
  *     0.8 of the share that an impact leaves (law `patch`),
  *     the share that damping leaves among many contacts (S20 to S25 of verify_stable_step_packed,

@@ -448,7 +448,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         fl_state_io_close(t);
     }
     if (w->inflow.absent && !t->err->code) exchange_inflow(t, w);
-    if (w->crushing.of != FL_CRUSHING_NONE && !t->err->code) fl_snapshot_crushing(t, w);
+    if (w->crushing.dents && !t->err->code) fl_snapshot_crushing(t, w);
     if (w->breaking.on && !t->err->code) fl_snapshot_breaking(t, w);
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) exchange_body(t, w, k);
     if (t->in) w->sleep.n_resting = 0;

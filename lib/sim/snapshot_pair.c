@@ -173,23 +173,25 @@ static void rebuild_surrogate(fl_world *w, fl_pair *p, const fl_surrogate *surro
     p->surrogate->used = surrogate->used;
 }
 
-static void exchange_cell(fl_state_io *t, fl_strip_cell *c)
+static void exchange_element(fl_state_io *t, fl_strip *q, int32_t k)
 {
-    int64_t count = c->ice.count;
-    fl_state_io_real(t, &c->ice.e);
-    fl_state_io_real(t, &c->ice.u);
+    int64_t count = q->count[k];
+    fl_state_io_real(t, &fl_strip_column(q, FL_STRIP_E)[k]);
+    fl_state_io_real(t, &fl_strip_column(q, FL_STRIP_U)[k]);
     fl_state_io_count(t, &count);
-    fl_state_io_real(t, &c->area);
-    fl_state_io_real(t, &c->middle);
-    fl_state_io_real(t, &c->load);
-    c->ice.count = (int32_t)count;
+    fl_state_io_real(t, &fl_strip_column(q, FL_STRIP_AREA)[k]);
+    fl_state_io_real(t, &fl_strip_column(q, FL_STRIP_MIDDLE)[k]);
+    fl_state_io_real(t, &fl_strip_column(q, FL_STRIP_LOAD)[k]);
+    for (int c = FL_STRIP_LEFT; c < FL_STRIP_COLUMNS; c++) fl_state_io_real(t, &fl_strip_column(q, c)[k]);
+    q->count[k] = (int32_t)count;
 }
 
 /* The strip of a touching pair with a wall. */
 static void exchange_strip(fl_state_io *t, const fl_world *w, fl_pair *p)
 {
     if (!p->touching || !fl_pair_has_strip(w, p->j)) return;
-    if (!p->strip && !(p->strip = fl_strip_make(w->strips.wall[p->j - w->n].n))) {
+    const fl_wall *wall = &w->strips.wall[p->j - w->n];
+    if (!p->strip && !(p->strip = fl_strip_make(wall))) {
         fl_fail(t->err, FL_SYSTEM, "out of memory for pair %d and %d", p->i, p->j);
         return;
     }
@@ -202,6 +204,7 @@ static void exchange_strip(fl_state_io *t, const fl_world *w, fl_pair *p)
     fl_state_io_vec3(t, &q->turned);
     fl_state_io_vec3(t, &q->near_area);
     fl_state_io_int(t, 0, 1, &q->near_known);
+    fl_state_io_int(t, 0, 1, &q->apart);
     fl_state_io_real(t, &q->way);
     fl_state_io_real(t, &q->farthest);
     fl_state_io_real(t, &q->known_until);
@@ -210,7 +213,10 @@ static void exchange_strip(fl_state_io *t, const fl_world *w, fl_pair *p)
     fl_state_io_real(t, &q->strength.y1);
     fl_state_io_real(t, &q->closing);
     fl_state_io_int(t, 0, INT32_MAX, &q->breaks);
-    for (int32_t k = 0; k < q->n && !t->err->code; k++) exchange_cell(t, &q->cell[k]);
+    for (int32_t k = 0; k < q->n && !t->err->code; k++) {
+        exchange_element(t, q, k);
+        if (t->in) fl_strip_place(q, wall, k);
+    }
 }
 
 void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)

@@ -405,6 +405,7 @@ int fl_step_start(fl_world *w, fl_err *err)
 {
     int32_t body;
     if (fl_check_wave_sampling(w, err)) return -1;
+    if (w->strips.wall && fl_strips_check_start(w, err)) return -1;
     w->dt_safe = fmin(fl_automatic_step(w, &body), SAFE_SHARE * fl_critical_step(w));
     w->sea.time = fl_world_time(w);
     if (prepare_waves(w, w->sea.time, err)) return -1;
@@ -472,7 +473,7 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* energy ledger, overlaps, momentum */
     fl_ledger_book_step(w);
-    if (w->strips.wall) fl_strips_book(w, dt);
+    if (w->strips.wall && fl_strips_book(w, dt, err)) return -1;
     if (w->relax.kind) fl_relaxed_run_end_step(w);
     gather_overlaps(w, dt);
     if (w->crushing.of != FL_CRUSHING_NONE && fl_crushing_book(w, err)) return -1;

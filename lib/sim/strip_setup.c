@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "base/pi.h"
+#include "contact/strip_dent.h"
 #include "scene/scene_key.h"
 #include "sim/moving_structure.h"
 
@@ -10,6 +11,10 @@
  * */
 enum { AUTO_RING = 16 };
 #define STEP_SHARE 0.2
+
+/* Closing speed over that of the ice, at most, where the structure is free to swing: in slow cycles its peaks
+ * are twice the speed of the ice on the mean (IV5 of verify_vibration). */
+#define SWING 4.0
 
 /* Pressure of the law `rate` where none is given, times peak_ratio [Pa]. */
 #define PEAK_PRESSURE 2e6
@@ -88,6 +93,7 @@ int fl_strips_make(fl_world *w, fl_err *err)
     q->part_closing = fl_alloc(w->parts, sizeof *q->part_closing, err);
     q->part_seconds = fl_alloc(w->parts, sizeof *q->part_seconds, err);
     q->part_breaks = fl_alloc(w->parts, sizeof *q->part_breaks, err);
+    w->crushing.dents = fl_alloc(w->n, sizeof *w->crushing.dents, err);
     return err->code || make_walls(w, err) ? -1 : 0;
 }
 
@@ -98,18 +104,22 @@ void fl_strips_free(fl_strips *s)
     *s = (fl_strips){0};
 }
 
-void fl_strips_book(fl_world *w, double dt)
+int fl_strips_book(fl_world *w, double dt, fl_err *err)
 {
     fl_strips *s = &w->strips;
     for (int32_t c = 0; c < w->n_touching; c++) {
         const fl_pair *p = w->pair[w->touching_pairs[c]].contact;
         if (!p->strip) continue;
         w->ledger.crushing += p->strip->work;
+        if (p->strip->apart && fl_strip_has_left(p->strip) &&
+            fl_strip_keep_dent(w, p->i, p->strip, &s->wall[p->j - w->n], err))
+            return -1;
         if (p->load_part < 0) continue;
         s->part_closing[p->load_part] += dt * p->strip->closing;
         s->part_seconds[p->load_part] += dt;
         s->part_breaks[p->load_part] += p->strip->breaks;
     }
+    return 0;
 }
 
 int fl_strips_check(const fl_world *w, fl_err *err)
@@ -122,18 +132,36 @@ int fl_strips_check(const fl_world *w, fl_err *err)
                    w->strips.too_fast, fl_world_time(w), w->dt * most / w->strips.too_fast);
 }
 
-double fl_strips_max_step(const fl_world *w)
+/* Largest speed of floes at the start, and of the drive [m/s]. */
+static double fastest_ice(const fl_world *w)
 {
     const fl_track *tr = &w->driven_floes.track;
-    double fastest = v3_norm(w->scene->water.head.present ? w->scene->water.current : v3(0, 0, 0));
-    if (!w->strips.wall) return INFINITY;
+    double fastest = 0.0;
     for (int32_t i = 0; i < w->n; i++) fastest = fmax(fastest, v3_norm(w->b.v[i]));
     for (int32_t k = 0; k < tr->n; k++) {
         fl_pose6 x, rate, second;
         fl_track_evaluate(tr, tr->t[k], &x, &rate, &second);
         fastest = fmax(fastest, v3_norm(rate.x));
     }
-    fastest = fmax(fastest, w->moving.max_speed);
+    return fastest;
+}
+
+int fl_strips_check_start(const fl_world *w, fl_err *err)
+{
+    const double speed = fastest_ice(w), most = STEP_SHARE * w->strips.law.delta;
+    if (w->automatic_dt || speed * w->dt <= most) return 0;
+    return fl_scene_fail(w->scene, "run.dt", err,
+                         "ice of %.3g m/s closes on a wall by %.3g m in a step, more than a fifth of "
+                         "failure.break_deflection: at most %.3g s is expected",
+                         speed, speed * w->dt, most / speed);
+}
+
+double fl_strips_max_step(const fl_world *w)
+{
+    if (!w->strips.wall) return INFINITY;
+    double fastest = v3_norm(w->scene->water.head.present ? w->scene->water.current : v3(0, 0, 0));
+    fastest = fmax(fastest, fastest_ice(w));
+    fastest = fmax(fl_structure_moves_freely(w) ? SWING * fastest : fastest, w->moving.max_speed);
     return fastest > 0.0 ? STEP_SHARE * w->strips.law.delta / fastest : INFINITY;
 }
 
@@ -146,6 +174,21 @@ static double width_along(const fl_world *w, int32_t piece, fl_vec3 e)
     for (int32_t k = 0; k < wall->n; k++)
         sum += wall->sector[k].width * fmax(0.0, v3_dot(wall->sector[k].n, d));
     return sum;
+}
+
+/* Largest value of y of fl_strip_strength_at(), sqrt(3) times that of a sum of four uniforms. */
+#define MOST_STRENGTH 3.4641016151377544
+
+/* sum k |S_i| over all sectors; the pressure is that of half of their area, which is more than of all. */
+double fl_strips_stiffness(const fl_world *w, int32_t piece)
+{
+    const fl_strips *s = &w->strips;
+    double z, thickest, width = 0.0;
+    ice_at_start(w, &z, &thickest);
+    for (int32_t k = 0; k < s->wall[piece].n; k++) width += s->wall[piece].sector[k].width;
+    const double A = thickest * width;
+    return (1.0 + MOST_STRENGTH * s->scatter) * s->law.peak_ratio * A *
+           fl_crushing_pressure(&s->pressure, 0.5 * A) / s->law.delta;
 }
 
 double fl_strips_lock_in_speed(const fl_world *w, int32_t k)

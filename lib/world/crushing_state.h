@@ -6,12 +6,12 @@
 #include "failure/pressure_area.h"
 #include "geom/vec3.h"
 
-/* What a contact crushed of a floe, in the axes of the floe. */
+/* What a contact crushed of a floe, in the axes of the floe; by crushing_law = rate: contact/strip_dent.h. */
 typedef struct {
     fl_vec3 x;         /* centre of the contact when it ended [m] */
     fl_vec3 offset;    /* D, as of fl_crush in world/pair.h [m] */
     double half_width; /* within which a contact finds it again [m] */
-    double stiffening; /* as of fl_crush */
+    double stiffening; /* as of fl_crush; of contact/strip_dent.h: its exponent q */
 } fl_dent;
 
 enum { FL_DENTS = 16 };

@@ -12,6 +12,7 @@
 #   dry, water, added, waves, held, facets
 #                       a body and step of floes without contacts
 #   bonds               a bond and step, its share of the bodies included
+#   strip-31, strip-248 a step of a pile in ice that crushes by its speed, with 31 and 248 elements on its front
 #   sums-one, sums-any  a body and step of floes with contacts: ordered sums, and sums in the order of threads,
 #                       which lock every sum
 # Variables:
@@ -63,6 +64,7 @@ all() {
     each held bench_step held 20 120
     each facets bench_step facets 20 120
     each bonds bench_step bonds 20 120
+    for k in 31 248; do each strip-$k bench_strip pile-$k $FEW $MANY; done
 }
 all > "$fresh"
 

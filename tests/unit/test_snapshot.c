@@ -19,7 +19,7 @@ static const char LAYOUT[] =
     "mover 40|nap 13|next 2|pair 105|pair 106|pair 33|pair 34|pair 35|pair 36|pair 41|pair 44|panel 5|"
     "part 8|place 6|place 7|pressed 5|sea 26|sea 38|sea 6|share 10|shared 2|told 5|traffic 14|window 9|"
     "world 17|";
-enum { LAYOUT_IS_OF = 16, KINDS = 64 };
+enum { LAYOUT_IS_OF = 17, KINDS = 64 };
 
 typedef struct {
     char row[KINDS][24];

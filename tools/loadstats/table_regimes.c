@@ -21,7 +21,9 @@ int regime_signals(const char *signal[REGIME_SIGNALS], int speed)
 static int count_windows(struct regime_windows *w, const struct record_views *r, const struct options *o,
                          fl_err *err)
 {
-    const fl_signal_view *v = find_view(r, 0, FX, 0);
+    const fl_signal_view *v = NULL; /* any: all have the rows of the record */
+    for (int32_t s = 0; s < r->series->signals && !v; s++) v = find_view(r, 0, s, 0);
+    if (!v) return fl_fail(err, FL_INPUT, "the record has no signal that is more than rounding");
     const double even = fl_resample_common_interval(v->n, v->edge),
                  length = o->segment > 0.0 ? o->segment : USUAL_WINDOW;
     double fastest = 0.0;
@@ -50,11 +52,14 @@ int regimes_make(struct regime_windows *w, const struct record_views *r, const s
     if (count_windows(w, r, o, err)) return -1;
     const int32_t n = w->rows;
     const double *x[REGIME_SIGNALS] = {NULL};
-    w->memory = fl_alloc(4 * (int64_t)n, sizeof *w->memory, err);
+    w->memory = fl_alloc(5 * (int64_t)n, sizeof *w->memory, err);
     w->window = fl_alloc(w->n, sizeof *w->window, err);
     if (err->code) return -1;
-    double *load = w->memory, *u = load + n, *v = u + n, *ice = v + n, fx = 0.0, fy = 0.0;
-    for (int32_t s = 0; s < r->series->signals; s++) x[s] = find_view(r, part, s, 0)->x;
+    double *load = w->memory, *u = load + n, *v = u + n, *ice = v + n, *none = ice + n, fx = 0.0, fy = 0.0;
+    for (int32_t s = 0; s < r->series->signals; s++) { /* what is left out as rounding is 0 */
+        const fl_signal_view *seen = find_view(r, part, s, 0);
+        x[s] = seen ? seen->x : none;
+    }
     for (int32_t k = 0; k < n; k++) fx += x[FX][k] / n, fy += x[FY][k] / n;
     const double size = hypot(fx, fy), c = size > 0.0 ? fx / size : 1.0, s = size > 0.0 ? fy / size : 0.0;
     for (int32_t k = 0; k < n; k++) {
