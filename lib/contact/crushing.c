@@ -236,6 +236,28 @@ int fl_crushing_book(fl_world *w, fl_err *err)
     return 0;
 }
 
+int32_t fl_crushing_pierced_by(const fl_world *w, int32_t i)
+{
+    const fl_bodies *b = &w->b;
+    if (w->crushing.of == FL_CRUSHING_NONE || b->core[i].nf == 0) return -1;
+    for (int32_t j = w->n; j < w->n + w->pieces; j++) {
+        fl_pair p = {.i = i, .j = j};
+        fl_half_spaces a;
+        const fl_vec3 way = v3_sub(b->x[j], b->x[i]), L = w->cell.length; /* to the nearest image */
+        p.image[0] = -(int32_t)fl_periodic_cell_index(way.x, -0.5 * L.x, L.x);
+        p.image[1] = -(int32_t)fl_periodic_cell_index(way.y, -0.5 * L.y, L.y);
+        p.image[2] = -(int32_t)fl_periodic_cell_index(way.z, -0.5 * L.z, L.z);
+        if (v3_norm(fl_separation(w, i, j, p.image)) >
+            b->bounding_radius[i] + b->radius[i] + b->bounding_radius[j])
+            continue;
+        const fl_relative_pose r = fl_relative_pose_of(w, &p);
+        fl_half_spaces_of(&a, &b->core[i], b->radius[i], &r.M, r.o);
+        /* a floe is thinnest across its axis of the largest inertia */
+        if (fl_area_is_closed(&a, fl_world_piece(w, j), m3_mul(r.M, v3(0, 0, 1)))) return j - w->n;
+    }
+    return -1;
+}
+
 void fl_crushing_forget(fl_world *w, int32_t i)
 {
     if (!w->crushing.dents) return;

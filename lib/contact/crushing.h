@@ -80,6 +80,9 @@ void fl_crushing_release(const fl_world *w, fl_pair *p);
  * that have ended into their floes.  -1 with FL_SYSTEM. */
 int fl_crushing_book(fl_world *w, fl_err *err);
 
+/* The piece of the structure that goes through floe i, -1 for none: no side of it would ever load the floe. */
+int32_t fl_crushing_pierced_by(const fl_world *w, int32_t i);
+
 /* Removes the dents of floe i. */
 void fl_crushing_forget(fl_world *w, int32_t i);
 

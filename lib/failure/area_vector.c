@@ -57,15 +57,20 @@ static int clip_polygon(const fl_half_spaces *a, int but, fl_vec3 *v, int n)
     return n;
 }
 
+/* S and all that is closed are told apart at this share of the area. */
+#define CLOSED 1e-6
+
 /* Sums of the area vectors of polygons and of their moments. */
 typedef struct {
     fl_vec3 S;
+    double all;        /* of |S_x| + |S_y| + |S_z| of the polygons */
     fl_vec3 moment[3]; /* sum of S_k x for each component k */
 } area_sum;
 
 static void add_area(area_sum *q, fl_vec3 dS, fl_vec3 x)
 {
     q->S = v3_add(q->S, dS);
+    q->all += fabs(dS.x) + fabs(dS.y) + fabs(dS.z);
     q->moment[0] = v3_madd(q->moment[0], dS.x, x);
     q->moment[1] = v3_madd(q->moment[1], dS.y, x);
     q->moment[2] = v3_madd(q->moment[2], dS.z, x);
@@ -228,7 +233,7 @@ static int face_is_near(const fl_half_spaces *a, const fl_poly *p, int32_t f)
     return aabb_overlap(box, a->box);
 }
 
-fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about)
+static area_sum sum_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about)
 {
     area_sum q = {.S = {0, 0, 0}};
     if (piece->kind == FL_PIECE_CONE) add_cone(&q, a, piece, about);
@@ -236,7 +241,19 @@ fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *
     else if (piece->kind == FL_PIECE_SOLID)
         for (int32_t f = 0; f < piece->core.nf; f++)
             if (face_is_near(a, &piece->core, f)) add_face(&q, a, &piece->core, f);
+    return q;
+}
+
+fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about)
+{
+    const area_sum q = sum_of_piece(a, piece, about);
     return result_of(&q);
+}
+
+int fl_area_is_closed(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 across)
+{
+    const area_sum q = sum_of_piece(a, piece, v3(1, 0, 0));
+    return q.all > 0.0 && v3_norm(v3_madd(q.S, -v3_dot(q.S, across), across)) <= CLOSED * q.all;
 }
 
 fl_area_vector fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b)

@@ -2,6 +2,7 @@
 #include "sim/relaxed_run.h"
 #include "sim/setup.h"
 #include <omp.h>
+#include <stdio.h>
 #include <string.h>
 #include "base/array.h"
 #include "base/pi.h"
@@ -374,6 +375,22 @@ static int check_inward(const fl_world *w, const fl_surface *surface, fl_err *er
     return 0;
 }
 
+/* Ice that crushes around a part of the structure would never load it. */
+static int check_pierced(const fl_world *w, const fl_ice_field *field, const fl_surface *surface, fl_err *err)
+{
+    for (int32_t i = 0; i < field->n && w->crushing.of != FL_CRUSHING_NONE; i++) {
+        char what[2 * FL_SCENE_NAME + 128];
+        const int32_t k = fl_crushing_pierced_by(w, i);
+        if (k < 0) continue;
+        snprintf(what, sizeof what,
+                 "part %.*s of the structure goes through it, and with failure.crushing no side of it would "
+                 "bear a load: a floe beside it expected",
+                 FL_SCENE_NAME, surface->part[w->structure.piece[k].part].name);
+        return fl_fail_floe(w, field, i, err, what);
+    }
+    return 0;
+}
+
 int fl_world_make(fl_world *w, const fl_scene *scene, const fl_ice_field *field, const fl_surface *surface,
                   fl_err *err)
 {
@@ -428,7 +445,7 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         fl_bond_list_make(w, field, err) || fl_inflow_bonds_make(w, err) || fl_relaxed_run_make(w, err) ||
         fl_crushing_make(w, err))
         goto fail;
-    if (check_inward(w, surface, err)) goto fail;
+    if (check_inward(w, surface, err) || check_pierced(w, field, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
      * touch. */
     w->skin = field->n ? 0.1 * bound / field->n : 0.0;
