@@ -63,16 +63,17 @@ int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_rela
     return 1;
 }
 
-/* |S| of the contact in the pose r. */
-static double area_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, fl_vec3 centre)
+/* S.n of the contact in the pose r; n: direction of its force, in the frame of B. */
+static double area_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, fl_vec3 centre,
+                      fl_vec3 n)
 {
     const fl_bodies *b = &w->b;
     const fl_mat3 one = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     fl_half_spaces a, other;
     fl_half_spaces_of(&a, &b->core[p->i], b->radius[p->i], &r->M, r->o);
-    if (p->j >= w->n) return v3_norm(fl_area_vector_of_piece(&a, fl_world_piece(w, p->j), centre).S);
+    if (p->j >= w->n) return fl_area_facing(&a, fl_world_piece(w, p->j), centre, n);
     fl_half_spaces_of(&other, &b->core[p->j], b->radius[p->j], &one, v3(0, 0, 0));
-    return v3_norm(fl_area_vector_of_body(&a, &other).S);
+    return fabs(v3_dot(n, fl_area_vector_of_body(&a, &other).S));
 }
 
 /* c of the law, without g. */
@@ -87,7 +88,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     const fl_crushing_state *const s = &w->crushing;
     double F = exact->scale * v3_norm(q->gradient.f), W = exact->energy;
     fl_crush *c = p->crush;
-    const fl_vec3 n = v3_unit(m3_tmul(r->M, q->gradient.f));
+    const fl_vec3 way = v3_unit(q->gradient.f), n = m3_tmul(r->M, way);
     if (!p->touching) p->nominal_area = p->crush_checked = 0.0;
     double A = p->nominal_area, y = A > 0.0 ? A * fl_crushing_pressure(&s->law, A) : 0.0;
     *limit = INFINITY;
@@ -98,7 +99,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     }
     if (c && c->stiffening > 1.0 && A > 0.0 && 4.0 * W * law_stiffness(w, p) * sqrt(A) < SOFTER * F * F) {
         /* a flat that has turned to a face of the floe is no stiffer than that */
-        p->nominal_area = A = fmax(A, area_of(w, p, r, centre));
+        p->nominal_area = A = fmax(A, area_of(w, p, r, centre, way));
         const double base = law_stiffness(w, p), part = 4.0 * W * base * sqrt(A) / (F * F),
                      g = fmax(c->stiffening * part, 1.0), less = g / c->stiffening;
         if (less < 1.0) {
@@ -111,7 +112,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     }
     if (y > 0.0) *limit = y;
     if (!(F > y) && y > 0.0 && !(F > p->crush_checked)) return 0;
-    A = fmax(A, area_of(w, p, r, centre));
+    A = area_of(w, p, r, centre, way);
     if (!(A > 0.0)) return 0;
     *limit = y = A * fl_crushing_pressure(&s->law, A);
     p->nominal_area = A;

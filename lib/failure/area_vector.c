@@ -65,6 +65,7 @@ typedef struct {
     fl_vec3 S;
     double all;        /* of |S_x| + |S_y| + |S_z| of the polygons */
     fl_vec3 moment[3]; /* sum of S_k x for each component k */
+    fl_vec3 facing;    /* what does not face this is left out; 0: nothing is */
 } area_sum;
 
 static void add_area(area_sum *q, fl_vec3 dS, fl_vec3 x)
@@ -80,6 +81,7 @@ static void add_polygon(area_sum *q, const fl_vec3 *v, int n)
 {
     for (int k = 1; k + 1 < n; k++) {
         const fl_vec3 dS = v3_scale(0.5, v3_cross(v3_sub(v[k], v[0]), v3_sub(v[k + 1], v[0])));
+        if (v3_dot(dS, q->facing) < 0.0) continue;
         add_area(q, dS, v3_scale(1.0 / 3.0, v3_add(v[0], v3_add(v[k], v[k + 1]))));
     }
 }
@@ -208,6 +210,30 @@ static void add_arc(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, 
     }
 }
 
+static void add_arcs(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, double from, double to)
+{
+    const int parts = (int)ceil((to - from) / (0.5 * PI + 1e-9));
+    for (int k = 0; k < parts; k++)
+        add_arc(q, a, cone, from + (to - from) * k / parts, from + (to - from) * (k + 1) / parts);
+}
+
+/* The part of an arc where (cos, sin, -r').facing > 0; the angles of arcs are within two turns. */
+static void add_facing_arcs(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, double from,
+                            double to)
+{
+    const double across = sqrt(q->facing.x * q->facing.x + q->facing.y * q->facing.y),
+                 least = (cone->r1 - cone->r0) / cone->h * q->facing.z;
+    if (!(least < across)) return;
+    const double middle = fl_atan2(q->facing.y, q->facing.x),
+                 half =
+                     least > -across ? 0.5 * PI - fl_atan2(least, sqrt(across * across - least * least)) : PI;
+    for (int turn = -2; turn <= 2; turn++) {
+        const double lo = fmax(from, middle + 2.0 * PI * turn - half),
+                     hi = fmin(to, middle + 2.0 * PI * turn + half);
+        if (hi > lo) add_arcs(q, a, cone, lo, hi);
+    }
+}
+
 /* Arc of the cone inside a about the contact, in quarters of a turn at most.  If the contact is not inside,
  * the first arc of a scan. */
 static void add_cone(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, fl_vec3 about)
@@ -220,9 +246,8 @@ static void add_cone(area_sum *q, const fl_half_spaces *a, const fl_piece *cone,
     if (!(at > 0.0)) return;
     const double to = search_end(a, cone, in, at, step),
                  from = to < in + 2.0 * PI ? search_end(a, cone, in, at, -step) : in;
-    const int parts = (int)ceil((to - from) / (0.5 * PI + 1e-9));
-    for (int k = 0; k < parts; k++)
-        add_arc(q, a, cone, from + (to - from) * k / parts, from + (to - from) * (k + 1) / parts);
+    if (v3_norm2(q->facing) > 0.0) add_facing_arcs(q, a, cone, from, to);
+    else add_arcs(q, a, cone, from, to);
 }
 
 /* True if the box of face f overlaps that of a. */
@@ -233,9 +258,9 @@ static int face_is_near(const fl_half_spaces *a, const fl_poly *p, int32_t f)
     return aabb_overlap(box, a->box);
 }
 
-static area_sum sum_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about)
+static area_sum sum_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about, fl_vec3 facing)
 {
-    area_sum q = {.S = {0, 0, 0}};
+    area_sum q = {.facing = facing};
     if (piece->kind == FL_PIECE_CONE) add_cone(&q, a, piece, about);
     else if (piece->kind == FL_PIECE_MESH) add_mesh(&q, a, piece);
     else if (piece->kind == FL_PIECE_SOLID)
@@ -246,13 +271,19 @@ static area_sum sum_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_
 
 fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about)
 {
-    const area_sum q = sum_of_piece(a, piece, about);
+    const area_sum q = sum_of_piece(a, piece, about, v3(0, 0, 0));
     return result_of(&q);
+}
+
+double fl_area_facing(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about, fl_vec3 n)
+{
+    const area_sum q = sum_of_piece(a, piece, about, n);
+    return v3_dot(n, q.S);
 }
 
 int fl_area_is_closed(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 across)
 {
-    const area_sum q = sum_of_piece(a, piece, v3(1, 0, 0));
+    const area_sum q = sum_of_piece(a, piece, v3(1, 0, 0), v3(0, 0, 0));
     return q.all > 0.0 && v3_norm(v3_madd(q.S, -v3_dot(q.S, across), across)) <= CLOSED * q.all;
 }
 

@@ -36,6 +36,10 @@ void fl_half_spaces_of(fl_half_spaces *q, const fl_poly *p, double r, const fl_m
  *   about   a point of the contact: on a cone, the arc inside a is looked for from there on */
 fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about);
 
+/* S.n of the part of that surface that faces n, a unit vector: what crushes when a moves along -n. Behind a
+ * pile is the channel that it has left. */
+double fl_area_facing(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about, fl_vec3 n);
+
 /* 1 if the piece goes through a: its surface inside a is there and closed but for a part along `across`, the
  * direction of the thickness of a, so that no push of a sideways is resisted.  A mesh that goes through a at
  * one place and ends in it at another is not found. */

@@ -3,7 +3,9 @@
  * nominal area (Popov et al. 1967; Daley 1999), elastic below, and the energy that it takes. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include "base/pi.h"
+#include "base/rng.h"
 #include "geom/clip.h"
 #include "sim/energy_balance.h"
 #include "support/shapes.h"
@@ -361,6 +363,174 @@ static void driven(void)
     }
 }
 
+/* A part that is a ball about c: rings of 64 corners about x, close to each other near its tip at c + R e_x. */
+static void add_ball(lab *l, fl_vec3 c, double R)
+{
+    enum { FINE = 30, COARSE = 16, AROUND = 64 };
+    fl_err err = {0};
+    const int32_t k = fl_surface_add(&l->surface, "ball", 4, &err);
+    if (k < 0) exit(1);
+    fl_part *const p = &l->surface.part[k];
+    int failed = fl_surface_vertex(p, v3_madd(c, R, v3(1, 0, 0)), &err);
+    for (int ring = 1; ring < FINE + COARSE; ring++) {
+        const double t0 = asin(0.6 / R),
+                     t = ring <= FINE ? asin(0.02 * ring / R) : t0 + (PI - t0) * (ring - FINE) / COARSE;
+        for (int a = 0; a < AROUND; a++) {
+            const double phi = 2.0 * PI * a / AROUND;
+            failed |=
+                fl_surface_vertex(p, v3_madd(c, R, v3(cos(t), sin(t) * cos(phi), sin(t) * sin(phi))), &err);
+        }
+    }
+    failed |= fl_surface_vertex(p, v3_madd(c, -R, v3(1, 0, 0)), &err);
+    const int32_t last = p->nv - 1;
+    for (int a = 0; a < AROUND; a++) {
+        const int32_t b = (a + 1) % AROUND;
+        failed |= fl_surface_triangle(p, 0, 1 + a, 1 + b, &err);
+        for (int ring = 0; ring + 2 < FINE + COARSE; ring++) {
+            const int32_t o = 1 + ring * AROUND, q = o + AROUND;
+            failed |= fl_surface_triangle(p, o + a, q + a, q + b, &err) ||
+                      fl_surface_triangle(p, o + a, q + b, o + b, &err);
+        }
+        failed |= fl_surface_triangle(p, last - AROUND + a, last, last - AROUND + b, &err);
+    }
+    if (failed) exit(1);
+}
+
+/* FF3: a face on a ball of 2 m; stiff, as the closed form has no elastic part. */
+static void ball(void)
+{
+    lab l;
+    begin_lab(&l, 2e6, 0.4);
+    lab_set(&l, "material.ice.young=100 GPa");
+    lab_box(&l, v3(2, 0, 0), v3(2, 2, 2), 0.02, q_one(), v3(-1, 0, 0), ZERO);
+    add_ball(&l, v3(-2.001, 0, 0), 2.0);
+    lab_make(&l, 2e-5);
+    set_mass(&l, 3e4);
+    l.w.b.fixed_dof[0] = ROTATIONS;
+    const impact q = run_impact(&l, -0.001, 0.3);
+    print_impact("FF3", "face on a ball", &q, 0.02443, 981.1, 0.04124, 0.01);
+    lab_free(&l);
+}
+
+/* --- a field that is driven on a pile ------------------------------------------------------------ */
+
+enum { ROWS = 4, LANES = 2 };
+#define CELL 6.0
+
+typedef struct {
+    double one, half, all,
+        mean; /* largest force of one floe, along the drive of all until the pile is half in and after that,
+                                  * mean of all [N] */
+} field_load;
+
+/* A Voronoi cell of the channel, moved inward by r and half of the gap. */
+static int cell_of_site(const fl_vec3 *site, int n, int own, double inset, fl_vec3 xy[32])
+{
+    fl_vec3 other[32];
+    const double half = 0.5 * LANES * CELL - inset;
+    int corners = 4;
+    xy[0] = v3(inset, -half, 0), xy[1] = v3(ROWS * CELL - inset, -half, 0);
+    xy[2] = v3(ROWS * CELL - inset, half, 0), xy[3] = v3(inset, half, 0);
+    for (int k = 0; k < n; k++) {
+        if (k == own) continue;
+        const fl_vec3 way = v3_sub(site[k], site[own]), e = v3_unit(way);
+        const double c = v3_dot(e, site[own]) + 0.5 * v3_norm(way) - inset;
+        int m = 0;
+        for (int a = 0; a < corners; a++) {
+            const fl_vec3 from = xy[a], to = xy[(a + 1) % corners];
+            const double f = v3_dot(e, from) - c, t = v3_dot(e, to) - c;
+            if (f <= 0.0) other[m++] = from;
+            if ((f > 0.0) != (t > 0.0)) other[m++] = v3_lerp(from, to, f / (f - t));
+        }
+        corners = m;
+        for (int a = 0; a < m; a++) xy[a] = other[a];
+    }
+    return corners;
+}
+
+/* Floes that fill a channel of 12 m are driven at 1 m/s on a pile of 2 m in its middle. */
+static field_load field_on_pile(double factor, uint64_t seed)
+{
+    const double r = 0.15, h = 0.5, gap = 0.01;
+    fl_vec3 site[ROWS * LANES];
+    fl_rng rng = fl_rng_of(seed, 0, 0);
+    lab l;
+    fl_err err = {0};
+    field_load q = {0};
+    begin_lab(&l, 2e6, 0.1);
+    lab_setf(&l, "contact.stiffness_factor=%g", factor);
+    lab_set(&l, "material.ice.restitution=0.3");
+    lab_set(&l, "boundary.type=free rigid free");
+    lab_setf(&l, "boundary.min=none %g none", -0.5 * LANES * CELL);
+    lab_setf(&l, "boundary.max=none %g none", 0.5 * LANES * CELL);
+    for (int k = 0; k < ROWS * LANES; k++) {
+        const double x = fl_rng_unit(&rng), y = fl_rng_unit(&rng);
+        site[k] =
+            v3(CELL * (k / LANES + 0.25 + 0.5 * x), CELL * (k % LANES - 0.5 * LANES + 0.2 + 0.6 * y), 0);
+    }
+    for (int k = 0; k < ROWS * LANES; k++) {
+        fl_vec3 xy[32];
+        fl_poly core;
+        const int n = cell_of_site(site, ROWS * LANES, k, r + 0.5 * gap, xy);
+        if (fl_poly_prism(&core, n, xy, -0.5 * h + r, 0.5 * h - r, &err)) verify_true("FF10", err.text, 0);
+        lab_poly(&l, &core, r, v3(-1, 0, 0), ZERO);
+    }
+    lab_cone(&l, (fl_cone){v3(-1.0, 0, -5), v3(-1.0, 0, 5), 1, 1});
+    lab_make(&l, 0);
+    fl_world *const w = &l.w;
+    for (int32_t i = 0; i < w->n; i++)
+        w->b.fixed_dof[i] = i / LANES == ROWS - 1 ? ROTATIONS | FL_DOF_X | FL_DOF_Y | FL_DOF_Z
+                                                  : FL_DOF_Z | FL_DOF_RX | FL_DOF_RY;
+    const double from = 1.5, until = 2.5;
+    double impulse = 0.0, time = 0.0;
+    while (fl_world_time(w) < until) {
+        if (lab_run(&l, 1)) return (field_load){.mean = NAN};
+        double one = 0.0;
+        for (int32_t c = 0; c < w->n_pair; c++)
+            if (w->pair_touches[c] && w->pair[c].j == w->n)
+                one = fmax(one, v3_norm(w->pair[c].contact->force));
+        q.one = fmax(q.one, one);
+        double *const largest = fl_world_time(w) < 1.0 ? &q.half : &q.all;
+        *largest = fmax(*largest, fabs(w->part_force[0].x));
+        if (fl_world_time(w) > from) impulse += fabs(w->part_force[0].x) * w->dt, time += w->dt;
+    }
+    q.mean = impulse / time;
+    lab_free(&l);
+    return q;
+}
+
+/* FF10: the load levels off at that of crushing, and its mean does not depend on contact.stiffness_factor. */
+static void fields(void)
+{
+    static const double FACTOR[3] = {1.0, 0.1, 0.02};
+    enum { SEEDS = 12 };
+    const int seeds = verify_quick() ? 1 : SEEDS, from = verify_quick() ? 2 : 0;
+    double one = 0.0, half = 0.0, all = 0.0, mean[3] = {0}, square[3] = {0}, hardest = 0.0;
+    for (int s = 0; s < seeds; s++) {
+        double hard = 0.0;
+        for (int k = from; k < 3; k++) {
+            const field_load q = field_on_pile(FACTOR[k], (uint64_t)s + 1);
+            one = fmax(one, q.one), half = fmax(half, q.half), all = fmax(all, q.all);
+            if (k == from) hard = q.mean;
+            const double ratio = q.mean / hard;
+            mean[k] += ratio / seeds, square[k] += ratio * ratio / seeds;
+        }
+        hardest += hard / seeds;
+    }
+    verify_below("FF10", "field on a pile: largest force by one floe [kN]", 1e-3 * one, 2000.0 * 1.02);
+    /* 1.00 with the direction of the pressure; a floe that wears along one vector has another where it slides */
+    verify_below("FF10", "the same along the drive by two, over 2144", fmax(half, all) / 2144e3, 1.15);
+    verify_note("of which until the pile is half in %.0f kN, and later %.0f", 1e-3 * half, 1e-3 * all);
+    verify_note("mean of %d fields %.0f kN", seeds, 1e-3 * hardest);
+    for (int k = from + 1; k < 3; k++) {
+        char what[100];
+        const double error = sqrt(fmax(square[k] - mean[k] * mean[k], 0.0) / seeds);
+        snprintf(what, sizeof what, "mean, factor %g over %g", FACTOR[k], FACTOR[from]);
+        verify_row("FF10", what, mean[k], 1.0, 0.02, VERIFY_REL);
+        verify_below("FF10", "its standard error", error, 0.01);
+    }
+}
+
 /* Ice on ice: two equal corners, each half as deep. */
 static void ice_on_ice(void)
 {
@@ -401,6 +571,8 @@ int main(void)
     bar();
     steps();
     driven();
+    if (!verify_quick()) ball();
+    fields();
     ice_on_ice();
     return verify_end();
 }
