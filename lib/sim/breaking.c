@@ -10,6 +10,7 @@
 #include "failure/bending.h"
 #include "failure/splitting.h"
 #include "geom/clip.h"
+#include "sim/critical_step.h"
 #include "sim/floe_cut.h"
 #include "world/access.h"
 
@@ -35,8 +36,9 @@ static double young_of(const fl_world *w, int32_t i) { return w->scene->material
 /* Least area of a fragment of a floe of thickness h [m2]. */
 static double least_area_of(const fl_world *w, int32_t i, double h)
 {
-    const double r = w->b.radius[i];
-    return w->breaking.least_area > 0.0 ? w->breaking.least_area : fmax(0.25 * h * h, 16.0 * r * r);
+    const double r = w->b.radius[i], given = w->breaking.least_area > 0.0 ? w->breaking.least_area
+                                                                          : fmax(0.25 * h * h, 16.0 * r * r);
+    return fmax(given, fl_least_fragment_area(w, i, h));
 }
 
 static fl_bending_law bending_law_of(const fl_world *w, int32_t i)
@@ -68,6 +70,20 @@ static int make_plan(const fl_world *w, int32_t i, fl_plan *q, fl_err *err)
     fl_poly_free(&outer);
     const double volume = b->m[i] / w->scene->material[w->material[i]].density;
     if (q->n && fabs(fl_plan_part(q, 1, 0, INFINITY).area * q->thickness / volume - 1.0) > PRISM) q->n = 0;
+    return 0;
+}
+
+int fl_breaking_least_area(const fl_world *w, double *given, double *borne, fl_err *err)
+{
+    *given = *borne = 0.0;
+    for (int32_t i = 0; i < w->n; i++) {
+        fl_plan q;
+        if (fl_body_absent(w, i)) continue;
+        if (make_plan(w, i, &q, err)) return -1;
+        if (q.n == 0) continue;
+        *given = fmax(*given, least_area_of(w, i, q.thickness));
+        *borne = fmax(*borne, fl_least_fragment_area(w, i, q.thickness));
+    }
     return 0;
 }
 

@@ -14,8 +14,8 @@
  * of that width: the cusp between comes off, and the two side pieces are free.
  *
  * Floes with fixed rotations about z do not split, and driven or guided floes do not break, nor do shapes
- * that are no upright prisms in the ice file. Nothing of less than fragment_min is cut off; such breaks are
- * counted. A rigid floe stores no bending energy, so none is released: it is in failures(5) only.
+ * that are no upright prisms in the ice file. Nothing of less than fragment_min, or too light for the step, is cut
+ * off; such breaks are counted. A rigid floe stores no bending energy, so none is released: it is in failures(5) only.
  *
  * Limits.  The static field of bending is linear: a deck awash or a bottom in the air is in it only for long
  * floes, as the end of the foundation. Bending faster than the wave speed of the plate is not
@@ -27,5 +27,9 @@
 /* Checks the floes after the contacts of a step and cuts those that break. -1 with FL_SYSTEM or
  * FL_NUMERIC. */
 int fl_breaking_step(fl_world *w, fl_err *err);
+
+/* Largest over the floes that break [m2]: least plan area of a fragment, and what the step bears of it
+ * (critical_step.h). -1 with FL_SYSTEM. */
+int fl_breaking_least_area(const fl_world *w, double *given, double *borne, fl_err *err);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/critical_step.h"
 #include <math.h>
+#include "base/fast_math.h"
 #include "base/pi.h"
 #include "contact/bond_list.h"
 #include "contact/pair_law.h"
@@ -420,6 +421,24 @@ int fl_shorten_step_at_start(fl_world *w)
     w->dt_safe = fmin(w->dt_safe, longest);
     w->dt = every / ceil(every / longest * (1.0 - 1e-12));
     return 1;
+}
+
+/* Compliance near the corner of a plate over that of its mass. */
+#define PLATE_COMPLIANCE 1.25
+
+double fl_least_fragment_area(const fl_world *w, int32_t i, double h)
+{
+    double c = fl_pair_stiffness(w, i, i).k, share = FL_DAMPED_SHARE_MIN;
+    for (int32_t j = w->n - 1; j < w->n + w->pieces; j++) {
+        const int32_t other = j < w->n ? i : j;
+        const fl_pair_law *law = fl_pair_law_of(w, i, other);
+        if (other != i) c = fmax(c, fl_pair_stiffness(w, i, other).k);
+        if (law->law->end_speed) share = fmin(share, 0.8 * fl_damping_impact_share(law->impact_damping));
+    }
+    const double rho = w->scene->material[w->material[i]].density,
+                 part = 2.0 * FACES_PER_BODY * PLATE_COMPLIANCE * 2.0 * c * w->dt * w->dt /
+                        (4.0 * share * share * rho * h); /* omega^2 A/K of 2 c, over that of dt */
+    return part > h ? part * part : fl_pow(part * sqrt(h), 4.0 / 3.0);
 }
 
 double fl_damped_share(const fl_world *w)

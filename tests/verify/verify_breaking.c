@@ -5,6 +5,7 @@
 #include "base/pi.h"
 #include "failure/bending.h"
 #include "failure/splitting.h"
+#include "sim/critical_step.h"
 #include "sim/energy_balance.h"
 #include "sim/floe_cut.h"
 #include "support/scenes.h"
@@ -202,6 +203,40 @@ static void place_of_a_driven_floe(void)
     lab_free(&l);
 }
 
+/* The critical step of a square plate that two whole faces hold, or one along its rim; *least: the area that
+ * fl_least_fragment_area() gives for a step of dt. */
+static double critical_of_plate(double side, double h, int rim, double dt, double *least)
+{
+    const double r = 0.01 * h, deep = 1.6 * r, half = 0.5 * side;
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "failure.flexural_strength=0.5 MPa");
+    lab_box(&l, v3(0, 0, 0), v3(half, half, 0.5 * h), r, q_one(), v3(0, 0, 0), v3(0, 0, 0));
+    lab_wall(&l, v3(-9, -9, -0.5 * h - 5), v3(rim ? -0.8 * half : 9, 9, -0.5 * h + deep), 1);
+    if (!rim) lab_wall(&l, v3(-9, -9, 0.5 * h - deep), v3(9, 9, 0.5 * h + 5), 1);
+    lab_make(&l, dt);
+    *least = fl_least_fragment_area(&l.w, 0, h);
+    const double critical = l.w.dt_critical;
+    lab_free(&l);
+    return critical;
+}
+
+/* The step bears the smallest fragment. */
+static void least_fragment(void)
+{
+    static const double H[2] = {0.2, 2.0}, DT[2] = {1e-4, 4e-4};
+    for (int k = 0; k < 4; k++) {
+        const double h = H[k / 2], dt = DT[k / 2];
+        double least, same;
+        char what[100];
+        critical_of_plate(1.0, h, 0, dt, &least);
+        const double critical = critical_of_plate(sqrt(least), h, k % 2, dt, &same);
+        snprintf(what, sizeof what, "%.3g m2, %g m thick, held %s: step over critical", least, h,
+                 k % 2 ? "at a rim" : "on two faces");
+        verify_below("least", what, dt / critical, FL_DAMPED_SHARE_MIN);
+    }
+}
+
 /* Many floes that break: their mass stays, fragments do not move apart by themselves, the ledger closes. */
 static void many(void)
 {
@@ -233,6 +268,7 @@ int main(void)
     cracks();
     halves();
     place_of_a_driven_floe();
+    least_fragment();
     many();
     return verify_end();
 }

@@ -7,6 +7,7 @@
 #include "contact/pair_law.h"
 #include "ice_scene.h"
 #include "out/tables.h"
+#include "sim/breaking.h"
 #include "sim/memory_use.h"
 #include "sim/moving_structure.h"
 #include "sim/neighbour_list.h"
@@ -69,12 +70,25 @@ static void print_bodies(const fl_world *w, FILE *f, const struct bodies *n)
     fprintf(f, "structure      %d parts: %d solids and plates, %d cones, %d shells; %d walls\n", w->parts,
             kind[FL_PIECE_SOLID], kind[FL_PIECE_CONE], kind[FL_PIECE_MESH], w->walls);
     if (w->inflow.feed) fprintf(f, "capacity       %d more floes\n", w->n - n->present);
-    if (w->breaking.on) fprintf(f, "fragments      room for %d, of floes that break\n", w->breaking.room);
     fprintf(f, "near pairs     %d, next search after %.3g m\n", w->n_pair + fl_contact_list_size(w), w->skin);
     fprintf(f, "law            %s between like bodies%s\n",
             w->n ? fl_pair_law_of(w, 0, 0)->law->name : "none",
             w->quick_shape ? "; patch stands in for quick on structures and walls, for capsules and spheres"
                            : "");
+}
+
+/* Room for floes that break, and how small they may be. */
+static int print_fragments(const fl_world *w, FILE *f, fl_err *err)
+{
+    double given, borne;
+    if (!w->breaking.on) return 0;
+    if (fl_breaking_least_area(w, &given, &borne, err)) return -1;
+    fprintf(
+        f,
+        "fragments      room for %d, of floes that break; down to %.3g m2, as %s; the step bears %.3g m2\n",
+        w->breaking.room, given, given > borne ? "failure.fragment_min" : "the step bears no smaller ones",
+        borne);
+    return 0;
 }
 
 static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, char water[][FL_FORCE_TEXT])
@@ -159,6 +173,7 @@ int print_plan(struct run *r, FILE *f, fl_err *err)
     while (w->step < r->steps && (spent = wall_clock() - begun) < 0.5)
         if (fl_step(w, err)) return -1;
     print_bodies(w, f, &n);
+    if (print_fragments(w, f, err)) return -1;
     fprintf(f, "device         %s\n", r->device);
     print_stages(w, f, &n, water);
     print_modes(w, f);
