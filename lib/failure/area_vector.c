@@ -14,6 +14,8 @@ enum { CORNERS = 96, ARCS = 64, REFINEMENTS = 40, GAUSS = 8 };
 #define FIRST 1e-9
 #define WIDER 32.0
 enum { BRACKETS = 6 };
+/* Half of an arc, below which half the Gauss points give its sum to 1e-11. */
+#define NARROW 0.3
 
 /* Offset of face f: the largest over its vertices. */
 static double offset_of_face(const fl_poly *p, int32_t f)
@@ -232,18 +234,22 @@ static double search_end(const fl_half_spaces *a, const fl_piece *cone, double i
  * (cos, sin, -r') R(t) dphi dt h and R the radius there. */
 static void add_arc(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, double from, double to)
 {
+    static const double FEW_X[2] = {0.3399810435848563, 0.8611363115940526},
+                        FEW_W[2] = {0.6521451548625461, 0.3478548451374538};
     static const double X[GAUSS / 2] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                         0.9602898564975363},
                                   W[GAUSS / 2] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                                   0.1012285362903763};
     const double half = 0.5 * (to - from), mid = 0.5 * (to + from), slope = (cone->r1 - cone->r0) / cone->h;
-    for (int k = 0; k < GAUSS; k++) {
+    const int few = half < NARROW, points = few ? GAUSS / 2 : GAUSS;
+    for (int k = 0; k < points; k++) {
         double c, s, t0, t1;
-        fl_cos_sin(mid + (k % 2 ? half : -half) * X[k / 2], &c, &s);
+        fl_cos_sin(mid + (k % 2 ? half : -half) * (few ? FEW_X : X)[k / 2], &c, &s);
         if (!(clip_generator(a, cone, c, s, &t0, &t1) > 0.0)) continue;
         const double r0 = cone->r0 + t0 * (cone->r1 - cone->r0), r1 = cone->r0 + t1 * (cone->r1 - cone->r0),
-                     length = (t1 - t0) * cone->h, weight = half * W[k / 2] * 0.5 * (r0 + r1) * length,
-                     r = 0.5 * (r0 + r1), z = 0.5 * (t0 + t1) * cone->h;
+                     length = (t1 - t0) * cone->h,
+                     weight = half * (few ? FEW_W : W)[k / 2] * 0.5 * (r0 + r1) * length, r = 0.5 * (r0 + r1),
+                     z = 0.5 * (t0 + t1) * cone->h;
         add_area(q, v3(weight * c, weight * s, -weight * slope), v3(r * c, r * s, z));
     }
 }

@@ -7,8 +7,9 @@
  * throughput.
  *
  *     bench_strip               the table
- *     bench_strip CASE STEPS    steps of apart, plain, plain-pile, wall-N of N elements, pile-N with N on its
- *                               front; prints their number, for counts of instructions */
+ *     bench_strip CASE STEPS    steps of apart, plain, plain-pile, hard-pile (ice that does not crush), wall-N
+ *                               of N elements, pile-N with N on its front; prints their number, for counts
+ *                               of instructions */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,10 +35,12 @@ static double thread_seconds(void)
 /* 0 with a message for an unknown case. */
 static int make_case(lab *l, const char *name)
 {
-    const int apart = strcmp(name, "apart") == 0, plain = strncmp(name, "plain", 5) == 0,
-              pile = strstr(name, "pile") != NULL, elements = apart || plain ? FEW : atoi(name + 5);
+    const int hard = strcmp(name, "hard-pile") == 0, apart = strcmp(name, "apart") == 0,
+              plain = hard || strncmp(name, "plain", 5) == 0, pile = strstr(name, "pile") != NULL,
+              elements = apart || plain ? FEW : atoi(name + 5);
     if (!apart && !plain && (elements < 1 || (strncmp(name, "wall-", 5) && strncmp(name, "pile-", 5)))) {
-        fprintf(stderr, "bench_strip: %s: apart, plain, plain-pile, wall-N or pile-N is expected\n", name);
+        fprintf(stderr,
+                "bench_strip: %s: apart, plain, plain-pile, hard-pile, wall-N or pile-N is expected\n", name);
         return 0;
     }
     lab_start(l);
@@ -45,9 +48,12 @@ static int make_case(lab *l, const char *name)
     lab_set(l, "boundary.drive_width=2000");
     lab_set(l, "boundary.drive_edge=-x");
     lab_set(l, "boundary.drive_fixed=x y z rx ry rz");
-    lab_setf(l, "boundary.drive=%g", SPEED);
-    lab_set(l, "failure.crushing=structure");
-    lab_set(l, "failure.pressure=0.4 MPa");
+    const double speed = hard ? 1e-3 * SPEED : SPEED;
+    lab_setf(l, "boundary.drive=%g", speed);
+    if (!hard) {
+        lab_set(l, "failure.crushing=structure");
+        lab_set(l, "failure.pressure=0.4 MPa");
+    }
     if (!plain) lab_set(l, "failure.crushing_law=rate");
     if (!plain) lab_setf(l, "failure.element_width=%.17g", WIDTH * (1.0 + 1e-9));
     const double half = 0.5 * WIDTH * elements, radius = WIDTH * elements / PI;
@@ -55,7 +61,7 @@ static int make_case(lab *l, const char *name)
     else lab_wall(l, v3(0, -half, -2), v3(1, half, 2), 1);
     /* the law `rate` has the pile in the ice; `plain` its front edge */
     const double front = apart ? -2.0 * radius : !pile ? DEPTH : plain ? -radius + DEPTH : 100.0;
-    lab_box(l, v3(front - 200.0, 0, 0), v3(200, 100, 0.25), 0.05, (fl_quat){1, 0, 0, 0}, v3(SPEED, 0, 0),
+    lab_box(l, v3(front - 200.0, 0, 0), v3(200, 100, 0.25), 0.05, (fl_quat){1, 0, 0, 0}, v3(speed, 0, 0),
             v3(0, 0, 0));
     lab_make(l, 1e-3);
     return 1;

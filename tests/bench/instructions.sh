@@ -12,6 +12,7 @@
 #   dry, water, added, waves, held, facets
 #                       a body and step of floes without contacts
 #   bonds               a bond and step, its share of the bodies included
+#   hard-pile, plain-pile  a step of a floe on a cylinder, elastic, and with crushing_law = plain
 #   strip-31, strip-248 a step of a pile in ice that crushes by its speed, with 31 and 248 elements on its front
 #   sums-one, sums-any  a body and step of floes with contacts: ordered sums, and sums in the order of threads,
 #                       which lock every sum
@@ -64,6 +65,7 @@ all() {
     each held bench_step held 20 120
     each facets bench_step facets 20 120
     each bonds bench_step bonds 20 120
+    for k in hard plain; do each $k-pile bench_strip $k-pile $FEW $MANY; done
     for k in 31 248; do each strip-$k bench_strip pile-$k $FEW $MANY; done
 }
 all > "$fresh"
