@@ -12,8 +12,8 @@
 #include "view/gl_view.h"
 #include "view/kept_poses.h"
 
-enum { GRAIN = 256, OCTAVES = 4, VARIANTS = 8, TAPS_MAX = 32 };
-enum { HAS_SHADOW = 1, HAS_OCCLUSION = 2, HAS_WAVES = 4 };
+enum { GRAIN = 256, OCTAVES = 4, VARIANTS = 16, TAPS_MAX = 32 };
+enum { HAS_SHADOW = 1, HAS_OCCLUSION = 2, HAS_WAVES = 4, HAS_WATER = 8 };
 enum { UNIT_SHADE = 2, UNIT_GRAIN = 3, UNIT_WAVES = 4, UNIT_OCCLUSION = 1 };
 /* Golden angle [rad]. */
 #define SPIRAL_TURN 2.39996f
@@ -24,6 +24,8 @@ enum { UNIT_SHADE = 2, UNIT_GRAIN = 3, UNIT_WAVES = 4, UNIT_OCCLUSION = 1 };
  * of the lamp's view; one of the picture, since occlusion has half its size. */
 #define SHADOW_STEP 0.5
 #define OCCLUSION_STEP 1.0
+/* Of the layers above and below the water, in units of the scene. */
+#define LAYER_LAP 1e-4f
 /* Radius of a scene whose noise and haze have the unit 1 m. */
 #define UNIT_RADIUS 35.0
 
@@ -116,14 +118,17 @@ static int need_program(GLuint *program, int which, const char *vertex, const ch
 {
     char head[120];
     if (*program) return 0;
-    snprintf(head, sizeof head, "#define COLOUR\n%s%s%s", which & HAS_SHADOW ? "#define SHADOW\n" : "",
-             which & HAS_OCCLUSION ? "#define OCCLUSION\n" : "", which & HAS_WAVES ? "#define WAVES\n" : "");
+    snprintf(head, sizeof head, "#define COLOUR\n%s%s%s%s", which & HAS_WATER ? "#define WATER\n" : "",
+             which & HAS_SHADOW ? "#define SHADOW\n" : "", which & HAS_OCCLUSION ? "#define OCCLUSION\n" : "",
+             which & HAS_WAVES ? "#define WAVES\n" : "");
     *program = build(head, vertex, fl_glsl_common, pixel, err);
     return *program ? 0 : -1;
 }
 
 static int need_variant(fl_gl_view *g, int which, fl_err *err)
 {
+    const int dry = which & ~HAS_WATER;
+    if (need_program(&g->variant[dry].mesh, dry, fl_glsl_mesh_vertex, fl_glsl_mesh_pixel, err)) return -1;
     struct variant *p = &g->variant[which];
     if (fl_gl_bodies_point_count(g->bodies) &&
         need_program(&p->point, which, fl_glsl_sphere_point, fl_glsl_sphere_pixel, err))
@@ -278,6 +283,7 @@ static void draw_depth(fl_gl_view *g, const fl_mat4 *both, const fl_eye *eye, in
     glUseProgram(g->mesh_depth);
     fl_gl_set_matrix(g->mesh_depth, "both", both);
     fl_gl_set_vec4(g->mesh_depth, "cut", g->cut);
+    fl_gl_set_vec2(g->mesh_depth, "layer", 0.0f, 1.0f);
     if (ice) fl_gl_bodies_meshes(g->bodies, g->mesh_depth, FL_GL_ICE, 1);
     if (structure) fl_gl_bodies_meshes(g->bodies, g->mesh_depth, FL_GL_STRUCTURE, 1);
     for (int k = 0; ice && k < 2; k++) {
@@ -381,7 +387,7 @@ static int pass_occlusion(fl_gl_view *g, const fl_view_frame *v, fl_gl_quality q
 static int pass_back(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, fl_gl_quality q, int which,
                      const fl_sea_surface *sea, fl_err *err)
 {
-    const int variant = (q.keep_back ? which & ~HAS_SHADOW : which) & ~HAS_OCCLUSION;
+    const int variant = (q.keep_back ? which & ~HAS_SHADOW : which) & ~(HAS_OCCLUSION | HAS_WATER);
     if (!q.keep_back || sea || !g->back_kept || variant != g->back_variant ||
         memcmp(&g->eye, &g->back_eye, sizeof g->eye) != 0 || memcmp(l, &g->back_look, sizeof *l) != 0) {
         if (need_program(&g->variant[variant].back, variant, fl_glsl_full_vertex, fl_glsl_back_pixel, err))
@@ -408,14 +414,33 @@ static int pass_back(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, fl
     return 0;
 }
 
+/* Meshes of the ice or the structure, in two layers where the water is still: a processor that draws works through
+ * the light under water for each pixel of a body, also above the water, where it counts for nothing. The lower layer
+ * reaches a little into the upper, so that no gap shows between them. */
+static void draw_meshes(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, int which,
+                        const fl_sea_surface *sea, enum fl_gl_what what, double opacity)
+{
+    const int layers = (which & HAS_WATER) && !sea && opacity >= 1.0 ? 2 : 1;
+    const float level = (float)(l->water.level - v->origin.z), lap = LAYER_LAP * g->unit;
+    glEnable(GL_CLIP_DISTANCE1); /* Mesa 22 clips by a distance that is written also where it is disabled */
+    for (int k = 0; k < layers; k++) {
+        const int wet = layers == 1 || k == 1;
+        const GLuint p = g->variant[wet ? which : which & ~HAS_WATER].mesh;
+        glUseProgram(p);
+        set_common(g, p, l, v, which, sea);
+        fl_gl_set_float(p, "opacity", (float)opacity);
+        if (layers == 1) fl_gl_set_vec2(p, "layer", 0.0f, 1.0f);
+        else fl_gl_set_vec2(p, "layer", wet ? -1.0f : 1.0f, wet ? level + lap : -level);
+        fl_gl_bodies_meshes(g->bodies, p, what, 0);
+    }
+    glDisable(GL_CLIP_DISTANCE1);
+}
+
 static void draw_ice(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, int which,
                      const fl_sea_surface *sea)
 {
     const struct variant *p = &g->variant[which];
-    glUseProgram(p->mesh);
-    set_common(g, p->mesh, l, v, which, sea);
-    fl_gl_set_float(p->mesh, "opacity", (float)l->ice.opacity);
-    fl_gl_bodies_meshes(g->bodies, p->mesh, FL_GL_ICE, 0);
+    draw_meshes(g, v, l, which, sea, FL_GL_ICE, l->ice.opacity);
     for (int k = 0; k < 2; k++) {
         const GLuint s = k ? p->square : p->point;
         if ((k ? fl_gl_bodies_square_count(g->bodies) : fl_gl_bodies_point_count(g->bodies)) == 0) continue;
@@ -432,11 +457,7 @@ static void draw_ice(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, in
 static void draw_structure(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, int which,
                            const fl_sea_surface *sea)
 {
-    const GLuint p = g->variant[which].mesh;
-    glUseProgram(p);
-    set_common(g, p, l, v, which, sea);
-    fl_gl_set_float(p, "opacity", (float)l->structure.opacity);
-    fl_gl_bodies_meshes(g->bodies, p, FL_GL_STRUCTURE, 0);
+    draw_meshes(g, v, l, which, sea, FL_GL_STRUCTURE, l->structure.opacity);
 }
 
 /* What is transparent shows its nearest layer alone: its depth first, then its colour where the depth is
@@ -529,7 +550,8 @@ int fl_gl_view_draw(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, con
     g->eye = fl_camera_eye(&c, q.w, q.h, v->centre, v->radius);
     if (g->reach < OCCLUSION_PIXELS * g->eye.pixel * (c.parallel ? 1.0 : c.distance)) q.occlusion = 0;
     if (need_targets(g, q, err)) return -1;
-    const int which = (q.shadow ? HAS_SHADOW : 0) | (q.occlusion ? HAS_OCCLUSION : 0) | (sea ? HAS_WAVES : 0);
+    const int which = (q.shadow ? HAS_SHADOW : 0) | (q.occlusion ? HAS_OCCLUSION : 0) |
+                      (sea ? HAS_WAVES : 0) | (l->water.shown ? HAS_WATER : 0);
     if (fl_gl_bodies_load(g->bodies, v, &g->eye, err) || need_variant(g, which, err)) return -1;
     if (sea) send_waves(g, sea);
     glDisable(GL_BLEND);
