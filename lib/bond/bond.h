@@ -62,8 +62,8 @@ enum fl_bond_state {
 typedef struct {
     double d;                  /* damage, 0 to 1 */
     double lambda_c, lambda_f; /* once damage has begun [sqrt(J)/m] */
-    double slip[2]; /* g along the two directions of the face [m]; of a crack crack_friction.c has its
-                                * springs here */
+    double slip[2]; /* g along the two directions of the face [m]; of a crack: bond.c has its springs
+                                * here */
 } fl_bond_point;
 
 typedef struct {

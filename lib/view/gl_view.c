@@ -20,8 +20,8 @@ enum { UNIT_SHADE = 2, UNIT_GRAIN = 3, UNIT_WAVES = 4, UNIT_OCCLUSION = 1 };
 /* Ambient occlusion that reaches less far than this only darkens a picture evenly, and is left out [pixels].
  * */
 #define OCCLUSION_PIXELS 1.5
-/* Of a film the maps of shadow and occlusion are kept until a body has moved by half a texel of them: half a pixel
- * of the lamp's view; one of the picture, since occlusion has half its size. */
+/* Of a film the maps of shadow and occlusion are kept until a body has moved by half a texel of them: half a
+ * pixel of the lamp's view; one of the picture, since occlusion has half its size. */
 #define SHADOW_STEP 0.5
 #define OCCLUSION_STEP 1.0
 /* Of the layers above and below the water, in units of the scene. */
@@ -414,9 +414,9 @@ static int pass_back(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, fl
     return 0;
 }
 
-/* Meshes of the ice or the structure, in two layers where the water is still: a processor that draws works through
- * the light under water for each pixel of a body, also above the water, where it counts for nothing. The lower layer
- * reaches a little into the upper, so that no gap shows between them. */
+/* Meshes of the ice or the structure, in two layers where the water is still: a processor that draws works
+ * through the light under water for each pixel of a body, also above the water, where it counts for nothing.
+ * The lower layer reaches a little into the upper, so that no gap shows between them. */
 static void draw_meshes(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, int which,
                         const fl_sea_surface *sea, enum fl_gl_what what, double opacity)
 {

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* kept_poses.h -- the poses a shadow map or an occlusion map was drawn with, and whether that map still holds.
+/* kept_poses.h -- the poses a shadow map or an occlusion map was drawn with, and whether that map still
+ * holds.
  *
- * A map is drawn again when a point of a body has moved by more than a share of its texels. A point of a body at
- * place x with rotation q and reach r has moved by at most
+ * A map is drawn again when a point of a body has moved by more than a share of its texels. A point of a body
+ * at place x with rotation q and reach r has moved by at most
  *
  *     |x - x'| + 2 r min(|q - q'|, |q + q'|)
  *
- * since two rotations whose quaternions differ by c turn into each other by an angle theta, 4 sin(theta/4) = 2 c,
- * and the chord 2 sin(theta/2) of it is not longer. Seen from the eye of the map that is a number of pixels, of the
- * point of the body that is nearest to the eye. Limits: single precision of poses, a thousandth of a pixel. */
+ * since two rotations whose quaternions differ by c turn into each other by an angle theta, 4 sin(theta/4) =
+ * 2 c, and the chord 2 sin(theta/2) of it is not longer. Seen from the eye of the map that is a number of
+ * pixels, of the point of the body that is nearest to the eye. Limits: single precision of poses, a
+ * thousandth of a pixel. */
 #ifndef FL_VIEW_KEPT_POSES_H
 #define FL_VIEW_KEPT_POSES_H
 #include "view/camera.h"

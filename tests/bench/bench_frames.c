@@ -4,9 +4,9 @@
  * processor.
  *
  *   bench_frames                               as make bench runs it
- *   bench_frames SPHERES BLOCKS FRAMES FILE    writes packed frames of a sheet of spheres four deep that drifts and
- *                                              waves, with noise of 0.1 mm, and of blocks adrift beside it; a frame
- *                                              at a time, for bench/view.sh */
+ *   bench_frames SPHERES BLOCKS FRAMES FILE    writes packed frames of a sheet of spheres four deep that
+ *       drifts and waves, with noise of 0.1 mm, and of blocks adrift beside it; a frame at a time, for
+ *       bench/view.sh */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

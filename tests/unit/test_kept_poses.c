@@ -72,8 +72,8 @@ static void a_body_may_move_by_pixels_of_its_distance(void **state)
     assert_false(holds(1e9));
 }
 
-/* A turn by a small angle theta moves a point at the reach, 1 m, by theta: 10 mrad are a pixel.  The quaternion of
- * the other sign is the same rotation. */
+/* A turn by a small angle theta moves a point at the reach, 1 m, by theta: 10 mrad are a pixel.  The
+ * quaternion of the other sign is the same rotation. */
 static void a_turn_moves_the_rim(void **state)
 {
     (void)state;

@@ -480,8 +480,8 @@ static int add_outer_fits(struct subject *s, fl_err *err)
     return 0;
 }
 
-/* Points that the picture has to hold: vertices of bodies, corners of parts.  Of many bodies some, and those at the
- * outside. */
+/* Points that the picture has to hold: vertices of bodies, corners of parts.  Of many bodies some, and those
+ * at the outside. */
 static int add_fits(struct subject *s, fl_err *err)
 {
     const fl_frame *f = &s->play.now;
