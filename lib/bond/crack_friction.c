@@ -38,7 +38,7 @@ fl_crack_wrench fl_crack_friction_step(fl_crack_springs *springs, const fl_crack
     const fl_vec3 m = v3(1, 0, 0);
     const fl_pressure_shape shape = fl_pressure_shape_of(
         (fl_sym3){.yy = aa - a * a * x * x, .yz = ab - a * b * x * y, .zz = bb - b * b * y * y}, m);
-    const double k = 0.5 * face->shear * (aa + bb > whole ? whole / (aa + bb) : 1.0);
+    const double k = face->shear * (aa + bb > whole ? whole / (aa + bb) : 1.0);
     const double turn = turn_of(before, now, a, b);
     const fl_vec3 slip = slip_at(before, now, x, y);
     fl_friction_springs s = {.force = v3(0.0, springs->y, springs->z),
