@@ -9,8 +9,8 @@
  *
  * The stiffness is k = k_s A min(1, r^2/(rho^2 + x_c^2)), r^2 = (a^2 + b^2)/3 that of the whole face, so that
  * slip of a crack is as stiff as the shear of its bond was, and the force does not jump as the last point
- * fails. The law has up to 1.97 k in slip where the face also spins, which stays below k_n A of the bond. Theta
- * sums over 9 points; of a face that is pressed at a rim the moments are those of these points.
+ * fails. The law has up to 1.97 k in slip where the face also spins, which stays below k_n A of the bond.
+ * Theta sums over 9 points; of a face that is pressed at a rim the moments are those of these points.
  *
  * Error of steady motion on a square, even pressure: 2.3 %; a limit for each point by itself, as damaged
  * points have it before the face has failed, gives 0.79 of the moment of pure spin. */
