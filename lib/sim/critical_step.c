@@ -492,7 +492,8 @@ double fl_peak_error(const fl_world *w)
 {
     const double r = ratio_of(w->dt, w->dt_critical_contacts), D = max_late_damping(w, r),
                  all = max_damping(w, 0);
-    return 0.35 * D * r / (1.0 + 0.5 * D) + fmin(0.15 + 0.2 * all * all, 0.95) * r * r;
+    return 0.35 * D * r / (1.0 + 0.5 * D) +
+           fmin(0.15 + 0.2 * all * all, fmax(0.95, 0.15 + 0.05 * all)) * r * r;
 }
 
 double fl_impulse_error(const fl_world *w)
