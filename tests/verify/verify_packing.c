@@ -39,7 +39,7 @@ static void grow(sample *s, const char *in, int dim, const char *periodic, int32
     int halved;
     if (fl_region_make(&s->region, in, dim, periodic, &err) || fl_pack_shapes_make(&s->shapes, shape, &err) ||
         fl_packing_make(&s->p, dim, n, d, &s->shapes, seed, &err) ||
-        fl_throw_bodies(&s->p, &s->region, FL_THROW_REJECTION, seed, &halved, &err) ||
+        fl_throw_bodies(&s->p, &s->region, NULL, FL_THROW_REJECTION, seed, &halved, &err) ||
         fl_packing_sort(&s->p, &err) || fl_overlaps_make(&s->o, &s->p, &s->region, &err))
         stop(&err);
     s->g = fl_growth_start(&opt);

@@ -67,7 +67,7 @@ static void pack_slope(slope *s, double solid, enum fl_growth_trim trim, int res
         fl_grading_law(&g, verify_quick() ? "uniform:1.8,3" : "uniform:0.6,1", 2, &err) != 1 ||
         fl_grading_draw(&g, 2, PI / 4.0, solid * s->region.volume, 0, &d, &n, &empty, &err) ||
         fl_packing_make(&s->p, 2, n, d, &s->shapes, 7, &err) ||
-        fl_throw_bodies(&s->p, &s->region, FL_THROW_REJECTION, 7, &halved, &err) ||
+        fl_throw_bodies(&s->p, &s->region, NULL, FL_THROW_REJECTION, 7, &halved, &err) ||
         fl_packing_sort(&s->p, &err) || fl_overlaps_make(&s->o, &s->p, &s->region, &err))
         stop(&err);
     free(d);
