@@ -54,7 +54,7 @@ liggghts_run()
 }
 
 {
-    echo '#bench-pack 1'
+    echo '#pack 1'
     echo "#processor $(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1), $(uname -m)"
     echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the programs being 1"
 } >pack.tsv
