@@ -12,7 +12,8 @@ static const double BALANCE = 1e-5, BALANCE_GROW = 1e-4, BALANCE_SECANT = 1e-3;
 /* Mean overlap over the mean distance from which on balanced forces count as a jam. */
 static const double JAM_STRAIN = 1e-6;
 
-/* Rise of the scale over the one before, and at most over fl_growth_options.rise, of bodies that part at once. */
+/* Rise of the scale over the one before, and at most over fl_growth_options.rise, of bodies that part at
+ * once. */
 static const double FASTER = 1.25, FASTEST = 8.0;
 
 /* Steps of a relaxation: during growth, in full, and for the balance of every body. */

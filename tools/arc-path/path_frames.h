@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* path_frames.h -- the start and the points of a path as frames of ice-view(1): pieces are cylinders, the time
- * of a frame is the number of its point. */
+/* path_frames.h -- the start and the points of a path as frames of ice-view(1): pieces are cylinders, the
+ * time of a frame is the number of its point. */
 #ifndef ARC_PATH_PATH_FRAMES_H
 #define ARC_PATH_PATH_FRAMES_H
 #include "options.h"
