@@ -11,6 +11,7 @@
 #include <string.h>
 #include "base/pi.h"
 #include "pack/growth.h"
+#include "pack/pack_world.h"
 #include "pack/packing_certificate.h"
 #include "pack/throwing.h"
 #include "support/near.h"
@@ -413,6 +414,40 @@ static void many(void)
     free(d);
 }
 
+/* --- growth by steps with friction -------------------------------------------------------------- */
+
+/* Solid part at which 500 equal spheres in a periodic box jam. */
+static double jam_moving(double friction)
+{
+    const fl_pack_motion m = {
+        .friction = friction, .restitution = 0.2, .young = 1e8, .density = 900.0, .rest = 1e-3};
+    sample s = {0};
+    double d[500];
+    fl_pack_moved moved;
+    fl_err err = {0};
+    int halved;
+    for (int k = 0; k < 500; k++) d[k] = 1.0;
+    if (fl_region_make(&s.region, "box:0,0,0,7.35,7.35,7.35", 3, "xyz", &err) ||
+        fl_pack_shapes_make(&s.shapes, "sphere", &err) ||
+        fl_packing_make(&s.p, 3, 500, d, &s.shapes, 1, &err) ||
+        fl_throw_bodies(&s.p, &s.region, NULL, FL_THROW_REJECTION, 1, &halved, &err) ||
+        fl_packing_sort(&s.p, &err) || fl_overlaps_make(&s.o, &s.p, &s.region, &err) ||
+        fl_pack_grow_moving(&s.p, &s.region, &m, &s.o, NULL, NULL, &moved, &err))
+        stop(&err);
+    const double phi = fl_packing_volume(&s.p, moved.jammed ? moved.jam_scale : 1.0, 0) / s.region.volume;
+    release(&s);
+    return phi;
+}
+
+/* Friction decides how dense: from random close packing to random loose packing, 0.55. */
+static void friction(void)
+{
+    if (verify_quick()) return;
+    verify_row("P4", "grown by steps without friction: solid part", jam_moving(0.0), 0.637, 0.01, VERIFY_ABS);
+    verify_row("P4", "grown by steps with friction 0.5, random loose", jam_moving(0.5), 0.56, 0.03,
+               VERIFY_ABS);
+}
+
 int main(void)
 {
     verify_begin("packings");
@@ -424,5 +459,6 @@ int main(void)
     discs();
     spheres();
     many();
+    friction();
     return verify_end();
 }

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/pi.h"
 #include "base/stream.h"
+#include "pack/pack_passage.h"
 #include "pack/packing_state.h"
 #include "pack_plot.h"
 #include "pack_report.h"
@@ -75,11 +76,19 @@ static int check_largest(const struct options *o, const struct result *r, fl_err
         thin = fmax(thin, fmin(h.x, fmin(h.y, h.z)));
     }
     const double d = fl_grading_most(&r->grading);
-    if (d * thin <= r->region.inradius * (1.0 + 1e-9)) return 0;
-    return fl_fail(err, FL_INPUT,
-                   "%s: the largest body of %.6g m does not fit: the region takes a ball of %.6g m at most%s",
-                   o->in, d, 2.0 * r->region.inradius,
-                   fl_region_is_periodic(&r->region) ? " (half of a period)" : "");
+    fl_passage narrow;
+    if (d * thin > r->region.inradius * (1.0 + 1e-9))
+        return fl_fail(
+            err, FL_INPUT,
+            "%s: the largest body of %.6g m does not fit: the region takes a ball of %.6g m at most%s", o->in,
+            d, 2.0 * r->region.inradius, fl_region_is_periodic(&r->region) ? " (half of a period)" : "");
+    if (fl_passage_find(&narrow, &r->region, d * thin, err)) return -1;
+    if (!narrow.found) return 0;
+    return fl_fail(
+        err, FL_INPUT,
+        "%s: the largest body of %.6g m does not pass the narrowest passage of the region, about %.2g m "
+        "wide near (%.6g, %.6g, %.6g): pack its parts one by one",
+        o->in, d, narrow.width, narrow.at.x, narrow.at.y, narrow.at.z);
 }
 
 static int draw_bodies(const struct options *o, struct result *r, fl_err *err)
