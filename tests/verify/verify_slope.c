@@ -196,8 +196,8 @@ static void released(void)
     free_slope(&s);
 }
 
-/* Of packings that did not come to rest: trimmed ones stay, others burst. With contacts of some 1e7 N/m, as the
- * source has; softer ones raise the surface later than in 0.3 s. */
+/* Of packings that did not come to rest: trimmed ones stay, others burst. With contacts of some 1e7 N/m, as
+ * the source has; softer ones raise the surface later than in 0.3 s. */
 static void burst(void)
 {
     slope s;
