@@ -150,7 +150,7 @@ static int make_surfaces(struct inputs *in, fl_err *err)
     const double level = s->water.head.present ? s->water.level : 0.0;
     if (!in->members.file) return 0;
     return fl_member_motion_surface(&in->surface, &in->members, level, err) ||
-                   fl_member_motion_frames_surface(&in->frames_surface, &in->members, err)
+                   fl_member_motion_frames_surface(&in->frames_surface, &in->members, 0.0, err)
                ? -1
                : 0;
 }
