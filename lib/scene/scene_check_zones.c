@@ -3,13 +3,6 @@
 
 enum { ZONES_YIELD = 1 }; /* law = mohr-coulomb */
 
-static int has_quiet_side(const fl_scene_zones *z)
-{
-    for (int a = 0; a < 3; a++)
-        if (z->min_side[a] == FL_ZONE_SIDE_QUIET || z->max_side[a] == FL_ZONE_SIDE_QUIET) return 1;
-    return 0;
-}
-
 /* The material of the bodies must have strengths; those named in records of bodies are checked with them. */
 static int check_strengths(const fl_scene *s, fl_err *err)
 {
@@ -59,9 +52,10 @@ int fl_scene_check_zones(const fl_scene *s, fl_err *err)
         if (other[k].present)
             return fl_scene_fail(s, "zones.size", err, "blocks with zones do not go together with %s",
                                  other[k].what);
-    if (v3_nonzero(z->wave_stress) && !has_quiet_side(z))
-        return fl_scene_fail(
-            s, "zones.wave_stress", err,
-            "a wave comes in through quiet sides: min_side or max_side of quiet is expected");
+    const int32_t *side = z->wave_side % 2 ? z->max_side : z->min_side;
+    if (v3_nonzero(z->wave_stress) && side[z->wave_side / 2] != FL_ZONE_SIDE_QUIET)
+        return fl_scene_fail(s, "zones.wave_stress", err,
+                             "a wave comes in through a quiet side, and zones.%s is not quiet in %c",
+                             z->wave_side % 2 ? "max_side" : "min_side", 'x' + z->wave_side / 2);
     return 0;
 }

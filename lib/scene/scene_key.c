@@ -2094,8 +2094,16 @@ const fl_key fl_key_table[] = {
      .unit = FL_UNIT_STRESS,
      .offset = OFFSET(zones, wave_stress),
      .default_text = "0 0 0 Pa",
-     .meaning = "amplitude of a wave that comes in through the quiet sides: traction along x y z; across a side "
+     .meaning = "amplitude of a wave that comes in through a quiet side: traction along x y z; across the side "
                 "it is a wave of pressure, along it one of shear"},
+    {.section = FL_SEC_ZONES,
+     .key = "wave_side",
+     .type = FL_VALUE_WORD,
+     .offset = OFFSET(zones, wave_side),
+     .default_text = "z_min",
+     .choices = "x_min|x_max|y_min|y_max|z_min|z_max",
+     .needs = {"wave_stress"},
+     .meaning = "that side"},
     {.section = FL_SEC_ZONES,
      .key = "wave_duration",
      .type = FL_VALUE_F64,

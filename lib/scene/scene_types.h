@@ -346,6 +346,7 @@ typedef struct {
     fl_vec3 initial_stress, initial_shear; /* xx yy zz and xy yz zx, compression positive [Pa] */
     fl_vec3 wave_stress;                   /* traction of a wave that comes in through quiet sides [Pa] */
     double wave_duration;                  /* of its pulse [s]; 0: it stays */
+    int32_t wave_side;                     /* 2 axis + (1: largest) of the side where it comes in */
 } fl_scene_zones;
 
 typedef struct {

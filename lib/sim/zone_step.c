@@ -73,6 +73,11 @@ static fl_vec3 wave_now(const fl_world *w)
     return v3_scale(s * s, z->wave_stress);
 }
 
+static int is_wave_side(const fl_scene *s, fl_vec3 normal)
+{
+    return v3_at(normal, s->zones.wave_side / 2) * (s->zones.wave_side % 2 ? 1.0 : -1.0) > 0.5;
+}
+
 /* Tensor of inertia of the nodes of a block about its centre, and J^-1 t. */
 static fl_vec3 turning(const fl_zone_set *s, const fl_zone_block *q, fl_vec3 o, fl_vec3 t)
 {
@@ -117,7 +122,8 @@ static void load_block(fl_world *w, int32_t k, fl_vec3 wave)
         fl_vec3 own;
         const int32_t n = s->dashpot[d].node;
         if (s->dashpot[d].block != k) continue;
-        const fl_vec3 all = fl_zone_dashpot_force(s, d, wave, &own);
+        const fl_vec3 in = is_wave_side(w->scene, s->dashpot[d].normal) ? wave : v3(0, 0, 0),
+                      all = fl_zone_dashpot_force(s, d, in, &own);
         z->drag[n] = v3_add(z->drag[n], own);
         if (z->push) z->push[n] = v3_add(z->push[n], v3_sub(all, own));
     }
