@@ -2065,8 +2065,9 @@ const fl_key fl_key_table[] = {
      .offset = OFFSET(zones, min_side),
      .default_text = "free",
      .choices = "free|roller|fixed|quiet",
-     .meaning = "what holds the sides of the model at its least x, y and z, one word for all or one for each; "
-                "roller: no motion across it; fixed: none at all; quiet: waves leave through it"},
+     .meaning =
+         "what holds the sides of the model at its least x, y and z, one word for all or one for each; "
+         "roller: no motion across it; fixed: none at all; quiet: waves leave through it"},
     {.section = FL_SEC_ZONES,
      .key = "max_side",
      .type = FL_VALUE_WORDS,
@@ -2094,8 +2095,9 @@ const fl_key fl_key_table[] = {
      .unit = FL_UNIT_STRESS,
      .offset = OFFSET(zones, wave_stress),
      .default_text = "0 0 0 Pa",
-     .meaning = "amplitude of a wave that comes in through a quiet side: traction along x y z; across the side "
-                "it is a wave of pressure, along it one of shear"},
+     .meaning =
+         "amplitude of a wave that comes in through a quiet side: traction along x y z; across the side "
+         "it is a wave of pressure, along it one of shear"},
     {.section = FL_SEC_ZONES,
      .key = "wave_side",
      .type = FL_VALUE_WORD,

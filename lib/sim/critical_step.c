@@ -407,7 +407,8 @@ double fl_longest_step(const fl_predicted_limit *f, double seen)
 int fl_shorten_step_at_start(fl_world *w)
 {
     if (!isfinite(w->dt_critical)) return 0;
-    if (w->zones.set.blocks && w->dt_critical == w->zones.dt_critical) return 0; /* it has been chosen by that */
+    if (w->zones.set.blocks && w->dt_critical == w->zones.dt_critical)
+        return 0; /* it has been chosen by that */
     const fl_predicted_limit limit = fl_predict_step_limit(w);
     const double longest = fl_longest_step(&limit, w->dt_critical), every = w->scene->output.loads_every;
     if (w->dt <= longest) return 0;

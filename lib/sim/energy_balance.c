@@ -156,9 +156,9 @@ void fl_energy_update(fl_world *w)
     }
     const double drive = g->drive - ahead.drive + constraint;
     g->drive_now = drive;
-    g->residual = kinetic + gravity + elastic + hydro + g->structure + g->spring + g->bond + g->zones + g->fracture -
-                  g->start + g->damping_now + g->friction_now + drag + g->damper + g->plastic + g->crushing -
-                  wind - waves - drive - g->carried;
+    g->residual = kinetic + gravity + elastic + hydro + g->structure + g->spring + g->bond + g->zones +
+                  g->fracture - g->start + g->damping_now + g->friction_now + drag + g->damper + g->plastic +
+                  g->crushing - wind - waves - drive - g->carried;
     const double throughput = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
                               fabs(waves) + fabs(drive) + kinetic + g->damper + g->plastic + g->crushing +
                               g->structure + fabs(g->fracture);

@@ -265,8 +265,7 @@ static int run_step(step_context *q)
 static int check_state(fl_world *w, int update_stiffness, fl_err *err)
 {
     if (w->failed) return fl_fail(err, FL_SYSTEM, "out of memory in step %lld", (long long)w->step);
-    if (w->zones.set.blocks && w->zones.set.inside_out >= 0)
-        return fl_zones_fail(w, err);
+    if (w->zones.set.blocks && w->zones.set.inside_out >= 0) return fl_zones_fail(w, err);
     for (int32_t g = 0; g < fl_block_count(w); g++)
         if (w->blocks[g].not_finite >= 0)
             return fl_fail(err, FL_NUMERIC, "body %d: not a finite number in step %lld (t = %g s)",
@@ -445,7 +444,8 @@ int fl_step_start(fl_world *w, fl_err *err)
     book_work_ahead(w, 1.0);
     fl_energy_update(w);
     w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic +
-                      w->ledger.structure + w->ledger.spring + w->ledger.bond + w->ledger.zones + w->ledger.fracture +
+                      w->ledger.structure + w->ledger.spring + w->ledger.bond + w->ledger.zones +
+                      w->ledger.fracture +
                       fl_joint_list_friction_loss(w); /* of joints that begin beyond their strength */
     fl_energy_update(w);
     return 0;

@@ -325,14 +325,14 @@ void write_zones(struct run *r, FILE *f, double t, double interval)
             const int32_t *n = s->zone[k];
             fl_mat3 axes;
             const fl_sym3 c = s3_times(-1.0, fl_zone_cauchy(s, k));
-            const fl_zones_row row = {.body = w->id[q->body],
-                                      .zone = k - q->zone,
-                                      .x = v3_scale(0.25, v3_add(v3_add(s->x[n[0]], s->x[n[1]]),
-                                                                 v3_add(s->x[n[2]], s->x[n[3]]))),
-                                      .volume = s->zone_volume[k],
-                                      .s = {c.xx, c.yy, c.zz, c.xy, c.yz, c.xz},
-                                      .principal = fl_zone_principal(c, &axes),
-                                      .yielded = fl_zone_lost(s, k)};
+            const fl_zones_row row = {
+                .body = w->id[q->body],
+                .zone = k - q->zone,
+                .x = v3_scale(0.25, v3_add(v3_add(s->x[n[0]], s->x[n[1]]), v3_add(s->x[n[2]], s->x[n[3]]))),
+                .volume = s->zone_volume[k],
+                .s = {c.xx, c.yy, c.zz, c.xy, c.yz, c.xz},
+                .principal = fl_zone_principal(c, &axes),
+                .yielded = fl_zone_lost(s, k)};
             fl_table_write_row(f, &fl_zones_table, 0, t, &row);
         }
     }
