@@ -234,6 +234,7 @@ int fl_zones_join(fl_world *w, const fl_ice_field *field, fl_err *err)
     for (int32_t k = 0; k < n; k++)
         if (join_blocks(w, w->bonds.faces + k, &field->joint[k], err)) return -1;
     if (fl_zone_joint_list_finish(&z->joints, &z->set, err)) return -1;
+    if (w->scene->run.relax && fl_zone_set_scale_inertia(&z->set, err)) return -1;
     z->dt_critical = 2.0 / sqrt(fl_zone_omega2(&z->set, &z->stiffest));
     return 0;
 }

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/zone_step.h"
+#include <omp.h>
 #include "base/fast_math.h"
 #include "base/pi.h"
 #include "world/access.h"
 
 /* Share of the force that damping takes, as of rigid blocks. */
 static const double LOCAL_SHARE = 0.8;
+
+/* Waits for the team.  The barrier of OpenMP would spin where there are more threads than processors. */
+static void meet_team(fl_world *w) { fl_barrier_wait(&w->barrier, omp_get_num_threads(), NULL, NULL); }
 
 /* --- motion ------------------------------------------------------------------------------------- */
 
@@ -15,7 +19,7 @@ static void kick_node(const fl_zone_state *z, int32_t n, double h, fl_zone_sum *
     const fl_zone_set *s = &z->set;
     const unsigned fixed = s->fixed[n];
     const fl_vec3 f = s->f[n], before = s->v[n], a = fl_zone_free_part(fixed, f),
-                  v = v3_madd(before, h / s->m[n], a), mean = v3_scale(0.5 * h, v3_add(before, v));
+                  v = v3_madd(before, h / s->inertia[n], a), mean = v3_scale(0.5 * h, v3_add(before, v));
     s->v[n] = v;
     if (z->drag) sum->damping_work -= v3_dot(z->drag[n], mean);
     if (z->push) sum->input_work += v3_dot(z->push[n], mean);
@@ -26,7 +30,7 @@ void fl_zones_first_half(fl_world *w, double h)
 {
     fl_zone_state *z = &w->zones;
     fl_zone_set *s = &z->set;
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
     for (int32_t c = 0; c < s->node_chunks; c++) {
         const fl_zone_chunk q = s->node_chunk[c];
         fl_zone_sum *sum = &s->sum[c];
@@ -38,9 +42,11 @@ void fl_zones_first_half(fl_world *w, double h)
         }
         fl_zone_chunk_sums(s, &w->b, c);
     }
-#pragma omp for schedule(static)
+    meet_team(w);
+#pragma omp for schedule(static) nowait
     for (int32_t k = 0; k < s->blocks; k++)
         if (!s->block[k].absent) fl_zone_set_pose(s, k, &w->b);
+    meet_team(w);
 }
 
 /* --- forces ------------------------------------------------------------------------------------- */
@@ -48,17 +54,20 @@ void fl_zones_first_half(fl_world *w, double h)
 void fl_zones_stress(fl_world *w)
 {
     fl_zone_set *s = &w->zones.set;
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
     for (int32_t c = 0; c < s->zone_chunks; c++)
         if (!s->block[s->zone_chunk[c].block].absent) fl_zone_deform(s, c, c + 1);
+    meet_team(w);
     if (s->node_stress) {
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
         for (int32_t c = 0; c < s->node_chunks; c++)
             if (!s->block[s->node_chunk[c].block].absent) fl_zone_average(s, c, c + 1);
+        meet_team(w);
     }
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) nowait
     for (int32_t c = 0; c < s->zone_chunks; c++)
         if (!s->block[s->zone_chunk[c].block].absent) fl_zone_corner_forces(s, c, c + 1);
+    meet_team(w);
 }
 
 /* Stress that comes in through quiet sides now, as traction [Pa]. */
@@ -159,10 +168,11 @@ void fl_zones_second_half(fl_world *w, double h)
     fl_zone_state *z = &w->zones;
     fl_zone_set *s = &z->set;
     const fl_vec3 wave = z->push ? wave_now(w) : v3(0, 0, 0);
-#pragma omp for schedule(static, 1)
+#pragma omp for schedule(static, 1) nowait
     for (int32_t k = 0; k < s->blocks; k++)
         if (!s->block[k].absent) load_block(w, k, wave);
-#pragma omp for schedule(static)
+    meet_team(w);
+#pragma omp for schedule(static) nowait
     for (int32_t c = 0; c < s->node_chunks; c++) {
         const fl_zone_chunk q = s->node_chunk[c];
         double most = 0.0;
@@ -173,6 +183,7 @@ void fl_zones_second_half(fl_world *w, double h)
         }
         s->sum[c].unbalanced = most;
     }
+    meet_team(w);
 }
 
 /* --- results ------------------------------------------------------------------------------------ */

@@ -404,6 +404,16 @@ static void step_off(fl_zone_point *p)
     p->force = v3(0, 0, 0);
 }
 
+/* Numbers of points that slip or are open, as if the joint had the nine of a rigid one. */
+static void count_of_nine(fl_joint *q, int32_t on)
+{
+    if (on == 0) return;
+    const int all_open = q->opens == on;
+    q->slips = (FL_BOND_POINTS * q->slips + on - 1) / on;
+    q->opens = (FL_BOND_POINTS * q->opens + on - 1) / on;
+    if (!all_open && q->opens == FL_BOND_POINTS) q->opens--;
+}
+
 int fl_zone_joint_force(fl_zone_joint_list *l, int32_t k, const fl_zone_set *s, fl_bond *c, fl_joint *q,
                         fl_joint_pool pool, const fl_bodies *b, double dt)
 {
@@ -439,6 +449,7 @@ int fl_zone_joint_force(fl_zone_joint_list *l, int32_t k, const fl_zone_set *s, 
     c->dissipated += r.work + had - r.stored;
     c->area = r.area;
     c->state = r.failed == 0 ? FL_BOND_INTACT : r.failed == r.on ? FL_BOND_BROKEN : FL_BOND_DAMAGED;
+    count_of_nine(q, r.on);
     c->force = j->points_on_i ? r.force : v3_neg(r.force); /* on i */
     c->torque_i = c->torque_j = v3(0, 0, 0);
     if (j->other < 0 && j->points_on_i) c->torque_j = r.moment;

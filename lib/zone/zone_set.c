@@ -152,11 +152,35 @@ int fl_zone_set_finish(fl_zone_set *s, double share, fl_err *err)
     add_masses(s);
     list_corners(s);
     for (int32_t n = 0; n < s->nodes; n++) s->rest[n] = s->x[n];
+    s->inertia = s->m;
+    return 0;
+}
+
+static int by_size(const void *x, const void *y)
+{
+    const double a = *(const double *)x, b = *(const double *)y;
+    return (a > b) - (a < b);
+}
+
+int fl_zone_set_scale_inertia(fl_zone_set *s, fl_err *err)
+{
+    double *omega2 = fl_alloc(s->nodes, sizeof *omega2, err), *inertia = fl_alloc(s->nodes, sizeof *inertia, err);
+    if (!omega2 || !inertia) {
+        free(omega2), free(inertia);
+        return -1;
+    }
+    for (int32_t n = 0; n < s->nodes; n++) omega2[n] = s->stiffness[n] / s->m[n];
+    qsort(omega2, (size_t)s->nodes, sizeof *omega2, by_size);
+    const double median = omega2[s->nodes / 2];
+    for (int32_t n = 0; n < s->nodes; n++) inertia[n] = fmax(s->m[n], s->stiffness[n] / median);
+    free(omega2);
+    s->inertia = inertia;
     return 0;
 }
 
 void fl_zone_set_free(fl_zone_set *s)
 {
+    if (s->inertia != s->m) free(s->inertia);
     free(s->block), free(s->material), free(s->x), free(s->v), free(s->f), free(s->rest), free(s->m);
     free(s->volume), free(s->stiffness), free(s->fixed), free(s->node_stress), free(s->first),
         free(s->corner);
@@ -339,8 +363,8 @@ double fl_zone_omega2(const fl_zone_set *s, int32_t *node)
     double most = 0.0;
     *node = -1;
     for (int32_t n = 0; n < s->nodes; n++)
-        if (s->fixed[n] != (FL_DOF_X | FL_DOF_Y | FL_DOF_Z) && s->stiffness[n] > most * s->m[n])
-            most = s->stiffness[n] / s->m[n], *node = n;
+        if (s->fixed[n] != (FL_DOF_X | FL_DOF_Y | FL_DOF_Z) && s->stiffness[n] > most * s->inertia[n])
+            most = s->stiffness[n] / s->inertia[n], *node = n;
     return most;
 }
 
@@ -426,7 +450,7 @@ fl_zone_energies fl_zone_set_energies(const fl_zone_set *s)
             if (yields) out.plastic += V * s->lost[k];
         }
         for (int32_t n = q->node; n < q->node_end; n++) {
-            out.kinetic += 0.5 * s->m[n] * v3_norm2(s->v[n]);
+            out.kinetic += 0.5 * s->inertia[n] * v3_norm2(s->v[n]);
             if (!s->node_stress) continue;
             const fl_mat3 F = average_now(s, n);
             const double V = (1.0 - s->share) * s->volume[n];

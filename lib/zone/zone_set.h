@@ -66,6 +66,7 @@ typedef struct {
     fl_vec3 *x, *v, *f; /* place, velocity, force [m], [m/s], [N] */
     fl_vec3 *rest;      /* place at the start in the frame of the body [m] */
     double *m, *volume; /* [kg], V_n [m3] */
+    double *inertia;    /* mass that resists acceleration; m but for states of rest [kg] */
     double *stiffness;  /* K_n [N/m] */
     uint8_t *fixed;     /* FL_DOF_X | FL_DOF_Y | FL_DOF_Z */
     fl_mat3 *node_stress;
@@ -96,6 +97,10 @@ int fl_zone_set_add(fl_zone_set *s, const fl_zone_mesh *m, int32_t material, int
 /* Masses, gradients and lists, once all blocks are there; at rest without strain. */
 int fl_zone_set_finish(fl_zone_set *s, double share, fl_err *err);
 void fl_zone_set_free(fl_zone_set *s);
+
+/* For states of rest, where masses have no effect: nodes with a higher omega than the median of all get so much
+ * inertia that they have that one.  Flat zones then no longer set the step. */
+int fl_zone_set_scale_inertia(fl_zone_set *s, fl_err *err);
 
 /* Dashpots on the boundary triangles whose flag is set, with outward normal n.  -1 with FL_SYSTEM. */
 int fl_zone_set_add_quiet(fl_zone_set *s, const uint8_t *is_quiet, fl_vec3 n, fl_err *err);
