@@ -73,15 +73,14 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames",  "output.state",    "output.energy",    "output.contacts",
-                               "output.hash",    "output.panels",   "output.events",    "output.bonds",
-                               "output.members", "output.zones",    "output.failures",  "output.final_ice",
+    const char *const key[] = {"output.frames",    "output.state",  "output.energy",   "output.contacts",
+                               "output.hash",      "output.panels", "output.events",   "output.bonds",
+                               "output.members",   "output.zones",  "output.failures", "output.final_ice",
                                "output.checkpoint"};
-    const char *const path[] = {s->output.frames,   s->output.state,     s->output.energy,
-                                s->output.contacts, s->output.hash,      s->output.panels,
-                                s->output.events,   s->output.bonds,     s->output.members,
-                                s->output.zones,    s->output.failures,  s->output.final_ice,
-                                s->output.checkpoint};
+    const char *const path[] = {
+        s->output.frames,   s->output.state,     s->output.energy,    s->output.contacts, s->output.hash,
+        s->output.panels,   s->output.events,    s->output.bonds,     s->output.members,  s->output.zones,
+        s->output.failures, s->output.final_ice, s->output.checkpoint};
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,

@@ -75,7 +75,8 @@ static int add_block(fl_world *w, const fl_ice_field *field, int32_t k, fl_err *
     return rc;
 }
 
-/* Bodies of a fixed group without a name in zones.group stay rigid: nothing deforms a bed that does not move. */
+/* Bodies of a fixed group without a name in zones.group stay rigid: nothing deforms a bed that does not
+ * move. */
 static int wants_zones(const fl_world *w, const fl_ice_field *field, int32_t k)
 {
     const char *group = field->group[k] < 0 ? "" : field->groups.name[field->group[k]];

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* zone_step.h -- one time step of the deformable blocks, by the team of threads of step.c.
  *
- * Nodes move by the same velocity Verlet as bodies: half kick, drift, forces, half kick.  Forces on a node are
- * those of the stress of its zones, of the points of joints, dashpots of quiet sides, damping to rest
- * (-0.8 |f| against each component of the velocity), and its part of what acts on the block as a whole: weight, and
- * contacts other than joints, m (F/M + alpha x r) with J alpha = T.
+ * Nodes move by the same velocity Verlet as bodies: half kick, drift, forces, half kick.  Forces on a node
+ * are those of the stress of its zones, of the points of joints, dashpots of quiet sides, damping to rest
+ * (-0.8 |f| against each component of the velocity), and its part of what acts on the block as a whole:
+ * weight, and contacts other than joints, m (F/M + alpha x r) with J alpha = T.
  *
- * Work of a force over half a kick is h f.(v before + v after)/2, exactly the change of kinetic energy by it. */
+ * Work of a force over half a kick is h f.(v before + v after)/2, exactly the change of kinetic energy by
+ * it. */
 #ifndef FL_SIM_ZONE_STEP_H
 #define FL_SIM_ZONE_STEP_H
 #include "world/world.h"

@@ -15,7 +15,7 @@ typedef struct {
     double structure, spring,
         damper;             /* parts that move freely: kinetic and spring energy (stores), dashpots */
     double zones;           /* store: strain of deformable blocks */
-    double plastic;         /* sink: zones that yield, sections of members that yield, and members that part */
+    double plastic;         /* sink: zones and sections of members that yield, members that part */
     double bond, fracture;  /* bonds: store; sink by damage */
     double crushing;        /* sink: ice that yields under pressure */
     double carried;         /* source: floes that came in, less those that left */

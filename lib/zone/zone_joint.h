@@ -53,14 +53,15 @@ typedef struct {
     int32_t cap_joint, cap_point, cap_triangle;
 } fl_zone_joint_list;
 
-/* One side of a joint: its block (-1: rigid), body, face of the block, and corners in the frame of the body. */
+/* One side of a joint: its block (-1: rigid), body, face of the block, and corners in the frame of the
+ * body. */
 typedef struct {
     int32_t block, body, face, corner, corners;
     double area;
 } fl_zone_side;
 
-/* Makes the points of the joint c, q, whose bond is started (fl_joint_start()); S: stress at the start as there;
- * damping: fraction of the critical.  Adds stiffness to the nodes.  -1 with FL_SYSTEM. */
+/* Makes the points of the joint c, q, whose bond is started (fl_joint_start()); S: stress at the start as
+ * there; damping: fraction of the critical.  Adds stiffness to the nodes.  -1 with FL_SYSTEM. */
 int fl_zone_joint_make(fl_zone_joint_list *l, fl_zone_set *s, fl_bond *c, fl_joint *q, fl_joint_pool pool,
                        const fl_bodies *b, int32_t bond, const fl_zone_side side[2], const double S[6],
                        double damping, fl_err *err);

@@ -5,16 +5,16 @@
  *     e = U - 1,   s = lambda tr(e - e_p) 1 + 2 mu (e - e_p) + s_0,   P = R s
  * P (first Piola-Kirchhoff) is the derivative of the stored energy
  *     w = lambda/2 tr(e - e_p)^2 + mu |e - e_p|^2 + s_0 : e,
- * so that elastic zones conserve energy, and a rotation alone makes no stress.  Strains are meant to be small,
- * rotations may be large.
+ * so that elastic zones conserve energy, and a rotation alone makes no stress.  Strains are meant to be
+ * small, rotations may be large.
  *
  * Mohr-Coulomb, principal stresses s1 >= s2 >= s3, N = (1 + sin phi)/(1 - sin phi):
  *     s1 (1 + sin phi) - s3 (1 - sin phi) <= 2 c cos phi,   s1 <= T
  * flow by the same with psi in place of phi, and along s1 (tension).  The return to the surface is exact in
  * principal stresses: the first set of one, two or three of the planes (13), (23), (12) and s1, s2, s3 = T
  * that gives positive multipliers and no stress beyond any plane.  Perfectly plastic.
- * Sources: Sifakis & Barbic, FEM simulation of 3D deformable solids (2012), ch. 3; de Souza Neto, Peric & Owen,
- * Computational Methods for Plasticity (2008), ch. 8. */
+ * Sources: Sifakis & Barbic, FEM simulation of 3D deformable solids (2012), ch. 3; de Souza Neto, Peric &
+ * Owen, Computational Methods for Plasticity (2008), ch. 8. */
 #ifndef FL_ZONE_ZONE_LAW_H
 #define FL_ZONE_ZONE_LAW_H
 #include "geom/mat3.h"

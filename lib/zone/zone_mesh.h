@@ -4,9 +4,9 @@
  * A block with the topology of a cube is divided as one: a trilinear grid of cells with sides of at most
  * `size`, five tetrahedra a cell, mirrored from cell to cell so that they match.  Any other block starts as
  * tetrahedra from its centroid to its faces.  Then the longest edge of all is halved, with every tetrahedron
- * around it, until no edge is longer than sqrt(2) size.  Longest-edge bisection keeps the quality of the start
- * within a constant factor; a block with sharp corners has flat zones there, which shorten the time step.
- * Source: Rivara, Int. J. Numer. Methods Eng. 20 (1984) 745-756.
+ * around it, until no edge is longer than sqrt(2) size.  Longest-edge bisection keeps the quality of the
+ * start within a constant factor; a block with sharp corners has flat zones there, which shorten the time
+ * step. Source: Rivara, Int. J. Numer. Methods Eng. 20 (1984) 745-756.
  *
  * Zones are positively oriented, boundary triangles are counter-clockwise from outside. */
 #ifndef FL_ZONE_ZONE_MESH_H

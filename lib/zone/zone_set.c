@@ -164,7 +164,8 @@ static int by_size(const void *x, const void *y)
 
 int fl_zone_set_scale_inertia(fl_zone_set *s, fl_err *err)
 {
-    double *omega2 = fl_alloc(s->nodes, sizeof *omega2, err), *inertia = fl_alloc(s->nodes, sizeof *inertia, err);
+    double *omega2 = fl_alloc(s->nodes, sizeof *omega2, err);
+    double *inertia = fl_alloc(s->nodes, sizeof *inertia, err);
     if (!omega2 || !inertia) {
         free(omega2), free(inertia);
         return -1;

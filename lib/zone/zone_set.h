@@ -2,8 +2,9 @@
 /* zone_set.h -- nodes and zones of deformable blocks: forces of the stress, masses, quiet sides, sums.
  *
  * A zone e is a tetrahedron with the volume V_e and the gradients g_a of its four shape functions.  Its
- * deformation gradient F_e = sum x_a g_a^T is constant.  One tetrahedron with that strain alone is too stiff in
- * bending, and in shape changes at constant volume.  The cure is a blend with strains averaged at the nodes,
+ * deformation gradient F_e = sum x_a g_a^T is constant.  One tetrahedron with that strain alone is too stiff
+ * in bending, and in shape changes at constant volume.  The cure is a blend with strains averaged at the
+ * nodes,
  *     F_n = sum over zones e of node n of V_e/4 F_e / V_n,   V_n = sum V_e/4,
  *     W = k sum V_e w(F_e) + (1 - k) sum V_n w(F_n),
  * with w of zone_law.h and the share k, 1: plain zones.  k > 0 keeps patterns that the averages do not see.
@@ -12,16 +13,17 @@
  * share/doc/zones.md has the measured table from which k is chosen.  Source: Puso & Solberg, Int. J. Numer.
  * Methods Eng. 67 (2006) 841-867; Dohrmann et al., ibid. 47 (2000) 1549-1568.
  *
- * Masses are lumped, rho V/4 for each node of a zone.  An average has no more energy than what it averages, so
- * the stiffness is bounded by that of plain zones, and with it omega of any motion:
+ * Masses are lumped, rho V/4 for each node of a zone.  An average has no more energy than what it averages,
+ * so the stiffness is bounded by that of plain zones, and with it omega of any motion:
  *     omega^2 <= max over nodes of K_n/m_n,   K_n = sum over zones (lambda + 2 mu) V sum |g_a|^2 + 2 k_n A
  * of its joints.
  *
- * Quiet sides have dashpots: traction -rho (c_p v_n n + c_s v_t), c_p^2 = (lambda + 2 mu)/rho, c_s^2 = mu/rho, which
- * let waves out; with a stress that is put in, twice that stress acts on them.  Source: Lysmer & Kuhlemeyer, J.
- * Eng. Mech. Div. ASCE 95 (1969) 859-877.
+ * Quiet sides have dashpots: traction -rho (c_p v_n n + c_s v_t), c_p^2 = (lambda + 2 mu)/rho, c_s^2 =
+ * mu/rho, which let waves out; with a stress that is put in, twice that stress acts on them.  Source: Lysmer
+ * & Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859-877.
  *
- * Passes over zones and nodes take ranges of chunks; chunks are independent, so threads do not change a bit. */
+ * Passes over zones and nodes take ranges of chunks; chunks are independent, so threads do not change a
+ * bit. */
 #ifndef FL_ZONE_ZONE_SET_H
 #define FL_ZONE_ZONE_SET_H
 #include "body/body.h"
@@ -98,8 +100,8 @@ int fl_zone_set_add(fl_zone_set *s, const fl_zone_mesh *m, int32_t material, int
 int fl_zone_set_finish(fl_zone_set *s, double share, fl_err *err);
 void fl_zone_set_free(fl_zone_set *s);
 
-/* For states of rest, where masses have no effect: nodes with a higher omega than the median of all get so much
- * inertia that they have that one.  Flat zones then no longer set the step. */
+/* For states of rest, where masses have no effect: nodes with a higher omega than the median of all get
+ * so much inertia that they have that one.  Flat zones then no longer set the step. */
 int fl_zone_set_scale_inertia(fl_zone_set *s, fl_err *err);
 
 /* Dashpots on the boundary triangles whose flag is set, with outward normal n.  -1 with FL_SYSTEM. */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* bench_zones.c -- cost of deformable blocks.  A cube of SIDE^3 cells, five zones each, on a fixed base, moves freely
- * under a weight that it has not carried before; elastic, and Mohr-Coulomb that does not yield.  zone-step is the
- * whole step over the zones; plain: without strains averaged at the nodes.  The error beside it: the residual of
- * the energy over the throughput.  Times are of the processor of this machine; compare rows of one run only.
+/* bench_zones.c -- cost of deformable blocks.  A cube of SIDE^3 cells, five zones each, on a fixed base,
+ * moves freely under a weight that it has not carried before; elastic, and Mohr-Coulomb that does not
+ * yield.  zone-step is the whole step over the zones; plain: without strains averaged at the nodes.  The
+ * error beside it: the residual of the energy over the throughput.  Times are of the processor of this
+ * machine; compare rows of one run only.
  *
  *     bench_zones           the table
  *     bench_zones SIDE      one cube, elastic */

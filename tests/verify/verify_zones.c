@@ -179,8 +179,8 @@ static void column(void)
 
 /* --- D3, D4 ------------------------------------------------------------------------------------- */
 
-/* Period of the first mode of a column fixed at z = 0 and free at its end, moving along an axis with the directions
- * in hold fixed everywhere. */
+/* Period of the first mode of a column fixed at z = 0 and free at its end, moving along an axis with the
+ * directions in hold fixed everywhere. */
 static double first_period(fl_zone_set *s, double L, int axis, unsigned hold)
 {
     int32_t node;
