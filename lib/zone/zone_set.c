@@ -58,16 +58,21 @@ static void set_gradients(fl_zone_set *s, int32_t k)
 
 static fl_vec3 last_gradient(const fl_vec3 g[3]) { return v3_neg(v3_add(v3_add(g[0], g[1]), g[2])); }
 
+/* What a zone gives to K of each of its nodes. */
+static double zone_stiffness(const fl_zone_set *s, const fl_zone_material *m, int32_t k)
+{
+    const fl_vec3 *g = s->gradient[k];
+    return (m->lambda + 2.0 * m->mu) * s->zone_volume[k] *
+           (v3_norm2(g[0]) + v3_norm2(g[1]) + v3_norm2(g[2]) + v3_norm2(last_gradient(g)));
+}
+
 static void add_masses(fl_zone_set *s)
 {
     for (int32_t b = 0; b < s->blocks; b++) {
         fl_zone_block *q = &s->block[b];
         const fl_zone_material *m = &s->material[q->material];
         for (int32_t k = q->zone; k < q->zone_end; k++) {
-            const fl_vec3 *g = s->gradient[k], last = last_gradient(g);
-            const double V = s->zone_volume[k],
-                         K = (m->lambda + 2.0 * m->mu) * V *
-                             (v3_norm2(g[0]) + v3_norm2(g[1]) + v3_norm2(g[2]) + v3_norm2(last));
+            const double V = s->zone_volume[k], K = zone_stiffness(s, m, k);
             for (int e = 0; e < 4; e++) {
                 s->volume[s->zone[k][e]] += 0.25 * V;
                 s->m[s->zone[k][e]] += 0.25 * m->density * V;
@@ -419,6 +424,16 @@ fl_sym3 fl_zone_cauchy(const fl_zone_set *s, int32_t zone)
     return sum;
 }
 
+double fl_zone_own_stiffness(const fl_zone_set *s, int32_t node)
+{
+    double sum = 0.0;
+    for (int64_t c = s->first[node]; c < s->first[node + 1]; c++) {
+        const int32_t k = s->corner[c] >> 2;
+        sum += zone_stiffness(s, &s->material[s->block[block_of_zone(s, k)].material], k);
+    }
+    return sum;
+}
+
 double fl_zone_lost(const fl_zone_set *s, int32_t zone)
 {
     double sum = 0.0;
@@ -494,7 +509,9 @@ void fl_zone_set_pose(const fl_zone_set *s, int32_t k, fl_bodies *b)
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) A.m[i][j] += r->shape.m[i][j];
     }
-    const double size = fabs(A.m[0][0]) + fabs(A.m[1][1]) + fabs(A.m[2][2]);
+    double size = 0.0; /* the axes of the body may be any */
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) size += fabs(A.m[i][j]);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) A.m[i][j] /= size;
     const fl_vec3 off = v3_scale(1.0 / q->mass, first);

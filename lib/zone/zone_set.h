@@ -135,6 +135,9 @@ static inline fl_vec3 fl_zone_free_part(unsigned fixed, fl_vec3 v)
 /* Largest omega^2 of all nodes, and the node [1/s2]. */
 double fl_zone_omega2(const fl_zone_set *s, int32_t *node);
 
+/* The part of K_n of a node that its zones give; the rest is of joints [N/m]. */
+double fl_zone_own_stiffness(const fl_zone_set *s, int32_t node);
+
 /* Cauchy stress of a zone, tension positive: k of its own, 1 - k of its nodes [Pa]. */
 fl_sym3 fl_zone_cauchy(const fl_zone_set *s, int32_t zone);
 
