@@ -125,8 +125,11 @@ static void load_block(fl_world *w, int32_t k, fl_vec3 wave)
         if (z->drag) z->drag[n] = v3(0, 0, 0);
         if (z->push) z->push[n] = v3(0, 0, 0);
     }
-    for (int32_t e = z->joints.first[k]; e < z->joints.first[k + 1]; e++)
-        fl_zone_joint_add(&z->joints, z->joints.of[e], k, s);
+    for (int32_t e = z->joints.first[k]; e < z->joints.first[k + 1]; e++) {
+        const int32_t j = z->joints.of[e];
+        if (w->bonds.bond[z->joints.joint[j].bond].state != FL_BOND_ENDED)
+            fl_zone_joint_add(&z->joints, j, k, s);
+    }
     for (int32_t d = 0; d < s->dashpots; d++) {
         fl_vec3 own;
         const int32_t n = s->dashpot[d].node;
