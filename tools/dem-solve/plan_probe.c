@@ -145,10 +145,8 @@ static void print_zones(const fl_world *w, FILE *f)
     const double joints = 1.0 - fl_zone_own_stiffness(s, n) / s->stiffness[n];
     int32_t k = 0;
     while (k + 1 < s->blocks && n >= s->block[k].node_end) k++;
-    fprintf(
-        f, "zones          %d with %d nodes in %d blocks; critical %.4g s at (%.4g, %.4g, %.4g) m of body %d",
-        s->zones, s->nodes, s->blocks, w->zones.dt_critical, s->x[n].x, s->x[n].y, s->x[n].z,
-        w->id[s->block[k].body]);
+    fprintf(f, "zones          %d with %d nodes in %d blocks; critical %.4g s by a node of body %d", s->zones,
+            s->nodes, s->blocks, w->zones.dt_critical, w->id[s->block[k].body]);
     if (joints > 0.5) fprintf(f, ", joints set it: %.2g of the stiffness there", joints);
     putc('\n', f);
 }
