@@ -240,6 +240,16 @@ static void wave_speeds(void)
                    4.0 * L / first_period(&s, L, 0, FL_DOF_Y | FL_DOF_Z), 400.0 * slow, tol, VERIFY_REL);
         fl_zone_set_free(&s);
     }
+    static const int32_t FINER[3] = {3, 6, 12};
+    double h[3], error[3];
+    for (int k = 0; k < 3; k++) {
+        const double L = FINER[k];
+        fl_zone_set c = box_of_zones(v3(1, 1, L), (const int32_t[]){1, 1, FINER[k]}, &m, SHARE);
+        h[k] = 1.0 / L;
+        error[k] = fabs(4.0 * L / first_period(&c, L, 2, FL_DOF_X | FL_DOF_Y) / 692.820323 - 1.0);
+        fl_zone_set_free(&c);
+    }
+    verify_order("D3", "speed of P waves with the size of zones", h, error, 3, 2.0, 0.15);
     fl_zone_set s = box_of_zones(v3(1, 1, 10), (const int32_t[]){1, 1, 10}, &m, SHARE);
     const double T = first_period(&s, 10.0, 2, 0);
     verify_row("D3", "speed of waves in a bar [m/s]", 40.0 / T, 632.456, 0.01, VERIFY_REL);
