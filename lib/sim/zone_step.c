@@ -130,10 +130,9 @@ static void load_block(fl_world *w, int32_t k, fl_vec3 wave)
         if (w->bonds.bond[z->joints.joint[j].bond].state != FL_BOND_ENDED)
             fl_zone_joint_add(&z->joints, j, k, s);
     }
-    for (int32_t d = 0; d < s->dashpots; d++) {
+    for (int32_t d = q->dashpot; d < q->dashpot_end; d++) {
         fl_vec3 own;
         const int32_t n = s->dashpot[d].node;
-        if (s->dashpot[d].block != k) continue;
         const fl_vec3 in = is_wave_side(w->scene, s->dashpot[d].normal) ? wave : v3(0, 0, 0),
                       all = fl_zone_dashpot_force(s, d, in, &own);
         z->drag[n] = v3_add(z->drag[n], own);

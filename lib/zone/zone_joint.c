@@ -230,25 +230,36 @@ static double energy_at_start(const fl_joint_material *m, fl_joint_point p, doub
     return fl_joint_laws[m->law].step(&strong, &p, s_n, NO_SLIP).stored;
 }
 
-/* Joint stiffness on the nodes, and the least mass per area of those with points. */
+/* Adds the area of a point to its nodes on both sides. */
+static void add_area(const fl_zone_set *s, const fl_zone_point *p, double *area)
+{
+    for (int e = 0; e < 3; e++) {
+        area[p->node[e]] += p->share[e] * p->area;
+        if (p->triangle >= 0) area[s->triangle[p->triangle][e]] += p->other[e] * p->area;
+    }
+}
+
+/* Joint stiffness on node n, once: its area becomes 0.  Lowers the least mass per area. */
+static void stiffen_node(fl_zone_set *s, int32_t n, double kn, double *area, double *least)
+{
+    if (!(area[n] > 0.0)) return;
+    s->stiffness[n] += 2.0 * kn * area[n];
+    *least = fmin(*least, s->m[n] / area[n]);
+    area[n] = 0.0;
+}
+
+/* Joint stiffness on the nodes; returns the least mass per area of those with points. */
 static double add_stiffness(fl_zone_set *s, const fl_zone_joint_list *l, const fl_zone_joint *j, double kn)
 {
-    double least = INFINITY, *area = NULL;
-    fl_err none = {0};
-    if (!(area = fl_alloc(s->nodes, sizeof *area, &none))) return 0.0;
+    double least = INFINITY;
+    for (int32_t k = j->point; k < j->point_end; k++) add_area(s, &l->point[k], l->area);
     for (int32_t k = j->point; k < j->point_end; k++) {
         const fl_zone_point *p = &l->point[k];
         for (int e = 0; e < 3; e++) {
-            area[p->node[e]] += p->share[e] * p->area;
-            if (p->triangle >= 0) area[s->triangle[p->triangle][e]] += p->other[e] * p->area;
+            stiffen_node(s, p->node[e], kn, l->area, &least);
+            if (p->triangle >= 0) stiffen_node(s, s->triangle[p->triangle][e], kn, l->area, &least);
         }
     }
-    for (int32_t n = 0; n < s->nodes; n++) {
-        if (!(area[n] > 0.0)) continue;
-        s->stiffness[n] += 2.0 * kn * area[n];
-        least = fmin(least, s->m[n] / area[n]);
-    }
-    free(area);
     return least;
 }
 
@@ -308,6 +319,7 @@ int fl_zone_joint_make(fl_zone_joint_list *l, fl_zone_set *s, fl_bond *c, fl_joi
     const fl_joint_material *m = &pool.material[q->material];
     const fl_mat3 R = fl_body_axes(b, other->body);
     const fl_vec3 *corner = pool.corner + other->corner;
+    if (!l->area && !(l->area = fl_alloc(s->nodes, sizeof *l->area, err))) return -1;
     if (fl_grow(&l->joint, &l->cap_joint, (int64_t)l->n + 1, sizeof *l->joint, err)) return -1;
     fl_zone_joint *j = &l->joint[l->n];
     *j = (fl_zone_joint){.bond = bond,
@@ -332,6 +344,8 @@ int fl_zone_joint_make(fl_zone_joint_list *l, fl_zone_set *s, fl_bond *c, fl_joi
 
 int fl_zone_joint_list_finish(fl_zone_joint_list *l, const fl_zone_set *s, fl_err *err)
 {
+    free(l->area);
+    l->area = NULL;
     l->first = fl_alloc((int64_t)s->blocks + 1, sizeof *l->first, err);
     l->of = fl_alloc(2 * (int64_t)l->n, sizeof *l->of, err);
     if (!l->first || !l->of) return -1;
@@ -346,7 +360,7 @@ int fl_zone_joint_list_finish(fl_zone_joint_list *l, const fl_zone_set *s, fl_er
 
 void fl_zone_joint_list_free(fl_zone_joint_list *l)
 {
-    free(l->joint), free(l->point), free(l->triangle), free(l->first), free(l->of);
+    free(l->joint), free(l->point), free(l->triangle), free(l->first), free(l->of), free(l->area);
     *l = (fl_zone_joint_list){0};
 }
 

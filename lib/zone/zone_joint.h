@@ -50,6 +50,7 @@ typedef struct {
     fl_zone_point *point;
     int32_t *triangle;
     int32_t *first, *of; /* joints of each block: of[first[k] .. first[k + 1]) */
+    double *area;        /* [nodes] scratch while joints are made [m2] */
     int32_t cap_joint, cap_point, cap_triangle;
 } fl_zone_joint_list;
 

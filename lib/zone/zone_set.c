@@ -216,6 +216,29 @@ static fl_vec3 triangle_area(const fl_zone_set *s, int32_t k)
     return v3_scale(0.5, v3_cross(v3_sub(s->x[t[1]], s->x[t[0]]), v3_sub(s->x[t[2]], s->x[t[0]])));
 }
 
+static int by_block(const void *x, const void *y)
+{
+    const fl_zone_dashpot *a = x, *b = y;
+    if (a->node != b->node) return (a->node > b->node) - (a->node < b->node); /* nodes follow the blocks */
+    for (int k = 0; k < 3; k++) {
+        const double p = v3_at(a->normal, k), q = v3_at(b->normal, k);
+        if (p != q) return (p > q) - (p < q);
+    }
+    return 0;
+}
+
+/* Dashpots in the order of the blocks, and those of each. */
+static void index_dashpots(fl_zone_set *s)
+{
+    int32_t d = 0;
+    if (s->dashpots) qsort(s->dashpot, (size_t)s->dashpots, sizeof *s->dashpot, by_block);
+    for (int32_t b = 0; b < s->blocks; b++) {
+        s->block[b].dashpot = d;
+        while (d < s->dashpots && s->dashpot[d].block == b) d++;
+        s->block[b].dashpot_end = d;
+    }
+}
+
 int fl_zone_set_add_quiet(fl_zone_set *s, const uint8_t *is_quiet, fl_vec3 n, fl_err *err)
 {
     double *area = fl_alloc(s->nodes, sizeof *area, err);
@@ -232,6 +255,7 @@ int fl_zone_set_add_quiet(fl_zone_set *s, const uint8_t *is_quiet, fl_vec3 n, fl
     for (int32_t b = 0; b < s->blocks; b++)
         for (int32_t k = s->block[b].node; k < s->block[b].node_end; k++)
             if (area[k] > 0.0) s->dashpot[s->dashpots++] = (fl_zone_dashpot){k, b, n, area[k]};
+    index_dashpots(s);
     free(area);
     return 0;
 }

@@ -40,8 +40,9 @@ typedef struct {
     int32_t body; /* number of its body */
     int32_t material;
     int32_t node, node_end, zone, zone_end, triangle, triangle_end, chunk, chunk_end; /* chunks of nodes */
-    int32_t absent;                                                                   /* 1: taken out */
-    double mass;                                                                      /* [kg] */
+    int32_t dashpot, dashpot_end;
+    int32_t absent; /* 1: taken out */
+    double mass;    /* [kg] */
 } fl_zone_block;
 
 /* A node of a quiet side. */
