@@ -94,6 +94,23 @@ static const fl_column MEMBER_FORCES[] = {
 };
 const fl_table_format fl_member_forces_table = {"member_forces", FL_TABLE_COLUMNS(MEMBER_FORCES)};
 
+static const fl_column ZONES[] = {
+    {"body", "", FL_COLUMN_INT, 0, offsetof(fl_zones_row, body)},
+    {"zone", "", FL_COLUMN_INT, 0, offsetof(fl_zones_row, zone)},
+    {"", "m", FL_COLUMN_VEC3, 0, offsetof(fl_zones_row, x)},
+    {"volume", "m3", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, volume)},
+    {"sxx", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[0])},
+    {"syy", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[1])},
+    {"szz", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[2])},
+    {"sxy", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[3])},
+    {"syz", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[4])},
+    {"szx", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[5])},
+    {"s1", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, principal.x)},
+    {"s3", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, principal.z)},
+    {"plastic", "J/m3", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, yielded)},
+};
+const fl_table_format fl_zones_table = {"zones", FL_TABLE_COLUMNS(ZONES)};
+
 static const fl_column HASH[] = {{"hash", "", FL_COLUMN_HASH, 0, offsetof(fl_hash_row, hash)}};
 const fl_table_format fl_hash_table = {"hash", FL_TABLE_COLUMNS(HASH)};
 

@@ -163,6 +163,19 @@ typedef struct {
 } fl_member_forces_row;
 extern const fl_table_format fl_member_forces_table;
 
+/* --- zones(5) ----------------------------------------------------------------------------------- */
+
+/* Stress of a zone, compression positive [Pa]. */
+typedef struct {
+    int32_t body, zone; /* id of the body; zone of it, from 0 */
+    fl_vec3 x;          /* centroid [m] */
+    double volume;      /* [m3] */
+    double s[6];        /* xx yy zz xy yz zx */
+    fl_vec3 principal;  /* largest first */
+    double yielded;     /* plastic work per volume [J/m3] */
+} fl_zones_row;
+extern const fl_table_format fl_zones_table;
+
 /* --- failures(5) -------------------------------------------------------------------------------- */
 
 typedef struct {

@@ -7,6 +7,7 @@
 #include "law/contact_law.h"
 #include "scene/scene_check_failure.h"
 #include "scene/scene_check_motion.h"
+#include "scene/scene_check_zones.h"
 #include "scene/unused_keys.h"
 #include "scene/scene_section.h"
 
@@ -38,6 +39,7 @@ static void set_default_intervals(fl_scene *s)
     copy_unless_given(o, "hash_every", &o->hash_every, o->loads_every);
     copy_unless_given(o, "bonds_every", &o->bonds_every, o->loads_every);
     copy_unless_given(o, "members_every", &o->members_every, o->loads_every);
+    copy_unless_given(o, "zones_every", &o->zones_every, o->loads_every);
 }
 
 /* Check that a material exists; place: "structure" and "boundary" are accepted too.  key is the whole
@@ -71,13 +73,14 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames",  "output.state",    "output.energy",    "output.contacts",
-                               "output.hash",    "output.panels",   "output.events",    "output.bonds",
-                               "output.members", "output.failures", "output.final_ice", "output.checkpoint"};
-    const char *const path[] = {s->output.frames,   s->output.state,     s->output.energy,
-                                s->output.contacts, s->output.hash,      s->output.panels,
-                                s->output.events,   s->output.bonds,     s->output.members,
-                                s->output.failures, s->output.final_ice, s->output.checkpoint};
+    const char *const key[] = {"output.frames",    "output.state",  "output.energy",   "output.contacts",
+                               "output.hash",      "output.panels", "output.events",   "output.bonds",
+                               "output.members",   "output.zones",  "output.failures", "output.final_ice",
+                               "output.checkpoint"};
+    const char *const path[] = {
+        s->output.frames,   s->output.state,     s->output.energy,    s->output.contacts, s->output.hash,
+        s->output.panels,   s->output.events,    s->output.bonds,     s->output.members,  s->output.zones,
+        s->output.failures, s->output.final_ice, s->output.checkpoint};
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
@@ -457,7 +460,8 @@ int fl_scene_check(fl_scene *s, fl_err *err)
                    check_drive_track(s, err) ||
                    check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
-                   check_groups(s, err) || fl_scene_check_motions(s, err) || check_statics(s, err)
+                   check_groups(s, err) || fl_scene_check_motions(s, err) || check_statics(s, err) ||
+                   fl_scene_check_zones(s, err)
                ? -1
                : 0;
 }

@@ -27,6 +27,7 @@ enum fl_section_id {
     FL_SEC_MODE,
     FL_SEC_JOINT,
     FL_SEC_STAGE,
+    FL_SEC_ZONES,
     FL_SECTIONS
 };
 

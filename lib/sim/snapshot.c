@@ -21,6 +21,7 @@
 #include "sim/snapshot_bond.h"
 #include "sim/snapshot_failure.h"
 #include "sim/snapshot_pair.h"
+#include "sim/snapshot_zone.h"
 #include "sphere/contact_list.h"
 
 static void exchange_ledger(fl_state_io *t, fl_world *w)
@@ -462,6 +463,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     fl_snapshot_bonds(t, w);
     if (w->discs.n && !t->err->code) fl_snapshot_discs(t, w);
+    if (w->zones.set.blocks && !t->err->code) fl_snapshot_zones(t, w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
     if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;

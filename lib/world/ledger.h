@@ -14,7 +14,8 @@ typedef struct {
     double waves;                                  /* source: waves, with the work of buoyancy */
     double structure, spring,
         damper;             /* parts that move freely: kinetic and spring energy (stores), dashpots */
-    double plastic;         /* sink: sections of members that yield, and members that part */
+    double zones;           /* store: strain of deformable blocks */
+    double plastic;         /* sink: zones and sections of members that yield, members that part */
     double bond, fracture;  /* bonds: store; sink by damage */
     double crushing;        /* sink: ice that yields under pressure */
     double carried;         /* source: floes that came in, less those that left */

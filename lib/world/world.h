@@ -38,6 +38,7 @@
 #include "world/sleep_state.h"
 #include "world/sphere_contacts.h"
 #include "world/strip_state.h"
+#include "world/zone_state.h"
 
 /* Overlaps above this fraction of the sum of the radii are counted: no contact law is meant for them.  At 1
  * the cores meet. */
@@ -79,6 +80,7 @@ typedef struct {
     int64_t stage_step;          /* step at which the last stage began */
     fl_bond_list bonds;          /* faces */
     fl_disc_list discs;          /* of spheres */
+    fl_zone_state zones;         /* deformable blocks */
     fl_environment sea;          /* water and wind; n = 0 without them */
     int32_t *id;                 /* [n] number in the ice file */
     int32_t *material;           /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */

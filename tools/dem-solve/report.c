@@ -97,6 +97,17 @@ static void report_members(const fl_world *w, FILE *f)
     putc('\n', f);
 }
 
+/* Zones, those that have yielded, and what they lost. */
+static void report_zones(const fl_world *w, FILE *f)
+{
+    const fl_zone_set *s = &w->zones.set;
+    int32_t yielded = 0;
+    for (int32_t k = 0; k < s->zones; k++) yielded += fl_zone_lost(s, k) > 0.0;
+    fprintf(f, "zones              %d in %d blocks", s->zones, s->blocks);
+    if (s->plastic) fprintf(f, ", %d yielded: %.4g J", yielded, w->ledger.plastic);
+    putc('\n', f);
+}
+
 void note_long_bonds(const fl_world *w, FILE *f)
 {
     const fl_bond_counts n = fl_bond_list_counts(w);
@@ -277,6 +288,7 @@ void write_report(const struct run *r, FILE *f, enum report_kind kind)
     report_momentum(w, f);
     if (fl_world_bonds(w) > fl_world_joints(w)) report_bonds(w, f);
     if (fl_world_joints(w)) report_joints(w, f);
+    if (w->zones.set.blocks) report_zones(w, f);
     if (w->moving.members.dynamics.chain.yielding) report_members(w, f);
     if (w->crushing.of != FL_CRUSHING_NONE) report_crushing(w, f);
     if (w->breaking.on) report_breaking(w, f);

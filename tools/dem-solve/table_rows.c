@@ -314,6 +314,30 @@ void write_members(struct run *r, FILE *f, double t, double interval)
     }
 }
 
+void write_zones(struct run *r, FILE *f, double t, double interval)
+{
+    const fl_world *w = r->w;
+    const fl_zone_set *s = &w->zones.set;
+    (void)interval;
+    for (int32_t b = 0; b < s->blocks; b++) {
+        const fl_zone_block *q = &s->block[b];
+        for (int32_t k = q->zone; k < q->zone_end && !q->absent; k++) {
+            const int32_t *n = s->zone[k];
+            fl_mat3 axes;
+            const fl_sym3 c = s3_times(-1.0, fl_zone_cauchy(s, k));
+            const fl_zones_row row = {
+                .body = w->id[q->body],
+                .zone = k - q->zone,
+                .x = v3_scale(0.25, v3_add(v3_add(s->x[n[0]], s->x[n[1]]), v3_add(s->x[n[2]], s->x[n[3]]))),
+                .volume = s->zone_volume[k],
+                .s = {c.xx, c.yy, c.zz, c.xy, c.yz, c.xz},
+                .principal = fl_zone_principal(c, &axes),
+                .yielded = fl_zone_lost(s, k)};
+            fl_table_write_row(f, &fl_zones_table, 0, t, &row);
+        }
+    }
+}
+
 /* 1 if the structure as a whole translates: frames then have its displacement, else the pose of each part. */
 static int only_translates(const fl_world *w)
 {
