@@ -15,7 +15,7 @@
  * each off by 1e-16. */
 #define ROUNDING 1e-12
 
-enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16, FRACTURE = 32 };
+enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16, FRACTURE = 32, PUSH = 64 };
 
 static const fl_column COLUMNS[] = {
     {"kinetic", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, kinetic)},
@@ -37,6 +37,9 @@ static const fl_column COLUMNS[] = {
     {"fracture", "J", FL_COLUMN_REAL, FRACTURE, offsetof(fl_ledger, fracture)},
     {"plastic", "J", FL_COLUMN_REAL, YIELDING, offsetof(fl_ledger, plastic)},
     {"crushing", "J", FL_COLUMN_REAL, CRUSHING, offsetof(fl_ledger, crushing)},
+    {"push", "J", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push)},
+    {"push_impulse", "N.s", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push_impulse)},
+    {"push_way", "m", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push_way)},
 };
 const fl_table_format fl_energy_table = {"energy", FL_TABLE_COLUMNS(COLUMNS)};
 
@@ -45,7 +48,7 @@ unsigned fl_energy_table_options(const fl_world *w)
     return (fl_structure_moves_freely(w) ? MOVING : 0u) | (w->sea.waves ? WAVES : 0u) |
            (fl_world_bonds(w) ? BONDS | FRACTURE : 0u) | (w->breaking.on ? FRACTURE : 0u) |
            (w->moving.members.dynamics.chain.yielding ? YIELDING : 0u) |
-           (w->crushing.of != FL_CRUSHING_NONE || w->strips.wall ? CRUSHING : 0u);
+           (w->crushing.of != FL_CRUSHING_NONE || w->strips.wall ? CRUSHING : 0u) | (w->push.of ? PUSH : 0u);
 }
 
 double fl_energy_stored(const fl_world *w)
@@ -144,6 +147,7 @@ void fl_energy_update(fl_world *w)
     }
     const double drive = g->drive - ahead.drive + constraint;
     g->drive_now = drive;
+    g->push = w->push.work, g->push_impulse = w->push.impulse, g->push_way = w->push.way;
     g->residual = kinetic + gravity + elastic + hydro + g->structure + g->spring + g->bond + g->fracture -
                   g->start + g->damping_now + g->friction_now + drag + g->damper + g->plastic + g->crushing -
                   wind - waves - drive - g->carried;
