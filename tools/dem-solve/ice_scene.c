@@ -227,11 +227,12 @@ static void report_push_bound(const struct ice_scene *s, const fl_world *w, FILE
                 1e-3 * p->limit);
         return;
     }
-    fprintf(f,
-            "bound by nothing in the run; a pack of 1 km would push with %.3g to %.3g kN over the structure "
-            "(p_D of ISO 19906; boundary.line_load)",
-            1e-3 * s->structure_width * fl_iso_line_load(PACK_LOW, s->thickness, PACK_WIDTH),
-            1e-3 * s->structure_width * fl_iso_line_load(PACK_HIGH, s->thickness, PACK_WIDTH));
+    fprintf(
+        f,
+        "bound by nothing in the run, in nature by what pushes: %.3g to %.3g kN for a pack of 1 km, p_D of "
+        "ISO 19906",
+        1e-3 * s->structure_width * fl_iso_line_load(PACK_LOW, s->thickness, PACK_WIDTH),
+        1e-3 * s->structure_width * fl_iso_line_load(PACK_HIGH, s->thickness, PACK_WIDTH));
 }
 
 static void report_width(const struct ice_scene *s, FILE *f)

@@ -311,8 +311,12 @@ static int set_skip(void *options, const char *text, fl_err *err)
     struct options *const o = options;
     o->skips = 0;
     o->skip[2] = NAN;
+    o->keep_start = strcmp(text, "none") == 0;
+    if (o->keep_start) return 0;
     if (fl_option_each("skip", text, parse_skip, o, err)) return -1;
-    return o->skips >= 2 ? 0 : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", expected N,D or N,D,GAP", text);
+    return o->skips >= 2
+               ? 0
+               : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", expected N,D or N,D,GAP or none", text);
 }
 
 static int set_gap(void *options, const char *text, fl_err *err)
@@ -422,7 +426,8 @@ static const fl_option OPTION[] = {
     {.word = "skip",
      .argument = "N,D[,GAP]",
      .help = "drop the start, until an ice front of --speed has passed N diameters D;\n"
-             "GAP is its distance at time 0; without it, it arrives with the first load",
+             "GAP is its distance at time 0; without it, it arrives with the first load;\n"
+             "none: keep a start-up that would be left out",
      .kind = FL_OPTION_CALL,
      .call = set_skip},
     {.word = "window",
