@@ -317,6 +317,7 @@ int analyse_record(const struct options *o, fl_err *err)
     const fl_record_selection selection = {.signal = o->signal,
                                            .signals = o->signals,
                                            .part = o->part,
+                                           .about = o->abouts ? o->about : NULL,
                                            .from = settings_from(o),
                                            .to = o->to,
                                            .last = o->window,
