@@ -332,8 +332,14 @@ void ice_scene_warn_inflow(const struct run *r, FILE *f)
     if (stands && waited) fputs(", and ", f);
     if (waited)
         fprintf(f, "%.2g of the floes that came in had to wait", (double)t->n_blocked / (double)t->n_entered);
+    if (w->push.of == FL_PUSH_INFLOW) {
+        fprintf(f,
+                "; from then on its push of at most %.3g kN bounds the loads, and its speed falls, see "
+                "ice-scenes(7)\n",
+                1e-3 * w->push.limit);
+        return;
+    }
     fputs("; from then on the inflow pushes with any force, and the loads are its own: a bound farther "
-          "upstream, "
-          "a shorter run, or less ice is expected, see ice-scenes(7)\n",
+          "upstream, a shorter run, less ice, or boundary.line_load is expected, see ice-scenes(7)\n",
           f);
 }
