@@ -753,6 +753,16 @@ const fl_key fl_key_table[] = {
      .needs = {"modes"},
      .meaning = "node of that table at the waterline, where the ice acts"},
     {.section = FL_SEC_STRUCTURE,
+     .key = "direction",
+     .type = FL_VALUE_F64,
+     .unit = FL_UNIT_ANGLE,
+     .offset = OFFSET(structure, direction),
+     .default_text = "0 deg",
+     .range = "[-360,360]",
+     .meaning = "ice, current, wind and waves of the scene come turned by this angle, anticlockwise from "
+                "above, in the axes of the platform: the structure is turned back by it about its reference, "
+                "and the loads have columns in platform axes as well; of a structure that stands"},
+    {.section = FL_SEC_STRUCTURE,
      .key = "material",
      .type = FL_VALUE_NAME,
      .offset = OFFSET(structure, material),

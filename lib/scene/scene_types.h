@@ -155,6 +155,7 @@ typedef struct {
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */
     fl_scene_motion motion;
+    double direction; /* of the x axis of the scene in platform axes, about z [deg] */
 } fl_scene_structure;
 
 /* A part with a motion of its own. */

@@ -69,7 +69,9 @@ const char *fl_reduction_name(int reduction)
 
 static int is_additive(const char *name)
 {
-    static const char *const list[] = {"fx", "fy", "fz", "mx", "my", "mz", "contacts"};
+    static const char *const list[] = {"fx",          "fy",          "fz",         "mx",
+                                       "my",          "mz",          "contacts",   "fx_platform",
+                                       "fy_platform", "mx_platform", "my_platform"};
     for (size_t k = 0; k < sizeof list / sizeof *list; k++)
         if (strcmp(name, list[k]) == 0) return 1;
     return 0;
