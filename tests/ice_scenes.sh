@@ -29,7 +29,7 @@ beside() # ID WHAT TEXT: printed beside, no target
 {
     printf '%-5s %-62s %s\n' "$1" "$2" "$3"
 }
-calc() { awk "BEGIN { print $1 }"; }
+calc() { awk "BEGIN { print ($1) }"; } # in brackets, as > would be a file
 power() { calc "log($2 / $1) / log($4 / $3)"; } # FROM TO AT TO: power of a quantity with another
 
 # mean_of TABLE FROM [TO]: mean of the horizontal force along the drift [kN]; peak_of: its largest value
