@@ -194,7 +194,7 @@ static void set_velocities(fl_world *w)
 }
 
 /* Half a kick towards the speed wanted. */
-static void kick(fl_world *w, double h)
+static void kick_pusher(fl_world *w, double h)
 {
     fl_push *p = &w->push;
     const double before = p->velocity, back = force_back(w), want = p->mass * (p->speed - before) / h - back;
@@ -219,7 +219,7 @@ void fl_ice_push_first_half(fl_world *w, double t)
         p->speed = along(p, v3_scale(1.0 / w->dt, v3_sub(to.x, from.x)));
     }
     const fl_vec3 before = p->wall < 0 ? v3(0, 0, 0) : w->b.v[p->wall];
-    kick(w, 0.5 * w->dt);
+    kick_pusher(w, 0.5 * w->dt);
     p->way += w->dt * p->velocity;
     if (p->wall >= 0) fl_set_predicted_change(w, p->wall, v3_sub(w->b.v[p->wall], before), v3(0, 0, 0));
 }
@@ -245,9 +245,8 @@ static void correct_works(fl_world *w, double change)
 void fl_ice_push_second_half(fl_world *w)
 {
     const double before = w->push.velocity;
-    kick(w, 0.5 * w->dt);
-    if (w->push.of != FL_PUSH_WALL && w->push.velocity != before)
-        correct_works(w, w->push.velocity - before);
+    kick_pusher(w, 0.5 * w->dt);
+    if (w->push.of != FL_PUSH_WALL && w->push.velocity != before) correct_works(w, w->push.velocity - before);
 }
 
 double fl_ice_push_acceleration(const fl_world *w)

@@ -40,8 +40,8 @@ static void a_steady_record_is_kept(void **state)
     assert_in_range(cut, 0, 4);
 }
 
-/* 200 rows, 22 independent values, without ice: 0 is 14 standard errors below 3. Of 50 records one in twenty has a
- * rest that is taken to move, and is kept. */
+/* 200 rows, 22 independent values, without ice: 0 is 14 standard errors below 3. Of 50 records one in twenty
+ * has a rest that is taken to move, and is kept. */
 static void a_late_front_is_left_out(void **state)
 {
     double x[ROWS];

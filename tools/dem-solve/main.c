@@ -268,8 +268,8 @@ static int write_scene_again(const struct options *o, fl_err *err)
     return rc ? -1 : 0;
 }
 
-/* Turn the structure back by structure.direction, about the vertical through its reference: the scene keeps its
- * axes, and so do bounds and inflow. */
+/* Turn the structure back by structure.direction, about the vertical through its reference: the scene keeps
+ * its axes, and so do bounds and inflow. */
 static void turn_structure(fl_surface *surface, const fl_scene *scene)
 {
     const fl_vec3 at = scene->structure.motion.reference;

@@ -56,7 +56,7 @@ static void write_openfast_row(FILE *f, int32_t k, double t, const double load[L
     write_separated(f, t, load, ' ');
 }
 
-/* --- OrcaFlex: names in the first row, tabs, kN and kN.m, no comments ------------------------------------ */
+/* --- OrcaFlex: names in the first row, tabs, kN and kN.m, no comments ----------------------------------- */
 
 static void write_orcaflex_head(FILE *f, const fl_series *s, const char *part)
 {
@@ -70,7 +70,7 @@ static void write_orcaflex_row(FILE *f, int32_t k, double t, const double load[L
     write_separated(f, t, load, '\t');
 }
 
-/* --- ANSYS: tables of APDL over time --------------------------------------------------------------------- */
+/* --- ANSYS: tables of APDL over time -------------------------------------------------------------------- */
 
 static void write_ansys_head(FILE *f, const fl_series *s, const char *part)
 {
