@@ -5,7 +5,12 @@
 #include "base/number_text.h"
 #include "base/pi.h"
 
-enum { TRANSLATES = 1, ROTATES = 2, RATE = FL_LOADS_RATE }; /* bits of enum fl_loads_motion_kind */
+enum {
+    TRANSLATES = 1,
+    ROTATES = 2,
+    RATE = FL_LOADS_RATE,
+    PLATFORM = FL_LOADS_PLATFORM
+}; /* bits of enum fl_loads_motion_kind */
 
 static const fl_column LOADS[] = {
     {"part", "", FL_COLUMN_TEXT, 0, offsetof(fl_loads_row, part)},
@@ -21,6 +26,10 @@ static const fl_column LOADS[] = {
     {"e", "rad/s2", FL_COLUMN_VEC3, ROTATES, offsetof(fl_loads_row, motion.e)},
     {"closing", "m/s", FL_COLUMN_REAL, RATE, offsetof(fl_loads_row, closing)},
     {"breaks", "", FL_COLUMN_REAL, RATE, offsetof(fl_loads_row, breaks)},
+    {"fx_platform", "N", FL_COLUMN_REAL, PLATFORM, offsetof(fl_loads_row, platform[0])},
+    {"fy_platform", "N", FL_COLUMN_REAL, PLATFORM, offsetof(fl_loads_row, platform[1])},
+    {"mx_platform", "N.m", FL_COLUMN_REAL, PLATFORM, offsetof(fl_loads_row, platform[2])},
+    {"my_platform", "N.m", FL_COLUMN_REAL, PLATFORM, offsetof(fl_loads_row, platform[3])},
 };
 const fl_table_format fl_loads_table = {"loads", FL_TABLE_COLUMNS(LOADS)};
 

@@ -45,6 +45,7 @@ enum fl_error_of {
 };
 enum fl_device { FL_DEVICE_AUTO, FL_DEVICE_CPU, FL_DEVICE_GPU, FL_DEVICE_SERIAL };
 enum fl_relax { FL_RELAX_NONE, FL_RELAX_LOCAL, FL_RELAX_KINETIC, FL_RELAX_ADAPTIVE };
+enum fl_drive_of { FL_DRIVE_OF_ROW, FL_DRIVE_OF_WALL };
 enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
 enum fl_frames_form { FL_FRAMES_TEXT, FL_FRAMES_PACKED };
 enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
@@ -156,6 +157,7 @@ typedef struct {
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */
     fl_scene_motion motion;
+    double direction; /* of the x axis of the scene in platform axes, about z [deg] */
 } fl_scene_structure;
 
 /* A part with a motion of its own. */
@@ -197,6 +199,10 @@ typedef struct {
     uint32_t drive_fixed;            /* FL_FIX_X | ... */
     double drive_spring;             /* [N/m] */
     double drive_foundation;         /* [N/m3] */
+    int32_t drive_of;                /* enum fl_drive_of */
+    double line_load;                /* largest push of what is driven, or of the inflow [N/m]; 0: no limit */
+    double iso_pack_width;           /* of the pack that pushes, for ISO's p_D as line_load [m]; 0: none */
+    double iso_pack_coefficient;     /* R of p_D */
     double foundation, damping;      /* of an elastic wall, per area [N/m3], [N s/m3] */
 } fl_scene_boundary;
 

@@ -15,7 +15,7 @@
  * each off by 1e-16. */
 #define ROUNDING 1e-12
 
-enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16, FRACTURE = 32, ZONES = 64 };
+enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16, FRACTURE = 32, ZONES = 64, PUSH = 128 };
 
 static const fl_column COLUMNS[] = {
     {"kinetic", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, kinetic)},
@@ -38,6 +38,9 @@ static const fl_column COLUMNS[] = {
     {"zones", "J", FL_COLUMN_REAL, ZONES, offsetof(fl_ledger, zones)},
     {"plastic", "J", FL_COLUMN_REAL, YIELDING, offsetof(fl_ledger, plastic)},
     {"crushing", "J", FL_COLUMN_REAL, CRUSHING, offsetof(fl_ledger, crushing)},
+    {"push", "J", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push)},
+    {"push_impulse", "N.s", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push_impulse)},
+    {"push_way", "m", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push_way)},
 };
 const fl_table_format fl_energy_table = {"energy", FL_TABLE_COLUMNS(COLUMNS)};
 
@@ -47,7 +50,7 @@ unsigned fl_energy_table_options(const fl_world *w)
            (fl_world_bonds(w) ? BONDS | FRACTURE : 0u) | (w->breaking.on ? FRACTURE : 0u) |
            (w->moving.members.dynamics.chain.yielding || w->zones.set.plastic ? YIELDING : 0u) |
            (w->zones.set.blocks ? ZONES : 0u) |
-           (w->crushing.of != FL_CRUSHING_NONE || w->strips.wall ? CRUSHING : 0u);
+           (w->crushing.of != FL_CRUSHING_NONE || w->strips.wall ? CRUSHING : 0u) | (w->push.of ? PUSH : 0u);
 }
 
 double fl_energy_stored(const fl_world *w)
@@ -156,6 +159,7 @@ void fl_energy_update(fl_world *w)
     }
     const double drive = g->drive - ahead.drive + constraint;
     g->drive_now = drive;
+    g->push = w->push.work, g->push_impulse = w->push.impulse, g->push_way = w->push.way;
     g->residual = kinetic + gravity + elastic + hydro + g->structure + g->spring + g->bond + g->zones +
                   g->fracture - g->start + g->damping_now + g->friction_now + drag + g->damper + g->plastic +
                   g->crushing - wind - waves - drive - g->carried;

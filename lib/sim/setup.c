@@ -20,6 +20,7 @@
 #include "sim/drive_track.h"
 #include "sim/floe_cut.h"
 #include "sim/floe_setup.h"
+#include "sim/ice_push.h"
 #include "sim/inflow.h"
 #include "sim/inflow_bonds.h"
 #include "sim/moving_structure.h"
@@ -427,7 +428,8 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
         fl_moving_structure_make(w, surface, members, err) || fl_panels_make(w, surface, err) ||
         fl_strips_make(w, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
         fl_zones_make(w, field, err) || fl_bond_list_make(w, field, err) || fl_zones_join(w, field, err) ||
-        fl_inflow_bonds_make(w, err) || fl_relaxed_run_make(w, err) || fl_crushing_make(w, err))
+        fl_inflow_bonds_make(w, err) || fl_relaxed_run_make(w, err) || fl_crushing_make(w, err) ||
+        fl_ice_push_make(w, field, feed, err))
         goto fail;
     if (check_inward(w, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never

@@ -280,6 +280,19 @@ static void exchange_drive_track(fl_state_io *t, const fl_track *tr)
     fl_state_io_close(t);
 }
 
+static void exchange_push(fl_state_io *t, fl_push *p)
+{
+    fl_state_io_open(t, "push");
+    fl_state_io_real(t, &p->velocity);
+    fl_state_io_real(t, &p->back);
+    fl_state_io_real(t, &p->force);
+    fl_state_io_real(t, &p->way);
+    fl_state_io_real(t, &p->impulse);
+    fl_state_io_real(t, &p->limited);
+    fl_state_io_real(t, &p->work);
+    fl_state_io_close(t);
+}
+
 /* A structure of members: its balls.  Its forces follow from them and from those on the pieces. */
 static void exchange_members(fl_state_io *t, fl_world *w)
 {
@@ -460,6 +473,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) exchange_mover(t, w, k);
     for (int32_t k = 0, n = fl_structure_modes(w); k < n && !t->err->code; k++) exchange_mode(t, w, k);
     if (w->driven_floes.track.n && !t->err->code) exchange_drive_track(t, &w->driven_floes.track);
+    if (w->push.of && !t->err->code) exchange_push(t, &w->push);
     if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     fl_snapshot_bonds(t, w);
     if (w->discs.n && !t->err->code) fl_snapshot_discs(t, w);

@@ -22,6 +22,7 @@
 #include "sim/drive_track.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
+#include "sim/ice_push.h"
 #include "sim/inflow.h"
 #include "sim/member_structure.h"
 #include "sim/moving_structure.h"
@@ -463,7 +464,8 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* moving structure: first half */
     fl_ledger_begin_step(w);
-    if (w->driven_floes.track.n) fl_drive_track_begin_step(w, fl_world_time(w));
+    if (w->push.of) fl_ice_push_first_half(w, fl_world_time(w));
+    else if (w->driven_floes.track.n) fl_drive_track_begin_step(w, fl_world_time(w));
     if (moves) fl_moving_structure_first_half(w, fl_world_time(w));
 
     /* tables of the waves */
@@ -480,6 +482,7 @@ int fl_step(fl_world *w, fl_err *err)
     }
     /* moving structure: second half */
     if (moves) fl_moving_structure_second_half(w, fl_world_time(w), h);
+    if (w->push.of) fl_ice_push_second_half(w);
 
     /* energy ledger, overlaps, momentum */
     fl_ledger_book_step(w);

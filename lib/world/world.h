@@ -34,6 +34,7 @@
 #include "world/moving_parts.h"
 #include "world/pair.h"
 #include "world/panel_state.h"
+#include "world/push_state.h"
 #include "world/relax_state.h"
 #include "world/sleep_state.h"
 #include "world/sphere_contacts.h"
@@ -74,6 +75,7 @@ typedef struct {
     fl_crushing_state crushing;
     fl_breaking_state breaking;
     fl_driven_floes driven_floes;
+    fl_push push;
     fl_device_link device;
     fl_sleep sleep;
     fl_relax_state relax;

@@ -18,7 +18,7 @@ stop() { [ -n "$server" ] && kill "$server" 2>/dev/null; rm -rf "$scratch"; }
 trap stop EXIT
 trap 'exit 130' INT TERM HUP
 cd "$scratch" || exit 4
-voronoi-ice --size 20x20 --origin -18,-10 --floes 40 --concentration 0.8 --thickness 0.5 --radius 0.05 --seed 3 --velocity 1,0 -q -o ice.dat
+voronoi-ice --gaps even --size 20x20 --origin -18,-10 --floes 40 --concentration 0.8 --thickness 0.5 --radius 0.05 --seed 3 --velocity 1,0 -q -o ice.dat
 struct-import --name leg --cylinder 1.5,-5,5,5,0 -q -o leg.dat
 printf '[structure]\nfile = leg.dat\n[water]\ncurrent = 1 m/s\n[contact]\nstiffness_factor = 0.02\n' >a.scene
 dem-solve -q --set run.duration=6 --set output.frames=frames.dat --set output.frames_every=0.1 --ice ice.dat -o loads.tsv a.scene

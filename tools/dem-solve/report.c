@@ -230,6 +230,21 @@ static void report_inflow(const fl_world *w, FILE *f)
     fprintf(f, "floes in domain    %d (capacity %d)\n", fl_floes_in_domain(w), w->n);
 }
 
+static void report_push(const fl_world *w, FILE *f)
+{
+    static const char *const OF[] = {"", "the row", "the wall", "the inflow"};
+    const fl_push *p = &w->push;
+    const double t = fl_world_time(w);
+    fprintf(f, "pushed by          %s: ", OF[p->of]);
+    if (isfinite(p->limit))
+        fprintf(f, "at most %.4g N/m over %.4g m, %.4g N; ", p->limit / p->width, p->width, p->limit);
+    fprintf(f, "mean push %.4g N, mean speed %.3g m/s", t > 0.0 ? p->impulse / t : 0.0,
+            t > 0.0 ? p->way / t : 0.0);
+    if (isfinite(p->limit))
+        fprintf(f, ", %.3g %% of the time at the limit", t > 0.0 ? 100.0 * p->limited / t : 0.0);
+    putc('\n', f);
+}
+
 static void report_crushing(const fl_world *w, FILE *f)
 {
     const fl_crushing_state *s = &w->crushing;
@@ -293,6 +308,7 @@ void write_report(const struct run *r, FILE *f, enum report_kind kind)
     if (w->crushing.of != FL_CRUSHING_NONE) report_crushing(w, f);
     if (w->breaking.on) report_breaking(w, f);
     if (w->inflow.absent) report_inflow(w, f);
+    if (w->push.of) report_push(w, f);
     report_overlaps(w, f);
     fprintf(f, "state hash         %016" PRIx64 "\n", fl_state_hash(w));
 }
