@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # blocks-cut.sh [BUILD [OUT]] -- cost of jointed rock on one thread: block-cut of three oblique sets into up to 1e5 blocks,
-# from the model to the file, and the joints of rigid blocks by bench_joints.
-#   OUT/blocks-cut.tsv   two tables; the head names the machine.  OUT is bench/results
+# from the model to the file, the joints of rigid blocks by bench_joints, and zones by bench_zones.
+#   OUT/blocks-cut.tsv   three tables; the head names the machine.  OUT is bench/results
 #   FLOE_QUICK=1         the smallest cuts and grid alone
 set -u
 LC_ALL=C OMP_NUM_THREADS=1
@@ -46,5 +46,9 @@ export table
     printf 'joint\tblocks\tjoints\tslip\topen\tpoint[ns]\tpoint-step[ns]\tjoint-step[ns]\tbody-step[ns]\tmemory[KiB/block]\tenergy-error\n'
     # shellcheck disable=SC2086 # no argument where it is empty
     "$build/tests/bench/bench_joints" $grid | awk '/^(held|slip)/ { $1 = $1; gsub(" ", "\t"); print }'
+    printf '#deformable blocks in steps\n'
+    printf 'zones\tnumber\tnodes\tset-up[s]\tzone-step[ns]\tmemory[B/zone]\tenergy-error\n'
+    # shellcheck disable=SC2086 # no argument where it is empty
+    "$build/tests/bench/bench_zones" $grid | awk '/^(elastic|plain|mohr)/ { $1 = $1; gsub(" ", "\t"); print }'
 } >table || exit 4
 cp table "$out/blocks-cut.tsv" && cat table

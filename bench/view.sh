@@ -15,7 +15,7 @@ out=${2:-$bench/results}
 mkdir -p "$out" "$build/view" || exit 4
 out=$(cd "$out" && pwd)
 PATH=$build/bin:$PATH
-if [ "${FLOE_QUICK:-0}" = 0 ]; then spheres=332000 frames=12 minute=60; else spheres=20000 frames=6 minute=6; fi
+if [ "${FLOE_QUICK:-0}" = 0 ]; then spheres=332000 frames=12 minute=60 many=1000; else spheres=20000 frames=6 minute=6 many=50; fi
 here=$build/view/$$
 mkdir -p "$here" && cd "$here" || exit 4
 trap 'rm -rf "$here"' EXIT
@@ -73,8 +73,35 @@ if [ -x /usr/bin/time ]; then
     done
 fi
 
+# Real size: spheres and blocks of ice through a long run, packed, written a frame at a time.
+blocks=20000 big="$spheres spheres, 20000 blocks, $many frames"
+can_draw=0
+ice-view -q --size 64x64 -o probe.png ice.dat 2>/dev/null && can_draw=1
+if [ -x "$build/tests/bench/bench_frames" ]; then
+    ns=$("$build/tests/bench/bench_frames" $spheres $blocks $many big.packed) || fail 'the frames of a long run'
+    row "$big: packed, a body and frame" "$(per "$(frame_bytes big.packed)" $(((spheres + blocks) * many)))" bytes 12
+    row "$big: time of the writer, a body and frame" "$ns" ns -
+    row "$big: file" "$(per "$(bytes big.packed)" 1e6)" MB -
+    measured() # WHAT OPTIONS: processor time and memory of ice-view
+    {
+        what=$1 most=$2
+        shift 2
+        if [ -x /usr/bin/time ]; then
+            /usr/bin/time -f '%U %S %M' -o memory ice-view "$@" >stdout 2>stderr || fail "$*, $(cat stderr)"
+            row "$big: $what" "$(awk '{ print $1 + $2 }' memory)" s "$most"
+            row "$big: $what, memory" "$(awk '{ printf "%.0f", $3 / 1e3 }' memory)" MB -
+        else row "$big: $what" "$(seconds ice-view "$@")" s "$most"; fi
+    }
+    measured 'index and box' - --info big.packed
+    if [ $can_draw -eq 1 ]; then
+        measured 'picture of 1280x720, a frame amid' 20 -q --by height --at "$(awk -v n="$many" 'BEGIN { print 0.05 * n + 0.7 }')" -o big.png big.packed
+        cp big.png "$out/view-big.png"
+    fi
+    rm -f big.packed
+else echo 'view.sh: no tests/bench/bench_frames (make tests): no frames of a long run' >&2; fi
+
 # Pictures and films.
-if ice-view -q --size 64x64 -o probe.png ice.dat 2>/dev/null; then
+if [ $can_draw -eq 1 ]; then
     row 'demo: picture of 1280x720' "$(seconds ice-view -q --at $((minute / 2)) --by speed --loads demo.tsv -o demo.png demo.dat)" s -
     row "$spheres spheres: picture of 1280x720" "$(seconds ice-view -q --by height -o balls.png balls.packed)" s 20
     if command -v ffmpeg >/dev/null; then

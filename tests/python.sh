@@ -19,7 +19,7 @@ same()
     else failed=$((failed + 1)); printf '%s: %s expected, %s found\n' "$1" "$2" "$3"; fi
 }
 
-voronoi-ice -q --seed 3 --bonded --size 5x4 --origin -6.25,-2 --floes 12 --thickness 0.3 --radius 0.02 --velocity 1,0 -o ice.dat
+voronoi-ice --gaps even -q --seed 3 --bonded --size 5x4 --origin -6.25,-2 --floes 12 --thickness 0.3 --radius 0.02 --velocity 1,0 -o ice.dat
 printf '#g_struct 1\npart 0 leg\ncone 0 0 -1.5 1.25 0 0 1.5 1.25\n' >leg.dat
 cat >case.scene <<'SCENE'
 [ice]

@@ -164,6 +164,7 @@ verify)
     all_verify
     under_quick smooth step hard_cases
     add verify/quick_hard_surrogate "FLOE_LAW=quick FLOE_SURROGATE=1e-3 exec '$build/tests/verify/verify_hard_cases'"
+    add verify/ice_scenes "exec sh tests/ice_scenes.sh '$build'"
     add view/page "exec sh tests/view/page.sh '$build'"
     add view/paraview "exec sh tests/view/paraview.sh '$build'"
     ;;

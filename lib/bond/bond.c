@@ -2,6 +2,7 @@
 #include <math.h>
 #include "bond/bond.h"
 #include "bond/bond_kinematics.h"
+#include "bond/crack_friction.h"
 
 static const double LOBATTO[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
 
@@ -185,10 +186,18 @@ void fl_bond_update_separation(fl_bond *c, const fl_bodies *b, fl_vec3 way)
 /* Sums over the points. */
 typedef struct {
     fl_traction elastic, friction;
-    double turn[2];            /* for the rotation of m */
-    fl_vec3 half;              /* moment of friction */
+    double turn[2]; /* for the rotation of m */
+    fl_vec3 half;   /* moment of friction */
+    double couple;  /* of friction about m, of a crack */
+    fl_crack_pressure pressure;
     int damaged, failed, open; /* numbers of points */
 } point_sums;
+
+static void add_pressure(fl_crack_pressure *p, double xi, double eta, double f)
+{
+    p->sum += f, p->a += f * xi, p->b += f * eta;
+    p->aa += f * xi * xi, p->ab += f * xi * eta, p->bb += f * eta * eta;
+}
 
 /* Evaluates point k and adds its tractions. more: wear since the last evaluation. */
 static void evaluate_point(fl_bond *c, const fl_bond_kinematics *q, int k, double more, point_sums *out)
@@ -215,7 +224,8 @@ static void evaluate_point(fl_bond *c, const fl_bond_kinematics *q, int k, doubl
     out->damaged += d > 0.0;
     out->failed += d == 1.0;
     out->open += s[0] >= 0.0;
-    if (d == 0.0) return;
+    add_pressure(&out->pressure, xi, eta, wa * pressing * fl_bond_positive_part(-s[0]));
+    if (d == 0.0 || c->state == FL_BOND_BROKEN) return; /* a crack: crack_friction() */
     double e[2];
     slip_to_friction(c, p, s, pressing, e);
     const double k_rub = wa * d * c->ks, held = 0.5 * wa * c->ks * (e[0] * e[0] + e[1] * e[1]);
@@ -238,12 +248,65 @@ static void set_elastic(fl_bond *c, fl_bond_wrench p)
     c->force = p.f, c->torque_i = p.ti, c->torque_j = p.tj;
 }
 
+static fl_face_separation separation_of(const double s[3], const double su[3], const double sv[3])
+{
+    return (fl_face_separation){{s[0], s[1], s[2]}, {su[0], su[1], su[2]}, {sv[0], sv[1], sv[2]}};
+}
+
+/* The springs of a crack are in the slips of its points, which a face that has failed needs no more. */
+enum { SPRING_NUMBERS = 6 };
+
+static fl_crack_springs crack_springs_of(const fl_bond *c)
+{
+    double x[SPRING_NUMBERS];
+    for (int k = 0; k < SPRING_NUMBERS; k++) x[k] = c->point[k / 2].slip[k % 2];
+    return (fl_crack_springs){x[0], x[1], x[2], x[3], x[4], x[5]};
+}
+
+static void keep_crack_springs(fl_bond *c, const fl_crack_springs *s)
+{
+    const double x[SPRING_NUMBERS] = {s->y, s->z, s->moment, s->k, s->k_turn, s->energy};
+    for (int k = 0; k < 2 * FL_BOND_POINTS; k++)
+        c->point[k / 2].slip[k % 2] = k < SPRING_NUMBERS ? x[k] : 0.0;
+    c->friction_spring_energy = s->energy;
+}
+
+/* Friction of a crack, from the separation of the step before. */
+static void crack_friction(fl_bond *c, const fl_face_separation *before, point_sums *r)
+{
+    const fl_face_separation now = separation_of(c->s, c->su, c->sv);
+    const fl_crack_face face = {v3_norm(c->ai), v3_norm(c->bi), c->ks * c->area, c->friction};
+    fl_crack_springs springs = crack_springs_of(c);
+    const fl_crack_wrench w = fl_crack_friction_step(&springs, &face, &r->pressure, before, &now);
+    double s[3];
+    keep_crack_springs(c, &springs);
+    for (int e = 0; e < 3; e++) s[e] = now.s[e] + w.along_a * now.su[e] + w.along_b * now.sv[e];
+    add_traction(&r->friction, w.along_a, w.along_b, 0.0, w.force.y, w.force.z);
+    r->half = half_moment(s, 0.0, w.force.y, w.force.z);
+    r->couple = w.couple;
+}
+
+/* Friction of the points of a face that has just failed, as springs of the face. */
+static void begin_crack(fl_bond *c, const point_sums *r)
+{
+    const double a = v3_norm(c->ai), b = v3_norm(c->bi);
+    keep_crack_springs(c, &(fl_crack_springs){.y = r->friction.f.y,
+                                              .z = r->friction.f.z,
+                                              .moment = a * r->friction.fu.z - b * r->friction.fv.y,
+                                              .energy = c->friction_spring_energy});
+}
+
 /* Evaluates all points of a face with damage, or with `more` wear. Returns 1 if the face ends. */
 static int evaluate_points(fl_bond *c, const fl_bond_kinematics *q, double more, point_sums *r)
 {
+    const fl_face_separation before = separation_of(c->s, c->su, c->sv);
     for (int k = 0; k < FL_BOND_POINTS; k++) evaluate_point(c, q, k, more, r);
     store_separation(c, q);
-    if (c->state != FL_BOND_BROKEN && r->failed == FL_BOND_POINTS) c->h0 = overlap_share(c, q);
+    if (c->state == FL_BOND_BROKEN) crack_friction(c, &before, r);
+    else if (r->failed == FL_BOND_POINTS) {
+        c->h0 = overlap_share(c, q);
+        begin_crack(c, r);
+    }
     if (c->state != FL_BOND_BROKEN)
         c->state = r->failed == FL_BOND_POINTS ? FL_BOND_BROKEN
                    : r->damaged                ? FL_BOND_DAMAGED
@@ -275,7 +338,10 @@ int fl_bond_force(fl_bond *c, const fl_bodies *b, fl_vec3 way)
     }
     if (r.damaged) {
         const fl_bond_wrench p = fl_traction_at_middle(q, r.friction, r.half);
-        c->force_friction = p.f, c->torque_i_friction = p.ti, c->torque_j_friction = p.tj;
+        const fl_vec3 couple = v3_scale(r.couple, q.m);
+        c->force_friction = p.f;
+        c->torque_i_friction = v3_add(p.ti, couple);
+        c->torque_j_friction = v3_sub(p.tj, couple);
     }
     if (c->damping > 0.0) {
         const fl_bond_wrench p = damping_wrench(c, b, &q);

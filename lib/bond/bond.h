@@ -25,9 +25,9 @@
  *
  * Friction. The damaged part d of a point slides with friction where it is compressed: traction d k_s (s_t -
  * g), |k_s (s_t - g)| <= mu k_n <-s_n>. The slip g follows so that this holds; it is 0 until damage begins.
- * So shear falls to friction and not below. A face that has failed at all points is a closed crack with
- * friction, and compression neither loses nor gains energy at that moment. Source: Alfano & Sacco, Int. J.
- * Numer. Meth. Engng 68 (2006) 542.
+ * So shear falls to friction and not below. Source: Alfano & Sacco, Int. J. Numer. Meth. Engng 68 (2006) 542.
+ * A face that has failed at all points is a closed crack, whose friction is that of the face as a whole,
+ * crack_friction.h; compression neither loses nor gains energy at that moment.
  *
  * Crack. A face that has failed at all points remains as a crack until it is open at all points or has slid
  * off its partner. Then it ends, with no force at that moment. Its stiffness in compression wears off,
@@ -62,7 +62,8 @@ enum fl_bond_state {
 typedef struct {
     double d;                  /* damage, 0 to 1 */
     double lambda_c, lambda_f; /* once damage has begun [sqrt(J)/m] */
-    double slip[2];            /* g along the two directions of the face [m] */
+    double slip[2]; /* g along the two directions of the face [m]; of a crack: bond.c has its springs
+                                * here */
 } fl_bond_point;
 
 typedef struct {

@@ -149,7 +149,10 @@ static int32_t add_springs(const fl_world *w, int32_t bond, int end, double shar
     const int32_t k = is_i ? c->i : c->j;
     const fl_mat3 R = fl_body_axes(b, k);
     const fl_vec3 n = m3_mul(R, is_i ? c->ni : c->nj);
-    const double area = fl_joint_list_most_area(w, bond);
+    const int32_t other = is_i ? c->j : c->i;
+    /* light nodes on the other side: no bound by the reduced mass */
+    const double stiffer = w->zones.block_of && w->zones.block_of[other] >= 0 ? 2.0 : 1.0,
+                 area = stiffer * fl_joint_list_most_area(w, bond);
     if (b->fixed_dof[k] == ALL_FIXED) return k;
     for (int at = 0; at < FL_BOND_POINTS; at++) {
         double xi, eta;

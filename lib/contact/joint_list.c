@@ -10,7 +10,7 @@
 
 int32_t fl_joint_list_count(const fl_world *w, const fl_ice_field *field)
 {
-    return w->scene->n_joint ? field->joints : 0;
+    return w->scene->n_joint || w->zones.set.blocks ? field->joints : 0;
 }
 
 /* --- laws --------------------------------------------------------------------------------------- */
@@ -206,7 +206,8 @@ int fl_joint_list_make(fl_world *w, const fl_ice_field *field, fl_err *err)
     int32_t *section = fl_alloc(field->joint_names.n, sizeof *section, err), cap = 0;
     int rc = shape && section ? find_sections(w, field, section, err) : -1;
     s->joint = fl_alloc(n, sizeof *s->joint, err);
-    s->joint_material = fl_alloc(w->scene->n_joint, sizeof *s->joint_material, err);
+    s->joint_material = fl_alloc((int64_t)w->scene->n_joint + (w->zones.set.blocks > 0),
+                                 sizeof *s->joint_material, err); /* the last: glued zones */
     if (!s->joint || !s->joint_material) rc = -1;
     for (int32_t k = 0; k < w->scene->n_joint && rc == 0; k++)
         rc = make_law(&w->scene->joint[k], &s->joint_material[k], err);
@@ -235,6 +236,10 @@ int fl_joint_list_force(fl_world *w, int32_t k, fl_vec3 way)
 {
     fl_bond_list *s = &w->bonds;
     fl_joint *q = &s->joint[k - s->faces];
+    if (w->zones.joint_of && w->zones.joint_of[k - s->faces] >= 0)
+        return fl_zone_joint_force(&w->zones.joints, w->zones.joint_of[k - s->faces], &w->zones.set,
+                                   &s->bond[k], q, (fl_joint_pool){s->corner, s->joint_material}, &w->b,
+                                   w->zones.dt);
     return fl_joint_force(&s->bond[k], q, (fl_joint_pool){s->corner, s->joint_material}, &w->b, way);
 }
 

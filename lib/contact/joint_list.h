@@ -4,7 +4,8 @@
  *
  * Joints stand in the list of bonded faces (bond_list.h) behind those of [bond], with a record more each.  A
  * joint named `intact` without a section of that name is a bonded face without limit, of the materials'
- * stiffness E/l and G/l.  Without any [joint] section the records have no effect. */
+ * stiffness E/l and G/l.  Without any [joint] section the records have no effect on
+ * rigid blocks; glued faces of deformable ones always have. */
 #ifndef FL_CONTACT_JOINT_LIST_H
 #define FL_CONTACT_JOINT_LIST_H
 #include "scene/ice_field.h"

@@ -32,6 +32,7 @@ const char *fl_gpu_world_refuses(const fl_world *w)
     if (w->scene->run.sleep > 0.0) return "run.sleep";
     if (w->scene->run.error > 0.0) return "run.error";
     if (w->inflow.absent) return "inflow or outflow";
+    if (w->push.of) return "ice that is pushed with a line load, or a wall that moves";
     if (s->waves) return "waves";
     if (s->wind) return "wind";
     if (s->flow_velocity) return "a current that changes with depth";

@@ -5,7 +5,12 @@
 #include "base/number_text.h"
 #include "base/pi.h"
 
-enum { TRANSLATES = 1, ROTATES = 2, RATE = FL_LOADS_RATE }; /* bits of enum fl_loads_motion_kind */
+enum {
+    TRANSLATES = 1,
+    ROTATES = 2,
+    RATE = FL_LOADS_RATE,
+    PLATFORM = FL_LOADS_PLATFORM
+}; /* bits of enum fl_loads_motion_kind */
 
 static const fl_column LOADS[] = {
     {"part", "", FL_COLUMN_TEXT, 0, offsetof(fl_loads_row, part)},
@@ -21,6 +26,10 @@ static const fl_column LOADS[] = {
     {"e", "rad/s2", FL_COLUMN_VEC3, ROTATES, offsetof(fl_loads_row, motion.e)},
     {"closing", "m/s", FL_COLUMN_REAL, RATE, offsetof(fl_loads_row, closing)},
     {"breaks", "", FL_COLUMN_REAL, RATE, offsetof(fl_loads_row, breaks)},
+    {"fx_platform", "N", FL_COLUMN_REAL, PLATFORM, offsetof(fl_loads_row, platform[0])},
+    {"fy_platform", "N", FL_COLUMN_REAL, PLATFORM, offsetof(fl_loads_row, platform[1])},
+    {"mx_platform", "N.m", FL_COLUMN_REAL, PLATFORM, offsetof(fl_loads_row, platform[2])},
+    {"my_platform", "N.m", FL_COLUMN_REAL, PLATFORM, offsetof(fl_loads_row, platform[3])},
 };
 const fl_table_format fl_loads_table = {"loads", FL_TABLE_COLUMNS(LOADS)};
 
@@ -93,6 +102,23 @@ static const fl_column MEMBER_FORCES[] = {
     {"u", "m", FL_COLUMN_VEC3, 0, offsetof(fl_member_forces_row, u)},
 };
 const fl_table_format fl_member_forces_table = {"member_forces", FL_TABLE_COLUMNS(MEMBER_FORCES)};
+
+static const fl_column ZONES[] = {
+    {"body", "", FL_COLUMN_INT, 0, offsetof(fl_zones_row, body)},
+    {"zone", "", FL_COLUMN_INT, 0, offsetof(fl_zones_row, zone)},
+    {"", "m", FL_COLUMN_VEC3, 0, offsetof(fl_zones_row, x)},
+    {"volume", "m3", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, volume)},
+    {"sxx", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[0])},
+    {"syy", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[1])},
+    {"szz", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[2])},
+    {"sxy", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[3])},
+    {"syz", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[4])},
+    {"szx", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, s[5])},
+    {"s1", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, principal.x)},
+    {"s3", "Pa", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, principal.z)},
+    {"plastic", "J/m3", FL_COLUMN_REAL, 0, offsetof(fl_zones_row, yielded)},
+};
+const fl_table_format fl_zones_table = {"zones", FL_TABLE_COLUMNS(ZONES)};
 
 static const fl_column HASH[] = {{"hash", "", FL_COLUMN_HASH, 0, offsetof(fl_hash_row, hash)}};
 const fl_table_format fl_hash_table = {"hash", FL_TABLE_COLUMNS(HASH)};

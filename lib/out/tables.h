@@ -90,7 +90,11 @@ typedef struct {
 
 /* The columns of motion that a table of loads has: the `options` of fl_loads_table. */
 enum fl_loads_motion_kind { FL_LOADS_FIXED = 0, FL_LOADS_TRANSLATION = 1, FL_LOADS_ROTATION = 3 };
-enum { FL_LOADS_RATE = 4 }; /* columns of crushing by speed; to be added to the above */
+enum {
+    FL_LOADS_RATE = 4,
+    FL_LOADS_PLATFORM = 8
+}; /* columns of crushing by speed, and in platform axes; to be
+                                                   * added to the above */
 
 typedef struct {
     const char *part;
@@ -100,6 +104,7 @@ typedef struct {
     fl_loads_motion motion; /* not read with FL_LOADS_FIXED */
     double closing;         /* mean speed of the ice against the part along its load [m/s] */
     double breaks;          /* of elements of ice in the interval */
+    double platform[4];     /* fx, fy, mx, my in the axes of the platform */
 } fl_loads_row;
 extern const fl_table_format fl_loads_table;
 
@@ -162,6 +167,19 @@ typedef struct {
     fl_vec3 u;             /* displacement from the unstrained state [m] */
 } fl_member_forces_row;
 extern const fl_table_format fl_member_forces_table;
+
+/* --- zones(5) ----------------------------------------------------------------------------------- */
+
+/* Stress of a zone, compression positive [Pa]. */
+typedef struct {
+    int32_t body, zone; /* id of the body; zone of it, from 0 */
+    fl_vec3 x;          /* centroid [m] */
+    double volume;      /* [m3] */
+    double s[6];        /* xx yy zz xy yz zx */
+    fl_vec3 principal;  /* largest first */
+    double yielded;     /* plastic work per volume [J/m3] */
+} fl_zones_row;
+extern const fl_table_format fl_zones_table;
 
 /* --- failures(5) -------------------------------------------------------------------------------- */
 

@@ -12,6 +12,10 @@ static const double BALANCE = 1e-5, BALANCE_GROW = 1e-4, BALANCE_SECANT = 1e-3;
 /* Mean overlap over the mean distance from which on balanced forces count as a jam. */
 static const double JAM_STRAIN = 1e-6;
 
+/* Rise of the scale over the one before, and at most over fl_growth_options.rise, of bodies that part at
+ * once. */
+static const double FASTER = 1.25, FASTEST = 8.0;
+
 /* Steps of a relaxation: during growth, in full, and for the balance of every body. */
 enum { QUICK = 40, LONG = 20000, POLISH = 20000 };
 enum { SECANTS = 40, TRIMS = 2000 };
@@ -78,6 +82,13 @@ static void end_growth(fl_growth *g, const fl_overlaps *o, const fl_growth_optio
 
 /* --- phases ------------------------------------------------------------------------------------- */
 
+/* The next rise is larger where bodies parted at once, until they begin to resist. */
+static void adapt_rise(fl_growth *g, const fl_growth_options *opt, int at_once)
+{
+    if (!at_once) g->rise = fmin(g->rise, opt->rise);
+    else if (g->rise >= opt->rise) g->rise = fmin(FASTER * g->rise, FASTEST * opt->rise);
+}
+
 static int raise_scale(fl_growth *g, fl_overlaps *o, const fl_growth_options *opt, fl_err *err)
 {
     fl_packing *p = o->p;
@@ -89,8 +100,10 @@ static int raise_scale(fl_growth *g, fl_overlaps *o, const fl_growth_options *op
     }
     p->s = next;
     /* bodies with edges part slowly: whether they jam is decided at the end */
+    const int64_t before = o->steps;
     const int state = fl_overlaps_relax(o, LOOSE, BALANCE, p->q ? 3 * QUICK : QUICK, err);
     if (state < 0) return -1;
+    adapt_rise(g, opt, !p->q && state == FL_RELAXED_FREE && o->steps - before < QUICK / 2);
     if (opt->trim != FL_TRIM_ALL || p->q || state == FL_RELAXED_FREE || !freedoms_are_held(o)) return 0;
     const int jammed = is_jammed(o, LOOSE, BALANCE_GROW, err);
     if (jammed < 0) return -1;
@@ -135,7 +148,12 @@ static int follow_pressure(fl_growth *g, fl_overlaps *o, const fl_growth_options
     fl_packing *p = o->p;
     /* far from s_J the pressure need not be known well */
     const double balance = g->strain > 300.0 * opt->overlap ? 5.0 * BALANCE_SECANT : BALANCE_SECANT;
-    if (fl_overlaps_relax(o, 0.0, balance, full_steps(o), err) < 0) return -1;
+    const int state = fl_overlaps_relax(o, p->q ? 0.0 : NONE, balance, full_steps(o), err);
+    if (state < 0) return -1;
+    if (state == FL_RELAXED_FREE && g->s_before > p->s && g->stage < SECANTS) { /* below s_J */
+        p->s += 0.5 * (g->s_before - p->s);
+        return 0;
+    }
     const double now = o->now.pressure, s = p->s;
     g->strain = strain_of(o);
     /* first s (1 - strain); then the secant, kept between a tenth and three times that */

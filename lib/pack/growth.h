@@ -2,16 +2,18 @@
 /* growth.h -- growth of all bodies from the scale they were thrown at to 1, by quasi-static relaxation; the
  * densest packing without force; trimming.
  *
- * Growth.  s rises by 1 % (less where bodies resist); after each rise the overlaps are relaxed
- * (overlap_energy.h) as far as a few steps go.  Where as many contacts as freedoms are left, the bodies are
- * relaxed until they are free or until forces balance.  Forces that balance while overlaps remain mean
- * jamming: growth ends there.  The last relaxation is made at a scale larger by MARGIN, so that the packing
- * at s = 1 is free of overlap after a finite number of steps; where that jams, at s itself.
+ * Growth.  s rises by 1 %, less where bodies resist, and by more and more, up to 8 %, where spheres part in a
+ * few steps; after each rise the overlaps are relaxed (overlap_energy.h) as far as a few steps go.  Where as
+ * many contacts as freedoms are left, the bodies are relaxed until they are free or until forces balance.
+ * Forces that balance while overlaps remain mean jamming: growth ends there.  The last relaxation is made at
+ * a scale larger by MARGIN, so that the packing at s = 1 is free of overlap after a finite number of steps;
+ * where that jams, at s itself.
  *
  * Densest packing.  The pressure p(s), the sum of overlap times distance, vanishes linearly at s_J.  From a
  * jammed state the scale follows the secant of the last two states to near p = 0, relaxes, and so on until
- * the mean overlap is below `overlap` of the mean distance.  s_J is where the last secant reaches p = 0; the
- * packing is compressed against it by that fraction at most, and
+ * the mean overlap is below `overlap` of the mean distance; from a scale at which spheres part it goes half
+ * way back.  s_J is where the last secant reaches p = 0; the packing is compressed against it by that
+ * fraction at most, and
  *     phi_J = phi(1) s_J^D.
  * Source: O'Hern, Silbert, Liu & Nagel, Phys. Rev. E 68 (2003) 011306.
  *
@@ -39,7 +41,7 @@ extern const char *const fl_growth_phase_name[FL_GROWTH_PHASES];
 enum fl_growth_trim { FL_TRIM_ALL, FL_TRIM_NEAR, FL_TRIM_NONE };
 
 typedef struct {
-    double rise;    /* largest relative rise of s, 0.01 */
+    double rise;    /* relative rise of s of bodies that touch, 0.01 */
     double overlap; /* mean overlap over the distance of the densest packing, 5e-5 */
     enum fl_growth_trim trim;
     double layers, share; /* of FL_TRIM_NEAR: 2, 1e-2 */

@@ -189,14 +189,23 @@ static const fl_pack_shape *shape_of(const fl_packing *p, int32_t i)
     return &p->shapes->shape[p->shape ? p->shape[i] : 0];
 }
 
+/* At s = 1. */
+static double volume_of(const fl_packing *p, int32_t i, int rounded)
+{
+    const double d = p->size[i], r = p->radius[i];
+    return p->dim == 2 ? PI * r * r
+                       : d * d * d * (rounded ? shape_of(p, i)->rounded : shape_of(p, i)->volume);
+}
+
+double fl_packing_body_volume(const fl_packing *p, int32_t i, double s, int rounded)
+{
+    return volume_of(p, i, rounded) * (p->dim == 2 ? s * s : s * s * s);
+}
+
 double fl_packing_volume(const fl_packing *p, double s, int rounded)
 {
     double sum = 0.0;
-    for (int32_t i = 0; i < p->n; i++) {
-        const double d = p->size[i], r = p->radius[i];
-        if (p->dim == 2) sum += PI * r * r;
-        else sum += d * d * d * (rounded ? shape_of(p, i)->rounded : shape_of(p, i)->volume);
-    }
+    for (int32_t i = 0; i < p->n; i++) sum += volume_of(p, i, rounded);
     return sum * (p->dim == 2 ? s * s : s * s * s);
 }
 

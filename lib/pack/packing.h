@@ -59,6 +59,9 @@ int fl_packing_make(fl_packing *p, int dim, int32_t n, const double *size, const
  * FL_SYSTEM. */
 int fl_packing_sort(fl_packing *p, fl_err *err);
 
+/* Volume of body i at scale s, as below. */
+double fl_packing_body_volume(const fl_packing *p, int32_t i, double s, int rounded);
+
 /* Solid volume at scale s [m3], in two dimensions the area [m2]; rounded: by Steiner's formula. */
 double fl_packing_volume(const fl_packing *p, double s, int rounded);
 

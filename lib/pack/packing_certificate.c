@@ -71,6 +71,31 @@ static int compare_grading(fl_packing_certificate *c, const fl_packing *p, const
     return 0;
 }
 
+int fl_packing_layer_measure(fl_packing_layer *out, const fl_packing *p, const fl_pack_layers *l, int32_t k,
+                             fl_err *err)
+{
+    double *d = fl_alloc(p->n, sizeof *d, err), sum = 0.0, all = 0.0;
+    *out = (fl_packing_layer){0};
+    if (!d) return -1;
+    for (int32_t i = 0; i < p->n; i++) {
+        if (fl_pack_layers_find(l, p->x[i]) != k) continue;
+        out->volume += fl_packing_body_volume(p, i, p->s, 0);
+        all += pow(p->size[i], p->dim);
+        d[out->bodies++] = p->size[i];
+    }
+    qsort(d, (size_t)out->bodies, sizeof *d, by_size);
+    if (out->bodies) out->least = p->s * d[0], out->most = p->s * d[out->bodies - 1];
+    const int one_size = fl_grading_least(&l->grading[k]) == fl_grading_most(&l->grading[k]);
+    for (int32_t i = 0; i < out->bodies && !one_size; i++) {
+        const double mass = fl_grading_mass(&l->grading[k], p->dim, d[i]), before = sum / all;
+        sum += pow(d[i], p->dim);
+        if (i + 1 < out->bodies && d[i + 1] == d[i]) continue;
+        out->mass_gap = fmax(out->mass_gap, fmax(fabs(sum / all - mass), fabs(before - mass)));
+    }
+    free(d);
+    return 0;
+}
+
 /* --- contacts ----------------------------------------------------------------------------------- */
 
 /* Takes rattlers out until none is left. */

@@ -18,6 +18,7 @@
 #include <stdio.h>
 #include "pack/grading.h"
 #include "pack/overlap_energy.h"
+#include "pack/pack_layers.h"
 
 typedef struct {
     double solid, rounded;      /* phi by outer shapes, and by Steiner's formula */
@@ -38,6 +39,18 @@ typedef struct {
 
 /* o: of the packing, evaluated.  g: NULL for none.  -1 with FL_SYSTEM. */
 int fl_packing_certify(fl_packing_certificate *c, fl_overlaps *o, const fl_grading *g, fl_err *err);
+
+/* What has its centre in a layer. */
+typedef struct {
+    int32_t bodies;
+    double volume;      /* solid [m3]; in two dimensions the area [m2] */
+    double least, most; /* sizes [m] */
+    double mass_gap;    /* largest distance of the curve by mass from that of the layer */
+} fl_packing_layer;
+
+/* Layer k of l, l->n for the rest.  -1 with FL_SYSTEM. */
+int fl_packing_layer_measure(fl_packing_layer *out, const fl_packing *p, const fl_pack_layers *l, int32_t k,
+                             fl_err *err);
 
 /* Directions of the contacts between bodies, with the smaller angle to x, in bins over half a turn in the
  * plane of x and y, in three dimensions of x and z. */

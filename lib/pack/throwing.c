@@ -108,8 +108,8 @@ static void place_body(grid *g, int level, const fl_packing *p, const fl_pack_re
 }
 
 /* A random place for body i.  1, 0 where none is free, -1 where none is inside the region. */
-static int find_place(const grid *g, int level, fl_packing *p, const fl_pack_region *r, enum fl_throw how,
-                      uint64_t seed, int32_t i, double s)
+static int find_place(const grid *g, int level, fl_packing *p, const fl_pack_region *r,
+                      const fl_pack_layers *layers, enum fl_throw how, uint64_t seed, int32_t i, double s)
 {
     fl_rng rng = fl_rng_of(seed, i, FL_RNG_SCATTER);
     const double R = s * p->bound[i];
@@ -119,6 +119,7 @@ static int find_place(const grid *g, int level, fl_packing *p, const fl_pack_reg
         const fl_vec3 x = v3(r->lo.x + a * (r->hi.x - r->lo.x), r->lo.y + b * (r->hi.y - r->lo.y),
                              r->lo.z + c * (r->hi.z - r->lo.z));
         if (fl_region_distance(r, x, INFINITY) < R) continue;
+        if (layers && fl_pack_layers_find(layers, x) != layers->of[i]) continue;
         inside++;
         int hit = 0;
         for (int l = 0; how == FL_THROW_REJECTION && !hit && l <= level; l++)
@@ -130,8 +131,8 @@ static int find_place(const grid *g, int level, fl_packing *p, const fl_pack_reg
     return inside ? 0 : -1;
 }
 
-int fl_throw_bodies(fl_packing *p, const fl_pack_region *r, enum fl_throw how, uint64_t seed, int *halved,
-                    fl_err *err)
+int fl_throw_bodies(fl_packing *p, const fl_pack_region *r, const fl_pack_layers *layers, enum fl_throw how,
+                    uint64_t seed, int *halved, fl_err *err)
 {
     double s = 0.5;
     while (s * fl_packing_most(p) > 0.7 * r->inradius) s *= 0.5;
@@ -142,7 +143,7 @@ int fl_throw_bodies(fl_packing *p, const fl_pack_region *r, enum fl_throw how, u
         if (make_grid(&g, p, r, s, err)) return -1;
         for (; i < p->n && got > 0; i++) {
             while (i >= g.level[level].end) level++;
-            got = find_place(&g, level, p, r, how, seed, i, s);
+            got = find_place(&g, level, p, r, layers, how, seed, i, s);
             if (got > 0) place_body(&g, level, p, r, i);
         }
         free_grid(&g);

@@ -7,6 +7,7 @@
 #include "law/contact_law.h"
 #include "scene/scene_check_failure.h"
 #include "scene/scene_check_motion.h"
+#include "scene/scene_check_zones.h"
 #include "scene/unused_keys.h"
 #include "scene/scene_section.h"
 
@@ -38,6 +39,7 @@ static void set_default_intervals(fl_scene *s)
     copy_unless_given(o, "hash_every", &o->hash_every, o->loads_every);
     copy_unless_given(o, "bonds_every", &o->bonds_every, o->loads_every);
     copy_unless_given(o, "members_every", &o->members_every, o->loads_every);
+    copy_unless_given(o, "zones_every", &o->zones_every, o->loads_every);
 }
 
 /* Check that a material exists; place: "structure" and "boundary" are accepted too.  key is the whole
@@ -71,13 +73,14 @@ static int check_inputs(const fl_scene *s, fl_err *err)
 
 static int check_outputs(const fl_scene *s, fl_err *err)
 {
-    const char *const key[] = {"output.frames",  "output.state",    "output.energy",    "output.contacts",
-                               "output.hash",    "output.panels",   "output.events",    "output.bonds",
-                               "output.members", "output.failures", "output.final_ice", "output.checkpoint"};
-    const char *const path[] = {s->output.frames,   s->output.state,     s->output.energy,
-                                s->output.contacts, s->output.hash,      s->output.panels,
-                                s->output.events,   s->output.bonds,     s->output.members,
-                                s->output.failures, s->output.final_ice, s->output.checkpoint};
+    const char *const key[] = {"output.frames",    "output.state",  "output.energy",   "output.contacts",
+                               "output.hash",      "output.panels", "output.events",   "output.bonds",
+                               "output.members",   "output.zones",  "output.failures", "output.final_ice",
+                               "output.checkpoint"};
+    const char *const path[] = {
+        s->output.frames,   s->output.state,     s->output.energy,    s->output.contacts, s->output.hash,
+        s->output.panels,   s->output.events,    s->output.bonds,     s->output.members,  s->output.zones,
+        s->output.failures, s->output.final_ice, s->output.checkpoint};
     for (int k = 0; k < (int)(sizeof key / sizeof *key); k++) {
         if (strcmp(path[k], "-") == 0)
             return fl_scene_fail(s, key[k], err,
@@ -155,11 +158,85 @@ static int check_contacts(const fl_scene *s, fl_err *err)
     return 0;
 }
 
+/* The wall that drive_of = wall moves: x y of the drive along its normal, and a rigid wall there. */
+static int check_driven_wall(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->boundary;
+    const int axis = b->drive_edge ? (b->drive_edge - 1) / 2 : fabs(b->drive.x) < fabs(b->drive.y);
+    const double along = axis ? b->drive.y : b->drive.x, across = axis ? b->drive.x : b->drive.y;
+    const int upper = b->drive_edge ? (b->drive_edge - 1) % 2 : along < 0.0;
+    const double bound = axis ? (upper ? b->max.y : b->min.y) : (upper ? b->max.x : b->min.x);
+    if (b->drive_width > 0.0 || b->drive_group[0])
+        return fl_scene_fail(s, "boundary.drive_of", err,
+                             "a wall is driven, and a row of floes as well: drive_of = row, or neither "
+                             "drive_width nor drive_group, is expected");
+    if (b->drive_track[0] ? b->drive_edge == 0 : !(fabs(along) > 0.0))
+        return fl_scene_fail(s, "boundary.drive_of", err,
+                             b->drive_track[0]
+                                 ? "which wall follows the track: drive_edge is expected"
+                                 : "no wall moves: boundary.drive along its normal is expected");
+    if (across != 0.0 || b->drive.z != 0.0)
+        return fl_scene_fail(s, "boundary.drive", err,
+                             "a wall moves along its normal, %c: no other velocity is expected", 'x' + axis);
+    if (b->type[axis] != FL_BOUNDARY_RIGID || !isfinite(bound))
+        return fl_scene_fail(s, "boundary.drive_of", err,
+                             "there is no rigid wall at the %s bound of %c: boundary.type = rigid and "
+                             "boundary.%s of it are expected",
+                             upper ? "upper" : "lower", 'x' + axis, upper ? "max" : "min");
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(s, "boundary.drive_of", err,
+                             "floes that sleep would not meet a wall that moves: run.sleep = 0 is expected");
+    return 0;
+}
+
+/* What pushes with a line load, and along which way. */
+static int check_line_load(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_boundary *b = &s->boundary;
+    const char *const key = b->line_load > 0.0 ? "boundary.line_load" : "boundary.iso_pack_width";
+    const int row = b->drive_width > 0.0 || b->drive_group[0], wall = b->drive_of == FL_DRIVE_OF_WALL,
+              inflow = b->inflow != FL_INFLOW_NONE;
+    if (b->line_load == 0.0 && b->iso_pack_width == 0.0) return 0;
+    if (b->line_load > 0.0 && b->iso_pack_width > 0.0)
+        return fl_scene_fail(s, "boundary.iso_pack_width", err,
+                             "line_load and iso_pack_width both say how hard the ice is pushed: one is "
+                             "expected");
+    if (row + wall + inflow != 1)
+        return fl_scene_fail(s, key, err,
+                             row + wall + inflow ? "%s: a drive and an inflow both push: one of the two is "
+                                                   "expected"
+                                                 : "%s: nothing pushes: boundary.drive or boundary.inflow is "
+                                                   "expected",
+                             key);
+    if (row && !b->drive_track[0] && ((b->drive.x != 0.0) == (b->drive.y != 0.0) || b->drive.z != 0.0))
+        return fl_scene_fail(s, "boundary.drive", err,
+                             "%s: a row that is pushed moves along x or along y: a drive along one of them "
+                             "is expected",
+                             key);
+    if (row && b->drive_track[0])
+        return fl_scene_fail(s, "boundary.drive_track", err,
+                             "%s: a row that is pushed has a speed, not a track: boundary.drive is expected",
+                             key);
+    if (row && !(b->drive_fixed & (b->drive.x != 0.0 ? FL_FIX_X : FL_FIX_Y)))
+        return fl_scene_fail(s, "boundary.drive_fixed", err, "%s: the row does not follow the drive", key);
+    if (s->run.sleep > 0.0)
+        return fl_scene_fail(s, key, err,
+                             "%s changes the speed of what pushes, and floes that sleep would miss it: "
+                             "run.sleep = 0 is expected",
+                             key);
+    return 0;
+}
+
 static int check_drive(const fl_scene *s, fl_err *err)
 {
     const fl_scene_boundary *b = &s->boundary;
     const double v[] = {b->drive.x, b->drive.y, b->drive.z};
     const int row = b->drive_width > 0.0, group = b->drive_group[0] != '\0';
+    if (b->drive_of == FL_DRIVE_OF_WALL && check_driven_wall(s, err)) return -1;
+    if (check_line_load(s, err)) return -1;
+    if (b->drive_of == FL_DRIVE_OF_ROW && !row && !group && (v3_nonzero(b->drive) || b->drive_track[0]))
+        return fl_scene_fail(s, b->drive_track[0] ? "boundary.drive_track" : "boundary.drive", err,
+                             "nothing is driven: drive_width, drive_group or drive_of = wall is expected");
     if (row && group)
         return fl_scene_fail(s, "boundary.drive_group", err,
                              "drive_width and drive_group both say which floes are driven: one is expected");
@@ -457,7 +534,8 @@ int fl_scene_check(fl_scene *s, fl_err *err)
                    check_drive_track(s, err) ||
                    check_ratios(s, "water.added_mass", s->water.added_mass, err) ||
                    check_ratios(s, "water.added_inertia", s->water.added_inertia, err) ||
-                   check_groups(s, err) || fl_scene_check_motions(s, err) || check_statics(s, err)
+                   check_groups(s, err) || fl_scene_check_motions(s, err) || check_statics(s, err) ||
+                   fl_scene_check_zones(s, err)
                ? -1
                : 0;
 }

@@ -78,8 +78,24 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
     return 0;
 }
 
+/* A direction turns the surface alone. */
+static int check_direction(const fl_scene *s, fl_err *err)
+{
+    const fl_scene_structure *t = &s->structure;
+    const fl_scene_motion *m = &t->motion;
+    if (!t->head.present || t->direction == 0.0) return 0;
+    if (t->members[0] || t->modes[0] || s->n_mode || s->n_part || m->free || m->track[0] ||
+        v3_nonzero(m->velocity) || v3_nonzero(m->spin))
+        return fl_scene_fail(
+            s, "structure.direction", err,
+            "structure.direction turns a structure that stands: no motion, members, modes or "
+            "[part NAME] is expected");
+    return 0;
+}
+
 int fl_scene_check_motions(const fl_scene *s, fl_err *err)
 {
+    if (check_direction(s, err)) return -1;
     motion_check c = {s, "structure", err};
     if (s->structure.head.present && check_motion(&c, &s->structure.motion)) return -1;
     for (int32_t i = 0; i < s->n_part; i++) {

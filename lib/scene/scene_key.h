@@ -27,6 +27,7 @@ enum fl_section_id {
     FL_SEC_MODE,
     FL_SEC_JOINT,
     FL_SEC_STAGE,
+    FL_SEC_ZONES,
     FL_SECTIONS
 };
 
@@ -59,7 +60,7 @@ typedef struct {
     const char *choices;    /* "patch|manual"; of a number its values */
     const char *one_number; /* why it is one number where users may give two; NULL */
     enum fl_single_number single;
-    const char *needs[2];         /* keys of the section, one of which must be given too (unused_keys.h) */
+    const char *needs[3];         /* keys of the section, one of which must be given too (unused_keys.h) */
     const char *meaning, *source; /* source: NULL for a free choice of the user */
 } fl_key;
 

@@ -74,7 +74,7 @@ static int is_needed(const fl_scene_head *head, const fl_key *needed)
 {
     const int first = fl_key_first((int)needed->section);
     for (int k = first; k < fl_key_first((int)needed->section + 1); k++)
-        for (int c = 0; c < 2; c++)
+        for (int c = 0; c < 3; c++)
             if (fl_key_table[k].needs[c] && head->key[k - first].line &&
                 strcmp(fl_key_table[k].needs[c], needed->key) == 0)
                 return 1;

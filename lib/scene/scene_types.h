@@ -45,6 +45,7 @@ enum fl_error_of {
 };
 enum fl_device { FL_DEVICE_AUTO, FL_DEVICE_CPU, FL_DEVICE_GPU, FL_DEVICE_SERIAL };
 enum fl_relax { FL_RELAX_NONE, FL_RELAX_LOCAL, FL_RELAX_KINETIC, FL_RELAX_ADAPTIVE };
+enum fl_drive_of { FL_DRIVE_OF_ROW, FL_DRIVE_OF_WALL };
 enum fl_inflow { FL_INFLOW_NONE, FL_INFLOW_ICE, FL_INFLOW_FILE };
 enum fl_frames_form { FL_FRAMES_TEXT, FL_FRAMES_PACKED };
 enum fl_wave_kind { FL_WAVE_NONE, FL_WAVE_AIRY, FL_WAVE_JONSWAP };
@@ -74,11 +75,11 @@ typedef struct {
     double frames_every, ice_every, until; /* ANIMATION_3D.DAT: frames, the ice in them, and their end */
     int32_t files;                         /* number of files the frames are split over */
     int32_t frames_form;                   /* text, packed: enum fl_frames_form */
-    double state_every, energy_every, contacts_every, hash_every, bonds_every, members_every;
+    double state_every, energy_every, contacts_every, hash_every, bonds_every, members_every, zones_every;
     double checkpoint_every;
     char frames[FL_SCENE_PATH], state[FL_SCENE_PATH], energy[FL_SCENE_PATH], contacts[FL_SCENE_PATH],
         hash[FL_SCENE_PATH], panels[FL_SCENE_PATH], events[FL_SCENE_PATH], bonds[FL_SCENE_PATH],
-        members[FL_SCENE_PATH], failures[FL_SCENE_PATH], final_ice[FL_SCENE_PATH],
+        members[FL_SCENE_PATH], zones[FL_SCENE_PATH], failures[FL_SCENE_PATH], final_ice[FL_SCENE_PATH],
         checkpoint[FL_SCENE_PATH]; /* "": none */
 } fl_scene_output;
 
@@ -90,6 +91,8 @@ typedef struct {
     double poisson;
     double restitution; /* of the material against itself */
     double friction;
+    double cohesion, friction_angle; /* of Mohr-Coulomb [Pa], [deg]; negative: not given */
+    double tension, dilation;        /* [Pa], INFINITY: none but that of the cone; [deg] */
 } fl_scene_material;
 
 /* Law of a point of a round core. */
@@ -154,6 +157,7 @@ typedef struct {
     char material[FL_SCENE_NAME];
     double friction; /* against everything; negative: auto */
     fl_scene_motion motion;
+    double direction; /* of the x axis of the scene in platform axes, about z [deg] */
 } fl_scene_structure;
 
 /* A part with a motion of its own. */
@@ -195,6 +199,10 @@ typedef struct {
     uint32_t drive_fixed;            /* FL_FIX_X | ... */
     double drive_spring;             /* [N/m] */
     double drive_foundation;         /* [N/m3] */
+    int32_t drive_of;                /* enum fl_drive_of */
+    double line_load;                /* largest push of what is driven, or of the inflow [N/m]; 0: no limit */
+    double iso_pack_width;           /* of the pack that pushes, for ISO's p_D as line_load [m]; 0: none */
+    double iso_pack_coefficient;     /* R of p_D */
     double foundation, damping;      /* of an elastic wall, per area [N/m3], [N s/m3] */
 } fl_scene_boundary;
 
@@ -330,6 +338,23 @@ typedef struct {
     char remove[FL_SCENE_NAME]; /* group whose bodies are taken out; "": none */
 } fl_scene_stage;
 
+/* What holds a side of deformable blocks. */
+enum fl_zone_side { FL_ZONE_SIDE_FREE, FL_ZONE_SIDE_ROLLER, FL_ZONE_SIDE_FIXED, FL_ZONE_SIDE_QUIET };
+
+/* Deformable blocks. */
+typedef struct {
+    fl_scene_head head;
+    double size;                           /* longest side of a cell of zones [m]; 0: not given */
+    int32_t law;                           /* enum fl_zone_law_kind of zone/zone_law.h */
+    char group[FL_SCENE_NAME];             /* "": all that is not fixed */
+    double averaging;                      /* 1 - k of zone/zone_set.h */
+    int32_t min_side[3], max_side[3];      /* enum fl_zone_side, of x, y, z */
+    fl_vec3 initial_stress, initial_shear; /* xx yy zz and xy yz zx, compression positive [Pa] */
+    fl_vec3 wave_stress;                   /* traction of a wave that comes in through quiet sides [Pa] */
+    double wave_duration;                  /* of its pulse [s]; 0: it stays */
+    int32_t wave_side;                     /* 2 axis + (1: largest) of the side where it comes in */
+} fl_scene_zones;
+
 typedef struct {
     fl_scene_run run;
     fl_scene_output output;
@@ -340,6 +365,7 @@ typedef struct {
     fl_scene_wind wind;
     fl_scene_bond bond;
     fl_scene_failure failure;
+    fl_scene_zones zones;
     fl_scene_material *material; /* "ice" and "steel" are always there after fl_scene_check() */
     fl_scene_contact *contact;
     fl_scene_group *group;

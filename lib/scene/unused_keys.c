@@ -18,10 +18,13 @@ int fl_scene_check_unused(const fl_scene *s, fl_err *err)
         const char *name = fl_section_table[section].name, *const *needs = key->needs;
         char at[2 * FL_SCENE_NAME];
         if (!needs[0] || fl_section_table[section].names || !is_given(s, section, key->key)) continue;
-        if (is_given(s, section, needs[0]) || is_given(s, section, needs[1])) continue;
+        if (is_given(s, section, needs[0]) || is_given(s, section, needs[1]) ||
+            is_given(s, section, needs[2]))
+            continue;
         snprintf(at, sizeof at, "%s.%s", name, key->key);
-        return fl_scene_fail(s, at, err, "%s has no effect without %s.%s%s%s", at, name, needs[0],
-                             needs[1] ? " or " : "", needs[1] ? needs[1] : "");
+        return fl_scene_fail(s, at, err, "%s has no effect without %s.%s%s%s%s%s", at, name, needs[0],
+                             needs[1] ? " or " : "", needs[1] ? needs[1] : "", needs[2] ? " or " : "",
+                             needs[2] ? needs[2] : "");
     }
     return 0;
 }

@@ -376,14 +376,22 @@ double fl_critical_step(const fl_world *w)
 {
     int32_t body;
     damping_shares shares;
-    const double largest = find_stiffest(w, 0, 1.0, &body, &shares);
-    return largest > 0.0 ? 2.0 / sqrt(largest) : INFINITY;
+    const double largest = find_stiffest(w, 0, 1.0, &body, &shares),
+                 bodies = largest > 0.0 ? 2.0 / sqrt(largest) : INFINITY;
+    return w->zones.set.blocks ? fmin(bodies, w->zones.dt_critical) : bodies;
 }
 
 /* (omega dt/2)^2 of all that acts on one body adds up.  With the shares c and b of contacts and bonds
  * 1/dt^2 = (C/c^2 + B/b^2)/4: a body keeps to c when all its bonds have ended, to b while it has no contact,
  * and is stable with any mixture. */
-double fl_automatic_step(const fl_world *w, int32_t *body)
+static int32_t body_of_node(const fl_zone_set *s, int32_t n)
+{
+    int32_t k = 0;
+    while (k + 1 < s->blocks && n >= s->block[k].node_end) k++;
+    return s->block[k].body;
+}
+
+static double step_of_bodies(const fl_world *w, int32_t *body)
 {
     damping_shares shares, same;
     double largest = find_stiffest(w, 0, 1.0, body, &shares);
@@ -391,6 +399,14 @@ double fl_automatic_step(const fl_world *w, int32_t *body)
     const double contacts = share_of(w, &shares), ratio = contacts / share_of_bonds(w, &shares);
     if (fl_world_bonds(w) && ratio != 1.0) largest = find_stiffest(w, 0, ratio * ratio, body, &same);
     return contacts * 2.0 / sqrt(largest);
+}
+
+double fl_automatic_step(const fl_world *w, int32_t *body)
+{
+    const double bodies = step_of_bodies(w, body),
+                 zones = w->zones.set.blocks ? w->scene->run.safety * w->zones.dt_critical : INFINITY;
+    if (zones < bodies) *body = body_of_node(&w->zones.set, w->zones.stiffest);
+    return fmin(bodies, zones);
 }
 
 fl_predicted_limit fl_predict_step_limit(const fl_world *w)
@@ -415,6 +431,8 @@ double fl_longest_step(const fl_predicted_limit *f, double seen)
 int fl_shorten_step_at_start(fl_world *w)
 {
     if (!isfinite(w->dt_critical)) return 0;
+    if (w->zones.set.blocks && w->dt_critical == w->zones.dt_critical)
+        return 0; /* it has been chosen by that */
     const fl_predicted_limit limit = fl_predict_step_limit(w);
     const double longest = fl_longest_step(&limit, w->dt_critical), every = w->scene->output.loads_every;
     if (w->dt <= longest) return 0;
@@ -511,7 +529,8 @@ double fl_peak_error(const fl_world *w)
 {
     const double r = ratio_of(w->dt, w->dt_critical_contacts), D = max_late_damping(w, r),
                  all = max_damping(w, 0);
-    return 0.35 * D * r / (1.0 + 0.5 * D) + fmin(0.15 + 0.2 * all * all, 0.95) * r * r;
+    return 0.35 * D * r / (1.0 + 0.5 * D) +
+           fmin(0.15 + 0.2 * all * all, fmax(0.95, 0.15 + 0.05 * all)) * r * r;
 }
 
 double fl_impulse_error(const fl_world *w)

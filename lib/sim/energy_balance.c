@@ -15,7 +15,7 @@
  * each off by 1e-16. */
 #define ROUNDING 1e-12
 
-enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16, FRACTURE = 32 };
+enum { MOVING = 1, WAVES = 2, BONDS = 4, YIELDING = 8, CRUSHING = 16, FRACTURE = 32, ZONES = 64, PUSH = 128 };
 
 static const fl_column COLUMNS[] = {
     {"kinetic", "J", FL_COLUMN_REAL, 0, offsetof(fl_ledger, kinetic)},
@@ -35,8 +35,12 @@ static const fl_column COLUMNS[] = {
     {"waves", "J", FL_COLUMN_REAL, WAVES, offsetof(fl_ledger, waves)},
     {"bond", "J", FL_COLUMN_REAL, BONDS, offsetof(fl_ledger, bond)},
     {"fracture", "J", FL_COLUMN_REAL, FRACTURE, offsetof(fl_ledger, fracture)},
+    {"zones", "J", FL_COLUMN_REAL, ZONES, offsetof(fl_ledger, zones)},
     {"plastic", "J", FL_COLUMN_REAL, YIELDING, offsetof(fl_ledger, plastic)},
     {"crushing", "J", FL_COLUMN_REAL, CRUSHING, offsetof(fl_ledger, crushing)},
+    {"push", "J", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push)},
+    {"push_impulse", "N.s", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push_impulse)},
+    {"push_way", "m", FL_COLUMN_REAL, PUSH, offsetof(fl_ledger, push_way)},
 };
 const fl_table_format fl_energy_table = {"energy", FL_TABLE_COLUMNS(COLUMNS)};
 
@@ -44,15 +48,16 @@ unsigned fl_energy_table_options(const fl_world *w)
 {
     return (fl_structure_moves_freely(w) ? MOVING : 0u) | (w->sea.waves ? WAVES : 0u) |
            (fl_world_bonds(w) ? BONDS | FRACTURE : 0u) | (w->breaking.on ? FRACTURE : 0u) |
-           (w->moving.members.dynamics.chain.yielding ? YIELDING : 0u) |
-           (w->crushing.of != FL_CRUSHING_NONE || w->strips.wall ? CRUSHING : 0u);
+           (w->moving.members.dynamics.chain.yielding || w->zones.set.plastic ? YIELDING : 0u) |
+           (w->zones.set.blocks ? ZONES : 0u) |
+           (w->crushing.of != FL_CRUSHING_NONE || w->strips.wall ? CRUSHING : 0u) | (w->push.of ? PUSH : 0u);
 }
 
 double fl_energy_stored(const fl_world *w)
 {
     const fl_ledger *g = &w->ledger;
     return fabs(g->kinetic) + fabs(g->gravity) + fabs(g->elastic) + fabs(g->hydrostatic) +
-           fabs(g->structure) + fabs(g->spring) + fabs(g->bond);
+           fabs(g->structure) + fabs(g->spring) + fabs(g->bond) + fabs(g->zones);
 }
 
 double fl_energy_error(const fl_world *w)
@@ -102,9 +107,10 @@ void fl_energy_update(fl_world *w)
     const fl_work ahead = fl_work_ahead(w);
     for (int32_t i = 0; i < w->n; i++) {
         const int present = !fl_body_absent(w, i);
-        if (present) kinetic += fl_body_kinetic_energy(b, i);
+        const int is_rigid = !w->zones.block_of || w->zones.block_of[i] < 0;
+        if (present && is_rigid) kinetic += fl_body_kinetic_energy(b, i);
         if (present) gravity -= b->m[i] * v3_dot(w->gravity, b->x[i]);
-        constraint += b->work_of_constraints[i];
+        if (is_rigid) constraint += b->work_of_constraints[i];
         if (w->driven_floes.n && present) {
             double extension = 0.0;
             const double k = fl_driven_floe_spring(w, i, &extension);
@@ -124,29 +130,39 @@ void fl_energy_update(fl_world *w)
     g->bond = bonds.store;
     g->fracture = bonds.dissipated + w->breaking.lost;
     spring += bonds.spring - bonds.transferred;
+    double zone_damping = 0.0;
+    if (w->zones.set.blocks) {
+        const fl_zone_energies zones = fl_zone_set_energies(&w->zones.set);
+        kinetic += zones.kinetic, g->zones = zones.stored, g->plastic = zones.plastic;
+        constraint += w->zones.drive;
+        zone_damping = w->zones.damping;
+        for (int32_t k = 0; k < w->zones.joints.n; k++) zone_damping += w->zones.joints.joint[k].damped;
+    }
     g->kinetic = kinetic;
     g->gravity = gravity;
     g->elastic = elastic;
     g->hydrostatic = hydro;
-    g->damping_now = g->damping - ahead.damping + bonds.damped;
+    g->damping_now = g->damping - ahead.damping + bonds.damped + zone_damping;
     g->friction_now = g->friction - ahead.friction - spring +
                       bonds.friction_loss; /* the friction springs can give it back */
     g->drag = drag;
     g->wind = wind;
     g->waves = waves;
+    if (!w->zones.set.blocks) g->plastic = 0.0;
     if (fl_structure_moves(w)) {
         const fl_moving_energy r = fl_moving_structure_energy(w);
         g->structure = r.kinetic;
         g->spring = r.spring;
         g->damper = r.damper_work;
-        g->plastic = r.plastic_work;
+        g->plastic += r.plastic_work;
         constraint += r.drive_work;
     }
     const double drive = g->drive - ahead.drive + constraint;
     g->drive_now = drive;
-    g->residual = kinetic + gravity + elastic + hydro + g->structure + g->spring + g->bond + g->fracture -
-                  g->start + g->damping_now + g->friction_now + drag + g->damper + g->plastic + g->crushing -
-                  wind - waves - drive - g->carried;
+    g->push = w->push.work, g->push_impulse = w->push.impulse, g->push_way = w->push.way;
+    g->residual = kinetic + gravity + elastic + hydro + g->structure + g->spring + g->bond + g->zones +
+                  g->fracture - g->start + g->damping_now + g->friction_now + drag + g->damper + g->plastic +
+                  g->crushing - wind - waves - drive - g->carried;
     const double throughput = fabs(g->damping_now) + fabs(g->friction_now) + fabs(drag) + fabs(wind) +
                               fabs(waves) + fabs(drive) + kinetic + g->damper + g->plastic + g->crushing +
                               g->structure + fabs(g->fracture);
@@ -171,6 +187,10 @@ uint64_t fl_state_hash(const fl_world *w)
         h = fl_hash(h, &m->q[k], sizeof m->q[k]);
         h = fl_hash(h, &m->v[k], sizeof m->v[k]);
         h = fl_hash(h, &m->L[k], sizeof m->L[k]);
+    }
+    for (int32_t n = 0; n < w->zones.set.nodes; n++) {
+        h = fl_hash(h, &w->zones.set.x[n], sizeof w->zones.set.x[n]);
+        h = fl_hash(h, &w->zones.set.v[n], sizeof w->zones.set.v[n]);
     }
     const fl_member_chain *c = &w->moving.members.dynamics.chain;
     for (int32_t k = 0; k < c->balls; k++) {

@@ -4,6 +4,7 @@
 #include "base/array.h"
 #include "body/integrate.h"
 #include "contact/bond_list.h"
+#include "sim/ice_push.h"
 
 static double power_of(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
 
@@ -152,7 +153,10 @@ fl_work fl_work_of_step(const fl_world *w, int32_t k, const fl_velocity_change *
 static fl_velocity_change acceleration_of(const fl_world *w, int32_t k)
 {
     fl_velocity_change g = {0};
-    if (k < w->n) {
+    if (k == w->push.wall && w->push.of) {
+        const double a = w->push.sign * fl_ice_push_acceleration(w);
+        g.v = w->push.axis ? v3(0, a, 0) : v3(a, 0, 0);
+    } else if (k < w->n) {
         fl_body_accelerations(&w->b, k, &g.v, &g.w);
     } else if (fl_structure_has_members(w)) {
         if (fl_piece_moves(w, k))
@@ -166,6 +170,9 @@ static fl_velocity_change acceleration_of(const fl_world *w, int32_t k)
     }
     return g;
 }
+
+/* 1 if pieces or walls move. */
+static int things_move(const fl_world *w) { return fl_structure_moves(w) || w->push.of == FL_PUSH_WALL; }
 
 static fl_velocity_change change_of(const fl_world *w, int32_t k)
 {
@@ -182,7 +189,7 @@ void fl_ledger_begin_step(fl_world *w)
     w->spheres.previous_sum = w->spheres.sum;
     w->spheres.sum = sum;
     memset(w->predicted_change, 0, (size_t)w->change_cap * sizeof *w->predicted_change);
-    for (int32_t k = w->n; k < w->b.total && fl_structure_moves(w); k++) {
+    for (int32_t k = w->n; k < w->b.total && things_move(w); k++) {
         fl_velocity_change *const change = fl_kick_change(w, k);
         if (change) *change = change_of(w, k);
     }
@@ -192,7 +199,8 @@ void fl_ledger_begin_step(fl_world *w)
 static double drive_power(const fl_world *w)
 {
     double sum = 0.0;
-    if (w->moving.movers.n == 0) return 0.0;
+    if (w->push.of == FL_PUSH_WALL) sum -= v3_dot(w->b.f[w->push.wall], w->b.v[w->push.wall]);
+    if (w->moving.movers.n == 0) return sum;
     for (int32_t k = 0; k < w->pieces; k++) {
         const int32_t j = w->n + k, m = w->moving.mover_of_piece[k];
         if (m < 0 || w->moving.movers.motion[m].free_dof) continue;
@@ -207,7 +215,7 @@ void fl_ledger_book_step(fl_world *w)
     fl_work sum = {0};
     for (int32_t k = 0; k < fl_block_count(w); k++)
         sum.damping += w->blocks[k].damping_work, sum.friction += w->blocks[k].friction_work;
-    for (int32_t k = w->n; k < w->b.total && fl_structure_moves(w); k++) {
+    for (int32_t k = w->n; k < w->b.total && things_move(w); k++) {
         const fl_velocity_change back = change_of(w, k);
         const fl_work q = fl_work_of_step(w, k, fl_kick_change(w, k), &back);
         sum.damping += q.damping, sum.friction += q.friction;

@@ -286,7 +286,7 @@ static int place_copy(fl_world *w, int32_t i, int32_t k, double in, fl_err *err)
     for (int32_t v = 0; v < b->core[i].nv; v++)
         front = fmax(front, coordinate_along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
     const double shift = t->sign * (t->entry + in - front - b->radius[i]);
-    const double drift = t->sign * t->speed;
+    const double drift = t->sign * (w->push.of == FL_PUSH_INFLOW ? w->push.velocity : t->speed);
     const fl_vec3 prescribed =
         v3(b->fixed_dof[i] & FL_DOF_X ? b->v[i].x : 0.0, b->fixed_dof[i] & FL_DOF_Y ? b->v[i].y : 0.0,
            b->fixed_dof[i] & FL_DOF_Z ? b->v[i].z : 0.0); /* prescribed by its group */
@@ -330,11 +330,22 @@ static int admit_floe(fl_world *w, int32_t i, fl_err *err)
 /* Largest number of fields that may be missed in one step: more is an error of the scene. */
 #define MAX_MISSED 1e9
 
+/* Way of the sheet since the start, and in the last step [m]: that of what pushes, or at one speed. */
+static double sheet_way(const fl_world *w)
+{
+    return w->push.of == FL_PUSH_INFLOW ? w->push.way : w->inflow.speed * fl_world_time(w);
+}
+
+static double sheet_step(const fl_world *w)
+{
+    return w->push.of == FL_PUSH_INFLOW ? w->push.velocity * w->dt : w->inflow.speed * w->dt;
+}
+
 /* Place the copies of floe k that are due; *came counts them.  0 or -1. */
 static int place_due(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
-    const double shift = t->speed * fl_world_time(w), step = t->speed * w->dt;
+    const double shift = sheet_way(w), step = sheet_step(w);
     for (;;) {
         const double delay = shift - t->lag[k] - (double)t->next_copy[k] * t->pitch;
         if (delay < 0.0) return 0;
@@ -388,7 +399,7 @@ static void release_guided(fl_world *w)
 static int is_due(const fl_world *w)
 {
     const fl_inflow_state *t = &w->inflow;
-    const double shift = t->speed * fl_world_time(w);
+    const double shift = sheet_way(w);
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)
         if (shift >= t->lag[k] + (double)t->next_copy[k] * t->pitch) return 1;
     return 0;

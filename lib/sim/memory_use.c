@@ -103,7 +103,15 @@ static double other_bytes(const fl_world *w)
            ARRAY(z->max_omega2, w->b.total) + ARRAY(z->first, w->b.total + 1);
     if (z->joint)
         sum += ARRAY(z->joint, z->n - z->faces) + ARRAY(z->corner, z->corners) +
-               ARRAY(z->joint_material, w->scene->n_joint);
+               ARRAY(z->joint_material, w->scene->n_joint + (w->zones.set.blocks > 0));
+    if (w->zones.set.blocks) {
+        const fl_zone_joint_list *l = &w->zones.joints;
+        sum += fl_zone_set_bytes(&w->zones.set) + ARRAY(l->joint, l->n) + ARRAY(l->point, l->points) +
+               ARRAY(l->triangle, l->triangles) + ARRAY(w->zones.block_of, n) +
+               ARRAY(w->zones.joint_of, z->n - z->faces);
+        sum += (w->zones.drag ? ARRAY(w->zones.drag, w->zones.set.nodes) : 0.0) +
+               (w->zones.push ? ARRAY(w->zones.push, w->zones.set.nodes) : 0.0);
+    }
     const int32_t triangles = q->first_triangle ? q->first_triangle[q->pieces] : 0;
     sum += ARRAY(q->panel, q->all) + ARRAY(q->triangle, triangles) + ARRAY(q->box, triangles) +
            ARRAY(q->impulse, q->panels) + ARRAY(q->point, q->point_cap) + ARRAY(q->share, q->share_cap);

@@ -2,6 +2,7 @@
 #include "sim/relaxed_run.h"
 #include <stdlib.h>
 #include "base/array.h"
+#include "sim/zone_step.h"
 #include "world/access.h"
 
 static const double LOCAL = 0.8;
@@ -125,5 +126,7 @@ double fl_relaxed_run_ratio(const fl_world *w)
         const double f = v3_norm(w->pair[w->touching_pairs[c]].contact->force);
         sum += f, n += f > 0.0;
     }
-    return sum > 0.0 ? most * (double)n / sum : INFINITY;
+    const double bodies = sum > 0.0 ? most * (double)n / sum : INFINITY;
+    if (!w->zones.set.blocks) return bodies;
+    return fmax(sum > 0.0 ? bodies : 0.0, fl_zones_force_ratio(w));
 }

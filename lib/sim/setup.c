@@ -21,11 +21,13 @@
 #include "sim/drive_track.h"
 #include "sim/floe_cut.h"
 #include "sim/floe_setup.h"
+#include "sim/ice_push.h"
 #include "sim/inflow.h"
 #include "sim/inflow_bonds.h"
 #include "sim/moving_structure.h"
 #include "sim/sleep.h"
 #include "sim/strip_setup.h"
+#include "sim/zone_setup.h"
 #include "sphere/contact_list.h"
 #include "structure/mesh_contact.h"
 #include "structure/region.h"
@@ -442,8 +444,9 @@ int fl_world_make_with_inflow(fl_world *w, const fl_scene *scene, const fl_ice_f
     if (fl_breaking_make(w, err) || place_pieces(w, surface, err) ||
         fl_moving_structure_make(w, surface, members, err) || fl_panels_make(w, surface, err) ||
         fl_strips_make(w, err) || fl_sleep_make(w, err) || fl_pair_law_make_table(w, err) ||
-        fl_bond_list_make(w, field, err) || fl_inflow_bonds_make(w, err) || fl_relaxed_run_make(w, err) ||
-        fl_crushing_make(w, err))
+        fl_zones_make(w, field, err) || fl_bond_list_make(w, field, err) || fl_zones_join(w, field, err) ||
+        fl_inflow_bonds_make(w, err) || fl_relaxed_run_make(w, err) || fl_crushing_make(w, err) ||
+        fl_ice_push_make(w, field, feed, err))
         goto fail;
     if (check_inward(w, surface, err) || check_pierced(w, field, surface, err)) goto fail;
     /* A tenth of a mean floe: large enough to search seldom, small enough to list few pairs that never
@@ -494,6 +497,7 @@ void fl_world_free(fl_world *w)
     fl_bond_list_free(&w->bonds);
     fl_relaxed_run_free(&w->relax);
     fl_disc_list_free(&w->discs);
+    fl_zones_free(&w->zones);
     fl_panels_free(&w->panel_load);
     fl_strips_free(&w->strips);
     fl_pairs_free(&w->candidates);

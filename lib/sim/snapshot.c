@@ -21,6 +21,7 @@
 #include "sim/snapshot_bond.h"
 #include "sim/snapshot_failure.h"
 #include "sim/snapshot_pair.h"
+#include "sim/snapshot_zone.h"
 #include "sphere/contact_list.h"
 
 static void exchange_ledger(fl_state_io *t, fl_world *w)
@@ -279,6 +280,19 @@ static void exchange_drive_track(fl_state_io *t, const fl_track *tr)
     fl_state_io_close(t);
 }
 
+static void exchange_push(fl_state_io *t, fl_push *p)
+{
+    fl_state_io_open(t, "push");
+    fl_state_io_real(t, &p->velocity);
+    fl_state_io_real(t, &p->back);
+    fl_state_io_real(t, &p->force);
+    fl_state_io_real(t, &p->way);
+    fl_state_io_real(t, &p->impulse);
+    fl_state_io_real(t, &p->limited);
+    fl_state_io_real(t, &p->work);
+    fl_state_io_close(t);
+}
+
 /* A structure of members: its balls.  Its forces follow from them and from those on the pieces. */
 static void exchange_members(fl_state_io *t, fl_world *w)
 {
@@ -459,9 +473,11 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++) exchange_mover(t, w, k);
     for (int32_t k = 0, n = fl_structure_modes(w); k < n && !t->err->code; k++) exchange_mode(t, w, k);
     if (w->driven_floes.track.n && !t->err->code) exchange_drive_track(t, &w->driven_floes.track);
+    if (w->push.of && !t->err->code) exchange_push(t, &w->push);
     if (fl_structure_has_members(w) && !t->err->code) exchange_members(t, w);
     fl_snapshot_bonds(t, w);
     if (w->discs.n && !t->err->code) fl_snapshot_discs(t, w);
+    if (w->zones.set.blocks && !t->err->code) fl_snapshot_zones(t, w);
     if (w->panel_load.panels && !t->err->code) exchange_panel_loads(t, w);
     if (w->panel_load.shared && !t->err->code) exchange_load_shares(t, w);
     const double now = w->sea.time;

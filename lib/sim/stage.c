@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "sim/inflow.h"
 #include "sim/relaxed_run.h"
+#include "sim/zone_step.h"
 #include "world/access.h"
 
 static int begin_stage(fl_world *w, const fl_scene_stage *s, const int32_t *group, const char *const *name,
@@ -19,6 +20,7 @@ static int begin_stage(fl_world *w, const fl_scene_stage *s, const int32_t *grou
     if (!(gone = fl_alloc(w->n, 1, err))) return -1;
     for (int32_t k = 0; k < w->n; k++) gone[k] = group[k] == g;
     const int rc = fl_inflow_remove(w, gone, err);
+    if (rc == 0 && w->zones.set.blocks) fl_zones_drop_absent(w);
     free(gone);
     return rc;
 }

@@ -22,6 +22,7 @@
 #include "sim/drive_track.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
+#include "sim/ice_push.h"
 #include "sim/inflow.h"
 #include "sim/member_structure.h"
 #include "sim/moving_structure.h"
@@ -29,6 +30,7 @@
 #include "sim/sleep.h"
 #include "sim/stiffness_update.h"
 #include "sim/strip_setup.h"
+#include "sim/zone_step.h"
 #include "sphere/contact_force.h"
 #include "sphere/contact_list.h"
 #include "world/access.h"
@@ -168,6 +170,10 @@ static void run_step_in_team(step_context *q)
     /* bodies: drag h, kick h, drift dt */
     if (q->first_half) {
         move_blocks(q, thread, 0);
+        if (w->zones.set.blocks) {
+            fl_barrier_wait(&w->barrier, threads, NULL, NULL);
+            fl_zones_first_half(w, 0.5 * q->dt);
+        }
         fl_barrier_wait(&w->barrier, threads, after_drift, q);
         if (q->needs_search) return;
     }
@@ -181,6 +187,7 @@ static void run_step_in_team(step_context *q)
             fl_sphere_chunk_evaluate(w, a, q->dt, q->update_stiffness);
     }
     evaluate_pairs(w, q->dt, q->update_stiffness);
+    if (w->zones.set.blocks) fl_zones_stress(w);
     fl_barrier_wait(&w->barrier, threads, after_contacts, q);
     if (q->failed) return;
 
@@ -194,6 +201,7 @@ static void run_step_in_team(step_context *q)
 
     /* this barrier spins; that at the end of the parallel region would put threads to sleep */
     fl_barrier_wait(&w->barrier, threads, NULL, NULL);
+    if (w->zones.set.blocks) fl_zones_second_half(w, 0.5 * q->dt);
 }
 
 /* Tables of the waves for time t. */
@@ -242,6 +250,7 @@ static int run_step(step_context *q)
     const int32_t team = q->w->team.n;
     if (q->w->device.gpu && q->dt > 0.0) return run_device_step(q);
     fl_work_share_split(q->w->block_share, team, fl_block_count(q->w));
+    q->w->zones.dt = q->dt;
     if (!q->first_half) fl_share_active_pairs(q->w);
     if (team == 1) {
         run_step_in_team(q);
@@ -257,6 +266,7 @@ static int run_step(step_context *q)
 static int check_state(fl_world *w, int update_stiffness, fl_err *err)
 {
     if (w->failed) return fl_fail(err, FL_SYSTEM, "out of memory in step %lld", (long long)w->step);
+    if (w->zones.set.blocks && w->zones.set.inside_out >= 0) return fl_zones_fail(w, err);
     for (int32_t g = 0; g < fl_block_count(w); g++)
         if (w->blocks[g].not_finite >= 0)
             return fl_fail(err, FL_NUMERIC, "body %d: not a finite number in step %lld (t = %g s)",
@@ -436,7 +446,8 @@ int fl_step_start(fl_world *w, fl_err *err)
     book_work_ahead(w, 1.0);
     fl_energy_update(w);
     w->ledger.start = w->ledger.kinetic + w->ledger.gravity + w->ledger.elastic + w->ledger.hydrostatic +
-                      w->ledger.structure + w->ledger.spring + w->ledger.bond + w->ledger.fracture +
+                      w->ledger.structure + w->ledger.spring + w->ledger.bond + w->ledger.zones +
+                      w->ledger.fracture +
                       fl_joint_list_friction_loss(w); /* of joints that begin beyond their strength */
     fl_energy_update(w);
     return 0;
@@ -453,7 +464,8 @@ int fl_step(fl_world *w, fl_err *err)
 
     /* moving structure: first half */
     fl_ledger_begin_step(w);
-    if (w->driven_floes.track.n) fl_drive_track_begin_step(w, fl_world_time(w));
+    if (w->push.of) fl_ice_push_first_half(w, fl_world_time(w));
+    else if (w->driven_floes.track.n) fl_drive_track_begin_step(w, fl_world_time(w));
     if (moves) fl_moving_structure_first_half(w, fl_world_time(w));
 
     /* tables of the waves */
@@ -470,10 +482,12 @@ int fl_step(fl_world *w, fl_err *err)
     }
     /* moving structure: second half */
     if (moves) fl_moving_structure_second_half(w, fl_world_time(w), h);
+    if (w->push.of) fl_ice_push_second_half(w);
 
     /* energy ledger, overlaps, momentum */
     fl_ledger_book_step(w);
     if (w->strips.wall && fl_strips_book(w, dt, err)) return -1;
+    if (w->zones.set.blocks) fl_zones_book(w);
     if (w->relax.kind) fl_relaxed_run_end_step(w);
     gather_overlaps(w, dt);
     if (w->crushing.of != FL_CRUSHING_NONE && fl_crushing_book(w, err)) return -1;

@@ -89,4 +89,8 @@ void fl_stiffness_update(fl_world *w)
         w->critical_body = body;
     }
     if (fl_structure_moves(w)) fl_moving_structure_limit(w);
+    if (w->zones.set.blocks && w->zones.dt_critical < w->dt_critical) {
+        w->dt_critical = w->zones.dt_critical;
+        w->critical_body = w->zones.set.block[0].body;
+    }
 }

@@ -11,11 +11,18 @@
 
 enum { RAW_MAX = 64, SIGNAL_MAX = RAW_MAX / 3 };
 
+enum formula_kind { LENGTH, RESISTANCE, MOMENT, OVERTURNING };
+enum { FORMULA_COLUMNS = 5 };
+
 /* A signal is the Euclidean length of one to three columns; of one column it is the column itself.  The
- * resistance is minus the component of a horizontal force along a horizontal velocity, of four columns. */
+ * resistance is minus the component of a horizontal force along a horizontal velocity, of four columns.  A
+ * moment about another point, M - p x F, has the columns of one component; the overturning moment is the
+ * length of its horizontal part. */
 typedef struct {
-    int raw[4], n; /* indices into the columns that are read; n = 4: resistance */
-    int adds;      /* the sum over the parts is meaningful */
+    enum formula_kind kind;
+    int raw[FORMULA_COLUMNS], n; /* indices into the columns that are read */
+    int axis;                    /* of a moment: 0 x, 1 y, 2 z */
+    int adds;                    /* the sum over the parts is meaningful */
 } formula;
 
 typedef struct {
@@ -62,7 +69,9 @@ const char *fl_reduction_name(int reduction)
 
 static int is_additive(const char *name)
 {
-    static const char *const list[] = {"fx", "fy", "fz", "mx", "my", "mz", "contacts"};
+    static const char *const list[] = {"fx",          "fy",          "fz",         "mx",
+                                       "my",          "mz",          "contacts",   "fx_platform",
+                                       "fy_platform", "mx_platform", "my_platform"};
     for (size_t k = 0; k < sizeof list / sizeof *list; k++)
         if (strcmp(name, list[k]) == 0) return 1;
     return 0;
@@ -82,18 +91,29 @@ static int add_column(fl_record_reader *r, const char *name, int *raw, fl_err *e
 static int add_signal(fl_record_reader *r, const fl_record_selection *selection, const char *name,
                       fl_err *err)
 {
-    static const char *const axis[] = {"fx", "fy", "fz"};
+    static const char *const axis[] = {"fx", "fy", "fz"}, *const turn[] = {"mx", "my", "mz"},
+                             *const over[] = {"mx", "my", "fx", "fy", "fz"};
     formula *f = &r->form[r->signals];
-    const char *of[4] = {name, NULL, NULL, NULL};
+    const char *of[FORMULA_COLUMNS] = {name};
     if (r->signals == SIGNAL_MAX)
         return fl_fail(err, FL_USAGE, "at most %d signals can be selected", SIGNAL_MAX);
-    f->n = 1;
+    *f = (formula){.n = 1};
+    for (int k = 0; k < 3 && selection->about && r->loads; k++)
+        if (strcmp(name, turn[k]) == 0) {
+            *f = (formula){.kind = MOMENT, .n = 3, .axis = k};
+            of[1] = axis[(k + 1) % 3], of[2] = axis[(k + 2) % 3];
+        }
+    if (fl_table_column(&r->table, name) < 0 && strcmp(name, "mh") == 0) {
+        *f = (formula){.kind = OVERTURNING, .n = FORMULA_COLUMNS};
+        memcpy(of, over, sizeof over);
+    }
     if (fl_table_column(&r->table, name) < 0 && (strcmp(name, "fh") == 0 || strcmp(name, "f") == 0)) {
         f->n = name[1] == 'h' ? 2 : 3;
         memcpy(of, axis, sizeof axis);
     }
     if (fl_table_column(&r->table, name) < 0 && strcmp(name, "resistance") == 0) {
         f->n = 4;
+        f->kind = RESISTANCE;
         of[0] = "fx", of[1] = "fy", of[2] = "vx", of[3] = "vy";
     }
     f->adds = 1;
@@ -102,7 +122,7 @@ static int add_signal(fl_record_reader *r, const fl_record_selection *selection,
         f->adds &= r->adds[f->raw[k]];
     }
     const int32_t first = r->col[f->raw[0]];
-    r->name[r->signals] = f->n == 1 ? r->table.name[first] : name;
+    r->name[r->signals] = f->n == 1 || f->kind == MOMENT ? r->table.name[first] : name;
     r->unit[r->signals] = selection->reduction == FL_REDUCE_COUNT ? "" : r->table.unit[first];
     for (int32_t k = 0; k < r->signals; k++)
         if (strcmp(r->name[k], r->name[r->signals]) == 0) return 0; /* a repeated signal counts once */
@@ -238,15 +258,26 @@ static int fix_parts(fl_record_reader *r, fl_err *err)
     return check_part(r, err) ? -1 : choose_parts(r, err);
 }
 
-static double evaluate_formula(const double *raw, const formula *f)
+/* Component k of M - p x F; m of M, a and b of F, along the axes after k. */
+static double moment_about(const double *p, int k, double m, double a, double b)
 {
-    if (f->n == 1) return raw[f->raw[0]];
-    const double h = hypot(raw[f->raw[0]], raw[f->raw[1]]);
-    if (f->n == 4) {
-        const double vx = raw[f->raw[2]], vy = raw[f->raw[3]], v = hypot(vx, vy);
-        return v > 0.0 ? -(raw[f->raw[0]] * vx + raw[f->raw[1]] * vy) / v : 0.0;
+    return p ? m - (p[(k + 1) % 3] * b - p[(k + 2) % 3] * a) : m;
+}
+
+static double evaluate_formula(const double *raw, const formula *f, const double *about)
+{
+    double c[FORMULA_COLUMNS] = {0};
+    for (int k = 0; k < f->n; k++) c[k] = raw[f->raw[k]];
+    if (f->kind == MOMENT) return moment_about(about, f->axis, c[0], c[1], c[2]);
+    if (f->kind == OVERTURNING)
+        return hypot(moment_about(about, 0, c[0], c[3], c[4]), moment_about(about, 1, c[1], c[4], c[2]));
+    if (f->n == 1) return c[0];
+    const double h = hypot(c[0], c[1]);
+    if (f->kind == RESISTANCE) {
+        const double v = hypot(c[2], c[3]);
+        return v > 0.0 ? -(c[0] * c[2] + c[1] * c[3]) / v : 0.0;
     }
-    return f->n == 2 ? h : hypot(h, raw[f->raw[2]]);
+    return f->n == 2 ? h : hypot(h, c[2]);
 }
 
 /* All rows of one time have been read: compute signals from columns.  The total is summed in the order in
@@ -269,7 +300,8 @@ static int close_time(fl_record_reader *r, fl_err *err)
             for (int32_t p = 0; p < r->parts; p++)
                 for (int32_t c = 0; c < r->raws; c++) sum[c] += r->raw[(int64_t)p * r->raws + c];
         }
-        for (int32_t s = 0; s < r->signals; s++) *x++ = evaluate_formula(raw, &r->form[s]);
+        for (int32_t s = 0; s < r->signals; s++)
+            *x++ = evaluate_formula(raw, &r->form[s], r->selection.about);
     }
     r->t[!r->waiting] = r->now;
     r->n++;

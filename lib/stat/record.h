@@ -17,8 +17,11 @@ enum { FL_RUN_END_TEXT = 400 };
 /* Signals and rows to read.
  *   signal[signals]  columns, or fh = sqrt(fx^2 + fy^2), or f = sqrt(fx^2 + fy^2 + fz^2), for the total of
  *                    the summed components, or resistance = -(fx vx + fy vy) / sqrt(vx^2 + vy^2) of a part
- *                    that moves, 0 while it is at rest; signals = 0 selects fx, fy, fz, fh of a loads table
+ *                    that moves, 0 while it is at rest, or the overturning moment mh = sqrt(mx^2 + my^2);
+ *                    signals = 0 selects fx, fy, fz, fh of a loads table
  *   part             one part or "total"; NULL selects all parts and the total
+ *   about            point to which moments of loads are moved, from the reference of each part, M - p x F
+ *                    [m]; NULL: none
  *   reduction        how several rows at one time are combined, fl_time_reduction
  *   where[wheres]    "COLUMN=WORD": only rows with that word in the column
  *   patience         time to wait for an ended file to grow [s], see fl_in_patience()
@@ -30,6 +33,7 @@ typedef struct {
     const char *const *signal;
     int32_t signals;
     const char *part;
+    const double *about; /* [3] */
     double from, to, last, after_first_load;
     int reduction;
     const char *const *where;

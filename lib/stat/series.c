@@ -127,6 +127,16 @@ done:
     return rc;
 }
 
+void fl_series_drop_first(fl_series *s, int32_t rows)
+{
+    const size_t left = (size_t)(s->n - rows);
+    for (int64_t k = 0; k < (int64_t)s->parts * s->signals; k++)
+        if (s->x[k]) memmove(s->x[k], s->x[k] + rows, left * sizeof **s->x);
+    memmove(s->t, s->t + rows, left * sizeof *s->t);
+    memmove(s->edge, s->edge + rows, (left + 1) * sizeof *s->edge);
+    s->n -= rows;
+}
+
 void fl_series_free(fl_series *s)
 {
     for (int64_t k = 0; s->x && k < (int64_t)s->parts * s->signals; k++) free(s->x[k]);

@@ -29,6 +29,9 @@ typedef struct {
  * 0, or -1 with their errors, or FL_INPUT when no row is left. */
 int fl_series_read(fl_series *s, const char *path, const fl_record_selection *selection, fl_err *err);
 
+/* Leave out the first rows, fewer than n. */
+void fl_series_drop_first(fl_series *s, int32_t rows);
+
 /* Accepts a zeroed struct and leaves one. */
 void fl_series_free(fl_series *s);
 

@@ -52,7 +52,7 @@ static int add_values(fl_multiset *v, const fl_multiset *other, fl_err *err)
 /* Components of force in their usual order, then the others in alphabetical order. */
 static int compare_signals(const char *a, const char *b)
 {
-    static const char *const known[] = {"fx", "fy", "fz", "fh", "f", "mx", "my", "mz"};
+    static const char *const known[] = {"fx", "fy", "fz", "fh", "f", "mx", "my", "mz", "mh"};
     enum { KNOWN = sizeof known / sizeof *known };
     int i = 0, j = 0;
     while (i < KNOWN && strcmp(a, known[i]) != 0) i++;

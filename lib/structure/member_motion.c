@@ -86,13 +86,13 @@ int fl_member_motion_surface(fl_surface *s, const fl_member_model *m, double wat
 
 /* --- making it --------------------------------------------------------------------------------- */
 
-int fl_member_motion_frames_surface(fl_surface *s, const fl_member_model *m, fl_err *err)
+int fl_member_motion_frames_surface(fl_surface *s, const fl_member_model *m, double thin, fl_err *err)
 {
     fl_member_chain c = {0};
     int rc = fl_member_chain_make(&c, m, 1.0, err);
     for (int32_t k = 0, piece = 0; k < c.contacts && rc == 0; k++) {
         const fl_member_contact *e = &c.contact[k];
-        const double radius = m->section[m->member[e->member].section].radius;
+        const double own = m->section[m->member[e->member].section].radius, radius = own > 0.0 ? own : thin;
         char name[300];
         piece = k > 0 && e->member == e[-1].member ? piece + 1 : 1;
         snprintf(name, sizeof name, "%.250s.%d", m->member_name.name[e->member], (int)piece);
@@ -199,7 +199,11 @@ void fl_member_motion_pose(const fl_member_motion *v, int32_t k, fl_vec3 *x, fl_
 
 void fl_member_motion_piece_pose(const fl_member_motion *v, int32_t contact, fl_vec3 *x, fl_quat *q)
 {
-    const fl_member_chain *c = &v->dynamics.chain;
+    fl_member_motion_chain_pose(&v->dynamics.chain, contact, x, q);
+}
+
+void fl_member_motion_chain_pose(const fl_member_chain *c, int32_t contact, fl_vec3 *x, fl_quat *q)
+{
     const fl_member_contact *e = &c->contact[contact];
     const piece_frame f = frame_of(c, contact);
     const fl_vec3 middle = middle_at_start(c, e);

@@ -43,8 +43,8 @@ typedef struct {
 int fl_member_motion_surface(fl_surface *s, const fl_member_model *m, double waterline, fl_err *err);
 
 /* Makes a surface of the pieces of the chain, a part with a cylinder each, in the order of the contacts, for
- * animations. */
-int fl_member_motion_frames_surface(fl_surface *s, const fl_member_model *m, fl_err *err);
+ * animations. thin: radius of pieces whose section has none, 0 for no cylinder. */
+int fl_member_motion_frames_surface(fl_surface *s, const fl_member_model *m, double thin, fl_err *err);
 
 int fl_member_motion_make(fl_member_motion *v, const fl_member_model *m, double waterline, double ratio,
                           fl_err *err);
@@ -54,6 +54,7 @@ void fl_member_motion_free(fl_member_motion *v); /* accepts a zeroed struct, lea
 void fl_member_motion_pose(const fl_member_motion *v, int32_t k, fl_vec3 *x, fl_quat *q);
 
 /* Pose change of piece `contact` of the chain: a point p of the file is at x + R(q) p. */
+void fl_member_motion_chain_pose(const fl_member_chain *c, int32_t contact, fl_vec3 *x, fl_quat *q);
 void fl_member_motion_piece_pose(const fl_member_motion *v, int32_t contact, fl_vec3 *x, fl_quat *q);
 
 /* Velocity of point x of cylinder k, and angular velocity, from velocities of the balls. */

@@ -76,6 +76,12 @@ fl_eye fl_camera_eye(const fl_camera *c, int w, int h, fl_vec3 centre, double ra
     return out;
 }
 
+double fl_eye_distance(const fl_eye *eye, const float p[3], double reach)
+{
+    const double x = p[0] - eye->eye[0], y = p[1] - eye->eye[1], z = p[2] - eye->eye[2];
+    return eye->parallel ? 1.0 : fmax(1e-9, fmax(0.02 * reach, sqrt(x * x + y * y + z * z) - reach));
+}
+
 void fl_camera_ray(const fl_camera *c, int w, int h, double px, double py, fl_vec3 *from, fl_vec3 *along)
 {
     const fl_vec3 back = backward(c), ahead = v3_neg(back), eye = v3_madd(c->at, c->distance, back);

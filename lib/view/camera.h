@@ -27,6 +27,9 @@ typedef struct {
 /* radius: that of a sphere about `centre` that holds all that is drawn, for the near and far planes [m]. */
 fl_eye fl_camera_eye(const fl_camera *c, int w, int h, fl_vec3 centre, double radius);
 
+/* Of the nearest point of a sphere of radius `reach` about x, for eye->pixel [m]; 1 in a parallel view. */
+double fl_eye_distance(const fl_eye *eye, const float x[3], double reach);
+
 fl_mat4 fl_mat4_mul(fl_mat4 a, fl_mat4 b);
 
 /* The ray through a pixel centre: a point on it and its direction. */

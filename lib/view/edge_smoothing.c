@@ -2,58 +2,62 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/simd.h"
 #include "view/edge_smoothing.h"
 
 /* An edge: luminance differs by more than this among the neighbours, and by more than an eighth of the
  * largest. */
 enum { CONTRAST = 10, CONTRAST_SHIFT = 3, REACH = 6 * 256, ROW = 256 };
 
-/* Adds the colour between pixels; x, y with 8 bits of fraction, centres at whole numbers. */
-static inline void add_tap(const unsigned char *p, int w, int h, int x, int y, int c[3])
+/* The four bytes of a pixel, and their numbers in one register. */
+typedef unsigned char pixel_bytes __attribute__((vector_size(4), aligned(1), may_alias));
+typedef int pixel_lanes __attribute__((vector_size(16)));
+
+FL_SIMD_INLINE pixel_lanes lanes_at(const unsigned char *p)
+{
+    return __builtin_convertvector(*(const pixel_bytes *)(const void *)p, pixel_lanes);
+}
+
+/* The colour between pixels; x, y with 8 bits of fraction, centres at whole numbers. */
+FL_SIMD_INLINE pixel_lanes tap_at(const unsigned char *p, int w, int h, int x, int y)
 {
     const int fx = x & 255, fy = y & 255;
     int i = x >> 8, j = y >> 8;
     i = i < 0 ? 0 : i > w - 2 ? w - 2 : i;
     j = j < 0 ? 0 : j > h - 2 ? h - 2 : j;
     const unsigned char *a = p + 4 * ((size_t)j * (size_t)w + (size_t)i), *b = a + 4 * (size_t)w;
-    for (int k = 0; k < 3; k++)
-        c[k] += ((a[k] * (256 - fx) + a[k + 4] * fx) * (256 - fy) + (b[k] * (256 - fx) + b[k + 4] * fx) * fy +
-                 32768) >>
-                16;
+    return ((lanes_at(a) * (256 - fx) + lanes_at(a + 4) * fx) * (256 - fy) +
+            (lanes_at(b) * (256 - fx) + lanes_at(b + 4) * fx) * fy + 32768) >>
+           16;
 }
 
-static inline int luminance_of(const int c[3], int shift)
-{
-    return (77 * c[0] + 150 * c[1] + 29 * c[2]) >> (8 + shift);
-}
+FL_SIMD_INLINE int lesser(int a, int b) { return a < b ? a : b; }
+FL_SIMD_INLINE int greater(int a, int b) { return a > b ? a : b; }
+FL_SIMD_INLINE int within(int x, int most) { return x > most ? most : x < -most ? -most : x; }
 
-static inline int lesser(int a, int b) { return a < b ? a : b; }
-static inline int greater(int a, int b) { return a > b ? a : b; }
-static inline int within(int x, int most) { return x > most ? most : x < -most ? -most : x; }
-
-static void smooth_pixel(const unsigned char *p, int w, int h, const unsigned char *m, int x, int y,
-                         unsigned char *d)
+FL_SIMD_INLINE void smooth_pixel(const unsigned char *p, int w, int h, const unsigned char *m, int x, int y,
+                                 unsigned char *d)
 {
     const int a = m[x - 1 - w], b = m[x + 1 - w], c = m[x - 1 + w], e = m[x + 1 + w];
     const int lo = lesser(m[x], lesser(lesser(a, b), lesser(c, e))),
               hi = greater(m[x], greater(greater(a, b), greater(c, e)));
-    int gx = -((a + b) - (c + e)), gy = (a + c) - (b + e), near[3] = {0}, wide[3] = {0};
+    int gx = -((a + b) - (c + e)), gy = (a + c) - (b + e);
     const int divisor = lesser(abs(gx), abs(gy)) + (a + b + c + e) / 32 + 1;
     gx = within(256 * gx / divisor, REACH);
     gy = within(256 * gy / divisor, REACH);
     const int px = x << 8, py = y << 8;
-    add_tap(p, w, h, px - gx / 6, py - gy / 6, near);
-    add_tap(p, w, h, px + gx / 6, py + gy / 6, near);
-    add_tap(p, w, h, px - gx / 2, py - gy / 2, wide);
-    add_tap(p, w, h, px + gx / 2, py + gy / 2, wide);
-    for (int k = 0; k < 3; k++) wide[k] += near[k];
-    const int l = luminance_of(wide, 2), far = l < lo || l > hi;
-    for (int k = 0; k < 3; k++) d[k] = (unsigned char)(far ? (near[k] + 1) / 2 : (wide[k] + 2) / 4);
+    const pixel_lanes near = tap_at(p, w, h, px - gx / 6, py - gy / 6) +
+                             tap_at(p, w, h, px + gx / 6, py + gy / 6),
+                      wide = near + tap_at(p, w, h, px - gx / 2, py - gy / 2) +
+                             tap_at(p, w, h, px + gx / 2, py + gy / 2);
+    const int l = (77 * wide[0] + 150 * wide[1] + 29 * wide[2]) >> 10, far = l < lo || l > hi;
+    const pixel_lanes mean = far ? (near + 1) >> 1 : (wide + 2) >> 2;
+    for (int k = 0; k < 3; k++) d[k] = (unsigned char)mean[k];
 }
 
 /* Marks pixels 1 .. n - 2 that are at edges; m: luminance from there on, rows of w.  Bytes alone, so that
  * compilers make vectors of it. */
-static void mark_edges(const unsigned char *restrict m, int n, int w, unsigned char *restrict at)
+FL_SIMD_INLINE void mark_edges(const unsigned char *restrict m, int n, int w, unsigned char *restrict at)
 {
     const unsigned char *restrict u = m - w, *restrict l = m + w;
     for (int x = 1; x < n - 1; x++) {
@@ -69,8 +73,8 @@ static void mark_edges(const unsigned char *restrict m, int n, int w, unsigned c
     }
 }
 
-void fl_smooth_edges(const unsigned char *restrict from, int w, int h, unsigned char *restrict luminance,
-                     unsigned char *restrict to)
+FL_SIMD_VERSIONS void fl_smooth_edges(const unsigned char *restrict from, int w, int h,
+                                      unsigned char *restrict luminance, unsigned char *restrict to)
 {
     const size_t n = (size_t)w * (size_t)h;
     for (size_t i = 0; i < n; i++)
@@ -91,7 +95,8 @@ void fl_smooth_edges(const unsigned char *restrict from, int w, int h, unsigned 
     }
 }
 
-void fl_picture_to_yuv(const unsigned char *restrict from, int w, int h, unsigned char *restrict to)
+FL_SIMD_VERSIONS void fl_picture_to_yuv(const unsigned char *restrict from, int w, int h,
+                                        unsigned char *restrict to)
 {
     unsigned char *u = to + (size_t)w * (size_t)h, *v = u + (size_t)(w / 2) * (size_t)(h / 2);
     for (size_t i = 0; i < (size_t)w * (size_t)h; i++)

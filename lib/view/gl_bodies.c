@@ -210,12 +210,6 @@ static int is_there(const fl_view_pose *p)
     return p->q[0] * p->q[0] + p->q[1] * p->q[1] + p->q[2] * p->q[2] + p->q[3] * p->q[3] > 0.5f;
 }
 
-static double distance_to(const fl_view_pose *p, const fl_eye *eye, double reach)
-{
-    const double x = p->x[0] - eye->eye[0], y = p->x[1] - eye->eye[1], z = p->x[2] - eye->eye[2];
-    return eye->parallel ? 1.0 : fmax(1e-9, fmax(0.02 * reach, sqrt(x * x + y * y + z * z) - reach));
-}
-
 static int choose_levels(fl_gl_bodies *b, const fl_view_frame *v, const fl_eye *eye, fl_err *err)
 {
     const fl_frame_data *d = v->data;
@@ -225,7 +219,7 @@ static int choose_levels(fl_gl_bodies *b, const fl_view_frame *v, const fl_eye *
         const fl_frame_shape *s = fl_frame_data_shape(d, r, v->frame);
         b->level[r] = 0;
         if (s->nv < 2 || !is_there(&v->pose[r])) continue;
-        const double pixels = s->radius / (eye->pixel * distance_to(&v->pose[r], eye, v->reach[r]));
+        const double pixels = s->radius / (eye->pixel * fl_eye_distance(eye, v->pose[r].x, v->reach[r]));
         int level = pixels < 0.25 ? 0 : pixels < 2.0 ? 1 : pixels < 6.0 ? 2 : 3;
         if (level > 1 && ++fine > FINE_BODIES) level = 1;
         if (s->nf == 2 && level < 2) level = 2; /* a flat core: its corners are lunes */
@@ -275,7 +269,7 @@ static int send_balls(fl_gl_bodies *b, const fl_view_frame *v, const fl_eye *eye
         const float cy = m[1] * p->x[0] + m[5] * p->x[1] + m[9] * p->x[2] + m[13];
         const float cw = m[3] * p->x[0] + m[7] * p->x[1] + m[11] * p->x[2] + m[15];
         const int inside = cx > -0.98f * cw && cx < 0.98f * cw && cy > -0.98f * cw && cy < 0.98f * cw;
-        const double pixels = 2.0 * s->radius / (eye->pixel * distance_to(p, eye, v->reach[r]));
+        const double pixels = 2.0 * s->radius / (eye->pixel * fl_eye_distance(eye, p->x, v->reach[r]));
         const int square = pixels > POINT_PIXELS || (!inside && pixels > 4.0);
         float *to = b->ball + (size_t)BALL_FLOATS * (size_t)(square ? --back : front++);
         memcpy(to, p->x, 3 * sizeof *to);

@@ -84,11 +84,13 @@ const char fl_glsl_common[] =
     "        b *= b, b *= b, b *= b, b *= b, b *= b; // to the 32nd\n"
     "        c += 0.08 * b * s + 0.10 * f2 * f2 * f * HAZE;\n"
     "    }\n"
+    "#ifdef WATER\n"
     "    if (water == 1 && w.z < level + rise(w.xy) && V.z > 0.0 && (parallel == 1 || eye.z > level)) {\n"
     "        // through the water\n"
     "        float t = min(meet(w, -V), 0.0);\n"
     "        c = surface(w - V * t, -V, c, -t);\n"
     "    }\n"
+    "#endif\n"
     "    return c;\n"
     "}\n";
 
@@ -99,6 +101,7 @@ const char fl_glsl_mesh_vertex[] =
     "uniform sampler2D pose;        // three texels a body: place and speck, rotation, colour and kind\n"
     "uniform mat4 both;\n"
     "uniform vec4 cut;              // what has dot(cut, x) < 0 is taken away\n"
+    "uniform vec2 layer;            // of the bodies: z layer.x + layer.y > 0\n"
     "out vec3 w;\n"
     "out vec3 n;\n"
     "out vec2 in_body;\n"
@@ -118,6 +121,7 @@ const char fl_glsl_mesh_vertex[] =
     "    speck = p.w;\n"
     "    gl_Position = both * vec4(w, 1);\n"
     "    gl_ClipDistance[0] = dot(cut, vec4(w, 1));\n"
+    "    gl_ClipDistance[1] = layer.x * w.z + layer.y;\n"
     "    if (dot(q, q) < 0.5) gl_Position = vec4(2, 2, 2, 1); // the body is not there\n"
     "}\n";
 

@@ -10,15 +10,22 @@
 #include "view/gl_program.h"
 #include "view/gl_shaders.h"
 #include "view/gl_view.h"
+#include "view/kept_poses.h"
 
-enum { GRAIN = 256, OCTAVES = 4, VARIANTS = 8, TAPS_MAX = 32 };
-enum { HAS_SHADOW = 1, HAS_OCCLUSION = 2, HAS_WAVES = 4 };
+enum { GRAIN = 256, OCTAVES = 4, VARIANTS = 16, TAPS_MAX = 32 };
+enum { HAS_SHADOW = 1, HAS_OCCLUSION = 2, HAS_WAVES = 4, HAS_WATER = 8 };
 enum { UNIT_SHADE = 2, UNIT_GRAIN = 3, UNIT_WAVES = 4, UNIT_OCCLUSION = 1 };
 /* Golden angle [rad]. */
 #define SPIRAL_TURN 2.39996f
 /* Ambient occlusion that reaches less far than this only darkens a picture evenly, and is left out [pixels].
  * */
 #define OCCLUSION_PIXELS 1.5
+/* Of a film the maps of shadow and occlusion are kept until a body has moved by half a texel of them: half a
+ * pixel of the lamp's view; one of the picture, since occlusion has half its size. */
+#define SHADOW_STEP 0.5
+#define OCCLUSION_STEP 1.0
+/* Of the layers above and below the water, in units of the scene. */
+#define LAYER_LAP 1e-4f
 /* Radius of a scene whose noise and haze have the unit 1 m. */
 #define UNIT_RADIUS 35.0
 
@@ -44,6 +51,7 @@ struct fl_gl_view {
     int back_kept, back_variant;
     fl_eye back_eye;
     fl_look back_look;
+    fl_kept_poses shade_kept, occ_kept; /* what the maps were drawn with */
     /* Of the picture under way. */
     fl_eye eye;
     fl_mat4 to_shade;
@@ -110,14 +118,17 @@ static int need_program(GLuint *program, int which, const char *vertex, const ch
 {
     char head[120];
     if (*program) return 0;
-    snprintf(head, sizeof head, "#define COLOUR\n%s%s%s", which & HAS_SHADOW ? "#define SHADOW\n" : "",
-             which & HAS_OCCLUSION ? "#define OCCLUSION\n" : "", which & HAS_WAVES ? "#define WAVES\n" : "");
+    snprintf(head, sizeof head, "#define COLOUR\n%s%s%s%s", which & HAS_WATER ? "#define WATER\n" : "",
+             which & HAS_SHADOW ? "#define SHADOW\n" : "", which & HAS_OCCLUSION ? "#define OCCLUSION\n" : "",
+             which & HAS_WAVES ? "#define WAVES\n" : "");
     *program = build(head, vertex, fl_glsl_common, pixel, err);
     return *program ? 0 : -1;
 }
 
 static int need_variant(fl_gl_view *g, int which, fl_err *err)
 {
+    const int dry = which & ~HAS_WATER;
+    if (need_program(&g->variant[dry].mesh, dry, fl_glsl_mesh_vertex, fl_glsl_mesh_pixel, err)) return -1;
     struct variant *p = &g->variant[which];
     if (fl_gl_bodies_point_count(g->bodies) &&
         need_program(&p->point, which, fl_glsl_sphere_point, fl_glsl_sphere_pixel, err))
@@ -159,6 +170,8 @@ static void drop_targets(fl_gl_view *g)
     g->frame = g->back_frame = g->occ_frame[0] = g->occ_frame[1] = g->occ_depth_frame = g->shade_frame = 0;
     g->size.w = 0;
     g->back_kept = 0;
+    fl_kept_poses_drop(&g->shade_kept);
+    fl_kept_poses_drop(&g->occ_kept);
 }
 
 static int make_shade(fl_gl_view *g, int side, fl_err *err)
@@ -215,6 +228,7 @@ fl_gl_quality fl_gl_view_quality(const fl_look *l, int w, int h, int moving)
     q.shadow = l->light.shadow >= 0 ? l->light.shadow : moving ? 1024 : 4096;
     q.occlusion = moving == 2 ? 0 : l->light.occlusion >= 0 ? l->light.occlusion : moving ? 8 : 12;
     q.keep_back = moving != 0;
+    q.keep_maps = moving == 1;
     return q;
 }
 
@@ -269,6 +283,7 @@ static void draw_depth(fl_gl_view *g, const fl_mat4 *both, const fl_eye *eye, in
     glUseProgram(g->mesh_depth);
     fl_gl_set_matrix(g->mesh_depth, "both", both);
     fl_gl_set_vec4(g->mesh_depth, "cut", g->cut);
+    fl_gl_set_vec2(g->mesh_depth, "layer", 0.0f, 1.0f);
     if (ice) fl_gl_bodies_meshes(g->bodies, g->mesh_depth, FL_GL_ICE, 1);
     if (structure) fl_gl_bodies_meshes(g->bodies, g->mesh_depth, FL_GL_STRUCTURE, 1);
     for (int k = 0; ice && k < 2; k++) {
@@ -288,8 +303,19 @@ static void draw_depth(fl_gl_view *g, const fl_mat4 *both, const fl_eye *eye, in
     }
 }
 
-static void pass_shadow(fl_gl_view *g, const fl_view_frame *v, const fl_camera *c, fl_gl_quality q, int ice,
-                        int structure)
+/* True if a map of a film still holds; otherwise what it is drawn with is kept.  -1 with FL_SYSTEM. */
+static int is_map_kept(fl_kept_poses *k, const fl_view_frame *v, const fl_eye *eye, const fl_map_key *key,
+                       fl_gl_quality q, double pixels, fl_err *err)
+{
+    if (!q.keep_maps) {
+        fl_kept_poses_drop(k);
+        return 0;
+    }
+    return fl_kept_poses_hold(k, v, eye, key, pixels) ? 1 : fl_kept_poses_take(k, v, eye, key, err);
+}
+
+static int pass_shadow(fl_gl_view *g, const fl_view_frame *v, const fl_camera *c, fl_gl_quality q,
+                       const fl_map_key *key, fl_err *err)
 {
     static const fl_mat4 to_texture = {{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.4994f, 1}};
     const double seen = 2.2 * c->distance * tan(0.5 * c->field) * fmax(1.0, (double)q.w / q.h);
@@ -298,12 +324,15 @@ static void pass_shadow(fl_gl_view *g, const fl_view_frame *v, const fl_camera *
     const fl_vec3 centre = whole ? v->centre : c->at;
     const double a = atan2(g->sun[1], g->sun[0]), e = asin(g->sun[2]);
     const fl_camera lamp = {centre, a, e, 2.0 * radius, 2.0 * atan(0.5), 1};
-    fl_eye eye = fl_camera_eye(&lamp, q.shadow, q.shadow, centre, radius);
+    const fl_eye eye = fl_camera_eye(&lamp, q.shadow, q.shadow, centre, radius);
+    const int kept = is_map_kept(&g->shade_kept, v, &eye, key, q, SHADOW_STEP, err);
+    if (kept) return kept < 0 ? -1 : 0;
     g->to_shade = fl_mat4_mul(to_texture, eye.both);
     glBindFramebuffer(GL_FRAMEBUFFER, g->shade_frame);
     glViewport(0, 0, q.shadow, q.shadow);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_depth(g, &eye.both, &eye, q.shadow, q.shadow, ice, structure);
+    draw_depth(g, &eye.both, &eye, q.shadow, q.shadow, key->ice, key->structure);
+    return 0;
 }
 
 static void draw_full(fl_gl_view *g)
@@ -312,11 +341,14 @@ static void draw_full(fl_gl_view *g)
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-static int pass_occlusion(fl_gl_view *g, fl_gl_quality q, int ice, int structure, fl_err *err)
+static int pass_occlusion(fl_gl_view *g, const fl_view_frame *v, fl_gl_quality q, const fl_map_key *key,
+                          fl_err *err)
 {
+    const int kept = is_map_kept(&g->occ_kept, v, &g->eye, key, q, OCCLUSION_STEP, err);
     const int w = (q.w + 1) / 2, h = (q.h + 1) / 2;
     float spiral[2 * TAPS_MAX];
     char head[40];
+    if (kept) return kept < 0 ? -1 : 0;
     if (g->occlusion_taps != q.occlusion) {
         if (g->occlusion) glDeleteProgram(g->occlusion);
         snprintf(head, sizeof head, "#define TAPS %d\n", q.occlusion);
@@ -332,7 +364,7 @@ static int pass_occlusion(fl_gl_view *g, fl_gl_quality q, int ice, int structure
     glBindFramebuffer(GL_FRAMEBUFFER, g->occ_depth_frame);
     glViewport(0, 0, w, h);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_depth(g, &g->eye.both, &g->eye, w, h, ice, structure);
+    draw_depth(g, &g->eye.both, &g->eye, w, h, key->ice, key->structure);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     for (int k = 0; k < 2; k++) {
@@ -355,7 +387,7 @@ static int pass_occlusion(fl_gl_view *g, fl_gl_quality q, int ice, int structure
 static int pass_back(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, fl_gl_quality q, int which,
                      const fl_sea_surface *sea, fl_err *err)
 {
-    const int variant = (q.keep_back ? which & ~HAS_SHADOW : which) & ~HAS_OCCLUSION;
+    const int variant = (q.keep_back ? which & ~HAS_SHADOW : which) & ~(HAS_OCCLUSION | HAS_WATER);
     if (!q.keep_back || sea || !g->back_kept || variant != g->back_variant ||
         memcmp(&g->eye, &g->back_eye, sizeof g->eye) != 0 || memcmp(l, &g->back_look, sizeof *l) != 0) {
         if (need_program(&g->variant[variant].back, variant, fl_glsl_full_vertex, fl_glsl_back_pixel, err))
@@ -382,14 +414,33 @@ static int pass_back(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, fl
     return 0;
 }
 
+/* Meshes of the ice or the structure, in two layers where the water is still: a processor that draws works
+ * through the light under water for each pixel of a body, also above the water, where it counts for nothing.
+ * The lower layer reaches a little into the upper, so that no gap shows between them. */
+static void draw_meshes(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, int which,
+                        const fl_sea_surface *sea, enum fl_gl_what what, double opacity)
+{
+    const int layers = (which & HAS_WATER) && !sea && opacity >= 1.0 ? 2 : 1;
+    const float level = (float)(l->water.level - v->origin.z), lap = LAYER_LAP * g->unit;
+    glEnable(GL_CLIP_DISTANCE1); /* Mesa 22 clips by a distance that is written also where it is disabled */
+    for (int k = 0; k < layers; k++) {
+        const int wet = layers == 1 || k == 1;
+        const GLuint p = g->variant[wet ? which : which & ~HAS_WATER].mesh;
+        glUseProgram(p);
+        set_common(g, p, l, v, which, sea);
+        fl_gl_set_float(p, "opacity", (float)opacity);
+        if (layers == 1) fl_gl_set_vec2(p, "layer", 0.0f, 1.0f);
+        else fl_gl_set_vec2(p, "layer", wet ? -1.0f : 1.0f, wet ? level + lap : -level);
+        fl_gl_bodies_meshes(g->bodies, p, what, 0);
+    }
+    glDisable(GL_CLIP_DISTANCE1);
+}
+
 static void draw_ice(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, int which,
                      const fl_sea_surface *sea)
 {
     const struct variant *p = &g->variant[which];
-    glUseProgram(p->mesh);
-    set_common(g, p->mesh, l, v, which, sea);
-    fl_gl_set_float(p->mesh, "opacity", (float)l->ice.opacity);
-    fl_gl_bodies_meshes(g->bodies, p->mesh, FL_GL_ICE, 0);
+    draw_meshes(g, v, l, which, sea, FL_GL_ICE, l->ice.opacity);
     for (int k = 0; k < 2; k++) {
         const GLuint s = k ? p->square : p->point;
         if ((k ? fl_gl_bodies_square_count(g->bodies) : fl_gl_bodies_point_count(g->bodies)) == 0) continue;
@@ -406,11 +457,7 @@ static void draw_ice(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, in
 static void draw_structure(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, int which,
                            const fl_sea_surface *sea)
 {
-    const GLuint p = g->variant[which].mesh;
-    glUseProgram(p);
-    set_common(g, p, l, v, which, sea);
-    fl_gl_set_float(p, "opacity", (float)l->structure.opacity);
-    fl_gl_bodies_meshes(g->bodies, p, FL_GL_STRUCTURE, 0);
+    draw_meshes(g, v, l, which, sea, FL_GL_STRUCTURE, l->structure.opacity);
 }
 
 /* What is transparent shows its nearest layer alone: its depth first, then its colour where the depth is
@@ -497,12 +544,14 @@ int fl_gl_view_draw(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, con
 {
     fl_camera c = *camera;
     const int ice = l->ice.opacity > 0.0, structure = l->structure.opacity > 0.0;
+    fl_map_key key = {l->ice.opacity >= 0.5, l->structure.opacity >= 0.5, {0}};
     c.at = v3_sub(c.at, v->origin);
     set_light_and_cut(g, v, l);
     g->eye = fl_camera_eye(&c, q.w, q.h, v->centre, v->radius);
     if (g->reach < OCCLUSION_PIXELS * g->eye.pixel * (c.parallel ? 1.0 : c.distance)) q.occlusion = 0;
     if (need_targets(g, q, err)) return -1;
-    const int which = (q.shadow ? HAS_SHADOW : 0) | (q.occlusion ? HAS_OCCLUSION : 0) | (sea ? HAS_WAVES : 0);
+    const int which = (q.shadow ? HAS_SHADOW : 0) | (q.occlusion ? HAS_OCCLUSION : 0) |
+                      (sea ? HAS_WAVES : 0) | (l->water.shown ? HAS_WATER : 0);
     if (fl_gl_bodies_load(g->bodies, v, &g->eye, err) || need_variant(g, which, err)) return -1;
     if (sea) send_waves(g, sea);
     glDisable(GL_BLEND);
@@ -513,9 +562,9 @@ int fl_gl_view_draw(fl_gl_view *g, const fl_view_frame *v, const fl_look *l, con
         glDisable(GL_CLIP_DISTANCE0);
         glEnable(GL_CULL_FACE);
     }
-    if (q.shadow) pass_shadow(g, v, &c, q, l->ice.opacity >= 0.5, l->structure.opacity >= 0.5);
-    if (q.occlusion && pass_occlusion(g, q, l->ice.opacity >= 0.5, l->structure.opacity >= 0.5, err))
-        return -1;
+    memcpy(key.cut, g->cut, sizeof key.cut);
+    if (q.shadow && pass_shadow(g, v, &c, q, &key, err)) return -1;
+    if (q.occlusion && pass_occlusion(g, v, q, &key, err)) return -1;
     if (pass_back(g, v, l, q, which, sea, err)) return -1;
     glEnable(GL_DEPTH_TEST);
     if (!l->cut.axis) glEnable(GL_CULL_FACE);
@@ -637,5 +686,7 @@ void fl_gl_view_close(fl_gl_view *g)
     glDeleteBuffers(2, g->pixels);
     glDeleteVertexArrays(1, &g->nothing);
     fl_gl_bodies_close(g->bodies);
+    fl_kept_poses_free(&g->shade_kept);
+    fl_kept_poses_free(&g->occ_kept);
     free(g);
 }

@@ -17,6 +17,7 @@ typedef struct {
     int shadow;    /* side of the shadow map; 0: none */
     int occlusion; /* taps; 0: none */
     int keep_back; /* water and sky are kept while the camera stands; without shadows on open water */
+    int keep_maps; /* shadow and occlusion are kept until a body has moved by half a texel of their maps */
 } fl_gl_quality;
 
 /* In the context that is current.  NULL with FL_SYSTEM. */

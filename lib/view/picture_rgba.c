@@ -19,6 +19,10 @@ void fl_picture_free(fl_picture *p)
     *p = (fl_picture){0};
 }
 
+/* fminf and fmaxf are calls, which cost more than the rest of a pixel of a letter. */
+static inline float low_of(float a, float b) { return a < b ? a : b; }
+static inline float high_of(float a, float b) { return a > b ? a : b; }
+
 static void blend(unsigned char *d, fl_rgb c, float a)
 {
     for (int k = 0; k < 3; k++) d[k] = (unsigned char)lrintf((1.0f - a) * (float)d[k] + a * (float)c.c[k]);
@@ -36,7 +40,7 @@ void fl_picture_plate(fl_picture *p, int x0, int y0, int x1, int y1, fl_rgb c, f
 static float distance2(float px, float py, float ax, float ay, float bx, float by)
 {
     const float dx = bx - ax, dy = by - ay, qx = px - ax, qy = py - ay, l = dx * dx + dy * dy;
-    const float k = l > 0.0f ? fmaxf(0.0f, fminf(1.0f, (qx * dx + qy * dy) / l)) : 0.0f;
+    const float k = l > 0.0f ? high_of(0.0f, low_of(1.0f, (qx * dx + qy * dy) / l)) : 0.0f;
     const float ex = qx - k * dx, ey = qy - k * dy;
     return ex * ex + ey * ey;
 }
@@ -44,14 +48,14 @@ static float distance2(float px, float py, float ax, float ay, float bx, float b
 void fl_picture_line(fl_picture *p, float x0, float y0, float x1, float y1, float width, fl_rgb c, float a)
 {
     const float r = 0.5f * width;
-    const int i0 = (int)fmaxf(0, fminf(x0, x1) - r - 1),
-              i1 = (int)fminf((float)p->w - 1, fmaxf(x0, x1) + r + 1);
-    const int j0 = (int)fmaxf(0, fminf(y0, y1) - r - 1),
-              j1 = (int)fminf((float)p->h - 1, fmaxf(y0, y1) + r + 1);
+    const int i0 = (int)high_of(0, low_of(x0, x1) - r - 1),
+              i1 = (int)low_of((float)p->w - 1, high_of(x0, x1) + r + 1);
+    const int j0 = (int)high_of(0, low_of(y0, y1) - r - 1),
+              j1 = (int)low_of((float)p->h - 1, high_of(y0, y1) + r + 1);
     for (int j = j0; j <= j1; j++)
         for (int i = i0; i <= i1; i++) {
             const float d = sqrtf(distance2((float)i + 0.5f, (float)j + 0.5f, x0, y0, x1, y1));
-            const float cover = fmaxf(0.0f, fminf(1.0f, r + 0.5f - d));
+            const float cover = high_of(0.0f, low_of(1.0f, r + 0.5f - d));
             if (cover > 0.0f) blend(p->px + 4 * ((size_t)j * (size_t)p->w + (size_t)i), c, a * cover);
         }
 }
@@ -169,22 +173,22 @@ static float glyph_distance2(const char *g, float x, float y, float unit, float 
             continue;
         }
         const float bx = x + (float)(g[0] - '0') * unit, by = y - (float)(g[1] - '2') * unit;
-        best = fminf(best, distance2(px, py, ax, ay, bx, by));
+        best = low_of(best, distance2(px, py, ax, ay, bx, by));
     }
     return best;
 }
 
 void fl_picture_text(fl_picture *p, float x, float y, float h, const char *text, fl_rgb c)
 {
-    const float u = h / 6.0f, r = fmaxf(0.50f, 0.075f * h);
+    const float u = h / 6.0f, r = high_of(0.50f, 0.075f * h);
     for (; *text; x += advance_of(*text++) * u) {
         const char *g = (unsigned char)*text < 128 ? GLYPH[(unsigned char)*text] : NULL;
         const float left = x - (is_narrow(*text) ? u : 0.0f);
         if (!g) continue;
-        for (int j = (int)fmaxf(0, y - 7 * u); j <= (int)(y + 3 * u) && j < p->h; j++)
-            for (int i = (int)fmaxf(0, x - 2); i <= (int)(x + 5 * u + 2) && i < p->w; i++) {
+        for (int j = (int)high_of(0, y - 7 * u); j <= (int)(y + 3 * u) && j < p->h; j++)
+            for (int i = (int)high_of(0, x - 2); i <= (int)(x + 5 * u + 2) && i < p->w; i++) {
                 const float d = sqrtf(glyph_distance2(g, left, y, u, (float)i + 0.5f, (float)j + 0.5f));
-                const float a = fmaxf(0.0f, fminf(1.0f, r + 0.5f - d));
+                const float a = high_of(0.0f, low_of(1.0f, r + 0.5f - d));
                 if (a > 0.0f) blend(p->px + 4 * ((size_t)j * (size_t)p->w + (size_t)i), c, a);
             }
     }

@@ -41,8 +41,8 @@ typedef struct {
     double section; /* columns: area of the section; faces: largest of the three projections; round: pi r^2 */
 } fl_wave_nodes;
 
-/* Makes the nodes of a hull in the waves w, and chooses their band. error: asked for, e. Frees a first. Returns -1 with FL_SYSTEM, or FL_INPUT if
- * the points are too many. */
+/* Makes the nodes of a hull in the waves w, and chooses their band. error: asked for, e. Frees a first.
+ * Returns -1 with FL_SYSTEM, or FL_INPUT if the points are too many. */
 int fl_wave_nodes_make(fl_wave_nodes *a, const fl_hull *hull, const fl_waves *w, double error, fl_err *err);
 void fl_wave_nodes_free(fl_wave_nodes *a); /* accepts a zeroed struct, leaves one */
 

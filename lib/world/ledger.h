@@ -13,11 +13,14 @@ typedef struct {
     double wind, drive_now;                        /* sources: wind; work of prescribed motions */
     double waves;                                  /* source: waves, with the work of buoyancy */
     double structure, spring,
-        damper;             /* parts that move freely: kinetic and spring energy (stores), dashpots */
-    double plastic;         /* sink: sections of members that yield, and members that part */
-    double bond, fracture;  /* bonds: store; sink by damage */
-    double crushing;        /* sink: ice that yields under pressure */
-    double carried;         /* source: floes that came in, less those that left */
+        damper;            /* parts that move freely: kinetic and spring energy (stores), dashpots */
+    double zones;          /* store: strain of deformable blocks */
+    double plastic;        /* sink: zones and sections of members that yield, members that part */
+    double bond, fracture; /* bonds: store; sink by damage */
+    double crushing;       /* sink: ice that yields under pressure */
+    double carried;        /* source: floes that came in, less those that left */
+    double push, push_impulse, push_way; /* of what pushes with a limited force: its work, which is in
+                                          * drive_now; impulse [N s], way [m]; information */
     double start, residual; /* sum of the stores, and of what joints lost before the first step; see above */
     double throughput;      /* largest sum so far of kinetic energies, |sinks| and |sources|: the
                                        * scale of the residual */

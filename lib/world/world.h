@@ -34,10 +34,12 @@
 #include "world/moving_parts.h"
 #include "world/pair.h"
 #include "world/panel_state.h"
+#include "world/push_state.h"
 #include "world/relax_state.h"
 #include "world/sleep_state.h"
 #include "world/sphere_contacts.h"
 #include "world/strip_state.h"
+#include "world/zone_state.h"
 
 /* Overlaps above this fraction of the sum of the radii are counted: no contact law is meant for them.  At 1
  * the cores meet. */
@@ -73,12 +75,14 @@ typedef struct {
     fl_crushing_state crushing;
     fl_breaking_state breaking;
     fl_driven_floes driven_floes;
+    fl_push push;
     fl_device_link device;
     fl_sleep sleep;
     fl_relax_state relax;
     int64_t stage_step;          /* step at which the last stage began */
     fl_bond_list bonds;          /* faces */
     fl_disc_list discs;          /* of spheres */
+    fl_zone_state zones;         /* deformable blocks */
     fl_environment sea;          /* water and wind; n = 0 without them */
     int32_t *id;                 /* [n] number in the ice file */
     int32_t *material;           /* [total] of the scene, or FL_SCENE_STRUCTURE, FL_SCENE_BOUNDARY */

@@ -2,7 +2,7 @@
 # floors.awk -- rules that can be checked on the text of a file: floors, circles, names, guards, licence, width.  The
 # arguments are paths from the root of the tree.  Prints "file:line: complaint"; status 1 when there was one.
 BEGIN {
-    n = split("base geom shim mesh broad ice block stat law scene body narrow patch water bond member structure failure out view world contact sphere gpu sim pack", floor)
+    n = split("base geom shim mesh broad ice block stat law scene body narrow patch water bond zone member structure failure out view world contact sphere gpu sim pack", floor)
     for (k = 1; k <= n; k++) rank[floor[k]] = k
     # Written in pieces, so that this file does not contain them.
     marks = "(^|[^A-Za-z_])(TO" "DO|FIX" "ME|XX" "X)([^A-Za-z_]|$)"

@@ -46,7 +46,7 @@ static void make_sample(sample *s, uint64_t k, const char *shape)
     const double unit = dim == 2 ? v : s->shapes.shape[0].volume;
     assert_int_equal(fl_grading_draw(&g, dim, unit, solid * s->region.volume, 0, &d, &n, &empty, &err), 0);
     assert_int_equal(fl_packing_make(&s->p, dim, n, d, &s->shapes, k, &err), 0);
-    assert_int_equal(fl_throw_bodies(&s->p, &s->region, FL_THROW_REJECTION, k, &halved, &err), 0);
+    assert_int_equal(fl_throw_bodies(&s->p, &s->region, NULL, FL_THROW_REJECTION, k, &halved, &err), 0);
     assert_int_equal(fl_packing_sort(&s->p, &err), 0);
     assert_int_equal(fl_overlaps_make(&s->o, &s->p, &s->region, &err), 0);
     s->g = fl_growth_start(&opt);

@@ -271,6 +271,13 @@ void scene_of_inflow_interval(lab *l, int32_t side, const char *law)
     lab_set(l, "water.every=5");
 }
 
+void scene_of_pushed_ice(lab *l, int32_t side, const char *law)
+{
+    scene_of_inflow(l, side, law);
+    lab_set(l, "boundary.drive_width=none"), lab_set(l, "boundary.drive=0");
+    lab_set(l, "boundary.line_load=200 N/m");
+}
+
 void scene_of_joined_parts(lab *l, int32_t side, const char *law)
 {
     static const char *const KEYS[] = {"material.ice.young=10 MPa", "contact.friction=0.3",

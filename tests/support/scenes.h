@@ -45,6 +45,9 @@ void scene_of_inflow(lab *l, int32_t side, const char *law);
 /* The same with water evaluated in few steps. */
 void scene_of_inflow_interval(lab *l, int32_t side, const char *law);
 
+/* The inflow pushes with a line load. */
+void scene_of_pushed_ice(lab *l, int32_t side, const char *law);
+
 /* Cubes and spheres on a floor of two parts with a leg of two more, all of which are one piece. */
 void scene_of_joined_parts(lab *l, int32_t side, const char *law);
 

@@ -5,7 +5,7 @@
 #include "support/near.h"
 #include "base/pi.h"
 #include "base/rng.h"
-#include "pack/pack_region.h"
+#include "pack/pack_passage.h"
 
 static void make_region(fl_pack_region *r, const char *in, int dim, const char *text)
 {
@@ -117,6 +117,29 @@ static void periods_wrap(void **state)
     fl_region_free(&r);
 }
 
+/* Two rooms of 4 m, joined by a neck of 0.4 m, by one of 1.1 m, or not at all. */
+static void a_passage_is_found_where_a_body_does_not_pass(void **state)
+{
+    (void)state;
+    static const char *const NECK[] = {
+        "0 0\n4 0\n4 1.8\n5 1.8\n5 0\n9 0\n9 4\n5 4\n5 2.2\n4 2.2\n4 4\n0 4\n",
+        "0 0\n4 0\n4 1.45\n5 1.45\n5 0\n9 0\n9 4\n5 4\n5 2.55\n4 2.55\n4 4\n0 4\n", "0 0\n9 0\n9 4\n"};
+    for (int k = 0; k < 3; k++) {
+        fl_pack_region r;
+        fl_passage p;
+        fl_err err = {0};
+        make_region(&r, "neck", 2, NECK[k]);
+        assert_int_equal(fl_passage_find(&p, &r, 0.5, &err), 0);
+        assert_int_equal(p.found, k == 0);
+        if (k == 0) {
+            assert_near_of(p.width, 0.4, 0.2, 1.0);
+            assert_near_of(p.at.x, 4.5, 0.6, 1.0);
+            assert_near_of(p.at.y, 2.0, 0.3, 1.0);
+        }
+        fl_region_free(&r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -125,6 +148,7 @@ int main(void)
         cmocka_unit_test(a_surface_has_its_distance_and_sign),
         cmocka_unit_test(helper_walls_are_named),
         cmocka_unit_test(periods_wrap),
+        cmocka_unit_test(a_passage_is_found_where_a_body_does_not_pass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -451,8 +451,11 @@ static void sections_are_checked_against_each_other(void **state)
         "are expected");
     expect_refusal(ICE "[boundary]\ntype = periodic\nmin = 0 0 0\nmax = 1 1 1\n[water]\n",
                    ":4: z is periodic, but [water] has one surface: only one of the two is expected");
-    expect_refusal(ICE "[boundary]\ntype = free\ndrive = 1\n",
-                   ":5: boundary.drive has no effect without boundary.drive_width or drive_group");
+    expect_refusal(
+        ICE "[boundary]\ntype = free\ndrive = 1\n",
+        ":5: boundary.drive has no effect without boundary.drive_width or drive_group or drive_of");
+    expect_refusal(ICE "[boundary]\ntype = free\ndrive = 1\ndrive_of = row\n",
+                   ":5: nothing is driven: drive_width, drive_group or drive_of = wall is expected");
     expect_refusal(ICE "[boundary]\ntype = free\ninflow_speed = 1\n",
                    ":5: boundary.inflow_speed has no effect without boundary.inflow");
     expect_accepted(ICE "[boundary]\ntype = free\ninflow = none\ninflow_speed = 1\n");
@@ -464,6 +467,29 @@ static void sections_are_checked_against_each_other(void **state)
     expect_refusal(ICE "[contact]\nlaw = manual\nrolling = 0.1\n",
                    ":5: rolling applies to law = patch and core and quick only");
     expect_accepted(ICE "[contact]\nlaw = core\nexponent = 1.5\n");
+    expect_refusal(ICE "[boundary]\ntype = free\ndrive = 1\ndrive_of = wall\n",
+                   ":6: there is no rigid wall at the lower bound of x: boundary.type = rigid and "
+                   "boundary.min of it are expected");
+    expect_refusal(ICE "[boundary]\nmin = 0 0 none\nmax = 9 9 none\ndrive = 1 1 0\ndrive_of = wall\n",
+                   ":6: a wall moves along its normal, x: no other velocity is expected");
+    expect_refusal(
+        ICE "[boundary]\nmin = 0 0 none\nmax = 9 9 none\ndrive = 1\ndrive_of = wall\ndrive_width = 1\n",
+        ":7: a wall is driven, and a row of floes as well: drive_of = row, or neither drive_width nor "
+        "drive_group, is expected");
+    expect_refusal(ICE "[boundary]\ntype = free\nline_load = 1 kN/m\n",
+                   ":5: boundary.line_load: nothing pushes: boundary.drive or boundary.inflow is expected");
+    expect_refusal(
+        ICE "[boundary]\ntype = free\ndrive = 1\ndrive_width = 1\nline_load = 1\niso_pack_width = 1 km\n",
+        ":8: line_load and iso_pack_width both say how hard the ice is pushed: one is expected");
+    expect_refusal(ICE "[boundary]\ntype = free\ndrive = 1 1 0\ndrive_width = 1\nline_load = 1\n",
+                   ":5: boundary.line_load: a row that is pushed moves along x or along y: a drive along one "
+                   "of them is expected");
+    expect_refusal(ICE "[boundary]\ntype = free\niso_pack_coefficient = 3\n",
+                   ":5: boundary.iso_pack_coefficient has no effect without boundary.iso_pack_width");
+    expect_refusal(
+        ICE "[run]\nsleep = 1e-3\n[boundary]\ntype = free\ndrive = 1\ndrive_width = 1\nline_load = 1\n",
+        ":9: boundary.line_load changes the speed of what pushes, and floes that sleep would miss it: "
+        "run.sleep = 0 is expected");
     expect_refusal(ICE "[boundary]\ntype = free\ndrive_width = 1\n",
                    ":5: boundary.drive has no direction along x or y: drive_edge is expected");
     expect_refusal(ICE "[boundary]\ntype = free\ndrive = 1\ndrive_width = 1\ndrive_group = a\n",

@@ -6,6 +6,7 @@
 #include "base/pi.h"
 #include "base/rng.h"
 #include "sim/energy_balance.h"
+#include "sim/ice_push.h"
 #include "support/small_world.h"
 #include "support/verify.h"
 #include "world/access.h"
@@ -90,6 +91,121 @@ static void drive_chain(void)
     verify_row("B05", "work of the drive and of the constraints [J]", g->drive_now, held, 1e-12, VERIFY_REL);
     verify_true("B05", "speed of the last floe of the chain", l.w.b.v[4].x > 0.4);
     lab_free(&l);
+}
+
+/* --- a push with a limit ------------------------------------------------------------------------------ */
+
+/* Mass of box k of a lab, and a chain of floes before a driven one. */
+static void start_pushed(lab *l, const char *load)
+{
+    lab_start(l);
+    lab_set(l, "contact.restitution=0.2");
+    lab_set(l, "contact.stiffness_factor=0.01");
+    lab_set(l, "boundary.type=free");
+    lab_set(l, "boundary.drive=0.5");
+    lab_set(l, "boundary.drive_width=1");
+    lab_set(l, load);
+    lab_box(l, ZERO, v3(1, 1, 0.25), 0.05, q_one(), ZERO, ZERO);
+}
+
+/* The row pushes dry floes that are free: until all have its speed it pushes with P, the sum of all momenta
+ * is the impulse of the push, and the ledger has its work. P t is the momentum while it is at the limit. */
+static void push_free_floes(void)
+{
+    const double load = 300.0, width = 2.0;
+    double momentum, all, residual;
+    lab l;
+    start_pushed(&l, "boundary.line_load=300 N/m");
+    for (int k = 1; k < 4; k++) lab_box(&l, v3(2.1 * k, 0, 0), v3(1, 1, 0.25), 0.05, q_one(), ZERO, ZERO);
+    lab_make(&l, 0.0);
+    const double start = l.w.b.m[0] * 0.5;
+    verify_row("B06", "largest push: line load times width [N]", l.w.push.limit, load * width, 1e-12,
+               VERIFY_REL);
+    while (fl_world_time(&l.w) < 1.5)
+        if (lab_run(&l, 20)) return;
+    momentum = 0.0;
+    for (int32_t i = 0; i < l.w.n; i++) momentum += l.w.b.m[i] * l.w.b.v[i].x;
+    verify_row("B06", "momentum of all less that of the start [N s]", momentum - start, l.w.push.impulse,
+               1e-9, VERIFY_REL);
+    verify_row("B06", "impulse over the time at the limit [N]", l.w.push.impulse / l.w.push.limited,
+               load * width, 0.02, VERIFY_REL);
+    while (fl_world_time(&l.w) < 12.0)
+        if (lab_run(&l, 100)) return;
+    all = l.w.b.m[0] + l.w.b.m[1] + l.w.b.m[2] + l.w.b.m[3];
+    verify_row("B06", "impulse when all have the speed of the drive [N s]", l.w.push.impulse,
+               all * 0.5 - start, 0.05, VERIFY_REL);
+    fl_energy_update(&l.w);
+    residual = fabs(l.w.ledger.residual);
+    verify_below("B06", "residual over the work of the push", residual / l.w.push.work, 2e-3);
+    verify_row("B06", "work of the push and of the drive [J]", l.w.push.work, l.w.ledger.drive_now, 1e-2,
+               VERIFY_REL);
+    lab_free(&l);
+}
+
+/* Against a floe that is held the row stands, and the force on it is the line load times the width; without
+ * a limit it would rise without end. */
+static void push_held_floe(void)
+{
+    fl_err err = {0};
+    lab l;
+    start_pushed(&l, "boundary.line_load=5 kN/m");
+    lab_set(&l, "group.held.fixed=x y z rx ry rz");
+    lab_box(&l, v3(2.1, 0, 0), v3(1, 1, 0.25), 0.05, q_one(), ZERO, ZERO);
+    l.field.group[1] = fl_string_table_add(&l.field.groups, "held", &err);
+    lab_make(&l, 0.0);
+    while (fl_world_time(&l.w) < 4.0)
+        if (lab_run(&l, 100)) return;
+    verify_row("B06", "force on a floe that is held, over line load and width", l.w.b.f[1].x / 10e3, 1.0,
+               1e-6, VERIFY_REL);
+    verify_below("B06", "speed of the row before it [m/s]", fabs(l.w.push.velocity), 1e-6);
+    lab_free(&l);
+}
+
+/* A rigid wall moves: without a limit at its speed, whatever is before it; with one as the row does. */
+static void push_by_wall(int limited)
+{
+    lab l;
+    double momentum = 0.0;
+    lab_start(&l);
+    lab_set(&l, "contact.restitution=0.2");
+    lab_set(&l, "contact.stiffness_factor=0.01");
+    lab_set(&l, "boundary.type=rigid free free");
+    lab_set(&l, "boundary.min=-2 none none");
+    lab_set(&l, "boundary.max=none none none");
+    lab_set(&l, "boundary.drive=0.5");
+    lab_set(&l, "boundary.drive_of=wall");
+    if (limited) lab_set(&l, "boundary.line_load=300 N/m");
+    for (int k = 0; k < 3; k++) lab_box(&l, v3(2.1 * k, 0, 0), v3(1, 1, 0.25), 0.05, q_one(), ZERO, ZERO);
+    lab_make(&l, 0.0);
+    const double t = limited ? 3.5 : 6.0;
+    while (fl_world_time(&l.w) < t)
+        if (lab_run(&l, 20)) return;
+    fl_energy_update(&l.w);
+    for (int32_t i = 0; i < l.w.n; i++) momentum += l.w.b.m[i] * l.w.b.v[i].x;
+    if (limited) {
+        verify_row("B06", "wall: momentum of all and of its mass [N s]",
+                   momentum + l.w.push.mass * (l.w.push.velocity - 0.5), l.w.push.impulse, 1e-9, VERIFY_REL);
+        verify_true("B06", "wall: it has lost speed to the ice", l.w.push.velocity < 0.45);
+        verify_row("B06", "wall: way of the wall [m]", l.w.b.x[l.w.push.wall].x + 2.0, l.w.push.way, 1e-9,
+                   VERIFY_REL);
+    } else {
+        verify_row("B06", "wall without a limit: its way over speed and time",
+                   (l.w.b.x[l.w.push.wall].x + 2.0) / (0.5 * fl_world_time(&l.w)), 1.0, 1e-12, VERIFY_REL);
+        verify_row("B06", "wall without a limit: momentum of the floes and its impulse [N s]", momentum,
+                   l.w.push.impulse, 1e-9, VERIFY_REL);
+    }
+    verify_below("B06", "wall: residual over its work",
+                 fabs(l.w.ledger.residual) / fabs(l.w.ledger.drive_now), 2e-3);
+    lab_free(&l);
+}
+
+/* p_D of ISO 19906 for 1 m of ice and a pack of 1 km: 48 to 240 kN/m. */
+static void iso_line_load(void)
+{
+    verify_row("B06", "p_D, R 2, 1 m, 1 km [kN/m]", 1e-3 * fl_iso_line_load(2.0, 1.0, 1000.0),
+               2e3 / exp(0.54 * log(1000.0)), 1e-12, VERIFY_REL);
+    verify_row("B06", "p_D, R 10, 2 m, 4 km [kN/m]", 1e-3 * fl_iso_line_load(10.0, 2.0, 4000.0),
+               10e3 * exp(1.25 * log(2.0) - 0.54 * log(4000.0)), 1e-12, VERIFY_REL);
 }
 
 /* --- H26 ---------------------------------------------------------------------------------------------- */
@@ -312,6 +428,11 @@ int main(void)
     verify_begin("ice that is pushed");
     heave_of_driven_floe();
     drive_chain();
+    push_free_floes();
+    push_held_floe();
+    push_by_wall(0);
+    push_by_wall(1);
+    iso_line_load();
     raft_over_floe(0.08);
     jam_field();
     wave_through_row();

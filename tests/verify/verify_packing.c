@@ -11,8 +11,10 @@
 #include <string.h>
 #include "base/pi.h"
 #include "pack/growth.h"
+#include "pack/pack_world.h"
 #include "pack/packing_certificate.h"
 #include "pack/throwing.h"
+#include "support/near.h"
 #include "support/verify.h"
 
 typedef struct {
@@ -39,7 +41,7 @@ static void grow(sample *s, const char *in, int dim, const char *periodic, int32
     int halved;
     if (fl_region_make(&s->region, in, dim, periodic, &err) || fl_pack_shapes_make(&s->shapes, shape, &err) ||
         fl_packing_make(&s->p, dim, n, d, &s->shapes, seed, &err) ||
-        fl_throw_bodies(&s->p, &s->region, FL_THROW_REJECTION, seed, &halved, &err) ||
+        fl_throw_bodies(&s->p, &s->region, NULL, FL_THROW_REJECTION, seed, &halved, &err) ||
         fl_packing_sort(&s->p, &err) || fl_overlaps_make(&s->o, &s->p, &s->region, &err))
         stop(&err);
     s->g = fl_growth_start(&opt);
@@ -164,6 +166,22 @@ static void compress(sample *s, double dphi)
     if (fl_packing_certify(&s->c, &s->o, NULL, &err)) stop(&err);
 }
 
+/* Where pairs are most frequent over the area of the ring: middle of a bin of 0.01 of r/(r_i + r_j). */
+static double first_peak(const sample *s)
+{
+    enum { BINS = 100 };
+    double count[BINS] = {0}, most = 0.0, at = 0.0;
+    for (int32_t i = 0; i < s->p.n; i++)
+        for (int32_t j = 0; j < i; j++) {
+            const double r = v3_norm(fl_region_wrap(&s->region, v3_sub(s->p.x[i], s->p.x[j]))) /
+                             (s->p.s * (s->p.radius[i] + s->p.radius[j]));
+            if (r > 0.5 && r < 1.5) count[(int)((r - 0.5) * BINS)] += 1.0 / r;
+        }
+    for (int k = 0; k < BINS; k++)
+        if (count[k] > most) most = count[k], at = 0.5 + (k + 0.5) / BINS;
+    return at;
+}
+
 static void discs(void)
 {
     const int seeds = verify_quick() ? 1 : 5, n = verify_quick() ? 400 : 1000;
@@ -178,6 +196,8 @@ static void discs(void)
             verify_below("P7", "jammed discs: unbalanced force over the mean contact force", s.c.unbalanced,
                          1e-3);
             compress(&s, 1e-3);
+            verify_row("P9", "  first peak of the pair correlation in r/(r_i + r_j)", first_peak(&s), 1.0,
+                       0.02, VERIFY_REL);
             verify_below("P9", "discs at phi_J + 0.001: F1 - F2 of the fabric", s.c.fabric[0] - s.c.fabric[1],
                          verify_quick() ? 0.08 : 0.05);
         }
@@ -326,30 +346,119 @@ static void corners(void)
 
 static void hard_cases(void)
 {
-    double one = 1.0, d[2000];
+    double one = 1.0, d[3010];
     sample s = {0};
     grow(&s, "box:0,0,0,2,2,2", 3, "", 1, &one, "sphere", 1);
     verify_below("P14", "one sphere: outside by, over the radius", 1.0 - s.c.room, 1e-12);
     release(&s);
-    /* size ratio 20: fines between coarse discs */
+    /* size ratio 50: fines between coarse discs, periodic along x alone */
     int32_t n = 0;
-    for (int k = 0; k < 6; k++) d[n++] = 4.0;
-    for (int k = 0; k < 900; k++) d[n++] = 0.2;
+    const int fines = verify_quick() ? 700 : 3000;
+    for (int k = 0; k < (verify_quick() ? 2 : 6); k++) d[n++] = 4.0;
+    for (int k = 0; k < fines; k++) d[n++] = 0.08;
     s = (sample){0};
-    grow(&s, "box:0,0,0,12,12,0", 2, "x", n, d, "sphere", 2);
-    verify_below("P14", "size ratio 20: largest overlap over the smaller radius", s.c.max_overlap, 1e-3);
-    verify_below("P14", "size ratio 20: outside by, over the radius", 1.0 - s.c.room, 1e-3);
+    grow(&s, verify_quick() ? "box:0,0,0,8.4,5,0" : "box:0,0,0,12,12,0", 2, "x", n, d, "sphere", 2);
+    verify_below("P14", "size ratio 50: largest overlap over the smaller radius", s.c.max_overlap, 1e-3);
+    verify_below("P14", "size ratio 50: outside by, over the radius", 1.0 - s.c.room, 1e-3);
     release(&s);
+    /* two parts joined by a neck of three sizes */
+    const char *path = test_path("neck.outline");
+    write_file(path, "0 0\n6 0\n6 2.55\n8 2.55\n8 0\n14 0\n14 6\n8 6\n8 3.45\n6 3.45\n6 6\n0 6\n");
+    double *one_size = malloc(1200 * sizeof *one_size);
+    const int32_t bodies = (int32_t)(0.78 * (72.0 + 1.8) / (PI / 4.0 * 0.09));
+    for (int32_t k = 0; k < bodies; k++) one_size[k] = 0.3 - 0.1 * k / bodies;
+    s = (sample){0};
+    grow(&s, path, 2, "", bodies, one_size, "sphere", 4);
+    int32_t in_neck = 0, left = 0;
+    for (int32_t k = 0; k < s.p.n; k++)
+        left += s.p.x[k].x<6.0, in_neck += s.p.x[k].x> 6.0 && s.p.x[k].x < 8.0;
+    verify_row("P14", "a neck of three sizes: bodies outside", s.c.outside, 0.0, 0.0, VERIFY_ABS);
+    verify_true("P14", "  bodies in the neck and in either part",
+                in_neck > 5 && left > 100 && left < s.p.n - 100);
+    release(&s);
+    free(one_size);
+    remove(path);
+    /* a solid part that no packing has */
+    double *wide = draw("uniform:1,2", 2, 0.9 * (verify_quick() ? 225.0 : 900.0), &n);
+    s = (sample){0};
+    grow(&s, verify_quick() ? "box:0,0,0,15,15,0" : "box:0,0,0,30,30,0", 2, "", n, wide, "sphere", 6);
+    verify_true("P14", "a solid part of 0.9: the discs jam", s.g.jammed);
+    verify_row("P14", "  at (phi of discs of 1 to 2, less the effect of walls)", s.c.solid,
+               0.845 * (1.0 - 0.42 * 1.5 / (verify_quick() ? 15.0 : 30.0)), 0.02, VERIFY_ABS);
+    release(&s);
+    free(wide);
+}
+
+/* --- P11: steps --------------------------------------------------------------------------------- */
+
+/* The seconds of these are in bench/pack.sh. */
+static void many(void)
+{
+    sample s = {0};
+    int32_t n;
+    if (verify_quick()) return;
+    double *d = draw("uniform:1,2", 2, 0.82 * 440.0 * 440.0, &n);
+    grow(&s, "box:0,0,0,440,440,0", 2, "", n, d, "sphere", 1);
+    verify_note("%d discs to 0.82", n);
+    verify_below("P11", "100 000 discs to 0.82: steps of relaxation", (double)s.o.steps, 3000);
+    verify_below("P11", "  largest overlap over the radius", s.c.max_overlap, 1e-6);
+    release(&s);
+    free(d);
+    d = draw("single:1", 3, 0.6 * 20.6 * 20.6 * 20.6, &n);
+    s = (sample){0};
+    grow(&s, "box:0,0,0,20.6,20.6,20.6", 3, "", n, d, "sphere", 1);
+    verify_note("%d spheres to 0.60", n);
+    verify_below("P11", "10 000 spheres to 0.60: steps of relaxation", (double)s.o.steps, 3000);
+    verify_below("P11", "  largest overlap over the radius", s.c.max_overlap, 1e-6);
+    release(&s);
+    free(d);
+}
+
+/* --- growth by steps with friction -------------------------------------------------------------- */
+
+/* Solid part at which 500 equal spheres in a periodic box jam. */
+static double jam_moving(double friction)
+{
+    const fl_pack_motion m = {
+        .friction = friction, .restitution = 0.2, .young = 1e8, .density = 900.0, .rest = 1e-3};
+    sample s = {0};
+    double d[500];
+    fl_pack_moved moved;
+    fl_err err = {0};
+    int halved;
+    for (int k = 0; k < 500; k++) d[k] = 1.0;
+    if (fl_region_make(&s.region, "box:0,0,0,7.35,7.35,7.35", 3, "xyz", &err) ||
+        fl_pack_shapes_make(&s.shapes, "sphere", &err) ||
+        fl_packing_make(&s.p, 3, 500, d, &s.shapes, 1, &err) ||
+        fl_throw_bodies(&s.p, &s.region, NULL, FL_THROW_REJECTION, 1, &halved, &err) ||
+        fl_packing_sort(&s.p, &err) || fl_overlaps_make(&s.o, &s.p, &s.region, &err) ||
+        fl_pack_grow_moving(&s.p, &s.region, &m, &s.o, NULL, NULL, &moved, &err))
+        stop(&err);
+    const double phi = fl_packing_volume(&s.p, moved.jammed ? moved.jam_scale : 1.0, 0) / s.region.volume;
+    release(&s);
+    return phi;
+}
+
+/* Friction decides how dense: from random close packing to random loose packing, 0.55. */
+static void friction(void)
+{
+    if (verify_quick()) return;
+    verify_row("P4", "grown by steps without friction: solid part", jam_moving(0.0), 0.637, 0.01, VERIFY_ABS);
+    verify_row("P4", "grown by steps with friction 0.5, random loose", jam_moving(0.5), 0.56, 0.03,
+               VERIFY_ABS);
 }
 
 int main(void)
 {
     verify_begin("packings");
+    omp_set_num_threads(1); /* programs run side by side */
     gradings();
     corners();
     hard_cases();
     porosities();
     discs();
     spheres();
+    many();
+    friction();
     return verify_end();
 }

@@ -27,7 +27,7 @@ finish() { echo "$passed passed, $failed failed"; [ $failed -eq 0 ]; exit; }
 cp "$here"/input/* .
 struct-import --name leg --cylinder 1,-3,3,4,0 --facets 32 -q -o leg.dat
 printf '[ice]\nfile = ice.dat\n[water]\nwave = airy\nheight = 0.5 m\nperiod = 3 s\n' >a.scene
-voronoi-ice --size 12x10 --origin -9,-5 --floes 20 --concentration 0.8 --thickness 0.4 --radius 0.1 --seed 4 --velocity 1,0 -q -o ice.dat
+voronoi-ice --gaps even --size 12x10 --origin -9,-5 --floes 20 --concentration 0.8 --thickness 0.4 --radius 0.1 --seed 4 --velocity 1,0 -q -o ice.dat
 awk 'BEGIN { print "#g-polys 1"; for (i = 0; i < 400; i++) printf "poly %d 0.25 1 0\nv %g %g %g\n", i, 0.5 * (i % 20), 0.5 * int(i / 20), 0.1 * (i % 3) }' >balls.dat
 
 ice-view -q --size 64x64 -o probe.bmp ice.dat 2>log

@@ -267,6 +267,11 @@ static const fl_option OPTION[] = {
      .help = "points whose shape is drawn, with commas",
      .kind = FL_OPTION_CALL,
      .call = set_shapes},
+    {.word = "frames",
+     .argument = "FILE",
+     .help = "write the shape of every point as a frame of ice-view",
+     .kind = FL_OPTION_FILE,
+     .at = AT(frames)},
     {.word = "format",
      .argument = "F",
      .help = "of pictures: svg or png (svg)",
@@ -323,10 +328,12 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (!o->model) return fl_fail(err, FL_USAGE, "no model, expected a file of kind members");
     if (o->ratio > 0.0 && !o->modes)
         return fl_fail(err, FL_USAGE, "--ratio needs --modes, of whose table it is a column");
-    if (o->modes && (o->plot || o->checkpoint || o->resume || o->watches || o->untils))
-        return fl_fail(
-            err, FL_USAGE,
-            "--modes follows no path: --plot, --checkpoint, --resume, --watch and --until are not for it");
+    if (o->frames && o->resume)
+        return fl_fail(err, FL_USAGE, "--frames has all points from the first on, --resume is not for it");
+    if (o->modes && (o->plot || o->frames || o->checkpoint || o->resume || o->watches || o->untils))
+        return fl_fail(err, FL_USAGE,
+                       "--modes follows no path: --plot, --frames, --checkpoint, --resume, --watch and "
+                       "--until are not for it");
     if (o->reference && !o->plot)
         return fl_fail(err, FL_USAGE, "--reference needs --plot, the folder of the picture");
     if (o->shapes && !o->plot)

@@ -29,6 +29,7 @@ struct options {
     const char *plot, *reference, *format;
     int32_t shape_at[SHAPES_MAX]; /* points whose shape is written */
     int shapes;
+    const char *frames; /* of all points, for ice-view; NULL: none */
     const char *checkpoint, *resume;
     int32_t modes; /* number of modes, in place of the path; 0: the path */
     double ratio;  /* damping ratio of their table */

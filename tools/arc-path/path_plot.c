@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "path_plot.h"
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include "base/gnuplot.h"
 #include "base/stream.h"
 #include "base/text.h"
+#include "geom/aabb.h"
 #include "member/imperfection.h"
 
 enum { PATH_LEN = 4096 };
@@ -27,19 +29,28 @@ static int open_in(fl_out *out, const struct options *o, const char *stem, const
     return fl_out_open(out, path, 0, err);
 }
 
-static void write_terminal(FILE *f, const struct options *o)
+static void write_terminal(FILE *f, const struct options *o, int width, int height)
 {
-    fprintf(f, "set terminal %s size 800,600\nset output out\n",
-            strcmp(o->format, "png") == 0 ? "png" : "svg dynamic enhanced");
+    if (strcmp(o->format, "png") == 0)
+        fprintf(f, "set terminal pngcairo noenhanced size %d,%d font 'Sans,11' background '#ffffff'\n", width,
+                height);
+    else
+        fprintf(f,
+                "set terminal svg noenhanced size %d,%d dynamic font 'sans-serif,14' background '#ffffff'\n",
+                width, height);
+    fputs("set encoding utf8\nset output out\nset border lc rgb '#444444' lw 1\n"
+          "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n",
+          f);
 }
 
-/* Lines of the members before and after; a blank line ends each. */
+/* Lines of the members before and after. Two blank lines end each: after one, splot takes members of equal
+ * length for the rows of a surface. */
 static void write_members(FILE *f, const fl_member_chain *c)
 {
     int32_t member = -1;
     for (int32_t k = 0; k < c->contacts; k++) {
         const fl_member_contact *e = &c->contact[k];
-        if (e->member != member && member >= 0) putc('\n', f);
+        if (e->member != member && member >= 0) fputs("\n\n", f);
         for (int s = e->member == member; s < 2; s++) {
             const fl_vec3 x = fl_member_contact_end(c, e, s), x0 = fl_member_contact_start(c, e, s);
             fprintf(f, "%.9g %.9g %.9g %.9g %.9g %.9g\n", x.x, x.y, x.z, x0.x, x0.y, x0.z);
@@ -55,6 +66,21 @@ static int is_planar(const fl_member_chain *c)
     return 1;
 }
 
+/* Factor by which z is drawn, so that a flat dome is not a line. */
+static int height_factor(const fl_member_chain *c)
+{
+    static const int FACTOR[] = {1, 2, 5, 10, 20};
+    fl_aabb box = aabb_empty();
+    int k = 4;
+    for (int32_t b = 0; b < c->balls; b++) {
+        const fl_vec3 x0 = c->ball[b].x0, x = v3_add(x0, c->ball[b].d);
+        box = aabb_join(box, aabb_join((fl_aabb){x0, x0}, (fl_aabb){x, x}));
+    }
+    const fl_vec3 size = v3_sub(box.hi, box.lo);
+    while (k > 0 && FACTOR[k] * size.z > 0.45 * fmax(size.x, size.y)) k--;
+    return FACTOR[k];
+}
+
 int path_plot_shape(const struct options *o, const fl_member_model *m, const fl_member_chain *c,
                     int64_t point, fl_err *err)
 {
@@ -66,19 +92,30 @@ int path_plot_shape(const struct options *o, const fl_member_model *m, const fl_
     if (fl_out_close(&out, err) || open_in(&out, o, stem, "dat", err)) return -1;
     write_members(out.f, c);
     if (fl_out_close(&out, err) || open_in(&out, o, stem, "gp", err)) return -1;
-    write_terminal(out.f, o);
-    if (is_planar(c))
+    const int flat = is_planar(c), factor = flat ? 1 : height_factor(c);
+    write_terminal(out.f, o, 900, 640);
+    if (flat) {
+        fputs("set size ratio -1\nset grid back lc rgb '#dddddd' lw 0.8\nset border 3\nset xlabel 'x'\nset "
+              "ylabel "
+              "'z'\nset key outside top center horizontal\nset offsets graph 0.05, graph 0.05, graph 0.05, "
+              "graph 0.05\n",
+              out.f);
         fprintf(out.f,
-                "set size ratio -1\nset xlabel \"x\"\nset ylabel \"z\"\nplot \"%s.dat\" using 4:6 with lines "
-                "lc rgb \"grey\" "
-                "title \"start\", \"\" using 1:3 with linespoints lw 2 pt 7 ps 0.4 title \"point %lld\"\n",
+                "plot '%s.dat' using 4:6 with lines lw 1.5 lc rgb '#999999' title 'start', '' using 1:3 with "
+                "linespoints lw 2 pt 7 ps 0.4 lc rgb '#08519c' title 'point %lld'\nset output\n",
                 stem, (long long)point);
-    else
+    } else {
+        fputs("set view equal xyz\nset view 62,28,1.3\nset xyplane relative 0\nunset border\nunset tics\nset "
+              "key at "
+              "screen 0.5,0.95 center horizontal\n",
+              out.f);
+        if (factor > 1)
+            fprintf(out.f, "set label 'z drawn %d times as large' at screen 0.5,0.05 center\n", factor);
         fprintf(out.f,
-                "set view equal xyz\nset view 60,30\nset xyplane 0\nsplot \"%s.dat\" using 4:5:6 with lines "
-                "lc rgb \"grey\" "
-                "title \"start\", \"\" using 1:2:3 with lines lw 2 title \"point %lld\"\n",
-                stem, (long long)point);
+                "splot '%s.dat' using 4:5:(%d*$6) with lines lw 1.2 lc rgb '#888888' title 'start', '' using "
+                "1:2:(%d*$3) with lines lw 2 lc rgb '#08519c' title 'point %lld'\nset output\n",
+                stem, factor, factor, (long long)point);
+    }
     if (fl_out_close(&out, err)) return -1;
     return fl_gnuplot_draw(o->plot, stem, o->format, err);
 }
@@ -125,12 +162,15 @@ int path_plot_curve(const struct options *o, const fl_path_table *t, fl_err *err
         if (fl_out_close(&out, err)) return -1;
     }
     if (open_in(&out, o, "path", "gp", err)) return -1;
-    write_terminal(out.f, o);
+    write_terminal(out.f, o, 800, 560);
     fprintf(
         out.f,
-        "set xlabel \"displacement along the load\"\nset ylabel \"load factor\"\nset grid\nset key left top\n"
-        "plot \"path.dat\" with linespoints pt 7 ps 0.3 title \"arc-path\"%s\n",
-        o->reference ? ", \"reference.dat\" with points pt 4 title \"reference\"" : "");
+        "set border 3\nset xlabel 'displacement along the load'\nset ylabel 'load factor'\nset grid back lc "
+        "rgb "
+        "'#dddddd' lw 0.8\nset key left top Left reverse\n"
+        "plot 'path.dat' with linespoints pt 7 ps 0.3 lw 2 lc rgb '#08519c' title 'arc-path'%s\nset output\n",
+        o->reference ? ", 'reference.dat' with points pt 6 ps 1.2 lw 1.5 lc rgb '#d94801' title 'reference'"
+                     : "");
     if (fl_out_close(&out, err)) return -1;
     return fl_gnuplot_draw(o->plot, "path", o->format, err);
 }

@@ -12,6 +12,7 @@
 #include "member/mechanism.h"
 #include "member/member_modes.h"
 #include "member/path_state.h"
+#include "path_frames.h"
 #include "path_plot.h"
 
 static volatile sig_atomic_t stop_signal;
@@ -27,6 +28,7 @@ struct run {
     fl_member_chain chain;
     fl_path path;
     fl_path_table table;
+    struct path_frames frames;
     int until_column[UNTIL_MAX]; /* watched displacement; -1 lambda, -2 along, -3 arc, -4 length */
     double until_start[UNTIL_MAX];
 };
@@ -95,7 +97,9 @@ static int follow(struct run *r, fl_out *out, fl_err *err)
     if (r->o->resume ? fl_path_state_read(&r->path, &r->table, r->o->resume, err)
                      : fl_path_table_add(&r->table, &r->path, &r->model, err))
         return -1;
+    if (r->o->frames && path_frames_begin(&r->frames, r->o, &r->model, err)) return -1;
     for (;;) {
+        path_frames_point(&r->frames, &r->chain, r->path.point.number);
         if (r->table.len > written)
             fwrite(r->table.text + written, 1, (size_t)(r->table.len - written), out->f);
         written = r->table.len;
@@ -130,7 +134,7 @@ static int finish(struct run *r, fl_out *out, int rc, fl_err *err)
         fl_out_abort(out);
         return rc;
     }
-    if (fl_out_close(out, &more)) failed = 1;
+    if (fl_out_close(out, &more) || path_frames_end(&r->frames, 1, &more)) failed = 1;
     if (!failed && o->checkpoint && r->path.point.number > 0 &&
         fl_path_state_write(&r->path, &r->table, o->checkpoint, &more))
         failed = 1;
@@ -142,9 +146,10 @@ static int finish(struct run *r, fl_out *out, int rc, fl_err *err)
 
 static int check_files(const struct options *o, fl_err *err)
 {
-    const fl_named_path out[] = {{"--output", o->out}, {"--checkpoint", o->checkpoint}};
+    const fl_named_path out[] = {
+        {"--output", o->out}, {"--checkpoint", o->checkpoint}, {"--frames", o->frames}};
     const fl_named_path in[] = {{.path = o->model}, {.path = o->shape}, {.path = o->reference}};
-    return fl_output_guard_check(out, 2, in, 3, err);
+    return fl_output_guard_check(out, 3, in, 3, err);
 }
 
 static int read_model(struct run *r, fl_err *err)
@@ -235,6 +240,7 @@ int path_run(const struct options *o, fl_err *err)
         fl_path_table_header(out.f, &r.table, &r.model, &by);
         rc = finish(&r, &out, follow(&r, &out, err), err);
     }
+    path_frames_end(&r.frames, 0, err);
     fl_path_table_free(&r.table);
     fl_path_free(&r.path);
     fl_member_chain_free(&r.chain);

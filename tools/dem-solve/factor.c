@@ -5,6 +5,7 @@
 #include <string.h>
 #include "base/array.h"
 #include "base/number_text.h"
+#include "base/pi.h"
 #include "base/stream.h"
 #include "contact/joint_list.h"
 #include "sim/relaxed_run.h"
@@ -51,7 +52,8 @@ static int read_key(struct factor_search *s, const char *key, fl_err *err)
                        "--factor is \"%.60s\", expected friction, strength or joint.NAME.friction, "
                        ".cohesion or .tension",
                        key);
-    if (!scene->n_joint) return fl_fail(err, FL_USAGE, "--factor: the scene has no [joint NAME]");
+    if (!scene->n_joint && !scene->zones.head.present)
+        return fl_fail(err, FL_USAGE, "--factor: the scene has no [joint NAME]");
     if (!scene->run.relax) return fl_fail(err, FL_USAGE, "--factor: run.relax is none, local is expected");
     return 0;
 }
@@ -59,7 +61,7 @@ static int read_key(struct factor_search *s, const char *key, fl_err *err)
 /* Strengths over F; F = 0: without limit. */
 static void set_strengths(const struct factor_search *s, fl_world *w, const fl_joint_material *was, double F)
 {
-    for (int32_t k = 0; k < w->scene->n_joint; k++) {
+    for (int32_t k = 0; k < w->scene->n_joint && w->bonds.joint; k++) {
         fl_joint_material *m = &w->bonds.joint_material[k];
         *m = was[k];
         if (F == 0.0) {
@@ -73,6 +75,21 @@ static void set_strengths(const struct factor_search *s, fl_world *w, const fl_j
             if (s->what & WHAT_COHESION) m->cohesion /= F, m->residual_cohesion /= F;
             if (s->what & WHAT_TENSION) m->tension /= F;
         }
+    }
+}
+
+/* The same for zones of law mohr-coulomb. */
+static void set_zone_strengths(const struct factor_search *s, fl_world *w, double F)
+{
+    for (int32_t k = 0; k < w->zones.set.materials && w->zones.set.plastic; k++) {
+        const fl_scene_material *q = &w->scene->material[k];
+        const double turn = PI / 180.0, tangent = tan(q->friction_angle * turn),
+                     phi = s->what & WHAT_FRICTION ? atan(tangent / F) / turn : q->friction_angle,
+                     c = s->what & WHAT_COHESION ? q->cohesion / F : q->cohesion,
+                     T = s->what & WHAT_TENSION ? q->tension / F : q->tension;
+        if (q->cohesion < 0.0 || s->joint >= 0) continue;
+        if (F == 0.0) fl_zone_material_set_strength(&w->zones.set.material[k], INFINITY, 0.0, INFINITY, 0.0);
+        else fl_zone_material_set_strength(&w->zones.set.material[k], c, phi, T, fmin(q->dilation, phi));
     }
 }
 
@@ -116,8 +133,9 @@ static int try_factor(struct factor_search *s, double F, fl_err *err)
     was = fl_alloc(r.scene->n_joint, sizeof *was, err);
     x = fl_alloc(w.n, sizeof *x, err);
     if (!was || !x) goto done;
-    memcpy(was, w.bonds.joint_material, (size_t)r.scene->n_joint * sizeof *was);
+    if (w.bonds.joint) memcpy(was, w.bonds.joint_material, (size_t)r.scene->n_joint * sizeof *was);
     set_strengths(s, &w, was, 0.0);
+    set_zone_strengths(s, &w, 0.0);
     if (fl_step_start(&w, err)) goto done;
     const int rest = come_to_rest(&r, &w, NULL, &stage, err);
     if (rest < 0) goto done;
@@ -128,6 +146,7 @@ static int try_factor(struct factor_search *s, double F, fl_err *err)
     }
     for (int32_t k = 0; k < w.n; k++) x[k] = w.b.x[k];
     set_strengths(s, &w, was, F);
+    set_zone_strengths(s, &w, F);
     for (int32_t k = 0; k < w.bonds.n - w.bonds.faces; k++)
         for (int e = 0; e < FL_BOND_POINTS; e++) {
             fl_joint_point *p = &w.bonds.joint[k].point[e];

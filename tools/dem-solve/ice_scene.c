@@ -7,6 +7,7 @@
 #include "contact/bond_list.h"
 #include "ice/drift_bounds.h"
 #include "scene/scene.h"
+#include "sim/ice_push.h"
 #include "world/access.h"
 
 /* Cosine from which a drift is along an axis. */
@@ -43,7 +44,7 @@ static double area_of_floe(const fl_world *w, int32_t i)
 }
 
 struct ice_sums {
-    double area, mass;
+    double area, mass, volume;
     fl_vec3 momentum;
     fl_aabb box;
     int32_t n;
@@ -59,6 +60,7 @@ static struct ice_sums sum_ice(const fl_world *w)
         s.n++;
         s.area += area_of_floe(w, i);
         s.mass += w->b.m[i];
+        s.volume += w->b.m[i] / w->scene->material[w->material[i]].density;
         s.momentum = v3_add(s.momentum, v3_scale(w->b.m[i], w->b.v[i]));
         for (int32_t v = 0; v < p->nv; v++) {
             const fl_vec3 x = v3_add(w->b.x[i], q_rotate(*fl_body_attitude(&w->b, i), p->v[v]));
@@ -129,7 +131,7 @@ static enum ice_scene_kind kind_of(const fl_world *w, int32_t floes)
 {
     const fl_scene *s = w->scene;
     const fl_scene_motion *m = &s->structure.motion;
-    int driven = s->boundary.drive_group[0] || s->boundary.drive_width > 0.0;
+    int driven = s->boundary.drive_group[0] || s->boundary.drive_width > 0.0 || w->push.of == FL_PUSH_WALL;
     for (int32_t k = 0; k < s->n_group; k++) driven = driven || v3_norm(s->group[k].velocity) > 0.0;
     if (fl_world_bonds(w)) return SCENE_SHEET;
     if (driven) return SCENE_DRIVEN;
@@ -145,6 +147,9 @@ static fl_vec3 approach(const fl_world *w, const struct ice_sums *ice)
     if (w->inflow.feed)
         v = w->inflow.axis ? v3(0.0, w->inflow.sign * w->inflow.speed, 0.0)
                            : v3(w->inflow.sign * w->inflow.speed, 0.0, 0.0);
+    else if (w->push.of)
+        v = w->push.axis ? v3(0.0, w->push.sign * w->push.speed, 0.0)
+                         : v3(w->push.sign * w->push.speed, 0.0, 0.0);
     else if (v3_norm(v) == 0.0) v = v3_scale(1.0 / ice->mass, ice->momentum);
     v = v3_sub(v, w->scene->structure.motion.velocity);
     v.z = 0.0;
@@ -176,6 +181,7 @@ int ice_scene_make(struct ice_scene *s, const struct run *r, fl_err *err)
     s->ice_area = ice.area;
     s->concentration = fmin(1.0, ice.area / (x * y));
     s->mass_per_area = ice.mass / (x * y);
+    s->thickness = ice.volume / ice.area;
     s->floe_size = sqrt(ice.area / ice.n);
     if (!(s->speed > 0.0)) {
         s->kind = SCENE_OTHER;
@@ -205,6 +211,28 @@ static double drag_of(const struct ice_scene *s, const fl_world *w)
 {
     const fl_scene_water *a = &w->scene->water;
     return 1e-3 * fl_drag_of_held_ice(a->density, a->drag_force_coef, s->speed, s->ice_area);
+}
+
+/* Width of a pack for which the driving force of nature is told [m], and the range of ISO's coefficient. */
+#define PACK_WIDTH 1e3
+#define PACK_LOW 2.0
+#define PACK_HIGH 10.0
+
+/* What bounds ice that is pushed: the push of the run, or that of nature. */
+static void report_push_bound(const struct ice_scene *s, const fl_world *w, FILE *f)
+{
+    const fl_push *p = &w->push;
+    if (p->of && isfinite(p->limit)) {
+        fprintf(f, "bound by a push of %.3g kN/m over %.3g m, %.3g kN", 1e-3 * p->limit / p->width, p->width,
+                1e-3 * p->limit);
+        return;
+    }
+    fprintf(
+        f,
+        "bound by nothing in the run, in nature by what pushes: %.3g to %.3g kN for a pack of 1 km, p_D of "
+        "ISO 19906",
+        1e-3 * s->structure_width * fl_iso_line_load(PACK_LOW, s->thickness, PACK_WIDTH),
+        1e-3 * s->structure_width * fl_iso_line_load(PACK_HIGH, s->thickness, PACK_WIDTH));
 }
 
 static void report_width(const struct ice_scene *s, FILE *f)
@@ -239,13 +267,14 @@ void ice_scene_report(const struct ice_scene *s, const struct run *r, FILE *f)
     case SCENE_DRIFT:
         fprintf(
             f,
-            "dem-solve: scene: drift without end at %.3g m/s, mean about %.3g kN while floes pass, bound by "
-            "nothing once they jam",
+            "dem-solve: scene: drift without end at %.3g m/s, mean about %.3g kN while floes pass; once they "
+            "jam, ",
             s->speed, momentum_of(s, w));
+        report_push_bound(s, w, f);
         break;
     case SCENE_DRIVEN:
-        fputs("dem-solve: scene: driven ice, bound by nothing in the run: the driving force of nature is", f);
-        fputs(" (ice-scenes(7))", f);
+        fputs("dem-solve: scene: driven ice, ", f);
+        report_push_bound(s, w, f);
         break;
     case SCENE_SHEET:
         fputs("dem-solve: scene: a bonded sheet, bound by its strength in bending and crushing\n", f);
@@ -303,8 +332,14 @@ void ice_scene_warn_inflow(const struct run *r, FILE *f)
     if (stands && waited) fputs(", and ", f);
     if (waited)
         fprintf(f, "%.2g of the floes that came in had to wait", (double)t->n_blocked / (double)t->n_entered);
+    if (w->push.of == FL_PUSH_INFLOW) {
+        fprintf(f,
+                "; from then on its push of at most %.3g kN bounds the loads, and its speed falls, see "
+                "ice-scenes(7)\n",
+                1e-3 * w->push.limit);
+        return;
+    }
     fputs("; from then on the inflow pushes with any force, and the loads are its own: a bound farther "
-          "upstream, "
-          "a shorter run, or less ice is expected, see ice-scenes(7)\n",
+          "upstream, a shorter run, less ice, or boundary.line_load is expected, see ice-scenes(7)\n",
           f);
 }

@@ -23,6 +23,7 @@ struct ice_scene {
     double concentration;   /* of the field */
     double ice_area;        /* [m2] */
     double mass_per_area;   /* of ice, over the area of the sea [kg/m2] */
+    double thickness;       /* mean [m] */
     double floe_size;       /* root of the mean area [m] */
     double field_width;     /* across the drift [m]; infinite where the sides are free */
     double structure_width; /* across the drift at the water line, narrow gaps closed [m] */

@@ -7,6 +7,7 @@
 #include <unistd.h>
 #include "base/array.h"
 #include "base/parallel.h"
+#include "base/pi.h"
 #include "base/stream.h"
 #include "mesh/gstruct.h"
 #include "factor.h"
@@ -44,6 +45,10 @@ static int read_scene(fl_scene *s, const struct options *o, fl_err *err)
         if (fl_scene_set(s, key, err) ||
             fl_scene_set(s, members ? "structure.file=none" : "structure.members=none", err))
             return -1;
+    }
+    if (o->direction) {
+        snprintf(key, sizeof key, "structure.direction=%s", o->direction);
+        if (fl_scene_set(s, key, err)) return -1;
     }
     if (o->threads) s->run.threads = o->threads;
     return fl_scene_check(s, err);
@@ -150,7 +155,7 @@ static int make_surfaces(struct inputs *in, fl_err *err)
     const double level = s->water.head.present ? s->water.level : 0.0;
     if (!in->members.file) return 0;
     return fl_member_motion_surface(&in->surface, &in->members, level, err) ||
-                   fl_member_motion_frames_surface(&in->frames_surface, &in->members, err)
+                   fl_member_motion_frames_surface(&in->frames_surface, &in->members, 0.0, err)
                ? -1
                : 0;
 }
@@ -263,6 +268,22 @@ static int write_scene_again(const struct options *o, fl_err *err)
     return rc ? -1 : 0;
 }
 
+/* Turn the structure back by structure.direction, about the vertical through its reference: the scene keeps
+ * its axes, and so do bounds and inflow. */
+static void turn_structure(fl_surface *surface, const fl_scene *scene)
+{
+    const fl_vec3 at = scene->structure.motion.reference;
+    const fl_quat q = q_of_vector(v3(0, 0, -PI / 180.0 * scene->structure.direction));
+    for (int32_t k = 0; k < surface->n && scene->structure.direction != 0.0; k++) {
+        fl_part *const p = &surface->part[k];
+        for (int32_t v = 0; v < p->nv; v++) p->v[v] = v3_add(at, q_rotate(q, v3_sub(p->v[v], at)));
+        for (int32_t c = 0; c < p->nc; c++) {
+            p->cone[c].p0 = v3_add(at, q_rotate(q, v3_sub(p->cone[c].p0, at)));
+            p->cone[c].p1 = v3_add(at, q_rotate(q, v3_sub(p->cone[c].p1, at)));
+        }
+    }
+}
+
 static int run(const struct options *o, int *stopped, fl_err *err)
 {
     struct inputs in = {0};
@@ -287,8 +308,9 @@ static int run(const struct options *o, int *stopped, fl_err *err)
         goto done;
     }
     const int has_inflow = in.scene.boundary.inflow != FL_INFLOW_NONE;
-    if (make_input_texts(&in, surface, err) || sort_field(&in.field, &order, err) ||
-        (in.feed.n && sort_field(&in.feed, NULL, err)) ||
+    if (make_input_texts(&in, surface, err)) goto done;
+    turn_structure(&in.surface, &in.scene);
+    if (sort_field(&in.field, &order, err) || (in.feed.n && sort_field(&in.feed, NULL, err)) ||
         fl_world_make_with_inflow(&world, &in.scene, &in.field, in.feed.n ? &in.feed : &in.field, surface,
                                   members, err) ||
         (!o->resume && fl_world_check_walls(&world, err)) || extend_order(&order, in.field.n, world.n, err) ||

@@ -49,6 +49,12 @@ static const fl_option OPTION[] = {
      .help = "the structure, instead of structure.file; - is standard input",
      .kind = FL_OPTION_TEXT,
      .at = AT(structure)},
+    {.word = "direction",
+     .argument = "ANGLE",
+     .help = "ice, current, wind and waves come turned by this angle in platform axes, 30deg:\n"
+             "structure.direction",
+     .kind = FL_OPTION_TEXT,
+     .at = AT(direction)},
     {.word = "resume",
      .letter = 'R',
      .argument = "FILE",
@@ -106,12 +112,12 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     *o = (struct options){.probe = -1.0};
     if (fl_options_read(&TABLE, o, NULL, argc, argv, err)) return -1;
     if (o->ended) return 0;
-    if (o->resume &&
-        (o->factor || o->scene || o->ice || o->structure || o->plan || o->probe >= 0.0 || o->gzip))
-        return fl_fail(
-            err, FL_USAGE,
-            "--resume continues what its checkpoint holds: it excludes a scene, --ice, --structure, "
-            "--gzip, --plan and --probe");
+    if (o->resume && (o->factor || o->scene || o->ice || o->direction || o->structure || o->plan ||
+                      o->probe >= 0.0 || o->gzip))
+        return fl_fail(err, FL_USAGE,
+                       "--resume continues what its checkpoint holds: it excludes a scene, --ice, "
+                       "--structure, --direction, "
+                       "--gzip, --plan and --probe");
     if (o->again && (o->scene || o->resume || o->ice || o->structure))
         return fl_fail(
             err, FL_USAGE,
@@ -132,6 +138,7 @@ void options_by(const struct options *o, fl_history_line *by)
     fl_history_line_start(by, "dem-solve");
     if (o->ice) fl_history_line_word(by, "--ice ", base_name(o->ice));
     if (o->structure) fl_history_line_word(by, "--structure ", base_name(o->structure));
+    if (o->direction) fl_history_line_word(by, "--direction ", o->direction);
     for (int k = 0; k < o->sets; k++)
         if (strncmp(o->set[k], "run.threads", 11) != 0 && strncmp(o->set[k], "output.", 7) != 0)
             fl_history_line_add(by, "--set '%s'", o->set[k]);

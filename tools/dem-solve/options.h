@@ -9,6 +9,7 @@ enum { SETS_MAX = 200 };
 
 struct options {
     const char *scene, *ice, *structure; /* borrowed from argv; NULL: not given */
+    const char *direction;               /* --direction; borrowed from argv */
     const char *set[SETS_MAX];
     int sets;
     const char *out, *report, *explain, *resume, *again, *factor; /* NULL: not given */

@@ -57,6 +57,8 @@ static const struct table TABLE[TABLES] = {
                      ALONE, 0, 1},
     [TABLE_MEMBERS] = {"members", PATH(members), PATH(members_every), &fl_member_forces_table, NULL,
                        write_members, ALONE, 0, 0},
+    [TABLE_ZONES] = {"zones", PATH(zones), PATH(zones_every), &fl_zones_table, NULL, write_zones, ALONE, 0,
+                     0},
     [TABLE_FAILURES] = {"failures", PATH(failures), PATH(loads_every), &fl_failures_table, NULL,
                         write_failures, WITH_LOADS, 0, 0},
 };

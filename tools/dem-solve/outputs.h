@@ -21,6 +21,7 @@ enum table_id {
     TABLE_EVENTS,
     TABLE_BONDS,
     TABLE_MEMBERS,
+    TABLE_ZONES,
     TABLE_FAILURES,
     TABLES,
     TIMER_ICE = TABLES, /* frames with ice */

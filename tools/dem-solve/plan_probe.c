@@ -150,6 +150,21 @@ static void print_joints(const struct run *r, FILE *f)
             body_name(w, i, name), r->scene->joint[fl_joint_of_bond(&w->bonds, k)->material].name);
 }
 
+/* Deformable blocks: number, the node that sets their step, and whether joints do. */
+static void print_zones(const fl_world *w, FILE *f)
+{
+    const fl_zone_set *s = &w->zones.set;
+    const int32_t n = w->zones.stiffest;
+    if (!s->blocks) return;
+    const double joints = 1.0 - fl_zone_own_stiffness(s, n) / s->stiffness[n];
+    int32_t k = 0;
+    while (k + 1 < s->blocks && n >= s->block[k].node_end) k++;
+    fprintf(f, "zones          %d with %d nodes in %d blocks; critical %.4g s by a node of body %d", s->zones,
+            s->nodes, s->blocks, w->zones.dt_critical, w->id[s->block[k].body]);
+    if (joints > 0.5) fprintf(f, ", joints set it: %.2g of the stiffness there", joints);
+    putc('\n', f);
+}
+
 int print_plan(struct run *r, FILE *f, fl_err *err)
 {
     fl_world *w = r->w;
@@ -181,6 +196,7 @@ int print_plan(struct run *r, FILE *f, fl_err *err)
             r->critical);
     fprintf(f, "set by         %s\n", r->step_by);
     print_joints(r, f);
+    print_zones(w, f);
     if (r->budget)
         fprintf(f,
                 "error budget   %g of the load: the step above is the largest allowed, and is adapted during "

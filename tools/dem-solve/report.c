@@ -97,6 +97,17 @@ static void report_members(const fl_world *w, FILE *f)
     putc('\n', f);
 }
 
+/* Zones, those that have yielded, and what they lost. */
+static void report_zones(const fl_world *w, FILE *f)
+{
+    const fl_zone_set *s = &w->zones.set;
+    int32_t yielded = 0;
+    for (int32_t k = 0; k < s->zones; k++) yielded += fl_zone_lost(s, k) > 0.0;
+    fprintf(f, "zones              %d in %d blocks", s->zones, s->blocks);
+    if (s->plastic) fprintf(f, ", %d yielded: %.4g J", yielded, w->ledger.plastic);
+    putc('\n', f);
+}
+
 void note_long_bonds(const fl_world *w, FILE *f)
 {
     const fl_bond_counts n = fl_bond_list_counts(w);
@@ -219,6 +230,21 @@ static void report_inflow(const fl_world *w, FILE *f)
     fprintf(f, "floes in domain    %d (capacity %d)\n", fl_floes_in_domain(w), w->n);
 }
 
+static void report_push(const fl_world *w, FILE *f)
+{
+    static const char *const OF[] = {"", "the row", "the wall", "the inflow"};
+    const fl_push *p = &w->push;
+    const double t = fl_world_time(w);
+    fprintf(f, "pushed by          %s: ", OF[p->of]);
+    if (isfinite(p->limit))
+        fprintf(f, "at most %.4g N/m over %.4g m, %.4g N; ", p->limit / p->width, p->width, p->limit);
+    fprintf(f, "mean push %.4g N, mean speed %.3g m/s", t > 0.0 ? p->impulse / t : 0.0,
+            t > 0.0 ? p->way / t : 0.0);
+    if (isfinite(p->limit))
+        fprintf(f, ", %.3g %% of the time at the limit", t > 0.0 ? 100.0 * p->limited / t : 0.0);
+    putc('\n', f);
+}
+
 static void report_crushing(const fl_world *w, FILE *f)
 {
     const fl_crushing_state *s = &w->crushing;
@@ -277,10 +303,12 @@ void write_report(const struct run *r, FILE *f, enum report_kind kind)
     report_momentum(w, f);
     if (fl_world_bonds(w) > fl_world_joints(w)) report_bonds(w, f);
     if (fl_world_joints(w)) report_joints(w, f);
+    if (w->zones.set.blocks) report_zones(w, f);
     if (w->moving.members.dynamics.chain.yielding) report_members(w, f);
     if (w->crushing.of != FL_CRUSHING_NONE) report_crushing(w, f);
     if (w->breaking.on) report_breaking(w, f);
     if (w->inflow.absent) report_inflow(w, f);
+    if (w->push.of) report_push(w, f);
     report_overlaps(w, f);
     fprintf(f, "state hash         %016" PRIx64 "\n", fl_state_hash(w));
 }

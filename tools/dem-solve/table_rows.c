@@ -73,7 +73,8 @@ const fl_more_columns *mode_energies(const fl_world *w, struct mode_columns *c)
 
 unsigned loads_options(const fl_world *w)
 {
-    return (unsigned)fl_motion_columns(w) | (w->strips.wall ? FL_LOADS_RATE : 0u);
+    return (unsigned)fl_motion_columns(w) | (w->strips.wall ? FL_LOADS_RATE : 0u) |
+           (w->scene->structure.direction != 0.0 ? FL_LOADS_PLATFORM : 0u);
 }
 
 /* Fills the columns of crushing by speed, and begins the next interval. */
@@ -84,6 +85,15 @@ static void take_closing(fl_world *w, int32_t part, fl_loads_row *row)
     row->breaks = (double)s->part_breaks[part];
     s->part_closing[part] = s->part_seconds[part] = 0.0;
     s->part_breaks[part] = 0;
+}
+
+/* Force and moment in platform axes, in which the scene's are turned by the direction. */
+static void turn_to_platform(const fl_world *w, fl_loads_row *row)
+{
+    const fl_quat q = q_of_vector(v3(0, 0, PI / 180.0 * w->scene->structure.direction));
+    const fl_vec3 f = q_rotate(q, row->force), m = q_rotate(q, row->moment);
+    row->platform[0] = f.x, row->platform[1] = f.y;
+    row->platform[2] = m.x, row->platform[3] = m.y;
 }
 
 void write_loads(struct run *r, FILE *f, double t, double interval)
@@ -99,6 +109,7 @@ void write_loads(struct run *r, FILE *f, double t, double interval)
         if (moving) fl_part_motion(w, p, t, &row.motion);
         struct mode_columns modes;
         if (w->strips.wall) take_closing(w, p, &row);
+        if (w->scene->structure.direction != 0.0) turn_to_platform(w, &row);
         fl_table_write_row_more(f, &fl_loads_table, loads_options(w), t, &row,
                                 mode_displacements(w, p, &modes));
         w->part_impulse[p] = w->part_moment[p] = v3(0, 0, 0);
@@ -311,6 +322,30 @@ void write_members(struct run *r, FILE *f, double t, double interval)
     for (int32_t k = 0; k < w->moving.members.dynamics.chain.contacts; k++) {
         const fl_member_forces_row row = fl_member_structure_row(w, k);
         fl_table_write_row(f, &fl_member_forces_table, 0, t, &row);
+    }
+}
+
+void write_zones(struct run *r, FILE *f, double t, double interval)
+{
+    const fl_world *w = r->w;
+    const fl_zone_set *s = &w->zones.set;
+    (void)interval;
+    for (int32_t b = 0; b < s->blocks; b++) {
+        const fl_zone_block *q = &s->block[b];
+        for (int32_t k = q->zone; k < q->zone_end && !q->absent; k++) {
+            const int32_t *n = s->zone[k];
+            fl_mat3 axes;
+            const fl_sym3 c = s3_times(-1.0, fl_zone_cauchy(s, k));
+            const fl_zones_row row = {
+                .body = w->id[q->body],
+                .zone = k - q->zone,
+                .x = v3_scale(0.25, v3_add(v3_add(s->x[n[0]], s->x[n[1]]), v3_add(s->x[n[2]], s->x[n[3]]))),
+                .volume = s->zone_volume[k],
+                .s = {c.xx, c.yy, c.zz, c.xy, c.yz, c.xz},
+                .principal = fl_zone_principal(c, &axes),
+                .yielded = fl_zone_lost(s, k)};
+            fl_table_write_row(f, &fl_zones_table, 0, t, &row);
+        }
     }
 }
 

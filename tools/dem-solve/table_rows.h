@@ -21,6 +21,7 @@ void write_contacts(struct run *r, FILE *f, double t, double interval);
 void write_hash(struct run *r, FILE *f, double t, double interval);
 void write_bonds(struct run *r, FILE *f, double t, double interval);
 void write_members(struct run *r, FILE *f, double t, double interval);
+void write_zones(struct run *r, FILE *f, double t, double interval);
 void write_failures(struct run *r, FILE *f, double t, double interval);
 
 /* The columns of loads(5) that depend on the scene. */

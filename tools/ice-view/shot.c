@@ -52,6 +52,8 @@ struct canvas {
     fl_gl_quality q;
     fl_picture seen, whole;
     unsigned char *luminance; /* [w h of seen] */
+    fl_camera camera;
+    int standing; /* the camera is that of the picture before */
 };
 
 static int canvas_open(struct canvas *k, const struct subject *s, const fl_look *l, int moving, fl_err *err)
@@ -78,8 +80,9 @@ static void canvas_close(struct canvas *k)
 static int canvas_draw(struct canvas *k, const struct subject *s, const fl_look *l, double spin_seconds,
                        fl_err *err)
 {
-    const fl_camera c = subject_camera(s, l, (double)k->q.w / k->q.h, spin_seconds);
-    return fl_gl_view_draw(k->gl, &s->shown, l, &c, k->q, sea_of(s), err);
+    if (!k->standing) k->camera = subject_camera(s, l, (double)k->q.w / k->q.h, spin_seconds);
+    k->standing = l->view.spin == 0.0;
+    return fl_gl_view_draw(k->gl, &s->shown, l, &k->camera, k->q, sea_of(s), err);
 }
 
 /* Edges, bar, time and curve on what has been read. */

@@ -23,7 +23,7 @@ enum { WHOLE, DAMAGED, BROKEN, ENDED, ELASTIC, SLIP, OPENED };
 
 /* A camera without a distance of its own sees all within this share of the picture. */
 #define INNER 0.93
-enum { FIT_TURNS = 12, FIT_BODIES = 5000, FIT_VERTICES = 16, FIT_FRAMES = 5, WALL_POSTS = 9 };
+enum { FIT_TURNS = 12, FIT_BODIES = 5000, FIT_VERTICES = 16, FIT_FRAMES = 5, FIT_WAYS = 16, WALL_POSTS = 9 };
 
 /* --- opening ------------------------------------------------------------------------------------ */
 
@@ -450,18 +450,46 @@ static int add_fit(struct subject *s, fl_vec3 x, fl_err *err)
     return 0;
 }
 
-/* Points that the picture has to hold: vertices of bodies, corners of parts.  Of many bodies some. */
+/* The vertices of a body, of many some. */
+static int add_body_fit(struct subject *s, int32_t r, fl_err *err)
+{
+    const fl_frame *f = &s->play.now;
+    const fl_frame_data *d = s->play.data;
+    const fl_frame_shape *shape = fl_frame_data_shape(d, r, f->k < 0 ? 0 : f->k);
+    const fl_mat3 R = q_matrix(f->q[r]);
+    for (int32_t k = 0; k < shape->nv; k += shape->nv / FIT_VERTICES + 1)
+        if (add_fit(s, v3_add(f->x[r], m3_mul(R, d->vertex[shape->v + k])), err)) return -1;
+    return 0;
+}
+
+/* The bodies that lie furthest out in FIT_WAYS directions around, upward and downward. */
+static int add_outer_fits(struct subject *s, fl_err *err)
+{
+    const fl_frame *f = &s->play.now;
+    for (int k = 0; k < 2 * FIT_WAYS; k++) {
+        const double a = 2.0 * PI * k / FIT_WAYS;
+        const fl_vec3 way = v3(cos(a), sin(a), k < FIT_WAYS ? 0.5 : -0.5);
+        int32_t last = -1;
+        double most = -INFINITY;
+        for (int32_t r = 0; r < f->rows; r++) {
+            const double along = f->there[r] ? v3_dot(way, f->x[r]) : -INFINITY;
+            if (along > most) most = along, last = r;
+        }
+        if (last >= 0 && add_body_fit(s, last, err)) return -1;
+    }
+    return 0;
+}
+
+/* Points that the picture has to hold: vertices of bodies, corners of parts.  Of many bodies some, and those
+ * at the outside. */
 static int add_fits(struct subject *s, fl_err *err)
 {
     const fl_frame *f = &s->play.now;
     const fl_frame_data *d = s->play.data;
     for (int32_t r = 0; r < f->rows; r += f->rows / FIT_BODIES + 1) {
-        if (!f->there[r]) continue;
-        const fl_frame_shape *shape = fl_frame_data_shape(d, r, f->k < 0 ? 0 : f->k);
-        const fl_mat3 R = q_matrix(f->q[r]);
-        for (int32_t k = 0; k < shape->nv; k += shape->nv / FIT_VERTICES + 1)
-            if (add_fit(s, v3_add(f->x[r], m3_mul(R, d->vertex[shape->v + k])), err)) return -1;
+        if (f->there[r] && add_body_fit(s, r, err)) return -1;
     }
+    if (f->rows > FIT_BODIES && add_outer_fits(s, err)) return -1;
     for (int32_t p = 0; p < f->parts; p++) {
         const fl_aabb b = fl_part_aabb(&d->structure.part[p]);
         const fl_mat3 R = q_matrix(f->part_q[p]);

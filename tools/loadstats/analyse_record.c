@@ -7,6 +7,7 @@
 #include "base/stream.h"
 #include "stat/power_spectrum.h"
 #include "stat/resample.h"
+#include "stat/startup.h"
 #include "stat/stationary.h"
 #include "analyse_record.h"
 #include "history_line.h"
@@ -14,6 +15,52 @@
 #include "plot.h"
 #include "run_end.h"
 #include "table_kind.h"
+
+enum { START_NOTE = 300 };
+
+/* --- start-up ------------------------------------------------------------------------------------------- */
+
+/* The force that a designer reads first: of all columns in newton that of the largest root mean square. */
+static const double *largest_force(const fl_series *s, int32_t *pair)
+{
+    const double *largest = NULL;
+    double most = 0.0;
+    for (int32_t k = 0; k < s->parts * s->signals; k++) {
+        double square = 0.0;
+        if (!s->x[k] || strcmp(s->unit[k % s->signals], "N") != 0) continue;
+        for (int32_t j = 0; j < s->n; j++) square += s->x[k][j] * s->x[k][j];
+        if (square > most) most = square, largest = s->x[k], *pair = k;
+    }
+    return largest;
+}
+
+/* 1 if the whole record of a run of dem-solve is asked for, whose start-up is known to be there. */
+static int has_start(const fl_series *s, const struct options *o)
+{
+    return strcmp(s->kind, "loads") == 0 && s->run_lines && s->edge[0] == 0.0 && !o->keep_start &&
+           !o->skips && !isfinite(o->from) && !isfinite(o->to) && !(o->window > 0.0) && !o->wheres &&
+           !o->over;
+}
+
+/* Leave out a start-up that is sure, and say so; note: the line above the table. */
+static int drop_start(fl_series *s, const struct options *o, char note[START_NOTE], fl_err *err)
+{
+    fl_startup start;
+    int32_t pair = 0;
+    const double *force = has_start(s, o) ? largest_force(s, &pair) : NULL;
+    note[0] = '\0';
+    if (!force) return 0;
+    if (fl_startup_find(&start, s->n, force, s->edge[s->n] - s->edge[0], err)) return -1;
+    if (start.rows == 0) return 0;
+    snprintf(
+        note, START_NOTE,
+        "start-up until %.6g s is left out: mean %s of %s %.3g kN there and %.3g kN later, %.2g standard "
+        "errors apart (--skip none keeps it)",
+        s->edge[start.rows], s->signal[pair % s->signals], s->part[pair / s->signals], 1e-3 * start.mean[0],
+        1e-3 * start.mean[1], start.apart);
+    fl_series_drop_first(s, start.rows);
+    return 0;
+}
 
 /* --- views ---------------------------------------------------------------------------------------------- */
 
@@ -160,12 +207,27 @@ static int warn_moving_mean(const struct record_views *r, fl_err *err)
 
 /* --- table, pictures, report ---------------------------------------------------------------------------- */
 
+/* Which scene of ice-scenes(7) the run is, as its report says, and the length of that line; NULL: it does not
+ * say. */
+static const char *scene_of_run(const fl_series *s, int *len)
+{
+    const char *at = s->run_lines ? strstr(s->run_lines, "#report scene: ") : NULL;
+    if (!at) return NULL;
+    at += strlen("#report ");
+    *len = (int)strcspn(at, "\n");
+    return at;
+}
+
 static void write_intro(FILE *f, const void *what)
 {
     const struct record_views *r = what;
     const fl_series *s = r->series;
     double share = 0.0;
+    int len = 0;
+    const char *scene = scene_of_run(s, &len);
+    if (scene) fprintf(f, "The %.*s. ", len, scene);
     fprintf(f, "%d rows of the %s table, from %.6g s to %.6g s.", s->n, s->kind, s->edge[0], s->edge[s->n]);
+    if (r->start && r->start[0]) fprintf(f, " The %s.", r->start);
     if (strcmp(s->kind, "loads") == 0)
         fputs(" A row is the mean over its interval; every mean is the impulse divided by the time.", f);
     for (int64_t k = 0; r->loss && k < (int64_t)s->parts * s->signals; k++) {
@@ -200,9 +262,13 @@ static int write_table(FILE *f, const void *what, const struct options *o, fl_er
     const struct record_views *r = what;
     const struct table *t = o->table;
     const int32_t parts = r->series->parts, signals = r->series->signals;
+    int len = 0;
     fl_history_line by;
     history_line_run(o, &by);
     fl_write_file_header(f, t->name, 1, r->series->history, &by);
+    const char *scene = scene_of_run(r->series, &len);
+    if (scene) fprintf(f, "# %.*s\n", len, scene);
+    if (r->start && r->start[0]) fprintf(f, "# %s\n", r->start);
     write_loss(f, r, o);
     print_dropped(f, r->series, r->dropped, "# ");
     table_write_columns(f, o);
@@ -245,11 +311,13 @@ int analyse_record(const struct options *o, fl_err *err)
     fl_signal_view *views = NULL;
     fl_resampling_loss *loss = NULL;
     unsigned char *dropped = NULL;
+    char start[START_NOTE] = "";
     fl_out out = {0};
     const int each = o->filter > 0.0 ? 2 : 1;
     const fl_record_selection selection = {.signal = o->signal,
                                            .signals = o->signals,
                                            .part = o->part,
+                                           .about = o->abouts ? o->about : NULL,
                                            .from = settings_from(o),
                                            .to = o->to,
                                            .last = o->window,
@@ -260,7 +328,8 @@ int analyse_record(const struct options *o, fl_err *err)
     int rc = -1;
     int64_t n = 0;
     if (o->threads) omp_set_num_threads(o->threads);
-    if (fl_series_read(&s, o->in, &selection, err)) goto done;
+    if (fl_series_read(&s, o->in, &selection, err) || drop_start(&s, o, start, err)) goto done;
+    if (start[0] && !o->quiet) fprintf(stderr, "loadstats: %s\n", start);
     loss = fl_alloc((int64_t)s.parts * s.signals, sizeof *loss, err);
     if (!loss || (o->step > 0.0 && fl_resample_uniform(&s, o->step, loss, err))) goto done;
     n = (int64_t)s.parts * s.signals * each;
@@ -270,7 +339,7 @@ int analyse_record(const struct options *o, fl_err *err)
     drop_noise(views, &s, each, dropped);
     print_notes(&s, o);
     if (!o->quiet) print_dropped(stderr, &s, dropped, "loadstats: ");
-    const struct record_views r = {&s, views, each, o->step > 0.0 ? loss : NULL, dropped};
+    const struct record_views r = {&s, views, each, o->step > 0.0 ? loss : NULL, dropped, start};
     if (!o->quiet) {
         warn_side(&r, o);
         if (warn_moving_mean(&r, err)) goto done;

@@ -58,6 +58,7 @@ static int read_run(fl_summary *one, const char *path, FILE *f, const struct opt
     const fl_record_selection selection = {.signal = o->signal,
                                            .signals = o->signals,
                                            .part = o->part,
+                                           .about = o->abouts ? o->about : NULL,
                                            .from = settings_from(o),
                                            .to = o->to,
                                            .reduction = o->over,

@@ -13,6 +13,7 @@ struct record_views {
     int view_count;                 /* 1, or 2 with a filter */
     const fl_resampling_loss *loss; /* [parts * signals] loss by --step, or NULL */
     const unsigned char *dropped;   /* [parts * signals] left out as rounding, or NULL */
+    const char *start;              /* what is said of a start-up that is left out, or "" or NULL */
 };
 
 const char *view_name(int w); /* "raw", "filtered" */

@@ -12,14 +12,36 @@
 enum { LOADS = 6 };
 static const char *const LOAD[LOADS] = {"fx", "fy", "fz", "mx", "my", "mz"};
 
-/* Comments that tell how OpenFAST takes the file. */
-static void write_head(FILE *f, const fl_series *s, const char *part, const fl_history_line *by)
+/* A form of the file: comment sign, head, row. */
+struct export_form {
+    const char *name, *comment;
+    double scale; /* of loads */
+    void (*head)(FILE *f, const fl_series *s, const char *part);
+    void (*row)(FILE *f, int32_t k, double t, const double load[LOADS]);
+    void (*end)(FILE *f, const char *part);
+};
+
+/* The histories of the inputs, as comments of the form. */
+static void write_history(FILE *f, const struct export_form *form, const fl_series *s, const char *by)
 {
-    if (s->history) {
-        for (const char *p = s->history, *end; (end = strchr(p, '\n')) != NULL; p = end + 1)
-            fprintf(f, "%.*s\n", (int)(end - p), p);
-    }
-    fprintf(f, "%s\n", by->text);
+    for (const char *p = s->history, *end; p && (end = strchr(p, '\n')) != NULL; p = end + 1)
+        fprintf(f, "%s%.*s\n", form->comment, (int)(end - p), p);
+    fprintf(f, "%s%s\n", form->comment, by);
+}
+
+static void write_separated(FILE *f, double t, const double load[LOADS], char between)
+{
+    char text[FL_NUMBER_LEN];
+    fprintf(f, "%s", fl_number_text(t, text));
+    for (int i = 0; i < LOADS; i++) fprintf(f, "%c%s", between, fl_number_text(load[i], text));
+    fputc('\n', f);
+}
+
+/* --- OpenFAST: comments that tell how it takes the file ------------------------------------------------- */
+
+static void write_openfast_head(FILE *f, const fl_series *s, const char *part)
+{
+    (void)s;
     fprintf(f,
             "# Ice load on part %s for OpenFAST: PrescribedForcesFile of a structural control file with\n"
             "# StC_DOF_MODE = 4 and PrescribedForcesCoord = 1, at the reference point of the moments.\n"
@@ -28,19 +50,77 @@ static void write_head(FILE *f, const fl_series *s, const char *part, const fl_h
             part);
 }
 
-static void write_load_row(FILE *f, double t, const fl_series *s, int32_t part, int32_t k)
+static void write_openfast_row(FILE *f, int32_t k, double t, const double load[LOADS])
 {
-    char text[FL_NUMBER_LEN];
-    fprintf(f, "%s", fl_number_text(t, text));
-    for (int i = 0; i < LOADS; i++) fprintf(f, " %s", fl_number_text(s->x[part * s->signals + i][k], text));
-    fputc('\n', f);
+    (void)k;
+    write_separated(f, t, load, ' ');
 }
 
-static void write_rows(FILE *f, const fl_series *s, int32_t part)
+/* --- OrcaFlex: names in the first row, tabs, kN and kN.m, no comments ----------------------------------- */
+
+static void write_orcaflex_head(FILE *f, const fl_series *s, const char *part)
 {
-    write_load_row(f, s->edge[0], s, part, 0);
-    for (int32_t k = 0; k < s->n; k++) write_load_row(f, 0.5 * (s->edge[k] + s->edge[k + 1]), s, part, k);
-    write_load_row(f, s->edge[s->n], s, part, s->n - 1);
+    (void)s, (void)part;
+    fputs("Time (s)\tFx (kN)\tFy (kN)\tFz (kN)\tMx (kN.m)\tMy (kN.m)\tMz (kN.m)\n", f);
+}
+
+static void write_orcaflex_row(FILE *f, int32_t k, double t, const double load[LOADS])
+{
+    (void)k;
+    write_separated(f, t, load, '\t');
+}
+
+/* --- ANSYS: tables of APDL over time -------------------------------------------------------------------- */
+
+static void write_ansys_head(FILE *f, const fl_series *s, const char *part)
+{
+    fprintf(
+        f,
+        "! Ice load on part %s, N and N.m, at the reference point of the moments: /INPUT this file, then for "
+        "a node\n",
+        part);
+    for (int i = 0; i < LOADS; i++) fprintf(f, "*DIM,ICE_%s,TABLE,%d,,,TIME\n", LOAD[i], s->n + 2);
+}
+
+static void write_ansys_row(FILE *f, int32_t k, double t, const double load[LOADS])
+{
+    char text[FL_NUMBER_LEN], time[FL_NUMBER_LEN];
+    fl_number_text(t, time);
+    for (int i = 0; i < LOADS; i++)
+        fprintf(f, "ICE_%s(%d,0)=%s $ICE_%s(%d)=%s\n", LOAD[i], k + 1, time, LOAD[i], k + 1,
+                fl_number_text(load[i], text));
+}
+
+static void write_ansys_end(FILE *f, const char *part)
+{
+    (void)part;
+    for (int i = 0; i < LOADS; i++)
+        fprintf(f, "! F,NODE,%c%c,%%ICE_%s%%\n", i < 3 ? 'F' : 'M', 'X' + i % 3, LOAD[i]);
+}
+
+/* --- all ------------------------------------------------------------------------------------------------ */
+
+static const struct export_form FORM[] = {
+    {"openfast", "", 1.0, write_openfast_head, write_openfast_row, NULL},
+    {"orcaflex", NULL, 1e-3, write_orcaflex_head, write_orcaflex_row, NULL},
+    {"ansys", "! ", 1.0, write_ansys_head, write_ansys_row, write_ansys_end}};
+
+const char *export_form_name(int k) { return k < (int)(sizeof FORM / sizeof *FORM) ? FORM[k].name : NULL; }
+
+static void write_load_row(FILE *f, const struct export_form *form, int32_t at, double t, const fl_series *s,
+                           int32_t k)
+{
+    double load[LOADS];
+    for (int i = 0; i < LOADS; i++) load[i] = form->scale * s->x[i][k];
+    form->row(f, at, t, load);
+}
+
+static void write_rows(FILE *f, const struct export_form *form, const fl_series *s)
+{
+    write_load_row(f, form, 0, s->edge[0], s, 0);
+    for (int32_t k = 0; k < s->n; k++)
+        write_load_row(f, form, k + 1, 0.5 * (s->edge[k] + s->edge[k + 1]), s, k);
+    write_load_row(f, form, s->n + 1, s->edge[s->n], s, s->n - 1);
 }
 
 int export_loads(const struct options *o, fl_err *err)
@@ -48,6 +128,7 @@ int export_loads(const struct options *o, fl_err *err)
     const fl_record_selection selection = {.signal = LOAD,
                                            .signals = LOADS,
                                            .part = o->part ? o->part : "total",
+                                           .about = o->abouts ? o->about : NULL,
                                            .from = settings_from(o),
                                            .to = o->to,
                                            .last = o->window,
@@ -55,6 +136,7 @@ int export_loads(const struct options *o, fl_err *err)
                                            .reduction = o->over,
                                            .where = o->where,
                                            .wheres = o->wheres};
+    const struct export_form *form = &FORM[o->exports - 1];
     fl_series s = {0};
     fl_out out = {0};
     fl_history_line by;
@@ -64,12 +146,14 @@ int export_loads(const struct options *o, fl_err *err)
     if (fl_series_read(&s, o->in, &selection, err)) return -1;
     if (o->step > 0.0 && fl_resample_uniform(&s, o->step, loss, err)) goto done;
     fl_history_line_start(&by, "loadstats");
-    fl_history_line_add(&by, "--export openfast");
+    fl_history_line_add(&by, "--export %s", form->name);
     fl_history_line_word(&by, "--part ", s.part[0]);
     if (o->step > 0.0) fl_history_line_add(&by, "--step %s", fl_number_text(o->step, step));
     if (fl_out_open(&out, o->out, o->gzip, err)) goto done;
-    write_head(out.f, &s, s.part[0], &by);
-    write_rows(out.f, &s, 0);
+    if (form->comment) write_history(out.f, form, &s, by.text);
+    form->head(out.f, &s, s.part[0]);
+    write_rows(out.f, form, &s);
+    if (form->end) form->end(out.f, s.part[0]);
     rc = fl_out_close(&out, err);
     if (rc == 0 && s.end != FL_RUN_ENDED)
         fprintf(stderr, "loadstats: warning: %s: %s\n", strcmp(o->in, "-") ? o->in : "<stdin>",

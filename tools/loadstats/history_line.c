@@ -38,6 +38,12 @@ static void add_selection(const struct options *o, fl_history_line *by)
     if (o->over) fl_history_line_add(by, "--over %s", fl_reduction_name(o->over));
     if (isfinite(o->from)) add_number(by, "from", o->from);
     if (isfinite(o->to)) add_number(by, "to", o->to);
+    if (o->abouts) {
+        char x[3][FL_NUMBER_LEN];
+        for (int k = 0; k < 3; k++) fl_number_text(o->about[k], x[k]);
+        fl_history_line_add(by, "--about %s,%s,%s", x[0], x[1], x[2]);
+    }
+    if (o->keep_start) fl_history_line_add(by, "--skip none");
     if (o->skips) {
         char n[FL_NUMBER_LEN], d[FL_NUMBER_LEN], gap[FL_NUMBER_LEN];
         fl_number_text(o->skip[0], n);

@@ -10,6 +10,7 @@
 #include "stat/signal_view.h"
 #include "base/tool.h"
 #include "options.h"
+#include "export_loads.h"
 #include "options_check.h"
 #include "table_list.h"
 #include "table_regimes.h"
@@ -21,7 +22,7 @@ static const char USAGE[] =
     "\n";
 
 static const char *const SAMPLES[] = {"peaks", "pot", "blocks", "runs", NULL};
-static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f", NULL};
+static const char *const COMPONENT[] = {"fx", "fy", "fz", "mx", "my", "mz", "fh", "f", "mh", NULL};
 static const char *const REDUCTIONS[] = {"sum", "mean",  "min",
                                          "max", "count", NULL};         /* as fl_reduction_name() */
 static const char *const CYCLE_RULE[] = {"astm", "iso", NULL};          /* as fl_rainflow_rule_name() */
@@ -36,10 +37,12 @@ static const char *const FORMATS[] = {"svg", "png", "pdf", NULL};
 
 static int set_export(void *options, const char *text, fl_err *err)
 {
-    ((struct options *)options)->exports = 1;
-    return strcmp(text, "openfast") == 0
-               ? 0
-               : fl_fail(err, FL_USAGE, "--export is \"%.60s\", expected openfast", text);
+    const char *name[TABLES_MAX + 1] = {NULL};
+    int k;
+    for (int j = 0; j < TABLES_MAX && export_form_name(j); j++) name[j] = export_form_name(j);
+    if (fl_option_choice("export", text, name, &k, err)) return -1;
+    ((struct options *)options)->exports = 1 + k;
+    return 0;
 }
 
 static int choose_table(void *options, const char *text, fl_err *err)
@@ -95,6 +98,13 @@ static int parse_return(void *options, const char *word, fl_err *err)
     if (o->returns == RETURNS_MAX)
         return fl_fail(err, FL_USAGE, "expected at most %d return periods", RETURNS_MAX);
     return fl_option_time("return", word, &o->period[o->returns++], err);
+}
+
+static int parse_about(void *options, const char *word, fl_err *err)
+{
+    struct options *const o = options;
+    if (o->abouts == 3) return fl_fail(err, FL_USAGE, "--about has more than X,Y,Z");
+    return fl_option_number("about", word, -1e9, 1e9, "a coordinate in m", &o->about[o->abouts++], err);
 }
 
 static int parse_skip(void *options, const char *word, fl_err *err)
@@ -306,13 +316,25 @@ static int set_reduction(void *options, const char *text, fl_err *err)
     return 0;
 }
 
+static int set_about(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    o->abouts = 0;
+    if (fl_option_each("about", text, parse_about, o, err)) return -1;
+    return o->abouts == 3 ? 0 : fl_fail(err, FL_USAGE, "--about is \"%.40s\", expected X,Y,Z", text);
+}
+
 static int set_skip(void *options, const char *text, fl_err *err)
 {
     struct options *const o = options;
     o->skips = 0;
     o->skip[2] = NAN;
+    o->keep_start = strcmp(text, "none") == 0;
+    if (o->keep_start) return 0;
     if (fl_option_each("skip", text, parse_skip, o, err)) return -1;
-    return o->skips >= 2 ? 0 : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", expected N,D or N,D,GAP", text);
+    return o->skips >= 2
+               ? 0
+               : fl_fail(err, FL_USAGE, "--skip is \"%.40s\", expected N,D or N,D,GAP or none", text);
 }
 
 static int set_gap(void *options, const char *text, fl_err *err)
@@ -419,10 +441,16 @@ static const fl_option OPTION[] = {
      .lo = -HUGE_NUMBER,
      .hi = HUGE_NUMBER,
      .expected = "a time"},
+    {.word = "about",
+     .argument = "X,Y,Z",
+     .help = "moments of loads about this point, from the reference of each part (0,0,0)",
+     .kind = FL_OPTION_CALL,
+     .call = set_about},
     {.word = "skip",
      .argument = "N,D[,GAP]",
      .help = "drop the start, until an ice front of --speed has passed N diameters D;\n"
-             "GAP is its distance at time 0; without it, it arrives with the first load",
+             "GAP is its distance at time 0; without it, it arrives with the first load;\n"
+             "none: keep a start-up that would be left out",
      .kind = FL_OPTION_CALL,
      .call = set_skip},
     {.word = "window",
@@ -609,7 +637,7 @@ static const fl_option OPTION[] = {
      .at = AT(plot)},
     {.word = "export",
      .argument = "FORM",
-     .help = "write the load as input of another program: openfast, a prescribed force",
+     .help = "write the load as input of another program: openfast, orcaflex, ansys",
      .kind = FL_OPTION_CALL,
      .call = set_export},
     {.word = "report",

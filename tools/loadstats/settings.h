@@ -33,8 +33,11 @@ struct options {
     char *words; /* the lists of the command line, cut in place */
     int32_t signals, words_len, words_cap;
     double from, to, window; /* [s] */
+    double about[3];         /* point of the moments, from the reference of each part [m] */
+    int abouts;              /* number of values given */
     double skip[3];          /* diameters, diameter, distance at time 0; NAN: from the first load */
     int skips;               /* number of values given */
+    int keep_start;          /* --skip none */
     double step;             /* uniform step [s], 0 for the rows as they are */
     double filter, upper;    /* [Hz], length of a moving mean [s]; 0 for none; upper limit of a band */
     int filter_kind, order;  /* fl_filter_kind */

@@ -49,6 +49,15 @@ static int set_solid(void *options, const char *text, fl_err *err)
     return set_part("solid", text, &((struct options *)options)->solid, err);
 }
 
+static int add_layer(void *options, const char *text, fl_err *err)
+{
+    struct options *const o = options;
+    if (o->layer_count == FL_PACK_LAYERS_MAX)
+        return fl_fail(err, FL_USAGE, "--layer stands more than %d times", FL_PACK_LAYERS_MAX);
+    o->layer[o->layer_count++] = text;
+    return 0;
+}
+
 #define AT(member) offsetof(struct options, member)
 
 static const fl_option OPTION[] = {
@@ -79,6 +88,11 @@ static const fl_option OPTION[] = {
      .help = "uniform:A,B[,number], fuller:N,A,B, single:D, or a file of kind grading",
      .kind = FL_OPTION_FILE,
      .at = AT(grading)},
+    {.word = "layer",
+     .argument = "REGION=G",
+     .help = "part of the region with a grading of its own; may stand again, the first counts",
+     .kind = FL_OPTION_CALL,
+     .call = add_layer},
     {.word = "straight",
      .argument = "S",
      .help = "between two sieves the curve is straight in log d, or linear in d (log)",
@@ -260,9 +274,11 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (o->ended) return 0;
     o->dim += 2;
     if (!o->in) return fl_fail(err, FL_USAGE, "no region, --in is expected");
-    if (!o->grading && strcmp(o->shapes, "sphere") == 0)
+    if (!options_graded(o) && strcmp(o->shapes, "sphere") == 0)
         return fl_fail(err, FL_USAGE, "no sizes, --grading is expected");
     if (check_targets(o, err)) return -1;
+    if (o->layer_count && isnan(options_solid(o)))
+        return fl_fail(err, FL_USAGE, "--layer needs --porosity or --solid");
     if (o->dim == 2 && strcmp(o->shapes, "sphere") != 0)
         return fl_fail(err, FL_USAGE, "--shapes with --dim 2, three dimensions are expected");
     if (o->trim == FL_TRIM_NEAR && !*o->helper)
@@ -273,6 +289,8 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
     if (!o->group && o->dim == 2) o->group = "plane";
     return 0;
 }
+
+int options_graded(const struct options *o) { return o->grading || o->layer_count; }
 
 double options_solid(const struct options *o) { return !isnan(o->porosity) ? 1.0 - o->porosity : o->solid; }
 
@@ -290,6 +308,7 @@ void options_by(const struct options *o, fl_history_line *by)
     if (*o->periodic) fl_history_line_word(by, "--periodic ", o->periodic);
     if (*o->helper) fl_history_line_word(by, "--helper ", o->helper);
     if (o->grading) fl_history_line_word(by, "--grading ", o->grading);
+    for (int k = 0; k < o->layer_count; k++) fl_history_line_word(by, "--layer ", o->layer[k]);
     if (o->straight) fl_history_line_add(by, "--straight linear");
     add_option(by, "--porosity", o->porosity, 0.0);
     add_option(by, "--solid", o->solid, 0.0);

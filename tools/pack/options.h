@@ -13,6 +13,8 @@ enum straight { STRAIGHT_LOG, STRAIGHT_LINEAR };
 
 struct options {
     const char *in, *periodic, *helper, *grading, *shapes;
+    const char *layer[FL_PACK_LAYERS_MAX]; /* [layer_count] REGION=GRADING */
+    int layer_count;
     int dim, straight;
     double porosity, solid; /* NAN: not given */
     int32_t number;         /* 0: not given */
@@ -35,6 +37,9 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err);
 
 /* What is asked: the solid part of the region, or NAN for a number of bodies. */
 double options_solid(const struct options *o);
+
+/* Whether sizes follow a curve or a list, and not the shapes. */
+int options_graded(const struct options *o);
 
 /* What bears on the result, for the history. */
 void options_by(const struct options *o, fl_history_line *by);

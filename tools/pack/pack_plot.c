@@ -87,7 +87,7 @@ static int write_grading(struct picture *p, fl_err *err)
             }
         fputs(")\n", p->script);
     }
-    const int curve = p->o->grading && g->pieces > 0;
+    const int curve = options_graded(p->o) && g->pieces > 0;
     if (curve) {
         fputs("\n\n", p->data);
         for (int k = 0; k <= CURVE; k++) {

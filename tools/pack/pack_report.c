@@ -58,16 +58,16 @@ static void add_density(struct table *t, const struct options *o, const struct r
 static void add_grading(struct table *t, const struct options *o, const struct result *r)
 {
     const fl_packing_certificate *c = &r->certificate;
-    const double least = o->grading ? fl_grading_least(&r->grading) : NAN,
-                 most = o->grading ? fl_grading_most(&r->grading) : NAN;
+    const double least = options_graded(o) ? fl_grading_least(&r->grading) : NAN,
+                 most = options_graded(o) ? fl_grading_most(&r->grading) : NAN;
     add_row(t, "m", least, c->least, 6, "", "size, smallest");
     add_row(t, "m", most, c->most, 6, "", "size, largest");
-    if (!o->grading || r->grading.n) return;
+    if (!options_graded(o) || r->grading.n) return;
     add_row(t, "", 0.0, c->mass_gap, 3, "largest distance of the curves", "grading by mass");
     add_row(t, "", 0.0, c->count_gap, 3, "largest distance of the curves", "grading by number");
     add_row(t, "", NAN, c->largest_share, 3, "", "mass in the largest body");
     if (r->empty) add_row(t, "", 0.0, r->empty, 4, "less than half a body each", "sieves without a body");
-    for (int32_t k = 0; k < r->grading.pieces && r->grading.pieces > 1; k++) {
+    for (int32_t k = 0; k < r->grading.pieces && r->grading.pieces > 1 && !r->layers.n; k++) {
         const double d = r->grading.piece[k].hi;
         double below = 0.0, all = 0.0;
         for (int32_t i = 0; i < r->packing.n; i++) {
@@ -77,6 +77,23 @@ static void add_grading(struct table *t, const struct options *o, const struct r
         }
         add_row(t, "", fl_grading_mass(&r->grading, r->packing.dim, d), below / all, 6, "before trimming",
                 "passing %.6g m", d);
+    }
+}
+
+static void add_layers(struct table *t, const struct result *r)
+{
+    for (int32_t k = 0; k <= r->layers.n && r->layers.n; k++) {
+        const fl_packing_layer l = r->layer[k];
+        char name[24];
+        if (r->layers.part[k] == 0.0 || r->layers.grading[k].pieces == 0) continue;
+        snprintf(name, sizeof name, k < r->layers.n ? "layer %d" : "rest", k + 1);
+        add_row(t, "", NAN, r->layers.part[k], 6, "of the region", "%s, part", name);
+        add_row(t, "", NAN, l.bodies, 10, "", "%s, bodies", name);
+        add_row(t, "", r->asked, l.volume / (r->layers.part[k] * r->region.volume), 4, "of centres in it",
+                "%s, solid part", name);
+        add_row(t, "m", fl_grading_least(&r->layers.grading[k]), l.least, 6, "", "%s, smallest", name);
+        add_row(t, "m", fl_grading_most(&r->layers.grading[k]), l.most, 6, "", "%s, largest", name);
+        add_row(t, "", 0.0, l.mass_gap, 3, "largest distance of the curves", "%s, grading by mass", name);
     }
 }
 
@@ -116,6 +133,7 @@ static void make_table(struct table *t, const struct options *o, const struct re
     t->n = 0;
     add_density(t, o, r);
     add_grading(t, o, r);
+    add_layers(t, r);
     add_contacts(t, r);
 }
 

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/pi.h"
 #include "base/stream.h"
+#include "pack/pack_passage.h"
 #include "pack/packing_state.h"
 #include "pack_plot.h"
 #include "pack_report.h"
@@ -37,8 +38,20 @@ static double unit_volume(const struct result *r, int dim)
     return sum;
 }
 
+static int read_layers(const struct options *o, struct result *r, fl_err *err)
+{
+    for (int k = 0; k < o->layer_count; k++)
+        if (fl_pack_layers_add(&r->layers, o->layer[k], o->dim, o->straight == STRAIGHT_LINEAR, err))
+            return -1;
+    if (!o->grading) return 0;
+    r->others = r->grading; /* that of all bodies is known when the parts are */
+    r->grading = (fl_grading){0};
+    return 0;
+}
+
 static int read_grading(const struct options *o, struct result *r, fl_err *err)
 {
+    if (!o->grading && o->layer_count) return read_layers(o, r, err);
     const char *text = o->grading ? o->grading : "single:1";
     const int law = fl_grading_law(&r->grading, text, o->dim, err);
     if (law < 0) return -1;
@@ -51,7 +64,7 @@ static int read_grading(const struct options *o, struct result *r, fl_err *err)
             text);
     if (!listed && !target)
         return fl_fail(err, FL_USAGE, "one of --porosity, --solid and --number is expected");
-    return 0;
+    return o->layer_count ? read_layers(o, r, err) : 0;
 }
 
 /* Bodies too large for the region are refused before any is drawn. */
@@ -63,11 +76,19 @@ static int check_largest(const struct options *o, const struct result *r, fl_err
         thin = fmax(thin, fmin(h.x, fmin(h.y, h.z)));
     }
     const double d = fl_grading_most(&r->grading);
-    if (d * thin <= r->region.inradius * (1.0 + 1e-9)) return 0;
-    return fl_fail(err, FL_INPUT,
-                   "%s: the largest body of %.6g m does not fit: the region takes a ball of %.6g m at most%s",
-                   o->in, d, 2.0 * r->region.inradius,
-                   fl_region_is_periodic(&r->region) ? " (half of a period)" : "");
+    fl_passage narrow;
+    if (d * thin > r->region.inradius * (1.0 + 1e-9))
+        return fl_fail(
+            err, FL_INPUT,
+            "%s: the largest body of %.6g m does not fit: the region takes a ball of %.6g m at most%s", o->in,
+            d, 2.0 * r->region.inradius, fl_region_is_periodic(&r->region) ? " (half of a period)" : "");
+    if (fl_passage_find(&narrow, &r->region, d * thin, err)) return -1;
+    if (!narrow.found) return 0;
+    return fl_fail(
+        err, FL_INPUT,
+        "%s: the largest body of %.6g m does not pass the narrowest passage of the region, about %.2g m "
+        "wide near (%.6g, %.6g, %.6g): pack its parts one by one",
+        o->in, d, narrow.width, narrow.at.x, narrow.at.y, narrow.at.z);
 }
 
 static int draw_bodies(const struct options *o, struct result *r, fl_err *err)
@@ -75,7 +96,9 @@ static int draw_bodies(const struct options *o, struct result *r, fl_err *err)
     double *size = NULL;
     int32_t n;
     const double volume = isnan(r->asked) ? 0.0 : r->asked * r->region.volume, v = unit_volume(r, o->dim);
-    if (fl_grading_draw(&r->grading, o->dim, v, volume, o->number, &size, &n, &r->empty, err)) return -1;
+    if (r->layers.n ? fl_pack_layers_draw(&r->layers, o->dim, v, volume, &size, &n, &r->empty, err)
+                    : fl_grading_draw(&r->grading, o->dim, v, volume, o->number, &size, &n, &r->empty, err))
+        return -1;
     int rc = fl_packing_make(&r->packing, o->dim, n, size, &r->shapes, o->seed, err);
     free(size);
     if (rc == 0 && !isnan(r->asked)) { /* several shapes differ from their mean */
@@ -209,6 +232,7 @@ static uint64_t hash_of(const struct options *o, const struct result *r)
     h = fl_hash(h, by.text, by.len);
     h = fl_hash(h, &r->region.volume, sizeof r->region.volume);
     h = fl_hash(h, &r->packing.n, sizeof r->packing.n);
+    h = fl_hash(h, r->layers.part, (int64_t)sizeof r->layers.part);
     for (int32_t k = 0; k < r->region.features; k++)
         h = fl_hash(h, r->region.feature[k].p, (int64_t)sizeof r->region.feature[k].p);
     return h;
@@ -234,7 +258,10 @@ static int write_all(const struct options *o, struct result *r, fl_err *err)
 {
     fl_history_line by;
     options_by(o, &by);
-    if (fl_packing_certify(&r->certificate, &r->overlaps, o->grading ? &r->grading : NULL, err)) return -1;
+    for (int32_t k = 0; k <= r->layers.n && r->layers.n; k++)
+        if (fl_packing_layer_measure(&r->layer[k], &r->packing, &r->layers, k, err)) return -1;
+    if (fl_packing_certify(&r->certificate, &r->overlaps, options_graded(o) ? &r->grading : NULL, err))
+        return -1;
     if (write_bodies(o, r, &by, err)) return -1;
     if (o->certificate && report_write(o, r, &by, err)) return -1;
     if (!o->quiet) report_print(o, r);
@@ -255,7 +282,10 @@ static int prepare(const struct options *o, struct result *r, fl_err *err)
 {
     if (check_files(o, err) || fl_pack_shapes_make(&r->shapes, o->shapes, err) || read_grading(o, r, err) ||
         fl_region_make(&r->region, o->in, o->dim, o->periodic, err) ||
-        fl_region_set_helpers(&r->region, o->helper, err) || check_largest(o, r, err))
+        fl_region_set_helpers(&r->region, o->helper, err) ||
+        (r->layers.n &&
+         fl_pack_layers_measure(&r->layers, &r->region, o->grading ? &r->others : NULL, &r->grading, err)) ||
+        check_largest(o, r, err))
         return -1;
     if (o->gravity > 0.0 && r->region.kind == FL_REGION_SPHERE)
         return fl_fail(err, FL_USAGE, "--gravity in sphere:..., a box, a cylinder or a file is expected");
@@ -275,8 +305,8 @@ static int start(const struct options *o, struct result *r, fl_err *err)
     r->growth = fl_growth_start(&g);
     if (o->resume) {
         if (fl_packing_state_read(&r->packing, &r->growth, hash_of(o, r), o->resume, err)) return -1;
-    } else if (fl_throw_bodies(&r->packing, &r->region, (enum fl_throw)o->throwing, o->seed, &r->halved,
-                               err) ||
+    } else if (fl_throw_bodies(&r->packing, &r->region, r->layers.n ? &r->layers : NULL,
+                               (enum fl_throw)o->throwing, o->seed, &r->halved, err) ||
                fl_packing_sort(&r->packing, err)) {
         return -1;
     }
@@ -313,6 +343,8 @@ int pack_run(const struct options *o, fl_err *err)
     fl_packing_free(&r->packing);
     fl_pack_shapes_free(&r->shapes);
     fl_grading_free(&r->grading);
+    fl_grading_free(&r->others);
+    fl_pack_layers_free(&r->layers);
     fl_region_free(&r->region);
     free(r);
     return rc;

@@ -368,7 +368,7 @@ static const fl_option FIELD_OPTION[] = {
      .hi = 10000},
     {.word = "gaps",
      .argument = "HOW",
-     .help = "even, or random: floes touch here and there (even)",
+     .help = "even, or random: floes touch here and there (random below 0.9)",
      .kind = FL_OPTION_CALL,
      .call = set_gaps},
     {.word = "material",
@@ -674,9 +674,31 @@ static int use_mean_size(struct recipe *o, const struct command_line *c, fl_err 
     return 0;
 }
 
+/* Concentration below which floes drift apart and touch here and there; above it they have no room. */
+#define RANDOM_BELOW 0.9
+
+/* --gaps even is what other kinds of ice have anyway, so it may stand beside any option. */
+static void note_gaps(const struct recipe *o, struct command_line *c, int *asked)
+{
+    const int row = fl_option_row(&c->table, "gaps");
+    *asked = c->given[row];
+    if (o->gaps == GAPS_EVEN) c->given[row] = 0;
+}
+
+/* Floes of an open field have random gaps, unless asked otherwise. */
+static void choose_gaps(struct recipe *o, int asked)
+{
+    const int usual = !o->generator->name && !o->outline && !(o->disc[0] > 0.0) && !o->structures &&
+                      !o->bonded && !o->graded && !o->ridges && o->layers == 1 &&
+                      o->concentration < RANDOM_BELOW;
+    if (usual && !asked) o->gaps = GAPS_RANDOM;
+    o->says_even = usual && o->gaps == GAPS_EVEN;
+}
+
 int options_parse(struct recipe *o, int *ended, int argc, char **argv, fl_err *err)
 {
     struct command_line c;
+    int gaps_asked;
     *ended = 0;
     *o = (struct recipe){.out = "-",
                          .format = "svg",
@@ -697,6 +719,7 @@ int options_parse(struct recipe *o, int *ended, int argc, char **argv, fl_err *e
     if (fl_options_read(&c.table, o, c.given, argc, argv, err)) return -1;
     *ended = o->ended;
     if (*ended) return 0;
+    note_gaps(o, &c, &gaps_asked);
     o->has_origin = is_given(&c, "origin");
     o->has_floes = is_given(&c, "floes");
     o->has_concentration = is_given(&c, "concentration");
@@ -710,6 +733,7 @@ int options_parse(struct recipe *o, int *ended, int argc, char **argv, fl_err *e
         check_layers(o, &c, err) || check_ridges(o, &c, err) || check_bonded(o, &c, err) ||
         use_mean_size(o, &c, err))
         return -1;
+    choose_gaps(o, gaps_asked);
     if (!(o->ice_density < o->water_density))
         return fl_fail(err, FL_USAGE, "--ice-density %g is not below --water-density %g: the floes sink",
                        o->ice_density, o->water_density);

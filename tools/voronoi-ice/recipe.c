@@ -54,6 +54,7 @@ void recipe_history_floes(const struct recipe *o, fl_history_line *by)
     fl_history_line_add(by, "--seed %llu", (unsigned long long)o->seed);
     fl_history_line_add(by, "--smooth %d", o->smooth);
     if (o->gaps == GAPS_RANDOM) fl_history_line_add(by, "--gaps random");
+    if (o->says_even) fl_history_line_add(by, "--gaps even");
 }
 
 void recipe_history(const struct recipe *o, fl_history_line *by)

@@ -63,8 +63,9 @@ struct recipe {
     double flexural, compressive, young; /* of the sheet [Pa]; 0: not given */
     const char *scene;                   /* file for the bonds that give these, NULL: none */
     int gzip, quiet, verbose, threads, ended;
-    int gaps;                                                    /* GAPS_EVEN, GAPS_RANDOM */
-    double mean_size;                                            /* --mean-size [m]; 0: none */
+    int says_even;    /* --gaps even stands in the history, as the default is another */
+    int gaps;         /* GAPS_EVEN, GAPS_RANDOM */
+    double mean_size; /* --mean-size [m]; 0: none */
     int has_origin, has_floes, has_concentration, has_thickness; /* given on the command line */
     const char *sizes; /* full name of a law, or a file; NULL: areas of Voronoi cells */
     int sizes_file;    /* sizes is a file */

@@ -3,7 +3,7 @@
 # check.sh TABLE -- what voronoi-ice promises beside what the samples gave.
 while read -r test lattice layers rows _ _ peak _ young; do
     case $test in bend) key=flexural ;; press) key=compressive ;; *) continue ;; esac
-    voronoi-ice --lattice "$lattice" --layers "$layers" --thickness 0.23 --size 2x2 --rows "$rows" --bonded \
+    voronoi-ice --gaps even --lattice "$lattice" --layers "$layers" --thickness 0.23 --size 2x2 --rows "$rows" --bonded \
         "--$key" 1MPa --young 1GPa --scene "$1.scene" -q -o /dev/null
     awk -v test="$test" -v lattice="$lattice" -v layers="$layers" -v rows="$rows" -v peak="$peak" -v young="$young" '
         $1 == "normal_strength" { c = 1e6/$3 }

@@ -15,7 +15,7 @@ bend) L=$(awk -v h=$h 'BEGIN { print 12.5*h }') W=$(awk -v D="$D" 'BEGIN { print
 pull) L=$(awk -v D="$D" 'BEGIN { print 24.01*D }') W=$(awk -v D="$D" 'BEGIN { print 6.01*D }') dt=$(awk -v D="$D" "BEGIN { print 1.8e-4*D }") time=0.3 ;;
 *) L=$(awk -v D="$D" 'BEGIN { print 10.01*D }') W=$(awk -v D="$D" 'BEGIN { print 10.01*D }') dt=$(awk -v D="$D" "BEGIN { print 1.8e-4*D }") time=0.3 ;;
 esac
-voronoi-ice --lattice "$lattice" --layers "$layers" --thickness $h --size "${L}x$W" --rows "$rows" --bonded -q -o "$out/ice.dat"
+voronoi-ice --gaps even --lattice "$lattice" --layers "$layers" --thickness $h --size "${L}x$W" --rows "$rows" --bonded -q -o "$out/ice.dat"
 
 # Rollers under and over the beam, plates at the ends of the block at its outermost spheres, or grips.
 if test "$test" = pull; then

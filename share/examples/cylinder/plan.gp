@@ -2,7 +2,7 @@
 # plan.gp -- the floes from above at the start and at the end, by gnuplot, from the output of plan.awk:
 #     gnuplot -e "out='plan.svg'" plan.gp            (or plan.png; wide=600 makes it smaller)
 if (!exists("out")) out = 'plan.svg'
-if (!exists("wall")) wall = 25    # side walls at y = -wall and wall, as in cylinder.scene
+if (!exists("wall")) wall = 30    # side walls at y = -wall and wall, as in cylinder.scene
 first = 'plan-start.dat'
 last = 'plan-end.dat'
 

@@ -8,7 +8,7 @@ cd "$(dirname "$0")"
 seed=$1 out=${OUT:-out}
 
 # A field of 24 m x 16 m that drifts along x; the cylinder stands downstream of it.
-voronoi-ice --size 24x16 --floes 48 --concentration 0.8 --thickness 0.5 --radius 0.05 --velocity 0.5,0 \
+voronoi-ice --gaps even --size 24x16 --floes 48 --concentration 0.8 --thickness 0.5 --radius 0.05 --velocity 0.5,0 \
     --seed "$seed" -q -o "$out/$seed.ice"
 dem-solve -j 1 -q --ice "$out/$seed.ice" --structure "$out/leg.dat" --report "$out/$seed.report" \
     -o "$out/$seed.loads" ensemble.scene

@@ -1,21 +1,29 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cost.sh MODEL END LIMIT OUT -- points, steps, seconds and error of the limit for several predictors, a row each.
+# cost.sh MODEL END LIMIT OUT -- points, steps, processor seconds and error of the limit for several predictors, a row each.
 # The last rows are the predictor by load steps of Ye & Xu (2024) over eta (steps) and detP (load factor of a step).
 set -eu
 model=$1 end=$2 limit=$3 out=$4
 printf 'predictor\teta\tdetP\tpoints\tsteps\tseconds\treached[m]\tlimit[kN]\terror\n'
+# clock: processor seconds of the programs so far, in $now; in this shell, for those of a subshell are others.
+clock()
+{
+    times >"$out/clock"
+    now=$(awk 'NR == 2 { split($1, a, "m"); print 60 * a[1] + a[2] }' "$out/clock")
+}
 row() # NAME ETA DETP OPTIONS...
 {
     name=$1 eta=$2 detp=$3
     shift 3
-    begun=$(date +%s)
+    clock
+    begun=$now
     arc-path -q "$@" --until "along=$end" -o "$out/cost.tsv" "$model" 2>"$out/cost.err" || :
-    awk -v name="$name" -v eta="$eta" -v detp="$detp" -v exact="$limit" -v begun="$begun" -v ended="$(date +%s)" '
+    clock
+    awk -v name="$name" -v eta="$eta" -v detp="$detp" -v exact="$limit" -v begun="$begun" -v ended="$now" '
         /^#limit maximum/ && found == "" { split($3, a, "="); found = 100 * a[2] }
         /^[0-9]/ { points = $1; steps += $6; along = $5 }
         END {
-            printf "%s\t%s\t%s\t%d\t%d\t%d\t%.3f\t", name, eta, detp, points, steps, ended - begun, along
+            printf "%s\t%s\t%s\t%d\t%d\t%.2f\t%.3f\t", name, eta, detp, points, steps, ended - begun, along
             if (found == "") printf "-\t-\n"
             else printf "%.2f\t%.1e\n", found, (found > exact ? found - exact : exact - found) / exact
         }' "$out/cost.tsv"

@@ -24,7 +24,7 @@ while read -r name at; do set -- "$@" -n "$name" --cylinder "0.6,-5,5,$at"; done
 struct-import -q "$@" -o "$work/legs.dat"
 set -- # those of voronoi-ice
 while read -r name at; do set -- "$@" --keep-out "circle:$at,1.2"; done <"$work/legs"
-voronoi-ice -q --size 60x48 --origin -45,-24 --floes 110 --periodic xy --concentration 0.4 --thickness "$thickness" \
+voronoi-ice --gaps even -q --size 60x48 --origin -45,-24 --floes 110 --periodic xy --concentration 0.4 --thickness "$thickness" \
     --velocity "$speed,0" --seed "$seed" "$@" -o "$work/ice.dat"
 
 # shellcheck disable=SC2086 # RUN is a list of options
