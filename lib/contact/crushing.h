@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* crushing.h -- contacts in which ice yields.
  *
- * Below y = p(A) A (failure/pressure_area.h) a contact is elastic.  A = S.n, with S of failure/area_vector.h and
- * the direction n of the force, is the part of the structure's surface in the floe that faces n: a way dD along n
- * crushes dV = A dD, and a pile that is deep in a floe has its width.  At y it
+ * Below y = p(A) A (failure/pressure_area.h) a contact is elastic.  A = S.n, with S of
+ * failure/area_vector.h and the direction n of the force, is the part of the structure's surface in the floe
+ * that faces n: a way dD along n crushes dV = A dD, and a pile that is deep in a floe has its width.  At y it
  * yields: the floe A is worn by the vector D, by which it stands away from its partner for the contact law,
  *     W = W_law(x_A + R_A D),      F = -dW/dx,  |F| <= y,
  * so W has the same derivatives as before: forces and torques act at the true place, action and reaction
@@ -33,10 +33,10 @@
  * a dent at that place; a contact that begins within its half width, from the same side, takes it up again.
  * A floe keeps FL_DENTS dents; the shallowest is dropped first.
  *
- * Limits.  Two floes that share the front of a pile bear up to 12 % more than both should, as n follows D and not
- * the pressure (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe that is crushed at two places of one piece of the
- * structure wears as a whole. A partner that slides along a face finds it worn by D everywhere, so a dent
- * does not resist sliding. The outline of the floe, and its mass, stay. */
+ * Limits.  Two floes that share the front of a pile bear up to 12 % more than both should, as n follows D and
+ * not the pressure (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe that is crushed at
+ * two places of one piece of the structure wears as a whole. A partner that slides along a face finds it worn
+ * by D everywhere, so a dent does not resist sliding. The outline of the floe, and its mass, stay. */
 #ifndef FL_CONTACT_CRUSHING_H
 #define FL_CONTACT_CRUSHING_H
 #include "contact/pair_geometry.h"
@@ -83,7 +83,7 @@ void fl_crushing_release(const fl_world *w, fl_pair *p);
  * that have ended into their floes.  -1 with FL_SYSTEM. */
 int fl_crushing_book(fl_world *w, fl_err *err);
 
-/* The piece of the structure that goes through floe i, -1 for none: no side of it would ever load the floe. */
+/* The piece of the structure that goes through floe i, -1 for none: no side of it would load the floe. */
 int32_t fl_crushing_pierced_by(const fl_world *w, int32_t i);
 
 /* Removes the dents of floe i. */

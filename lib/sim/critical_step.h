@@ -50,11 +50,11 @@ double fl_longest_step(const fl_predicted_limit *f, double seen);
  * to drive them, has stiffer contacts than predicted. Returns 1 if the step changed. */
 int fl_shorten_step_at_start(fl_world *w);
 
-/* Plan area of the smallest fragment of floe i, of thickness h, that w->dt bears [m2]: a square plate of that area A,
- * held by two whole faces, has
+/* Plan area of the smallest fragment of floe i, of thickness h, that w->dt bears [m2]: a square plate of that
+ * area A, held by two whole faces, has
  *     omega^2 = 4 K 1.25/(rho h A),   K = 2 c sqrt(max(A, h sqrt(A)))
- * with the largest c that it meets, 1.25/m being the compliance of a plate near its corner. dt is the share of
- * 2/omega that damping leaves, FL_DAMPED_SHARE_MIN at most. */
+ * with the largest c that it meets, 1.25/m being the compliance of a plate near its corner. dt is the share
+ * of 2/omega that damping leaves, FL_DAMPED_SHARE_MIN at most. */
 double fl_least_fragment_area(const fl_world *w, int32_t i, double h);
 
 /* 2/omega by prediction, without damping [s]. */

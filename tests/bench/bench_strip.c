@@ -7,7 +7,7 @@
  * throughput.
  *
  *     bench_strip               the table
- *     bench_strip CASE STEPS    steps of apart, plain, plain-pile, hard-pile (ice that does not crush), wall-N
+ *     bench_strip CASE STEPS    steps of apart, plain, plain-pile, hard-pile (its ice does not crush), wall-N
  *                               of N elements, pile-N with N on its front; prints their number, for counts
  *                               of instructions */
 #include <math.h>

@@ -363,7 +363,7 @@ static void driven(void)
     }
 }
 
-/* A part that is a ball about c: rings of 64 corners about x, close to each other near its tip at c + R e_x. */
+/* A part that is a ball about c: rings of 64 corners about x, close to each other near its tip at c + R x. */
 static void add_ball(lab *l, fl_vec3 c, double R)
 {
     enum { FINE = 30, COARSE = 16, AROUND = 64 };
@@ -518,7 +518,7 @@ static void fields(void)
         hardest += hard / seeds;
     }
     verify_below("FF10", "field on a pile: largest force by one floe [kN]", 1e-3 * one, 2000.0 * 1.02);
-    /* 1.00 with the direction of the pressure; a floe that wears along one vector has another where it slides */
+    /* 1 with the direction of the pressure; a floe that wears along one vector keeps to that */
     verify_below("FF10", "the same along the drive by two, over 2144", fmax(half, all) / 2144e3, 1.15);
     verify_note("of which until the pile is half in %.0f kN, and later %.0f", 1e-3 * half, 1e-3 * all);
     verify_note("mean of %d fields %.0f kN", seeds, 1e-3 * hardest);

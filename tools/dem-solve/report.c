@@ -263,7 +263,8 @@ static void report_breaking(const fl_world *w, FILE *f)
             "broken floes       %" PRId64 " bent, %" PRId64 " split, %" PRId64 " cut to cusps, %" PRId64
             " checks",
             s->bent, s->split, s->cusps, s->checks);
-    if (s->too_small) fprintf(f, "; %" PRId64 " breaks too small (failure.fragment_min, or the step)", s->too_small);
+    if (s->too_small)
+        fprintf(f, "; %" PRId64 " breaks too small (failure.fragment_min, or the step)", s->too_small);
     if (s->no_room) fprintf(f, "; %" PRId64 " without room (failure.fragments_max)", s->no_room);
     if (s->buckled) fprintf(f, "; %" PRId64 " loads near buckling", s->buckled);
     putc('\n', f);
