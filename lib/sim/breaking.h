@@ -14,8 +14,8 @@
  * of that width: the cusp between comes off, and the two side pieces are free.
  *
  * Floes with fixed rotations about z do not split, and driven or guided floes do not break, nor do shapes
- * that are no upright prisms in the ice file. Nothing of less than fragment_min, or too light for the step, is
- * cut off; such breaks are counted. A rigid floe stores no bending energy, so none is released: it is in
+ * that are no upright prisms in the ice file. Nothing of less than fragment_min, or too light for the step,
+ * is cut off; such breaks are counted. A rigid floe stores no bending energy, so none is released: it is in
  * failures(5) only.
  *
  * Limits.  The static field of bending is linear: a deck awash or a bottom in the air is in it only for long
