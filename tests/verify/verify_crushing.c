@@ -404,7 +404,7 @@ static void ball(void)
     lab_set(&l, "material.ice.young=100 GPa");
     lab_box(&l, v3(2, 0, 0), v3(2, 2, 2), 0.02, q_one(), v3(-1, 0, 0), ZERO);
     add_ball(&l, v3(-2.001, 0, 0), 2.0);
-    lab_make(&l, 2e-5);
+    lab_make(&l, 1e-4);
     set_mass(&l, 3e4);
     l.w.b.fixed_dof[0] = ROTATIONS;
     const impact q = run_impact(&l, -0.001, 0.3);
