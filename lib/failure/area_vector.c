@@ -10,12 +10,6 @@ enum { CORNERS = 96, ARCS = 64, REFINEMENTS = 40, GAUSS = 8 };
 #define PARALLEL 1e-9
 /* Ends of an arc are found to this angle, and to this margin. */
 #define END 1e-13
-/* The end of an arc is looked for so far beside a guess, and then by this factor farther, so many times. */
-#define FIRST 1e-9
-#define WIDER 32.0
-enum { BRACKETS = 6 };
-/* Half of an arc, below which half the Gauss points give its sum to 1e-11. */
-#define NARROW 0.3
 
 /* Offset of face f: the largest over its vertices. */
 static double offset_of_face(const fl_poly *p, int32_t f)
@@ -172,84 +166,46 @@ static double end_of_arc(const fl_half_spaces *a, const fl_piece *cone, double i
 {
     for (int k = 0; k < REFINEMENTS && fabs(out - in) > END; k++) {
         const double mid = (in * at_out - out * at_in) / (at_out - at_in), at = margin_at(a, cone, mid);
-        if (fabs(at) < END) return mid;
-        if (at > 0.0) in = mid, at_in = at, at_out *= 0.5;
-        else out = mid, at_out = at, at_in *= 0.5;
+        if (at > 0.0) {
+            in = mid, at_in = at, at_out *= 0.5;
+            if (at < END) break;
+        } else {
+            out = mid, at_out = at, at_in *= 0.5;
+        }
     }
     return in;
 }
 
-/* Where the arc from `in` on ends by the planes at the middle of the generator there; NAN if nowhere.
- * sign: direction. */
-static double guess_end(const fl_half_spaces *a, const fl_piece *cone, double in, double sign)
-{
-    double c, s, from, to, nearest = INFINITY;
-    fl_cos_sin(in, &c, &s);
-    clip_generator(a, cone, c, s, &from, &to);
-    const double t = 0.5 * (from + to), R = cone->r0 + t * (cone->r1 - cone->r0), z = t * cone->h;
-    for (int k = 0; k < a->n; k++) {
-        const fl_vec3 n = a->normal[k];
-        const double Q = R * sqrt(n.x * n.x + n.y * n.y), D = a->c[k] - n.z * z;
-        if (!(fabs(D) < Q)) continue;
-        double way = sign * (fl_atan2(n.y, n.x) - in) -
-                     fl_atan2(sqrt((Q - D) * (Q + D)), D); /* D = Q cos(phi - psi) */
-        while (way < 0.0) way += 2.0 * PI;
-        nearest = fmin(nearest, way);
-    }
-    return nearest < 2.0 * PI ? in + sign * nearest : NAN;
-}
-
-/* End of the arc from `in`, which is inside, in the direction of `step`: beside the guess, else the step
- * doubles until it is outside. in + 2 pi if it never is. */
+/* End of the arc from `in`, which is inside, in the direction of `step`: the step doubles until it is
+ * outside. in + 2 pi if it never is. */
 static double search_end(const fl_half_spaces *a, const fl_piece *cone, double in, double at_in, double step)
 {
-    const double start = in, sign = step > 0.0 ? 1.0 : -1.0, guess = guess_end(a, cone, in, sign);
-    const double at_guess = guess == guess ? margin_at(a, cone, guess) : 1.0;
-    double beside = sign * FIRST;
-    if (!(at_guess > 0.0)) {
-        double out = guess, at_out = at_guess;
-        for (int k = 0; k < BRACKETS && sign * (out - beside - in) > 0.0; k++, beside *= WIDER) {
-            const double x = out - beside, at = margin_at(a, cone, x);
-            if (at > 0.0) return end_of_arc(a, cone, x, at, out, at_out);
-            out = x, at_out = at;
-        }
-        return end_of_arc(a, cone, in, at_in, out, at_out);
-    }
-    if (guess == guess) in = guess, at_in = at_guess;
-    for (int k = 0; k < BRACKETS && guess == guess; k++, beside *= WIDER) {
-        const double out = in + beside, at = margin_at(a, cone, out);
-        if (!(at > 0.0)) return end_of_arc(a, cone, in, at_in, out, at);
-        in = out, at_in = at;
-    }
+    const double start = in;
     for (double way = step; fabs(in + way - start) < 2.0 * PI; way *= 2.0) {
         const double out = in + way, at = margin_at(a, cone, out);
         if (!(at > 0.0)) return end_of_arc(a, cone, in, at_in, out, at);
         in = out, at_in = at;
         if (fabs(way) > 0.25 * PI) way *= 0.5;
     }
-    return start + sign * 2.0 * PI;
+    return start + (step > 0.0 ? 2.0 : -2.0) * PI;
 }
 
 /* Adds the arc between two angles: Gauss points of phi, exact along each generator, where n dA is
  * (cos, sin, -r') R(t) dphi dt h and R the radius there. */
 static void add_arc(area_sum *q, const fl_half_spaces *a, const fl_piece *cone, double from, double to)
 {
-    static const double FEW_X[2] = {0.3399810435848563, 0.8611363115940526},
-                        FEW_W[2] = {0.6521451548625461, 0.3478548451374538};
     static const double X[GAUSS / 2] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                         0.9602898564975363},
                                   W[GAUSS / 2] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                                   0.1012285362903763};
     const double half = 0.5 * (to - from), mid = 0.5 * (to + from), slope = (cone->r1 - cone->r0) / cone->h;
-    const int few = half < NARROW, points = few ? GAUSS / 2 : GAUSS;
-    for (int k = 0; k < points; k++) {
+    for (int k = 0; k < GAUSS; k++) {
         double c, s, t0, t1;
-        fl_cos_sin(mid + (k % 2 ? half : -half) * (few ? FEW_X : X)[k / 2], &c, &s);
+        fl_cos_sin(mid + (k % 2 ? half : -half) * X[k / 2], &c, &s);
         if (!(clip_generator(a, cone, c, s, &t0, &t1) > 0.0)) continue;
         const double r0 = cone->r0 + t0 * (cone->r1 - cone->r0), r1 = cone->r0 + t1 * (cone->r1 - cone->r0),
-                     length = (t1 - t0) * cone->h,
-                     weight = half * (few ? FEW_W : W)[k / 2] * 0.5 * (r0 + r1) * length, r = 0.5 * (r0 + r1),
-                     z = 0.5 * (t0 + t1) * cone->h;
+                     length = (t1 - t0) * cone->h, weight = half * W[k / 2] * 0.5 * (r0 + r1) * length,
+                     r = 0.5 * (r0 + r1), z = 0.5 * (t0 + t1) * cone->h;
         add_area(q, v3(weight * c, weight * s, -weight * slope), v3(r * c, r * s, z));
     }
 }
