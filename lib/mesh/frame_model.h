@@ -38,11 +38,11 @@ typedef struct {
 
 typedef struct {
     int32_t node[2], section, part;
-    int truss;        /* axial force alone */
-    int has_y, has_z; /* which of the next is given */
-    fl_vec3 across;   /* lies in the plane of x and y, or of x and z */
+    int truss;         /* axial force alone */
+    int has_y, has_z;  /* which of the next is given */
+    fl_vec3 across;    /* lies in the plane of x and y, or of x and z */
     fl_vec3 offset[2]; /* from node to end, rigid */
-    unsigned pins[2]; /* released moments at its ends: 1 about x, 2 about y, 4 about z */
+    unsigned pins[2];  /* released moments at its ends: 1 about x, 2 about y, 4 about z */
     int64_t id;
 } fl_frame_element;
 
