@@ -79,7 +79,7 @@ int fl_passage_find(fl_passage *out, const fl_pack_region *r, double radius, fl_
     *out = (fl_passage){0};
     point_sets s = {.lo = r->lo};
     const fl_vec3 size = v3_sub(r->hi, r->lo);
-    if (r->kind != FL_REGION_FEATURES || !(s.h = spacing_of(r, radius))) return 0;
+    if (r->kind != FL_REGION_FEATURES || (s.h = spacing_of(r, radius)) == 0.0) return 0;
     for (int k = 0; k < 3; k++) s.size[k] = k < r->dim ? (int32_t)ceil(v3_at(size, k) / s.h) + 1 : 1;
     const int32_t n = s.size[0] * s.size[1] * s.size[2];
     int32_t taken = 0;
