@@ -47,8 +47,8 @@ static double water_bytes(const fl_environment *s)
                  ARRAY(s->cells, (double)s->threads * s->cells_per_thread) + ARRAY(s->water_force, s->n) +
                  ARRAY(s->water_moment, s->n) + ARRAY(s->water_work, s->n) + ARRAY(s->sample, s->n) +
                  ARRAY(s->nodes, s->n) + ARRAY(s->block, s->n) +
-                 ARRAY(s->node_scratch, (double)s->threads * s->scratch_per_thread);
-    for (int k = 0; k < FL_WAVE_BANDS; k++) sum += fl_wave_grid_bytes(&s->grid[k]);
+                 ARRAY(s->node_scratch, (double)s->threads * s->scratch_per_thread) +
+                 fl_wave_grid_bytes(&s->grid);
     for (int32_t i = 0; i < s->n; i++) {
         sum += hull_bytes(&s->hull[i]);
         const fl_poly *const outer = fl_environment_outer(s, i);

@@ -81,15 +81,12 @@ static int fit_surface(fl_environment *s, int32_t i, fl_err *err)
     return 0;
 }
 
-/* Nodes of body i, scratch for them, and the grid of its band. */
+/* Nodes of body i, and scratch for them. */
 static int fit_nodes(fl_environment *s, int32_t i, fl_err *err)
 {
     s->block[i].level = FL_WAVE_NO_BLOCK;
     s->block[i].short_blocks_left = 0;
-    if (fl_wave_nodes_make(&s->nodes[i], &s->hull[i], &s->wave, s->grid_form.error, err)) return -1;
-    fl_wave_grid *const grid = &s->grid[s->nodes[i].band];
-    const fl_waves part = fl_waves_of_band(&s->wave, s->nodes[i].band);
-    if (grid->lines == 0 && fl_wave_grid_make(grid, &part, &s->grid_form, s->threads, err)) return -1;
+    if (fl_wave_nodes_make(&s->nodes[i], &s->hull[i], &s->wave, s->grid.error, err)) return -1;
     if (s->nodes[i].n <= s->scratch_per_thread) return 0;
     fl_wave_node_sample *room = fl_alloc((int64_t)s->threads * s->nodes[i].n, sizeof *room, err);
     if (!room) return -1;
@@ -163,7 +160,7 @@ void fl_environment_free(fl_environment *s)
     free(s->cells), free(s->water_force), free(s->water_moment), free(s->water_work);
     free(s->panels), free(s->drag_surface), free(s->sample);
     free(s->nodes), free(s->block), free(s->node_scratch);
-    for (int k = 0; k < FL_WAVE_BANDS; k++) fl_wave_grid_free(&s->grid[k]);
+    fl_wave_grid_free(&s->grid);
     fl_waves_free(&s->wave);
     fl_current_free(&s->current);
     *s = (fl_environment){0};
@@ -427,27 +424,28 @@ static void store_sample(fl_environment *s, const fl_bodies *b, int32_t i, fl_ve
 
 /* --- waves in blocks of time ---------------------------------------------------------------------- */
 
-/* Fills the tables of one band. */
-static int prepare_band(fl_environment *s, int band, const fl_bodies *b, const uint8_t *absent, double t,
-                        int threads, fl_err *err)
+int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t *absent, double t,
+                           int threads, fl_err *err)
 {
-    fl_wave_grid *const g = &s->grid[band];
     fl_wave_extent at;
     int shorter = 0;
-    const int64_t first = fl_wave_group(g, t);
-    if (fl_wave_grid_view(g, first).slot >= 0 && fl_wave_grid_view(g, first + FL_WAVE_GROUP).slot >= 0)
+    if (!s->by_blocks) return 0;
+    const int64_t first = fl_wave_group(&s->grid, t);
+    if (fl_wave_grid_view(&s->grid, first).slot >= 0 &&
+        fl_wave_grid_view(&s->grid, first + FL_WAVE_GROUP).slot >= 0)
         return 0;
-    for (int32_t c = 0; c < g->lines; c++) at.lo[c] = INFINITY, at.hi[c] = -INFINITY;
+    for (int32_t c = 0; c < s->grid.lines; c++) at.lo[c] = INFINITY, at.hi[c] = -INFINITY;
     for (int32_t i = 0; i < s->n; i++) {
-        if ((absent && absent[i]) || s->nodes[i].band != band || !v3_finite(b->x[i])) continue;
+        if ((absent && absent[i]) || !v3_finite(b->x[i])) continue;
         shorter |= s->block[i].short_blocks_left > 0;
-        for (int32_t c = 0; c < g->lines; c++) {
-            const double x = g->line[c].x * b->x[i].x + g->line[c].y * b->x[i].y, r = s->drag_radius[i];
+        for (int32_t c = 0; c < s->grid.lines; c++) {
+            const double x = s->grid.line[c].x * b->x[i].x + s->grid.line[c].y * b->x[i].y,
+                         r = s->drag_radius[i];
             at.lo[c] = fmin(at.lo[c], x - r);
             at.hi[c] = fmax(at.hi[c], x + r);
         }
     }
-    for (int32_t c = 0; c < g->lines; c++) {
+    for (int32_t c = 0; c < s->grid.lines; c++) {
         if (at.lo[c] > at.hi[c]) return 0; /* no body */
         if (at.hi[c] - at.lo[c] > FL_WAVE_GRID_MAX)
             return fl_fail(err, FL_INPUT,
@@ -455,15 +453,7 @@ static int prepare_band(fl_environment *s, int band, const fl_bodies *b, const u
                            "expected",
                            1e-3 * (at.hi[c] - at.lo[c]), 1e-3 * FL_WAVE_GRID_MAX);
     }
-    return fl_wave_grid_fill(g, &at, first, shorter ? 1 : 2, shorter ? 7 : 4, threads, err);
-}
-
-int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t *absent, double t,
-                           int threads, fl_err *err)
-{
-    for (int k = 0; k < FL_WAVE_BANDS; k++)
-        if (s->grid[k].lines > 0 && prepare_band(s, k, b, absent, t, threads, err)) return -1;
-    return 0;
+    return fl_wave_grid_fill(&s->grid, &at, first, shorter ? 1 : 2, shorter ? 7 : 4, threads, err);
 }
 
 static fl_wave_body wave_body(const fl_environment *s, int32_t i)
@@ -480,7 +470,7 @@ static void update_block_flow(fl_environment *s, const fl_bodies *b, int32_t i, 
     fl_facet_cut *wet = &s->drag_surface[i].wet;
     fl_wave_flow flow;
     int32_t k = 0;
-    fl_wave_block_flow(&s->block[i], &s->grid[s->nodes[i].band], s->time, &flow);
+    fl_wave_block_flow(&s->block[i], &s->grid, s->time, &flow);
     for (const fl_facet_group *f = wet->group; f < wet->group + wet->groups; f++)
         for (const int32_t end = k + f->pieces; k < end; k++)
             for (int l = 0; l < FL_SIMD_WIDTH; l++) {
@@ -502,12 +492,11 @@ static void evaluate_block(fl_environment *s, fl_bodies *b, int32_t i, fl_vec3 *
     fl_wave_values v;
     fl_submerged wet;
     const fl_wave_body body = wave_body(s, i);
-    const fl_wave_water *const sea = &s->sea[s->nodes[i].band];
     fl_wave_block *const c = &s->block[i];
     const fl_quat q = *fl_body_attitude(b, i);
-    if (fl_wave_block_due(c, sea, body.reach, s->time, b->x[i], q))
-        fl_wave_block_begin(c, sea, &body, b, i, s->time);
-    fl_wave_block_load(c, sea, &body, s->time, b->x[i], q, &v, &wet, f, t);
+    if (fl_wave_block_due(c, &s->sea, body.reach, s->time, b->x[i], q))
+        fl_wave_block_begin(c, &s->sea, &body, b, i, s->time);
+    fl_wave_block_load(c, &s->sea, &body, s->time, b->x[i], q, &v, &wet, f, t);
     s->wetted_area[i] = wet.wetted_area;
     s->buoyancy[i] = s->specific_weight * wet.volume;
     s->flow_velocity[i] = v.flow;
@@ -569,7 +558,7 @@ void fl_environment_refresh(fl_environment *s, fl_bodies *b, int32_t i)
         const double work = b->heave_mass ? b->heave_work[i] : 0.0;
         if (s->block && s->block[i].level != FL_WAVE_NO_BLOCK) {
             const fl_wave_body body = wave_body(s, i);
-            fl_wave_block_fill(&s->block[i], &s->sea[s->nodes[i].band], &body);
+            fl_wave_block_fill(&s->block[i], &s->sea, &body);
         }
         evaluate_water(s, b, i, &f, &t);
         if (b->heave_mass) b->heave_work[i] = work;

@@ -90,9 +90,8 @@ struct fl_environment {
     /* with water.wave_error: waves from tables, in blocks of time (wave_block.h); panels and cells are
      * unused */
     int by_blocks;
-    fl_wave_grid_form grid_form;
-    fl_wave_grid grid[FL_WAVE_BANDS];  /* of the bands that a body takes, else zeroed */
-    fl_wave_water sea[FL_WAVE_BANDS];  /* what all bodies of a band have in common */
+    fl_wave_grid grid;
+    fl_wave_water sea;                 /* what all bodies have in common */
     fl_wave_nodes *nodes;              /* [n] */
     fl_wave_block *block;              /* [n] */
     fl_wave_node_sample *node_scratch; /* [threads][scratch_per_thread] */

@@ -67,26 +67,26 @@ static void decay_law(const fl_scene_water *w, double law[3])
     if (w->ice_decay != FL_ICE_DECAY_OWN) memcpy(law, LAW[w->ice_decay], sizeof LAW[0]);
 }
 
-/* Waves by error: how the tables are made, as bodies ask for them. */
-static void set_up_grid(fl_environment *s, const fl_scene *scene)
+/* Waves by error; the scratch is for `threads`. */
+static int set_up_grid(fl_environment *s, const fl_scene *scene, fl_err *err)
 {
     const fl_scene_water *w = &scene->water;
-    s->grid_form = (fl_wave_grid_form){.error = w->wave_error,
-                                       .top_omega = s->wave.train[s->wave.n - 1].omega,
-                                       .spread = w->spread,
-                                       .seed = (uint64_t)w->seed,
-                                       .edge = w->ice_edge,
-                                       .thickness = w->ice_thickness};
-    decay_law(w, s->grid_form.decay);
+    fl_wave_grid_form f = {.error = w->wave_error,
+                           .spread = w->spread,
+                           .seed = (uint64_t)w->seed,
+                           .edge = w->ice_edge,
+                           .thickness = w->ice_thickness};
+    decay_law(w, f.decay);
+    if (fl_wave_grid_make(&s->grid, &s->wave, &f, s->threads, err)) return -1;
     s->by_blocks = 1;
-    for (int k = 0; k < FL_WAVE_BANDS; k++)
-        s->sea[k] = (fl_wave_water){.grid = &s->grid[k],
-                                    .current = &s->current,
-                                    .level = s->level,
-                                    .weight = s->specific_weight,
-                                    .max_crest = s->wave.max_crest,
-                                    .deviation = 0.25 * s->wave.four_sigma,
-                                    .k95 = s->wave.k95};
+    s->sea = (fl_wave_water){.grid = &s->grid,
+                             .current = &s->current,
+                             .level = s->level,
+                             .weight = s->specific_weight,
+                             .max_crest = s->wave.max_crest,
+                             .deviation = 0.25 * s->wave.four_sigma,
+                             .k95 = s->wave.k95};
+    return 0;
 }
 
 static int set_up_waves(fl_environment *s, fl_bodies *b, const fl_scene *scene, fl_err *err)
@@ -102,8 +102,7 @@ static int set_up_waves(fl_environment *s, fl_bodies *b, const fl_scene *scene, 
                                (uint64_t)w->seed, w->direction, w->depth, g, err))
         return -1;
     s->waves = 1;
-    if (w->wave_error > 0.0) set_up_grid(s, scene);
-    return 0;
+    return w->wave_error > 0.0 ? set_up_grid(s, scene, err) : 0;
 }
 
 static int has_waves(const fl_environment *s, const fl_bodies *b)
@@ -123,16 +122,10 @@ static void describe_waves(const fl_environment *s, char text[FL_FORCE_TEXT])
              steep > breaking ? ": they would break" : "");
     if (!s->by_blocks) return;
     int64_t points = 0;
-    double apart = INFINITY;
-    for (int32_t i = 0; i < s->n; i++) {
-        points += s->nodes[i].n;
-        const fl_wave_grid *g = &s->grid[s->nodes[i].band];
-        if (g->lines) apart = fmin(apart, 2.0 * g->step);
-    }
-    if (apart == INFINITY) return; /* no body */
+    for (int32_t i = 0; i < s->n; i++) points += s->nodes[i].n;
     const size_t used = strlen(text);
     snprintf(text + used, FL_FORCE_TEXT - used, "; to %g %%: %.3g points a floe each %.3g s",
-             100.0 * s->grid_form.error, (double)points / s->n, apart);
+             100.0 * s->grid.error, (double)points / (s->n > 0 ? s->n : 1), 2.0 * s->grid.step);
 }
 
 static double wave_work(const fl_environment *s, const fl_bodies *b, int32_t i)

@@ -242,16 +242,6 @@ double fl_wave_steepness(double height, double period, double depth, double grav
     return height * k / (2.0 * PI);
 }
 
-fl_waves fl_waves_of_band(const fl_waves *w, int band)
-{
-    fl_waves part = *w;
-    double most = w->max_k;
-    for (int k = 0; k < band; k++) most *= 0.8408964152537145; /* 2^(-1/4) */
-    while (band > 0 && part.n > 1 && part.train[part.n - 1].k > most) part.n--;
-    if (part.n < w->n) part.max_k = part.train[part.n - 1].k;
-    return part;
-}
-
 void fl_waves_free(fl_waves *w)
 {
     free(w->train);

@@ -62,11 +62,6 @@ int fl_waves_airy(fl_waves *w, double height, double period, double direction, d
 int fl_waves_jonswap(fl_waves *w, double Hs, double Tp, double gamma, int32_t n, uint64_t seed,
                      double direction, double depth, double gravity, fl_err *err);
 
-/* The waves of a band: the trains of w with k <= max_k 2^(-band/4), at least one, borrowed from w. k95,
- * crests and deviation stay those of w. Band 0 is w. */
-enum { FL_WAVE_BANDS = 13 };
-fl_waves fl_waves_of_band(const fl_waves *w, int band);
-
 /* The JONSWAP spectrum [m2 s],
  *     S(f) = 5/16 Hs^2 fp^4 f^-5 e^(-5/4 (fp/f)^4) gamma^q (1 - 0.287 ln gamma),
  *     q = e^(-(f/fp - 1)^2 / 2 sigma^2),  sigma = 0.07 up to fp = 1/Tp, 0.09 above.

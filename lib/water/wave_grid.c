@@ -111,8 +111,7 @@ int fl_wave_grid_make(fl_wave_grid *g, const fl_waves *w, const fl_wave_grid_for
     *g = (fl_wave_grid){.threads = threads,
                         .error = f->error,
                         .h = 2.0 * PI / w->max_k / (PLACES_PER_LENGTH * cbrt(q)),
-                        .step = 2.0 * PI / (f->top_omega > 0.0 ? f->top_omega : last->omega) /
-                                (LEVELS_PER_PERIOD * sqrt(sqrt(q))),
+                        .step = 2.0 * PI / last->omega / (LEVELS_PER_PERIOD * sqrt(sqrt(q))),
                         .water = w->depth,
                         .gravity = w->gravity,
                         .edge = f->edge};

@@ -12,8 +12,7 @@
  * Between depths a cubic Hermite polynomial is used. Velocity is the gradient of F, the acceleration of the
  * water -g times the gradient of P.
  *
- * With an error e asked for, q = 0.003/e, L being the length of the shortest train and T the period of the
- * shortest one of the whole sea (top_omega),
+ * With an error e asked for, q = 0.003/e, and L, T being length and period of the shortest train,
  *     h = L / (12 q^(1/3)),     2 step = T / (16 q^(1/4)).
  * At q = 1 a train of length L is off by 2e-5 of its amplitude, its slope by 4e-4, at the depths P by 4e-5.
  * The coefficients of a chunk of 64 places start from a sine and cosine for each train (fl_cos_sin()) and
@@ -83,7 +82,6 @@ typedef struct {
 
 typedef struct {
     double error;          /* asked for */
-    double top_omega;      /* that sets the levels; 0: that of the last train [rad/s] */
     double spread;         /* n of cos^n, 0: one direction */
     uint64_t seed;         /* of the directions */
     double decay[3], edge; /* C, m, n, C = 0: none; s of the edge of the ice [m] */

@@ -17,8 +17,6 @@ enum {
  * weights integrates them to is like a mean of so many random numbers. On floes of 20 m at Tp 6 s it leaves
  * 0.3 e of the force along the waves. */
 #define TAIL_SHARE 0.35
-/* rms of the force of the waves that are left out, over e. */
-#define BAND_SHARE 0.4
 /* Most points of a body, as FL_HULL_PANELS_MAX. */
 enum { MAX_POINTS = 1000000 };
 
@@ -373,29 +371,6 @@ static int add_section(flat_rule *all, const section_outline *p, const fl_waves 
     return rc;
 }
 
-/* The narrowest band whose waves are enough for a section. */
-static int choose_band(const section_outline *p, double area, const fl_waves *w, double error)
-{
-    double perimeter = 0.0, all = 0.0, left = 0.0;
-    int band = 0;
-    for (int32_t k = 0; k < p->n; k++) {
-        const double *u = p->v[k], *v = p->v[(k + 1) % p->n];
-        perimeter += hypot(v[0] - u[0], v[1] - u[1]);
-    }
-    for (int32_t j = 0; j < w->n; j++) all += w->train[j].a * w->train[j].a;
-    int32_t n = w->n;
-    while (band + 1 < FL_WAVE_BANDS) {
-        const int32_t fewer = fl_waves_of_band(w, band + 1).n;
-        while (n > fewer) {
-            const fl_wave_train *t = &w->train[--n];
-            left += t->a * t->a * fmin(1.0, 2.0 * perimeter / (t->k * t->k * t->k * area * area));
-        }
-        if (left > BAND_SHARE * BAND_SHARE * error * error * all) break;
-        band++;
-    }
-    return band;
-}
-
 static int make_columns(fl_wave_nodes *a, const fl_hull *h, const fl_waves *w, double error, fl_err *err)
 {
     const fl_prism *q = &h->prism;
@@ -409,10 +384,7 @@ static int make_columns(fl_wave_nodes *a, const fl_hull *h, const fl_waves *w, d
         const fl_vec3 u = v3_sub(p->v[p->loop[first + k]], q->o);
         outline.v[k][0] = v3_dot(q->a, u), outline.v[k][1] = v3_dot(b, u);
     }
-    if (!outline.v) goto done;
-    a->band = choose_band(&outline, q->area, w, error);
-    const fl_waves part = fl_waves_of_band(w, a->band);
-    if (add_section(&r, &outline, &part, error, 1.0, err) || alloc_nodes(a, r.n, 0, err)) goto done;
+    if (!outline.v || add_section(&r, &outline, w, error, 1.0, err) || alloc_nodes(a, r.n, 0, err)) goto done;
     for (int32_t k = 0; k < r.n; k++) {
         a->x[k] = v3_madd(v3_madd(v3_madd(q->o, r.x[k], q->a), r.y[k], b), q->z0, q->e);
         a->w[k] = r.w[k], a->half[k] = 0.5 * sqrt(r.w[k]);

@@ -11,13 +11,6 @@
  * e being the error asked for and N the number of points, as the mean over the radii r of a disc of radius R.
  * Where that is above 12 the section is halved across its longest direction.
  *
- * Waves that are short beside a section exert little force on it, and only these points would have to follow
- * them. In the mean over all directions a train moves a section of area A and perimeter C by
- *     |int e^(ikx) dA|^2 / A^2 -> 2 C / (k^3 A^2),   k -> infinity,
- * of the force on a short section (of a circle, 4/(pi x^3) for the mean of (2 J_1(x)/x)^2). So a prism takes
- * the waves of the narrowest band (wave.h) beyond which
- *     sum_n a_n^2 min(1, 2 C / (k_n^3 A^2)) <= (0.4 e)^2 sum_n a_n^2.
- *
  * Any other solid has points on its faces, each with its part of the area vector. Parts within lambda/12,
  * lambda of k95, whose normals are within about 10 degrees, are merged: a hull of 50 000 triangles has a few
  * thousand points. A sphere or capsule has none. */
@@ -37,12 +30,11 @@ typedef struct {
     fl_vec3 *area;  /* [n] faces: area vector, outward [m2] */
     fl_vec3 along;  /* columns: unit vector of the long edges */
     double length;  /* columns: length of the long edges [m] */
-    int band;       /* of the waves that the points are for (fl_waves_of_band()) */
     double section; /* columns: area of the section; faces: largest of the three projections; round: pi r^2 */
 } fl_wave_nodes;
 
-/* Makes the nodes of a hull in the waves w, and chooses their band. error: asked for, e. Frees a first.
- * Returns -1 with FL_SYSTEM, or FL_INPUT if the points are too many. */
+/* Makes the nodes of a hull. error: asked for, e. Frees a first. Returns -1 with FL_SYSTEM, or FL_INPUT if
+ * the points are too many. */
 int fl_wave_nodes_make(fl_wave_nodes *a, const fl_hull *hull, const fl_waves *w, double error, fl_err *err);
 void fl_wave_nodes_free(fl_wave_nodes *a); /* accepts a zeroed struct, leaves one */
 

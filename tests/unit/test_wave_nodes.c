@@ -111,73 +111,11 @@ static void the_degree_follows_size_and_error(void **state)
     fl_waves_free(&w);
 }
 
-/* Mean over all directions of |int e^(ikx) dA|^2 / A^2 over the section of a prism, by its edges:
- * k^2 int e^(ikx) dA = -i sum (k.n) L e^(ikm) sin(k.t L/2)/(k.t L/2), m the middle of an edge. */
-static double mean_transfer2(const fl_poly *p, const fl_hull *h, double k)
-{
-    enum { DIRECTIONS = 720 };
-    const fl_vec3 e = h->prism.e;
-    double sum = 0;
-    int32_t cap = 0;
-    for (int32_t f = 1; f < p->nf; f++)
-        if (v3_dot(p->n[f], e) > v3_dot(p->n[cap], e)) cap = f;
-    for (int d = 0; d < DIRECTIONS; d++) {
-        const double angle = 2 * PI * (d + 0.5) / DIRECTIONS;
-        const fl_vec3 way = v3_scale(k, v3(cos(angle), sin(angle), 0));
-        double re = 0, im = 0;
-        for (int32_t c = p->first[cap]; c < p->first[cap + 1]; c++) {
-            const int32_t next = c + 1 < p->first[cap + 1] ? c + 1 : p->first[cap];
-            const fl_vec3 a = p->v[p->loop[c]], b = p->v[p->loop[next]], side = v3_sub(b, a);
-            const double across = v3_dot(way, v3_cross(side, e)), x = 0.5 * v3_dot(way, side),
-                         at = v3_dot(way, v3_lerp(a, b, 0.5)),
-                         part = across * (fabs(x) > 1e-6 ? sin(x) / x : 1);
-            re += part * cos(at), im += part * sin(at);
-        }
-        sum += (re * re + im * im) / (k * k * k * k);
-    }
-    return sum / DIRECTIONS / (h->prism.area * h->prism.area);
-}
-
-/* What a band leaves out is below 0.4 of the error asked for; one band less would leave out more. */
-static void the_band_holds_the_waves_that_move_a_floe(void **state)
-{
-    fl_waves w;
-    fl_err err = {0};
-    int bands[FL_WAVE_BANDS] = {0}, kinds = 0;
-    (void)state;
-    assert_int_equal(fl_waves_jonswap(&w, 1, 4, 3.3, 1000, 3, 0, INFINITY, G, &err), 0);
-    for (int size = 0; size < 5; size++) {
-        fl_poly p;
-        fl_hull h;
-        fl_wave_nodes a = {0};
-        double all = 0, left[2] = {0};
-        make_prism(&p, &h, 7, 1.5 * pow(2, size), 0.8, 5);
-        assert_int_equal(fl_wave_nodes_make(&a, &h, &w, 0.003, &err), 0);
-        const int32_t n = fl_waves_of_band(&w, a.band).n, fewer = fl_waves_of_band(&w, a.band + 1).n;
-        for (int32_t j = 0; j < w.n; j++) {
-            const double a2 = w.train[j].a * w.train[j].a;
-            all += a2;
-            if (j >= fewer) left[1] += a2 * mean_transfer2(&p, &h, w.train[j].k);
-            if (j >= n) left[0] += a2 * mean_transfer2(&p, &h, w.train[j].k);
-        }
-        /* the band is chosen by the transfer of short waves */
-        assert_true(sqrt(left[0] / all) < 1.15 * 0.4 * 0.003);
-        assert_true(a.band + 1 == FL_WAVE_BANDS || sqrt(left[1] / all) > 0.95 * 0.4 * 0.003);
-        kinds += bands[a.band]++ == 0;
-        fl_wave_nodes_free(&a);
-        fl_hull_free(&h);
-        fl_poly_free(&p);
-    }
-    assert_true(kinds >= 3);
-    fl_waves_free(&w);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_have_the_moments_of_the_section),
         cmocka_unit_test(faces_close_the_surface),
-        cmocka_unit_test(the_band_holds_the_waves_that_move_a_floe),
         cmocka_unit_test(the_degree_follows_size_and_error),
     };
     return cmocka_run_group_tests_name("wave_nodes", tests, NULL, NULL);
