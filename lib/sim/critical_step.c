@@ -381,9 +381,6 @@ double fl_critical_step(const fl_world *w)
     return w->zones.set.blocks ? fmin(bodies, w->zones.dt_critical) : bodies;
 }
 
-/* (omega dt/2)^2 of all that acts on one body adds up.  With the shares c and b of contacts and bonds
- * 1/dt^2 = (C/c^2 + B/b^2)/4: a body keeps to c when all its bonds have ended, to b while it has no contact,
- * and is stable with any mixture. */
 static int32_t body_of_node(const fl_zone_set *s, int32_t n)
 {
     int32_t k = 0;
@@ -391,6 +388,9 @@ static int32_t body_of_node(const fl_zone_set *s, int32_t n)
     return s->block[k].body;
 }
 
+/* (omega dt/2)^2 of all that acts on one body adds up.  With the shares c and b of contacts and bonds
+ * 1/dt^2 = (C/c^2 + B/b^2)/4: a body keeps to c when all its bonds have ended, to b while it has no contact,
+ * and is stable with any mixture. */
 static double step_of_bodies(const fl_world *w, int32_t *body)
 {
     damping_shares shares, same;

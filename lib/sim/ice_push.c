@@ -140,11 +140,9 @@ int fl_ice_push_make(fl_world *w, const fl_ice_field *field, const fl_ice_field 
     if (s->line_load > 0.0) p->limit = s->line_load * p->width;
     if (s->iso_pack_width > 0.0)
         p->limit = p->width * fl_iso_line_load(s->iso_pack_coefficient, thickness, s->iso_pack_width);
-    p->mass = row;
-    for (int32_t i = 0; i < w->n && p->of == FL_PUSH_ROW; i++) {
-        if (i == 0) p->mass = 0.0;
+    p->mass = p->of == FL_PUSH_ROW ? 0.0 : row;
+    for (int32_t i = 0; i < w->n && p->of == FL_PUSH_ROW; i++)
         if (fl_floe_is_driven(w, i)) p->mass += w->b.m[i];
-    }
     if (p->wall >= 0) {
         const double v = p->sign * p->velocity;
         w->b.v[p->wall] = p->axis ? v3(0, v, 0) : v3(v, 0, 0);
