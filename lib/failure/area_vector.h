@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* area_vector.h -- the nominal area of a contact: the area vector of the other body's surface inside a floe.
  *
- *     S = int n dA over the surface of B inside the outer sharp shape of A,    A = |S|
+ *     S = int n dA over the surface of B inside the outer sharp shape of A
  *
  * V being the volume of the overlap, dV = S.dx for a displacement dx of A, so int p dV is the work of a
  * pressure p on it, and S depends neither on how B is divided into faces nor on what A looks like elsewhere.

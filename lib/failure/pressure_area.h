@@ -3,7 +3,7 @@
  *
  *     p = p0 (A/A0)^-e,  at most p_max,        y = p A
  *
- *   A      nominal area: |S| of area_vector.h, all of a contact that hangs together     [m2]
+ *   A      nominal area: S.n of area_vector.h, n the direction of the force            [m2]
  *   p0     pressure on A0                                                                [Pa]
  *   y      force at which the contact yields                                              [N]
  *
