@@ -11,6 +11,8 @@ static const double MASS_SHARE = 2.0;
 /* Balls below which more than one thread costs more than it saves. */
 enum { THREADED = 4000 };
 enum { SUMS = 4 };
+/* Fours of contacts that are evaluated together. */
+enum { BEAM_SETS = 32 };
 
 /* --- making it --------------------------------------------------------------------------------- */
 
@@ -29,7 +31,7 @@ static int allocate(fl_member_chain *c, const fl_member_model *m, fl_err *err)
     c->nodes = m->node_name.n;
     c->ball = fl_alloc(balls, sizeof *c->ball, err);
     c->contact = fl_alloc(contacts, sizeof *c->contact, err);
-    c->force = fl_alloc(contacts, sizeof *c->force, err);
+    c->force = fl_alloc(contacts + 1, sizeof *c->force, err); /* loads of four doubles */
     c->resist = fl_alloc(balls, sizeof *c->resist, err);
     c->last = fl_alloc(balls, sizeof *c->last, err);
     c->first = fl_alloc(balls + 1, sizeof *c->first, err);
@@ -217,6 +219,28 @@ static int make_fibres(fl_member_chain *c, const fl_member_model *m, fl_err *err
     return 0;
 }
 
+/* Plain beam contacts into lanes; the last of them fills what is left of the last four. */
+static int sort_contacts(fl_member_chain *c, fl_err *err)
+{
+    int32_t plain = 0;
+    for (int32_t k = 0; k < c->contacts; k++) plain += fl_member_is_plain_beam(&c->contact[k]);
+    c->beam_sets = (plain + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH;
+    c->beams = fl_alloc(c->beam_sets, sizeof *c->beams, err);
+    c->other = fl_alloc(c->contacts - plain, sizeof *c->other, err);
+    if (err->code) return -1;
+    plain = 0;
+    for (int32_t k = 0; k < c->contacts; k++) {
+        if (!fl_member_is_plain_beam(&c->contact[k])) {
+            c->other[c->others++] = k;
+            continue;
+        }
+        fl_member_beams *b = &c->beams[plain / FL_SIMD_WIDTH];
+        for (int lane = plain++ % FL_SIMD_WIDTH; lane < FL_SIMD_WIDTH; lane++)
+            fl_member_beams_set(b, lane, &c->contact[k], k);
+    }
+    return 0;
+}
+
 int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt, fl_err *err)
 {
     int32_t ball = m->node_name.n, contact = 0;
@@ -226,7 +250,7 @@ int fl_member_chain_make(fl_member_chain *c, const fl_member_model *m, double dt
     for (int32_t k = 0; k < m->member_name.n; k++)
         if (make_member(c, m, k, &ball, &contact, err)) goto failed;
     link_contacts(c);
-    if (make_fibres(c, m, err)) goto failed;
+    if (make_fibres(c, m, err) || sort_contacts(c, err)) goto failed;
     fl_member_chain_masses(c, 0.0);
     sum_scales(c);
     return 0;
@@ -256,6 +280,8 @@ void fl_member_chain_free(fl_member_chain *c)
 {
     free(c->ball);
     free(c->contact);
+    free(c->beams);
+    free(c->other);
     free(c->force);
     free(c->resist);
     free(c->last);
@@ -291,10 +317,19 @@ static void evaluate_contacts(fl_member_chain *c)
 {
     double largest = 0.0;
     const int threads = threads_of(c);
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1) reduction(max : largest)
-    for (int32_t k = 0; k < c->contacts; k++) {
-        const double r2 = evaluate(c, k, &c->force[k], NULL);
-        if (r2 > largest) largest = r2;
+#pragma omp parallel num_threads(threads) if (threads > 1) reduction(max : largest)
+    {
+#pragma omp for schedule(static) nowait
+        for (int32_t k = 0; k < c->beam_sets; k += BEAM_SETS) {
+            const int32_t n = c->beam_sets - k < BEAM_SETS ? c->beam_sets - k : BEAM_SETS;
+            const double r2 = fl_member_beams_force(&c->beams[k], n, c->ball, c->force);
+            if (r2 > largest) largest = r2;
+        }
+#pragma omp for schedule(static)
+        for (int32_t k = 0; k < c->others; k++) {
+            const double r2 = evaluate(c, c->other[k], &c->force[c->other[k]], NULL);
+            if (r2 > largest) largest = r2;
+        }
     }
     c->largest_rotation2 = largest;
 }
@@ -307,21 +342,9 @@ void fl_member_chain_forces(fl_member_chain *c)
     c->resist = before;
     evaluate_contacts(c);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int32_t b = 0; b < c->balls; b++) {
-        /* The force of a contact pulls i towards j: what resists at i is its negative. */
-        fl_vec3 f = v3(0, 0, 0), m = v3(0, 0, 0);
-        for (int32_t a = c->first[b]; a < c->first[b + 1]; a++) {
-            const fl_member_force *e = &c->force[c->around[a] >> 1];
-            if (c->around[a] & 1) {
-                f = v3_add(f, e->f);
-                m = v3_sub(m, e->mj);
-            } else {
-                f = v3_sub(f, e->f);
-                m = v3_sub(m, e->mi);
-            }
-        }
-        c->resist[b] = (fl_member_resist){f, m};
-    }
+    for (int32_t b = 0; b < c->balls; b += FL_MEMBER_GROUP)
+        fl_member_balls_resist(b, c->balls - b < FL_MEMBER_GROUP ? c->balls : b + FL_MEMBER_GROUP, c->first,
+                               c->around, c->force, c->resist);
 }
 
 double fl_member_chain_energy(fl_member_chain *c)
@@ -400,6 +423,21 @@ static inline fl_member_resist unbalanced(const fl_member_chain *c, int32_t b, d
     return (fl_member_resist){f, m};
 }
 
+static void add_state(const fl_member_chain *c, int32_t b, double lambda, double over_l2, double sum[3])
+{
+    const fl_member_ball *a = &c->ball[b];
+    const fl_member_resist r = unbalanced(c, b, lambda);
+    sum[0] += v3_norm2(r.f) + over_l2 * v3_norm2(r.m);
+    if (a->over_m > 0.0) {
+        sum[1] += v3_norm2(a->v) / a->over_m;
+        sum[2] += v3_dot(a->v, v3_sub(c->resist[b].f, c->last[b].f));
+    }
+    if (a->over_i > 0.0) {
+        sum[1] += v3_norm2(a->w) / a->over_i;
+        sum[2] += v3_dot(a->w, v3_sub(c->resist[b].m, c->last[b].m));
+    }
+}
+
 fl_member_state fl_member_chain_state(const fl_member_chain *c, double lambda)
 {
     const int32_t groups = (c->balls + FL_MEMBER_GROUP - 1) / FL_MEMBER_GROUP;
@@ -409,23 +447,13 @@ fl_member_state fl_member_chain_state(const fl_member_chain *c, double lambda)
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int32_t g = 0; g < groups; g++) {
         const int32_t end = (g + 1) * FL_MEMBER_GROUP < c->balls ? (g + 1) * FL_MEMBER_GROUP : c->balls;
-        double r2 = 0.0, inertia = 0.0, work = 0.0;
-        for (int32_t b = g * FL_MEMBER_GROUP; b < end; b++) {
-            const fl_member_ball *a = &c->ball[b];
-            const fl_member_resist r = unbalanced(c, b, lambda);
-            r2 += v3_norm2(r.f) + over_l2 * v3_norm2(r.m);
-            if (a->over_m > 0.0) {
-                inertia += v3_norm2(a->v) / a->over_m;
-                work += v3_dot(a->v, v3_sub(c->resist[b].f, c->last[b].f));
-            }
-            if (a->over_i > 0.0) {
-                inertia += v3_norm2(a->w) / a->over_i;
-                work += v3_dot(a->w, v3_sub(c->resist[b].m, c->last[b].m));
-            }
-        }
-        c->part[SUMS * g] = r2;
-        c->part[SUMS * g + 1] = inertia;
-        c->part[SUMS * g + 2] = work;
+        double *const part = &c->part[SUMS * g];
+        part[0] = part[1] = part[2] = 0.0;
+        for (int32_t b = g * FL_MEMBER_GROUP; b < end; b += FL_SIMD_WIDTH)
+            if (b + FL_SIMD_WIDTH > end ||
+                !fl_member_balls_state(&c->ball[b], &c->resist[b], &c->last[b], over_l2, part))
+                for (int32_t k = b; k < end && k < b + FL_SIMD_WIDTH; k++)
+                    add_state(c, k, lambda, over_l2, part);
     }
     add_groups(c, 3, sum);
     fl_member_state s = {.residual2 = sum[0], .inertia = dt * dt * sum[1], .work = dt * sum[2]};
@@ -447,35 +475,40 @@ static inline fl_vec3 counted(const fl_member_chain *c, int32_t b, const fl_vec3
     return a->fixed ? fl_member_free_part(d, a->fixed & FL_MEMBER_TRANSLATIONS) : d;
 }
 
-static void free_group(fl_member_chain *c, int32_t begin, int32_t end, double c1, double c2,
-                       const fl_vec3 *from, double *out)
+static void step_ball(fl_member_chain *c, int32_t b, double c1, double c2, const fl_vec3 *from, double sum[2])
 {
     const double dt = c->dt;
-    double aa = 0.0, kinetic = 0.0;
-    for (int32_t b = begin; b < end; b++) {
-        fl_member_ball *a = &c->ball[b];
-        if (a->over_m > 0.0) {
-            fl_vec3 f = c->resist[b].f;
-            if (a->fixed) f = fl_member_free_part(f, a->fixed & FL_MEMBER_TRANSLATIONS);
-            a->v = v3_madd(v3_scale(c1, a->v), -c2 * dt * a->over_m, f);
-            aa += v3_norm2(v3_madd(counted(c, b, from), dt, a->v));
-            if (a->load < 0) {
-                a->d = v3_madd(a->d, dt, a->v);
-                kinetic += v3_norm2(a->v) / a->over_m;
-            }
-        }
-        if (a->over_i > 0.0) {
-            fl_vec3 m = c->resist[b].m;
-            if (a->fixed) m = fl_member_free_part(m, a->fixed >> 3);
-            a->w = v3_madd(v3_scale(c1, a->w), -c2 * dt * a->over_i, m);
-            if (a->load < 0) {
-                fl_member_ball_turn(a, dt);
-                kinetic += v3_norm2(a->w) / a->over_i;
-            }
+    fl_member_ball *a = &c->ball[b];
+    if (a->over_m > 0.0) {
+        fl_vec3 f = c->resist[b].f;
+        if (a->fixed) f = fl_member_free_part(f, a->fixed & FL_MEMBER_TRANSLATIONS);
+        a->v = v3_madd(v3_scale(c1, a->v), -c2 * dt * a->over_m, f);
+        sum[0] += v3_norm2(v3_madd(counted(c, b, from), dt, a->v));
+        if (a->load < 0) {
+            a->d = v3_madd(a->d, dt, a->v);
+            sum[1] += v3_norm2(a->v) / a->over_m;
         }
     }
-    out[0] = aa;
-    out[1] = 0.5 * kinetic;
+    if (a->over_i > 0.0) {
+        fl_vec3 m = c->resist[b].m;
+        if (a->fixed) m = fl_member_free_part(m, a->fixed >> 3);
+        a->w = v3_madd(v3_scale(c1, a->w), -c2 * dt * a->over_i, m);
+        if (a->load < 0) {
+            fl_member_ball_turn(a, dt);
+            sum[1] += v3_norm2(a->w) / a->over_i;
+        }
+    }
+}
+
+static void step_group(fl_member_chain *c, int32_t begin, int32_t end, double c1, double c2,
+                       const fl_vec3 *from, double sum[2])
+{
+    sum[0] = sum[1] = 0.0;
+    for (int32_t b = begin; b < end; b += FL_SIMD_WIDTH)
+        if (b + FL_SIMD_WIDTH > end ||
+            !fl_member_balls_step(&c->ball[b], &c->resist[b], from ? &from[b] : NULL, c1, c2, c->dt, sum))
+            for (int32_t k = b; k < end && k < b + FL_SIMD_WIDTH; k++) step_ball(c, k, c1, c2, from, sum);
+    sum[1] *= 0.5;
 }
 
 fl_member_half fl_member_chain_free_step(fl_member_chain *c, double c1, double c2, const fl_vec3 *from)
@@ -492,7 +525,7 @@ fl_member_half fl_member_chain_free_step(fl_member_chain *c, double c1, double c
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int32_t g = 0; g < groups; g++) {
         const int32_t end = (g + 1) * FL_MEMBER_GROUP < c->balls ? (g + 1) * FL_MEMBER_GROUP : c->balls;
-        free_group(c, g * FL_MEMBER_GROUP, end, c1, c2, from, &c->part[SUMS * g]);
+        step_group(c, g * FL_MEMBER_GROUP, end, c1, c2, from, &c->part[SUMS * g]);
     }
     add_groups(c, 2, sum);
     h.aa = sum[0];

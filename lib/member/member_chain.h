@@ -21,17 +21,10 @@
 #ifndef FL_MEMBER_MEMBER_CHAIN_H
 #define FL_MEMBER_MEMBER_CHAIN_H
 #include "member/member_contact.h"
+#include "member/member_lanes.h"
 #include "member/member_model.h"
 
 enum { FL_MEMBER_GROUP = 128 };
-
-typedef struct {
-    fl_vec3 x0, d, v, w;
-    fl_quat q;
-    double over_m, over_i; /* 1/m, 1/I; 0: the ball has no such freedom */
-    int fixed;             /* freedoms that are held, bits */
-    int32_t load;          /* number of its load, -1: none */
-} fl_member_ball;
 
 /* Load of a ball at load factor 1; `turned` is the rotation in the path so far, for the work of the moment.
  * */
@@ -48,14 +41,13 @@ typedef struct {
 } fl_member_move;
 
 typedef struct {
-    fl_vec3 f, m; /* internal force and moment, what the ball exerts on its load */
-} fl_member_resist;
-
-typedef struct {
     int32_t balls, contacts, loads, moves, nodes;
     fl_member_ball *ball;       /* [balls], nodes first */
     fl_member_contact *contact; /* [contacts], member by member */
-    fl_member_load *load;       /* [loads] by ball */
+    fl_member_beams *beams;     /* [beam_sets] constants of the plain beam contacts, four by four */
+    int32_t *other;             /* [others] the other contacts */
+    int32_t beam_sets, others;
+    fl_member_load *load; /* [loads] by ball */
     fl_member_move *move;
     fl_member_force *force;          /* [contacts] */
     fl_member_resist *resist, *last; /* [balls]; of the present and of the last evaluation */
@@ -82,20 +74,6 @@ static inline fl_vec3 fl_member_contact_start(const fl_member_chain *c, const fl
 {
     const fl_vec3 x = c->ball[end ? e->j : e->i].x0;
     return e->arms ? v3_add(x, e->arm[end]) : x;
-}
-
-/* The parts of a vector along freedoms that are free; held: x y z in the lowest three bits. */
-static inline fl_vec3 fl_member_free_part(fl_vec3 a, int held)
-{
-    return held == 0 ? a : v3(held & 1 ? 0.0 : a.x, held & 2 ? 0.0 : a.y, held & 4 ? 0.0 : a.z);
-}
-
-/* q <- exp(dt w) q.  What rounding adds to its length is taken away to first order. */
-static inline void fl_member_ball_turn(fl_member_ball *a, double dt)
-{
-    const fl_quat q = q_mul(q_of_vector(v3_scale(dt, a->w)), a->q);
-    const double k = 1.5 - 0.5 * (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    a->q = (fl_quat){k * q.w, k * q.x, k * q.y, k * q.z};
 }
 
 /* -1 with FL_INPUT or FL_SYSTEM. */

@@ -122,8 +122,8 @@ static double other_bytes(const fl_world *w)
     const fl_member_dynamics *d = &w->moving.members.dynamics;
     const double balls = d->chain.balls;
     sum += ARRAY(d->chain.ball, balls) + ARRAY(d->chain.contact, d->chain.contacts) +
-           ARRAY(d->chain.force, d->chain.contacts) + 2.0 * ARRAY(d->chain.resist, balls) +
-           2.0 * ARRAY(d->mass, balls) + 3.0 * ARRAY(d->force, balls) +
+           ARRAY(d->chain.beams, d->chain.beam_sets) + ARRAY(d->chain.force, d->chain.contacts) +
+           2.0 * ARRAY(d->chain.resist, balls) + 2.0 * ARRAY(d->mass, balls) + 3.0 * ARRAY(d->force, balls) +
            ARRAY(d->modes.shape, 6.0 * balls * d->modes.n);
     sum += ARRAY(w->structure.piece, w->structure.cap);
     for (int32_t k = 0; k < fixed; k++) {

@@ -122,8 +122,22 @@ static int time_path(enum fl_relaxation_kind kind, const char *name)
     return fabs(limit / 381.43 - 1.0) < 1e-2;
 }
 
-int main(void)
+/* So many steps of the dome K6-4 for instructions.sh; prints the number of contact-steps. */
+static int count_steps(int64_t steps)
 {
+    fl_member_model m = {0};
+    fl_member_chain c = {0};
+    dome(&m, &c, 4, 6);
+    time_steps(&c, steps);
+    printf("%lld\n", (long long)steps * c.contacts);
+    fl_member_chain_free(&c);
+    fl_member_model_free(&m);
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 2) return count_steps(atoll(argv[2]));
     static const int rings[] = {4, 8, 16, 46}, steps[] = {4000, 1000, 300, 60};
     int ok = 1;
     printf("a step of a dome of beams in 6 pieces, adaptive damping\n%8s %9s %14s\n", "balls", "contacts",

@@ -11,6 +11,7 @@
 #   spheres, rolls      a contact and step of spheres in a lattice, everything included; with rolling resistance
 #   dry, water, added, waves, held, facets
 #                       a body and step of floes without contacts
+#   members             a contact and step of a dome of members, its share of the balls included
 #   bonds               a bond and step, its share of the bodies included
 #   hard-pile, plain-pile  a step of a floe on a cylinder, elastic, and with crushing_law = plain
 #   strip-31, strip-248 a step of a pile in ice that crushes by its speed, with 31 and 248 elements on its front
@@ -65,6 +66,7 @@ all() {
     each held bench_step held 20 120
     each facets bench_step facets 20 120
     each bonds bench_step bonds 20 120
+    each members bench_members count 20 120
     for k in hard plain; do each $k-pile bench_strip $k-pile $FEW $MANY; done
     for k in 31 248; do each strip-$k bench_strip pile-$k $FEW $MANY; done
 }

@@ -213,12 +213,71 @@ static void threads_change_no_bit(void **state)
     free(text);
 }
 
+/* Lanes give the bits of one contact and of one ball. */
+static void lanes_change_no_bit(void **state)
+{
+    static const char text[] = "#members 1\nsection s 2e3 30 20 15\nsection t pipe 2 0.1 2e3 800\n"
+                               "node a 0 0 0\nnode b 9 1 0.5\nnode c 20 0 2\nnode d 12 9 3 hinge\n"
+                               "member 1 a b s 9\nmember 2 b c t 10\nmember 3 b d s 8\nmember 4 c d t 6\n"
+                               "fix a clamped\nfix c pinned\nfix d pinned\nload b 0.3 0.2 -1 0 0.1 0\n";
+    enum { SCALAR = 64, STEPS = 40 }; /* a bit of `fixed` that holds nothing, and keeps a ball out of lanes */
+    (void)state;
+    fl_member_model m = {0};
+    fl_member_chain c[2] = {0};
+    fl_err err = {0};
+    fl_member_half h[2];
+    fl_member_state s[2];
+    read_model(&m, text);
+    for (int n = 0; n < 2; n++) assert_int_equal(fl_member_chain_make(&c[n], &m, 1.0, &err), 0);
+    assert_true(c[0].beam_sets > 6 && c[0].others == 2 && c[0].balls % FL_SIMD_WIDTH != 0);
+    fl_vec3 *from = calloc((size_t)c[0].balls, sizeof *from);
+    assert_non_null(from);
+    c[1].beam_sets = 0, c[1].others = c[1].contacts;
+    free(c[1].other);
+    c[1].other = calloc((size_t)c[1].contacts, sizeof *c[1].other);
+    assert_non_null(c[1].other);
+    for (int32_t k = 0; k < c[1].contacts; k++) c[1].other[k] = k;
+    for (int32_t b = 0; b < c[1].balls; b++) {
+        c[1].ball[b].fixed |= SCALAR;
+        from[b] = v3(0.01 * sin(b), 0.02 * cos(b), 1e-3 * b);
+    }
+    for (int t = 0; t < STEPS; t++) {
+        if (t % 10 ==
+            0) /* from small turns of a step and of a piece to large ones, and opposite quaternions */
+            for (int n = 0; n < 2; n++)
+                for (int32_t b = 0; b < c[n].balls; b++) {
+                    fl_member_ball *a = &c[n].ball[b];
+                    const double turn = 0.003 * (t + 1);
+                    if (a->over_i > 0.0) a->w = v3(turn * cos(b), turn * sin(2.0 * b), turn);
+                    if (b % 3 == 0) a->q = (fl_quat){-a->q.w, -a->q.x, -a->q.y, -a->q.z};
+                }
+        for (int n = 0; n < 2; n++) {
+            fl_member_chain_forces(&c[n]);
+            s[n] = fl_member_chain_state(&c[n], 0.3);
+            h[n] = fl_member_chain_free_step(&c[n], 0.97, 0.98, t & 1 ? from : NULL);
+            fl_member_chain_loaded_step(&c[n], 0.98, 0.3);
+        }
+        assert_memory_equal(c[0].force, c[1].force, (size_t)c[0].contacts * sizeof *c[0].force);
+        assert_memory_equal(c[0].resist, c[1].resist, (size_t)c[0].balls * sizeof *c[0].resist);
+        assert_memory_equal(&s[0], &s[1], sizeof s[0]);
+        assert_memory_equal(&h[0], &h[1], sizeof h[0]);
+        assert_true(c[0].largest_rotation2 == c[1].largest_rotation2);
+        for (int32_t b = 0; b < c[0].balls; b++)
+            assert_memory_equal(&c[0].ball[b], &c[1].ball[b], offsetof(fl_member_ball, fixed));
+    }
+    assert_true(c[0].largest_rotation2 > 0.1);
+    free(from);
+    for (int n = 0; n < 2; n++) fl_member_chain_free(&c[n]);
+    fl_member_model_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sections_are_those_of_handbooks),
                                        cmocka_unit_test(mechanisms_are_told_from_spins),
                                        cmocka_unit_test(an_arm_turns_with_its_node),
                                        cmocka_unit_test(a_chain_is_the_beam_where_displacements_are_small),
-                                       cmocka_unit_test(threads_change_no_bit)};
+                                       cmocka_unit_test(threads_change_no_bit),
+                                       cmocka_unit_test(lanes_change_no_bit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
