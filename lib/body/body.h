@@ -63,6 +63,12 @@ int fl_bodies_alloc_heave(fl_bodies *b, fl_err *err);
  * added masses. */
 int fl_body_is_isotropic(const fl_bodies *b, int32_t i);
 
+/* Distance from x to the farthest point of the dilated body [m]. */
+static inline double fl_body_extent(const fl_bodies *b, int32_t i)
+{
+    return b->bounding_radius[i] + b->radius[i];
+}
+
 /* Orientation of the axes of body i; an isotropic body has those of the world. */
 static inline const fl_quat *fl_body_attitude(const fl_bodies *b, int32_t i)
 {

@@ -30,6 +30,8 @@ struct fl_gpu_world {
     fl_gpu_guest_sum *guest_sum;
     fl_disc_wrench *guest_wrench;
     double *moves;
+    uint8_t *leaves; /* [blocks] */
+    int leaving;     /* some body of the device leaves */
 };
 
 /* Fails with the reason of the engine. */

@@ -12,6 +12,7 @@
 #ifndef FL_GPU_GPU_STEP_KERNEL_H
 #define FL_GPU_GPU_STEP_KERNEL_H
 #include "base/pi.h"
+#include "body/domain_kernel.h"
 #include "bond/disc_damage_kernel.h"
 #include "geom/sym3.h"
 #include "gpu/gpu_view.h"
@@ -531,6 +532,11 @@ static inline void fl_gpu_block(const fl_gpu_view *a, int32_t g)
         if (a->bad[k] && b.not_finite < 0) b.not_finite = k;
     }
     a->block[g] = b;
+    if (!a->extent) return;
+    int leaves = 0;
+    for (int32_t k = from; k < to; k++)
+        leaves |= !a->host[k] && fl_is_beyond(a->domain_lo, a->domain_hi, a->state[k].x, a->extent[k]);
+    a->leaves[g] = (uint8_t)leaves;
 }
 
 /* A batch of touching rows: 16 in four lanes. */

@@ -66,6 +66,7 @@ typedef struct {
     double dt;
     fl_vec3 gravity;
     fl_vec3 cell_lo, cell_length; /* periodic cell [m] */
+    fl_vec3 domain_lo, domain_hi; /* bounds where bodies leave, infinite for others [m] */
     /* still water */
     fl_sphere_drag drag;
     double level, specific_weight, heave_factor, gravity_size;
@@ -84,7 +85,9 @@ typedef struct {
     fl_sphere_sum *sum, *previous_sum;
     fl_vec3 *contact_force;
     double *damping_work, *friction_work;
-    uint8_t *bad; /* a number of the body is not finite */
+    uint8_t *bad;         /* a number of the body is not finite */
+    const double *extent; /* reach of the body from its centre [m]; NULL: bodies stay in the domain */
+    uint8_t *leaves;      /* [blocks] an own body is beyond a bound where bodies leave */
     /* in water */
     double *heave_mass, *heave_work; /* NULL without added mass */
     double *wetted_area, *buoyancy, *drag_loss;

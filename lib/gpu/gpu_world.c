@@ -27,22 +27,23 @@ static int has_isotropic_bodies(const fl_world *w)
 
 const char *fl_gpu_world_refuses(const fl_world *w)
 {
-    const fl_environment *s = &w->sea;
     if (!has_isotropic_bodies(w)) return "no spheres";
     if (w->scene->run.sleep > 0.0) return "run.sleep";
     if (w->scene->run.error > 0.0) return "run.error";
-    if (w->inflow.absent) return "inflow or outflow";
-    if (w->push.of) return "ice that is pushed with a line load, or a wall that moves";
-    if (s->waves) return "waves";
-    if (s->wind) return "wind";
-    if (s->flow_velocity) return "a current that changes with depth";
-    if (s->drag_surface) return "drag by facets";
-    if (s->impulses) return "water forces with an impulse";
     if (w->b.added_mass) return "added mass by axes of bodies";
-    if (w->b.heave_mass && !fl_floating_batch_applies(w))
-        return "added mass along the vertical without bonds";
-    if (s->water && !s->only_spheres) return "water, and floes that are no spheres";
+    if (w->breaking.on) return "floes that fail";
+    if (w->push.of) return "ice that is pushed with a line load, or a wall that moves";
     return NULL;
+}
+
+/* Water of which the device has no kernel: its forces and drag are those of the CPU, which moves all bodies
+ * then. */
+static int has_other_water(const fl_world *w)
+{
+    const fl_environment *s = &w->sea;
+    return s->n &&
+           (s->waves || s->wind || s->flow_velocity || s->drag_surface || s->impulses || w->b.added_mass ||
+            (w->b.heave_mass && !fl_floating_batch_applies(w)) || (s->water && !s->only_spheres));
 }
 
 /* Rows of a sphere in a dense pack with the skin, before they are listed. */
@@ -76,7 +77,7 @@ void fl_gpu_world_free(fl_gpu_world *g)
         if (g->memory[k].at) g->e->release(g->memory[k].at);
     g->e->close();
     free(g->host), free(g->guest), free(g->guest_disc), free(g->guest_state), free(g->guest_sum),
-        free(g->guest_wrench), free(g->moves);
+        free(g->guest_wrench), free(g->moves), free(g->leaves);
     free(g);
 }
 
@@ -87,6 +88,12 @@ const int32_t *fl_gpu_world_guests(const fl_gpu_world *g, int32_t *n)
     *n = g->guests;
     return g->guest;
 }
+
+int fl_gpu_world_owns(const fl_gpu_world *g, int32_t k) { return g->uploaded && !g->host[k]; }
+
+int fl_gpu_world_leaves(const fl_gpu_world *g) { return g->leaving; }
+
+void fl_gpu_world_forget(fl_gpu_world *g) { g->uploaded = 0; }
 
 #define PUT FL_GPU_PUT
 #define ROOM FL_GPU_ROOM
@@ -103,11 +110,16 @@ static int is_guest(const fl_world *w, int32_t k)
            w->previous_sums.slot[k] != 0;
 }
 
+static fl_vec3 yields_of(const fl_world *w, int32_t k)
+{
+    const fl_sym3 e = fl_body_mobility(&w->b, k).linear;
+    return v3(e.xx, e.yy, e.zz);
+}
+
 /* A guest that the device moves from now on: the CPU has done the first half of this step. */
 static int release_guest(fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *err)
 {
-    const fl_sym3 e = fl_body_mobility(&w->b, k).linear;
-    const fl_vec3 yields = v3(e.xx, e.yy, e.zz);
+    const fl_vec3 yields = yields_of(w, k);
     return g->e->upload(&g->v.state[k], &w->spheres.state[k], sizeof *g->v.state) ||
                    g->e->upload(&g->v.yields[k], &yields, sizeof yields)
                ? fl_gpu_fail(g, err)
@@ -124,12 +136,14 @@ static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
         g->guest_state = fl_alloc(w->n, sizeof *g->guest_state, err);
         g->guest_sum = fl_alloc(w->n, sizeof *g->guest_sum, err);
         g->moves = fl_alloc(2 * ((int64_t)w->n / FL_BODY_BLOCK + 2), sizeof *g->moves, err);
-        if (!g->host || !g->guest || !g->guest_state || !g->guest_sum || !g->moves) return -1;
+        g->leaves = fl_alloc((int64_t)w->n / FL_BODY_BLOCK + 1, sizeof *g->leaves, err);
+        if (!g->leaves || !g->host || !g->guest || !g->guest_state || !g->guest_sum || !g->moves) return -1;
     }
     g->guests = g->guest_discs = 0;
+    const int all = has_other_water(w);
     for (int32_t k = 0; k < w->n; k++) {
-        const int guest = is_guest(w, k);
-        if (!guest && g->host[k] && release_guest(g, w, k, err)) return -1;
+        const int guest = all || is_guest(w, k);
+        if (!guest && g->host[k] && g->uploaded && release_guest(g, w, k, err)) return -1;
         const int stays = !guest || g->host[k] || !g->uploaded;
         g->host[k] = guest ? (stays ? GUEST : NEW_GUEST) : OWN;
         if (guest) g->guest[g->guests++] = k;
@@ -169,6 +183,7 @@ static void set_parameters(fl_gpu_world *g, const fl_world *w)
     v->has_rolling = w->has_rolling, v->damped_discs = w->discs.at.damped != NULL;
     v->gravity = w->gravity;
     v->cell_lo = w->cell.lo, v->cell_length = w->cell.length;
+    v->domain_lo = w->inflow.lo, v->domain_hi = w->inflow.hi;
     v->law_columns = w->materials + 2;
     v->drag = (fl_sphere_drag){0.5 * s->seawater.force_coefficient * s->seawater.density,
                                0.5 * s->seawater.moment_coefficient * s->seawater.density, 0.0,
@@ -176,6 +191,15 @@ static void set_parameters(fl_gpu_world *g, const fl_world *w)
     v->level = s->level, v->specific_weight = s->specific_weight;
     v->heave_factor = w->b.heave_mass ? s->heave_factor : 0.0, v->gravity_size = s->gravity;
     v->disc_law = w->discs.law;
+}
+
+static int put_yields(fl_gpu_world *g, const fl_world *w, fl_err *err)
+{
+    fl_vec3 *const y = fl_alloc(w->n, sizeof *y, err);
+    for (int32_t k = 0; y && k < w->n; k++) y[k] = yields_of(w, k);
+    const int bad = !y || PUT(yields, y, w->n);
+    free(y);
+    return bad ? -1 : 0;
 }
 
 /* Constants of bodies, laws, walls and the sea, once. */
@@ -203,7 +227,7 @@ static int put_constants(fl_gpu_world *g, const fl_world *w, fl_err *err)
     }
     bad = bad || PUT(turn, one, n) || PUT(inertia, one + n, n) || PUT(inverse, one + 2 * n, n) ||
           PUT(m, b->m, n) || PUT(invm, b->invm, n) || PUT(law, law, laws) || PUT(plane, wall, w->walls) ||
-          PUT(material, w->material, n) || ROOM(control, 1) || ROOM(yields, n);
+          PUT(material, w->material, n) || ROOM(control, 1);
     if (!bad && w->sea.water) {
         bad = PUT(drag_radius, w->sea.drag_radius, n);
         for (int32_t k = 0; k < n; k++)
@@ -211,8 +235,12 @@ static int put_constants(fl_gpu_world *g, const fl_world *w, fl_err *err)
             one[2 * n + k] = w->sea.hull[k].fill;
         bad = bad || PUT(volume, one, n) || PUT(surface, one + n, n) || PUT(fill, one + 2 * n, n);
     }
+    if (!bad && w->inflow.leaves) {
+        for (int32_t k = 0; k < n; k++) one[k] = fl_body_extent(b, k);
+        bad = PUT(extent, one, n) || ROOM(leaves, fl_block_count(w));
+    }
     free(one), free(law), free(wall);
-    return bad ? -1 : 0;
+    return bad || put_yields(g, w, err) ? -1 : 0;
 }
 
 /* States of all bodies between two steps. */
@@ -321,8 +349,7 @@ static int give_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
 {
     for (int32_t k = 0; k < g->guests; k++) {
         const int32_t i = g->guest[k];
-        const fl_sym3 e = fl_body_mobility(&w->b, i).linear;
-        g->guest_state[k] = (fl_gpu_guest_state){w->spheres.state[i], v3(e.xx, e.yy, e.zz)};
+        g->guest_state[k] = (fl_gpu_guest_state){w->spheres.state[i], yields_of(w, i)};
         if (g->host[i] == NEW_GUEST) g->guest_state[k].state.r = 0.0, g->host[i] = GUEST;
     }
     return PUT(guest_state, g->guest_state, g->guests) || LAUNCH(TAKE_GUESTS, g->guests) ? -1 : 0;
@@ -498,8 +525,12 @@ int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *w
                         fl_err *err)
 {
     const int32_t runs = w->discs.n / FL_DISC_RUN + (w->discs.n % FL_DISC_RUN != 0);
-    return PUT(guest_work, work, g->guests) || LAUNCH(TAKE_WORKS, g->guests) || LAUNCH(BLOCKS, g->v.blocks) ||
-                   GET(totals, w->spheres.totals, g->v.chunks) ||
+    g->leaving = 0;
+    if (PUT(guest_work, work, g->guests) || LAUNCH(TAKE_WORKS, g->guests) || LAUNCH(BLOCKS, g->v.blocks) ||
+        (w->inflow.leaves && GET(leaves, g->leaves, g->v.blocks)))
+        return -1;
+    for (int32_t k = 0; k < g->v.blocks && w->inflow.leaves; k++) g->leaving |= g->leaves[k];
+    return GET(totals, w->spheres.totals, g->v.chunks) ||
                    GET(wall_load, w->spheres.wall_load, (int64_t)g->v.chunks * w->walls) ||
                    GET(block, w->blocks, g->v.blocks) ||
                    (runs && GET(disc_force_sum, w->discs.force_sum, runs)) ||

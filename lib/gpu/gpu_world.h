@@ -3,7 +3,7 @@
  *
  * The device moves the spheres that only meet spheres, walls and bonds, dry or in still water.  All other
  * bodies are guests: those near the structure, driven ones, ones with fixed directions, floes that are no
- * spheres.  The CPU moves them with its own code, while the device evaluates rows and bonds:
+ * spheres, places of bodies that are not there, and all bodies in waves, wind and other waters.  The CPU moves them with its own code, while the device evaluates rows and bonds:
  *
  *     fl_gpu_world_first_half()   own bodies: drag, kick, drift.  The caller does the same for guests
  *     fl_gpu_world_contacts()     states of guests up; rows, walls and bonds are launched
@@ -40,6 +40,14 @@ int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err);
 /* Copies bodies, contacts and bonds into the world; or bodies and contacts with walls alone. */
 int fl_gpu_world_download(fl_gpu_world *g, fl_world *w, fl_err *err);
 int fl_gpu_world_download_bodies(fl_gpu_world *g, fl_world *w, fl_err *err);
+
+/* 1 if the device moves body k, whose state in the world is that of the last download; and whether such a
+ * body has left the domain in the last step. */
+int fl_gpu_world_owns(const fl_gpu_world *g, int32_t k);
+int fl_gpu_world_leaves(const fl_gpu_world *g);
+
+/* The world has been changed between two steps, after a download: all of it goes up before the next. */
+void fl_gpu_world_forget(fl_gpu_world *g);
 
 /* 1 if the device lists the rows. */
 int fl_gpu_world_makes_lists(const fl_gpu_world *g);

@@ -9,6 +9,8 @@
 
 /* With fewer spheres the launches take longer than a core. */
 enum { FEWEST = 1000 };
+/* Guests that a thread takes at a time. */
+enum { GUESTS = 64 };
 
 /* --- which device -------------------------------------------------------------------------------- */
 
@@ -72,6 +74,21 @@ int fl_device_refresh(fl_world *w, fl_err *err)
     return 0;
 }
 
+int fl_device_hand_over(fl_world *w, fl_err *err)
+{
+    if (!w->device.gpu) return 0;
+    if (fl_device_refresh(w, err)) return -1;
+    fl_gpu_world_forget(w->device.gpu);
+    return 0;
+}
+
+int fl_device_moves(const fl_world *w, int32_t i)
+{
+    return w->device.gpu && fl_gpu_world_owns(w->device.gpu, i);
+}
+
+int fl_device_leaves(const fl_world *w) { return w->device.gpu && fl_gpu_world_leaves(w->device.gpu); }
+
 /* --- the step ------------------------------------------------------------------------------------ */
 
 static void note_moves(fl_world *w, int32_t k)
@@ -86,8 +103,12 @@ int fl_device_first_half(fl_world *w, double h, fl_err *err)
     if (fl_gpu_world_first_half(g, w, err)) return -1;
     const int32_t *const guest = fl_gpu_world_guests(g, &n);
     w->device.stale = 1;
-    fl_bodies_first_half(w, guest, n, h);
-    for (int32_t k = 0; k < n; k++) fl_sphere_states_update(w, guest[k], guest[k] + 1, h);
+#pragma omp parallel for schedule(static) num_threads(w->team.n) if (w->team.n > 1 && n > GUESTS)
+    for (int32_t from = 0; from < n; from += GUESTS) {
+        const int32_t to = n - from < GUESTS ? n : from + GUESTS;
+        fl_bodies_first_half(w, guest + from, to - from, h);
+        for (int32_t k = from; k < to; k++) fl_sphere_states_update(w, guest[k], guest[k] + 1, h);
+    }
     for (int32_t k = 0; k < fl_block_count(w); k++)
         w->blocks[k].largest_moves[0] = w->blocks[k].largest_moves[1] = 0.0;
     if (fl_gpu_world_moves(g, w->blocks[0].largest_moves, err)) return -1;
@@ -112,6 +133,28 @@ int fl_device_contacts(fl_world *w, fl_err *err) { return fl_gpu_world_contacts(
 
 int fl_device_sums(fl_world *w, fl_err *err) { return fl_gpu_world_sums(w->device.gpu, w, err); }
 
+/* First guest of block b or of a later one. */
+static int32_t first_guest(const int32_t *guest, int32_t n, int32_t b)
+{
+    int32_t lo = 0, hi = n;
+    while (lo < hi) {
+        const int32_t mid = lo + (hi - lo) / 2;
+        if (guest[mid] / FL_BODY_BLOCK < b) lo = mid + 1;
+        else hi = mid;
+    }
+    return lo;
+}
+
+static void end_guests(fl_world *w, const int32_t *guest, int32_t from, int32_t to, double h,
+                       fl_gpu_guest_work *work)
+{
+    for (int32_t k = from; k < to; k++) {
+        const fl_body_block one = fl_body_second_half(w, guest[k], h);
+        work[k] =
+            (fl_gpu_guest_work){one.contact_force, one.damping_work, one.friction_work, one.not_finite < 0};
+    }
+}
+
 int fl_device_second_half(fl_world *w, double h, int stiffness, fl_err *err)
 {
     fl_gpu_world *const g = w->device.gpu;
@@ -119,11 +162,10 @@ int fl_device_second_half(fl_world *w, double h, int stiffness, fl_err *err)
     const int32_t *const guest = fl_gpu_world_guests(g, &n);
     fl_gpu_guest_work *const work = fl_alloc(n, sizeof *work, err);
     int bad = (n && !work) || fl_gpu_world_second_half(g, w, stiffness, err);
-    for (int32_t k = 0; k < n && !bad; k++) {
-        const fl_body_block one = fl_body_second_half(w, guest[k], h);
-        work[k] =
-            (fl_gpu_guest_work){one.contact_force, one.damping_work, one.friction_work, one.not_finite < 0};
-    }
+    const int32_t blocks = bad ? 0 : fl_block_count(w);
+#pragma omp parallel for schedule(static) num_threads(w->team.n) if (w->team.n > 1 && n > GUESTS)
+    for (int32_t b = 0; b < blocks; b++) /* guests of a block share its sums */
+        end_guests(w, guest, first_guest(guest, n, b), first_guest(guest, n, b + 1), h, work);
     bad = bad || fl_gpu_world_finish(g, w, work, stiffness, err);
     free(work);
     w->device.stale = 1;

@@ -19,6 +19,13 @@ void fl_device_free(fl_world *w);
 /* Brings the world up to date.  -1 with FL_SYSTEM: the card is lost. */
 int fl_device_refresh(fl_world *w, fl_err *err);
 
+/* Brings it up to date for changes between two steps, which the device takes over before the next. */
+int fl_device_hand_over(fl_world *w, fl_err *err);
+
+/* 1 if the device moves body i, whose state in the world is old; and if one of those has left the domain. */
+int fl_device_moves(const fl_world *w, int32_t i);
+int fl_device_leaves(const fl_world *w);
+
 /* Drag, kick and drift; sets the largest paths of w->blocks. */
 int fl_device_first_half(fl_world *w, double h, fl_err *err);
 /* Before the neighbour list is made anew, and after.  fl_device_makes_lists(): the device lists pairs of

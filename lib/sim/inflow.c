@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
+#include "body/domain_kernel.h"
 #include "contact/bond_list.h"
 #include "contact/crushing.h"
 #include "contact/pair_law.h"
@@ -10,6 +11,7 @@
 #include "contact/pair_store.h"
 #include "narrow/gjk.h"
 #include "sim/body_step.h"
+#include "sim/device_step.h"
 #include "sim/energy_balance.h"
 #include "sim/energy_ledger.h"
 #include "sim/floe_cut.h"
@@ -167,11 +169,7 @@ static double coordinate_along(const fl_inflow_state *t, fl_vec3 x)
 
 static int is_outside(const fl_world *w, int32_t i)
 {
-    const fl_inflow_state *t = &w->inflow;
-    const fl_vec3 x = w->b.x[i];
-    const double r = w->b.bounding_radius[i] + w->b.radius[i];
-    return x.x + r < t->lo.x || x.x - r > t->hi.x || x.y + r < t->lo.y || x.y - r > t->hi.y ||
-           x.z + r < t->lo.z || x.z - r > t->hi.z;
+    return fl_is_beyond(w->inflow.lo, w->inflow.hi, w->b.x[i], fl_body_extent(&w->b, i));
 }
 
 static void remove_floe(fl_world *w, int32_t i)
@@ -426,6 +424,7 @@ static int take_out(fl_world *w, const uint8_t *gone, fl_err *err)
 int fl_inflow_remove(fl_world *w, const uint8_t *gone, fl_err *err)
 {
     fl_ledger *g = &w->ledger;
+    if (fl_device_hand_over(w, err)) return -1;
     fl_sleep_advance_to_now(w);
     fl_energy_update(w);
     const double residual = g->residual, throughput = g->throughput;
@@ -441,12 +440,13 @@ int fl_inflow_step(fl_world *w, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
     fl_ledger *g = &w->ledger;
-    int leaving = 0, came = 0;
+    int leaving = t->leaves && fl_device_leaves(w), came = 0;
     int32_t place = 0;
     if (t->feed) release_guided(w);
     for (int32_t i = 0; t->leaves && i < w->n && !leaving; i++)
-        leaving = !t->absent[i] && !t->guided[i] && is_outside(w, i);
+        leaving = !t->absent[i] && !t->guided[i] && !fl_device_moves(w, i) && is_outside(w, i);
     if (!leaving && !is_due(w)) return 0;
+    if (fl_device_hand_over(w, err)) return -1;
     fl_sleep_advance_to_now(w);
     fl_energy_update(w);
     const double residual = g->residual, throughput = g->throughput;
