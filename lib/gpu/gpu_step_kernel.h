@@ -82,7 +82,7 @@ static inline void fl_gpu_take_guest(const fl_gpu_view *a, int32_t g)
     const int32_t k = a->guest[g];
     if (!(a->guest_state[g].state.r > 0.0)) return; /* its state is there */
     a->state[k] = a->guest_state[g].state;
-    a->yields[k] = a->guest_state[g].yields;
+    a->yields[k] = a->guest_state[g].yields, a->inverse[k] = a->guest_state[g].inverse;
 }
 
 static inline void fl_gpu_block_moves(const fl_gpu_view *a, int32_t g)

@@ -36,6 +36,7 @@ typedef struct {
 typedef struct {
     fl_sphere_state state;
     fl_vec3 yields; /* diagonal of the inverse masses [1/kg] */
+    double inverse; /* inverse mass along a free direction [1/kg] */
 } fl_gpu_guest_state;
 
 /* What the CPU tells of a guest after its step. */
@@ -79,8 +80,8 @@ typedef struct {
     const double *m, *invm, *turn, *inertia; /* turn: 1/I */
     double *odometer;
     const double *odometer_at_search;
-    fl_vec3 *yields;       /* diagonal of the inverse masses, where it depends on the direction */
-    const double *inverse; /* inverse mass along a free direction */
+    fl_vec3 *yields; /* diagonal of the inverse masses, where it depends on the direction */
+    double *inverse; /* inverse mass along a free direction */
     int32_t *contact_count;
     fl_sphere_sum *sum, *previous_sum;
     fl_vec3 *contact_force;

@@ -349,7 +349,8 @@ static int give_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
 {
     for (int32_t k = 0; k < g->guests; k++) {
         const int32_t i = g->guest[k];
-        g->guest_state[k] = (fl_gpu_guest_state){w->spheres.state[i], yields_of(w, i)};
+        g->guest_state[k] =
+            (fl_gpu_guest_state){w->spheres.state[i], yields_of(w, i), fl_body_inverse_mass(&w->b, i)};
         if (g->host[i] == NEW_GUEST) g->guest_state[k].state.r = 0.0, g->host[i] = GUEST;
     }
     return PUT(guest_state, g->guest_state, g->guests) || LAUNCH(TAKE_GUESTS, g->guests) ? -1 : 0;

@@ -151,11 +151,18 @@ static void a_run_may_change_its_device(void **state)
     runs_alike(scene_of_sheet, 4, NULL, fl_gpu_serial(), 1500, 1);
 }
 
+/* Waves; spheres do not stand for a slab there. */
+static void put_in_waves(lab *l)
+{
+    static const char *const KEYS[] = {"water.wave=jonswap", "water.height=0.3 m", "water.period=3 s",
+                                       "water.components=8", "water.added_mass=0", "ice.slab=none"};
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
+}
+
 static void scene_of_sheet_in_waves(lab *l, int32_t side, const char *law)
 {
     scene_of_sheet(l, side, law);
-    lab_set(l, "water.wave=jonswap"), lab_set(l, "water.height=0.3 m"), lab_set(l, "water.period=3 s");
-    lab_set(l, "water.components=8"), lab_set(l, "ice.slab=none"), lab_set(l, "water.added_mass=0");
+    put_in_waves(l);
 }
 
 /* Waves, wind, a current with a profile and drag by facets on spheres and boxes. */
@@ -168,18 +175,24 @@ static void scene_of_seas_without_added_mass(lab *l, int32_t side, const char *l
 static void other_waters_have_the_bits_of_the_cpu(void **state)
 {
     (void)state;
-    runs_alike(scene_of_sheet_in_waves, 4, NULL, fl_gpu_serial(), 1000, 0);
-    runs_alike(scene_of_sheet_in_waves, 3, NULL, fl_gpu_serial_backwards(), 600, 1);
-    runs_alike(scene_of_seas_without_added_mass, 3, NULL, fl_gpu_serial(), 300, 0);
+    runs_alike(scene_of_sheet_in_waves, 3, NULL, fl_gpu_serial(), 600, 0);
+    runs_alike(scene_of_sheet_in_waves, 3, NULL, fl_gpu_serial_backwards(), 300, 1);
+    runs_alike(scene_of_seas_without_added_mass, 2, NULL, fl_gpu_serial(), 300, 0);
+}
+
+static void scene_of_endless_sheet_in_waves(lab *l, int32_t side, const char *law)
+{
+    scene_of_endless_sheet(l, side, law);
+    put_in_waves(l);
 }
 
 static void inflow_and_outflow_have_the_bits_of_the_cpu(void **state)
 {
     (void)state;
-    runs_alike(scene_of_endless_sheet, 4, NULL, fl_gpu_serial(), 2000, 0);
-    runs_alike(scene_of_endless_sheet, 3, NULL, fl_gpu_serial_backwards(), 1500, 1);
-    runs_alike(scene_of_inflow, 3, NULL, fl_gpu_serial(), 1000, 0);
-    runs_alike(scene_of_inflow_interval, 3, NULL, fl_gpu_serial(), 400, 0);
+    runs_alike(scene_of_endless_sheet, 3, NULL, fl_gpu_serial(), 1200, 0);
+    runs_alike(scene_of_endless_sheet, 3, NULL, fl_gpu_serial_backwards(), 600, 1);
+    runs_alike(scene_of_endless_sheet_in_waves, 3, NULL, fl_gpu_serial(), 600, 0);
+    runs_alike(scene_of_inflow, 3, NULL, fl_gpu_serial(), 600, 0);
 }
 
 /* Names what does not run there. */
