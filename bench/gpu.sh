@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # gpu.sh check|bench [BUILD [OUT]] -- spheres on a card against the processor, with the programs of BUILD/bin.
 #   check   state hashes and checkpoints: a free pack, a heap with rolling, a periodic shear, a sheet that breaks on a
-#           cone; then a run that goes from the processor to the card and back.  Status 1 if one differs
+#           cone, the same in waves, a sheet without end; then a run that goes from the processor to the card and back.
+#           Status 1 if one differs
 #   bench   steps a second, and ns a body and a contact or bond, from 10 000 to 10 million spheres, with searches and
 #           tables; sizes that would not end in time are left out
 #   OUT/gpu.tsv   rows of either are put in the place of its last ones; its head names card and processor.  OUT is
@@ -119,7 +120,16 @@ if [ "$what" = check ]; then
     compare free $n pack.dat
     compare heap $n pack.dat
     compare shear $n cell.dat
+    # the same in waves and wind; a sheet without end
+    sed -e 's/^added_mass = .*/added_mass = 0\nwave = airy\nheight = 0.2 m\nperiod = 2 s/' sheet.scene >waves.scene
+    printf '[ice]\nslab = none\n[wind]\nvelocity = 10 0 0\n' >>waves.scene
+    voronoi-ice --lattice hcp --layers 2 --thickness 0.3 --size 3x3 --origin=-3.95,-1.5 --rows across --edges 1 --endless --bonded \
+        --velocity 1,0 --flexural 60kPa --young 0.1GPa --scene inflow-keys.scene -q -o inflow.dat || fail "no sheet without end"
+    sed -e 's/sheet-keys.scene/inflow-keys.scene/; s/sheet.dat/inflow.dat/; /^type = free/d' sheet.scene >inflow.scene
+    printf '[boundary]\nmax = 0.2 none none\n' >>inflow.scene
     compare sheet "$(awk -v t=$long 'BEGIN { print t * 10000 }')" sheet.dat
+    compare waves "$(awk -v t=$long 'BEGIN { print t * 10000 }')" sheet.dat
+    compare inflow "$(awk -v t=$long 'BEGIN { print t * 10000 }')" inflow.dat
     third=$(awk -v t=$long 'BEGIN { print t / 3 }') two=$(awk -v t=$long 'BEGIN { print 2 * t / 3 }')
     checkpoints sheet $long "$third" "$two" sheet.dat
 else

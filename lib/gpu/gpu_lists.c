@@ -97,6 +97,7 @@ int fl_gpu_lists_make(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
     FL_GPU_EXCHANGE(first, new_first);
     FL_GPU_EXCHANGE(link_first, new_link_first);
     g->v.rows = rows;
+    g->has_listed |= rows > 0;
     g->rows_newer = 1;
     return ROOM(link, links) || LAUNCH(LINK_ROWS, w->n) || LAUNCH(FORGET_ENDED, w->discs.n) ? -1 : 0;
 }

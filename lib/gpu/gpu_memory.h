@@ -21,6 +21,7 @@ struct fl_gpu_world {
     fl_gpu_buffer memory[FL_GPU_BUFFERS];
     int uploaded;
     int makes_lists; /* the rows are listed on the device */
+    int has_listed;  /* a row or a contact with a wall */
     int rows_newer;  /* the rows of the world are those of a list before */
     int32_t n;       /* bodies of the arrays below */
     uint8_t *host;

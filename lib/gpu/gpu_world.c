@@ -358,7 +358,9 @@ static int give_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
 
 int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
+    if (!g->uploaded) g->has_listed |= w->spheres.bodies && g->n == 0;
     if (!w->spheres.bodies && fl_contact_list_index(w, err)) return -1;
+    g->has_listed |= w->spheres.walls || (w->spheres.n && !(g->uploaded && g->makes_lists));
     if (choose_guests(g, w, err)) return -1;
     set_parameters(g, w);
     if (!g->uploaded && (put_constants(g, w, err) || put_states(g, w, err))) return -1;
@@ -463,6 +465,8 @@ int fl_gpu_world_download(fl_gpu_world *g, fl_world *w, fl_err *err)
                ? -1
                : 0;
 }
+
+int fl_gpu_world_has_listed_none(const fl_gpu_world *g) { return !g->has_listed; }
 
 int fl_gpu_world_makes_lists(const fl_gpu_world *g) { return g->uploaded && g->makes_lists; }
 

@@ -52,6 +52,9 @@ void fl_gpu_world_forget(fl_gpu_world *g);
 /* 1 if the device lists the rows. */
 int fl_gpu_world_makes_lists(const fl_gpu_world *g);
 
+/* 1 if no row and no contact with a wall was ever listed, here or on the CPU. */
+int fl_gpu_world_has_listed_none(const fl_gpu_world *g);
+
 /* The bodies that the CPU moves, ascending. */
 const int32_t *fl_gpu_world_guests(const fl_gpu_world *g, int32_t *n);
 

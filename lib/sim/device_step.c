@@ -121,6 +121,11 @@ int fl_device_makes_lists(const fl_world *w)
     return w->device.gpu && fl_gpu_world_makes_lists(w->device.gpu);
 }
 
+int fl_device_has_listed_none(const fl_world *w)
+{
+    return w->device.gpu && fl_gpu_world_has_listed_none(w->device.gpu);
+}
+
 int fl_device_before_search(fl_world *w, fl_err *err)
 {
     return fl_device_makes_lists(w) ? fl_gpu_world_download_bodies(w->device.gpu, w, err)

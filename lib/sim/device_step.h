@@ -31,6 +31,8 @@ int fl_device_first_half(fl_world *w, double h, fl_err *err);
 /* Before the neighbour list is made anew, and after.  fl_device_makes_lists(): the device lists pairs of
  * spheres. */
 int fl_device_makes_lists(const fl_world *w);
+/* 1 if a device runs the spheres, and no pair of them and no contact with a wall was ever listed. */
+int fl_device_has_listed_none(const fl_world *w);
 int fl_device_before_search(fl_world *w, fl_err *err);
 int fl_device_take_lists(fl_world *w, fl_err *err);
 int fl_device_contacts(fl_world *w, fl_err *err);

@@ -308,7 +308,7 @@ static int rebuild_list(fl_world *w, fl_err *err)
 static int add_ended(fl_world *w, fl_err *err)
 {
     if (!w->discs.ended) return 0;
-    if (!w->spheres.bodies) return search(w, err);
+    if (!w->spheres.bodies || fl_device_has_listed_none(w)) return search(w, err);
     if (!fl_device_makes_lists(w) && fl_contact_list_add_ended(w, err)) return -1;
     fl_disc_list_forget_ended(w);
     return 0;
