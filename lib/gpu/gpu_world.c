@@ -36,9 +36,7 @@ const char *fl_gpu_world_refuses(const fl_world *w)
     return NULL;
 }
 
-/* Water of which the device has no kernel: its forces and drag are those of the CPU, which moves all bodies
- * then. */
-static int has_other_water(const fl_world *w)
+int fl_gpu_world_has_other_water(const fl_world *w)
 {
     const fl_environment *s = &w->sea;
     return s->n &&
@@ -140,7 +138,7 @@ static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
         if (!g->leaves || !g->host || !g->guest || !g->guest_state || !g->guest_sum || !g->moves) return -1;
     }
     g->guests = g->guest_discs = 0;
-    const int all = has_other_water(w);
+    const int all = fl_gpu_world_has_other_water(w);
     for (int32_t k = 0; k < w->n; k++) {
         const int guest = all || is_guest(w, k);
         if (!guest && g->host[k] && g->uploaded && release_guest(g, w, k, err)) return -1;

@@ -3,7 +3,8 @@
  *
  * The device moves the spheres that only meet spheres, walls and bonds, dry or in still water.  All other
  * bodies are guests: those near the structure, driven ones, ones with fixed directions, floes that are no
- * spheres, places of bodies that are not there, and all bodies in waves, wind and other waters.  The CPU moves them with its own code, while the device evaluates rows and bonds:
+ * spheres, places of bodies that are not there, and all bodies in waves, wind and other waters.
+ * The CPU moves them with its own code, while the device evaluates rows and bonds:
  *
  *     fl_gpu_world_first_half()   own bodies: drag, kick, drift.  The caller does the same for guests
  *     fl_gpu_world_contacts()     states of guests up; rows, walls and bonds are launched
@@ -23,6 +24,9 @@ typedef struct fl_gpu_world fl_gpu_world;
 
 /* Why the scene of w cannot run on a device, as words after "has" ("waves"); NULL if it can. */
 const char *fl_gpu_world_refuses(const fl_world *w);
+
+/* 1 if all bodies are guests, since the device has no kernel of their water. */
+int fl_gpu_world_has_other_water(const fl_world *w);
 
 /* Bytes that n bodies with that many rows and bonds take on the device, an estimate before the run. */
 double fl_gpu_world_bytes(const fl_world *w);

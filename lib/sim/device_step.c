@@ -56,6 +56,8 @@ int fl_device_choose(fl_world *w, char note[FL_DEVICE_NOTE], fl_err *err)
     }
     if (want == FL_DEVICE_SERIAL) return take_engine(w, fl_gpu_serial(), note, err);
     if (want == FL_DEVICE_AUTO && w->n < FEWEST) return take_cpu(w, FL_SYSTEM, note, "few spheres", err);
+    if (want == FL_DEVICE_AUTO && fl_gpu_world_has_other_water(w))
+        return take_cpu(w, FL_SYSTEM, note, "waves, wind and profiles of the current are its own", err);
     const fl_gpu_engine *const e = fl_gpu_plugin(why);
     return e ? take_engine(w, e, note, err) : take_cpu(w, FL_SYSTEM, note, why, err);
 }
