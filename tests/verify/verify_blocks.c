@@ -287,6 +287,35 @@ static void yielding_once(void)
     verify_row("CY-1", "tau at 2 mm in one step [MPa]", p.tau[0] * 1e-6, 9.05411, 2e-4, VERIFY_REL);
 }
 
+/* CY-2: CY-1 at a fifth of the stress, where tau is a fifth at the same slip; then under a stress that rises
+ * with slip, sigma = 5 MPa + 1 GPa/m u, with k_s = 1e10 sqrt(sigma/10 MPa).  Its numbers are those of the two
+ * equations by Runge and Kutta in 40 000 steps (14 digits). */
+static void yielding_pressed(void)
+{
+    static const double CURVE[][3] = {{1, 4.431959, 48.10892}, {2, 6.120113, 44.86643},
+                                      {4, 7.142908, 39.28273}, {6, 7.686966, 35.70743},
+                                      {8, 8.337873, 33.51350}, {10, 9.114147, 32.16628}};
+    enum { EACH = 4000 }; /* steps a mm */
+    fl_joint_material m = yielding_joint(1e3, 50.0, 30.0, 4e-3);
+    fl_joint_point p;
+    fl_joint_point_start(&m, &p, 2e6, NONE);
+    slide(&m, &p, 0.0, 2e-3, 2000, NULL);
+    verify_row("CY-2", "tau at 2 MPa and 2 mm [MPa]", p.tau[0] * 1e-6, 0.2 * 9.05411, 1e-4, VERIFY_REL);
+    m.ks = 1e10 / sqrt(10e6), m.shear_exponent = 0.5;
+    fl_joint_point_start(&m, &p, 5e6, NONE);
+    for (int k = 0, row = 0; row < (int)(sizeof CURVE / sizeof *CURVE); k++) {
+        char what[64];
+        const double u = 1e-3 * (k + 0.5) / EACH; /* in the middle of the step */
+        slide(&m, &p, p.offset - (5e6 + 1e9 * u) / m.kn, 1e-3 / EACH, 1, NULL);
+        if (k + 1 < (int)CURVE[row][0] * EACH) continue;
+        snprintf(what, sizeof what, "tau at %g mm, sigma rises [MPa]", CURVE[row][0]);
+        verify_row("CY-2", what, p.tau[0] * 1e-6, CURVE[row][1], 1e-4, VERIFY_REL);
+        snprintf(what, sizeof what, "phi_m at %g mm [deg]", CURVE[row][0]);
+        verify_row("CY-2", what, p.angle * 180.0 / PI, CURVE[row][2], 1e-4, VERIFY_REL);
+        row++;
+    }
+}
+
 /* CY-3: to 3 mm, back to 2.7, on to 5, back to 0.  Errors of tau over sigma. */
 static void yielding_cyclic(void)
 {
@@ -582,6 +611,7 @@ int main(void)
     coulomb_tension();
     coulomb_dilation();
     yielding_once();
+    yielding_pressed();
     yielding_cyclic();
     closures();
     block_at_rest();
