@@ -528,6 +528,30 @@ static void block_slides(void)
     lab_free(&l);
 }
 
+/* Thrown along and off its bed by half its height, the block lands elsewhere: its joint closes again. */
+static void block_lands(void)
+{
+    const double g = 10.0, up = 2.2, W = 20000.0;
+    double highest = 0.0;
+    lab l;
+    begin_block_on_bed(&l, (const double[]){40, 0, 0.3}, "none");
+    lab_setf(&l, "run.gravity=0 0 %g", -g);
+    lab_make(&l, 0.0);
+    const double z = l.w.b.x[1].z;
+    l.w.b.v[1] = v3(0.5, 0, up);
+    while (fl_world_time(&l.w) < 2.0) {
+        if (lab_run(&l, 1)) exit(1);
+        highest = fmax(highest, l.w.b.x[1].z - z);
+    }
+    const fl_joint_counts n = fl_joint_list_counts(&l.w);
+    verify_row("again", "joint opens by [m]", highest, up * up / (2.0 * g), 1e-3, VERIFY_REL);
+    verify_true("again", "it is the same joint, and closed", n.elastic == 1 && n.open + n.ended == 0);
+    verify_row("again", "force on it over W, after the landing", -fl_bond_list_load(&l.w, 0).tension / W, 1.0,
+               1e-3, VERIFY_REL);
+    verify_row("again", "sunk [m]", z - l.w.b.x[1].z, W / (1e8 * 4.0), 1e-3, VERIFY_REL);
+    lab_free(&l);
+}
+
 static void block_factors(void)
 {
     const double dry = tan(40.0 * PI / 180.0) / tan(PI / 6.0);
@@ -618,6 +642,7 @@ int main(void)
     joint_memory();
     stress_at_start();
     block_slides();
+    block_lands();
     block_factors();
     wedge_factors();
     wedge_slides();
