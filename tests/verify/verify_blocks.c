@@ -562,6 +562,59 @@ static void block_factors(void)
                VERIFY_REL);
 }
 
+/* 1 if a block of 10 m by 25 m, 1 m deep, stands on a bed of stiffness kn under a slope. */
+static int tall_block_stands(double kn, double slope)
+{
+    const double cosine = 1.0 / sqrt(1.0 + slope * slope);
+    fl_err err = {0};
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "run.relax=local");
+    lab_set(&l, "run.safety=0.8");
+    lab_setf(&l, "run.gravity=%.17g 0 %.17g", 10.0 * slope * cosine, -10.0 * cosine);
+    lab_set(&l, "material.ice.density=2000");
+    lab_set(&l, "material.ice.young=1 GPa");
+    lab_set(&l, "group.bed.fixed=x y z rx ry rz");
+    lab_set(&l, "group.tall.fixed=y rx rz");
+    set_joint(&l, "bed", kn, 60.0);
+    add_block(&l, 0, v3(-8, -1, -1), v3(8, 2, 0), "bed");
+    add_block(&l, 1, v3(-5, 0, 0), v3(5, 1, 25), "tall");
+    if (fl_ice_field_add_joint(&l.field, 0, 1, face_along_z(&l.field.core[0], 1.0),
+                               face_along_z(&l.field.core[1], -1.0), "bed", &err))
+        exit(1);
+    lab_make(&l, 0.0);
+    fl_joint_material *m = l.w.bonds.joint_material;
+    m->cohesion = m->tension = INFINITY;
+    int stands = 0, rests = 0;
+    for (int k = 0, held = 1; k < 8 * STEPS_AT_MOST && l.w.b.x[1].x < 0.3 * 12.5; k += EVERY) {
+        if (lab_run(&l, EVERY)) exit(1);
+        rests = fl_relaxed_run_ratio(&l.w) < 1e-5 ? rests + 1 : 0;
+        if (rests < 3) continue; /* a turn has moments of balance */
+        stands = !held;
+        if (stands) break;
+        held = rests = 0;
+        m->cohesion = m->tension = 0.0;
+    }
+    lab_free(&l);
+    return stands;
+}
+
+/* V26's block on a bed of 1 GPa/m.  Points stand at the edges and in the middle, with 1/6, 4/6 and 1/6 of
+ * kn b: it topples as the middle one opens, turned by 12 N/(kn b^2).  On many springs it would topple at
+ * (2/h)(b/2 - 1.5 (2 h N/(9 kn))^(1/3)) = 0.3644, earlier by 9 %. */
+static void tall_block(void)
+{
+    const double b = 10.0, h = 25.0, W = b * h * 2e4, kn = 1e9;
+    double lo = 0.3, hi = 0.45, slope = b / h;
+    for (int e = 0; e < 50; e++) slope = b / h - 12.0 * W / sqrt(1.0 + slope * slope) / (kn * b * b);
+    while (hi - lo > 1e-3) {
+        const double middle = 0.5 * (lo + hi);
+        if (tall_block_stands(kn, middle)) lo = middle;
+        else hi = middle;
+    }
+    verify_row("tall", "slope at which it topples", 0.5 * (lo + hi), slope, 2e-3, VERIFY_ABS);
+}
+
 /* A wedge on A 45/105 and B 70/235; degrees[0], [1] friction, [2]: damping. */
 static int32_t wedge_on_joints(lab *l, const double *degrees, const char *relax)
 {
@@ -644,6 +697,7 @@ int main(void)
     block_slides();
     block_lands();
     block_factors();
+    if (!verify_quick()) tall_block();
     wedge_factors();
     wedge_slides();
     return verify_end();
