@@ -10,6 +10,11 @@
  * offset and slip go over as linear fields by least squares, strength and direction from the nearest point.
  * So a small block on a long bed keeps its area, and off the edge the area falls to 0.
  *
+ * Three points across are exact for a closed face; one that opens from an edge is stiffer than a bed of
+ * springs.  A block of width b and height h topples where its middle point opens, at
+ * tan a = b/h - 12 N/(k_n b^2), N per length of the edge, in place of
+ * (2/h)(b/2 - 1.5 (2 h N/(9 k_n))^(1/3)).  Both tend to b/h as k_n grows.
+ *
  * Law.  A point has a law of joint_law.h.  It may fail and close again any number of times.
  *
  * End.  The joint ends where nothing is left of the common part, or the faces have turned by 60 degrees.  Its

@@ -31,6 +31,30 @@ static int check_yielding(const fl_scene_joint *s, fl_err *err)
     if (s->shear_exponent > 0.0 && isinf(s->largest_shear_stiffness))
         return fail_joint(
             s, "has a shear_exponent and no largest_shear_stiffness, from which the step follows", err);
+    if (s->initial_angle < s->friction_angle)
+        return fail_joint(s, "has an initial_angle below its friction_angle, to which it falls", err);
+    return 0;
+}
+
+/* Keys of the other law would have no effect. */
+static int check_keys(const fl_scene_joint *s, fl_err *err)
+{
+    const struct {
+        int law, is_given;
+        const char *key;
+    } key[] = {{FL_JOINT_COULOMB, s->cohesion != 0.0, "cohesion"},
+               {FL_JOINT_COULOMB, s->tension != 0.0, "tension"},
+               {FL_JOINT_COULOMB, s->dilation != 0.0, "dilation"},
+               {FL_JOINT_COULOMB, s->residual_friction >= 0.0, "residual_friction"},
+               {FL_JOINT_COULOMB, s->residual_cohesion != 0.0, "residual_cohesion"},
+               {FL_JOINT_YIELDING, s->roughness > 0.0, "roughness"},
+               {FL_JOINT_YIELDING, s->initial_angle > 0.0, "initial_angle"},
+               {FL_JOINT_YIELDING, s->normal_exponent != 0.0, "normal_exponent"},
+               {FL_JOINT_YIELDING, s->shear_exponent != 0.0, "shear_exponent"}};
+    for (int k = 0; k < (int)(sizeof key / sizeof *key); k++)
+        if (key[k].is_given && key[k].law != s->law)
+            return fl_fail(err, FL_INPUT, "[joint %s] has %s, which law = %s does not use", s->name,
+                           key[k].key, fl_joint_laws[s->law].name);
     return 0;
 }
 
@@ -41,7 +65,7 @@ static int make_law(const fl_scene_joint *s, fl_joint_material *m, fl_err *err)
     if (!(s->shear_stiffness > 0.0)) return fail_joint(s, "has no shear_stiffness", err);
     if (s->friction > 0.0 && s->friction_angle >= 0.0)
         return fail_joint(s, "has friction and friction_angle, one of them is expected", err);
-    if (s->law == FL_JOINT_YIELDING && check_yielding(s, err)) return -1;
+    if (check_keys(s, err) || (s->law == FL_JOINT_YIELDING && check_yielding(s, err))) return -1;
     const double friction = s->friction_angle >= 0.0 ? tan(s->friction_angle * turn) : s->friction;
     *m = (fl_joint_material){.law = s->law,
                              .kn = s->normal_stiffness,
@@ -62,6 +86,8 @@ static int make_law(const fl_scene_joint *s, fl_joint_material *m, fl_err *err)
                              .angle = fmax(0.0, s->friction_angle) * turn,
                              .initial_angle = s->initial_angle * turn,
                              .roughness = s->roughness};
+    if (m->dilation > fmin(m->friction, m->residual_friction))
+        return fail_joint(s, "has a dilation above its friction: slip would do work", err);
     return 0;
 }
 

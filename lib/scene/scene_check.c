@@ -454,9 +454,10 @@ static int check_statics(const fl_scene *s, fl_err *err)
     if (s->n_stage && s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE)
         return fl_scene_fail(s, "boundary.inflow", err,
                              "stages change a model without inflow: either is expected");
-    if (s->n_stage && s->output.checkpoint[0])
-        return fl_scene_fail(s, "output.checkpoint", err,
-                             "a run with stages is not saved: no checkpoint is expected");
+    if (s->n_stage && s->run.error > 0.0)
+        return fl_scene_fail(
+            s, "run.error", err,
+            "run.error is for a model that stays the same: either it or stages are expected");
     if (!s->run.relax) return 0;
     if (s->run.sleep > 0.0)
         return fl_scene_fail(s, "run.sleep", err,
@@ -464,9 +465,6 @@ static int check_statics(const fl_scene *s, fl_err *err)
     if (s->run.error > 0.0)
         return fl_scene_fail(s, "run.error", err,
                              "run.error is for motion in time: either it or run.relax is expected");
-    if (s->output.checkpoint[0])
-        return fl_scene_fail(s, "output.checkpoint", err,
-                             "a run with run.relax is not saved: no checkpoint is expected");
     return 0;
 }
 

@@ -45,9 +45,7 @@ int fl_scene_check_zones(const fl_scene *s, fl_err *err)
                  {s->boundary.head.present && s->boundary.inflow != FL_INFLOW_NONE, "an inflow"},
                  {s->run.sleep > 0.0, "run.sleep"},
                  {s->run.error > 0.0, "run.error"},
-                 {s->run.device == FL_DEVICE_GPU || s->run.device == FL_DEVICE_SERIAL, "run.device"},
-                 {s->run.relax == FL_RELAX_KINETIC || s->run.relax == FL_RELAX_ADAPTIVE,
-                  "run.relax other than local"}};
+                 {s->run.device == FL_DEVICE_GPU || s->run.device == FL_DEVICE_SERIAL, "run.device"}};
     for (int k = 0; k < (int)(sizeof other / sizeof *other); k++)
         if (other[k].present)
             return fl_scene_fail(s, "zones.size", err, "blocks with zones do not go together with %s",

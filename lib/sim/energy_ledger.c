@@ -5,6 +5,7 @@
 #include "body/integrate.h"
 #include "contact/bond_list.h"
 #include "sim/ice_push.h"
+#include "sim/relaxed_run.h"
 
 static double power_of(fl_vec3 f, fl_vec3 t, fl_vec3 v, fl_vec3 w) { return v3_dot(f, v) + v3_dot(t, w); }
 
@@ -107,6 +108,7 @@ void fl_contact_sums_recompute(fl_world *w, int32_t k)
         fl_contact_sum_add(&s, p, p->i == k);
     }
     if (fl_body_has_bonds(w, k)) fl_bond_list_add_sums(w, k, &s);
+    if (w->relax.kind && k < w->n) fl_relaxed_run_add_sum(w, k, &s);
     if (s.contacts) *fl_sums_now(w, k) = s;
     else fl_sums_clear(w, k);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/relaxed_run.h"
+#include <stddef.h>
 #include <stdlib.h>
 #include "base/array.h"
 #include "sim/zone_step.h"
@@ -16,13 +17,16 @@ int fl_relaxed_run_make(fl_world *w, fl_err *err)
     if (!s->kind) return 0;
     s->r = fl_relaxation_start(s->kind == FL_RELAX_KINETIC ? FL_RELAXATION_KINETIC : FL_RELAXATION_ADAPTIVE,
                                0.0);
-    if (s->kind == FL_RELAX_ADAPTIVE && !(s->force = fl_alloc(w->n, sizeof *s->force, err))) return -1;
-    return 0;
+    if (!(s->damping = fl_alloc(w->n, sizeof *s->damping, err))) return -1;
+    if (s->kind != FL_RELAX_ADAPTIVE) return 0;
+    if (!(s->force = fl_alloc(w->n, sizeof *s->force, err))) return -1;
+    if (!w->zones.set.blocks) return 0;
+    return (s->node_force = fl_alloc(w->zones.set.nodes, sizeof *s->node_force, err)) ? 0 : -1;
 }
 
 void fl_relaxed_run_free(fl_relax_state *s)
 {
-    free(s->force);
+    free(s->damping), free(s->force), free(s->node_force);
     *s = (fl_relax_state){0};
 }
 
@@ -60,8 +64,29 @@ void fl_relaxed_run_damp(fl_world *w, int32_t k, fl_contact_sum *sum)
     }
     f = free_part(b, k, f), t = free_turn(b, k, t);
     b->f[k] = v3_add(b->f[k], f), b->t[k] = v3_add(b->t[k], t);
+    w->relax.damping[k][0] = f, w->relax.damping[k][1] = t;
+    fl_relaxed_run_add_sum(w, k, sum);
+}
+
+void fl_relaxed_run_add_sum(const fl_world *w, int32_t k, fl_contact_sum *sum)
+{
+    if (w->relax.kind == FL_RELAX_KINETIC || fl_body_absent(w, k)) return;
     sum->contacts++;
-    sum->damping = v3_add(sum->damping, f), sum->damping_torque = v3_add(sum->damping_torque, t);
+    sum->damping = v3_add(sum->damping, w->relax.damping[k][0]);
+    sum->damping_torque = v3_add(sum->damping_torque, w->relax.damping[k][1]);
+}
+
+/* Of the nodes of all zones: chunks in their order. */
+static double sum_of_nodes(const fl_world *w, size_t member)
+{
+    const fl_zone_set *s = &w->zones.set;
+    double sum = 0.0;
+    for (int32_t c = 0; c < s->node_chunks; c++) {
+        const fl_zone_sum *q = &s->sum[c];
+        if (!s->block[s->node_chunk[c].block].absent)
+            sum += *(const double *)(const void *)((const char *)q + member);
+    }
+    return sum;
 }
 
 /* Kinetic energy of the bodies that damping may stop. */
@@ -70,13 +95,14 @@ static double free_kinetic(const fl_world *w)
     double sum = 0.0;
     for (int32_t k = 0; k < w->n; k++)
         if (!w->b.fixed_dof[k] && !fl_body_absent(w, k)) sum += fl_body_kinetic_energy(&w->b, k);
-    return sum;
+    return sum + 0.5 * sum_of_nodes(w, offsetof(fl_zone_sum, motion));
 }
 
 static void stop_bodies(fl_world *w)
 {
     for (int32_t k = 0; k < w->n; k++)
         if (!w->b.fixed_dof[k] && !fl_body_absent(w, k)) w->b.v[k] = w->b.w[k] = w->b.L[k] = v3(0, 0, 0);
+    fl_zones_stop(w);
 }
 
 /* The frequency of the motion from the work of the change of forces. */
@@ -84,7 +110,8 @@ static void adapt_rate(fl_world *w)
 {
     fl_relax_state *s = &w->relax;
     const double dt = w->dt;
-    double work = 0.0, inertia = 0.0;
+    double work = -dt * sum_of_nodes(w, offsetof(fl_zone_sum, release)),
+           inertia = dt * dt * sum_of_nodes(w, offsetof(fl_zone_sum, motion));
     for (int32_t k = 0; k < w->n; k++) {
         if (fl_body_absent(w, k) || w->b.fixed_dof[k]) continue;
         const fl_vec3 v = w->b.v[k], f = v3_sub(w->b.f[k], fl_sums_now(w, k)->damping),
@@ -101,11 +128,15 @@ void fl_relaxed_run_end_step(fl_world *w)
 {
     fl_relax_state *s = &w->relax;
     if (s->kind == FL_RELAX_ADAPTIVE) adapt_rate(w);
-    if (s->kind != FL_RELAX_KINETIC) return;
-    const double energy = free_kinetic(w);
-    if (!fl_relaxation_peak(&s->r, energy)) return;
-    stop_bodies(w);
-    w->ledger.damping += energy;
+    if (s->kind == FL_RELAX_KINETIC) {
+        const double energy = free_kinetic(w);
+        if (fl_relaxation_peak(&s->r, energy)) {
+            stop_bodies(w);
+            w->ledger.damping += energy;
+        }
+    }
+    s->settled = (w->step - w->stage_step) % FL_RELAX_EVERY == 0 &&
+                 fl_relaxed_run_ratio(w) < w->scene->run.relax_until;
 }
 
 double fl_relaxed_run_ratio(const fl_world *w)

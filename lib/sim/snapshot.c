@@ -418,6 +418,28 @@ static void exchange_load_shares(fl_state_io *t, fl_world *w)
     }
 }
 
+/* Stages, and the way to a state of rest. */
+static void exchange_statics(fl_state_io *t, fl_world *w)
+{
+    fl_relax_state *s = &w->relax;
+    fl_state_io_open(t, "stage");
+    fl_state_io_int(t, 0, w->scene->n_stage, &w->next_stage);
+    fl_state_io_count(t, &w->stage_step);
+    fl_state_io_int(t, 0, 1, &s->settled);
+    fl_state_io_real(t, &s->rate);
+    fl_state_io_real(t, &s->r.c);
+    fl_state_io_real(t, &s->r.kinetic);
+    fl_state_io_int(t, 0, 1, &s->r.fresh);
+    fl_state_io_int(t, 0, 1, &s->r.rests);
+    fl_state_io_close(t);
+    for (int32_t k = 0; k < w->n && s->damping && !t->err->code; k++) {
+        fl_state_io_open(t, "damped");
+        fl_state_io_vec3(t, &s->damping[k][0]), fl_state_io_vec3(t, &s->damping[k][1]);
+        if (s->force) fl_state_io_vec3(t, &s->force[k]);
+        fl_state_io_close(t);
+    }
+}
+
 /* Everything but the pairs; returns their number. */
 static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *spheres)
 {
@@ -464,6 +486,7 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
     if (w->inflow.absent && !t->err->code) exchange_inflow(t, w);
     if (w->crushing.dents && !t->err->code) fl_snapshot_crushing(t, w);
     if (w->breaking.on && !t->err->code) fl_snapshot_breaking(t, w);
+    if ((w->relax.kind || w->scene->n_stage) && !t->err->code) exchange_statics(t, w);
     for (int32_t k = 0; k < w->b.total && !t->err->code; k++) exchange_body(t, w, k);
     if (t->in) w->sleep.n_resting = 0;
     for (int32_t k = 0; k < w->n && w->sleep.state && !t->err->code; k++) {

@@ -12,6 +12,8 @@
  *     told      hits, checks and misses of surrogates, with contact.surrogate
  *     part ...  impulse, moment and peak of the loads in the interval
  *     traffic   counts of outflow and inflow; next ... of each floe of the feed; place ... of each floe
+ *     stage     with stages or run.relax: the next one, step of the last, whether it is at rest, damping;
+ *               damped ... of each floe: force and torque of damping, with adaptive the other force
  *     body ...  x v L q w f t, work of constraints, work of the flow (with added mass), odometer now and
  *               at the last search
  *     nap ...   with run.sleep: phase, its steps, bounds, sums for the report

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sim/snapshot_zone.h"
+#include "sim/zone_step.h"
 
-static void exchange_node(fl_state_io *t, fl_zone_state *z, int32_t n)
+static void exchange_node(fl_state_io *t, fl_world *w, int32_t n)
 {
+    fl_zone_state *z = &w->zones;
     fl_state_io_open(t, "node");
     fl_state_io_vec3(t, &z->set.x[n]), fl_state_io_vec3(t, &z->set.v[n]), fl_state_io_vec3(t, &z->set.f[n]);
     if (z->drag) fl_state_io_vec3(t, &z->drag[n]);
     if (z->push) fl_state_io_vec3(t, &z->push[n]);
+    if (w->relax.node_force) fl_state_io_vec3(t, &w->relax.node_force[n]);
     fl_state_io_close(t);
 }
 
@@ -46,7 +49,7 @@ void fl_snapshot_zones(fl_state_io *t, fl_world *w)
     fl_state_io_int(t, points, points, &points);
     fl_state_io_real(t, &z->damping), fl_state_io_real(t, &z->drive);
     fl_state_io_close(t);
-    for (int32_t n = 0; n < s->nodes && !t->err->code; n++) exchange_node(t, z, n);
+    for (int32_t n = 0; n < s->nodes && !t->err->code; n++) exchange_node(t, w, n);
     for (int32_t k = 0; k < s->zones && s->plastic && !t->err->code; k++)
         exchange_flow(t, &s->plastic[k], &s->lost[k]);
     for (int32_t n = 0; n < s->nodes && s->plastic && !t->err->code; n++)
@@ -58,4 +61,5 @@ void fl_snapshot_zones(fl_state_io *t, fl_world *w)
     }
     for (int32_t k = 0; k < z->joints.points && !t->err->code; k++)
         exchange_contact_point(t, s, &z->joints.point[k]);
+    if (t->in) fl_zones_drop_absent(w);
 }

@@ -4,7 +4,6 @@
 #include <string.h>
 #include "base/array.h"
 #include "sim/inflow.h"
-#include "sim/relaxed_run.h"
 #include "sim/zone_step.h"
 #include "world/access.h"
 
@@ -25,17 +24,14 @@ static int begin_stage(fl_world *w, const fl_scene_stage *s, const int32_t *grou
     return rc;
 }
 
-int fl_stage_update(fl_world *w, int32_t *next, const int32_t *group, const char *const *name, int32_t names,
-                    fl_err *err)
+int fl_stage_update(fl_world *w, const int32_t *group, const char *const *name, int32_t names, fl_err *err)
 {
     const fl_scene *s = w->scene;
-    const int may_settle =
-        s->run.relax && w->step > w->stage_step && (w->step - w->stage_step) % FL_STAGE_EVERY == 0;
-    const int settled = may_settle && fl_relaxed_run_ratio(w) < s->run.relax_until;
-    if (*next >= s->n_stage) return settled;
-    const fl_scene_stage *stage = &s->stage[*next];
-    if (stage->start >= 0.0 ? fl_world_time(w) < stage->start - 0.5 * w->dt : !settled) return 0;
-    ++*next;
+    if (w->next_stage >= s->n_stage) return w->relax.settled;
+    const fl_scene_stage *stage = &s->stage[w->next_stage];
+    if (stage->start >= 0.0 ? fl_world_time(w) < stage->start - 0.5 * w->dt : !w->relax.settled) return 0;
+    w->next_stage++;
     w->stage_step = w->step;
+    w->relax.settled = 0;
     return begin_stage(w, stage, group, name, names, err);
 }

@@ -8,13 +8,8 @@
 #define FL_SIM_STAGE_H
 #include "world/world.h"
 
-/* Ratio of forces is looked at every so many steps. */
-enum { FL_STAGE_EVERY = 50 };
-
-/* Between two steps. *next: the stage to come. field: groups by name; group[n]: group of each body, an index
- * into the groups of field, -1: none.
+/* Between two steps. group[n]: group of each body, an index into name, -1: none.
  * Returns 1 if the run is settled, 0 if not, -1 with FL_INPUT or FL_SYSTEM. */
-int fl_stage_update(fl_world *w, int32_t *next, const int32_t *group, const char *const *name, int32_t names,
-                    fl_err *err);
+int fl_stage_update(fl_world *w, const int32_t *group, const char *const *name, int32_t names, fl_err *err);
 
 #endif

@@ -146,6 +146,28 @@ static double against(double force, double velocity)
     return velocity > 0.0 ? -LOCAL_SHARE * fabs(force) : LOCAL_SHARE * fabs(force);
 }
 
+/* Damping to rest of the free force f on a node. */
+static fl_vec3 damping_of(const fl_world *w, int32_t n, fl_vec3 f)
+{
+    const fl_zone_set *s = &w->zones.set;
+    const fl_vec3 v = s->v[n];
+    if (w->relax.kind == FL_RELAX_LOCAL) return v3(against(f.x, v.x), against(f.y, v.y), against(f.z, v.z));
+    if (w->relax.kind != FL_RELAX_ADAPTIVE) return v3(0, 0, 0);
+    return v3_scale(-w->relax.rate * s->inertia[n], fl_zone_free_part(s->fixed[n], v));
+}
+
+/* What runs to rest need to know of the motion of a node. */
+static void add_motion(const fl_world *w, int32_t n, fl_zone_sum *sum)
+{
+    const fl_zone_set *s = &w->zones.set;
+    const fl_vec3 v = fl_zone_free_part(s->fixed[n], s->v[n]);
+    sum->motion += s->inertia[n] * v3_norm2(v);
+    if (w->relax.kind != FL_RELAX_ADAPTIVE) return;
+    const fl_vec3 f = v3_sub(s->f[n], w->zones.drag[n]);
+    sum->release += v3_dot(v, v3_sub(f, w->relax.node_force[n]));
+    w->relax.node_force[n] = f;
+}
+
 /* All forces on a node, and damping to rest; returns the force that is not balanced. */
 static double sum_node(const fl_world *w, int32_t n)
 {
@@ -156,8 +178,7 @@ static double sum_node(const fl_world *w, int32_t n)
     if (z->push) f = v3_add(f, z->push[n]);
     const fl_vec3 free_force = fl_zone_free_part(s->fixed[n], f);
     if (w->relax.kind) {
-        const fl_vec3 v = s->v[n], d = v3(against(free_force.x, v.x), against(free_force.y, v.y),
-                                          against(free_force.z, v.z));
+        const fl_vec3 d = damping_of(w, n, free_force);
         z->drag[n] = v3_add(z->drag[n], d);
         f = v3_add(f, d);
     }
@@ -179,9 +200,11 @@ void fl_zones_second_half(fl_world *w, double h)
         const fl_zone_chunk q = s->node_chunk[c];
         double most = 0.0;
         if (s->block[q.block].absent) continue;
+        s->sum[c].motion = s->sum[c].release = 0.0;
         for (int32_t n = q.from; n < q.to; n++) {
             most = fmax(most, sum_node(w, n));
             if (h > 0.0) kick_node(z, n, h, &s->sum[c]);
+            if (w->relax.kind > FL_RELAX_LOCAL) add_motion(w, n, &s->sum[c]);
         }
         s->sum[c].unbalanced = most;
     }
@@ -230,6 +253,11 @@ double fl_zones_force_ratio(const fl_world *w)
 void fl_zones_drop_absent(fl_world *w)
 {
     fl_zone_set *s = &w->zones.set;
-    for (int32_t k = 0; k < s->blocks; k++)
-        if (fl_body_absent(w, s->block[k].body)) s->block[k].absent = 1;
+    for (int32_t k = 0; k < s->blocks; k++) s->block[k].absent = fl_body_absent(w, s->block[k].body);
+}
+
+void fl_zones_stop(fl_world *w)
+{
+    fl_zone_set *s = &w->zones.set;
+    for (int32_t n = 0; n < s->nodes; n++) s->v[n] = v3_sub(s->v[n], fl_zone_free_part(s->fixed[n], s->v[n]));
 }

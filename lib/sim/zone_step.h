@@ -3,8 +3,8 @@
  *
  * Nodes move by the same velocity Verlet as bodies: half kick, drift, forces, half kick.  Forces on a node
  * are those of the stress of its zones, of the points of joints, dashpots of quiet sides, damping to rest
- * (-0.8 |f| against each component of the velocity), and its part of what acts on the block as a whole:
- * weight, and contacts other than joints, m (F/M + alpha x r) with J alpha = T.
+ * (relaxed_run.h), and its part of what acts on the block as a whole: weight, and contacts other than joints,
+ * m (F/M + alpha x r) with J alpha = T.
  *
  * Work of a force over half a kick is h f.(v before + v after)/2, exactly the change of kinetic energy by
  * it. */
@@ -32,5 +32,8 @@ double fl_zones_force_ratio(const fl_world *w);
 
 /* Takes out the blocks whose bodies are absent. */
 void fl_zones_drop_absent(fl_world *w);
+
+/* Velocities of all nodes 0 in their free directions. */
+void fl_zones_stop(fl_world *w);
 
 #endif

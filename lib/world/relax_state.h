@@ -6,10 +6,14 @@
 #include "geom/vec3.h"
 
 typedef struct {
-    int kind;        /* enum fl_relax of scene_types.h; 0: none */
-    double rate;     /* of adaptive damping: force over mass and velocity [1/s] */
-    fl_relaxation r; /* of kinetic and adaptive damping */
-    fl_vec3 *force;  /* [n] force on each floe without that damping, of the last step; adaptive alone [N] */
+    int kind;              /* enum fl_relax of scene_types.h; 0: none */
+    double rate;           /* of adaptive damping: force over mass and velocity [1/s] */
+    fl_relaxation r;       /* of kinetic and adaptive damping */
+    int settled;           /* 1: at rest by the last look of relaxed_run.h */
+    fl_vec3 (*damping)[2]; /* [n] force and torque of damping on each floe in the last step [N], [N m] */
+    /* forces on each floe and on each node of the zones without that damping, of the last step; adaptive
+     * alone [N] */
+    fl_vec3 *force, *node_force;
 } fl_relax_state;
 
 #endif

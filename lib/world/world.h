@@ -80,6 +80,7 @@ typedef struct {
     fl_sleep sleep;
     fl_relax_state relax;
     int64_t stage_step;          /* step at which the last stage began */
+    int32_t next_stage;          /* of the scene */
     fl_bond_list bonds;          /* faces */
     fl_disc_list discs;          /* of spheres */
     fl_zone_state zones;         /* deformable blocks */

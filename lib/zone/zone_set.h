@@ -58,6 +58,9 @@ typedef struct {
     fl_mat3 shape;                               /* sum m (x - o) X^T */
     double damping_work, input_work, drive_work; /* of a step [J] */
     double unbalanced; /* largest squared force on a node that is not balanced [N2] */
+    /* of runs to rest, free directions alone: sum of inertia v^2, and of v dF with the change dF of forces
+     * in a step */
+    double motion, release;
 } fl_zone_sum;
 
 typedef struct {

@@ -85,7 +85,7 @@ static int print_grid(int side, int slips)
     lab l;
     make_grid(&l, side, slips);
     const int32_t joints = l.w.bonds.n;
-    const int64_t steps = 1 + 1000000 / joints;
+    const int64_t steps = 40 + 1000000 / joints; /* slip takes some thirty to begin */
     const double alone = joint_time(&l);
     const double begun = thread_seconds();
     const int ended = lab_run(&l, steps) == 0;

@@ -12,6 +12,7 @@
 #include "contact/joint_list.h"
 #include "sphere/contact_list.h"
 #include "sim/snapshot.h"
+#include "sim/stage.h"
 #include "sim/step.h"
 #include "support/scenes.h"
 #include "world/access.h"
@@ -119,6 +120,70 @@ static void a_run_resumes_at_any_step(void **state)
             assert_true(whole.w.crushing.contact_steps > 20 && whole.w.breaking.bent > 1 &&
                         whole.w.breaking.bent + whole.w.breaking.split > 9);
         } else assert_true(pairs > 3000 && whole.w.searches >= 2);
+        lab_free(&whole);
+    }
+}
+
+/* A step of a run with stages; returns 1 if it has settled behind the last one. */
+static int stage_step(lab *l)
+{
+    fl_err err = {0};
+    const int settled = fl_stage_update(&l->w, l->field.group, (const char *const *)l->field.groups.name,
+                                        l->field.groups.n, &err);
+    assert_true(settled >= 0);
+    assert_int_equal(lab_run(l, 1), 0);
+    return settled;
+}
+
+static void stage_scene(lab *l, const char *relax, const char *zones, int threads)
+{
+    scene_of_stages(l, 2, "patch");
+    lab_setf(l, "run.threads=%d", threads);
+    lab_setf(l, "run.relax=%s", relax);
+    l->scene.run.relax_until = 100.0; /* settled at each look */
+    if (strcmp(relax, "none") == 0) lab_set(l, "stage.a.start=0.01"), lab_set(l, "stage.c.start=0.03");
+    if (zones) {
+        lab_set(l, "zones.size=0.5"), lab_setf(l, "zones.law=%s", zones);
+        lab_setf(l, "zones.group=%s", strcmp(zones, "elastic") ? "none" : "soft");
+        lab_set(l, "zones.max_side=free free quiet");
+        lab_set(l, "material.ice.cohesion=5e3"), lab_set(l, "material.ice.friction_angle=30");
+    }
+    lab_make(l, 0);
+}
+
+/* With stages that go on after the stop, and with each damping. */
+static void stages_resume_at_any_step(void **state)
+{
+    static const char *const RELAX[] = {"none", "local", "kinetic", "adaptive"}, *const ZONES[] = {
+                                                                                     NULL, "elastic",
+                                                                                     "mohr-coulomb"};
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        lab whole;
+        int settled = 0;
+        stage_scene(&whole, RELAX[k / 3], ZONES[k % 3], 1);
+        for (int64_t at = 0; at < 260; at += 5) {
+            lab l;
+            fl_err err = {0};
+            size_t n = 0;
+            while (whole.w.step < at) settled |= stage_step(&whole);
+            stage_scene(&l, RELAX[k / 3], ZONES[k % 3], 2);
+            char *text = snapshot(&whole.w, &n);
+            assert_int_equal(restore(&l.w, text, n, &err), 0);
+            free(text);
+            same_state(&whole.w, &l.w, RELAX[k / 3], at);
+            for (int64_t e = 0; e < 1 + at % 4; e++) {
+                const int now = stage_step(&whole);
+                assert_int_equal(now, stage_step(&l));
+                settled |= now;
+            }
+            same_state(&whole.w, &l.w, RELAX[k / 3], at);
+            lab_free(&l);
+        }
+        while (whole.w.step < 300) settled |= stage_step(&whole);
+        assert_int_equal(whole.w.next_stage, 3);
+        assert_int_equal(whole.w.inflow.n_left, 2);
+        assert_int_equal(settled, k >= 3);
         lab_free(&whole);
     }
 }
@@ -497,6 +562,7 @@ static void a_strip_resumes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_run_resumes_at_any_step),
+                                       cmocka_unit_test(stages_resume_at_any_step),
                                        cmocka_unit_test(a_strip_resumes),
                                        cmocka_unit_test(results_do_not_depend_on_the_age_of_lists),
                                        cmocka_unit_test(released_floes_keep_their_surrogates),

@@ -168,7 +168,19 @@ void scene_of_bonds(lab *l, int32_t side, const char *law)
     }
 }
 
-void scene_of_joints(lab *l, int32_t side, const char *law)
+static const char *base_group(int32_t k, int32_t side) { return k < side * side ? "base" : NULL; }
+
+/* A block above, one that deforms, and the base. */
+static const char *stage_group(int32_t k, int32_t side)
+{
+    if (k < side * side) return "base";
+    if (k == side * side * side - 1) return "above";
+    if (k == side * side * (side - 1)) return "beside";
+    return k % 3 ? "soft" : NULL;
+}
+
+static void jointed_blocks(lab *l, int32_t side, const char *law,
+                           const char *(*group_of)(int32_t k, int32_t side))
 {
     static const char *const KEYS[] = {"material.ice.young=10 MPa",
                                        "run.gravity=9.81",
@@ -207,7 +219,7 @@ void scene_of_joints(lab *l, int32_t side, const char *law)
         fl_poly p = {0};
         if (fl_poly_prism(&p, 4, SQUARE, -0.45, 0.45, &err)) exit(1);
         shape_move(&p, q_one(), v3(cell[0], cell[1], cell[2]));
-        if (fl_ice_field_add(&l->field, k, 0.05, &p, NULL, cell[2] ? NULL : "base", cell[2] ? v : v3(0, 0, 0),
+        if (fl_ice_field_add(&l->field, k, 0.05, &p, NULL, group_of(k, side), cell[2] ? v : v3(0, 0, 0),
                              cell[2] ? spin : v3(0, 0, 0), &err))
             exit(1);
         for (int e = 0; e < 3; e++)
@@ -216,6 +228,15 @@ void scene_of_joints(lab *l, int32_t side, const char *law)
                                        NAME[e == 2 && cell[2] == 0 ? 0 : e], &err))
                 exit(1);
     }
+}
+
+void scene_of_joints(lab *l, int32_t side, const char *law) { jointed_blocks(l, side, law, base_group); }
+
+void scene_of_stages(lab *l, int32_t side, const char *law)
+{
+    static const char *const KEYS[] = {"stage.a.remove=above", "stage.b.start=0.02", "stage.c.remove=beside"};
+    jointed_blocks(l, side, law, stage_group);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) lab_set(l, KEYS[k]);
 }
 
 void scene_of_seas(lab *l, int32_t side, const char *law)

@@ -33,6 +33,10 @@ void scene_of_bonds(lab *l, int32_t side, const char *law);
  * along y, intact along z; the lowest layer is fixed. */
 void scene_of_joints(lab *l, int32_t side, const char *law);
 
+/* The same in stages: one block is taken out when the run has settled, and a second one behind a stage that
+ * begins at 0.02 s. Blocks of group soft may be given zones. */
+void scene_of_stages(lab *l, int32_t side, const char *law);
+
 /* A floating sheet of 2 side by 3 side by 2 bonded spheres that breaks on a cone at once; its last row is
  * driven. */
 void scene_of_sheet(lab *l, int32_t side, const char *law);

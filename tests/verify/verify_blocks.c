@@ -287,6 +287,35 @@ static void yielding_once(void)
     verify_row("CY-1", "tau at 2 mm in one step [MPa]", p.tau[0] * 1e-6, 9.05411, 2e-4, VERIFY_REL);
 }
 
+/* CY-2: CY-1 at a fifth of the stress, where tau is a fifth at the same slip; then under a stress that rises
+ * with slip, sigma = 5 MPa + 1 GPa/m u, with k_s = 1e10 sqrt(sigma/10 MPa).  Its numbers are those of the two
+ * equations by Runge and Kutta in 40 000 steps (14 digits). */
+static void yielding_pressed(void)
+{
+    static const double CURVE[][3] = {{1, 4.431959, 48.10892}, {2, 6.120113, 44.86643},
+                                      {4, 7.142908, 39.28273}, {6, 7.686966, 35.70743},
+                                      {8, 8.337873, 33.51350}, {10, 9.114147, 32.16628}};
+    enum { EACH = 4000 }; /* steps a mm */
+    fl_joint_material m = yielding_joint(1e3, 50.0, 30.0, 4e-3);
+    fl_joint_point p;
+    fl_joint_point_start(&m, &p, 2e6, NONE);
+    slide(&m, &p, 0.0, 2e-3, 2000, NULL);
+    verify_row("CY-2", "tau at 2 MPa and 2 mm [MPa]", p.tau[0] * 1e-6, 0.2 * 9.05411, 1e-4, VERIFY_REL);
+    m.ks = 1e10 / sqrt(10e6), m.shear_exponent = 0.5;
+    fl_joint_point_start(&m, &p, 5e6, NONE);
+    for (int k = 0, row = 0; row < (int)(sizeof CURVE / sizeof *CURVE); k++) {
+        char what[64];
+        const double u = 1e-3 * (k + 0.5) / EACH; /* in the middle of the step */
+        slide(&m, &p, p.offset - (5e6 + 1e9 * u) / m.kn, 1e-3 / EACH, 1, NULL);
+        if (k + 1 < (int)CURVE[row][0] * EACH) continue;
+        snprintf(what, sizeof what, "tau at %g mm, sigma rises [MPa]", CURVE[row][0]);
+        verify_row("CY-2", what, p.tau[0] * 1e-6, CURVE[row][1], 1e-4, VERIFY_REL);
+        snprintf(what, sizeof what, "phi_m at %g mm [deg]", CURVE[row][0]);
+        verify_row("CY-2", what, p.angle * 180.0 / PI, CURVE[row][2], 1e-4, VERIFY_REL);
+        row++;
+    }
+}
+
 /* CY-3: to 3 mm, back to 2.7, on to 5, back to 0.  Errors of tau over sigma. */
 static void yielding_cyclic(void)
 {
@@ -499,6 +528,30 @@ static void block_slides(void)
     lab_free(&l);
 }
 
+/* Thrown along and off its bed by half its height, the block lands elsewhere: its joint closes again. */
+static void block_lands(void)
+{
+    const double g = 10.0, up = 2.2, W = 20000.0;
+    double highest = 0.0;
+    lab l;
+    begin_block_on_bed(&l, (const double[]){40, 0, 0.3}, "none");
+    lab_setf(&l, "run.gravity=0 0 %g", -g);
+    lab_make(&l, 0.0);
+    const double z = l.w.b.x[1].z;
+    l.w.b.v[1] = v3(0.5, 0, up);
+    while (fl_world_time(&l.w) < 2.0) {
+        if (lab_run(&l, 1)) exit(1);
+        highest = fmax(highest, l.w.b.x[1].z - z);
+    }
+    const fl_joint_counts n = fl_joint_list_counts(&l.w);
+    verify_row("again", "joint opens by [m]", highest, up * up / (2.0 * g), 1e-3, VERIFY_REL);
+    verify_true("again", "it is the same joint, and closed", n.elastic == 1 && n.open + n.ended == 0);
+    verify_row("again", "force on it over W, after the landing", -fl_bond_list_load(&l.w, 0).tension / W, 1.0,
+               1e-3, VERIFY_REL);
+    verify_row("again", "sunk [m]", z - l.w.b.x[1].z, W / (1e8 * 4.0), 1e-3, VERIFY_REL);
+    lab_free(&l);
+}
+
 static void block_factors(void)
 {
     const double dry = tan(40.0 * PI / 180.0) / tan(PI / 6.0);
@@ -507,6 +560,59 @@ static void block_factors(void)
     verify_row("slide", "with water, p A = 0.2 W cos a",
                friction_factor(block_on_bed, (const double[]){40, 0.2, 0}, 1.0, 1.3), 0.8 * dry, 1e-3,
                VERIFY_REL);
+}
+
+/* 1 if a block of 10 m by 25 m, 1 m deep, stands on a bed of stiffness kn under a slope. */
+static int tall_block_stands(double kn, double slope)
+{
+    const double cosine = 1.0 / sqrt(1.0 + slope * slope);
+    fl_err err = {0};
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "run.relax=local");
+    lab_set(&l, "run.safety=0.8");
+    lab_setf(&l, "run.gravity=%.17g 0 %.17g", 10.0 * slope * cosine, -10.0 * cosine);
+    lab_set(&l, "material.ice.density=2000");
+    lab_set(&l, "material.ice.young=1 GPa");
+    lab_set(&l, "group.bed.fixed=x y z rx ry rz");
+    lab_set(&l, "group.tall.fixed=y rx rz");
+    set_joint(&l, "bed", kn, 60.0);
+    add_block(&l, 0, v3(-8, -1, -1), v3(8, 2, 0), "bed");
+    add_block(&l, 1, v3(-5, 0, 0), v3(5, 1, 25), "tall");
+    if (fl_ice_field_add_joint(&l.field, 0, 1, face_along_z(&l.field.core[0], 1.0),
+                               face_along_z(&l.field.core[1], -1.0), "bed", &err))
+        exit(1);
+    lab_make(&l, 0.0);
+    fl_joint_material *m = l.w.bonds.joint_material;
+    m->cohesion = m->tension = INFINITY;
+    int stands = 0, rests = 0;
+    for (int k = 0, held = 1; k < 8 * STEPS_AT_MOST && l.w.b.x[1].x < 0.3 * 12.5; k += EVERY) {
+        if (lab_run(&l, EVERY)) exit(1);
+        rests = fl_relaxed_run_ratio(&l.w) < 1e-5 ? rests + 1 : 0;
+        if (rests < 3) continue; /* a turn has moments of balance */
+        stands = !held;
+        if (stands) break;
+        held = rests = 0;
+        m->cohesion = m->tension = 0.0;
+    }
+    lab_free(&l);
+    return stands;
+}
+
+/* V26's block on a bed of 1 GPa/m.  Points stand at the edges and in the middle, with 1/6, 4/6 and 1/6 of
+ * kn b: it topples as the middle one opens, turned by 12 N/(kn b^2).  On many springs it would topple at
+ * (2/h)(b/2 - 1.5 (2 h N/(9 kn))^(1/3)) = 0.3644, earlier by 9 %. */
+static void tall_block(void)
+{
+    const double b = 10.0, h = 25.0, W = b * h * 2e4, kn = 1e9;
+    double lo = 0.3, hi = 0.45, slope = b / h;
+    for (int e = 0; e < 50; e++) slope = b / h - 12.0 * W / sqrt(1.0 + slope * slope) / (kn * b * b);
+    while (hi - lo > 1e-3) {
+        const double middle = 0.5 * (lo + hi);
+        if (tall_block_stands(kn, middle)) lo = middle;
+        else hi = middle;
+    }
+    verify_row("tall", "slope at which it topples", 0.5 * (lo + hi), slope, 2e-3, VERIFY_ABS);
 }
 
 /* A wedge on A 45/105 and B 70/235; degrees[0], [1] friction, [2]: damping. */
@@ -582,13 +688,16 @@ int main(void)
     coulomb_tension();
     coulomb_dilation();
     yielding_once();
+    yielding_pressed();
     yielding_cyclic();
     closures();
     block_at_rest();
     joint_memory();
     stress_at_start();
     block_slides();
+    block_lands();
     block_factors();
+    if (!verify_quick()) tall_block();
     wedge_factors();
     wedge_slides();
     return verify_end();

@@ -103,15 +103,15 @@ static double largest_displacement(const fl_world *w, const fl_vec3 *x)
 }
 
 /* Steps until rest: 1; 0 if it does not come to rest within the duration, or moves too far from x; -1. */
-static int come_to_rest(struct run *r, fl_world *w, const fl_vec3 *x, int32_t *stage, fl_err *err)
+static int come_to_rest(struct run *r, fl_world *w, const fl_vec3 *x, fl_err *err)
 {
     const int64_t end = w->step + r->steps;
     w->stage_step = w->step;
     while (w->step < end) {
         if (fl_step(w, err)) return -1;
-        if ((w->step - w->stage_step) % FL_STAGE_EVERY) continue;
+        if ((w->step - w->stage_step) % FL_RELAX_EVERY) continue;
         const int rest =
-            fl_stage_update(w, stage, r->group, (const char *const *)r->groups->name, r->groups->n, err);
+            fl_stage_update(w, r->group, (const char *const *)r->groups->name, r->groups->n, err);
         if (rest) return rest;
         if (x && largest_displacement(w, x) > MOVED) return 0;
     }
@@ -125,7 +125,6 @@ static int try_factor(struct factor_search *s, double F, fl_err *err)
     struct run r = *s->r;
     fl_joint_material *was = NULL;
     fl_vec3 *x = NULL;
-    int32_t stage = 0;
     int stands = -1;
     if (s->make(s->with, &w, err)) return -1;
     r.w = &w;
@@ -137,7 +136,7 @@ static int try_factor(struct factor_search *s, double F, fl_err *err)
     set_strengths(s, &w, was, 0.0);
     set_zone_strengths(s, &w, 0.0);
     if (fl_step_start(&w, err)) goto done;
-    const int rest = come_to_rest(&r, &w, NULL, &stage, err);
+    const int rest = come_to_rest(&r, &w, NULL, err);
     if (rest < 0) goto done;
     if (rest == 0) {
         fl_fail(err, FL_NO, "the model does not come to rest within %g s even with joints that cannot fail",
@@ -154,7 +153,7 @@ static int try_factor(struct factor_search *s, double F, fl_err *err)
             p->angle = w.bonds.joint_material[w.bonds.joint[k].material].initial_angle;
         }
     const double begun = fl_world_time(&w);
-    stands = come_to_rest(&r, &w, x, &stage, err);
+    stands = come_to_rest(&r, &w, x, err);
     if (stands >= 0) {
         char a[FL_NUMBER_LEN], b[FL_NUMBER_LEN], c[FL_NUMBER_LEN], d[FL_NUMBER_LEN];
         fprintf(s->out.f, "%s\t%s\t%s\t%s\t%s\n", fl_number_text(F, a), stands ? "stands" : "fails",

@@ -123,10 +123,10 @@ static int start_run(struct run *r, struct outputs *u, fl_err *err)
 /* Stages, and whether the run has come to rest. */
 static int update_stage(struct run *r, fl_err *err)
 {
-    const int32_t before = r->stage;
+    const int32_t before = r->w->next_stage;
     const int settled =
-        fl_stage_update(r->w, &r->stage, r->group, (const char *const *)r->groups->name, r->groups->n, err);
-    if (r->stage > before && !r->o->quiet)
+        fl_stage_update(r->w, r->group, (const char *const *)r->groups->name, r->groups->n, err);
+    if (r->w->next_stage > before && !r->o->quiet)
         fprintf(stderr, "dem-solve: stage %s begins at %.6g s\n", r->scene->stage[before].name,
                 fl_world_time(r->w));
     return settled;

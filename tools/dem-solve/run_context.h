@@ -51,7 +51,6 @@ struct run {
     int warned_fast;       /* the warning of a body that moves by its thickness in a step was given */
     const int32_t *group;  /* [n] of each body, an index into groups; -1: none; for stages */
     const fl_string_table *groups;
-    int32_t stage;        /* the next one */
     int settles, settled; /* 1: the run may come to rest, or has */
     int stopped;          /* number of the signal that ended the run, 0: none */
 };

@@ -19,7 +19,7 @@ BEGIN {
         block(100 + i, (i - 1) * dx, i * dx, (i - 1) * b - 2, (i - 1) * b, "base")
     }
     for (i = 1; i <= n; i++) {
-        printf "joint %d %d 1 0 base\n", 100 + i, i
+        printf "joint %d %d 1 0 %s\n", 100 + i, i, i == 1 ? "toe" : "base"
         if (i < n) printf "joint %d %d 3 5 side\n", i, i + 1
     }
 }

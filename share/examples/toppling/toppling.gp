@@ -26,9 +26,10 @@ set yrange [0:*]
 set xtics 1
 set xlabel 'from block i + 1 on block i'
 set ylabel 'force between blocks  [kN/m]'
-set title 'where the toe just holds, 38.94 degrees'
+set title 'toe just holds: 38.94 degrees'
 set key top right reverse Left
 plot dir.'/forces.txt' using 1:2 with linespoints pt 6 ps 1 lc rgb '#d94801' title 'Goodman and Bray', \
-     '' using 1:3 with points pt 7 ps 0.9 lc rgb '#2171b5' title 'dem-solve'
+     '' using 1:3 with points pt 7 ps 0.9 lc rgb '#2171b5' title 'dem-solve', \
+     '' using 1:4 with points pt 1 ps 1 lc rgb '#555555' title 'stiff toe'
 unset multiplot
 set output
