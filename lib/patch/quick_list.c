@@ -158,9 +158,8 @@ FL_SIMD_VERSIONS static void find_facing(const direction *d, fl_vec3 n)
 {
     double *const *plane = d->other->plane;
     for (int32_t f = 0; f < d->other->planes; f += FL_SIMD_WIDTH)
-        FL_SIMD_STORE(d->flags + f) =
-            -(FL_SIMD_LOAD(plane[0] + f) * n.x + FL_SIMD_LOAD(plane[1] + f) * n.y +
-              FL_SIMD_LOAD(plane[2] + f) * n.z);
+        FL_SIMD_STORE(d->flags + f) = -(FL_SIMD_LOAD(plane[0] + f) * n.x + FL_SIMD_LOAD(plane[1] + f) * n.y +
+                                        FL_SIMD_LOAD(plane[2] + f) * n.z);
 }
 
 static int append_faces(fl_quick_list *l, const direction *d, int section)

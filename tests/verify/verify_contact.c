@@ -619,8 +619,8 @@ static void box_on_slope(int on_floe)
     const fl_pair *p = l.w.pair[0].contact;
     const double kt = 2.0 * p->k * sqrt(1.8 * 0.8) * p->law->tangential_ratio,
                  bound = mu * 900 * 2 * G * cos(angle) / kt + 1e-6;
-    verify_note("a box on a %s, slope of 20 degrees, mu = 0.5, %ld steps",
-                on_floe ? "floe" : "wall", (long)steps);
+    verify_note("a box on a %s, slope of 20 degrees, mu = 0.5, %ld steps", on_floe ? "floe" : "wall",
+                (long)steps);
     verify_below("H16", "way from the start [m]", fabs(l.w.b.x[0].x), bound);
     verify_below("H16", "creep after settling [m]", fabs(l.w.b.x[0].x - settled), 1e-6);
     verify_below("H16", "speed [m/s]", v3_norm(l.w.b.v[0]), 1e-9);
