@@ -117,8 +117,8 @@ name() { echo "$1, $2" | sed 's/, patch:/, /; s/, 0$//; s/:0$//; s/quick:/quick,
 for p in dem-solve $peers; do
     for law in $(laws "$p"); do
         for dt in 0.0001 0.00005; do
-            run "$p" gas $dt "$(awk -v t="$until" -v dt=$dt 'BEGIN { printf "%.0f", t / dt }')" $law
-            awk -v name="$(name "$p" $law)" -v dt=$dt -v OFS='\t' '
+            run "$p" gas $dt "$(awk -v t="$until" -v dt=$dt 'BEGIN { printf "%.0f", t / dt }')" "$law"
+            awk -v name="$(name "$p" "$law")" -v dt=$dt -v OFS='\t' '
                 $1 == "step" { step = $2 }
                 $1 == "energy" && !n++ { before = $2 }
                 $1 == "energy" { after = $2 }
@@ -136,8 +136,8 @@ while [ $turn -lt "$turns" ]; do
         yade) steps=5 ;;
         esac
         for law in $(laws "$p"); do
-            run "$p" pack 0.0001 "$steps" $law
-            awk -v name="$(name "$p" $law)" -v OFS='\t' '
+            run "$p" pack 0.0001 "$steps" "$law"
+            awk -v name="$(name "$p" "$law")" -v OFS='\t' '
                 $1 == "step" { step = $2 }
                 $1 == "pairs" { pairs = $2 }
                 END { print "pack", name, "0.0001", step, pairs, "-" }' measured >>rows
