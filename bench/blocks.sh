@@ -29,7 +29,7 @@ blocks()
 
 # PROGRAM_run SCENE DT STEPS: runs the scene and writes rows to the file `measured`: `step` with the seconds of a
 # step in the fastest window, `energy` at the start and at the end, `pairs` in contact.
-dem_solve_run() # SCENE DT STEPS SURROGATE
+dem_solve_run() # SCENE DT STEPS LAW:SURROGATE
 {
     blocks "$1" dem-solve >ice.dat
     [ "$1" = gas ] && e=1 friction=0 || e=0.3 friction=0.3
@@ -44,8 +44,9 @@ duration = $end
 [contact]
 restitution = $e
 friction = $friction
+law = ${4%:*}
 stiffness = 5e7
-surrogate = $4
+surrogate = ${4#*:}
 [output]
 loads_every = $end
 energy = energy
@@ -99,7 +100,7 @@ rockable_run() # SCENE DT STEPS
         rock/perf.txt rock/kineticEnergy.txt >measured
 }
 
-run() # PROGRAM SCENE DT STEPS SURROGATE
+run() # PROGRAM SCENE DT STEPS LAW:SURROGATE
 {
     case $1 in
     dem-solve) dem_solve_run "$2" "$3" "$4" "$5" ;;
@@ -107,16 +108,17 @@ run() # PROGRAM SCENE DT STEPS SURROGATE
     esac
 }
 
-# name PROGRAM SURROGATE: the name in the table
-name() { [ "$1:$2" = dem-solve:0 ] || [ "$1" != dem-solve ] && echo "$1" || echo "$1, $2"; }
+# laws PROGRAM: the laws and tolerances of surrogates it runs with
+laws() { [ "$1" = dem-solve ] && echo "patch:0 patch:1e-3 quick:0 quick:1e-3" || echo patch:0; }
+# name PROGRAM LAW:SURROGATE: the name in the table
+name() { echo "$1, $2" | sed 's/, patch:/, /; s/, 0$//; s/:0$//; s/quick:/quick, /'; }
 
 # The gas, in steps of 0.1 ms and 0.05 ms.
 for p in dem-solve $peers; do
-    for tol in 0 1e-3; do
-        [ "$p:$tol" = dem-solve:1e-3 ] || [ $tol = 0 ] || continue
+    for law in $(laws "$p"); do
         for dt in 0.0001 0.00005; do
-            run "$p" gas $dt "$(awk -v t="$until" -v dt=$dt 'BEGIN { printf "%.0f", t / dt }')" $tol
-            awk -v name="$(name "$p" $tol)" -v dt=$dt -v OFS='\t' '
+            run "$p" gas $dt "$(awk -v t="$until" -v dt=$dt 'BEGIN { printf "%.0f", t / dt }')" "$law"
+            awk -v name="$(name "$p" "$law")" -v dt=$dt -v OFS='\t' '
                 $1 == "step" { step = $2 }
                 $1 == "energy" && !n++ { before = $2 }
                 $1 == "energy" { after = $2 }
@@ -133,10 +135,9 @@ while [ $turn -lt "$turns" ]; do
         lmp) steps=$((50 / fewer)) ;;
         yade) steps=5 ;;
         esac
-        for tol in 0 1e-3; do
-            [ "$p:$tol" = dem-solve:1e-3 ] || [ $tol = 0 ] || continue
-            run "$p" pack 0.0001 "$steps" $tol
-            awk -v name="$(name "$p" $tol)" -v OFS='\t' '
+        for law in $(laws "$p"); do
+            run "$p" pack 0.0001 "$steps" "$law"
+            awk -v name="$(name "$p" "$law")" -v OFS='\t' '
                 $1 == "step" { step = $2 }
                 $1 == "pairs" { pairs = $2 }
                 END { print "pack", name, "0.0001", step, pairs, "-" }' measured >>rows

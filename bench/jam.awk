@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # jam.awk -- means +- standard errors of jam.tsv of the first and of the second run of each pair, and of the difference
-# within a pair.  t is the difference over its standard error; deviations are those of single runs.
+# within a pair.  t is the difference over its standard error; deviations are those of single runs.  D is the largest
+# difference of the two distributions of single runs, p how often equal ones differ by that much (Kolmogorov, Smirnov).
 BEGIN { FS = "\t" }
 /^#seconds/ { split($0, word, " "); seconds = word[2] }
 /^#/ { next }
@@ -26,17 +27,37 @@ function sums(k, which,    i, p, v, s, ss) {
     deviation = n > 1 ? sqrt(ss / (n - 1)) : 0
     error = deviation / sqrt(n)
 }
+# Two samples of n: D, and p by Kolmogorov's series with the correction of Stephens.
+function compare(k,    i, j, v, d, l, sign) {
+    D = 0
+    for (i = 1; i <= n; i++)
+        for (j = 0; j < 2; j++) {
+            v = x[pair[i], j, k]
+            d = share_up_to(k, 0, v) - share_up_to(k, 1, v)
+            D = d > D ? d : -d > D ? -d : D
+        }
+    l = (sqrt(n / 2) + 0.12 + 0.11 / sqrt(n / 2)) * D
+    p_equal = 0
+    for (i = 1; i <= 100; i++) { sign = i % 2 ? 1 : -1; p_equal += 2 * sign * exp(-2 * i * i * l * l) }
+    p_equal = l < 0.2 || p_equal > 1 ? 1 : p_equal
+}
+function share_up_to(k, which, v,    i, m) {
+    for (i = 1; i <= n; i++) m += x[pair[i], which, k] <= v
+    return m / n
+}
 function cell(k, which) { sums(k, which); return sprintf("%.2f +- %.2f", mean, error) }
 END {
     if (!n || runs != 2 * n) { print "jam.awk: two runs a pair are expected" >"/dev/stderr"; exit 3 }
-    printf "%d pairs of %s s\n%-16s %18s %18s %18s %8s %18s\n", n, seconds, "", way[0], way[1],
-        "difference", "t", "deviations"
+    printf "%d pairs of %s s\n%-16s %18s %18s %18s %8s %18s %12s\n", n, seconds, "", way[0], way[1],
+        "difference", "t", "deviations", "D, p"
     for (k = col["impulse[kN.s]"]; k <= col["damping[kJ]"]; k++) {
         without = cell(k, 0); of = sprintf("%.2f", deviation)
         with = cell(k, 1); of = of sprintf(", %.2f", deviation)
         between = cell(k, 2)
         t = error > 0 ? sprintf("%.1f", mean / error) : "-"
-        printf "%-16s %18s %18s %18s %8s %18s\n", name[k], without, with, between, t, of
+        compare(k)
+        printf "%-16s %18s %18s %18s %8s %18s %12s\n", name[k], without, with, between, t, of,
+            sprintf("%.2f, %.2f", D, p_equal)
     }
     printf "%-16s %18.3g %18.3g %18s\n", "cost[s/s]", cost[0] / n, cost[1] / n,
         sprintf("ratio %.2f", cost[1] / cost[0])

@@ -3,8 +3,9 @@
 # jam.sh [BUILD [OUT]] -- test for a bias of jams by contact.surrogate or by the law.  Runs share/examples/cylinder in
 # pairs, in two ways, each pair with its own restitution and step, with the programs of BUILD/bin.
 #   OUT/NAME.tsv   a row for each run; its head names the machine.  OUT is bench/results
-# second_peaks is the mean of the largest forces along the drift in each second.
-# Prints means, standard errors and paired differences by jam.awk.
+# second_peaks is the mean of the largest forces along the drift in each second, median and tenth are what half and a
+# tenth of them exceed.
+# Prints means, standard errors, paired differences and two-sample tests by jam.awk.
 #   WAYS='patch:0 patch:1e-3'   law and tolerance of the surrogates of the two runs of a pair
 #   NAME=jam      name of the table
 #   PAIRS=57      number of pairs, half a minute of processor time each
@@ -54,10 +55,16 @@ if [ "${1-}" = pair ]; then # called by xargs in the folder of the runs
                 next
             }
             { friction = $col["friction[J]"]; damping = $col["damping[J]"] }
+            function exceeded(share) { return sorted[int((1 - share) * (n - 1)) + 1] }
             END {
                 gsub(" ", "\t", first)
-                for (k in most) sum += most[k]
+                for (s = 0; s < seconds; s++) { # sorted by insertion
+                    sum += most[s]
+                    for (k = ++n; k > 1 && sorted[k - 1] > most[s]; k--) sorted[k] = sorted[k - 1]
+                    sorted[k] = most[s] + 0
+                }
                 printf "%s\t%.7g\t%.6g\t%.6g\t%.6g\t", first, ms / 1e3, J / 1e3, peak / 1e3, sum / seconds / 1e3
+                printf "%.6g\t%.6g\t", exceeded(0.5) / 1e3, exceeded(0.1) / 1e3
                 printf "%.6g\t%.6g\t", friction / 1e3, damping / 1e3
                 printf "%s\t%.4g\t%s\n", residual, cpu / seconds, hash
             }' "$name.report" "$name.loads" "$name.energy" >"$name.row"
@@ -92,6 +99,7 @@ xargs -L 1 -P "${JOBS:-2}" sh "$bench/jam.sh" <list || fail "not all pairs ran"
     echo "#load $(uptime | sed 's/.*: //') over 1, 5 and 15 minutes, the runs themselves being ${JOBS:-2}"
     echo "#seconds $seconds"
     printf 'pair\tlaw\ttolerance\trestitution\tdt[s]\timpulse[kN.s]\tpeak[kN]\tsecond_peaks[kN]\t'
+    printf 'median[kN]\ttenth[kN]\t'
     printf 'friction[kJ]\tdamping[kJ]\t'
     printf 'energy\tcost[s/s]\thash\n'
     while read -r _ n _; do for way in $WAYS; do cat "$n-$way.row"; done; done <list

@@ -33,7 +33,7 @@ trap 'rm -rf "$scratch"' EXIT
             print pairs, what, (ccd ? "libccd" : "dem-solve"), x[1], (n > 1 ? x[2] : "-")
         }' "$scratch/gjk"
     awk 'BEGIN { OFS = "\t" }
-        substr($0, 22) ~ /^(patch|core|manual-si) / {
+        substr($0, 22) ~ /^(patch|quick|core|manual-si) / {
             name = substr($0, 1, 20); sub(/ +$/, "", name)
             n = split(substr($0, 22), x, " ")
             print name, "force, " x[1], "dem-solve", x[4], x[5]

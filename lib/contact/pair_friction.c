@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/simd.h"
 #include "base/array.h"
 #include "contact/pair_friction.h"
 #include "contact/rolling_pair.h"
@@ -29,9 +30,9 @@ fl_patch_result fl_point_sum_result(const fl_point_sum *s, int32_t n)
 }
 
 /* Adds friction at the centre of pressure. */
-void fl_pair_add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, double chi,
-                          const fl_contact_compliance *at, const fl_relative_pose *r,
-                          const fl_pair_prediction *a)
+FL_SIMD_VERSIONS void fl_pair_add_friction(fl_world *w, fl_pair *p, const fl_patch_result *q, double chi,
+                                           const fl_contact_compliance *at, const fl_relative_pose *r,
+                                           const fl_pair_prediction *a)
 {
     const fl_bodies *b = &w->b;
     const fl_pair_law *law = p->law;

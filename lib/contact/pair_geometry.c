@@ -30,7 +30,7 @@ static double bound_factor(const fl_world *w, int32_t i, int32_t j)
     return hash_of(w->step, i + j) % EXACT_EVERY ? 1.0 : NEARLY;
 }
 
-fl_relative_pose fl_relative_pose_of(const fl_world *w, const fl_pair *p)
+FL_SIMD_VERSIONS fl_relative_pose fl_relative_pose_of(const fl_world *w, const fl_pair *p)
 {
     const fl_bodies *b = &w->b;
     const int32_t i = p->i, j = p->j;

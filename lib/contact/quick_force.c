@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/simd.h"
 #include "contact/pair_damping.h"
 #include "contact/pair_friction.h"
 #include "contact/pair_stiffness.h"
@@ -18,8 +19,8 @@
  * rocking does, is damped by the same coefficient chi F, which a point or area of the contact has.  The
  * second part is held below the moment and force that the pressure can have.
  *   arm   radius of the pressure [m] */
-static fl_wrench change_damping(const fl_pair *p, const fl_pair_prediction *a, fl_wrench before, fl_vec3 spin,
-                                double chi, double c, double slope, double arm)
+FL_SIMD_INLINE fl_wrench change_damping(const fl_pair *p, const fl_pair_prediction *a, fl_wrench before,
+                                        fl_vec3 spin, double chi, double c, double slope, double arm)
 {
     const fl_wrench E = fl_wrench_about_middle(p->force, p->torque_i, p->torque_j);
     const double size = v3_norm(E.f), lowest = -1.0 / chi, speed = c > lowest ? c : lowest;
@@ -85,9 +86,9 @@ static int update_quick_surrogate(fl_world *w, fl_pair *p, int32_t thread, const
                : 0;
 }
 
-int fl_pair_evaluate_quick(fl_world *w, fl_pair *p, int32_t thread, const fl_quick_sums *q,
-                           const fl_surrogate_value *t, const fl_relative_pose *r,
-                           const fl_pair_prediction *a, int survey)
+FL_SIMD_VERSIONS int fl_pair_evaluate_quick(fl_world *w, fl_pair *p, int32_t thread, const fl_quick_sums *q,
+                                            const fl_surrogate_value *t, const fl_relative_pose *r,
+                                            const fl_pair_prediction *a, int survey)
 {
     const int has_surrogate = p->law->surrogate_tolerance > 0.0 && !fl_panels_need_points(w, p);
     const fl_bodies *b = &w->b;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "base/simd.h"
 #include "patch/quick_crossing.h"
 #include "base/pi.h"
 #include "patch/patch_law.h"
@@ -13,7 +14,8 @@ typedef struct {
     fl_simd weight;
 } crossing_lanes;
 
-static void load_crossing(crossing_lanes *to, int k, const fl_quick_direction *d, int32_t ea, int32_t eb)
+FL_SIMD_INLINE void load_crossing(crossing_lanes *to, int k, const fl_quick_direction *d, int32_t ea,
+                                  int32_t eb)
 {
     const fl_quick_edge *e = &d->own->edge[ea], *f = &d->other->edge[eb];
     const fl_vec3 p = v3_add(m3_mul(d->M, e->a), d->o), a = m3_mul(d->M, e->d);
@@ -103,8 +105,8 @@ FL_SIMD_VERSIONS static void add_four(const crossing_lanes *c, double reach, dou
         if (all[k] > 0.0 && s[k] > *overlap) *overlap = s[k];
 }
 
-void fl_quick_add_crossings(const fl_quick_direction *d, double rho_b, fl_vec3 axis, fl_quick_total *to,
-                            double *overlap)
+FL_SIMD_VERSIONS void fl_quick_add_crossings(const fl_quick_direction *d, double rho_b, fl_vec3 axis,
+                                             fl_quick_total *to, double *overlap)
 {
     const double factor = FL_PATCH_ROUND_FACTOR * (0.4 * PI) * sqrt(d->rho * rho_b);
     int32_t n;

@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/simd.h"
 #include "patch/quick_law.h"
 #include <stdlib.h>
 #include "patch/quick_crossing.h"
 #include "patch/quick_faces.h"
 #include "patch/quick_points.h"
 
-static fl_vec3 vector_at(const fl_quick_total *t, int row)
+FL_SIMD_INLINE fl_vec3 vector_at(const fl_quick_total *t, int row)
 {
     return v3(t->a[row], t->a[row + 1], t->a[row + 2]);
 }
 
-static fl_vec3 centre_sum(const fl_quick_total *t)
+FL_SIMD_INLINE fl_vec3 centre_sum(const fl_quick_total *t)
 {
     return v3(t->a[FL_QUICK_EX], t->a[FL_QUICK_EY], t->a[FL_QUICK_EZ]);
 }
 
 /* The result of direction 0 and the crossings, without lengths of direction 1. */
-static void set_sums(fl_quick_sums *to, const fl_quick_total *t)
+FL_SIMD_INLINE void set_sums(fl_quick_sums *to, const fl_quick_total *t)
 {
     const double *a = t->a;
     *to = (fl_quick_sums){.u = a[FL_QUICK_U],
@@ -31,7 +32,7 @@ static void set_sums(fl_quick_sums *to, const fl_quick_total *t)
 }
 
 /* Adds the sums of direction 1, found in the frame of A with B as the own core. */
-static void add_from_a(fl_quick_sums *to, const fl_quick_total *t, const fl_mat3 *M, fl_vec3 o)
+FL_SIMD_INLINE void add_from_a(fl_quick_sums *to, const fl_quick_total *t, const fl_mat3 *M, fl_vec3 o)
 {
     const double *a = t->a;
     const fl_vec3 f = v3_neg(m3_mul(*M, vector_at(t, FL_QUICK_F))),
@@ -69,9 +70,9 @@ static void add_penetration(fl_quick_sums *q, const fl_penetration *deep)
     }
 }
 
-int fl_quick_evaluate(fl_quick_scratch *w, const fl_quick_shape *a, const fl_quick_shape *b, double ra,
-                      double rb, fl_mat3 M, fl_vec3 o, const fl_penetration *deep, const fl_quick_list *l,
-                      fl_quick_sums *sums)
+FL_SIMD_VERSIONS int fl_quick_evaluate(fl_quick_scratch *w, const fl_quick_shape *a, const fl_quick_shape *b,
+                                       double ra, double rb, fl_mat3 M, fl_vec3 o, const fl_penetration *deep,
+                                       const fl_quick_list *l, fl_quick_sums *sums)
 {
     const double R = ra + rb, reach = R + deep->depth;
     const fl_vec3 at = v3_madd(o, deep->depth, deep->n);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
+#include "base/simd.h"
 #include "geom/quadrature_rules.h"
 
 /* Multiples of R for the margin: of the first list, and bounds. */
@@ -20,14 +21,16 @@ typedef struct {
     fl_vec3 o;
     double rho, R, margin;
     fl_vec3 *at;    /* [own->vertices] in the frame of other */
-    double *height; /* [own->vertices * other->faces] */
+    double *height; /* [own->vertices * other->planes] */
+    double *lowest; /* [own->vertices] lower bound of the distance from the other core */
+    double *flags;  /* [other->planes] scratch */
     uint8_t *near;  /* [own->edges] near the other core, and [other->edges] near the own one: */
     const uint8_t *other_near;
 } direction;
 
 static int append_index(fl_quick_list *l, int32_t k)
 {
-    if (fl_reserve(&l->index, &l->cap, (int64_t)l->n + 1, sizeof *l->index)) return -1;
+    if (l->n == l->cap && fl_reserve(&l->index, &l->cap, (int64_t)l->n + 1, sizeof *l->index)) return -1;
     l->index[l->n++] = k;
     return 0;
 }
@@ -62,33 +65,57 @@ static fl_quick_edge moved_edge(const direction *d, int32_t e)
     return to;
 }
 
-static void measure_heights(const direction *d)
+/* The largest lane. */
+FL_SIMD_INLINE double largest_of(const fl_simd *v)
 {
-    const int32_t faces = d->other->faces;
-    for (int32_t v = 0; v < d->own->vertices; v++) {
-        d->at[v] = v3_add(m3_mul(d->M, d->own->vertex[v]), d->o);
-        for (int32_t f = 0; f < faces; f++)
-            d->height[v * faces + f] = v3_dot(d->other->face[f].n, d->at[v]) - d->other->face[f].height;
-    }
-}
-
-/* Lower bound of the distance of the part from t to u of an edge from the other core, t = u = 0: a vertex. */
-static double least_distance(const direction *d, const int32_t *end, double t, double u)
-{
-    const int32_t faces = d->other->faces;
-    const double *a = d->height + end[0] * faces, *b = d->height + end[1] * faces;
-    double most = -INFINITY;
-    for (int32_t f = 0; f < faces; f++) {
-        const double rise = b[f] - a[f];
-        most = fmax(most, a[f] + rise * (rise > 0.0 ? t : u));
-    }
+    double most = (*v)[0];
+    FL_SIMD_UNROLL
+    for (int k = 1; k < FL_SIMD_WIDTH; k++) most = (*v)[k] > most ? (*v)[k] : most;
     return most;
 }
 
-static void find_near_edges(const direction *d)
+/* Lower bound of the distance of the part from t to u of an edge from the other core. */
+FL_SIMD_INLINE double least_distance(const direction *d, const int32_t *end, double t, double u)
 {
-    for (int32_t e = 0; e < d->own->edges; e++)
-        d->near[e] = least_distance(d, d->own->edge[e].end, 0.0, 1.0) <= d->R + d->margin;
+    const int32_t planes = d->other->planes;
+    const double *a = d->height + end[0] * planes, *b = d->height + end[1] * planes;
+    fl_simd most = FL_SIMD_SPLAT(-INFINITY);
+    for (int32_t f = 0; f < planes; f += FL_SIMD_WIDTH) {
+        const fl_simd from = FL_SIMD_LOAD(a + f), rise = FL_SIMD_LOAD(b + f) - from, zero = {0},
+                      h = from + rise * FL_SIMD_SELECT(rise > zero, t + zero, u + zero);
+        most = FL_SIMD_SELECT(h > most, h, most);
+    }
+    return largest_of(&most);
+}
+
+/* Vertices and edges of the own core over the planes of the other. */
+FL_SIMD_VERSIONS static void measure_heights(const direction *d)
+{
+    const int32_t planes = d->other->planes;
+    double *const *plane = d->other->plane;
+    const double near = d->R + d->margin;
+    for (int32_t v = 0; v < d->own->vertices; v++) {
+        const fl_vec3 x = d->at[v] = v3_add(m3_mul(d->M, d->own->vertex[v]), d->o);
+        double *const to = d->height + v * planes;
+        fl_simd most = FL_SIMD_SPLAT(-INFINITY);
+        for (int32_t f = 0; f < planes; f += FL_SIMD_WIDTH) {
+            const fl_simd h = FL_SIMD_LOAD(plane[0] + f) * x.x + FL_SIMD_LOAD(plane[1] + f) * x.y +
+                              FL_SIMD_LOAD(plane[2] + f) * x.z - FL_SIMD_LOAD(plane[3] + f);
+            FL_SIMD_STORE(to + f) = h;
+            most = FL_SIMD_SELECT(h > most, h, most);
+        }
+        d->lowest[v] = largest_of(&most);
+    }
+    for (int32_t e = 0; e < d->own->edges; e++) {
+        const int32_t *end = d->own->edge[e].end;
+        d->near[e] = d->lowest[end[0]] <= near || d->lowest[end[1]] <= near ||
+                     least_distance(d, end, 0.0, 1.0) <= near;
+    }
+}
+
+FL_SIMD_VERSIONS static int part_is_near(const direction *d, const int32_t *end, double t, double u)
+{
+    return least_distance(d, end, t, u) <= d->R + d->margin;
 }
 
 static int append_points(fl_quick_list *l, direction *d, int section)
@@ -96,17 +123,15 @@ static int append_points(fl_quick_list *l, direction *d, int section)
     const double near = d->R + d->margin;
     l->first[section] = l->n;
     for (int32_t v = 0; v < d->own->vertices; v++)
-        if (d->own->weight[v] > 0.0 && least_distance(d, (int32_t[]){v, v}, 0.0, 0.0) <= near &&
-            append_index(l, v))
-            return -1;
+        if (d->own->weight[v] > 0.0 && d->lowest[v] <= near && append_index(l, v)) return -1;
     l->first[section + 1] = l->n;
     for (int32_t e = 0; e < d->own->edges; e++) {
         const fl_quick_edge *edge = &d->own->edge[e];
         if (!d->near[e] || !(edge->weight > 0.0)) continue;
         const int32_t n = fl_quick_segments(edge, d->rho);
         for (int32_t k = 0; k < n; k++)
-            if (least_distance(d, edge->end, (k + FL_LINE4_NODE[0]) / n,
-                               (k + FL_LINE4_NODE[FL_LINE4_NODES - 1]) / n) <= near &&
+            if (part_is_near(d, edge->end, (k + FL_LINE4_NODE[0]) / n,
+                             (k + FL_LINE4_NODE[FL_LINE4_NODES - 1]) / n) &&
                 (append_index(l, e) || append_index(l, k) || append_index(l, n)))
                 return -1;
     }
@@ -128,19 +153,28 @@ static int is_beside(const fl_quick_shape *s, int32_t f, const fl_vec3 *at, cons
     return 0;
 }
 
+/* Cosines of a normal n against those of the other core, negative, into flags. */
+FL_SIMD_VERSIONS static void find_facing(const direction *d, fl_vec3 n)
+{
+    double *const *plane = d->other->plane;
+    for (int32_t f = 0; f < d->other->planes; f += FL_SIMD_WIDTH)
+        FL_SIMD_STORE(d->flags + f) = -(FL_SIMD_LOAD(plane[0] + f) * n.x + FL_SIMD_LOAD(plane[1] + f) * n.y +
+                                        FL_SIMD_LOAD(plane[2] + f) * n.z);
+}
+
 static int append_faces(fl_quick_list *l, const direction *d, int section)
 {
     const fl_quick_shape *own = d->own, *other = d->other;
     const double tilt = FACING - d->margin / (own->bound + d->R);
     for (int32_t j = 0; j < own->faces; j++) {
-        const fl_vec3 n = m3_mul(d->M, own->face[j].n);
         const int32_t *loop = own->loop + own->face[j].first, sides = own->face[j].sides;
+        find_facing(d, m3_mul(d->M, own->face[j].n));
         for (int32_t k = 0; k < other->faces; k++) {
             double low = INFINITY, high = -INFINITY;
-            if (-v3_dot(n, other->face[k].n) < tilt) continue;
+            if (d->flags[k] < tilt) continue;
             for (int32_t c = 0; c < sides; c++) {
-                const double h = d->height[loop[c] * other->faces + k];
-                low = fmin(low, h), high = fmax(high, h);
+                const double h = d->height[loop[c] * other->planes + k];
+                low = h < low ? h : low, high = h > high ? h : high;
             }
             if (low > 2.0 * d->R + d->margin || high < -d->margin ||
                 is_beside(other, k, d->at, loop, sides, d->margin))
@@ -152,24 +186,30 @@ static int append_faces(fl_quick_list *l, const direction *d, int section)
     return 0;
 }
 
-/* True if a listed edge or vertex of the own core comes between -margin and R + margin over face f. */
-static int may_be_over(const direction *d, const fl_quick_list *l, int section, int32_t f)
+/* Sets flags of the faces over which a listed edge or vertex of the own core comes between -margin and
+ * R + margin. */
+FL_SIMD_VERSIONS static void find_faces_below(const direction *d, const fl_quick_list *l, int section)
 {
-    const int32_t faces = d->other->faces, *at;
+    const int32_t planes = d->other->planes;
     const double low = -d->margin, high = d->R + d->margin;
-    int32_t n;
-    at = fl_quick_section_of(l, section, &n);
-    for (int32_t c = 0; c < n; c++) {
-        const double h = d->height[at[c] * faces + f];
-        if (h >= low && h <= high) return 1;
+    const fl_simd zero = {0}, one = 1.0 + zero;
+    int32_t vertices, parts;
+    const int32_t *v = fl_quick_section_of(l, section, &vertices),
+                  *e = fl_quick_section_of(l, section + 1, &parts);
+    for (int32_t f = 0; f < planes; f += FL_SIMD_WIDTH) {
+        fl_simd_mask over = zero != 0.0;
+        for (int32_t c = 0; c < vertices; c++) {
+            const fl_simd h = FL_SIMD_LOAD(d->height + v[c] * planes + f);
+            over |= (h >= low) & (h <= high);
+        }
+        for (int32_t c = 0; c < parts; c += 3) {
+            const int32_t *end = d->own->edge[e[c]].end;
+            const fl_simd a = FL_SIMD_LOAD(d->height + end[0] * planes + f),
+                          b = FL_SIMD_LOAD(d->height + end[1] * planes + f);
+            over |= ((a >= low) | (b >= low)) & ((a <= high) | (b <= high));
+        }
+        FL_SIMD_STORE(d->flags + f) = FL_SIMD_MASKED(over, one);
     }
-    at = fl_quick_section_of(l, section + 1, &n);
-    for (int32_t c = 0; c < n; c += 3) {
-        const int32_t *end = d->own->edge[at[c]].end;
-        const double a = d->height[end[0] * faces + f], b = d->height[end[1] * faces + f];
-        if (fmax(a, b) >= low && fmin(a, b) <= high) return 1;
-    }
-    return 0;
 }
 
 /* True if one of them comes within reach of edge f of the other core. */
@@ -193,8 +233,9 @@ static int may_be_near(const direction *d, const fl_quick_list *l, int section, 
 static int append_direction(fl_quick_list *l, direction *d, int section)
 {
     if (append_points(l, d, section) || append_faces(l, d, section + FL_QUICK_PAIR)) return -1;
+    find_faces_below(d, l, section);
     for (int32_t f = 0; f < d->other->faces; f++)
-        if (may_be_over(d, l, section, f) && append_index(l, f)) return -1;
+        if (d->flags[f] > 0.0 && append_index(l, f)) return -1;
     l->first[section + FL_QUICK_EDGE] = l->n;
     for (int32_t f = 0; f < d->other->edges; f++)
         if (d->other_near[f] && may_be_near(d, l, section, f) && append_index(l, f)) return -1;
@@ -246,20 +287,24 @@ int fl_quick_list_build(fl_quick_list *l, const fl_quick_shape *a, const fl_quic
     const fl_mat3 N = {{{M.m[0][0], M.m[1][0], M.m[2][0]},
                         {M.m[0][1], M.m[1][1], M.m[2][1]},
                         {M.m[0][2], M.m[1][2], M.m[2][2]}}};
-    const int64_t room_a = (int64_t)a->vertices * (b->faces + 3),
-                  room_b = (int64_t)b->vertices * (a->faces + 3);
+    const int32_t planes = a->planes > b->planes ? a->planes : b->planes;
+    const int64_t room_a = (int64_t)a->vertices * (b->planes + 4),
+                  room_b = (int64_t)b->vertices * (a->planes + 4);
     fl_err lost = {0};
     l->max_shift2 = 0.0; /* invalid until complete */
     l->n = 0, l->separated = 0;
-    double *const block = fl_alloc(room_a + room_b + (a->edges + b->edges) / 8 + 1, sizeof *block, &lost);
+    double *const block =
+        fl_alloc(room_a + room_b + planes + (a->edges + b->edges) / 8 + 1, sizeof *block, &lost);
     if (!block) return -1;
-    uint8_t *const near = (uint8_t *)(void *)(block + room_a + room_b);
-    direction d[2] = {{a, b, M, o, fl_quick_feature_radius(ra, rb), R, wide, (fl_vec3 *)(void *)block,
-                       block + 3 * a->vertices, near, near + a->edges},
+    double *const flags = block + room_a + room_b;
+    uint8_t *const near = (uint8_t *)(void *)(flags + planes);
+    double *const ha = block + 4 * a->vertices, *const hb = block + room_a + 4 * b->vertices;
+    direction d[2] = {{a, b, M, o, fl_quick_feature_radius(ra, rb), R, wide, (fl_vec3 *)(void *)block, ha,
+                       ha - a->vertices, flags, near, near + a->edges},
                       {b, a, N, v3_neg(m3_mul(N, o)), fl_quick_feature_radius(rb, ra), R, wide,
-                       (fl_vec3 *)(void *)(block + room_a), block + room_a + 3 * b->vertices, near + a->edges,
+                       (fl_vec3 *)(void *)(block + room_a), hb, hb - b->vertices, flags, near + a->edges,
                        near}};
-    for (int k = 0; k < 2; k++) measure_heights(&d[k]), find_near_edges(&d[k]);
+    for (int k = 0; k < 2; k++) measure_heights(&d[k]);
     const int failed = append_direction(l, &d[0], 0) || append_direction(l, &d[1], FL_QUICK_KINDS) ||
                        append_crossings(l, &d[0], d[1].near);
     l->first[FL_QUICK_SECTIONS] = l->n;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include "base/simd.h"
 #include "patch/quick_points.h"
 #include "base/array.h"
 #include "base/pi.h"
@@ -221,8 +222,8 @@ static void add_edge(const fl_quick_total *sum, double v, const fl_quick_edge *e
     }
 }
 
-static void add_edges(const fl_quick_direction *d, const nearest_features *of,
-                      const fl_quick_support *support, int32_t n, fl_quick_total *to, double *overlap)
+FL_SIMD_INLINE void add_edges(const fl_quick_direction *d, const nearest_features *of,
+                              const fl_quick_support *support, int32_t n, fl_quick_total *to, double *overlap)
 {
     int32_t parts;
     const int32_t *at = fl_quick_section_of(d->l, d->section + FL_QUICK_SEGMENTS, &parts);
@@ -245,8 +246,9 @@ static void add_edges(const fl_quick_direction *d, const nearest_features *of,
     }
 }
 
-int fl_quick_add_points(fl_quick_scratch *w, const fl_quick_direction *d, const fl_quick_support *support,
-                        int32_t n, fl_quick_total *to, double *overlap)
+FL_SIMD_VERSIONS int fl_quick_add_points(fl_quick_scratch *w, const fl_quick_direction *d,
+                                         const fl_quick_support *support, int32_t n, fl_quick_total *to,
+                                         double *overlap)
 {
     nearest_features of = {.s = d->other, .tol = ON_PLANE_TOL * (d->own->bound + d->other->bound)};
     of.face = fl_quick_section_of(d->l, d->section + FL_QUICK_FACE, &of.faces);

@@ -8,7 +8,7 @@
 
 /* Arrays one behind the other; sizes are multiples of 8. */
 typedef struct {
-    size_t vertex, weight, edge, face, side, corner, loop, all;
+    size_t vertex, weight, edge, face, side, corner, plane, loop, all;
 } block_layout;
 
 static block_layout layout_of(const fl_quick_shape *s)
@@ -19,7 +19,8 @@ static block_layout layout_of(const fl_quick_shape *s)
     b.face = b.edge + (size_t)s->edges * sizeof *s->edge;
     b.side = b.face + (size_t)s->faces * sizeof *s->face;
     b.corner = b.side + (size_t)s->loops * sizeof *s->side;
-    b.loop = b.corner + 3 * (size_t)(s->loops + FL_SIMD_WIDTH) * sizeof **s->corner;
+    b.plane = b.corner + 3 * (size_t)(s->loops + FL_SIMD_WIDTH) * sizeof **s->corner;
+    b.loop = b.plane + 4 * (size_t)s->planes * sizeof **s->plane;
     b.all = b.loop + (size_t)s->loops * sizeof *s->loop;
     return b;
 }
@@ -72,6 +73,7 @@ int fl_quick_shape_make(fl_quick_shape *s, const fl_poly *p, double radius, fl_e
 {
     *s = (fl_quick_shape){
         .vertices = p->nv, .edges = p->ne, .faces = p->nf, .loops = p->first[p->nf], .radius = radius};
+    s->planes = (p->nf + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH * FL_SIMD_WIDTH;
     const block_layout b = layout_of(s);
     char *const at = fl_alloc((int64_t)b.all, 1, err);
     if (!at) return -1;
@@ -81,12 +83,18 @@ int fl_quick_shape_make(fl_quick_shape *s, const fl_poly *p, double radius, fl_e
     s->side = (fl_quick_side *)(void *)(at + b.side), s->loop = (int32_t *)(void *)(at + b.loop);
     for (int c = 0; c < 3; c++)
         s->corner[c] = (double *)(void *)(at + b.corner) + c * (s->loops + FL_SIMD_WIDTH);
+    for (int c = 0; c < 4; c++) s->plane[c] = (double *)(void *)(at + b.plane) + c * s->planes;
     for (int32_t v = 0; v < p->nv; v++) {
         s->vertex[v] = p->v[v];
         s->weight[v] = fmin(1.0, FL_PATCH_CORNER_WEIGHT * fl_poly_corner_angle(p, v));
         s->bound = fmax(s->bound, v3_norm(p->v[v]));
     }
     for (int32_t f = 0; f < p->nf; f++) make_face(s, p, f);
+    for (int32_t f = 0; f < s->planes; f++) {
+        const fl_quick_face *face = f < p->nf ? &s->face[f] : NULL;
+        s->plane[0][f] = face ? face->n.x : 0.0, s->plane[1][f] = face ? face->n.y : 0.0;
+        s->plane[2][f] = face ? face->n.z : 0.0, s->plane[3][f] = face ? face->height : INFINITY;
+    }
     for (int32_t f = 0; f < p->nf; f++) {
         const double width = inset_of(s, &s->face[f]);
         for (int32_t k = 0; k < s->face[f].sides; k++) {

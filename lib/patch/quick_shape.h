@@ -43,6 +43,8 @@ typedef struct {
     double *weight; /* [vertices] 1, less for a blunt corner */
     fl_quick_edge *edge;
     fl_quick_face *face;
+    int32_t planes;   /* faces, rounded up to whole registers */
+    double *plane[4]; /* [planes] of each face n and height, at infinite height those that fill up */
     int32_t *loop;
     double *corner[3]; /* [loops + 4] coordinates of the corners, the other way round within each face */
     fl_quick_side *side;
