@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contact/disc_list.h"
+#include <assert.h>
 #include <string.h>
 #include "contact/pair_law.h"
 #include "law/normal.h"
@@ -99,18 +100,26 @@ static double evaluate_disc(fl_world *w, int32_t k, double dt)
     return v3_norm(f.force);
 }
 
+static_assert((int)FL_DISC_RUN <= (int)FL_DISC_BATCH, "a run is a batch");
+
 void fl_disc_list_evaluate(fl_world *w, int32_t from, int32_t to, double dt)
 {
     fl_disc_list *s = &w->discs;
+    fl_disc_batch_result r;
+    const int32_t n = to - from;
     double sum = 0.0;
-    for (int32_t k = from; k < to; k += FL_LANE_COUNT) {
-        uint8_t done[FL_LANE_COUNT];
-        sum += fl_disc_batch_force(&s->at, k, &s->law, s->classes, &w->b, s->shift ? s->shift + k : NULL, dt,
-                                   done);
-        for (int32_t l = 0; l < FL_LANE_COUNT && k + l < to; l++) {
-            if (done[l]) continue;
-            if (s->has_ended[k + l]) s->at.out[k + l] = (fl_disc_wrench){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-            else sum += evaluate_disc(w, k + l, dt);
+    const int left =
+        fl_disc_batch_force(&s->at, from, (n + FL_LANE_COUNT - 1) / FL_LANE_COUNT * FL_LANE_COUNT, &s->law,
+                            s->classes, &w->b, s->shift ? s->shift + from : NULL, dt, &r);
+    for (int32_t k = 0; k < n; k += FL_LANE_COUNT) {
+        double own = 0.0;
+        for (int32_t l = 0; l < FL_LANE_COUNT; l++) own += r.size[k + l];
+        sum += own;
+        for (int32_t l = k; left && l < k + FL_LANE_COUNT && l < n; l++) {
+            if (r.done[l]) continue;
+            if (s->has_ended[from + l])
+                s->at.out[from + l] = (fl_disc_wrench){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+            else sum += evaluate_disc(w, from + l, dt);
         }
     }
     s->force_sum[from / FL_DISC_RUN] = sum;
