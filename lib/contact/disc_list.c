@@ -125,33 +125,36 @@ void fl_disc_list_evaluate(fl_world *w, int32_t from, int32_t to, double dt)
     s->force_sum[from / FL_DISC_RUN] = sum;
 }
 
-/* Sums of forces and torques on body k.  A wrench has F, T_i and T_j, one behind another: loads of four
- * numbers from 0 and 4 on add F and T_i to a body i, from 0 and 5 on F and T_j to a body j. */
+/* A wrench has F, T_i and T_j, one behind another: loads of four numbers from 0 and 4 on add F and T_i to a
+ * body i, from 0 and 5 on F and T_j to a body j. */
 static_assert(sizeof(fl_disc_wrench) == 9 * sizeof(double), "consecutive doubles");
 
-FL_SIMD4_VERSIONS static void add_wrenches(const fl_disc_wrench *restrict own, int64_t n,
-                                           const fl_disc_wrench *restrict out, const int32_t *restrict of,
-                                           int64_t n_of, fl_vec3 *restrict f, fl_vec3 *restrict t)
+FL_SIMD4_VERSIONS static void add_wrenches(const fl_disc_list *restrict s, int32_t from, int32_t to,
+                                           fl_vec3 *restrict f, fl_vec3 *restrict t)
 {
-    fl_simd F = {f->x, f->y, f->z, t->x}, T = {t->y, t->z, 0.0, 0.0};
-    for (int64_t k = 0; k < n; k++) {
-        const double *const q = (const double *)(const void *)&own[k];
-        F += FL_SIMD_LOAD(q), T += FL_SIMD_LOAD(q + 4);
+    for (int32_t k = from; k < to; k++, f++, t++) {
+        fl_simd F = {f->x, f->y, f->z, t->x}, T = {t->y, t->z, 0.0, 0.0};
+        for (int64_t at = s->first_i[k]; at < s->first_i[k + 1]; at++) {
+            const double *const q = (const double *)(const void *)&s->at.out[at];
+            F += FL_SIMD_LOAD(q), T += FL_SIMD_LOAD(q + 4);
+        }
+        T = (fl_simd){0.0, F[3], T[0], T[1]};
+        for (int64_t at = s->first_j[k]; at < s->first_j[k + 1]; at++) {
+            const double *const q = (const double *)(const void *)&s->at.out[s->of[at]];
+            F -= FL_SIMD_LOAD(q), T += FL_SIMD_LOAD(q + 5);
+        }
+        *f = v3(F[0], F[1], F[2]), *t = v3(T[1], T[2], T[3]);
     }
-    T = (fl_simd){0.0, F[3], T[0], T[1]};
-    for (int64_t k = 0; k < n_of; k++) {
-        const double *const q = (const double *)(const void *)&out[of[k]];
-        F -= FL_SIMD_LOAD(q), T += FL_SIMD_LOAD(q + 5);
-    }
-    *f = v3(F[0], F[1], F[2]), *t = v3(T[1], T[2], T[3]);
+}
+
+void fl_disc_list_add_forces_of(const fl_world *w, int32_t from, int32_t to, fl_vec3 *f, fl_vec3 *t)
+{
+    if (w->discs.n) add_wrenches(&w->discs, from, to, f, t);
 }
 
 void fl_disc_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t)
 {
-    const fl_disc_list *s = &w->discs;
-    if (!s->n || k >= w->n) return;
-    const int64_t i = s->first_i[k], j = s->first_j[k];
-    add_wrenches(s->at.out + i, s->first_i[k + 1] - i, s->at.out, s->of + j, s->first_j[k + 1] - j, f, t);
+    if (k < w->n) fl_disc_list_add_forces_of(w, k, k + 1, f, t);
 }
 
 void fl_disc_list_init_contact(const fl_world *w, int32_t i, int32_t j, const int32_t image[3],
