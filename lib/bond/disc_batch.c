@@ -170,20 +170,15 @@ FL_SIMD4_VERSIONS static void store_forces(const disc_rows *restrict t, fl_disc_
 }
 
 /* Copies the new memory of discs that are done. */
-FL_SIMD_INLINE void keep_row(double *restrict to, const disc_row *restrict from,
-                             const disc_row *restrict done, int n, int all)
+static void keep_row(double *restrict to, const disc_row *restrict from, const disc_row *restrict done, int n,
+                     int all)
 {
-    if (all) {
-#pragma omp simd
-        for (int k = 0; k < n; k++) to[k] = from->a[k];
-    } else {
-        for (int k = 0; k < n; k++)
-            if (done->a[k] > 0.0) to[k] = from->a[k];
-    }
+    if (all) memcpy(to, from->a, (size_t)n * sizeof *to);
+    for (int k = 0; k < n && !all; k++)
+        if (done->a[k] > 0.0) to[k] = from->a[k];
 }
 
-FL_SIMD_VERSIONS static void keep_memory(const disc_rows *restrict t, const memory_rows *restrict m, int n,
-                                         int all)
+static void keep_memory(const disc_rows *restrict t, const memory_rows *restrict m, int n, int all)
 {
     for (int e = 0; e < 3; e++) {
         keep_row(m->S[e], &t->S[e], &t->done, n, all);
@@ -195,17 +190,33 @@ FL_SIMD_VERSIONS static void keep_memory(const disc_rows *restrict t, const memo
     if (m->damped) keep_row(m->damped, &t->damped, &t->done, n, all);
 }
 
+/* Rows of n numbers, a multiple of FL_LANE_COUNT; returns 1 if classes differ. */
+FL_SIMD_VERSIONS static int load_numbers(disc_rows *restrict t, const uint16_t *restrict which,
+                                         const uint8_t *restrict whole, const double *restrict scatter, int n)
+{
+    const uint16_t first = which[0];
+    unsigned other = 0;
+#pragma omp simd reduction(| : other)
+    for (int k = 0; k < (n & -FL_LANE_COUNT); k++) other |= (unsigned)(which[k] ^ first);
+#pragma omp simd
+    for (int k = 0; k < (n & -FL_LANE_COUNT); k++) t->whole.a[k] = whole[k];
+    if (scatter) {
+#pragma omp simd
+        for (int k = 0; k < (n & -FL_LANE_COUNT); k++) t->scatter.a[k] = scatter[k];
+    } else {
+#pragma omp simd
+        for (int k = 0; k < (n & -FL_LANE_COUNT); k++) t->scatter.a[k] = 1.0;
+    }
+    return other != 0;
+}
+
 /* Loads what the discs have beside their memory; returns the class of all of them, NULL if they differ. */
 static const fl_disc_class *load_discs(disc_rows *restrict t, const fl_disc_arrays *a, int32_t from, int n,
                                        const fl_disc_class *classes)
 {
     const uint16_t *which = a->which + from;
-    const uint8_t *whole = a->is_whole + from;
-    int other = 0;
-    for (int k = 1; k < n; k++) other |= which[k] ^ which[0];
-    for (int k = 0; k < n; k++) t->whole.a[k] = whole[k];
-    for (int k = 0; k < n; k++) t->scatter.a[k] = a->scatter ? a->scatter[from + k] : 1.0;
-    if (!other) return &classes[which[0]];
+    if (!load_numbers(t, which, a->is_whole + from, a->scatter ? a->scatter + from : NULL, n))
+        return &classes[which[0]];
     for (int k = 0; k < n; k++) {
         const double *const number = fl_lane_column(&classes[which[k]]);
         for (int c = 0; c < FL_DISC_CLASS_NUMBERS; c++) t->class[c].a[k] = number[c];

@@ -252,7 +252,7 @@ static void sum_forces(const fl_world *w, int32_t from, int32_t n, const sphere_
     const fl_vec3 none = v3(0, 0, 0);
     for (int32_t k = 0; k < n; k++) {
         f[k] = v3_add(v3_scale(q->m[k], w->gravity), v3(0, 0, q->buoyancy[k])), t[k] = none;
-        if (w->spheres.bodies) fl_sphere_add_forces(w, from + k, &f[k], &t[k]);
+        if (needs_changes(w, from + k)) fl_sphere_add_forces(w, from + k, &f[k], &t[k]);
     }
     fl_disc_list_add_forces_of(w, from, from + n, f, t);
 }

@@ -88,7 +88,9 @@ typedef struct {
     int32_t *previous_contact_count; /* [bodies] and in the step before */
     int32_t *first;                  /* [bodies + 1] contacts of body i */
     fl_sphere_state *state;          /* [bodies] */
-    int32_t *target;                 /* [n] where the force on j goes: j, or ~slot if j is in another chunk */
+    uint8_t *is_listed; /* [chunks * FL_SPHERE_CHUNK / FL_BODY_BLOCK] some contact refers to the block;
+                                      * states and sums of the others are not needed */
+    int32_t *target;    /* [n] where the force on j goes: j, or ~slot if j is in another chunk */
     int32_t chunks;
     int32_t *first_source;           /* [chunks] first chunk with a contact that refers to this chunk */
     uint8_t *finished;               /* [chunks] scratch of a step */
