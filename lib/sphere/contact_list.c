@@ -28,7 +28,7 @@ void fl_contact_list_free(fl_sphere_contacts *s)
         free(s->finished), free(s->shift), free(s->shift_index), free(s->slot_first), free(s->incoming_first),
         free(s->incoming), free(s->slot);
     free(s->previous_sum), free(s->sum), free(s->totals), free(s->omega2), free(s->omega2_slot),
-        free(s->contact_count), free(s->previous_contact_count), free(s->is_listed);
+        free(s->contact_count), free(s->previous_contact_count), free(s->is_listed), free(s->cleared);
     free(s->wall), free(s->wall_rolling), free(s->wall_first), free(s->wall_load);
     *s = (fl_sphere_contacts){0};
 }
@@ -81,11 +81,12 @@ static int alloc_bodies(fl_sphere_contacts *s, const fl_world *w, fl_err *err)
     s->contact_count = fl_alloc(w->n, sizeof *s->contact_count, err);
     s->previous_contact_count = fl_alloc(w->n, sizeof *s->previous_contact_count, err);
     s->is_listed = fl_alloc((int64_t)s->chunks * FL_SPHERE_CHUNK / FL_BODY_BLOCK, sizeof *s->is_listed, err);
+    s->cleared = fl_alloc(2 * (int64_t)s->chunks, sizeof *s->cleared, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
     s->previous_sum = fl_alloc(w->n, sizeof *s->previous_sum, err);
     if (!s->wall_first || !s->wall_load || !s->first || !s->incoming_first || !s->state || !s->first_source ||
         !s->finished || !s->slot_first || !s->totals || !s->omega2 || !s->contact_count ||
-        !s->previous_contact_count || !s->is_listed || !s->sum || !s->previous_sum)
+        !s->previous_contact_count || !s->is_listed || !s->cleared || !s->sum || !s->previous_sum)
         return -1;
     s->bodies = w->n;
     return 0;
