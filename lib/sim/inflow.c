@@ -175,7 +175,7 @@ static int is_outside(const fl_world *w, int32_t i)
            x.z + r < t->lo.z || x.z - r > t->hi.z;
 }
 
-/* First of the bodies [from, n), or more than n - FL_SIMD_WIDTH, whose box of r + more about x may be outside. */
+/* First body from `from` on, in steps of four, where one of four boxes may be outside; or one near n. */
 FL_SIMD4_VERSIONS static int32_t skip_inside(const fl_vec3 *restrict x, const double *restrict r,
                                              const double *restrict more, fl_vec3 lo, fl_vec3 hi,
                                              int32_t from, int32_t n)

@@ -226,7 +226,7 @@ static fl_vec3 change_by(const sphere_rows *q, int32_t k, fl_vec3 f, double h, i
                  : v3_scale(h * q->invm[k], f);
 }
 
-/* True if sphere i touches spheres, now or before: the works of its contacts need the changes by both kicks. */
+/* True if sphere i touches spheres, now or before: works of its contacts need the changes by both kicks. */
 static int needs_changes(const fl_world *w, int32_t i)
 {
     return w->spheres.bodies && (w->spheres.contact_count[i] | w->spheres.previous_contact_count[i]);
