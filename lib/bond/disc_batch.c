@@ -15,7 +15,7 @@ static_assert(sizeof(fl_disc_class) == FL_DISC_CLASS_NUMBERS * sizeof(double), "
 enum { OUTPUT = 9 };
 static_assert(sizeof(fl_disc_wrench) == OUTPUT * sizeof(double), "consecutive doubles");
 
-/* Numbers of the discs of a batch, a row for each: positions and velocities of j from i, spins, what the class
+/* Numbers of the discs of a batch, a row for each: position and velocity of j from i, spins, what the class
  * has, forces, the memory after the step, 1 for those that are done, and |F|. */
 typedef struct {
     double a[FL_DISC_BATCH];
