@@ -28,9 +28,9 @@ typedef struct {
 } fl_disc_batch_result;
 
 /* Evaluates the discs [from, from + n) that are whole over a step of dt [s]; n is a multiple of
- * FL_LANE_COUNT.  shift: offsets that bring j beside i, NULL for none.  Returns how many are not done: they are
- * not whole or may have reached their strength; their memory is unchanged, and the caller computes their forces
- * alone. */
+ * FL_LANE_COUNT.  shift: offsets that bring j beside i, NULL for none.  Returns how many are not done:
+ * those that are not whole or may have reached their strength.  Their memory is unchanged, and the caller
+ * computes their forces alone. */
 int fl_disc_batch_force(const fl_disc_arrays *a, int32_t from, int n, const fl_disc_law *law,
                         const fl_disc_class *classes, const fl_bodies *b, const fl_vec3 *shift, double dt,
                         fl_disc_batch_result *out);
