@@ -268,29 +268,31 @@ FL_SIMD_INLINE void versine_and_sinc(const fl_simd *x2, fl_simd *versine, fl_sim
     *versine = FL_SIMD_SELECT(few, v, cosine), *sinc = FL_SIMD_SELECT(few, f, sine);
 }
 
-/* Kick and drift of the four bodies from k on. Returns 0, without the drift, if one turns beyond the range of
- * the series. */
-FL_SIMD_INLINE int kick_drift_four(const isotropic_run *a, int32_t k, double h, double dt)
+/* Kick, if `kicks`, and drift of the four bodies from k on. Returns 0, without the drift, if one turns beyond
+ * the range of the series. */
+FL_SIMD_INLINE int kick_drift_four(const isotropic_run *a, int32_t k, double h, double dt, int kicks)
 {
-    const fl_simd s = h * FL_SIMD_LOAD(&a->invm[k]);
     fl_simd ease[3], f[3], t[3], v[3], L[3], w[3], r[3], x[3], q[4];
     fl_simd_from_triples(ease, &a->invI[k]);
-    fl_simd_from_triples(f, &a->f[k]);
-    fl_simd_from_triples(t, &a->t[k]);
     fl_simd_from_triples(v, &a->v[k]);
     fl_simd_from_triples(L, &a->L[k]);
-    const fl_simd turns = dt * ease[0];
-    FL_SIMD_UNROLL for (int c = 0; c < 3; c++)
-    {
-        v[c] += s * f[c];
-        L[c] += h * t[c];
-        w[c] = ease[0] * L[c];
-        r[c] = turns * L[c];
+    if (kicks) {
+        const fl_simd s = h * FL_SIMD_LOAD(&a->invm[k]);
+        fl_simd_from_triples(f, &a->f[k]);
+        fl_simd_from_triples(t, &a->t[k]);
+        FL_SIMD_UNROLL for (int c = 0; c < 3; c++)
+        {
+            v[c] += s * f[c];
+            L[c] += h * t[c];
+            w[c] = ease[0] * L[c];
+        }
+        fl_simd_to_triples(&a->v[k], v);
+        fl_simd_to_triples(&a->L[k], L);
+        fl_simd_to_triples(&a->w[k], w);
     }
-    fl_simd_to_triples(&a->v[k], v);
-    fl_simd_to_triples(&a->L[k], L);
-    fl_simd_to_triples(&a->w[k], w);
     if (dt == 0.0) return 1;
+    const fl_simd turns = dt * ease[0];
+    FL_SIMD_UNROLL for (int c = 0; c < 3; c++) r[c] = turns * L[c];
     const fl_simd half2 = 0.25 * NORM2(r), room = Q_HALF_ANGLE2_MAX - half2;
     const fl_simd_mask known = room >= 0.0;
     if (!(known[0] & known[1] & known[2] & known[3])) return 0;
@@ -325,15 +327,28 @@ FL_SIMD4_VERSIONS static int32_t kick_drift_run(const isotropic_run *restrict a,
                                                 double h, double dt)
 {
     for (int32_t k = from; k < n; k += FL_SIMD_WIDTH)
-        if (!kick_drift_four(a, k, h, dt)) return k;
+        if (!kick_drift_four(a, k, h, dt, 1)) return k;
     return n;
+}
+
+FL_SIMD4_VERSIONS static int32_t drift_run(const isotropic_run *restrict a, int32_t from, int32_t n,
+                                           double dt)
+{
+    for (int32_t k = from; k < n; k += FL_SIMD_WIDTH)
+        if (!kick_drift_four(a, k, 0.0, dt, 0)) return k;
+    return n;
+}
+
+static isotropic_run run_from(const fl_bodies *b, int32_t from)
+{
+    return (isotropic_run){b->invm + from, b->invI + from, b->f + from, b->t + from, b->v + from,
+                           b->L + from,    b->w + from,    b->x + from, b->q + from, b->odometer + from};
 }
 
 void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, double dt)
 {
     const int32_t n = to - from, four = n - n % FL_SIMD_WIDTH;
-    const isotropic_run a = {b->invm + from, b->invI + from, b->f + from, b->t + from, b->v + from,
-                             b->L + from,    b->w + from,    b->x + from, b->q + from, b->odometer + from};
+    const isotropic_run a = run_from(b, from);
     for (int32_t k = 0; k < four;) {
         const int32_t wild = kick_drift_run(&a, k, four, h, dt);
         for (k = wild; k < four && k < wild + FL_SIMD_WIDTH; k++) fl_drift(b, from + k, dt);
@@ -342,6 +357,17 @@ void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, d
         fl_kick(b, from + k, h);
         if (dt != 0.0) fl_drift(b, from + k, dt);
     }
+}
+
+void fl_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double dt)
+{
+    const int32_t n = to - from, four = n - n % FL_SIMD_WIDTH;
+    const isotropic_run a = run_from(b, from);
+    for (int32_t k = 0; k < four;) {
+        const int32_t wild = drift_run(&a, k, four, dt);
+        for (k = wild; k < four && k < wild + FL_SIMD_WIDTH; k++) fl_drift(b, from + k, dt);
+    }
+    for (int32_t k = four; k < n; k++) fl_drift(b, from + k, dt);
 }
 
 /* The matrix from Y to u of solve_free_dof() with the fixed components zero. */

@@ -38,6 +38,9 @@ void fl_drift(fl_bodies *b, int32_t i, double dt);
  * free and isotropic, and i < n. The state gets the same bits as one by one. */
 void fl_kick_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double h, double dt);
 
+/* fl_drift() of such bodies. */
+void fl_drift_isotropic(fl_bodies *b, int32_t from, int32_t to, double dt);
+
 /* True if body i has neither constraints nor added mass. */
 static inline int fl_body_is_free(const fl_bodies *b, int32_t i)
 {

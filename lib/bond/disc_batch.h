@@ -19,11 +19,20 @@ typedef struct {
     fl_disc_wrench *out; /* of the last evaluation */
 } fl_disc_arrays;
 
-/* Evaluates the discs [from, from + FL_LANE_COUNT) that are whole over a step of dt [s].  shift: offsets that
- * bring j beside i, NULL for none.  done: 1 if the disc has its forces, 0 if it is not whole or may have
- * reached its strength; it is unchanged then.  Returns the sum of |F| of those that are done. */
-double fl_disc_batch_force(const fl_disc_arrays *a, int32_t from, const fl_disc_law *law,
-                           const fl_disc_class *classes, const fl_bodies *b, const fl_vec3 *shift, double dt,
-                           uint8_t done[FL_LANE_COUNT]);
+enum { FL_DISC_BATCH = 64 }; /* most discs of a batch */
+
+/* |F| of each disc of a batch that is done, 0 for the others; and 1 for those that are done. */
+typedef struct {
+    double size[FL_DISC_BATCH];
+    uint8_t done[FL_DISC_BATCH]; /* set only if some disc is not */
+} fl_disc_batch_result;
+
+/* Evaluates the discs [from, from + n) that are whole over a step of dt [s]; n is a multiple of
+ * FL_LANE_COUNT.  shift: offsets that bring j beside i, NULL for none.  Returns how many are not done:
+ * those that are not whole or may have reached their strength.  Their memory is unchanged, and the caller
+ * computes their forces alone. */
+int fl_disc_batch_force(const fl_disc_arrays *a, int32_t from, int n, const fl_disc_law *law,
+                        const fl_disc_class *classes, const fl_bodies *b, const fl_vec3 *shift, double dt,
+                        fl_disc_batch_result *out);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contact/disc_list.h"
+#include <assert.h>
 #include <string.h>
 #include "contact/pair_law.h"
 #include "law/normal.h"
@@ -99,37 +100,61 @@ static double evaluate_disc(fl_world *w, int32_t k, double dt)
     return v3_norm(f.force);
 }
 
+static_assert((int)FL_DISC_RUN <= (int)FL_DISC_BATCH, "a run is a batch");
+
 void fl_disc_list_evaluate(fl_world *w, int32_t from, int32_t to, double dt)
 {
     fl_disc_list *s = &w->discs;
+    fl_disc_batch_result r;
+    const int32_t n = to - from;
     double sum = 0.0;
-    for (int32_t k = from; k < to; k += FL_LANE_COUNT) {
-        uint8_t done[FL_LANE_COUNT];
-        sum += fl_disc_batch_force(&s->at, k, &s->law, s->classes, &w->b, s->shift ? s->shift + k : NULL, dt,
-                                   done);
-        for (int32_t l = 0; l < FL_LANE_COUNT && k + l < to; l++) {
-            if (done[l]) continue;
-            if (s->has_ended[k + l]) s->at.out[k + l] = (fl_disc_wrench){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-            else sum += evaluate_disc(w, k + l, dt);
+    const int left =
+        fl_disc_batch_force(&s->at, from, (n + FL_LANE_COUNT - 1) / FL_LANE_COUNT * FL_LANE_COUNT, &s->law,
+                            s->classes, &w->b, s->shift ? s->shift + from : NULL, dt, &r);
+    for (int32_t k = 0; k < n; k += FL_LANE_COUNT) {
+        double own = 0.0;
+        for (int32_t l = 0; l < FL_LANE_COUNT; l++) own += r.size[k + l];
+        sum += own;
+        for (int32_t l = k; left && l < k + FL_LANE_COUNT && l < n; l++) {
+            if (r.done[l]) continue;
+            if (s->has_ended[from + l])
+                s->at.out[from + l] = (fl_disc_wrench){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+            else sum += evaluate_disc(w, from + l, dt);
         }
     }
     s->force_sum[from / FL_DISC_RUN] = sum;
 }
 
+/* A wrench has F, T_i and T_j, one behind another: loads of four numbers from 0 and 4 on add F and T_i to a
+ * body i, from 0 and 5 on F and T_j to a body j. */
+static_assert(sizeof(fl_disc_wrench) == 9 * sizeof(double), "consecutive doubles");
+
+FL_SIMD4_VERSIONS static void add_wrenches(const fl_disc_list *restrict s, int32_t from, int32_t to,
+                                           fl_vec3 *restrict f, fl_vec3 *restrict t)
+{
+    for (int32_t k = from; k < to; k++, f++, t++) {
+        fl_simd F = {f->x, f->y, f->z, t->x}, T = {t->y, t->z, 0.0, 0.0};
+        for (int64_t at = s->first_i[k]; at < s->first_i[k + 1]; at++) {
+            const double *const q = (const double *)(const void *)&s->at.out[at];
+            F += FL_SIMD_LOAD(q), T += FL_SIMD_LOAD(q + 4);
+        }
+        T = (fl_simd){0.0, F[3], T[0], T[1]};
+        for (int64_t at = s->first_j[k]; at < s->first_j[k + 1]; at++) {
+            const double *const q = (const double *)(const void *)&s->at.out[s->of[at]];
+            F -= FL_SIMD_LOAD(q), T += FL_SIMD_LOAD(q + 5);
+        }
+        *f = v3(F[0], F[1], F[2]), *t = v3(T[1], T[2], T[3]);
+    }
+}
+
+void fl_disc_list_add_forces_of(const fl_world *w, int32_t from, int32_t to, fl_vec3 *f, fl_vec3 *t)
+{
+    if (w->discs.n) add_wrenches(&w->discs, from, to, f, t);
+}
+
 void fl_disc_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t)
 {
-    const fl_disc_list *s = &w->discs;
-    if (!s->n || k >= w->n) return;
-    fl_vec3 F = *f, T = *t;
-    for (int64_t at = s->first_i[k]; at < s->first_i[k + 1]; at++) {
-        const fl_disc_wrench *q = &s->at.out[at];
-        F = v3_add(F, q->force), T = v3_add(T, q->couple_i);
-    }
-    for (int64_t at = s->first_j[k]; at < s->first_j[k + 1]; at++) {
-        const fl_disc_wrench *q = &s->at.out[s->of[at]];
-        F = v3_sub(F, q->force), T = v3_add(T, q->couple_j);
-    }
-    *f = F, *t = T;
+    if (k < w->n) fl_disc_list_add_forces_of(w, k, k + 1, f, t);
 }
 
 void fl_disc_list_init_contact(const fl_world *w, int32_t i, int32_t j, const int32_t image[3],

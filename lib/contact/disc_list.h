@@ -24,7 +24,8 @@ static inline int fl_body_has_discs(const fl_world *w, int32_t k)
  */
 void fl_disc_list_evaluate(fl_world *w, int32_t from, int32_t to, double dt);
 
-/* Adds the forces of the bonds of body k, in their order. */
+/* Adds the forces of the bonds of bodies [from, to), each in their order, to f[0], t[0] and on; of body k. */
+void fl_disc_list_add_forces_of(const fl_world *w, int32_t from, int32_t to, fl_vec3 *f, fl_vec3 *t);
 void fl_disc_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t);
 
 /* True if a bond stands between the two. */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/array.h"
+#include "base/simd.h"
 #include "body/domain_kernel.h"
 #include "contact/bond_list.h"
 #include "contact/crushing.h"
@@ -170,6 +171,37 @@ static double coordinate_along(const fl_inflow_state *t, fl_vec3 x)
 static int is_outside(const fl_world *w, int32_t i)
 {
     return fl_is_beyond(w->inflow.lo, w->inflow.hi, w->b.x[i], fl_body_extent(&w->b, i));
+}
+
+/* First body from `from` on, in steps of four, where one of four boxes may be outside; or one near n. */
+FL_SIMD4_VERSIONS static int32_t skip_inside(const fl_vec3 *restrict x, const double *restrict r,
+                                             const double *restrict more, fl_vec3 lo, fl_vec3 hi,
+                                             int32_t from, int32_t n)
+{
+    int32_t k = from;
+    for (; k + FL_SIMD_WIDTH <= n; k += FL_SIMD_WIDTH) {
+        const fl_simd R = FL_SIMD_LOAD(&more[k]) + FL_SIMD_LOAD(&r[k]);
+        fl_simd at[3];
+        fl_simd_from_triples(at, &x[k]);
+        const fl_simd_mask out = (at[0] + R < lo.x) | (at[0] - R > hi.x) | (at[1] + R < lo.y) |
+                                 (at[1] - R > hi.y) | (at[2] + R < lo.z) | (at[2] - R > hi.z);
+        if (fl_simd_any(&out)) break;
+    }
+    return k;
+}
+
+/* True if a body of the processor that may leave is outside. */
+static int some_leaves(const fl_world *w)
+{
+    const fl_inflow_state *t = &w->inflow;
+    const fl_bodies *b = &w->b;
+    for (int32_t i = 0; t->leaves && i < w->n; i++) {
+        if (i % FL_SIMD_WIDTH == 0)
+            i = skip_inside(b->x, b->radius, b->bounding_radius, t->lo, t->hi, i, w->n);
+        if (i < w->n && !t->absent[i] && !t->guided[i] && !fl_device_moves(w, i) && is_outside(w, i))
+            return 1;
+    }
+    return 0;
 }
 
 static void remove_floe(fl_world *w, int32_t i)
@@ -443,8 +475,7 @@ int fl_inflow_step(fl_world *w, fl_err *err)
     int leaving = t->leaves && fl_device_leaves(w), came = 0;
     int32_t place = 0;
     if (t->feed) release_guided(w);
-    for (int32_t i = 0; t->leaves && i < w->n && !leaving; i++)
-        leaving = !t->absent[i] && !t->guided[i] && !fl_device_moves(w, i) && is_outside(w, i);
+    if (!leaving) leaving = some_leaves(w);
     if (!leaving && !is_due(w)) return 0;
     if (fl_device_hand_over(w, err)) return -1;
     fl_sleep_advance_to_now(w);

@@ -276,7 +276,7 @@ static void start_block(fl_world *w, int32_t g)
 {
     const int32_t from = g * FL_BODY_BLOCK, to = fl_block_end(w, g);
     w->blocks[g] = (fl_body_block){.not_finite = -1};
-    if (!w->spheres.bodies) return;
+    if (!w->spheres.bodies || !w->spheres.is_listed[g]) return;
     fl_prefetch(&w->spheres.previous_sum[to],
                 FL_BODY_BLOCK * sizeof *w->spheres.previous_sum); /* of the next block */
     fl_sphere_sums_collect(w, from, to);

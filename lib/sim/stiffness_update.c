@@ -43,14 +43,15 @@ typedef struct {
 
 static double limit_of(double omega2) { return omega2 > 0.0 ? 2.0 / sqrt(omega2) : INFINITY; }
 
-static limits limits_of_body(const fl_world *w, int32_t i)
+/* omega^2 by the contacts of body i. */
+static double contact_omega2(const fl_world *w, int32_t i)
 {
     double sum = w->spheres.bodies ? fl_sphere_omega2(w, i) : 0.0;
     for (int64_t c = w->first_pair_of_body[i]; c < w->first_pair_of_body[i + 1]; c++) {
         const fl_neighbour_pair *q = &w->pair[w->pairs_of_body[c]];
         if (q->touching) sum += omega2_share(w, q->contact, i);
     }
-    return (limits){limit_of(sum), limit_of(sum + fl_bond_list_omega2(w, i))};
+    return sum;
 }
 
 /* Lower *least by the limits of all bodies; *body: the body of least->all, if it was lowered. */
@@ -58,10 +59,14 @@ static void find_least(const fl_world *w, limits *least, int32_t *body)
 {
     limits own = {w->dt_critical_contacts, w->dt_critical};
     int32_t i_own = INT32_MAX;
+    /* the limit of discs alone only grows, as they break */
+    const int discs_known = w->discs.limits_known && isfinite(w->dt_critical);
 #pragma omp for schedule(static) nowait
     for (int32_t i = 0; i < fl_places_end(w); i++) {
         if (!has_contacts(w, i)) continue;
-        const limits it = limits_of_body(w, i);
+        const double sum = contact_omega2(w, i);
+        if (sum == 0.0 && discs_known && !fl_body_has_faces(w, i)) continue;
+        const limits it = {limit_of(sum), limit_of(sum + fl_bond_list_omega2(w, i))};
         if (it.contacts < own.contacts) own.contacts = it.contacts;
         if (it.all < own.all) own.all = it.all, i_own = i;
     }
@@ -83,6 +88,7 @@ void fl_stiffness_update(fl_world *w)
 #pragma omp parallel num_threads(w->team.n)
         find_least(w, &least, &body);
     }
+    w->discs.limits_known = 1;
     w->dt_critical_contacts = least.contacts;
     if (body < INT32_MAX) {
         w->dt_critical = least.all;

@@ -104,6 +104,12 @@ void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h)
     }
 }
 
+void fl_sphere_counts_update(fl_world *w, int32_t from, int32_t to)
+{
+    memcpy(&w->spheres.previous_contact_count[from], &w->spheres.contact_count[from],
+           (size_t)(to - from) * sizeof *w->spheres.contact_count);
+}
+
 /* The difference a - b of two vectors, and the sum of the numbers after them. */
 FL_SIMD_INLINE void difference_and_sum(fl_simd *d, const void *a, const void *b)
 {
@@ -513,8 +519,29 @@ static void evaluate_block(fl_world *w, int32_t a, batch *t, double dt, int surv
     t->m = more;
 }
 
+/* True if no contact refers to chunk a.  Its sums are 0 then; they are written only where they may not be. */
+static int chunk_rests(const fl_world *w, int32_t a, int survey)
+{
+    enum { BLOCKS = FL_SPHERE_CHUNK / FL_BODY_BLOCK };
+    static const uint8_t none[BLOCKS] = {0};
+    const fl_sphere_contacts *s = &w->spheres;
+    const fl_sphere_sum **const cleared = &s->cleared[2 * a];
+    const int32_t begin = a * FL_SPHERE_CHUNK, n = fl_chunk_end(s, a) - begin;
+    if (memcmp(&s->is_listed[BLOCKS * a], none, sizeof none) != 0) {
+        cleared[0] = cleared[1] = NULL;
+        return 0;
+    }
+    s->totals[a] = (fl_chunk_totals){.max_overlap_i = -1, .max_overlap_j = -1};
+    if (survey) memset(&s->omega2[begin], 0, (size_t)n * sizeof *s->omega2);
+    if (cleared[0] == s->sum || cleared[1] == s->sum) return 1;
+    clear_sums(&s->sum[begin], n);
+    cleared[1] = cleared[0], cleared[0] = s->sum;
+    return 1;
+}
+
 void fl_sphere_chunk_evaluate(fl_world *w, int32_t a, double dt, int survey)
 {
+    if (chunk_rests(w, a, survey)) return;
     fl_sphere_contacts *s = &w->spheres;
     const int32_t begin = a * FL_SPHERE_CHUNK, end = fl_chunk_end(s, a), to = s->first[end],
                   slot_begin = s->slot_first[a];

@@ -14,6 +14,9 @@
  * half, while the bodies have the forces of its start. */
 void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h);
 
+/* What it does beside that, for bodies that are in no contact of the list. */
+void fl_sphere_counts_update(fl_world *w, int32_t from, int32_t to);
+
 /* Evaluates the contacts of chunk a over a step of dt [s]; survey: also bounds of omega^2.  dt < 0:
  * recomputes the sums from the stored forces.  Any thread may take any chunk. */
 void fl_sphere_chunk_evaluate(fl_world *w, int32_t a, double dt, int survey);

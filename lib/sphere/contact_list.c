@@ -28,7 +28,7 @@ void fl_contact_list_free(fl_sphere_contacts *s)
         free(s->finished), free(s->shift), free(s->shift_index), free(s->slot_first), free(s->incoming_first),
         free(s->incoming), free(s->slot);
     free(s->previous_sum), free(s->sum), free(s->totals), free(s->omega2), free(s->omega2_slot),
-        free(s->contact_count), free(s->previous_contact_count);
+        free(s->contact_count), free(s->previous_contact_count), free(s->is_listed), free(s->cleared);
     free(s->wall), free(s->wall_rolling), free(s->wall_first), free(s->wall_load);
     *s = (fl_sphere_contacts){0};
 }
@@ -80,11 +80,13 @@ static int alloc_bodies(fl_sphere_contacts *s, const fl_world *w, fl_err *err)
     s->omega2 = fl_alloc(w->n, sizeof *s->omega2, err);
     s->contact_count = fl_alloc(w->n, sizeof *s->contact_count, err);
     s->previous_contact_count = fl_alloc(w->n, sizeof *s->previous_contact_count, err);
+    s->is_listed = fl_alloc((int64_t)s->chunks * FL_SPHERE_CHUNK / FL_BODY_BLOCK, sizeof *s->is_listed, err);
+    s->cleared = fl_alloc(2 * (int64_t)s->chunks, sizeof *s->cleared, err);
     s->sum = fl_alloc(w->n, sizeof *s->sum, err);
     s->previous_sum = fl_alloc(w->n, sizeof *s->previous_sum, err);
     if (!s->wall_first || !s->wall_load || !s->first || !s->incoming_first || !s->state || !s->first_source ||
         !s->finished || !s->slot_first || !s->totals || !s->omega2 || !s->contact_count ||
-        !s->previous_contact_count || !s->sum || !s->previous_sum)
+        !s->previous_contact_count || !s->is_listed || !s->cleared || !s->sum || !s->previous_sum)
         return -1;
     s->bodies = w->n;
     return 0;
@@ -115,6 +117,16 @@ static int index_shifts(fl_sphere_contacts *s, const fl_periodic_cell *cell, fl_
         s->shift_index[c] = (uint8_t)k;
     }
     return 0;
+}
+
+/* Marks the blocks whose bodies are in the list; all of them where pairs of other lists need states. */
+static void mark_listed(const fl_world *w)
+{
+    const fl_sphere_contacts *s = &w->spheres;
+    const int all = !w->discs.n || w->has_rolling || w->walls || w->device.gpu;
+    memset(s->is_listed, all, (size_t)s->chunks * FL_SPHERE_CHUNK / FL_BODY_BLOCK);
+    for (int32_t c = 0; c < s->n && !all; c++)
+        s->is_listed[s->i[c] / FL_BODY_BLOCK] = s->is_listed[s->j[c] / FL_BODY_BLOCK] = 1;
 }
 
 /* Computes offsets, targets and slots of all contacts. */
@@ -163,6 +175,7 @@ static int index_contacts(fl_world *w, fl_err *err)
     for (int32_t c = 0; c < s->n; c++)
         s->contact_count[s->i[c]] += s->touches[c], s->contact_count[s->j[c]] += s->touches[c];
     fl_wall_list_index(s);
+    mark_listed(w);
     return 0;
 }
 

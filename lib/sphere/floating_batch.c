@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sphere/floating_batch.h"
+#include <string.h>
 #include "base/simd.h"
 #include "body/integrate.h"
 #include "contact/disc_list.h"
@@ -15,9 +16,38 @@ int fl_floating_batch_applies(const fl_world *w)
            !w->contact_sums.one_each && !w->previous_sums.one_each;
 }
 
+/* True if the bytes of the eight bodies from k on are all those of `value`. */
+static int eight_are(const uint8_t *a, int32_t k, uint64_t value)
+{
+    uint64_t eight;
+    memcpy(&eight, &a[k], sizeof eight);
+    return eight == value;
+}
+
+static int eight_slots_are(const int32_t *a, int32_t k, int32_t value)
+{
+    int32_t other = 0;
+    for (int32_t i = k; i < k + 8; i++) other |= a[i] ^ value;
+    return other == 0;
+}
+
+/* True if the eight floes from k on are known not to be driven; false tells nothing. */
+static int eight_are_free(const fl_world *w, int32_t k)
+{
+    const fl_driven_floes *d = &w->driven_floes;
+    if (w->inflow.absent &&
+        (!eight_are(w->inflow.absent, k, 0) || !eight_slots_are(w->inflow.source_floe, k, -1)))
+        return 0;
+    return k >= d->n || (k + 8 <= d->n && eight_are(d->is_driven, k, 0));
+}
+
 int32_t fl_floating_run_end(const fl_world *w, int32_t k, int32_t to, int second)
 {
     const int32_t *now = w->contact_sums.slot, *before = w->previous_sums.slot;
+    const uint64_t all = 0x0101010101010101;
+    while (k + 8 <= to && eight_are(w->b.is_isotropic, k, all) && eight_are(w->b.fixed_dof, k, 0) &&
+           eight_slots_are(before, k, 0) && !(second && !eight_slots_are(now, k, 0)) && eight_are_free(w, k))
+        k += 8;
     while (k < to && w->b.is_isotropic[k] && !w->b.fixed_dof[k] && before[k] == 0 &&
            !(second && now[k] != 0) && !fl_body_absent(w, k) && !fl_floe_is_driven(w, k))
         k++;
@@ -34,11 +64,32 @@ typedef struct {
     double z[N], r[N], volume[N], surface[N], fill[N], buoyancy[N], heave[N], work[N];
 } sphere_rows;
 
-#define LOAD(member, from)                                                                                   \
-    do {                                                                                                     \
-        q->member[0][k] = (from).x, q->member[1][k] = (from).y, q->member[2][k] = (from).z;                  \
-    } while (0)
-#define STORE(to, member) (to) = v3(q->member[0][k], q->member[1][k], q->member[2][k])
+/* Vectors of n bodies as three rows, and back. */
+FL_SIMD4_VERSIONS static void load_rows(double (*restrict row)[N], const fl_vec3 *restrict a, int32_t n)
+{
+    int32_t k = 0;
+    for (; k + FL_SIMD_WIDTH <= n; k += FL_SIMD_WIDTH) {
+        fl_simd v[3];
+        fl_simd_from_triples(v, &a[k]);
+        FL_SIMD_STORE(&row[0][k]) = v[0], FL_SIMD_STORE(&row[1][k]) = v[1], FL_SIMD_STORE(&row[2][k]) = v[2];
+    }
+    for (; k < n; k++) row[0][k] = a[k].x, row[1][k] = a[k].y, row[2][k] = a[k].z;
+}
+
+FL_SIMD4_VERSIONS static void store_rows(fl_vec3 *restrict a, double (*restrict row)[N], int32_t n)
+{
+    int32_t k = 0;
+    for (; k + FL_SIMD_WIDTH <= n; k += FL_SIMD_WIDTH) {
+        const fl_simd v[3] = {FL_SIMD_LOAD(&row[0][k]), FL_SIMD_LOAD(&row[1][k]), FL_SIMD_LOAD(&row[2][k])};
+        fl_simd_to_triples(&a[k], v);
+    }
+    for (; k < n; k++) a[k] = v3(row[0][k], row[1][k], row[2][k]);
+}
+
+static void copy_row(double *restrict to, const double *restrict from, int32_t n)
+{
+    memcpy(to, from, (size_t)n * sizeof *to);
+}
 
 static fl_sphere_drag drag_law_of(const fl_world *w, double h)
 {
@@ -51,24 +102,29 @@ static fl_sphere_drag drag_law_of(const fl_world *w, double h)
 static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows *q)
 {
     const fl_bodies *b = &w->b;
-    for (int32_t k = 0; k < n; k++) {
-        const int32_t i = from + k;
-        LOAD(v, b->v[i]);
-        LOAD(L, b->L[i]);
-        LOAD(w, b->w[i]);
-        LOAD(f, b->f[i]);
-        LOAD(t, b->t[i]);
-        q->m[k] = b->m[i], q->invm[k] = b->invm[i], q->turn[k] = b->invI[i].x;
-        q->heave[k] = b->heave_mass ? b->heave_mass[i] : 0.0;
-        q->up[k] = q->m[k] + q->heave[k];
-        q->area[k] = w->sea.wetted_area[i], q->loss[k] = w->sea.drag_loss[i];
-        q->r[k] = w->sea.drag_radius[i];
-    }
+    load_rows(q->v, b->v + from, n);
+    load_rows(q->L, b->L + from, n);
+    load_rows(q->w, b->w + from, n);
+    copy_row(q->m, b->m + from, n);
+    copy_row(q->invm, b->invm + from, n);
+    copy_row(q->area, w->sea.wetted_area + from, n);
+    copy_row(q->loss, w->sea.drag_loss + from, n);
+    copy_row(q->r, w->sea.drag_radius + from, n);
+    for (int32_t k = 0; k < n; k++) q->turn[k] = b->invI[from + k].x;
+    for (int32_t k = 0; k < n; k++) q->heave[k] = b->heave_mass ? b->heave_mass[from + k] : 0.0;
+    for (int32_t k = 0; k < n; k++) q->up[k] = q->m[k] + q->heave[k];
     for (int32_t k = n; k < (n + 7) / 8 * 8; k++) { /* the last register is full */
         for (int e = 0; e < 3; e++) q->v[e][k] = q->L[e][k] = q->w[e][k] = q->f[e][k] = q->t[e][k] = 0.0;
         q->m[k] = q->invm[k] = q->turn[k] = q->up[k] = q->r[k] = q->fill[k] = 1.0;
         q->heave[k] = q->area[k] = q->loss[k] = q->z[k] = q->volume[k] = q->surface[k] = q->work[k] = 0.0;
     }
+}
+
+static void store_motion(fl_bodies *b, int32_t from, int32_t n, sphere_rows *q)
+{
+    store_rows(b->v + from, q->v, n);
+    store_rows(b->L + from, q->L, n);
+    store_rows(b->w + from, q->w, n);
 }
 
 #define ROW(member) v3(q->member[0][k], q->member[1][k], q->member[2][k])
@@ -150,36 +206,55 @@ void fl_floating_batch_begin(fl_world *w, int32_t from, int32_t to, double h)
     const int32_t n = to - from;
     const int full = (n + 7) / 8 * 8, heavy = b->heave_mass != NULL;
     const fl_sphere_drag d = drag_law_of(w, h);
-    fl_vec3 v0[N], w0[N];
     load_motion(w, from, n, q);
-    for (int32_t k = 0; k < n && w->drag_change; k++) v0[k] = b->v[from + k], w0[k] = b->w[from + k];
+    load_rows(q->f, b->f + from, n);
+    load_rows(q->t, b->t + from, n);
     decay_rows(q, full, d, heavy);
-    for (int32_t k = 0; k < n; k++) {
-        w->sea.drag_loss[from + k] = q->loss[k];
-        if (!w->drag_change) continue;
-        const fl_vec3 v = v3(q->v[0][k], q->v[1][k], q->v[2][k]), s = v3(q->w[0][k], q->w[1][k], q->w[2][k]);
-        w->drag_change[from + k] = (fl_velocity_change){v3_sub(v, v0[k]), v3_sub(s, w0[k])};
-    }
+    copy_row(w->sea.drag_loss + from, q->loss, n);
+    for (int32_t k = 0; k < n && w->drag_change; k++)
+        w->drag_change[from + k] =
+            (fl_velocity_change){v3_sub(ROW(v), b->v[from + k]), v3_sub(ROW(w), b->w[from + k])};
     kick_rows(q, full, h, heavy);
-    for (int32_t k = 0; k < n; k++) {
-        STORE(b->v[from + k], v);
-        STORE(b->L[from + k], L);
-        STORE(b->w[from + k], w);
-    }
-    fl_kick_drift_isotropic(b, from, to, 0.0, 2.0 * h);
+    store_motion(b, from, n, q);
+    fl_drift_isotropic(b, from, to, 2.0 * h);
 }
 
-/* Change of velocity by a kick. */
-static fl_vec3 change_by(const sphere_rows *q, int k, double h, int heavy)
+/* Change of velocity by a kick of the force f. */
+static fl_vec3 change_by(const sphere_rows *q, int32_t k, fl_vec3 f, double h, int heavy)
 {
-    const fl_vec3 f = v3(q->f[0][k], q->f[1][k], q->f[2][k]);
     return heavy ? v3_scale(h, v3(q->invm[k] * f.x, q->invm[k] * f.y, f.z / q->up[k]))
                  : v3_scale(h * q->invm[k], f);
 }
 
-static fl_vec3 turn_by(const sphere_rows *q, int k, double h)
+/* True if sphere i touches spheres, now or before: works of its contacts need the changes by both kicks. */
+static int needs_changes(const fl_world *w, int32_t i)
 {
-    return v3_scale(h * q->turn[k], v3(q->t[0][k], q->t[1][k], q->t[2][k]));
+    return w->spheres.bodies && (w->spheres.contact_count[i] | w->spheres.previous_contact_count[i]);
+}
+
+/* Volume and surface of the spheres, and what they stand for; equal radii have equal ones. */
+static void load_hulls(const fl_environment *s, int32_t from, int32_t n, sphere_rows *q)
+{
+    for (int32_t k = 0; k < n; k++) {
+        if (k && q->r[k] == q->r[k - 1]) {
+            q->volume[k] = q->volume[k - 1], q->surface[k] = q->surface[k - 1], q->fill[k] = q->fill[k - 1];
+            continue;
+        }
+        const fl_hull *hull = &s->hull[from + k];
+        q->volume[k] = hull->volume, q->surface[k] = hull->surface_area, q->fill[k] = hull->fill;
+    }
+}
+
+/* Weight, buoyancy, contacts and bonds, into f and t. */
+static void sum_forces(const fl_world *w, int32_t from, int32_t n, const sphere_rows *q, fl_vec3 *f,
+                       fl_vec3 *t)
+{
+    const fl_vec3 none = v3(0, 0, 0);
+    for (int32_t k = 0; k < n; k++) {
+        f[k] = v3_add(v3_scale(q->m[k], w->gravity), v3(0, 0, q->buoyancy[k])), t[k] = none;
+        if (needs_changes(w, from + k)) fl_sphere_add_forces(w, from + k, &f[k], &t[k]);
+    }
+    fl_disc_list_add_forces_of(w, from, from + n, f, t);
 }
 
 void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_floating_result *out)
@@ -193,33 +268,29 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
     load_motion(w, from, n, q);
     for (int32_t k = 0; k < n; k++) {
         const int32_t i = from + k;
-        out->first_dv[k] = change_by(q, k, h, heavy), out->first_dw[k] = turn_by(q, k, h);
         q->z[k] = b->x[i].z;
-        q->volume[k] = s->hull[i].volume, q->surface[k] = s->hull[i].surface_area;
-        q->fill[k] = s->hull[i].fill;
         q->work[k] = heavy ? b->heave_work[i] : 0.0;
+        if (!needs_changes(w, i)) continue;
+        out->first_dv[k] = change_by(q, k, b->f[i], h, heavy);
+        out->first_dw[k] = v3_scale(h * q->turn[k], b->t[i]);
     }
+    load_hulls(s, from, n, q);
     float_rows(q, full, s->level, s->specific_weight, heavy ? s->heave_factor : 0.0, s->gravity);
+    sum_forces(w, from, n, q, b->f + from, b->t + from);
+    load_rows(q->f, b->f + from, n);
+    load_rows(q->t, b->t + from, n);
     for (int32_t k = 0; k < n; k++) {
         const int32_t i = from + k;
-        const fl_vec3 own = v3_add(v3_scale(b->m[i], w->gravity), v3(0, 0, q->buoyancy[k]));
-        fl_vec3 f = own, t = v3(0, 0, 0);
-        if (w->spheres.bodies) fl_sphere_add_forces(w, i, &f, &t);
-        fl_disc_list_add_forces(w, i, &f, &t);
-        LOAD(f, f);
-        LOAD(t, t);
-        b->f[i] = f, b->t[i] = t;
-        out->contact_force[k] = v3_sub(v3_madd(f, -b->m[i], w->gravity), v3(0, 0, q->buoyancy[k]));
-        s->wetted_area[i] = q->area[k], s->buoyancy[i] = q->buoyancy[k];
-        if (heavy) b->heave_mass[i] = q->heave[k], b->heave_work[i] = q->work[k];
-        out->second_dv[k] = change_by(q, k, h, heavy), out->second_dw[k] = turn_by(q, k, h);
+        out->contact_force[k] = v3_sub(v3_madd(ROW(f), -q->m[k], w->gravity), v3(0, 0, q->buoyancy[k]));
+        if (!needs_changes(w, i)) continue;
+        out->second_dv[k] = change_by(q, k, b->f[i], h, heavy);
+        out->second_dw[k] = v3_scale(h * q->turn[k], b->t[i]);
     }
+    copy_row(s->wetted_area + from, q->area, n);
+    copy_row(s->buoyancy + from, q->buoyancy, n);
+    if (heavy) copy_row(b->heave_mass + from, q->heave, n), copy_row(b->heave_work + from, q->work, n);
     kick_rows(q, full, h, heavy);
     decay_rows(q, full, d, heavy);
-    for (int32_t k = 0; k < n; k++) {
-        s->drag_loss[from + k] = q->loss[k];
-        STORE(b->v[from + k], v);
-        STORE(b->L[from + k], L);
-        STORE(b->w[from + k], w);
-    }
+    copy_row(s->drag_loss + from, q->loss, n);
+    store_motion(b, from, n, q);
 }

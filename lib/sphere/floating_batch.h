@@ -18,7 +18,8 @@ int32_t fl_floating_run_end(const fl_world *w, int32_t k, int32_t to, int second
 void fl_floating_batch_begin(fl_world *w, int32_t from, int32_t to, double h);
 
 /* Second half; the caller adds contact_force[k - from], the force of contacts and bonds, and the works to the
- * sums of the block.  Sphere sums are collected before. */
+ * sums of the block.  Sphere sums are collected before.  The changes by the kicks are set only for a sphere
+ * that touches another one, in this step or in the one before. */
 typedef struct {
     fl_vec3 contact_force[FL_BODY_BLOCK], first_dv[FL_BODY_BLOCK], first_dw[FL_BODY_BLOCK],
         second_dv[FL_BODY_BLOCK], second_dw[FL_BODY_BLOCK]; /* changes by the two kicks */

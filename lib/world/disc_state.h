@@ -38,6 +38,7 @@ typedef struct {
     double *omega2;     /* [2 n] contribution of bond k to omega^2 of i and of j [1/s2] */
     double *max_omega2; /* [bodies] omega^2 by all bonds of a body while they are whole [1/s2] */
     double largest_omega2, largest_max_omega2; /* of the field [1/s2] */
+    int limits_known;                          /* the critical step has the bonds of all bodies in it */
     fl_disc_past past;
     int is_renewed; /* the list is not that of the ice field any more */
     int64_t *first_i, *first_j;

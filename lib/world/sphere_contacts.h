@@ -88,23 +88,27 @@ typedef struct {
     int32_t *previous_contact_count; /* [bodies] and in the step before */
     int32_t *first;                  /* [bodies + 1] contacts of body i */
     fl_sphere_state *state;          /* [bodies] */
-    int32_t *target;                 /* [n] where the force on j goes: j, or ~slot if j is in another chunk */
+    uint8_t *is_listed; /* [chunks * FL_SPHERE_CHUNK / FL_BODY_BLOCK] some contact refers to the block;
+                                      * states and sums of the others are not needed */
+    int32_t *target;    /* [n] where the force on j goes: j, or ~slot if j is in another chunk */
     int32_t chunks;
-    int32_t *first_source;           /* [chunks] first chunk with a contact that refers to this chunk */
-    uint8_t *finished;               /* [chunks] scratch of a step */
-    fl_image_shift *shift;           /* [shifts] 0: no shift */
-    uint8_t *shift_index;            /* [n] into shift */
-    int32_t shifts;                  /* 0: more than fit in a byte, shift_index is not used */
-    int32_t *slot_first;             /* [chunks + 1] slots of the contacts that leave a chunk, in order */
-    int32_t *incoming_first;         /* [bodies + 1] offsets into incoming */
-    int32_t *incoming;               /* [slot_first[chunks]] slots that body j adds, ascending */
-    fl_sphere_sum *slot;             /* [slot_first[chunks]] */
-    fl_sphere_sum *sum;              /* [bodies] */
-    fl_sphere_sum *previous_sum;     /* [bodies] of the step before */
-    fl_chunk_totals *totals;         /* [chunks] */
-    double *omega2;                  /* [bodies] sum of bounds of omega^2, last stiffness update [1/s2] */
-    double *omega2_slot;             /* [slot_first[chunks]] */
-    fl_wall_contact *wall;           /* [walls] sorted by (i, j) */
+    int32_t *first_source;       /* [chunks] first chunk with a contact that refers to this chunk */
+    uint8_t *finished;           /* [chunks] scratch of a step */
+    fl_image_shift *shift;       /* [shifts] 0: no shift */
+    uint8_t *shift_index;        /* [n] into shift */
+    int32_t shifts;              /* 0: more than fit in a byte, shift_index is not used */
+    int32_t *slot_first;         /* [chunks + 1] slots of the contacts that leave a chunk, in order */
+    int32_t *incoming_first;     /* [bodies + 1] offsets into incoming */
+    int32_t *incoming;           /* [slot_first[chunks]] slots that body j adds, ascending */
+    fl_sphere_sum *slot;         /* [slot_first[chunks]] */
+    fl_sphere_sum *sum;          /* [bodies] */
+    fl_sphere_sum *previous_sum; /* [bodies] of the step before */
+    const fl_sphere_sum *
+        *cleared;            /* [2 chunks] which of these two arrays are 0 in a chunk without contacts */
+    fl_chunk_totals *totals; /* [chunks] */
+    double *omega2;          /* [bodies] sum of bounds of omega^2, last stiffness update [1/s2] */
+    double *omega2_slot;     /* [slot_first[chunks]] */
+    fl_wall_contact *wall;   /* [walls] sorted by (i, j) */
     fl_rolling_spring *wall_rolling; /* [walls]; NULL without rolling resistance */
     int32_t *wall_first;             /* [chunks + 1] wall contacts of each chunk */
     fl_wall_load *wall_load;         /* [chunks][walls of the boundary] */

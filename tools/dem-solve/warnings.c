@@ -76,6 +76,27 @@ static void warn_sheet_inside(const struct run *r, FILE *f)
             found, most, r->surface->part[w->structure.piece[part].part].name);
 }
 
+/* Bonds that break need time to soften: the two sides part at the speed sigma_t/sqrt(E rho) of a crack that
+ * opens, so the separation grows by (f - 1) sigma_t l/E in (f - 1) l sqrt(rho/E). */
+static void warn_sudden_bonds(const struct run *r, FILE *f)
+{
+    const fl_world *w = r->w;
+    const fl_disc_list *s = &w->discs;
+    double least = INFINITY;
+    for (int32_t k = 0; k < s->n; k++) {
+        const fl_disc_class *c = &s->classes[s->at.which[k]];
+        const double E = c->kn * c->length / (PI * c->radius * c->radius),
+                     rho = w->scene->material[w->material[s->at.i[k]]].density;
+        if (c->ductility > 1.0) least = fmin(least, (c->ductility - 1.0) * c->length * sqrt(rho / E));
+    }
+    if (least < w->dt)
+        fprintf(
+            f,
+            "dem-solve: warning: bonds soften within %.2g of a step, as if they had no fracture energy: a "
+            "run.dt of %.2g s follows it, or a larger bond.stretch or bond.energy is expected\n",
+            least / w->dt, least);
+}
+
 /* Weight and buoyancy of a sheet, and its sides against the breaking length of a floating beam, pi/4
  * (E h^3/(3 rho g))^(1/4). */
 static void warn_bonded_sheet(const struct run *r, FILE *f)
@@ -86,6 +107,7 @@ static void warn_bonded_sheet(const struct run *r, FILE *f)
     fl_aabb box = aabb_empty();
     if (!w->discs.n) return;
     warn_sheet_inside(r, f);
+    warn_sudden_bonds(r, f);
     for (int32_t i = 0; i < w->n; i++) {
         if (fl_body_absent(w, i)) continue;
         weight += w->b.m[i] * v3_norm(w->gravity);

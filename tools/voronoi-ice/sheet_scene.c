@@ -6,6 +6,9 @@
 /* Strength and stiffness where none is asked for, as in the table of keys. */
 #define DEFAULT_STRENGTH 0.7e6
 
+/* Strain at which bonds may break at most: the tables are of small strains, 1e-3 in their samples. */
+#define MOST_STRAIN 0.01
+
 int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_packing_kind kind,
                        fl_err *err)
 {
@@ -27,6 +30,13 @@ int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_
                        "--compressive is calibrated for --lattice hcp alone: --flexural is expected");
     if (o->compressive > 0.0) out->strength = o->compressive / out->ratio.compressive;
     if (o->young > 0.0) out->young = o->young / out->ratio.young;
+    if (out->young > 0.0 && out->strength > MOST_STRAIN * out->young)
+        return fl_fail(
+            err, FL_USAGE,
+            "%s: bonds of %.3g Pa that would break at a strain of %.2g, which the tables of strength "
+            "do not reach: a --young of at least %.3g Pa is expected",
+            o->flexural > 0.0 ? "--flexural" : "--compressive", out->strength, out->strength / out->young,
+            out->strength / MOST_STRAIN * out->ratio.young);
     return 0;
 }
 
