@@ -15,9 +15,9 @@ enum { FL_PLAN_LEVELS = 5 };
 /* Add the outline of the triangles tri[n] of part p between z0 and z1, moved outward by `margin` [m], to the
  * domain as a hole.
  *    *made  out: 0 if there is no such outline, and the caller has to surround the triangles otherwise
- * There is none where the mesh is open between the levels, has several outer loops or leans out of its section
- * by more than `coarse`, and where the ring moved outward meets itself.
- * Returns 0, or -1 with FL_SYSTEM. */
+ * There is none where the mesh is open between the levels, has several outer loops or leans out of its
+ * section by more than `coarse`, and where the ring moved outward meets itself. Returns 0, or -1 with
+ * FL_SYSTEM. */
 int fl_plan_outline_add(fl_domain *d, const fl_part *p, int32_t n, const int32_t *tri, double z0, double z1,
                         double margin, double coarse, int *made, fl_err *err);
 
