@@ -24,7 +24,12 @@ void write_number(FILE *f, double x)
         return;
     }
     snprintf(buf, sizeof buf, "%.*g", SHORT_DIGITS, x + 0.0);
-    if (fl_number_f64(buf, &again) || again != x) snprintf(buf, sizeof buf, "%.*g", digits, x);
+    if (fl_number_f64(buf, &again) || again != x) {
+        snprintf(buf, sizeof buf, "%.*g", digits, x);
+        /* 1.23457e+06 as 1234570 */
+        if (digits <= SHORT_DIGITS && fl_number_f64(buf, &again) == 0)
+            snprintf(buf, sizeof buf, "%.*g", SHORT_DIGITS, again);
+    }
     fputs(digits == ALL_DIGITS ? fl_number_text(x, buf) : buf, f);
 }
 

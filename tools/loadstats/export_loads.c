@@ -100,7 +100,7 @@ static void write_ansys_end(FILE *f, const char *part)
         fprintf(f, "! F,NODE,%c%c,%%ICE_%s%%\n", i < 3 ? 'F' : 'M', 'X' + i % 3, LOAD[i]);
 }
 
-/* --- SACS: a load condition with a load on a joint for each time ------------------------------------------ ------------------------------------ */
+/* --- SACS: a load condition with a load on a joint for each time --------------------------------------- */
 
 /* The conditions are numbered, in four columns. */
 enum { SACS_MOST = 9999, SACS_WIDTH = 7 };
