@@ -1,15 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# ice_scenes.sh BUILD -- rows IS3 to IS8 of ice-scenes(7): the ship and the jacket of share/examples/ice-scenes beside
-# closed forms and published curves, for make verify. Some twenty runs, ten to forty minutes of a processor.
-# ROWS="IS3 IS8" limits it. Prints a line for each claim, as the verification programs do, and the count.
+# ice_scenes.sh BUILD -- rows IS3 to IS12 of ice-scenes(7): the ship and the jacket of share/examples/ice-scenes, and a
+# wide cone, beside closed forms and published curves, for make verify. Some thirty runs, half an hour of a processor.
+# ROWS="IS3 IS8" limits it. Prints a line for each claim, as the verification programs do, and the count; rows without
+# ok or FAIL stand beside data and are no targets.
 set -u
 build=$(cd "${1:?usage: ice_scenes.sh BUILD}" && pwd) || exit 2
 here=$(cd "$(dirname "$0")/../share/examples/ice-scenes" && pwd) || exit 4
 PATH=$build/bin:$PATH
 dir=$(mktemp -d "${TMPDIR:-/tmp}/ice-scenes.XXXXXX") || exit 4
 trap 'rm -rf "$dir"' EXIT
-rows=${ROWS:-IS3 IS4 IS5 IS6 IS7 IS8}
+rows=${ROWS:-IS3 IS4 IS5 IS6 IS7 IS8 IS9 IS10 IS11 IS12}
 good=0 bad=0
 
 wants() # ID...
@@ -107,22 +108,77 @@ if wants IS7; then
     row IS7 "stiffness factor 1 over 0.1: mean" "$(calc "$(mean_of "$hard" 10) / $(mean_of "$firm" 10)")" 1 0.25
     beside IS7 "  largest at 0.02, 0.1, 1 [kN]" "$(peak_of "$soft" 10), $(peak_of "$firm" 10), $(peak_of "$hard" 10)"
 fi
+# jacket C SEED: leaves legs.tsv, and what both programs warn of in `said`
+jacket()
+{
+    voronoi-ice -q --gaps even --size 160x80 --origin -120,-40 --floes 356 --periodic xy --concentration "$1" --thickness 0.4 \
+        --velocity 0.7,0 --keep-out circle:-10,10,2 --keep-out circle:-10,-10,2 --keep-out circle:10,10,2 \
+        --keep-out circle:10,-10,2 --seed "$2" -o "$dir/ice.dat"
+    dem-solve -q --ice "$dir/ice.dat" --structure "$dir/legs.dat" -o "$dir/legs.tsv" "$here/jacket.scene" 2>"$dir/said"
+    loadstats --from 30 -t stats -c fx -p total -o "$dir/stats.tsv" "$dir/legs.tsv" 2>>"$dir/said"
+}
+says() { grep -c "$1" "$dir/said"; }
+struct-import -q -n nw --cylinder 0.75,-5,5,-10,10 -n sw --cylinder 0.75,-5,5,-10,-10 -n ne --cylinder 0.75,-5,5,10,10 \
+    -n se --cylinder 0.75,-5,5,10,-10 -o "$dir/legs.dat"
 if wants IS8; then
-    struct-import -q -n nw --cylinder 0.75,-5,5,-10,10 -n sw --cylinder 0.75,-5,5,-10,-10 -n ne --cylinder 0.75,-5,5,10,10 \
-        -n se --cylinder 0.75,-5,5,10,-10 -o "$dir/legs.dat"
     first=0 second=0
     for seed in 1 2 3 4; do
-        voronoi-ice -q --gaps even --size 160x80 --origin -120,-40 --floes 356 --periodic xy --concentration 0.5 --thickness 0.4 \
-            --velocity 0.7,0 --keep-out circle:-10,10,2 --keep-out circle:-10,-10,2 --keep-out circle:10,10,2 \
-            --keep-out circle:10,-10,2 --seed $seed -o "$dir/ice.dat"
-        dem-solve -q --ice "$dir/ice.dat" --structure "$dir/legs.dat" -o "$dir/legs.tsv" "$here/jacket.scene" 2>"$dir/said"
+        jacket 0.5 $seed
         first=$(calc "$first + $(mean_of "$dir/legs.tsv" 30 75) / 4")
         second=$(calc "$second + $(mean_of "$dir/legs.tsv" 75 120) / 4")
-        row IS8 "C 0.5, seed $seed: warnings that it jams" "$(grep -c 'too narrow\|a jam has met' "$dir/said")" 0 0
+        row IS8 "C 0.5, seed $seed: warnings that it jams" "$(says 'too narrow\|a jam has met')" 0 0
+        row IS8 "C 0.5, seed $seed: warnings that the mean does not stay" "$(says 'not stationary')" 0 0
     done
     row IS8 "jacket, C 0.5, mean of four seeds, 30 to 75 s [kN]" "$first" 2.4 1.3
     row IS8 "jacket, C 0.5, mean of four seeds, 75 to 120 s [kN]" "$second" 2.4 1.3
     beside IS8 "  momentum of what passes two front legs [kN]" "$(calc "2 * 1.3 * 900 * 0.4 * 0.5 * 0.7 ^ 2 * (1.5 + 6) / 1e3")"
+fi
+if wants IS9; then
+    for seed in 1 2 3; do
+        jacket 0.7 $seed
+        beside IS9 "jacket, C 0.7, seed $seed, 30 to 75, 75 to 120 s, largest [kN]" \
+            "$(mean_of "$dir/legs.tsv" 30 75), $(mean_of "$dir/legs.tsv" 75 120), $(peak_of "$dir/legs.tsv" 30)"
+        row IS9 "C 0.7, seed $seed: warned that the field is too narrow" "$(says 'warning: the field is too narrow')" 1 0
+        beside IS9 "  warned that the mean does not stay" "$(says 'loadstats: warning: .* is not stationary')"
+    done
+fi
+if wants IS10; then
+    voronoi-ice -q --gaps even --size 240x80 --origin -235,-40 --floes 534 --concentration 0.7 --thickness 0.4 --velocity 0.7,0 \
+        --keep-out "$dir/legs.dat" --margin 0.3 -o "$dir/ice.dat"
+    sed '/^type\|^inflow/d; s/^min = .*/min = none -40 none m/; s/^max = .*/max = none 40 none m/' "$here/jacket.scene" \
+        >"$dir/once.scene"
+    printf '[contact ice boundary]\nfriction = 0\n' >>"$dir/once.scene"
+    dem-solve -q --ice "$dir/ice.dat" --structure "$dir/legs.dat" -o "$dir/once.tsv" "$dir/once.scene" 2>/dev/null
+    bound=$(calc "0.5 * 1025 * 0.005 * 0.7 ^ 2 * 0.7 * 240 * 80 / 1e3")
+    beside IS10 "field once, C 0.7: mean to 100 s, from 100 to 120 s [kN]" \
+        "$(mean_of "$dir/once.tsv" 30 100), $(mean_of "$dir/once.tsv" 100 120); drag on all of the ice $bound"
+    row IS10 "  mean of the last 20 s over the drag on the ice: below 1.3" \
+        "$(calc "$(mean_of "$dir/once.tsv" 100 120) / $bound")" 0.65 0.65
+fi
+# kulluk C SECONDS: leaves wide.tsv of a cone of 69 m at the water line, in drift without end
+kulluk()
+{
+    voronoi-ice -q --gaps even --size 500x500 --floes 800 --origin -400,-250 --periodic xy --concentration "$1" --thickness 1 \
+        --radius 0.1 --velocity 0.3,0 --keep-out circle:0,0,40 -o "$dir/ice.dat"
+    sed 's/^min = .*/min = -400 -250 none m/; s/^max = .*/max = 150 250 none m/; s/^inflow_pitch = .*/inflow_pitch = 500 m/
+        s/^current = .*/current = 0.3 m\/s/; s/^duration = .*/duration = '"$2"' s/' "$here/jacket.scene" >"$dir/wide.scene"
+    dem-solve -q --ice "$dir/ice.dat" --structure "$dir/kulluk.dat" --set 'output.loads_every=0.1 s' -o "$dir/wide.tsv" \
+        "$dir/wide.scene" 2>"$dir/said"
+}
+blunt() { calc "int(0.5 * 16.1 * (0.3 / sqrt(9.81 * $1)) ^ (-1.7937) * 900 * 70 * 0.3 ^ 2 * $1 ^ 3 / 1e3 + 0.5)"; } # C
+struct-import -q -n kulluk --cone 21.9,-8,40.5,3.36 -o "$dir/kulluk.dat"
+if wants IS11; then
+    for c in 0.7 0.8; do
+        kulluk $c 400
+        beside IS11 "cone of 70 m, 0.3 m/s, C $c, 25 to 400 s: mean [kN]" \
+            "$(mean_of "$dir/wide.tsv" 25); momentum $(calc "1.3 * 900 * $c * 0.3 ^ 2 * (70 + 15) / 1e3"), Colbourne blunt $(blunt $c)"
+    done
+fi
+if wants IS12; then
+    kulluk 0.9 300
+    beside IS12 "the same, C 0.9, 50 to 200, 200 to 300 s: mean [kN]" \
+        "$(mean_of "$dir/wide.tsv" 50 200), $(mean_of "$dir/wide.tsv" 200); Colbourne blunt $(blunt 0.9)"
+    row IS12 "  warned that it jams" "$(says 'warning: the field is too narrow')" 1 0
 fi
 echo "$good passed, $bad failed"
 [ $bad -eq 0 ]

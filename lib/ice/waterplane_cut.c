@@ -2,6 +2,7 @@
 #include <math.h>
 #include "base/array.h"
 #include "base/pi.h"
+#include "ice/plan_outline.h"
 #include "ice/waterplane_cut.h"
 
 /* Generators of a cone; its discs are circumscribed polygons, so that nothing is cut off. */
@@ -114,40 +115,81 @@ static int32_t root_of(int32_t *up, int32_t v)
     return v;
 }
 
-/* Triangles that are connected by vertices form a group, named by its lowest vertex. */
-static int add_part_holes(fl_domain *d, const fl_part *p, double z0, double z1, double margin, double coarse,
-                          int32_t *kept, fl_err *err)
+/* Triangles that are connected by vertices form a group, numbered by its lowest vertex. */
+struct groups {
+    int32_t n;
+    int32_t *place; /* [nv] of a vertex */
+    int32_t *first; /* [n + 1] in tri */
+    int32_t *tri;   /* [nt] triangles by group */
+};
+
+static void groups_free(struct groups *g)
 {
-    int32_t *up = fl_alloc(p->nv, sizeof *up, err), *place = fl_alloc(p->nv, sizeof *place, err), n = 0;
-    struct extent *r = NULL;
-    int rc = -1;
-    if (!up || !place) goto done;
+    free(g->place);
+    free(g->first);
+    free(g->tri);
+}
+
+static int find_groups(struct groups *g, const fl_part *p, fl_err *err)
+{
+    int32_t *up = fl_alloc(p->nv, sizeof *up, err);
+    *g = (struct groups){.place = fl_alloc(p->nv, sizeof *g->place, err),
+                         .tri = fl_alloc(p->nt, sizeof *g->tri, err)};
+    if (!up || !g->place || !g->tri) goto fail;
     for (int32_t v = 0; v < p->nv; v++) up[v] = v;
     for (int32_t t = 0; t < p->nt; t++)
         for (int k = 1; k < 3; k++) {
             const int32_t a = root_of(up, p->t[t].v[0]), b = root_of(up, p->t[t].v[k]);
             up[a > b ? a : b] = a < b ? a : b;
         }
-    for (int32_t v = 0; v < p->nv; v++) place[v] = root_of(up, v) == v ? n++ : -1;
-    r = fl_alloc((int64_t)n + 1, sizeof *r, err);
-    if (!r) goto done;
-    for (int32_t k = 0; k <= n; k++) start_extent(&r[k]);
-    for (int32_t t = 0; t < p->nt; t++)
-        for (int k = 0; k < 3; k++)
-            add_edge(&r[place[root_of(up, p->t[t].v[0])]], p->v[p->t[t].v[k]], p->v[p->t[t].v[(k + 1) % 3]],
-                     z0, z1);
-    for (int32_t k = 0; k < n; k++)
-        if (add_hole(d, &r[k], margin, coarse, kept, err)) goto done;
-    for (int32_t k = 0; k < p->nc; k++) {
-        start_extent(&r[n]);
-        add_cone(&r[n], &p->cone[k], z0, z1);
-        if (add_hole(d, &r[n], margin, coarse, kept, err)) goto done;
+    for (int32_t v = 0; v < p->nv; v++) {
+        const int32_t root = root_of(up, v);
+        g->place[v] = root == v ? g->n++ : g->place[root];
     }
-    rc = 0;
-done:
+    g->first = fl_alloc((int64_t)g->n + 2, sizeof *g->first, err);
+    if (!g->first) goto fail;
+    for (int32_t t = 0; t < p->nt; t++) g->first[g->place[p->t[t].v[0]] + 2]++;
+    for (int32_t k = 0; k < g->n; k++) g->first[k + 2] += g->first[k + 1];
+    for (int32_t t = 0; t < p->nt; t++) g->tri[g->first[g->place[p->t[t].v[0]] + 1]++] = t;
     free(up);
-    free(place);
-    free(r);
+    return 0;
+fail:
+    free(up);
+    groups_free(g);
+    return -1;
+}
+
+static int add_group_hole(fl_domain *d, const fl_part *p, int32_t n, const int32_t *tri, double z0, double z1,
+                          double margin, double coarse, int32_t *kept, fl_err *err)
+{
+    struct extent r;
+    int made;
+    if (fl_plan_outline_add(d, p, n, tri, z0, z1, margin, coarse, &made, err)) return -1;
+    *kept += made;
+    if (made) return 0;
+    start_extent(&r);
+    for (int32_t t = 0; t < n; t++)
+        for (int k = 0; k < 3; k++)
+            add_edge(&r, p->v[p->t[tri[t]].v[k]], p->v[p->t[tri[t]].v[(k + 1) % 3]], z0, z1);
+    return add_hole(d, &r, margin, coarse, kept, err);
+}
+
+static int add_part_holes(fl_domain *d, const fl_part *p, double z0, double z1, double margin, double coarse,
+                          int32_t *kept, fl_err *err)
+{
+    struct groups g;
+    struct extent r;
+    int rc = 0;
+    if (find_groups(&g, p, err)) return -1;
+    for (int32_t k = 0; k < g.n && rc == 0; k++)
+        rc = add_group_hole(d, p, g.first[k + 1] - g.first[k], g.tri + g.first[k], z0, z1, margin, coarse,
+                            kept, err);
+    groups_free(&g);
+    for (int32_t k = 0; k < p->nc && rc == 0; k++) {
+        start_extent(&r);
+        add_cone(&r, &p->cone[k], z0, z1);
+        rc = add_hole(d, &r, margin, coarse, kept, err);
+    }
     return rc;
 }
 

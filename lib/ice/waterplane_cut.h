@@ -8,11 +8,12 @@
 /* Range of the number of sides of a polygon round a part. */
 enum { FL_WATERPLANE_MAX_SIDES = 64, FL_WATERPLANE_MIN_SIDES = 4 };
 
-/* Add holes to the domain for the part of s between the levels z0 < z1.  A convex polygon surrounds each
- * group of triangles that are connected by vertices, and each cone.  Its sides have the normals 2 pi k /
- * K, each as far out as the farthest point of the group in that direction plus `margin` [m].  K is the
- * least power of two, from 4 to 64, for which such a polygon round a circle of the size of the group is at
- * most `coarse` [m] away from the circle,
+/* Add holes to the domain for the part of s between the levels z0 < z1, one for each group of triangles that
+ * are connected by vertices, and for each cone.  A closed group has its outline in plan, see plan_outline.h.
+ * Around cones and other groups stands a convex polygon, whose sides have the normals 2 pi k / K, each as far
+ * out as the farthest point of the group in that direction plus `margin` [m].  K is the least power of two,
+ * from 4 to 64, for which such a polygon round a circle of the size of the group is at most `coarse` [m] away
+ * from the circle,
  *    R (1 / cos(pi / K) - 1) <= coarse,   R: half the diagonal of the box of the group,
  * so that the sides of ice floes next to it are not cut much shorter than floes are.
  *    *kept  out: number of groups between the levels

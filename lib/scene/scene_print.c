@@ -4,6 +4,7 @@
 #include "base/array.h"
 #include "base/text.h"
 #include "scene/scene_section.h"
+#include "scene/field_words.h"
 #include "scene/scene_print.h"
 #include "scene/scene_value.h"
 
@@ -219,20 +220,22 @@ static int has_name(const fl_key *key, const char *name, int whole)
     return 0;
 }
 
-/* Explain each key that a word alone may mean: those of that name, else list those whose names contain it.
- * Returns how many there are. */
+/* Explain each key that a word alone may mean: those of that name; then list those whose names contain it.  A
+ * word of the field is answered before.  Returns how many answers there are. */
 static int explain_word(FILE *f, const char *word)
 {
-    int found = 0;
+    const fl_field_word *const field = fl_field_word_find(word);
+    int found = field != NULL;
+    if (field) fprintf(f, "%s: %s\n", field->word, field->says);
     for (int k = 0; k < fl_key_count; k++) {
         if (!has_name(&fl_key_table[k], word, 1)) continue;
         explain_key(f, &fl_key_table[k]);
         found++;
     }
-    if (found || strlen(word) < 3) return found;
+    if (strlen(word) < 3) return found;
     for (int k = 0; k < fl_key_count; k++) {
         const fl_key *key = &fl_key_table[k];
-        if (!has_name(key, word, 0)) continue;
+        if (!has_name(key, word, 0) || has_name(key, word, 1)) continue;
         fprintf(f, "%s.%s: %s\n", fl_section_table[key->section].name, key->key, key->meaning);
         found++;
     }

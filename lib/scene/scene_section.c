@@ -4,6 +4,7 @@
 #include <string.h>
 #include "base/array.h"
 #include "base/text.h"
+#include "scene/field_words.h"
 #include "scene/scene_section.h"
 #include "scene/scene_value.h"
 
@@ -93,8 +94,12 @@ int fl_address_key(int section, const char *key, char *why, size_t why_size)
         for (int i = 0; i < n; i++) /* static_friction for friction */
             if (fl_key_table[first + i].one_number && strstr(key, list[i]))
                 nearest = list[i], one = fl_key_table[first + i].one_number;
+        const fl_field_word *const field = one ? NULL : fl_field_word_find(key);
         snprintf(why, why_size, "unknown key \"%.40s\" in [%s], nearest is \"%s\"%s%s", key,
-                 fl_section_table[section].name, nearest, one ? "; " : "", one ? one : "");
+                 fl_section_table[section].name, nearest, one || field ? "; " : "",
+                 one     ? one
+                 : field ? field->says
+                         : "");
     }
     return k;
 }

@@ -189,6 +189,58 @@ static void structures_are_cut_out(void **state)
     fl_surface_free(&s);
 }
 
+/* A prism on the ring v[n], from z = -8 to 3; without lid and floor, which no level between crosses. */
+static void make_prism(fl_surface *s, int32_t n, const fl_vec2 *v)
+{
+    fl_err err = {0};
+    const int32_t at = fl_surface_add(s, "part", 4, &err);
+    fl_part *p = &s->part[at];
+    for (int32_t k = 0; k < 2 * n; k++)
+        assert_int_equal(fl_surface_vertex(p, v3(v[k % n].x, v[k % n].y, k < n ? -8.0 : 3.0), &err), 0);
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t next = (k + 1) % n;
+        assert_int_equal(fl_surface_triangle(p, k, next, n + next, &err), 0);
+        assert_int_equal(fl_surface_triangle(p, k, n + next, n + k, &err), 0);
+    }
+}
+
+/* The water along the outline of a wharf in the form of an L stays open to ice, as does none within the
+ * margin; a column of 64 sides has fewer, none inside of it; a part whose wall has a gap is surrounded. */
+static void holes_follow_the_outline(void **state)
+{
+    (void)state;
+    const fl_vec2 box[4] = {{-50, -50}, {50, -50}, {50, 50}, {-50, 50}};
+    const fl_vec2 wharf[6] = {{-40, -20}, {20, -20}, {20, -5}, {-25, -5}, {-25, 25}, {-40, 25}};
+    fl_vec2 column[64];
+    fl_domain d = {0};
+    fl_surface s = {0};
+    fl_err err = {0};
+    int32_t kept = 0;
+    for (int32_t k = 0; k < 64; k++)
+        column[k] = (fl_vec2){30.0 + 5.0 * cos(2.0 * PI * k / 64), 30.0 + 5.0 * sin(2.0 * PI * k / 64)};
+    make_prism(&s, 6, wharf);
+    make_prism(&s, 64, column);
+    make_prism(&s, 6, wharf);
+    s.part[2].nt--;
+    assert_int_equal(fl_domain_add(&d, 4, box, &err), 0);
+    assert_int_equal(fl_waterplane_keep_out(&d, &s, -0.9, 0.1, 0.5, 0.8, &kept, &err), 0);
+    assert_int_equal(kept, 3);
+    assert_int_equal(d.first[2] - d.first[1], 6);
+    /* 60 x 15 and 15 x 30, and a margin of 0.5 along a perimeter of 210, with 5 corners outward and 1 inward
+     * */
+    assert_near(-ring_area(&d, 1), 60.0 * 15 + 15 * 30 + 0.5 * 210 + 4 * 0.25, 1e-12);
+    assert_true(d.first[3] - d.first[2] <= 16);
+    assert_true(-ring_area(&d, 2) >= PI * 5.5 * 5.5 && -ring_area(&d, 2) <= PI * 7.0 * 7.0);
+    for (int32_t k = d.first[2]; k < d.first[3]; k++) {
+        const fl_vec2 a = d.v[k], b = d.v[k + 1 < d.first[3] ? k + 1 : d.first[2]];
+        const double l = hypot(b.x - a.x, b.y - a.y);
+        assert_true(((a.x - 30.0) * (b.y - a.y) - (a.y - 30.0) * (b.x - a.x)) / l <= -5.5 + 0.01);
+    }
+    assert_true(-ring_area(&d, 3) > 60.0 * 45.0 - 0.5 * 45.0 * 30.0); /* no notch */
+    fl_domain_free(&d);
+    fl_surface_free(&s);
+}
+
 static void allocation_failure_is_reported(void **state)
 {
     (void)state;
@@ -220,6 +272,7 @@ int main(void)
                                        cmocka_unit_test(islands_may_overlap),
                                        cmocka_unit_test(invalid_rings_are_reported),
                                        cmocka_unit_test(structures_are_cut_out),
+                                       cmocka_unit_test(holes_follow_the_outline),
                                        cmocka_unit_test(allocation_failure_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "scene/field_words.h"
 #include "scene/scene_print.h"
 #include "scene/scene_section.h"
 #include "scene/scene_value.h"
@@ -91,11 +92,47 @@ static void the_manual_page_lists_every_key(void **state)
     }
 }
 
+/* Every key that a word of the field leads to is there, and no word is shadowed. */
+static void field_words_lead_to_keys(void **state)
+{
+    (void)state;
+    fl_err err;
+    int rc, keys = 0;
+    const fl_field_word *f;
+    for (int k = 0; (f = fl_field_word_at(k)) != NULL; k++) {
+        char word[40], says[200];
+        assert_ptr_equal(fl_field_word_find(f->word), f);
+        snprintf(says, sizeof says, "%s", f->says);
+        for (char *w = strtok(says, " ,;[]"); w; w = strtok(NULL, " ,;[]")) {
+            const char *dot = strchr(w, '.');
+            if (!dot) continue;
+            snprintf(word, sizeof word, "%.*s", (int)(dot - w), w);
+            assert_true(fl_key_find(fl_section_find(word), dot + 1) >= 0);
+            keys++;
+        }
+    }
+    assert_true(keys > 30);
+    assert_ptr_equal(fl_field_word_find("Ship_speeds"), fl_field_word_find("ship speed"));
+    assert_null(fl_field_word_find("ship spee"));
+    char *text = explain_key("ship-speed", &err, &rc);
+    assert_int_equal(rc, 0);
+    assert_string_equal(text, "ship speed: structure.velocity\n");
+    free(text);
+    free(explain_key("water.speed", &err, &rc));
+    assert_non_null(strstr(err.text, "; structure.velocity of a hull, water.current of drifting ice"));
+    text = explain_key("drag", &err, &rc); /* the keys of that name, and others with it in theirs */
+    assert_non_null(strstr(text, "water.drag: "));
+    assert_non_null(strstr(text, "wind.drag: "));
+    assert_non_null(strstr(text, "\nwater.drag_force_coef: "));
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(explain_shows_every_key),
         cmocka_unit_test(the_manual_page_lists_every_key),
+        cmocka_unit_test(field_words_lead_to_keys),
     };
     return cmocka_run_group_tests_name("scene_key", tests, NULL, NULL);
 }

@@ -7,60 +7,14 @@
 #include "base/stream.h"
 #include "stat/power_spectrum.h"
 #include "stat/resample.h"
-#include "stat/startup.h"
 #include "stat/stationary.h"
 #include "analyse_record.h"
 #include "history_line.h"
 #include "html_report.h"
 #include "plot.h"
 #include "run_end.h"
+#include "start_up.h"
 #include "table_kind.h"
-
-enum { START_NOTE = 300 };
-
-/* --- start-up ------------------------------------------------------------------------------------------- */
-
-/* The force that a designer reads first: of all columns in newton that of the largest root mean square. */
-static const double *largest_force(const fl_series *s, int32_t *pair)
-{
-    const double *largest = NULL;
-    double most = 0.0;
-    for (int32_t k = 0; k < s->parts * s->signals; k++) {
-        double square = 0.0;
-        if (!s->x[k] || strcmp(s->unit[k % s->signals], "N") != 0) continue;
-        for (int32_t j = 0; j < s->n; j++) square += s->x[k][j] * s->x[k][j];
-        if (square > most) most = square, largest = s->x[k], *pair = k;
-    }
-    return largest;
-}
-
-/* 1 if the whole record of a run of dem-solve is asked for, whose start-up is known to be there. */
-static int has_start(const fl_series *s, const struct options *o)
-{
-    return strcmp(s->kind, "loads") == 0 && s->run_lines && s->edge[0] == 0.0 && !o->keep_start &&
-           !o->skips && !isfinite(o->from) && !isfinite(o->to) && !(o->window > 0.0) && !o->wheres &&
-           !o->over;
-}
-
-/* Leave out a start-up that is sure, and say so; note: the line above the table. */
-static int drop_start(fl_series *s, const struct options *o, char note[START_NOTE], fl_err *err)
-{
-    fl_startup start;
-    int32_t pair = 0;
-    const double *force = has_start(s, o) ? largest_force(s, &pair) : NULL;
-    note[0] = '\0';
-    if (!force) return 0;
-    if (fl_startup_find(&start, s->n, force, s->edge[s->n] - s->edge[0], err)) return -1;
-    if (start.rows == 0) return 0;
-    snprintf(
-        note, START_NOTE,
-        "start-up until %.6g s is left out: mean %s of %s %.3g kN there and %.3g kN later, %.2g standard "
-        "errors apart (--skip none keeps it)",
-        s->edge[start.rows], s->signal[pair % s->signals], s->part[pair / s->signals], 1e-3 * start.mean[0],
-        1e-3 * start.mean[1], start.apart);
-    fl_series_drop_first(s, start.rows);
-    return 0;
-}
 
 /* --- views ---------------------------------------------------------------------------------------------- */
 
@@ -328,7 +282,7 @@ int analyse_record(const struct options *o, fl_err *err)
     int rc = -1;
     int64_t n = 0;
     if (o->threads) omp_set_num_threads(o->threads);
-    if (fl_series_read(&s, o->in, &selection, err) || drop_start(&s, o, start, err)) goto done;
+    if (fl_series_read(&s, o->in, &selection, err) || start_up_drop(&s, o, start, err)) goto done;
     if (start[0] && !o->quiet) fprintf(stderr, "loadstats: %s\n", start);
     loss = fl_alloc((int64_t)s.parts * s.signals, sizeof *loss, err);
     if (!loss || (o->step > 0.0 && fl_resample_uniform(&s, o->step, loss, err))) goto done;

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/array.h"
 #include "base/stream.h"
 #include "stat/run_summary.h"
 #include "stat/summary_file.h"
@@ -9,6 +10,7 @@
 #include "history_line.h"
 #include "html_report.h"
 #include "run_end.h"
+#include "start_up.h"
 #include "table_kind.h"
 #include "table_summary.h"
 
@@ -22,12 +24,14 @@ int runs_selected(const struct options *o)
 /* The table summary has no rows of entries: summary_file.h writes it, header included. */
 static int is_summary(const struct options *o) { return o->table->run_rows == NULL; }
 
-static void write_header(FILE *f, const char *history, const struct options *o)
+static void write_header(FILE *f, const char *history, const struct run_set *runs, const struct options *o)
 {
     fl_history_line by;
     if (is_summary(o)) return;
     history_line_run(o, &by);
     fl_write_file_header(f, o->table->name, 1, history, &by);
+    if (runs && runs->scene) fprintf(f, "# of the first run, %s\n", runs->scene);
+    if (runs && runs->start && runs->start[0]) fprintf(f, "# %s\n", runs->start);
     table_write_columns(f, o);
 }
 
@@ -52,8 +56,19 @@ static int write_progress(FILE *f, fl_run *run, const struct options *o, double 
     return fflush(f) == 0 ? 0 : fl_fail(err, FL_SYSTEM, "%s: could not write all of it", o->out);
 }
 
-static int read_run(fl_summary *one, const char *path, FILE *f, const struct options *o, const char *by,
-                    fl_err *err)
+/* Keep the line that says which scene the run is, of the first run that has one. */
+static int keep_scene(struct run_set *runs, const char *run_lines, fl_err *err)
+{
+    const char *at = run_lines && !runs->scene ? strstr(run_lines, "#report scene: ") : NULL;
+    if (!at) return 0;
+    runs->scene = fl_alloc_text(at + strlen("#report "), err);
+    if (!runs->scene) return -1;
+    runs->scene[strcspn(runs->scene, "\n")] = '\0';
+    return 0;
+}
+
+static int read_run(struct run_set *runs, fl_summary *one, const char *path, FILE *f, const struct options *o,
+                    const char *by, fl_err *err)
 {
     const fl_record_selection selection = {.signal = o->signal,
                                            .signals = o->signals,
@@ -79,14 +94,16 @@ static int read_run(fl_summary *one, const char *path, FILE *f, const struct opt
         if (!(o->follow > 0.0)) continue;
         /* Rows are printed at whole multiples of the interval, for any start of the record. */
         if (isnan(next)) {
-            write_header(f, fl_record_history(&run.record), o);
+            write_header(f, fl_record_history(&run.record), NULL, o);
             next = o->follow * (floor(run.record.edge[0] / o->follow) + 1.0);
         }
         if (write_progress(f, &run, o, &next, err)) goto done;
     }
     if (more < 0 || fl_run_finish(&run, by, err)) goto done;
     if (!(o->follow > 0.0) && run_end_check(path, run.end_of_run, run.why, o, err)) goto done;
-    rc = fl_summary_merge(one, &run.sum, path, err);
+    rc = keep_scene(runs, fl_record_run_lines(&run.record), err) || fl_summary_merge(one, &run.sum, path, err)
+             ? -1
+             : 0;
 done:
     fl_run_close(&run);
     return rc;
@@ -109,7 +126,7 @@ static int read_all(struct run_set *runs, FILE *f, const struct options *o, fl_e
     for (int k = 0; k < o->files; k++) {
         const char *path = o->file[k];
         fl_summary one = {0};
-        int rc = o->merge ? fl_summary_read(&one, path, err) : read_run(&one, path, f, o, by, err);
+        int rc = o->merge ? fl_summary_read(&one, path, err) : read_run(runs, &one, path, f, o, by, err);
         if (rc == 0 && o->merge) rc = run_end_check_history(path, one.history, o, err);
         if (rc == 0) rc = fl_summary_merge(&runs->all, &one, path, err);
         if (rc == 0 && o->table->per_run) rc = ensemble_add(&runs->e, &runs->all, &one, path, err);
@@ -150,12 +167,14 @@ static void write_intro(FILE *f, const void *what)
             "%d runs of %lld rows and %.6g s in all, from %.6g s to %.6g s of a run. Every mean is the "
             "impulse divided by the time; the intervals of the estimates show the scatter between runs.",
             runs->e.runs, (long long)s->rows, fl_exact_value(&s->sum[0]), s->from, s->to);
+    if (runs->scene) fprintf(f, " Of the first run, %s.", runs->scene);
+    if (runs->start && runs->start[0]) fprintf(f, " The %s.", runs->start);
 }
 
 static int write_table(FILE *f, const void *what, const struct options *o, fl_err *err)
 {
     struct run_set *runs = *(struct run_set *const *)what;
-    write_header(f, runs->all.history, o);
+    write_header(f, runs->all.history, runs, o);
     return write_rows(f, runs, o, err);
 }
 
@@ -166,18 +185,23 @@ static int draw_pictures(const void *what, const struct options *o, fl_err *err)
     return o->table->draw_runs(*(struct run_set *const *)what, o, &by, err);
 }
 
-int analyse_runs(const struct options *o, fl_err *err)
+int analyse_runs(const struct options *given, fl_err *err)
 {
-    struct run_set runs = {0}, *const source = &runs;
+    char start[START_NOTE];
+    struct options used = *given;
+    const struct options *const o = &used;
+    struct run_set runs = {.start = start}, *const source = &runs;
     fl_out out = {0};
     int rc = -1;
+    if (start_up_of_runs(given, &used.from, start, err)) return -1;
+    if (start[0] && !o->quiet) fprintf(stderr, "loadstats: %s\n", start);
     /* With --follow rows are printed while the record is read; otherwise afterwards. */
     if (o->follow > 0.0 && fl_out_open(&out, o->out, o->gzip, err)) goto done;
     if (read_all(&runs, out.f, o, err)) goto done;
     warn_repeated_runs(&runs.all, o);
     if (!(o->follow > 0.0)) {
         if (fl_out_open(&out, o->out, o->gzip, err)) goto done;
-        write_header(out.f, runs.all.history, o);
+        write_header(out.f, runs.all.history, &runs, o);
     }
     if (write_rows(out.f, &runs, o, err)) goto done;
     if (fl_out_close(&out, err)) goto done;
@@ -197,6 +221,7 @@ int analyse_runs(const struct options *o, fl_err *err)
 done:
     fl_out_abort(&out);
     free(runs.e.x);
+    free(runs.scene);
     fl_summary_free(&runs.all);
     return rc;
 }

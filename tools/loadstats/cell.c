@@ -11,10 +11,26 @@ const fl_signal_view *find_view(const struct record_views *r, int32_t part, int3
     return v->n ? v : NULL;
 }
 
+static int digits = LEAST_DIGITS;
+
+void write_digits(int n) { digits = n; }
+
 void write_number(FILE *f, double x)
 {
     char buf[FL_NUMBER_LEN];
-    fputs(isfinite(x) ? fl_number_text(x, buf) : "-", f);
+    double again = NAN;
+    if (!isfinite(x)) {
+        putc('-', f);
+        return;
+    }
+    snprintf(buf, sizeof buf, "%.*g", SHORT_DIGITS, x + 0.0);
+    if (fl_number_f64(buf, &again) || again != x) {
+        snprintf(buf, sizeof buf, "%.*g", digits, x);
+        /* 1.23457e+06 as 1234570 */
+        if (digits <= SHORT_DIGITS && fl_number_f64(buf, &again) == 0)
+            snprintf(buf, sizeof buf, "%.*g", SHORT_DIGITS, again);
+    }
+    fputs(digits == ALL_DIGITS ? fl_number_text(x, buf) : buf, f);
 }
 
 void write_cell(FILE *f, double x)

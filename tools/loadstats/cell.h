@@ -21,7 +21,15 @@ const char *view_name(int w); /* "raw", "filtered" */
 /* A view; NULL where the signal does not exist for the part. */
 const fl_signal_view *find_view(const struct record_views *r, int32_t part, int32_t signal, int w);
 
-/* Print a number, or - when it is not finite, which means that it does not exist. */
+/* Significant digits of numbers; ALL_DIGITS: those that read back to the same double. */
+enum { LEAST_DIGITS = 6, ALL_DIGITS = 17 };
+
+/* Digits of all numbers from now on; LEAST_DIGITS at the start. */
+void write_digits(int digits);
+
+/* Print a number, or - when it is not finite, which means that it does not exist.  One that reads back
+ * exactly with SHORT_DIGITS, as a time or a count, is printed so; others are rounded. */
+enum { SHORT_DIGITS = 10 };
 void write_number(FILE *f, double x);
 /* The same after a tab. */
 void write_cell(FILE *f, double x);

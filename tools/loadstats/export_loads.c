@@ -17,8 +17,9 @@ struct export_form {
     const char *name, *comment;
     double scale; /* of loads */
     void (*head)(FILE *f, const fl_series *s, const char *part);
-    void (*row)(FILE *f, int32_t k, double t, const double load[LOADS]);
+    void (*row)(FILE *f, const char *part, int32_t k, double t, const double load[LOADS]);
     void (*end)(FILE *f, const char *part);
+    int32_t most; /* rows; 0: any number */
 };
 
 /* The histories of the inputs, as comments of the form. */
@@ -50,9 +51,9 @@ static void write_openfast_head(FILE *f, const fl_series *s, const char *part)
             part);
 }
 
-static void write_openfast_row(FILE *f, int32_t k, double t, const double load[LOADS])
+static void write_openfast_row(FILE *f, const char *part, int32_t k, double t, const double load[LOADS])
 {
-    (void)k;
+    (void)part, (void)k;
     write_separated(f, t, load, ' ');
 }
 
@@ -64,9 +65,9 @@ static void write_orcaflex_head(FILE *f, const fl_series *s, const char *part)
     fputs("Time (s)\tFx (kN)\tFy (kN)\tFz (kN)\tMx (kN.m)\tMy (kN.m)\tMz (kN.m)\n", f);
 }
 
-static void write_orcaflex_row(FILE *f, int32_t k, double t, const double load[LOADS])
+static void write_orcaflex_row(FILE *f, const char *part, int32_t k, double t, const double load[LOADS])
 {
-    (void)k;
+    (void)part, (void)k;
     write_separated(f, t, load, '\t');
 }
 
@@ -82,8 +83,9 @@ static void write_ansys_head(FILE *f, const fl_series *s, const char *part)
     for (int i = 0; i < LOADS; i++) fprintf(f, "*DIM,ICE_%s,TABLE,%d,,,TIME\n", LOAD[i], s->n + 2);
 }
 
-static void write_ansys_row(FILE *f, int32_t k, double t, const double load[LOADS])
+static void write_ansys_row(FILE *f, const char *part, int32_t k, double t, const double load[LOADS])
 {
+    (void)part;
     char text[FL_NUMBER_LEN], time[FL_NUMBER_LEN];
     fl_number_text(t, time);
     for (int i = 0; i < LOADS; i++)
@@ -98,12 +100,55 @@ static void write_ansys_end(FILE *f, const char *part)
         fprintf(f, "! F,NODE,%c%c,%%ICE_%s%%\n", i < 3 ? 'F' : 'M', 'X' + i % 3, LOAD[i]);
 }
 
+/* --- SACS: a load condition with a load on a joint for each time --------------------------------------- */
+
+/* The conditions are numbered, in four columns. */
+enum { SACS_MOST = 9999, SACS_WIDTH = 7 };
+
+/* A number in seven columns, with as many decimals as fit, up to three. */
+static void write_sacs_number(FILE *f, double x)
+{
+    char text[FL_NUMBER_LEN * 12];
+    for (int decimals = 3; decimals >= 0; decimals--)
+        if (snprintf(text, sizeof text, "%*.*f", SACS_WIDTH, decimals, x) <= SACS_WIDTH) {
+            fputs(text, f);
+            return;
+        }
+    snprintf(text, sizeof text, "%.1E", x); /* "-1.2E+06" has eight columns, "-1.2E6" fits */
+    char *sign = strchr(text, '+');
+    if (sign) memmove(sign, sign + 1 + strspn(sign + 1, "0"), strlen(sign + 1 + strspn(sign + 1, "0")) + 1);
+    fprintf(f, "%*s", SACS_WIDTH, text);
+}
+
+static void write_sacs_head(FILE *f, const fl_series *s, const char *part)
+{
+    (void)s;
+    fprintf(f,
+            "* Ice load on part %s, kN and kN.m, at the reference point of the moments: a joint of that "
+            "name, at\n"
+            "* that point, is expected; a load condition for each time\n",
+            part);
+}
+
+static void write_sacs_row(FILE *f, const char *part, int32_t k, double t, const double load[LOADS])
+{
+    char joint[5];
+    snprintf(joint, sizeof joint, "%s", strcmp(part, "total") == 0 ? "ICE" : part);
+    fprintf(f, "LOADCN%5d\nLOADLB%5d ICE AT %.6g S\nLOAD   %-4s     ", k + 1, k + 1, t, joint);
+    for (int i = 0; i < LOADS; i++) {
+        if (i == 4) fputc(' ', f);
+        write_sacs_number(f, load[i]);
+    }
+    fputs(" GLOB JOIN\n", f);
+}
+
 /* --- all ------------------------------------------------------------------------------------------------ */
 
 static const struct export_form FORM[] = {
-    {"openfast", "", 1.0, write_openfast_head, write_openfast_row, NULL},
-    {"orcaflex", NULL, 1e-3, write_orcaflex_head, write_orcaflex_row, NULL},
-    {"ansys", "! ", 1.0, write_ansys_head, write_ansys_row, write_ansys_end}};
+    {"openfast", "", 1.0, write_openfast_head, write_openfast_row, NULL, 0},
+    {"orcaflex", NULL, 1e-3, write_orcaflex_head, write_orcaflex_row, NULL, 0},
+    {"ansys", "! ", 1.0, write_ansys_head, write_ansys_row, write_ansys_end, 0},
+    {"sacs", "* ", 1e-3, write_sacs_head, write_sacs_row, NULL, SACS_MOST}};
 
 const char *export_form_name(int k) { return k < (int)(sizeof FORM / sizeof *FORM) ? FORM[k].name : NULL; }
 
@@ -112,7 +157,7 @@ static void write_load_row(FILE *f, const struct export_form *form, int32_t at, 
 {
     double load[LOADS];
     for (int i = 0; i < LOADS; i++) load[i] = form->scale * s->x[i][k];
-    form->row(f, at, t, load);
+    form->row(f, s->part[0], at, t, load);
 }
 
 static void write_rows(FILE *f, const struct export_form *form, const fl_series *s)
@@ -145,6 +190,12 @@ int export_loads(const struct options *o, fl_err *err)
     int rc = -1;
     if (fl_series_read(&s, o->in, &selection, err)) return -1;
     if (o->step > 0.0 && fl_resample_uniform(&s, o->step, loss, err)) goto done;
+    if (form->most && s.n + 2 > form->most) {
+        fl_fail(err, FL_INPUT,
+                "%d rows found, %s has room for %d: --step, --from, --to or --window is expected", s.n + 2,
+                form->name, form->most);
+        goto done;
+    }
     fl_history_line_start(&by, "loadstats");
     fl_history_line_add(&by, "--export %s", form->name);
     fl_history_line_word(&by, "--part ", s.part[0]);

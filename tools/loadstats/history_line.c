@@ -6,6 +6,7 @@
 #include "stat/record.h"
 #include "stat/signal_view.h"
 #include "stat/power_spectrum.h"
+#include "cell.h"
 #include "history_line.h"
 #include "table_list.h"
 
@@ -127,6 +128,7 @@ void history_line_run(const struct options *o, fl_history_line *by)
     if ((uses & USES_SPEED) && o->speed > 0.0 && !o->skips) add_number(by, "speed", o->speed);
     for (int32_t k = 0; (uses & USES_SN) && k < o->sn_curves; k++) add_sn_curve(by, &o->sn[k]);
     if ((uses & USES_SN) && o->stress != 1.0) add_number(by, "stress", o->stress);
+    if (o->digits != LEAST_DIGITS) fl_history_line_add(by, "--digits %d", o->digits);
     if (o->merge) fl_history_line_add(by, "--merge");
     if (o->stream) fl_history_line_add(by, "--stream");
     if (o->follow > 0.0) add_number(by, "follow", o->follow);

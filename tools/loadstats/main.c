@@ -7,6 +7,7 @@
 #include "analyse_contacts.h"
 #include "analyse_record.h"
 #include "analyse_runs.h"
+#include "cell.h"
 #include "export_loads.h"
 #include "options.h"
 #include "table_kind.h"
@@ -29,6 +30,7 @@ int main(int argc, char **argv)
     fl_tool_begin();
     int rc = options_parse(&o, argc, argv, &err);
     if (rc == 0 && !o.ended) rc = check_targets(&o, &err);
+    write_digits(o.digits);
     if (rc == 0 && !o.ended)
         rc = o.exports                          ? export_loads(&o, &err)
              : o.table->source == FROM_CONTACTS ? analyse_contacts(&o, &err)

@@ -9,6 +9,7 @@
 #include "stat/butterworth.h"
 #include "stat/signal_view.h"
 #include "base/tool.h"
+#include "cell.h"
 #include "options.h"
 #include "export_loads.h"
 #include "options_check.h"
@@ -397,6 +398,13 @@ static const fl_option OPTION[] = {
      .help = "of --follow: stop when the file has not grown for S seconds (0)",
      .kind = FL_OPTION_CALL,
      .call = set_patience},
+    {.word = "digits",
+     .argument = "N",
+     .help = "of numbers in tables, 6 to 17; shorter ones stay as they are (6)",
+     .kind = FL_OPTION_INTEGER,
+     .at = AT(digits),
+     .lo = LEAST_DIGITS,
+     .hi = ALL_DIGITS},
     {.word = "component",
      .letter = 'c',
      .argument = "LIST",
@@ -637,7 +645,7 @@ static const fl_option OPTION[] = {
      .at = AT(plot)},
     {.word = "export",
      .argument = "FORM",
-     .help = "write the load as input of another program: openfast, orcaflex, ansys",
+     .help = "write the load as input of another program: openfast, orcaflex, ansys, sacs",
      .kind = FL_OPTION_CALL,
      .call = set_export},
     {.word = "report",
@@ -696,6 +704,7 @@ int options_parse(struct options *o, int argc, char **argv, fl_err *err)
                           .from = -INFINITY,
                           .to = INFINITY,
                           .order = 4,
+                          .digits = LEAST_DIGITS,
                           .separation = 0.5,
                           .bins = 20,
                           .level = 0.5,

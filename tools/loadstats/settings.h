@@ -37,6 +37,7 @@ struct options {
     int abouts;              /* number of values given */
     double skip[3];          /* diameters, diameter, distance at time 0; NAN: from the first load */
     int skips;               /* number of values given */
+    int32_t digits;          /* of numbers in tables */
     int keep_start;          /* --skip none */
     double step;             /* uniform step [s], 0 for the rows as they are */
     double filter, upper;    /* [Hz], length of a moving mean [s]; 0 for none; upper limit of a band */

@@ -17,7 +17,9 @@ typedef struct {
 /* The summary of all runs.  Its multisets are sorted before rows are printed. */
 struct run_set {
     fl_summary all;
-    ensemble e; /* of the table ensemble */
+    ensemble e;        /* of the table ensemble */
+    const char *start; /* line that says which start-up is left out, "" for none; or NULL */
+    char *scene;       /* of the first run that says it, ice-scenes(7); NULL: none does */
 };
 
 /* Add one run.  0, or -1 with FL_INPUT (a summary of several runs, other parts or signals) or FL_SYSTEM in

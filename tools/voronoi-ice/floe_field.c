@@ -172,15 +172,17 @@ static int meets_shape(const struct keep_out *s, int32_t n, const fl_vec2 *v)
     return !fl_polygon_is_apart(n, v, 4, box);
 }
 
-/* 1 if a floe meets the shape or, in a periodic field, a copy of it.  w: room for n corners. */
-static int meets_shape_or_copy(const struct recipe *o, const struct keep_out *s, int32_t n, const fl_vec2 *v,
-                               fl_vec2 *w)
+/* 1 if a floe meets a shape, a structure or, in a periodic field, a copy of them.  w: room for n corners. */
+static int meets_kept_out(const struct recipe *o, const struct layer *a, int32_t n, const fl_vec2 *v,
+                          fl_vec2 *w)
 {
     for (int ky = -o->periodic[1]; ky <= o->periodic[1]; ky++)
         for (int kx = -o->periodic[0]; kx <= o->periodic[0]; kx++) {
             for (int32_t k = 0; k < n; k++)
                 w[k] = (fl_vec2){v[k].x + kx * o->size.x, v[k].y + ky * o->size.y};
-            if (meets_shape(s, n, w)) return 1;
+            if (open_water_removes(&a->water, n, w)) return 1;
+            for (int k = 0; k < o->keep_outs; k++)
+                if (meets_shape(&o->keep_out[k], n, w)) return 1;
         }
     return 0;
 }
@@ -201,10 +203,7 @@ static int remove_floes(const struct recipe *o, struct layer *a, fl_err *err)
     }
     for (int32_t i = 0; i < a->floes.n; i++) {
         const int32_t n = a->floes.first[i + 1] - a->floes.first[i];
-        const fl_vec2 *v = a->floes.outer + a->floes.first[i];
-        gone[i] = (char)open_water_removes(&a->water, n, v);
-        for (int k = 0; k < o->keep_outs && !gone[i]; k++)
-            gone[i] = (char)meets_shape_or_copy(o, &o->keep_out[k], n, v, w);
+        gone[i] = (char)meets_kept_out(o, a, n, a->floes.outer + a->floes.first[i], w);
     }
     fl_floes_remove(&a->floes, gone, a->cell_of);
     free(gone);

@@ -96,8 +96,9 @@ static int add_kept_out_rings(struct open_water *w, fl_domain *d, const struct r
 
 int open_water_make(struct open_water *w, struct recipe *o, double h, fl_err *err)
 {
-    const int open = o->leads || o->ridges || o->structures;
-    w->is_domain = o->outline || o->disc[0] > 0.0 || (open && !o->sizes);
+    const int open = o->leads || o->ridges || o->structures,
+              whole = o->sizes || o->periodic[0] || o->periodic[1];
+    w->is_domain = o->outline || o->disc[0] > 0.0 || (open && !whole);
     w->area = o->size.x * o->size.y;
     w->shift = (fl_vec2){o->origin.x + 0.5 * o->size.x, o->origin.y + 0.5 * o->size.y};
     if (!w->is_domain) return open ? add_kept_out_rings(w, &w->removed, o, h, err) : 0;
@@ -114,15 +115,29 @@ int open_water_make(struct open_water *w, struct recipe *o, double h, fl_err *er
     return 0;
 }
 
+/* 1 if the ring m has p inside. */
+static int surrounds(int32_t m, const fl_vec2 *ring, fl_vec2 p)
+{
+    int inside = 0;
+    for (int32_t k = 0; k < m; k++) {
+        const fl_vec2 a = ring[k], b = ring[(k + 1) % m];
+        if ((a.y <= p.y) != (b.y <= p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
+            inside = !inside;
+    }
+    return inside;
+}
+
+/* A floe meets a ring that it is inside of, or whose sides it meets. */
 int open_water_removes(const struct open_water *w, int32_t n, const fl_vec2 *v)
 {
     for (int32_t r = 0; r < w->removed.rings; r++) {
-        const int32_t first = w->removed.first[r], m = w->removed.first[r + 1] - first;
-        fl_vec2 ring[FL_WATERPLANE_MAX_SIDES];
-        const int reversed =
-            fl_polygon_area(m, w->removed.v + first) < 0.0; /* all rings but the first are clockwise */
-        for (int32_t k = 0; k < m; k++) ring[k] = w->removed.v[first + (reversed ? m - 1 - k : k)];
-        if (!fl_polygon_is_apart(n, v, m, ring)) return 1;
+        const int32_t m = w->removed.first[r + 1] - w->removed.first[r];
+        const fl_vec2 *ring = w->removed.v + w->removed.first[r];
+        if (surrounds(m, ring, v[0])) return 1;
+        for (int32_t k = 0; k < m; k++) {
+            const fl_vec2 side[2] = {ring[k], ring[(k + 1) % m]};
+            if (!fl_polygon_is_apart(n, v, 2, side)) return 1;
+        }
     }
     return 0;
 }
@@ -162,6 +177,12 @@ static void move_to_centroids(const fl_pieces *p, fl_vec2 *site)
     }
 }
 
+/* Of a graded field, about. */
+static double concentration_of(const struct recipe *o)
+{
+    return o->graded && !o->grade_file ? 0.5 * (o->grade[0] + o->grade[1]) : o->concentration;
+}
+
 int open_water_cells(struct open_water *w, const struct recipe *o, fl_power_cells *cells, fl_err *err)
 {
     fl_vec2 *site = fl_alloc(o->floes, sizeof *site, err);
@@ -171,8 +192,11 @@ int open_water_cells(struct open_water *w, const struct recipe *o, fl_power_cell
     if (!site || fl_domain_sites(o->floes, o->seed, &w->domain, site, err) ||
         cut_cells(w, o, site, 0.0, &p, err))
         goto done;
-    /* a core needs room in addition to the dilation radius */
-    least = fmax(OPEN_WATER_SLIVER * sqrt(p.area / o->floes), 1.5 * o->radius);
+    /* The inset takes about half of 1 - sqrt(C) of the size of a cell, and a core needs room in addition to
+     * the dilation radius. */
+    least = fmax((OPEN_WATER_SLIVER + (o->bonded ? 0.0 : 0.5 * (1.0 - sqrt(concentration_of(o))))) *
+                     sqrt(p.area / o->floes),
+                 1.5 * o->radius);
     for (int k = 0; k < o->smooth; k++) {
         move_to_centroids(&p, site);
         fl_pieces_free(&p);

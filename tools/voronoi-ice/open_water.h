@@ -7,9 +7,9 @@
 #include "certificate_table.h"
 #include "recipe.h"
 
-/* A piece of a cell is a sliver if its inscribed radius is below this fraction of the square root of the mean
- * floe area; that of a mean round floe is about half of the square root. */
-#define OPEN_WATER_SLIVER 0.1
+/* A piece of a cell is a sliver if the floe in it would have an inscribed radius below this fraction of the
+ * square root of the mean area of a cell; that of a mean floe is about half of the square root. */
+#define OPEN_WATER_SLIVER 0.15
 /* Largest distance of a polygon round a structure from it, over the square root of the mean floe area. */
 #define OPEN_WATER_COARSE 0.1
 
@@ -17,7 +17,7 @@ struct open_water {
     int is_domain;      /* 0: the water is the rectangle                                           */
     fl_domain domain;   /* about the origin, see shift                                         [m] */
     fl_vec2 shift;      /* from the origin to the centre of the field                          [m] */
-    fl_domain removed;  /* with --sizes: convex rings at their place; floes that meet one are removed */
+    fl_domain removed;  /* with --sizes, --periodic: rings at their place; floes that meet one are removed */
     double area;        /* open to ice                                                        [m2] */
     int32_t structures; /* connected parts of structures that are kept out                         */
     int32_t *id;        /* [cells] of the pieces, if is_domain                                     */
@@ -26,8 +26,8 @@ struct open_water {
 };
 
 /* Build the water from the recipe; an outline sets o->size and o->origin.  The area is not known yet.
- * Floes of prescribed sizes are not cut: leads, ridges and structures remove them whole.  h: largest
- * thickness of the ice [m].  Returns 0, or -1 with FL_INPUT or FL_SYSTEM. */
+ * Floes of prescribed sizes and of periodic fields are not cut: leads, ridges and structures remove them
+ * whole.  h: largest thickness of the ice [m].  Returns 0, or -1 with FL_INPUT or FL_SYSTEM. */
 int open_water_make(struct open_water *w, struct recipe *o, double h, fl_err *err);
 
 /* The region of sites and power diagrams: the rectangle, or the outline if it is convex and whole. */

@@ -4,15 +4,17 @@
 #include <string.h>
 #include "base/number_text.h"
 #include "base/option.h"
-#include "scene/scene_unit.h"
 #include "base/tool.h"
 #include "ice/pancakes.h"
 #include "generator_table.h"
+#include "measure.h"
 
 static const char USAGE[] =
     "usage: voronoi-ice [options]\n"
     "A field of ice floes of a given concentration, none of which overlaps another, to a g-polys file.\n"
-    "Lengths are in metres; the certificate goes to standard error.\n"
+    "Lengths are in metres, or have a unit behind them: \"160x80 m\", \"40 cm\", \"0.7,0 kn\".  The "
+    "certificate\n"
+    "goes to standard error.\n"
     "\n";
 
 /* Largest coordinate of a shape, as FL_ICE_FIELD_MAX_COORD, which holds projected ones (UTM); longest field,
@@ -21,19 +23,18 @@ static const char USAGE[] =
 #define LONGEST 1e6
 #define SHORTEST 1e-6
 
-/* Exactly n numbers, separated by `divide`; expected describes them for the message. */
-static int parse_numbers(const char *option, const char *text, char divide, int n, double lo, double hi,
-                         double *x, const char *expected, fl_err *err)
+/* Exactly n lengths, separated by ','; expected describes them for the message. */
+static int parse_lengths(const char *option, const char *text, int n, double lo, double hi, double *x,
+                         const char *expected, fl_err *err)
 {
-    int count;
-    return fl_option_numbers(option, text, divide, n, n, lo, hi, expected, x, &count, err);
+    return measure_read(option, text, ',', n, FL_UNIT_LENGTH, lo, hi, expected, x, err);
 }
 
-static int parse_pair(const char *option, const char *text, char divide, double lo, double hi, fl_vec2 *out,
-                      const char *expected, fl_err *err)
+static int parse_pair(const char *option, const char *text, char divide, enum fl_unit_kind kind, double lo,
+                      double hi, fl_vec2 *out, const char *expected, fl_err *err)
 {
     double x[2] = {0.0, 0.0};
-    if (parse_numbers(option, text, divide, 2, lo, hi, x, expected, err)) return -1;
+    if (measure_read(option, text, divide, 2, kind, lo, hi, expected, x, err)) return -1;
     *out = (fl_vec2){x[0], x[1]};
     return 0;
 }
@@ -70,11 +71,11 @@ static int parse_keep_out(void *options, const char *text, fl_err *err)
     if (o->keep_outs == KEEP_OUT_MAX)
         return fl_fail(err, FL_USAGE, "more than %d shapes to keep out", KEEP_OUT_MAX);
     if (strncmp(text, "circle:", 7) == 0) {
-        if (parse_numbers("keep-out", text + 7, ',', 3, -FAR, FAR, x, expected, err)) return -1;
+        if (parse_lengths("keep-out", text + 7, 3, -FAR, FAR, x, expected, err)) return -1;
         k = (struct keep_out){.circle = 1, .lo = {x[0], x[1]}, .r = x[2]};
         if (k.r <= 0.0) return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", expected R above 0", text);
     } else if (strncmp(text, "box:", 4) == 0) {
-        if (parse_numbers("keep-out", text + 4, ',', 4, -FAR, FAR, x, expected, err)) return -1;
+        if (parse_lengths("keep-out", text + 4, 4, -FAR, FAR, x, expected, err)) return -1;
         k = (struct keep_out){.lo = {x[0], x[1]}, .hi = {x[2], x[3]}};
         if (!(x[0] < x[2] && x[1] < x[3]))
             return fl_fail(err, FL_USAGE, "--keep-out is \"%.60s\", expected X0 < X1 and Y0 < Y1", text);
@@ -88,13 +89,12 @@ static int parse_keep_out(void *options, const char *text, fl_err *err)
 static int parse_outline(void *options, const char *text, fl_err *err)
 {
     struct recipe *const o = options;
-    static const char expected[] = "disc:R or disc:R,X,Y in metres, or the name of a file,";
+    static const char expected[] = "the name of a file, or disc:R or disc:R,X,Y in metres";
     const int centred = strncmp(text, "disc:", 5) == 0 && !strchr(text, ',');
     o->outline = NULL;
     o->disc[0] = o->disc[1] = o->disc[2] = 0.0;
     if (strncmp(text, "disc:", 5) != 0) return fl_option_file("outline", text, &o->outline, err);
-    if (parse_numbers("outline", text + 5, ',', centred ? 1 : 3, -FAR, FAR, o->disc, expected, err))
-        return -1;
+    if (parse_lengths("outline", text + 5, centred ? 1 : 3, -FAR, FAR, o->disc, expected, err)) return -1;
     if (o->disc[0] >= SHORTEST && o->disc[0] <= LONGEST) return 0;
     return fl_fail(err, FL_USAGE, "--outline is \"%.60s\", expected R from %g to %g", text, SHORTEST,
                    LONGEST);
@@ -105,7 +105,7 @@ static int parse_lead(void *options, const char *text, fl_err *err)
     struct recipe *const o = options;
     double *x = o->lead[o->leads];
     if (o->leads == LEAD_MAX) return fl_fail(err, FL_USAGE, "--lead is given more than %d times", LEAD_MAX);
-    if (parse_numbers("lead", text, ',', 5, -FAR, FAR, x, "X0,Y0,X1,Y1,WIDTH in metres", err)) return -1;
+    if (parse_lengths("lead", text, 5, -FAR, FAR, x, "X0,Y0,X1,Y1,WIDTH in metres", err)) return -1;
     if (!(x[4] >= SHORTEST && fabs(x[2] - x[0]) + fabs(x[3] - x[1]) >= SHORTEST))
         return fl_fail(err, FL_USAGE, "--lead is \"%.60s\", expected a length and a width of %g at least",
                        text, SHORTEST);
@@ -185,7 +185,7 @@ static int parse_ridge(void *options, const char *text, fl_err *err)
     double *x = o->ridge[o->ridges];
     if (o->ridges == RIDGE_MAX)
         return fl_fail(err, FL_USAGE, "--ridge is given more than %d times", RIDGE_MAX);
-    if (parse_numbers("ridge", text, ',', 9, -FAR, FAR, x, expected, err)) return -1;
+    if (parse_lengths("ridge", text, 9, -FAR, FAR, x, expected, err)) return -1;
     for (int k = 4; k < 8; k++)
         if (!(x[k] >= SHORTEST && x[k] <= LONGEST))
             return fl_fail(err, FL_USAGE, "--ridge is \"%.60s\", expected heights and widths above 0", text);
@@ -199,20 +199,20 @@ static int parse_ridge(void *options, const char *text, fl_err *err)
 
 static int set_size(void *options, const char *text, fl_err *err)
 {
-    return parse_pair("size", text, 'x', SHORTEST, LONGEST, &((struct recipe *)options)->size,
+    return parse_pair("size", text, 'x', FL_UNIT_LENGTH, SHORTEST, LONGEST, &((struct recipe *)options)->size,
                       "AxB in metres, as 50x50", err);
 }
 
 static int set_origin(void *options, const char *text, fl_err *err)
 {
-    return parse_pair("origin", text, ',', -FAR, FAR, &((struct recipe *)options)->origin,
+    return parse_pair("origin", text, ',', FL_UNIT_LENGTH, -FAR, FAR, &((struct recipe *)options)->origin,
                       "X,Y in metres, each up to 1e9", err);
 }
 
 static int set_velocity(void *options, const char *text, fl_err *err)
 {
-    return parse_pair("velocity", text, ',', -1e3, 1e3, &((struct recipe *)options)->velocity, "VX,VY in m/s",
-                      err);
+    return parse_pair("velocity", text, ',', FL_UNIT_SPEED, -1e3, 1e3, &((struct recipe *)options)->velocity,
+                      "VX,VY in m/s", err);
 }
 
 static int set_concentration(void *options, const char *text, fl_err *err)
@@ -231,36 +231,69 @@ static int set_seed(void *options, const char *text, fl_err *err)
     return fl_fail(err, FL_USAGE, "--seed is \"%.60s\", expected a whole number from 0 to 2^64 - 1", text);
 }
 
-/* A number with or without a unit, which starts with one of these letters. */
-static int parse_measure(const char *text, const char *letters, enum fl_unit_kind kind, double *x)
-{
-    char number[64];
-    const size_t n = strcspn(text, letters);
-    const char *unit = text + n;
-    size_t end = n;
-    while (end > 0 && text[end - 1] == ' ') end--;
-    if (end == 0 || end >= sizeof number) return -1;
-    memcpy(number, text, end);
-    number[end] = '\0';
-    return fl_number_f64(number, x) || (*unit && fl_unit_convert(kind, unit, x)) ? -1 : 0;
-}
-
-/* A stress above 0, with a unit or in Pa. */
 static int parse_stress(const char *option, const char *text, double *x, fl_err *err)
 {
-    char units[200];
-    if (parse_measure(text, "PpkMGN", FL_UNIT_STRESS, x) == 0 && *x > 0.0) return 0;
-    return fl_fail(err, FL_USAGE, "--%s is \"%.60s\", a stress above 0 is expected, in Pa or with one of %s",
-                   option, text, fl_unit_list(FL_UNIT_STRESS, units, sizeof units));
+    return measure_read(option, text, ',', 1, FL_UNIT_STRESS, 1e-300, 1e300, "a stress above 0 in Pa", x,
+                        err);
 }
 
 static int set_mean_size(void *options, const char *text, fl_err *err)
 {
-    char units[200];
-    double *const x = &((struct recipe *)options)->mean_size;
-    if (parse_measure(text, "mcdku", FL_UNIT_LENGTH, x) == 0 && *x >= SHORTEST && *x <= LONGEST) return 0;
-    return fl_fail(err, FL_USAGE, "--mean-size is \"%.60s\", a length is expected, in m or with one of %s",
-                   text, fl_unit_list(FL_UNIT_LENGTH, units, sizeof units));
+    return parse_lengths("mean-size", text, 1, SHORTEST, LONGEST, &((struct recipe *)options)->mean_size,
+                         "a length in metres", err);
+}
+
+static int set_radius(void *options, const char *text, fl_err *err)
+{
+    return parse_lengths("radius", text, 1, 0.0, LONGEST, &((struct recipe *)options)->radius,
+                         "a length not below 0 in metres", err);
+}
+
+static int set_margin(void *options, const char *text, fl_err *err)
+{
+    return parse_lengths("margin", text, 1, 0.0, LONGEST, &((struct recipe *)options)->margin,
+                         "a length not below 0 in metres", err);
+}
+
+static int set_block(void *options, const char *text, fl_err *err)
+{
+    return parse_lengths("block", text, 1, SHORTEST, LONGEST, &((struct recipe *)options)->block,
+                         "a length in metres", err);
+}
+
+static int set_diameter(void *options, const char *text, fl_err *err)
+{
+    return parse_lengths("diameter", text, 1, SHORTEST, LONGEST, &((struct recipe *)options)->diameter,
+                         "a length in metres", err);
+}
+
+static int parse_density(const char *option, const char *text, double *x, fl_err *err)
+{
+    return measure_read(option, text, ',', 1, FL_UNIT_DENSITY, 1.0, 1e5, "a density in kg/m3", x, err);
+}
+
+static int set_ice_density(void *options, const char *text, fl_err *err)
+{
+    return parse_density("ice-density", text, &((struct recipe *)options)->ice_density, err);
+}
+
+static int set_water_density(void *options, const char *text, fl_err *err)
+{
+    return parse_density("water-density", text, &((struct recipe *)options)->water_density, err);
+}
+
+/* A law with a unit is kept in metres, as the history has it. */
+static int set_thickness(void *options, const char *text, fl_err *err)
+{
+    struct recipe *const o = options;
+    o->thickness_law = o->thickness_text;
+    if (measure_law(text, o->thickness_text) == 0) return 0;
+    if (strpbrk(text, " \t"))
+        return fl_fail(
+            err, FL_USAGE,
+            "--thickness is \"%.60s\", expected a length, as 0.4 or \"40 cm\", a law or the name of a file",
+            text);
+    return fl_option_file("thickness", text, &o->thickness_law, err);
 }
 
 static int set_gaps(void *options, const char *text, fl_err *err)
@@ -344,16 +377,13 @@ static const fl_option FIELD_OPTION[] = {
     {.word = "thickness",
      .argument = "H",
      .help = "of the ice (0.5); uniform:A,B, lognormal:MEAN,CV or a file of thicknesses",
-     .kind = FL_OPTION_FILE,
-     .at = AT(thickness_law)},
+     .kind = FL_OPTION_CALL,
+     .call = set_thickness},
     {.word = "radius",
      .argument = "R",
      .help = "dilation radius, the roundness of edges, below H/2 (0.05)",
-     .kind = FL_OPTION_NUMBER,
-     .at = AT(radius),
-     .lo = 0.0,
-     .hi = LONGEST,
-     .expected = "a length not below 0"},
+     .kind = FL_OPTION_CALL,
+     .call = set_radius},
     {.word = "seed",
      .argument = "N",
      .help = "seed of the random numbers (1)",
@@ -379,19 +409,13 @@ static const fl_option FIELD_OPTION[] = {
     {.word = "ice-density",
      .argument = "RHO",
      .help = "kg/m3, sets the draft together with the next (900)",
-     .kind = FL_OPTION_NUMBER,
-     .at = AT(ice_density),
-     .lo = 1.0,
-     .hi = 1e5,
-     .expected = "a density in kg/m3"},
+     .kind = FL_OPTION_CALL,
+     .call = set_ice_density},
     {.word = "water-density",
      .argument = "RHO",
      .help = "kg/m3 (1025)",
-     .kind = FL_OPTION_NUMBER,
-     .at = AT(water_density),
-     .lo = 1.0,
-     .hi = 1e5,
-     .expected = "a density in kg/m3"},
+     .kind = FL_OPTION_CALL,
+     .call = set_water_density},
     {.word = "velocity",
      .argument = "VX,VY",
      .help = "of all floes at the start, m/s (0,0)",
@@ -406,11 +430,8 @@ static const fl_option FIELD_OPTION[] = {
     {.word = "margin",
      .argument = "M",
      .help = "open water round the structures of --keep-out (0)",
-     .kind = FL_OPTION_NUMBER,
-     .at = AT(margin),
-     .lo = 0.0,
-     .hi = LONGEST,
-     .expected = "a length not below 0"},
+     .kind = FL_OPTION_CALL,
+     .call = set_margin},
     {.word = "outline",
      .argument = "SHAPE",
      .help = "of the field instead of a rectangle: disc:R, disc:R,X,Y or a file of corners",
@@ -447,11 +468,8 @@ static const fl_option FIELD_OPTION[] = {
     {.word = "block",
      .argument = "L",
      .help = "size of the blocks of ridges (the thickness)",
-     .kind = FL_OPTION_NUMBER,
-     .at = AT(block),
-     .lo = SHORTEST,
-     .hi = LONGEST,
-     .expected = "a length"},
+     .kind = FL_OPTION_CALL,
+     .call = set_block},
     {.word = "porosity",
      .argument = "P",
      .help = "fraction of ridges without ice (0.3)",
@@ -473,11 +491,8 @@ static const fl_option OUTPUT_OPTION[] = {
     {.word = "diameter",
      .argument = "D",
      .help = "of the spheres of the lattice (0.25, or from --thickness)",
-     .kind = FL_OPTION_NUMBER,
-     .at = AT(diameter),
-     .lo = SHORTEST,
-     .hi = LONGEST,
-     .expected = "a length"},
+     .kind = FL_OPTION_CALL,
+     .call = set_diameter},
     {.word = "rows",
      .argument = "WAY",
      .help = "of the lattice, along or across x (along)",
@@ -605,6 +620,12 @@ static int select_generator(struct recipe *o, const struct command_line *c, fl_e
     return 0;
 }
 
+/* Floes are cut round structures, but those of periodic fields removed whole. */
+static int cuts_structures(const struct recipe *o)
+{
+    return o->structures && !o->periodic[0] && !o->periodic[1];
+}
+
 static int check_water(const struct recipe *o, const struct command_line *c, fl_err *err)
 {
     static const char *const without[] = {"size", "origin", "gaps", NULL}, *const within[] = {"margin", NULL};
@@ -615,8 +636,8 @@ static int check_water(const struct recipe *o, const struct command_line *c, fl_
             return fl_fail(err, FL_USAGE,
                            "--outline is \"-\", expected a file: a pipe cannot be named again");
     }
-    return o->structures ? reject_options(c, "beside --keep-out of a file", whole, err)
-                         : reject_options(c, "without the file of a structure", within, err);
+    if (!o->structures) return reject_options(c, "without the file of a structure", within, err);
+    return cuts_structures(o) ? reject_options(c, "beside --keep-out of a file", whole, err) : 0;
 }
 
 static int check_graded(const struct recipe *o, const struct command_line *c, fl_err *err)
@@ -629,9 +650,6 @@ static int check_graded(const struct recipe *o, const struct command_line *c, fl
     if (o->pancakes && reject_options(c, "beside --pancakes", round, err)) return -1;
     if (o->graded && reject_options(c, "beside --grade", without, err)) return -1;
     if (!o->periodic[0] && !o->periodic[1]) return 0;
-    if (o->structures)
-        return fl_fail(err, FL_USAGE,
-                       "--keep-out of a file has no effect beside --periodic, expected a shape");
     return reject_options(c, "beside --periodic", none, err);
 }
 
@@ -688,7 +706,7 @@ static void note_gaps(const struct recipe *o, struct command_line *c, int *asked
 /* Floes of an open field have random gaps, unless asked otherwise. */
 static void choose_gaps(struct recipe *o, int asked)
 {
-    const int usual = !o->generator->name && !o->outline && !(o->disc[0] > 0.0) && !o->structures &&
+    const int usual = !o->generator->name && !o->outline && !(o->disc[0] > 0.0) && !cuts_structures(o) &&
                       !o->bonded && !o->graded && !o->ridges && o->layers == 1 &&
                       o->concentration < RANDOM_BELOW;
     if (usual && !asked) o->gaps = GAPS_RANDOM;

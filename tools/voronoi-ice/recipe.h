@@ -9,6 +9,7 @@
 #include "ice/sizes_law.h"
 #include "scene/ice_field.h"
 #include "generator.h"
+#include "measure.h"
 
 enum { KEEP_OUT_MAX = 16, LEAD_MAX = 16, RIDGE_MAX = 4, FLOES_MAX = 10000000 };
 
@@ -32,7 +33,8 @@ struct recipe {
     fl_vec2 size, origin, velocity; /* origin is the corner of least x and y [m, m, m/s] */
     int32_t floes, smooth;
     double concentration;
-    const char *thickness_law;         /* as given: a length, a law or a file */
+    const char *thickness_law; /* a length, a law or a file, without unit */
+    char thickness_text[MEASURE_LAW_LEN];
     double thickness, radius;          /* thickness of all floes, or the largest; dilation radius [m] */
     double ice_density, water_density; /* [kg/m3] */
     uint64_t seed;

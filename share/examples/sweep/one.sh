@@ -12,24 +12,16 @@ END
 work=$(mktemp -d "$out/$case.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 
-# The legs at +-8 m, turned by the angle against the drift; the places that floes leave free for them.
-awk -v a="$angle" 'BEGIN {
-    c = cos(a * atan2(0, -1) / 180); s = sin(a * atan2(0, -1) / 180)
-    for (x = -8; x <= 8; x += 16)
-        for (y = -8; y <= 8; y += 16)
-            printf "%s%s %.9f,%.9f\n", y < 0 ? "s" : "n", x < 0 ? "w" : "e", x * c + y * s, y * c - x * s
-}' >"$work/legs"
-set -- # the options of struct-import
-while read -r name at; do set -- "$@" -n "$name" --cylinder "0.6,-5,5,$at"; done <"$work/legs"
-struct-import -q "$@" -o "$work/legs.dat"
-set -- # those of voronoi-ice
-while read -r name at; do set -- "$@" --keep-out "circle:$at,1.2"; done <"$work/legs"
+# The legs at +-8 m in the axes of the platform, and as dem-solve turns them back by the angle: there floes leave room.
+struct-import -q -n sw --cylinder 0.6,-5,5,-8,-8 -n nw --cylinder 0.6,-5,5,-8,8 -n se --cylinder 0.6,-5,5,8,-8 \
+    -n ne --cylinder 0.6,-5,5,8,8 -o "$work/legs.dat"
+struct-import -q --rotate "0,0,-1,$angle" "$work/legs.dat" -o "$work/turned.dat"
 voronoi-ice --gaps even -q --size 60x48 --origin -45,-24 --floes 110 --periodic xy --concentration 0.4 --thickness "$thickness" \
-    --velocity "$speed,0" --seed "$seed" "$@" -o "$work/ice.dat"
+    --velocity "$speed,0" --seed "$seed" --keep-out "$work/turned.dat" --margin 0.6 -o "$work/ice.dat"
 
 # shellcheck disable=SC2086 # RUN is a list of options
-dem-solve -q -j 1 --ice "$work/ice.dat" --structure "$work/legs.dat" --set "water.current=$speed 0 0" ${RUN:-} \
-    -o "$work/loads.tsv" "$here/sweep.scene" 2>"$work/said"
+dem-solve -q -j 1 --ice "$work/ice.dat" --structure "$work/legs.dat" --direction "${angle}deg" \
+    --set "water.current=$speed 0 0" ${RUN:-} -o "$work/loads.tsv" "$here/sweep.scene" 2>"$work/said"
 awk -v angle="$angle" -v speed="$speed" -v thickness="$thickness" -v seed="$seed" -f "$here/row.awk" \
     "$work/loads.tsv" >"$work/row"
 mv "$work/row" "$out/$case.row"

@@ -1,22 +1,22 @@
-# The row of a run: loads in the axes of the platform, from the first third of the record on. The ice drifts along x of
-# the run and towards `angle` in the axes of the platform:
-#     fX = fx cos a - fy sin a, fY = fx sin a + fy cos a
-# The moments are about the reference of the scene.
-BEGIN { pi = atan2(0, -1); c = cos(angle * pi / 180); s = sin(angle * pi / 180) }
+# The row of a run: loads in the axes of the platform, from the first third of the record on. The columns of these axes are
+# those of dem-solve --direction; at an angle of 0 there are none, as they are those of the run. The moments are about the
+# reference of the scene.
+BEGIN { FS = "\t" }
 /^#report warning: (the field is too narrow|a jam)/ { jam = 1 }
 /^#stopped/ { stopped = 1 }
+/^t\[/ { for (k = 1; k <= NF; k++) { sub(/\[.*/, "", $k); at_name[$k] = k } }
+function column(name) { return $(name "_platform" in at_name ? at_name[name "_platform"] : at_name[name]) }
 /^[0-9]/ { # a row for each part
     if (!n || $1 != t[n]) t[++n] = $1
-    fx[n] += $3; fy[n] += $4; mx[n] += $6; my[n] += $7
+    fx[n] += column("fx"); fy[n] += column("fy"); mx[n] += column("mx"); my[n] += column("my")
 }
 END {
     if (stopped || !n) { print "row.awk: the run has stopped early" >"/dev/stderr"; exit 1 }
     for (k = 1; k <= n; k++) {
         if (t[k] < t[n] / 3) continue
         rows++
-        X = fx[k] * c - fy[k] * s; Y = fx[k] * s + fy[k] * c
-        meanX += X; meanY += Y
-        shear = sqrt(X * X + Y * Y); moment = sqrt(mx[k] * mx[k] + my[k] * my[k])
+        meanX += fx[k]; meanY += fy[k]
+        shear = sqrt(fx[k] * fx[k] + fy[k] * fy[k]); moment = sqrt(mx[k] * mx[k] + my[k] * my[k])
         if (shear > most) { most = shear; at = t[k] }
         if (moment > turn) turn = moment
     }
