@@ -413,8 +413,9 @@ typedef struct {
     int spread; /* 1: of a mesh */
 } face_list;
 
-/* Steps of the tangent of a normal within a merged part, 10 degrees. */
+/* Steps of the tangent of a normal within a merged part, 10 degrees, and within one of a mesh. */
 #define NORMAL_STEP 0.17
+#define MESH_NORMAL_STEP 0.35
 
 /* Adds w times (x - y)(x - y)^T. */
 static void add_square(fl_mat3 *s, double w, fl_vec3 x, fl_vec3 y)
@@ -460,8 +461,9 @@ static int add_part(face_list *l, const fl_vec3 v[3], fl_err *err)
     p->key[0] = (int32_t)floor(p->x.x / l->cell), p->key[1] = (int32_t)floor(p->x.y / l->cell);
     p->key[2] = (int32_t)floor(p->x.z / l->cell);
     p->key[3] = axis + (n[axis] < 0.0 ? 3 : 0);
-    p->key[4] = size > 0.0 ? 64 * (int32_t)floor(n[(axis + 1) % 3] / size / NORMAL_STEP) +
-                                 (int32_t)floor(n[(axis + 2) % 3] / size / NORMAL_STEP)
+    const double step = l->spread ? MESH_NORMAL_STEP : NORMAL_STEP;
+    p->key[4] = size > 0.0 ? 64 * (int32_t)floor(n[(axis + 1) % 3] / size / step) +
+                                 (int32_t)floor(n[(axis + 2) % 3] / size / step)
                            : 0;
     return 0;
 }
@@ -547,14 +549,14 @@ static int make_faces(fl_wave_nodes *a, const fl_poly *p, const fl_waves *w, fl_
 
 /* Parts of a mesh: of the wavelength of k95 at the standard error, and bounds of their size over that. */
 #define MESH_ERROR 0.003
-#define MESH_PARTS 8.0
-#define MESH_FINEST 0.5
+#define MESH_PARTS 5.0
+#define MESH_FINEST 0.4
 #define MESH_COARSEST 1.5
 
 int fl_wave_nodes_make_mesh(fl_wave_nodes *a, const fl_vec3 *v, int32_t n, double size, const fl_waves *w,
                             double error, fl_err *err)
 {
-    const double scale = fmin(fmax(sqrt(sqrt(error / MESH_ERROR)), MESH_FINEST), MESH_COARSEST),
+    const double scale = fmin(fmax(sqrt(error / MESH_ERROR), MESH_FINEST), MESH_COARSEST),
                  part = fmin(scale * 2.0 * PI / w->k95 / MESH_PARTS, size / FACE_PARTS);
     face_list l = {.longest = part, .cell = part, .spread = 1};
     int rc = 0;

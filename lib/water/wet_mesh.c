@@ -5,7 +5,7 @@
 #include "base/array.h"
 
 /* Triangles of a leaf. */
-enum { LEAF = 12 };
+enum { LEAF = 4 };
 
 /* --- sums -------------------------------------------------------------------------------------------- */
 
@@ -13,19 +13,21 @@ enum { LEAF = 12 };
 static void add_triangle(fl_wet_sums *o, fl_vec3 a, fl_vec3 b, fl_vec3 c)
 {
     const fl_vec3 n = v3_scale(0.5, v3_cross(v3_sub(b, a), v3_sub(c, a))), s = v3_add(a, v3_add(b, c));
-    const double v[4][3] = {{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}, {s.x, s.y, s.z}},
-                 N[3] = {n.x, n.y, n.z};
+    const double N[3] = {n.x, n.y, n.z}, x[3] = {s.x / 3.0, s.y / 3.0, s.z / 3.0}, w = 1.0 / 12.0;
+    const double xy = w * (a.x * a.y + b.x * b.y + c.x * c.y + s.x * s.y),
+                 yz = w * (a.y * a.z + b.y * b.z + c.y * c.z + s.y * s.z),
+                 zx = w * (a.z * a.x + b.z * b.x + c.z * c.x + s.z * s.x),
+                 xx = w * (a.x * a.x + b.x * b.x + c.x * c.x + s.x * s.x),
+                 yy = w * (a.y * a.y + b.y * b.y + c.y * c.y + s.y * s.y),
+                 zz = w * (a.z * a.z + b.z * b.z + c.z * c.z + s.z * s.z);
+    const double X[3][3] = {{xx, xy, zx}, {xy, yy, yz}, {zx, yz, zz}}; /* int x x dA over the area */
     o->A = v3_add(o->A, n);
     o->wetted += v3_norm(n);
     for (int i = 0; i < 3; i++) {
-        double row[3]; /* int x_i x dA over the area */
-        for (int j = 0; j < 3; j++) {
-            o->M.m[i][j] += v[3][i] / 3.0 * N[j];
-            row[j] = (v[0][i] * v[0][j] + v[1][i] * v[1][j] + v[2][i] * v[2][j] + v[3][i] * v[3][j]) / 12.0;
-        }
-        o->Q.m[i][0] += row[1] * N[2] - row[2] * N[1];
-        o->Q.m[i][1] += row[2] * N[0] - row[0] * N[2];
-        o->Q.m[i][2] += row[0] * N[1] - row[1] * N[0];
+        for (int j = 0; j < 3; j++) o->M.m[i][j] += x[i] * N[j];
+        o->Q.m[i][0] += X[i][1] * N[2] - X[i][2] * N[1];
+        o->Q.m[i][1] += X[i][2] * N[0] - X[i][0] * N[2];
+        o->Q.m[i][2] += X[i][0] * N[1] - X[i][1] * N[0];
     }
 }
 
