@@ -194,7 +194,7 @@ static void sea_motion(void)
     enum { MOST = 1000 };
     static const char *const ERROR[4] = {"none", "0.01", "0.003", "0.001"};
     static const char *const WHAT[3] = {"surge", "heave", "pitch"};
-    static const double SURGE[4] = {0, 0.04, 0.03, 0.02}, PITCH[4] = {0, 0.015, 0.006, 0.004};
+    static const double SURGE[4] = {0, 0.04, 0.03, 0.03}, PITCH[4] = {0, 0.015, 0.006, 0.004};
     static double y[4][MOST][3];
     const barge b = {60, 15, 4, 8, 0.5, 6};
     const double seconds = verify_quick() ? 10 : 100, dt = 0.02;
