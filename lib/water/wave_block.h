@@ -21,9 +21,9 @@
  * area of its section, sigma the standard deviation of the elevation) takes blocks of half the length,
  * until three long blocks have passed without a jump.
  *
- * The mesh of a floating structure has too many triangles to be cut in each step. There B too is evaluated on
- * the path, by wet_mesh.h, and is part of D; G has its change with the pose, which is the hydrostatic stiffness
- * of the present wet part. What is left out is of second order in the deviation from the path.
+ * The mesh of a floating structure has too many triangles to be cut in each step. There B too is evaluated
+ * on the path, by wet_mesh.h, and is part of D; G has its change with the pose, which is the hydrostatic
+ * stiffness of the present wet part. What is left out is of second order in the deviation from the path.
  *
  * Bits: all is a function of the path and the levels. A checkpoint holds the path. */
 #ifndef FL_WATER_WAVE_BLOCK_H

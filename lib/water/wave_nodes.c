@@ -549,7 +549,7 @@ static int make_faces(fl_wave_nodes *a, const fl_poly *p, const fl_waves *w, fl_
 
 /* Parts of a mesh: of the wavelength of k95 at the standard error, and bounds of their size over that. */
 #define MESH_ERROR 0.003
-#define MESH_PARTS 5.0
+#define MESH_PARTS 4.0
 #define MESH_FINEST 0.4
 #define MESH_COARSEST 1.5
 

@@ -39,10 +39,12 @@ typedef struct {
 int fl_wave_nodes_make(fl_wave_nodes *a, const fl_hull *hull, const fl_waves *w, double error, fl_err *err);
 
 /* Makes the nodes of a closed mesh of n triangles v[3 n], its largest side being `size` [m]. Its parts are as
- * those of a solid, lambda/5 at an error of 0.003. A part carries the mean pressure over it to second order,
+ * those of a solid, lambda/4 and 20 degrees at an error of 0.003. A part carries the mean pressure over it to
+ * second order,
  *     p + 1/2 (S_ss - S_zz) d2p/ds2,   S = spread,
- * P being harmonic, and the moment of its gradient. What is left is (k l)^4/1920 of a wave, l being the size of
- * the part; the size grows as the square root of the error, since waves shorter than lambda act at the ends. */
+ * P being harmonic, and the moment of its gradient. What is left is (k l)^4/1920 of a wave, l being the size
+ * of the part. The size grows as the square root of the error, since waves shorter than lambda act at the
+ * ends. */
 int fl_wave_nodes_make_mesh(fl_wave_nodes *a, const fl_vec3 *v, int32_t n, double size, const fl_waves *w,
                             double error, fl_err *err);
 void fl_wave_nodes_free(fl_wave_nodes *a); /* accepts a zeroed struct, leaves one */

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* wet_mesh.h -- linear pressure on the wet part of a closed mesh of triangles, exact, at a price that grows as
- * the number of triangles at the water line.
+/* wet_mesh.h -- linear pressure on the wet part of a closed mesh of triangles, exact, at a price that grows
+ * as the number of triangles at the water line.
  *
  * With the head p = c - G.x, positive in the water, all of the mesh's load is in the integrals over its wet
  * part
  *     A = int n dA,   M_ij = int x_i n_j dA,   Q_ij = int x_i (x x n)_j dA,   a = int dA:
  *     F = -int p n dA = -(c A - G.M),   T = -int p x x n dA = -(c S - G.Q),   S_i = e_ijk M_jk,
  * and in their change with the pose. p is 0 on the water line, so the wet part may be taken as fixed. The
- * triangles stand in a tree of boxes. A box that is wholly wet adds its sums, one wholly dry nothing; only the
- * leaves at the water line are cut triangle by triangle. All is in axes of the mesh. */
+ * triangles stand in a tree of boxes. A box that is wholly wet adds its sums, one wholly dry nothing; only
+ * the leaves at the water line are cut triangle by triangle. All is in axes of the mesh. */
 #ifndef FL_WATER_WET_MESH_H
 #define FL_WATER_WET_MESH_H
 #include <stdint.h>

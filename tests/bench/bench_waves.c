@@ -6,8 +6,8 @@
  *
  * us: processor time of a floe-step in all, without contacts; "each step" is measured on 64 of the floes.
  * error: rms over 64 floes of the difference of the two forces at the same pose, over rho g A Hs/4. ledger:
- * residual over the throughput. Then a floating structure, alone: a half-submerged ellipsoid of 100 x 20 x 16 m
- * and 50 000 triangles. */
+ * residual over the throughput. Then a floating structure, alone: a half-submerged ellipsoid of 100 x 20 x
+ * 16 m and 50 000 triangles. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

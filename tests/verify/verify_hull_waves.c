@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Waves on a floating structure: a box barge against closed forms of Froude and Krylov, and the load from tables
- * (water.wave_error) against the integral in each step. */
+/* Waves on a floating structure: a box barge against closed forms of Froude and Krylov, and the load from
+ * tables (water.wave_error) against the integral in each step. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,8 +55,8 @@ static void set_airy(lab *l, double height, double length)
     lab_set(l, "water.drag_moment_coef=0");
 }
 
-/* Amplitudes of the load of a wave of amplitude 1 on the box at rest: surge, heave, pitch about the reference.
- * Bottom and ends under rho g e^kz cos(kx - omega t). */
+/* Amplitudes of the load of a wave of amplitude 1 on the box at rest: surge, heave, pitch about the
+ * reference. Bottom and ends under rho g e^kz cos(kx - omega t). */
 static void froude_krylov(const barge *b, double k, double out[3])
 {
     const double w = RHO * G * b->B, half = 0.5 * k * b->L, deep = exp(-k * b->T),

@@ -407,10 +407,10 @@ static void long_motion(void)
     verify_below("WV7", "  residual of the ledger over that of each step", some.ledger / all.ledger, 1.1);
 }
 
-/* The way of a floe whose rims stay dry, over two minutes, and of one that each wave washes over, over 20 s. That
- * is sensitive: runs of e = 0.003 and 0.0003 part by 8 % in 100 s at Hs 1, by 0.5 % at Hs 0.4. There the
- * evaluation in each step resolves edges under water by panels of some metres: at Hs 0.4 it is 4 % off after two
- * minutes, at Hs 1 1.3 % after 20 s. */
+/* The way of a floe whose rims stay dry, over two minutes, and of one that each wave washes over, over 20 s.
+ * That is sensitive: runs of e = 0.003 and 0.0003 part by 8 % in 100 s at Hs 1, by 0.5 % at Hs 0.4. There the
+ * evaluation in each step resolves edges under water by panels of some metres: at Hs 0.4 it is 4 % off after
+ * two minutes, at Hs 1 1.3 % after 20 s. */
 static void drift(void)
 {
     static record all, some, fine;
@@ -433,8 +433,8 @@ static void drift(void)
     verify_row("WV8", "  over that of each step", x / all.x[all.n - 1], 1.0, 0.02, VERIFY_REL);
 }
 
-/* Bodies thrown, capsized, under water and dry: force against the evaluation at the same pose, on panels that are
- * several times smaller than its own. */
+/* Bodies thrown, capsized, under water and dry: force against the evaluation at the same pose, on panels that
+ * are several times smaller than its own. */
 static void rough_poses(void)
 {
     enum { N = 5, STEPS = 400 };
