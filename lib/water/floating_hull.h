@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* floating_hull.h -- waves on a floating structure: the pressure of the water on the closed mesh of a rigid body
- * of structure/rigid_motion.h.
+/* floating_hull.h -- waves on a floating structure: the pressure of the water on the closed mesh of a rigid
+ * body of structure/rigid_motion.h.
  *
  *     F = -int p n dA - F_0 + M_a a,   T = -int p x x n dA - T_0,   p = rho g (P - z)
- * over the wet part of the mesh at its present pose (Froude and Krylov), with F_0 and T_0 the buoyancy at rest
- * and its moment, which balance the weight. a is the acceleration of the water at the centre of buoyancy at
- * rest, M_a the added mass. In still water this is the restoring force, for any pose. Without wave_error the
- * integral is that of froude_krylov.h in each step, else the body has blocks of time (wave_block.h).
+ * over the wet part of the mesh at its present pose (Froude and Krylov), with F_0 and T_0 the buoyancy at
+ * rest and its moment, which balance the weight. a is the acceleration of the water at the centre of buoyancy
+ * at rest, M_a the added mass. In still water this is the restoring force, for any pose. Without wave_error
+ * the integral is that of froude_krylov.h in each step, else the body has blocks of time (wave_block.h).
  *
  * Drag is that of floes, drag.h: 1/2 C rho times the wetted area, along the velocity relative to the water at
  * the same centre. With water.drag = facet there is none.
  *
- * Limits: the body does not change the waves: no diffraction but by M_a a, no radiation but M_a and dampers. So
- * it should be short against the waves, or heavy; slow drift forces are those of the wetted surface alone. */
+ * Limits: the body does not change the waves: no diffraction but by M_a a, no radiation but M_a and dampers.
+ * So it should be short against the waves; slow drift forces are those of the wetted surface alone. */
 #ifndef FL_WATER_FLOATING_HULL_H
 #define FL_WATER_FLOATING_HULL_H
 #include "water/environment.h"
