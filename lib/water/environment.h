@@ -209,8 +209,8 @@ double fl_environment_energy(const fl_environment *s, const fl_bodies *b, int32_
  */
 void fl_environment_drag(fl_environment *s, fl_bodies *b, int32_t i, double h, int back);
 
-/* Decay of the velocities of body i over h seconds in a fluid of velocity c, by drag.h with this area and r_eff.
- * Returns the work done on the body. */
+/* Decay of the velocities of body i over h seconds in a fluid of velocity c, by drag.h with this area and
+ * r_eff. Returns the work done on the body. */
 double fl_environment_decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
                                      double reach, fl_vec3 c, double h);
 
