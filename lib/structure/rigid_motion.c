@@ -139,7 +139,7 @@ static void book_damping(fl_rigid_motions *v, int32_t k, fl_vec3 pull, fl_vec3 o
     v->prescribed_work[k] += v3_dot(pull, v3_sub(Q, P));
 }
 
-static void damp(fl_rigid_motions *v, int32_t k)
+static void apply_dampers(fl_rigid_motions *v, int32_t k)
 {
     fl_bodies *b = &v->b;
     const fl_rigid_motion *m = &v->motion[k];
@@ -169,7 +169,7 @@ static void damp(fl_rigid_motions *v, int32_t k)
 
 void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k, double h)
 {
-    damp(v, k);
+    apply_dampers(v, k);
     if (fl_floating_hulls_has(&v->hulls, k)) fl_floating_hull_drag(&v->hulls, &v->b, k, h);
 }
 
@@ -214,7 +214,7 @@ void fl_rigid_motion_first_half(fl_rigid_motions *v, int32_t k, double t, double
     if (m->free_dof) {
         set_prescribed_velocity(v, k, v->prescribed_velocity[k]);
         if (fl_floating_hulls_has(&v->hulls, k)) fl_floating_hull_drag(&v->hulls, b, k, 0.5 * dt);
-        damp(v, k);
+        apply_dampers(v, k);
         kick_motion(v, k, 0.5 * dt);
         fl_drift(b, k, dt);
         reset_fixed_position(v, k);
