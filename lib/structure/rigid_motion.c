@@ -124,8 +124,8 @@ void fl_rigid_motions_set_step(fl_rigid_motions *v, double dt)
     }
 }
 
-/* Energy that the dampers take out of a velocity that was `old`, relative to the prescribed one, and the work of
- * that one. */
+/* Energy that the dampers take out of a velocity that was `old`, relative to the prescribed one, and the work
+ * of that one. */
 static void book_damping(fl_rigid_motions *v, int32_t k, fl_vec3 pull, fl_vec3 old, fl_vec3 now)
 {
     const fl_bodies *b = &v->b;
