@@ -32,6 +32,27 @@ static int check_free_values(const motion_check *c, const char *name, fl_vec3 x,
     return 0;
 }
 
+/* Waves on a floating structure. */
+static int check_wave_load(const motion_check *c, const fl_scene_motion *m)
+{
+    const fl_vec3 a = m->added_mass;
+    if (!m->waves)
+        return v3_nonzero(a) ? motion_fail(c, "added_mass", "it belongs to waves = mesh, which is expected")
+                             : 0;
+    if (!c->s->water.head.present || c->s->water.wave == FL_WAVE_NONE)
+        return motion_fail(c, "waves", "there are no waves: water.wave is expected");
+    if (!m->free)
+        return motion_fail(c, "waves", "they move free directions, and none is free: `free` is expected");
+    if (m->hydrostatic)
+        return motion_fail(c, "waves",
+                           "the pressure of the water holds the hydrostatic stiffness: hydrostatic = none is "
+                           "expected");
+    if (a.x < 0.0 || a.y < 0.0 || a.z < 0.0) return motion_fail(c, "added_mass", "a value is below 0");
+    if (v3_nonzero(a) && !(m->free & 7u))
+        return motion_fail(c, "added_mass", "it applies to x, y and z, and none of them is free");
+    return 0;
+}
+
 static int check_motion(const motion_check *c, const fl_scene_motion *m)
 {
     const uint32_t turns = m->free >> 3;
@@ -57,11 +78,11 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
         return motion_fail(c, "period", "stiffness is given as well, one of the two is expected");
     if (v3_nonzero(m->damping) && v3_nonzero(m->damping_ratio))
         return motion_fail(c, "damping_ratio", "damping is given as well, one of the two is expected");
-    if (m->hydrostatic && m->period.z > 0.0)
+    if ((m->hydrostatic || m->waves) && m->period.z > 0.0)
         return motion_fail(c, "period",
                            "hydrostatic stiffness acts along z as well: a stiffness is expected");
     for (int k = 0; k < 3; k++)
-        if (D[k] > 0.0 && !(spring[k] > 0.0 || (k == 2 && m->hydrostatic)))
+        if (D[k] > 0.0 && !(spring[k] > 0.0 || (k == 2 && (m->hydrostatic || m->waves))))
             return motion_fail(c, "damping_ratio", "a direction without a spring has no critical damping");
     if ((m->free & 7u) && m->mass == 0.0)
         return motion_fail(c, "mass", "free directions need a mass, and none is given");
@@ -75,7 +96,7 @@ static int check_motion(const motion_check *c, const fl_scene_motion *m)
                            "it applies to z, rx and ry, and none of them is free");
     if (m->hydrostatic && !c->s->water.head.present)
         return motion_fail(c, "hydrostatic", "there is no water: [water] is expected");
-    return 0;
+    return check_wave_load(c, m);
 }
 
 /* A direction turns the surface alone. */

@@ -159,11 +159,29 @@ const fl_section fl_section_table[FL_SECTIONS] = {
          .offset = OFFSET(OWNER, motion.damping_ratio),                                                      \
          .default_text = "0 0 0",                                                                            \
          .meaning = "fraction of critical damping, in place of damping, c = 2 D sqrt(k m)"},                 \
+        {.section = SECTION,                                                                                 \
+         .key = "hydrostatic",                                                                               \
+         .type = FL_VALUE_WORD,                                                                              \
+         .offset = OFFSET(OWNER, motion.hydrostatic),                                                        \
+         .default_text = "none",                                                                             \
+         .choices = "none|mesh",                                                                             \
+         .meaning = "mesh adds the hydrostatic stiffness of the closed mesh at rest in z, rx, ry",           \
+         .source = "Faltinsen, Sea Loads (1990), ch. 3"},                                                    \
+        {.section = SECTION,                                                                                 \
+         .key = "waves",                                                                                     \
+         .type = FL_VALUE_WORD,                                                                              \
+         .offset = OFFSET(OWNER, motion.waves),                                                              \
+         .default_text = "none",                                                                             \
+         .choices = "none|mesh",                                                                             \
+         .meaning = "mesh: the pressure of the waves on the wet part of the closed mesh, less that at "      \
+                    "rest, moves the free directions; it holds the hydrostatic stiffness",                   \
+         .source = "Faltinsen, Sea Loads (1990), ch. 3"},                                                    \
     {                                                                                                        \
-        .section = SECTION, .key = "hydrostatic", .type = FL_VALUE_WORD,                                     \
-        .offset = OFFSET(OWNER, motion.hydrostatic), .default_text = "none", .choices = "none|mesh",         \
-        .meaning = "mesh adds the hydrostatic stiffness of the closed mesh at rest in z, rx, ry",            \
-        .source = "Faltinsen, Sea Loads (1990), ch. 3"                                                       \
+        .section = SECTION, .key = "added_mass", .type = FL_VALUE_VEC3, .unit = FL_UNIT_MASS,                \
+        .offset = OFFSET(OWNER, motion.added_mass), .default_text = "0 0 0 kg",                              \
+        .meaning = "added mass along x y z of the structure, beside mass; the acceleration of the waves "    \
+                   "acts on it",                                                                             \
+        .source = "Newman, Marine Hydrodynamics (1977), ch. 4"                                               \
     }
 
 /* An omitted column is 0: any range, no choices, no special word, no old name, nothing needed. */

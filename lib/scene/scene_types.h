@@ -145,6 +145,8 @@ typedef struct {
     fl_vec3 turn_damping;      /* [N m s] */
     fl_vec3 damping_ratio;     /* in place of damping, fraction of critical */
     int32_t hydrostatic;       /* 1: add the hydrostatic stiffness of the mesh */
+    int32_t waves;             /* 1: the pressure of the waves acts on the mesh */
+    fl_vec3 added_mass;        /* with waves, along the axes of the file [kg] */
 } fl_scene_motion;
 
 typedef struct {

@@ -118,8 +118,8 @@ void fl_energy_update(fl_world *w)
         }
         if (w->sea.n) fl_environment_add_energy(&w->sea, b, i, present, water);
     }
-    const double hydro = water[FL_FORCE_HYDROSTATIC], drag = water[FL_FORCE_DRAG],
-                 wind = water[FL_FORCE_WIND], waves = water[FL_FORCE_WAVES];
+    const double hydro = water[FL_FORCE_HYDROSTATIC], wind = water[FL_FORCE_WIND];
+    double drag = water[FL_FORCE_DRAG], waves = water[FL_FORCE_WAVES];
     for (int32_t c = 0; c < w->n_touching; c++) {
         const fl_pair *p = w->pair[w->touching_pairs[c]].contact;
         elastic += p->energy;
@@ -145,9 +145,7 @@ void fl_energy_update(fl_world *w)
     g->damping_now = g->damping - ahead.damping + bonds.damped + zone_damping;
     g->friction_now = g->friction - ahead.friction - spring +
                       bonds.friction_loss; /* the friction springs can give it back */
-    g->drag = drag;
     g->wind = wind;
-    g->waves = waves;
     if (!w->zones.set.blocks) g->plastic = 0.0;
     if (fl_structure_moves(w)) {
         const fl_moving_energy r = fl_moving_structure_energy(w);
@@ -156,7 +154,10 @@ void fl_energy_update(fl_world *w)
         g->damper = r.damper_work;
         g->plastic += r.plastic_work;
         constraint += r.drive_work;
+        if (w->moving.movers.hulls.n) drag += r.drag, waves += r.waves;
     }
+    g->drag = drag;
+    g->waves = waves;
     const double drive = g->drive - ahead.drive + constraint;
     g->drive_now = drive;
     g->push = w->push.work, g->push_impulse = w->push.impulse, g->push_way = w->push.way;

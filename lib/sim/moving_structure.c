@@ -33,17 +33,40 @@ static void set_springs(fl_rigid_motion *out, const fl_scene_motion *m)
 /* Set the damping: c = 2 D sqrt(k m) along x y z, with k of all springs and of the water. */
 static void set_dampers(fl_rigid_motion *out, const fl_scene_motion *m)
 {
-    const double D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z};
+    const double D[] = {m->damping_ratio.x, m->damping_ratio.y, m->damping_ratio.z},
+                 a[] = {m->added_mass.x, m->added_mass.y, m->added_mass.z};
     double c[3] = {m->damping.x, m->damping.y, m->damping.z};
     for (int i = 0; i < 3; i++)
-        if (D[i] > 0.0) c[i] = 2.0 * D[i] * sqrt(out->K[i][i] * m->mass);
+        if (D[i] > 0.0) c[i] = 2.0 * D[i] * sqrt((out->K[i][i] + out->water_K[i][i]) * (m->mass + a[i]));
     out->c = v3(c[0], c[1], c[2]);
     out->ct = m->turn_damping;
 }
 
-/* Add the hydrostatic stiffness of the parts of mover k. */
+/* Give the triangles of the parts of mover k to its hull, in waves. */
+static int set_hull(fl_world *w, int32_t k, const fl_rigid_motion *m, const fl_surface *surface, fl_err *err)
+{
+    const fl_hydrostatics *f = &w->moving.hydrostatics[k];
+    int64_t n = 0, all = 0;
+    for (int32_t p = 0; p < surface->n; p++)
+        if (w->moving.mover_of_part[p] == k) all += surface->part[p].nt;
+    fl_vec3 *const v = fl_alloc(3 * all, sizeof *v, err);
+    if (!v) return -1;
+    for (int32_t p = 0; p < surface->n; p++) {
+        const fl_part *part = &surface->part[p];
+        for (int32_t t = 0; t < part->nt && w->moving.mover_of_part[p] == k; t++) {
+            fl_vec3 x[3];
+            for (int c = 0; c < 3; c++) x[c] = v3_sub(part->v[part->t[t].v[c]], m->reference);
+            if (!(v3_norm2(v3_cross(v3_sub(x[1], x[0]), v3_sub(x[2], x[0]))) > 0.0)) continue;
+            memcpy(v + 3 * n++, x, sizeof x);
+        }
+    }
+    return fl_floating_hulls_set(&w->moving.movers.hulls, k, v, (int32_t)n, f->volume, f->buoyancy_centre,
+                                 err);
+}
+
+/* Add the hydrostatic stiffness of the parts of mover k, to K or, in waves, to what its hull holds. */
 static int add_hydrostatics(fl_world *w, int32_t k, fl_rigid_motion *out, const fl_surface *surface,
-                            const char *section, fl_err *err)
+                            const char *section, int waves, fl_err *err)
 {
     const fl_scene *s = w->scene;
     fl_hydrostatics *f = &w->moving.hydrostatics[k];
@@ -58,11 +81,11 @@ static int add_hydrostatics(fl_world *w, int32_t k, fl_rigid_motion *out, const 
             *err = why;
             return -1;
         }
-        snprintf(key, sizeof key, "%s.hydrostatic", section);
+        snprintf(key, sizeof key, "%s.%s", section, waves ? "waves" : "hydrostatic");
         return fl_scene_fail(s, key, err, "%s: %s", key, why.text);
     }
-    fl_hydrostatics_stiffness(f, s->water.density * v3_norm(s->run.gravity), out->K);
-    return 0;
+    fl_hydrostatics_stiffness(f, s->water.density * v3_norm(s->run.gravity), waves ? out->water_K : out->K);
+    return waves ? set_hull(w, k, out, surface, err) : 0;
 }
 
 /* Adds the mode of the scene, along x (0) or y (1). */
@@ -115,10 +138,13 @@ static int add_mover(fl_world *w, const fl_scene_motion *m, const char *part, co
                            .spin = m->spin,
                            .free_dof = m->free,
                            .mass = m->mass,
-                           .inertia = m->inertia};
+                           .inertia = m->inertia,
+                           .added_mass = m->added_mass};
     set_springs(&out, m);
     char key[3 * FL_SCENE_NAME];
-    if (m->hydrostatic && add_hydrostatics(w, w->moving.movers.n, &out, surface, section, err)) return -1;
+    if ((m->hydrostatic || m->waves) &&
+        add_hydrostatics(w, w->moving.movers.n, &out, surface, section, m->waves, err))
+        return -1;
     set_dampers(&out, m);
     if (set_modes(w->scene, part, &out, err) ||
         (m->track[0] &&
@@ -150,6 +176,14 @@ void fl_mover_of_parts(const fl_scene *s, const fl_surface *surface, int32_t *mo
                       own = has_motion(s, &s->part[i].motion, s->part[i].name) ? next++ : -1;
         if (p >= 0) mover[p] = own;
     }
+}
+
+/* True if waves act on a mover. */
+static int has_hulls(const fl_scene *s)
+{
+    int any = s->structure.motion.waves;
+    for (int32_t i = 0; i < s->n_part; i++) any |= s->part[i].motion.waves;
+    return any;
 }
 
 /* Movers of [structure] and of each [part NAME], and the mover of each part. */
@@ -231,6 +265,9 @@ int fl_moving_structure_make(fl_world *w, const fl_surface *surface, const fl_me
     r->rotation = fl_alloc(pieces, sizeof *r->rotation, err);
     r->contact_omega2 = fl_alloc(w->scene->n_part + 1, sizeof *r->contact_omega2, err);
     r->hydrostatics = fl_alloc(w->scene->n_part + 1, sizeof *r->hydrostatics, err);
+    if (!err->code && has_hulls(w->scene) &&
+        fl_floating_hulls_alloc(&r->movers.hulls, w->scene->n_part + 1, &w->sea, err))
+        return -1;
     if (err->code || make_movers(w, surface, err) || fl_rigid_motions_start(&r->movers, 0.0, err)) return -1;
     for (int32_t k = 0; k < pieces; k++) {
         const int32_t p = w->structure.piece[k].part, m = p < 0 ? -1 : r->mover_of_part[p], j = w->n + k;
@@ -247,6 +284,7 @@ int fl_moving_structure_make(fl_world *w, const fl_surface *surface, const fl_me
         r->max_speed = fmax(r->max_speed, max_speed_of(motion, v3_norm(r->arm[k]) + w->b.bounding_radius[j]));
         place_piece(w, k, 0.0);
     }
+    if (r->movers.hulls.n) fl_floating_hulls_attach(&r->movers.hulls, &r->movers.b);
     return 0;
 }
 
@@ -318,7 +356,7 @@ void fl_moving_structure_second_half(fl_world *w, double t, double h)
         fl_rigid_motion_add_springs(&r->movers, m);
         if (h > 0.0) {
             fl_rigid_motion_second_kick(&r->movers, m, t, h);
-            fl_rigid_motion_damp(&r->movers, m);
+            fl_rigid_motion_damp(&r->movers, m, h);
         }
     }
     for (int32_t k = 0; k < w->structure.n; k++)
@@ -393,6 +431,10 @@ fl_moving_energy fl_moving_structure_energy(const fl_world *w)
         all.spring += fl_rigid_motion_spring_energy(v, m);
         all.damper_work += fl_rigid_motion_damper_loss(v, m);
         all.drive_work += v->prescribed_work[m] + v->b.work_of_constraints[m];
+        if (v->b.added_mass) all.drag -= v->b.flow_work[m];
+        if (!fl_floating_hulls_has(&v->hulls, m)) continue;
+        all.waves += v->hulls.hull[m].work;
+        all.drag += v->hulls.hull[m].drag_loss;
     }
     return all;
 }

@@ -38,9 +38,10 @@ void fl_moving_structure_limit(fl_world *w);
 /* Bound of omega^2 of mover k before the run: one floe on the stiffest contact point [N/m]. */
 double fl_mover_omega2(const fl_world *w, int32_t k, double stiffest);
 
-/* Energies of all movers [J].  drive_work: work of the prescribed motions of movers with free directions. */
+/* Energies of all movers [J].  drive_work: work of the prescribed motions of movers with free directions;
+ * waves, drag: work of the water on hulls, and what its drag has removed. */
 typedef struct {
-    double kinetic, spring, damper_work, drive_work, plastic_work;
+    double kinetic, spring, damper_work, drive_work, plastic_work, waves, drag;
 } fl_moving_energy;
 fl_moving_energy fl_moving_structure_energy(const fl_world *w);
 

@@ -252,6 +252,19 @@ static void exchange_mover(fl_state_io *t, fl_world *w, int32_t k)
     fl_state_io_close(t);
 }
 
+/* Waves on the hull of mover k; the load is evaluated again. */
+static void exchange_hull(fl_state_io *t, fl_rigid_motions *m, int32_t k)
+{
+    fl_floating_hull *h = &m->hulls.hull[k];
+    fl_state_io_open(t, "hull");
+    fl_state_io_real(t, &h->work);
+    fl_state_io_real(t, &h->drag_loss);
+    if (m->b.added_mass) fl_state_io_real(t, &m->b.flow_work[k]);
+    if (m->hulls.sea->by_blocks) exchange_block(t, &h->block);
+    fl_state_io_close(t);
+    if (t->in && !t->err->code) fl_floating_hull_refresh(&m->hulls, &m->b, k);
+}
+
 /* The state of a mode; its name must be the same. */
 static void exchange_mode(fl_state_io *t, fl_world *w, int32_t k)
 {
@@ -519,6 +532,8 @@ static int32_t exchange_all_but_pairs(fl_state_io *t, fl_world *w, int32_t *sphe
         fl_environment_refresh(&w->sea, &w->b, i);
         w->sea.time = now;
     }
+    for (int32_t k = 0; k < w->moving.movers.n && !t->err->code; k++)
+        if (fl_floating_hulls_has(&w->moving.movers.hulls, k)) exchange_hull(t, &w->moving.movers, k);
     return pairs;
 }
 

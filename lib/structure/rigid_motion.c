@@ -60,12 +60,14 @@ static void set_component(fl_vec3 *a, int k, double x)
 static void set_prescribed_velocity(fl_rigid_motions *m, int32_t k, fl_vec3 v)
 {
     fl_bodies *b = &m->b;
+    const double before = b->added_mass ? fl_body_kinetic_energy(b, k) : 0.0;
     for (int c = 0; c < 3; c++) {
         const double old = v3_at(b->v[k], c), now = v3_at(v, c);
         if (!(b->fixed_dof[k] & (unsigned)(FL_DOF_X << c)) || old == now) continue;
-        m->prescribed_work[k] += b->m[k] * (now - old) * 0.5 * (now + old);
+        if (!b->added_mass) m->prescribed_work[k] += b->m[k] * (now - old) * 0.5 * (now + old);
         set_component(&b->v[k], c, now);
     }
+    if (b->added_mass) m->prescribed_work[k] += fl_body_kinetic_energy(b, k) - before;
 }
 
 int fl_rigid_motions_start(fl_rigid_motions *v, double t, fl_err *err)
@@ -83,9 +85,13 @@ int fl_rigid_motions_start(fl_rigid_motions *v, double t, fl_err *err)
     v->decay = fl_alloc(n, sizeof *v->decay, err);
     v->angular_decay = fl_alloc(n, sizeof *v->angular_decay, err);
     if (err->code) return -1;
+    for (int32_t k = 0; k < n; k++)
+        if (v3_nonzero(v->motion[k].added_mass) && !b->added_mass && fl_bodies_alloc_added_mass(b, err))
+            return -1;
     for (int32_t k = 0; k < n; k++) {
         const fl_rigid_motion *m = &v->motion[k];
         fl_pose6 x, rate, second;
+        if (b->added_mass) b->added_mass[k] = m->added_mass;
         prescribed_at(m, t, &x, &rate, &second);
         if (m->free_dof) {
             b->m[k] = m->mass > 0.0 ? m->mass : 1.0;
@@ -112,13 +118,28 @@ void fl_rigid_motions_set_step(fl_rigid_motions *v, double dt)
         if (m->modes) fl_modes_set_step(m->mode, m->modes, dt);
         const double h = 0.5 * dt, c[] = {m->c.x, m->c.y, m->c.z, m->ct.x, m->ct.y, m->ct.z};
         for (int i = 0; i < 3 && m->free_dof; i++) {
-            set_component(&v->decay[k], i, exp(-c[i] * h / v->b.m[k]));
+            set_component(&v->decay[k], i, exp(-c[i] * h / (v->b.m[k] + v3_at(m->added_mass, i))));
             set_component(&v->angular_decay[k], i, exp(-c[3 + i] * h / v3_at(v->b.I[k], i)));
         }
     }
 }
 
-void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k)
+/* Energy that the dampers take out of a velocity that was `old`, relative to the prescribed one, and the work
+ * of that one. */
+static void book_damping(fl_rigid_motions *v, int32_t k, fl_vec3 pull, fl_vec3 old, fl_vec3 now)
+{
+    const fl_bodies *b = &v->b;
+    if (!b->added_mass) {
+        v->damper_loss[k] += 0.5 * b->m[k] * (v3_norm2(old) - v3_norm2(now));
+        v->prescribed_work[k] += b->m[k] * v3_dot(pull, v3_sub(now, old));
+        return;
+    }
+    const fl_vec3 P = fl_body_momentum(b, k, old), Q = fl_body_momentum(b, k, now);
+    v->damper_loss[k] += 0.5 * (v3_dot(old, P) - v3_dot(now, Q));
+    v->prescribed_work[k] += v3_dot(pull, v3_sub(Q, P));
+}
+
+static void apply_dampers(fl_rigid_motions *v, int32_t k)
 {
     fl_bodies *b = &v->b;
     const fl_rigid_motion *m = &v->motion[k];
@@ -132,8 +153,7 @@ void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k)
         const unsigned hold = b->fixed_dof[k];
         const fl_vec3 now = v3(hold & FL_DOF_X ? old.x : f.x * old.x, hold & FL_DOF_Y ? old.y : f.y * old.y,
                                hold & FL_DOF_Z ? old.z : f.z * old.z);
-        v->damper_loss[k] += 0.5 * b->m[k] * (v3_norm2(old) - v3_norm2(now));
-        v->prescribed_work[k] += b->m[k] * v3_dot(pull, v3_sub(now, old));
+        book_damping(v, k, pull, old, now);
         b->v[k] = v3_add(pull, now);
     }
     if (m->free_dof & ROTATIONS && v3_nonzero(m->ct)) {
@@ -147,6 +167,12 @@ void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k)
     }
 }
 
+void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k, double h)
+{
+    apply_dampers(v, k);
+    if (fl_floating_hulls_has(&v->hulls, k)) fl_floating_hull_drag(&v->hulls, &v->b, k, h);
+}
+
 static void kick_motion(fl_rigid_motions *v, int32_t k, double h)
 {
     const fl_rigid_motion *m = &v->motion[k];
@@ -155,7 +181,9 @@ static void kick_motion(fl_rigid_motions *v, int32_t k, double h)
         v->b.v[k] = fl_modes_velocity(m->mode, m->modes);
         return;
     }
+    const fl_vec3 v0 = v->b.v[k], w0 = v->b.w[k];
     fl_kick(&v->b, k, h);
+    if (fl_floating_hulls_has(&v->hulls, k)) fl_floating_hull_add_work(&v->hulls, &v->b, k, h, v0, w0);
     v->prescribed_work[k] += h * v3_dot(v->spring_force[k], v->prescribed_velocity[k]);
 }
 
@@ -185,7 +213,8 @@ void fl_rigid_motion_first_half(fl_rigid_motions *v, int32_t k, double t, double
     v->prescribed[k] = x.x;
     if (m->free_dof) {
         set_prescribed_velocity(v, k, v->prescribed_velocity[k]);
-        fl_rigid_motion_damp(v, k);
+        if (fl_floating_hulls_has(&v->hulls, k)) fl_floating_hull_drag(&v->hulls, b, k, 0.5 * dt);
+        apply_dampers(v, k);
         kick_motion(v, k, 0.5 * dt);
         fl_drift(b, k, dt);
         reset_fixed_position(v, k);
@@ -225,6 +254,7 @@ void fl_rigid_motion_add_springs(fl_rigid_motions *v, int32_t k)
     v->spring_torque[k] = v3_neg(v3_madd(v3_cross(q, turn), b->q[k].w, turn));
     b->f[k] = v3_add(b->f[k], v->spring_force[k]);
     b->t[k] = v3_add(b->t[k], v->spring_torque[k]);
+    if (fl_floating_hulls_has(&v->hulls, k)) fl_floating_hull_force(&v->hulls, b, k);
 }
 
 void fl_rigid_motion_second_kick(fl_rigid_motions *v, int32_t k, double t, double h)
@@ -295,7 +325,9 @@ void fl_rigid_motion_acceleration(const fl_rigid_motions *v, int32_t k, double t
     *turn = m->free_dof & ROTATIONS ? fl_body_apply_inverse_inertia(b, k, torque) : v3(0, 0, 0);
     for (int c = 0; c < 3; c++) {
         const double force = v3_at(b->f[k], c) - v3_at(m->c, c) * v3_at(slip, c);
-        if (m->free_dof >> c & 1u) set_component(a, c, force * b->invm[k]);
+        if (m->free_dof >> c & 1u)
+            set_component(a, c,
+                          b->added_mass ? force / (b->m[k] + v3_at(m->added_mass, c)) : force * b->invm[k]);
         if (!(m->free_dof >> (3 + c) & 1u)) set_component(turn, c, 0.0);
     }
 }
@@ -313,7 +345,8 @@ double fl_rigid_motion_max_omega2(const fl_rigid_motion *m)
         double row = 0.0;
         for (int c = 0; c < 6; c++)
             if (m->free_dof >> r & m->free_dof >> c & 1u)
-                row += fabs(m->K[r][c]) / sqrt(inertia_of(m, r) * inertia_of(m, c));
+                row +=
+                    (fabs(m->K[r][c]) + fabs(m->water_K[r][c])) / sqrt(inertia_of(m, r) * inertia_of(m, c));
         most = row > most ? row : most;
     }
     return most;
@@ -337,6 +370,7 @@ void fl_rigid_motions_free(fl_rigid_motions *v)
     free(v->motion), free(v->prescribed), free(v->prescribed_velocity), free(v->spring_force),
         free(v->spring_torque), free(v->spring_energy);
     free(v->damper_loss), free(v->prescribed_work), free(v->decay), free(v->angular_decay);
+    fl_floating_hulls_free(&v->hulls);
     fl_bodies_free(&v->b);
     *v = (fl_rigid_motions){0};
 }

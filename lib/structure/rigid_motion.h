@@ -14,6 +14,9 @@
  * Or a mover has modes (modal_motion.h): then its reference has the displacement of their sum, it does not
  * rotate, and M, K and C are not used.
  *
+ * In waves a mover may have a hull (water/floating_hull.h), whose load is one more force, with a drag; added
+ * mass is along its own axes.
+ *
  * A step is symmetric: dampers h, kick h by forces and springs, drift dt, kick h, dampers h, h = dt/2. Kick
  * and drift are those of a floe, so that two-way coupling conserves momentum to rounding. Dampers are exact,
  *     v <- vd + (v - vd) exp(-c h/m)   along x y z,     L <- L exp(-c h/I)   about the own axes,
@@ -23,6 +26,7 @@
 #include "body/body.h"
 #include "structure/modal_motion.h"
 #include "structure/prescribed_track.h"
+#include "water/floating_hull.h"
 
 /* Parameters of a mover. */
 typedef struct {
@@ -33,6 +37,8 @@ typedef struct {
     double mass;            /* [kg]; with modes that of their compliance, 1/fl_modes_compliance() */
     fl_vec3 inertia;        /* [kg m2] */
     double K[6][6];         /* symmetric, x y z rx ry rz */
+    double water_K[6][6];   /* hydrostatic stiffness that hulls hold, not in K */
+    fl_vec3 added_mass;     /* [kg] */
     fl_vec3 c, ct;          /* dashpots along x y z [N s/m], about the own axes [N m s] */
     int32_t modes;          /* 0: none */
     fl_modal_dof *mode;     /* [modes] owned, with their state */
@@ -50,6 +56,7 @@ typedef struct {
     /* work of the prescribed part of movers with free directions so far [J] */
     double *prescribed_work;
     fl_vec3 *decay, *angular_decay; /* exp(-c h/m) of half a step, by fl_rigid_motions_set_step() */
+    fl_floating_hulls hulls;        /* waves on movers; n = 0: none */
 } fl_rigid_motions;
 
 /* Adds a mover; m is taken over. Returns its index, or -1 with FL_SYSTEM. */
@@ -65,14 +72,14 @@ void fl_rigid_motions_set_step(fl_rigid_motions *v, double dt);
 /* From t to t + dt: dampers h, kick h, drift dt. Then v and w are those of the middle of the step. */
 void fl_rigid_motion_first_half(fl_rigid_motions *v, int32_t k, double t, double dt);
 
-/* Adds the springs at the present pose to b.f and b.t, which hold the contact forces. */
+/* Adds the springs and then the water at the present pose to b.f and b.t, which hold the contact forces. */
 void fl_rigid_motion_add_springs(fl_rigid_motions *v, int32_t k);
 
 /* Kick h; prescribed velocities become those of time t. */
 void fl_rigid_motion_second_kick(fl_rigid_motions *v, int32_t k, double t, double h);
 
-/* Dampers over half a step. */
-void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k);
+/* Dampers over half a step, then the drag of the water over h seconds. */
+void fl_rigid_motion_damp(fl_rigid_motions *v, int32_t k, double h);
 
 /* Energy of its springs, and what its dampers have removed so far [J]. */
 double fl_rigid_motion_spring_energy(const fl_rigid_motions *v, int32_t k);

@@ -424,6 +424,15 @@ static void store_sample(fl_environment *s, const fl_bodies *b, int32_t i, fl_ve
 
 /* --- waves in blocks of time ---------------------------------------------------------------------- */
 
+static void extend_tables(const fl_wave_grid *g, fl_vec3 x, double r, fl_wave_extent *at)
+{
+    for (int32_t c = 0; c < g->lines; c++) {
+        const double s = g->line[c].x * x.x + g->line[c].y * x.y;
+        at->lo[c] = fmin(at->lo[c], s - r);
+        at->hi[c] = fmax(at->hi[c], s + r);
+    }
+}
+
 int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t *absent, double t,
                            int threads, fl_err *err)
 {
@@ -438,12 +447,12 @@ int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t 
     for (int32_t i = 0; i < s->n; i++) {
         if ((absent && absent[i]) || !v3_finite(b->x[i])) continue;
         shorter |= s->block[i].short_blocks_left > 0;
-        for (int32_t c = 0; c < s->grid.lines; c++) {
-            const double x = s->grid.line[c].x * b->x[i].x + s->grid.line[c].y * b->x[i].y,
-                         r = s->drag_radius[i];
-            at.lo[c] = fmin(at.lo[c], x - r);
-            at.hi[c] = fmax(at.hi[c], x + r);
-        }
+        extend_tables(&s->grid, b->x[i], s->drag_radius[i], &at);
+    }
+    for (int32_t k = 0; k < s->guests; k++) {
+        if (!v3_finite(*s->guest[k].x)) continue;
+        shorter |= s->guest[k].block->short_blocks_left > 0;
+        extend_tables(&s->grid, *s->guest[k].x, s->guest[k].reach, &at);
     }
     for (int32_t c = 0; c < s->grid.lines; c++) {
         if (at.lo[c] > at.hi[c]) return 0; /* no body */
@@ -458,8 +467,10 @@ int fl_environment_prepare(fl_environment *s, const fl_bodies *b, const uint8_t 
 
 static fl_wave_body wave_body(const fl_environment *s, int32_t i)
 {
-    return (fl_wave_body){&s->hull[i], &s->nodes[i], s->drag_radius[i],
-                          s->node_scratch + (int64_t)omp_get_thread_num() * s->scratch_per_thread};
+    return (fl_wave_body){.hull = &s->hull[i],
+                          .nodes = &s->nodes[i],
+                          .reach = s->drag_radius[i],
+                          .scratch = s->node_scratch + (int64_t)omp_get_thread_num() * s->scratch_per_thread};
 }
 
 /* Velocity of the water at all wet pieces of body i, under the plane. */
@@ -582,9 +593,8 @@ void fl_environment_add_work(fl_environment *s, const fl_bodies *b, int32_t i, d
         (v3_dot(s->water_force[i], v3_add(v0, b->v[i])) + v3_dot(s->water_moment[i], v3_add(w0, b->w[i])));
 }
 
-/* Decay of the velocities of body i in a fluid of velocity c; returns the work done on the body. */
-static double decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area, double reach,
-                             fl_vec3 c, double h)
+double fl_environment_decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
+                                     double reach, fl_vec3 c, double h)
 {
     const double before = fl_body_kinetic_energy(b, i) - b->work_of_constraints[i];
     const fl_vec3 u = v3_sub(b->v[i], c), v0 = b->v[i], w0 = b->w[i];
@@ -639,8 +649,8 @@ static void apply_water_drag(fl_environment *s, fl_bodies *b, int32_t i, double 
         s->drag_loss[i] -= decay_by_facets(b, i, &s->drag_surface[i].wet, fl_environment_water_law(s),
                                            fl_environment_flow(s, i), h);
     else
-        s->drag_loss[i] -= decay_velocity(b, i, &s->seawater, s->wetted_area[i], s->drag_radius[i],
-                                          fl_environment_flow(s, i), h);
+        s->drag_loss[i] -= fl_environment_decay_velocity(b, i, &s->seawater, s->wetted_area[i],
+                                                         s->drag_radius[i], fl_environment_flow(s, i), h);
 }
 
 static void apply_wind_drag(fl_environment *s, fl_bodies *b, int32_t i, double h)
@@ -651,7 +661,9 @@ static void apply_wind_drag(fl_environment *s, fl_bodies *b, int32_t i, double h
     if (s->drag_surface && s->drag_surface[i].dry.group)
         s->wind_work[i] +=
             decay_by_facets(b, i, &s->drag_surface[i].dry, fl_environment_wind_law(s), s->wind_velocity, h);
-    else s->wind_work[i] += decay_velocity(b, i, &s->air, dry, s->drag_radius[i], s->wind_velocity, h);
+    else
+        s->wind_work[i] +=
+            fl_environment_decay_velocity(b, i, &s->air, dry, s->drag_radius[i], s->wind_velocity, h);
 }
 
 void fl_environment_apply_impulses(fl_environment *s, fl_bodies *b, int32_t i, double h, int back)

@@ -49,6 +49,13 @@ typedef struct {
     double when; /* time of the sample [s]; INFINITY: none yet */
 } fl_wave_sample;
 
+/* A body of others that uses the tables of the waves: floating_hull.h. */
+typedef struct {
+    const fl_vec3 *x; /* centre [m] */
+    double reach;     /* [m] */
+    const fl_wave_block *block;
+} fl_wave_guest;
+
 enum { FL_WATER_FORCES_MAX = 16 };
 
 struct fl_environment {
@@ -96,6 +103,8 @@ struct fl_environment {
     fl_wave_block *block;              /* [n] */
     fl_wave_node_sample *node_scratch; /* [threads][scratch_per_thread] */
     int32_t scratch_per_thread;
+    const fl_wave_guest *guest; /* [guests] borrowed */
+    int32_t guests;
     /* rows of the table of forces that are present and have an `impulse` */
     const fl_water_force *impulse[FL_WATER_FORCES_MAX];
     int32_t impulses;
@@ -199,6 +208,11 @@ double fl_environment_energy(const fl_environment *s, const fl_bodies *b, int32_
  *         order 2
  */
 void fl_environment_drag(fl_environment *s, fl_bodies *b, int32_t i, double h, int back);
+
+/* Decay of the velocities of body i over h seconds in a fluid of velocity c, by drag.h with this area and
+ * r_eff. Returns the work done on the body. */
+double fl_environment_decay_velocity(fl_bodies *b, int32_t i, const fl_fluid *fluid, double area,
+                                     double reach, fl_vec3 c, double h);
 
 /* The part of that which is the forces with an `impulse`, in the order of the table, or with back against it.
  */

@@ -3,7 +3,7 @@
 #include <math.h>
 
 /* Places of the numbers in a row. */
-enum { AT_Z, AT_SLOPE, AT_FORCE = 3, AT_MOMENT = 6, AT_FLOW = 9, AT_ACCELERATION = 12 };
+enum { AT_Z, AT_SLOPE, AT_FORCE = 3, AT_MOMENT = 6, AT_FLOW = 9, AT_ACCELERATION = 12, AT_WETTED = 15 };
 
 /* Distance from the path, over 1/k95, beyond which a new block begins. */
 #define MAX_DEVIATION 0.1
@@ -285,6 +285,7 @@ FL_SIMD4_VERSIONS static void add_faces(body_sample *b)
 {
     const fl_wave_nodes *a = b->body->nodes;
     const water_plane *q = &b->plane;
+    const int one = b->sea->grid->lines == 1;
     for (int32_t k = 0; k < a->n; k++) {
         const fl_wave_surface *at = &b->body->scratch[k].at;
         const fl_vec3 r = m3_mul(b->R, a->x[k]), A = m3_mul(b->R, a->area[k]);
@@ -292,7 +293,9 @@ FL_SIMD4_VERSIONS static void add_faces(body_sample *b)
                      half = size > 0.0 ? 0.5 * sqrt(level2 / size) : 0.0;
         point_pressure here = {.p = at->eta - z, .g = v3(at->x, at->y, -1.0)};
         double wet, still;
-        if (here.p > 0.0) pressure_at(b, b->x.x + r.x, b->x.y + r.y, z, at->eta, at, &here);
+        if (here.p > 0.0 && one && !b->body->scratch[k].taps.outside)
+            pressure_near(b, 0.0, z, at->eta, &b->body->scratch[k].taps, at, &here);
+        else if (here.p > 0.0) pressure_at(b, b->x.x + r.x, b->x.y + r.y, z, at->eta, at, &here);
         const double p = positive_part(here.p, half, &wet) -
                          positive_part(q->z + q->x * r.x + q->y * r.y - z, half, &still);
         const fl_vec3 f = v3_scale(-p, A);
@@ -305,6 +308,118 @@ FL_SIMD4_VERSIONS static void add_faces(body_sample *b)
                             {-A.z * g.x, -A.z * g.y, -A.z * g.z}}};
         add_change(b, r, &K);
     }
+}
+
+/* Second derivative of P along the line of propagation, times the difference of the spreads along it and
+ * upright, summed over the lines; on taps of one line or anew. */
+FL_SIMD_INLINE double spread_head(const body_sample *b, const fl_wave_node_sample *node, fl_vec3 r,
+                                  const fl_mat3 *S, double zeta)
+{
+    const fl_wave_grid *g = b->sea->grid;
+    fl_wave_depth deep;
+    double sum = 0.0;
+    fl_wave_depth_at(g, zeta, &deep);
+    for (int32_t c = 0; c < g->lines; c++) {
+        const fl_wave_line *d = &g->line[c];
+        fl_wave_taps own = {0};
+        const fl_wave_taps *p = &node->taps;
+        fl_simd value, dz;
+        if (g->lines > 1 || p->outside) {
+            fl_wave_taps_at(&b->view, c, b->x.x + r.x, b->x.y + r.y, &own);
+            p = &own;
+        }
+        fl_wave_between(p, &deep, 0, &value, &dz);
+        sum += fl_wave_dot(&value, &p->ddw) * (d->x * d->x * S->m[0][0] + 2.0 * d->x * d->y * S->m[0][1] +
+                                               d->y * d->y * S->m[1][1] - S->m[2][2]);
+    }
+    return sum;
+}
+
+/* R S R^T of a symmetric tensor. */
+FL_SIMD_INLINE fl_mat3 turned(fl_mat3 R, const fl_mat3 *S)
+{
+    fl_mat3 A, B;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A.m[i][j] = R.m[i][0] * S->m[0][j] + R.m[i][1] * S->m[1][j] + R.m[i][2] * S->m[2][j];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            B.m[i][j] = A.m[i][0] * R.m[j][0] + A.m[i][1] * R.m[j][1] + A.m[i][2] * R.m[j][2];
+    return B;
+}
+
+/* The wet part of a part of half the height d, whose middle is p deep: its share, and the way from the middle
+ * down to that of the wet part. */
+FL_SIMD_INLINE double wet_share(double p, double d, double *down)
+{
+    *down = 0.0;
+    if (p >= d) return 1.0;
+    if (p <= -d) return 0.0;
+    *down = 0.5 * (d - p);
+    return 0.5 * (p + d) / d;
+}
+
+/* Spread of the wet share of a part: along the height it shrinks as that share. */
+FL_SIMD_INLINE fl_mat3 wet_spread(const fl_mat3 *S, double share)
+{
+    const double less = S->m[2][2] > 0.0 ? (1.0 - share * share) / S->m[2][2] : 0.0;
+    fl_mat3 W;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) W.m[i][j] = S->m[i][j] - less * S->m[i][2] * S->m[j][2];
+    return W;
+}
+
+/* What the waves add to the plane on part k of a mesh. */
+FL_SIMD_INLINE void add_mesh_part(body_sample *b, int32_t k)
+{
+    const fl_wave_nodes *a = b->body->nodes;
+    const fl_wave_node_sample *node = &b->body->scratch[k];
+    const fl_wave_surface *at = &node->at;
+    const water_plane *q = &b->plane;
+    const fl_vec3 r = m3_mul(b->R, a->x[k]), A = m3_mul(b->R, a->area[k]);
+    const fl_mat3 S = turned(b->R, &a->spread[k]);
+    const double z = b->z + r.z, deep = at->eta - z, flat = q->z + q->x * r.x + q->y * r.y - z,
+                 half = sqrt(3.0 * S.m[2][2]), slant = S.m[2][2] > 0.0 ? 1.0 / S.m[2][2] : 0.0;
+    double down, still_down;
+    const double wet = wet_share(deep, half, &down), still = wet_share(flat, half, &still_down);
+    if (wet == 0.0 && still == 0.0) return;
+    /* down a slope, the middle of the wet part */
+    const fl_vec3 fall = v3(-slant * S.m[0][2], -slant * S.m[1][2], -1.0);
+    fl_vec3 arm = v3(0, 0, 0), g = arm; /* int (x - r) p dA / dA, and the change of p */
+    double p = 0.0;
+    if (wet > 0.0) {
+        point_pressure here = {0};
+        double rate;
+        const double zeta = fl_wave_grid_stretch(b->sea->grid, z - down, at->eta, &rate);
+        const fl_mat3 W = wet < 1.0 ? wet_spread(&S, wet) : S;
+        if (b->sea->grid->lines == 1 && !node->taps.outside)
+            pressure_near(b, 0.0, z - down, at->eta, &node->taps, at, &here);
+        else pressure_at(b, b->x.x + r.x, b->x.y + r.y, z - down, at->eta, at, &here);
+        p = wet * (here.p + 0.5 * spread_head(b, node, r, &W, zeta));
+        g = v3_scale(wet, here.g);
+        arm = v3_madd(v3_scale(p * down, fall), wet, m3_mul(W, here.g));
+    }
+    if (still > 0.0) {
+        const fl_vec3 flat_g = v3(q->x, q->y, -1.0);
+        const double rest = still * (flat + still_down);
+        const fl_mat3 W = still < 1.0 ? wet_spread(&S, still) : S;
+        p -= rest;
+        g = v3_madd(g, -still, flat_g);
+        arm = v3_sub(arm, v3_madd(v3_scale(rest * still_down, fall), still, m3_mul(W, flat_g)));
+    }
+    const fl_vec3 f = v3_scale(-p, A);
+    b->force = v3_add(b->force, f);
+    b->moment = v3_add(b->moment, v3_sub(v3_cross(r, f), v3_cross(arm, A)));
+    if (!b->changes) return;
+    const fl_mat3 K = {{{-A.x * g.x, -A.x * g.y, -A.x * g.z},
+                        {-A.y * g.x, -A.y * g.y, -A.y * g.z},
+                        {-A.z * g.x, -A.z * g.y, -A.z * g.z}}};
+    add_change(b, r, &K);
+}
+
+FL_SIMD4_VERSIONS static void add_mesh_parts(body_sample *b)
+{
+    for (int32_t k = 0; k < b->body->nodes->n; k++) add_mesh_part(b, k);
 }
 
 /* The surface over all nodes. */
@@ -439,11 +554,69 @@ static void survey_flow(const body_sample *b, fl_vec3 r, double zeta, double *ro
     row[AT_ACCELERATION + 2] = -g * head.zeta;
 }
 
+/* Adds the buoyancy of a mesh on the plane, and the change of the whole load with the pose: the nodes have
+ * left out that area vectors turn with the body. Returns the wetted area. */
+static double add_mesh(body_sample *b)
+{
+    const fl_mat3 R = b->R;
+    const fl_vec3 G = m3_tmul(R, v3(-b->plane.x, -b->plane.y, 1.0));
+    const double c = b->plane.z - b->z;
+    fl_wet_sums wet;
+    fl_vec3 f, t;
+    fl_wet_mesh_sums(b->body->mesh, G, c, &wet);
+    fl_wet_sums_load(&wet, G, c, &f, &t);
+    b->force = v3_add(b->force, m3_mul(R, f));
+    b->moment = v3_add(b->moment, m3_mul(R, t));
+    for (int k = 0; k < FL_WAVE_CHANGES && b->changes; k++) {
+        const fl_vec3 e = v3(k % 3 == 0, k % 3 == 1, k % 3 == 2), own = m3_tmul(R, e);
+        if (k < 3) { /* the head at a point of the body falls by G.e */
+            fl_wet_sums_load(&wet, v3(0, 0, 0), -v3_dot(G, own), &f, &t);
+        } else { /* and by G.(e x x) = (G x e).x */
+            fl_wet_sums_load(&wet, v3_cross(G, own), 0.0, &f, &t);
+        }
+        f = m3_mul(R, f), t = m3_mul(R, t);
+        if (k >= 3) f = v3_add(f, v3_cross(e, b->force)), t = v3_add(t, v3_cross(e, b->moment));
+        b->change[k][0] += f.x, b->change[k][1] += f.y, b->change[k][2] += f.z;
+        b->change[k][3] += t.x, b->change[k][4] += t.y, b->change[k][5] += t.z;
+    }
+    return wet.wetted;
+}
+
+/* Stretched height of the point of the body in which the flow is taken, at offset r. */
+static double stretched_height(const body_sample *b, fl_vec3 r)
+{
+    fl_wave_surface at;
+    double rate;
+    fl_wave_surface_at(&b->view, b->x.x + r.x, b->x.y + r.y, &at);
+    return fl_wave_grid_stretch(b->sea->grid, b->z + r.z, at.eta, &rate);
+}
+
+static void store_load(const body_sample *b, double *row)
+{
+    const double weight = b->sea->weight;
+    row[AT_FORCE] = weight * b->force.x, row[AT_FORCE + 1] = weight * b->force.y;
+    row[AT_FORCE + 2] = weight * b->force.z;
+    row[AT_MOMENT] = weight * b->moment.x, row[AT_MOMENT + 1] = weight * b->moment.y;
+    row[AT_MOMENT + 2] = weight * b->moment.z;
+}
+
+/* A row of a mesh. */
+static void evaluate_mesh_sample(body_sample *b, double *row)
+{
+    const fl_vec3 r = m3_mul(b->R, b->body->wet_centre);
+    survey_surface(b);
+    fit_plane(b);
+    add_mesh_parts(b);
+    row[AT_Z] = b->plane.z, row[AT_SLOPE] = b->plane.x, row[AT_SLOPE + 1] = b->plane.y;
+    row[AT_WETTED] = add_mesh(b);
+    survey_flow(b, r, stretched_height(b, r), row);
+    store_load(b, row);
+}
+
 /* Fills a row of samples. */
 static void evaluate_sample(body_sample *b, double *row)
 {
     const fl_wave_nodes *a = b->body->nodes;
-    const double weight = b->sea->weight;
     for (int k = 0; k < FL_WAVE_ROW; k++) row[k] = 0.0;
     if (b->z - b->body->reach >= b->sea->max_crest) { /* out of the water */
         const fl_vec3 u = fl_current_at(b->sea->current, b->z);
@@ -451,6 +624,10 @@ static void evaluate_sample(body_sample *b, double *row)
         return;
     }
     b->force = b->moment = v3(0, 0, 0);
+    if (a->kind == FL_WAVE_MESH) {
+        evaluate_mesh_sample(b, row);
+        return;
+    }
     if (a->kind == FL_WAVE_ROUND) {
         set_tangent(b);
     } else {
@@ -460,18 +637,12 @@ static void evaluate_sample(body_sample *b, double *row)
     row[AT_Z] = b->plane.z, row[AT_SLOPE] = b->plane.x, row[AT_SLOPE + 1] = b->plane.y;
     const fl_submerged wet = submerge(b);
     const fl_vec3 r = m3_mul(b->R, wet.centre);
-    fl_wave_surface at;
-    double rate;
-    fl_wave_surface_at(&b->view, b->x.x + r.x, b->x.y + r.y, &at);
-    const double zeta = fl_wave_grid_stretch(b->sea->grid, b->z + r.z, at.eta, &rate);
+    const double zeta = stretched_height(b, r);
     survey_flow(b, r, zeta, row);
     if (a->kind == FL_WAVE_ROUND) add_round(b, r, wet.volume, zeta);
     else if (a->kind == FL_WAVE_COLUMNS) add_columns(b);
     else add_faces(b);
-    row[AT_FORCE] = weight * b->force.x, row[AT_FORCE + 1] = weight * b->force.y;
-    row[AT_FORCE + 2] = weight * b->force.z;
-    row[AT_MOMENT] = weight * b->moment.x, row[AT_MOMENT + 1] = weight * b->moment.y;
-    row[AT_MOMENT + 2] = weight * b->moment.z;
+    store_load(b, row);
 }
 
 void fl_wave_block_fill(fl_wave_block *c, const fl_wave_water *sea, const fl_wave_body *body)
@@ -517,6 +688,7 @@ void fl_wave_block_values(const fl_wave_block *c, const fl_wave_grid *g, double 
     out->f = v3(load[0], load[1], load[2]), out->t = v3(load[3], load[4], load[5]);
     out->flow = v3(row[AT_FLOW], row[AT_FLOW + 1], row[AT_FLOW + 2]);
     out->acceleration = v3(row[AT_ACCELERATION], row[AT_ACCELERATION + 1], row[AT_ACCELERATION + 2]);
+    out->wetted = row[AT_WETTED] > 0.0 ? row[AT_WETTED] : 0.0;
 }
 
 void fl_wave_block_flow(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_wave_flow *out)

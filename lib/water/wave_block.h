@@ -21,6 +21,10 @@
  * area of its section, sigma the standard deviation of the elevation) takes blocks of half the length,
  * until three long blocks have passed without a jump.
  *
+ * The mesh of a floating structure has too many triangles to be cut in each step. There B too is evaluated
+ * on the path, by wet_mesh.h, and is part of D; G has its change with the pose, which is the hydrostatic
+ * stiffness of the present wet part. What is left out is of second order in the deviation from the path.
+ *
  * Bits: all is a function of the path and the levels. A checkpoint holds the path. */
 #ifndef FL_WATER_WAVE_BLOCK_H
 #define FL_WATER_WAVE_BLOCK_H
@@ -28,12 +32,13 @@
 #include "water/current.h"
 #include "water/wave_grid.h"
 #include "water/wave_nodes.h"
+#include "water/wet_mesh.h"
 
 enum {
     FL_WAVE_NO_BLOCK = -1,
     FL_WAVE_GROUP = 6, /* levels from the start of one long block to the next */
     FL_WAVE_SAMPLES = 4,
-    FL_WAVE_ROW = 16,   /* plane 3, D 6, flow 3, acceleration 3, one unused */
+    FL_WAVE_ROW = 16,   /* plane 3, D 6, flow 3, acceleration 3, wetted area of a mesh */
     FL_WAVE_CHANGES = 5 /* columns of G */
 };
 
@@ -68,10 +73,13 @@ typedef struct {
 
 /* One body. */
 typedef struct {
-    const fl_hull *hull;
+    const fl_hull *hull; /* NULL with a mesh */
     const fl_wave_nodes *nodes;
     double reach;                 /* of its points from the centre [m] */
     fl_wave_node_sample *scratch; /* [nodes] */
+    const fl_wet_mesh *mesh;      /* of a floating structure; NULL: a floe */
+    fl_vec3 wet_centre;           /* mesh: centre of buoyancy at rest, body axes [m] */
+    fl_vec3 other, other_moment;  /* mesh: all but the water, when a block begins [N], [N m] */
 } fl_wave_body;
 
 /* The part of a body below a plane, by buoyancy.h. */
@@ -105,6 +113,7 @@ typedef struct {
     double z, slope[2];         /* plane: height above still water at the centre [m], slopes along x, y */
     fl_vec3 f, t;               /* D + G (pose - r), moment about the centre, world axes [N], [N m] */
     fl_vec3 flow, acceleration; /* of the water at the wet centre [m/s], [m/s2] */
+    double wetted;              /* mesh: wetted area [m2] */
 } fl_wave_values;
 void fl_wave_block_values(const fl_wave_block *c, const fl_wave_grid *g, double t, fl_vec3 x, fl_quat q,
                           fl_wave_values *out);

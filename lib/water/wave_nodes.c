@@ -403,16 +403,35 @@ done:
 typedef struct {
     int32_t key[5];
     fl_vec3 x, area;
+    fl_mat3 spread; /* of a mesh, else 0 */
 } face_part;
 
 typedef struct {
     int32_t n, cap;
     face_part *part;
     double longest, cell;
+    int spread; /* 1: of a mesh */
 } face_list;
 
-/* Steps of the tangent of a normal within a merged part, 10 degrees. */
+/* Steps of the tangent of a normal within a merged part, 10 degrees, and within one of a mesh. */
 #define NORMAL_STEP 0.17
+#define MESH_NORMAL_STEP 0.35
+
+/* Adds w times (x - y)(x - y)^T. */
+static void add_square(fl_mat3 *s, double w, fl_vec3 x, fl_vec3 y)
+{
+    const double d[3] = {x.x - y.x, x.y - y.y, x.z - y.z};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) s->m[i][j] += w * d[i] * d[j];
+}
+
+/* Mean over a triangle of centroid x. */
+static fl_mat3 triangle_spread(const fl_vec3 v[3], fl_vec3 x)
+{
+    fl_mat3 s = {0};
+    for (int k = 0; k < 3; k++) add_square(&s, 1.0 / 12.0, v[k], x);
+    return s;
+}
 
 static int add_part(face_list *l, const fl_vec3 v[3], fl_err *err)
 {
@@ -434,6 +453,7 @@ static int add_part(face_list *l, const fl_vec3 v[3], fl_err *err)
     face_part *p = &l->part[l->n++];
     p->area = v3_scale(0.5, v3_cross(v3_sub(v[1], v[0]), v3_sub(v[2], v[0])));
     p->x = v3_scale(1.0 / 3.0, v3_add(v3_add(v[0], v[1]), v[2]));
+    if (l->spread) p->spread = triangle_spread(v, p->x);
     const double size = v3_norm(p->area), n[3] = {p->area.x, p->area.y, p->area.z};
     int axis = 0;
     for (int k = 1; k < 3; k++)
@@ -441,8 +461,9 @@ static int add_part(face_list *l, const fl_vec3 v[3], fl_err *err)
     p->key[0] = (int32_t)floor(p->x.x / l->cell), p->key[1] = (int32_t)floor(p->x.y / l->cell);
     p->key[2] = (int32_t)floor(p->x.z / l->cell);
     p->key[3] = axis + (n[axis] < 0.0 ? 3 : 0);
-    p->key[4] = size > 0.0 ? 64 * (int32_t)floor(n[(axis + 1) % 3] / size / NORMAL_STEP) +
-                                 (int32_t)floor(n[(axis + 2) % 3] / size / NORMAL_STEP)
+    const double step = l->spread ? MESH_NORMAL_STEP : NORMAL_STEP;
+    p->key[4] = size > 0.0 ? 64 * (int32_t)floor(n[(axis + 1) % 3] / size / step) +
+                                 (int32_t)floor(n[(axis + 2) % 3] / size / step)
                            : 0;
     return 0;
 }
@@ -464,40 +485,85 @@ static int compare_parts(const void *a, const void *b)
 /* Merged parts are within this part of the wavelength of k95. */
 #define CELLS_PER_LENGTH 12.0
 
+/* Spread of the parts first .. last - 1 about their centroid x, to part n <= first. */
+static void merge_spread(face_list *l, int32_t first, int32_t last, fl_vec3 x, double per, int32_t n)
+{
+    fl_mat3 s = {0};
+    for (int32_t c = first; c < last; c++) {
+        const face_part *p = &l->part[c];
+        const double w = per * v3_norm(p->area);
+        add_square(&s, w, p->x, x);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) s.m[i][j] += w * p->spread.m[i][j];
+    }
+    l->part[n].spread = s;
+}
+
+/* Nodes of merged parts. */
+static int merge_parts(fl_wave_nodes *a, face_list *l, fl_err *err)
+{
+    fl_vec3 shadow = v3(0, 0, 0);
+    qsort(l->part, (size_t)l->n, sizeof *l->part, compare_parts);
+    int32_t n = 0;
+    for (int32_t k = 0, end; k < l->n; k = end) {
+        double size = 0.0;
+        fl_vec3 x = v3(0, 0, 0), area = x;
+        for (end = k; end < l->n && memcmp(l->part[end].key, l->part[k].key, sizeof l->part[k].key) == 0;
+             end++) {
+            const double s = v3_norm(l->part[end].area);
+            size += s;
+            x = v3_madd(x, s, l->part[end].x);
+            area = v3_add(area, l->part[end].area);
+        }
+        if (!(size > 0.0)) continue;
+        x = v3_scale(1.0 / size, x);
+        if (l->spread) merge_spread(l, k, end, x, 1.0 / size, n);
+        l->part[n].x = x, l->part[n++].area = area;
+    }
+    if (alloc_nodes(a, n, 1, err)) return -1;
+    if (l->spread && !(a->spread = fl_alloc(n, sizeof *a->spread, err))) return -1;
+    for (int32_t k = 0; k < n; k++) {
+        const fl_vec3 s = a->area[k] = l->part[k].area;
+        a->x[k] = l->part[k].x;
+        if (l->spread) a->spread[k] = l->part[k].spread;
+        shadow = v3_add(shadow, v3(0.5 * fabs(s.x), 0.5 * fabs(s.y), 0.5 * fabs(s.z)));
+    }
+    a->section = fmax(shadow.x, fmax(shadow.y, shadow.z));
+    return 0;
+}
+
 static int make_faces(fl_wave_nodes *a, const fl_poly *p, const fl_waves *w, fl_err *err)
 {
     face_list l = {.longest = fmin(FACE_SIDE / w->k95, p->size / FACE_PARTS),
                    .cell = fmin(2.0 * PI / w->k95 / CELLS_PER_LENGTH, p->size / FACE_PARTS)};
-    fl_vec3 shadow = v3(0, 0, 0);
-    int rc = -1;
+    int rc = 0;
     for (int32_t f = 0; f < p->nf; f++)
-        for (int32_t k = p->first[f] + 1; k + 1 < p->first[f + 1]; k++) {
+        for (int32_t k = p->first[f] + 1; k + 1 < p->first[f + 1] && rc == 0; k++) {
             const fl_vec3 v[3] = {p->v[p->loop[p->first[f]]], p->v[p->loop[k]], p->v[p->loop[k + 1]]};
-            if (add_part(&l, v, err)) goto done;
+            rc = add_part(&l, v, err);
         }
-    qsort(l.part, (size_t)l.n, sizeof *l.part, compare_parts);
-    int32_t n = 0;
-    for (int32_t k = 0, end; k < l.n; k = end) {
-        double size = 0.0;
-        fl_vec3 x = v3(0, 0, 0), area = x;
-        for (end = k; end < l.n && memcmp(l.part[end].key, l.part[k].key, sizeof l.part[k].key) == 0; end++) {
-            const double s = v3_norm(l.part[end].area);
-            size += s;
-            x = v3_madd(x, s, l.part[end].x);
-            area = v3_add(area, l.part[end].area);
-        }
-        if (!(size > 0.0)) continue;
-        l.part[n].x = v3_scale(1.0 / size, x), l.part[n++].area = area;
-    }
-    if (alloc_nodes(a, n, 1, err)) goto done;
-    for (int32_t k = 0; k < n; k++) {
-        const fl_vec3 s = a->area[k] = l.part[k].area;
-        a->x[k] = l.part[k].x;
-        shadow = v3_add(shadow, v3(0.5 * fabs(s.x), 0.5 * fabs(s.y), 0.5 * fabs(s.z)));
-    }
-    a->section = fmax(shadow.x, fmax(shadow.y, shadow.z));
-    rc = 0;
-done:
+    if (rc == 0) rc = merge_parts(a, &l, err);
+    free(l.part);
+    return rc;
+}
+
+/* Parts of a mesh: of the wavelength of k95 at the standard error, and bounds of their size over that. */
+#define MESH_ERROR 0.003
+#define MESH_PARTS 4.0
+#define MESH_FINEST 0.4
+#define MESH_COARSEST 1.5
+
+int fl_wave_nodes_make_mesh(fl_wave_nodes *a, const fl_vec3 *v, int32_t n, double size, const fl_waves *w,
+                            double error, fl_err *err)
+{
+    const double scale = fmin(fmax(sqrt(error / MESH_ERROR), MESH_FINEST), MESH_COARSEST),
+                 part = fmin(scale * 2.0 * PI / w->k95 / MESH_PARTS, size / FACE_PARTS);
+    face_list l = {.longest = part, .cell = part, .spread = 1};
+    int rc = 0;
+    fl_wave_nodes_free(a);
+    a->kind = FL_WAVE_MESH;
+    for (int32_t k = 0; k < n && rc == 0; k++) rc = add_part(&l, v + 3 * (int64_t)k, err);
+    if (rc == 0) rc = merge_parts(a, &l, err);
     free(l.part);
     return rc;
 }
@@ -516,6 +582,6 @@ int fl_wave_nodes_make(fl_wave_nodes *a, const fl_hull *hull, const fl_waves *w,
 
 void fl_wave_nodes_free(fl_wave_nodes *a)
 {
-    free(a->x), free(a->w), free(a->half), free(a->area);
+    free(a->x), free(a->w), free(a->half), free(a->area), free(a->spread);
     *a = (fl_wave_nodes){0};
 }

@@ -19,23 +19,34 @@
 #include "water/buoyancy.h"
 #include "water/wave.h"
 
-enum fl_wave_body_kind { FL_WAVE_ROUND, FL_WAVE_COLUMNS, FL_WAVE_FACES };
+enum fl_wave_body_kind { FL_WAVE_ROUND, FL_WAVE_COLUMNS, FL_WAVE_FACES, FL_WAVE_MESH };
 
 typedef struct {
     enum fl_wave_body_kind kind;
     int32_t n;
-    fl_vec3 *x;     /* [n] body axes; of columns the lower end [m] */
-    double *w;      /* [n] columns: area of the section [m2] */
-    double *half;   /* [n] columns: half the side of a square of that area [m] */
-    fl_vec3 *area;  /* [n] faces: area vector, outward [m2] */
-    fl_vec3 along;  /* columns: unit vector of the long edges */
-    double length;  /* columns: length of the long edges [m] */
+    fl_vec3 *x;      /* [n] body axes; of columns the lower end [m] */
+    double *w;       /* [n] columns: area of the section [m2] */
+    double *half;    /* [n] columns: half the side of a square of that area [m] */
+    fl_vec3 *area;   /* [n] faces and mesh: area vector, outward [m2] */
+    fl_mat3 *spread; /* [n] mesh: mean of (x - centroid)(x - centroid)^T over the part [m2] */
+    fl_vec3 along;   /* columns: unit vector of the long edges */
+    double length;   /* columns: length of the long edges [m] */
     double section; /* columns: area of the section; faces: largest of the three projections; round: pi r^2 */
 } fl_wave_nodes;
 
 /* Makes the nodes of a hull. error: asked for, e. Frees a first. Returns -1 with FL_SYSTEM, or FL_INPUT if
  * the points are too many. */
 int fl_wave_nodes_make(fl_wave_nodes *a, const fl_hull *hull, const fl_waves *w, double error, fl_err *err);
+
+/* Makes the nodes of a closed mesh of n triangles v[3 n], its largest side being `size` [m]. Its parts are as
+ * those of a solid, lambda/4 and 20 degrees at an error of 0.003. A part carries the mean pressure over it to
+ * second order,
+ *     p + 1/2 (S_ss - S_zz) d2p/ds2,   S = spread,
+ * P being harmonic, and the moment of its gradient. What is left is (k l)^4/1920 of a wave, l being the size
+ * of the part. The size grows as the square root of the error, since waves shorter than lambda act at the
+ * ends. */
+int fl_wave_nodes_make_mesh(fl_wave_nodes *a, const fl_vec3 *v, int32_t n, double size, const fl_waves *w,
+                            double error, fl_err *err);
 void fl_wave_nodes_free(fl_wave_nodes *a); /* accepts a zeroed struct, leaves one */
 
 /* The degree p for a section of radius R, one of `parts`; 13 if it is above 12. */

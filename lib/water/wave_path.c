@@ -9,6 +9,11 @@ void fl_wave_block_load(const fl_wave_block *c, const fl_wave_water *sea, const 
     const fl_mat3 R = q_matrix(q);
     fl_vec3 force, turn;
     fl_wave_block_values(c, sea->grid, time, x, q, v);
+    if (body->mesh) { /* buoyancy is in the samples */
+        *wet = (fl_submerged){.wetted_area = v->wetted};
+        *f = v->f, *t = v->t;
+        return;
+    }
     const double n = 1.0 / sqrt(1.0 + v->slope[0] * v->slope[0] + v->slope[1] * v->slope[1]),
                  level = n * (v->z + sea->level - x.z);
     const fl_vec3 up = m3_tmul(R, v3(-n * v->slope[0], -n * v->slope[1], n));
@@ -49,14 +54,35 @@ static void path_acceleration(const path_forces *k, const fl_wave_block *next, p
     if (!k->before) return;
     fl_wave_block_load(k->before, k->sea, k->body, p->t, p->x, fl_wave_block_attitude(next, p->turn), &v,
                        &wet, &f, &t);
-    f = v3_sub(f, v3(0, 0, b->m[i] * k->sea->grid->gravity));
+    if (k->body->mesh) f = v3_add(f, k->body->other), t = v3_add(t, k->body->other_moment);
+    else f = v3_sub(f, v3(0, 0, b->m[i] * k->sea->grid->gravity));
     p->a = free_part(b->fixed_dof[i], FL_DOF_X, fl_body_velocity_of_momentum(b, i, f));
     if (!b->is_isotropic[i])
         p->alpha = free_part(b->fixed_dof[i], FL_DOF_RX, fl_body_apply_inverse_inertia(b, i, t));
 }
 
-/* Steps from one sample to the next. */
-enum { PATH_STEPS = 2 };
+/* Steps from one sample to the next, and most of them for a mesh. */
+enum { PATH_STEPS = 2, MOST_STEPS = 100 };
+/* Step of the path of a mesh, over 1/omega of its stiffest motion. */
+#define MESH_STEP 0.5
+
+/* Waves may be much longer than a structure oscillates. Between the samples the oscillation needs no
+ * resolution, as load and path are interpolated alike. */
+static int path_steps(const path_forces *f, double left)
+{
+    const fl_bodies *b = f->b;
+    const fl_wave_block *c = f->before;
+    double omega2 = 0.0;
+    if (!(left > 0.0)) return 1;
+    if (!f->body->mesh || !c) return PATH_STEPS;
+    for (int e = 0; e < 2; e++) {
+        const double heave = fabs(c->change[e][2][2]) * b->invm[f->i];
+        omega2 = fmax(omega2, heave);
+        for (int k = 3; k < FL_WAVE_CHANGES; k++)
+            omega2 = fmax(omega2, fabs(c->change[e][k][k]) * fl_body_max_inverse_inertia(b, f->i));
+    }
+    return (int)fmin(fmax(PATH_STEPS, ceil(left * sqrt(omega2) / MESH_STEP)), MOST_STEPS);
+}
 
 static void predict_path(const path_forces *f, double time, fl_wave_block *next)
 {
@@ -68,7 +94,7 @@ static void predict_path(const path_forces *f, double time, fl_wave_block *next)
     path_acceleration(f, next, &p);
     for (int k = 0; k < FL_WAVE_SAMPLES; k++) {
         const double left = fl_wave_sample_time(next, f->sea->grid, k) - p.t;
-        const int steps = left > 0.0 ? PATH_STEPS : 1;
+        const int steps = path_steps(f, left);
         const double h = left / steps;
         path_state q = p;
         for (int n = 0; n < steps; n++) {

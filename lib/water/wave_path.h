@@ -3,10 +3,10 @@
  *
  * A block begins with the present state of the body. Its path is predicted by the forces of the block before:
  * buoyancy on the plane, D and G, which go on linearly beyond the last sample; weight and added mass;
- * contacts and drag are left out. Two steps of the velocity Verlet method lead from sample to sample.
- * Samples in the past lie on the parabola through the present. A first block, without one before, moves at
- * constant velocity. A deviation d of the body from the path leaves (k d)^2/2 of the force that G does not
- * describe. */
+ * contacts and drag are left out. For a mesh all forces but those of the water stay as they are. Two steps of
+ * the velocity Verlet method lead from sample to sample. Samples in the past lie on the parabola through the
+ * present. A first block, without one before, moves at constant velocity. A deviation d of the body from the
+ * path leaves (k d)^2/2 of the force that G does not describe. */
 #ifndef FL_WATER_WAVE_PATH_H
 #define FL_WATER_WAVE_PATH_H
 #include "body/body.h"

@@ -129,6 +129,39 @@ static void added_mass_counts_in_critical_damping(void **state)
     lab_free(&l);
 }
 
+/* The sentences of structure.waves that need a sea. */
+static void invalid_waves_are_reported(void **state)
+{
+    static const struct {
+        const char *set[2], *message;
+    } wrong[] = {
+        {{"structure.hydrostatic=mesh"}, "hydrostatic = none is expected"},
+        {{"structure.period=0 0 1"}, "period: hydrostatic stiffness acts along z as well"},
+        {{"structure.added_mass=0 0 -1"}, "added_mass: a value is below 0"},
+        {{"structure.free=none"}, "none is free: `free` is expected"},
+        {{"structure.file=lab"}, NULL},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        lab l;
+        fl_err err = {0};
+        make_three_parts(&l);
+        lab_set(&l, "structure.file=lab");
+        lab_set(&l, "run.gravity=9.81");
+        lab_set(&l, "water.wave=airy");
+        lab_set(&l, "water.height=1");
+        lab_set(&l, "water.period=8");
+        lab_set(&l, "structure.free=z");
+        lab_set(&l, "structure.waves=mesh");
+        if (!wrong[k].set[0] || strcmp(wrong[k].set[0], "structure.free=none") != 0)
+            lab_set(&l, "structure.mass=1");
+        for (int s = 0; s < 2 && wrong[k].set[s]; s++) lab_set(&l, wrong[k].set[s]);
+        assert_int_equal(fl_scene_check(&l.scene, &err), wrong[k].message ? -1 : 0);
+        if (wrong[k].message && !strstr(err.text, wrong[k].message)) fail_msg("%s", err.text);
+        lab_free(&l);
+    }
+}
+
 static void invalid_motions_are_reported(void **state)
 {
     static const struct {
@@ -156,6 +189,10 @@ static void invalid_motions_are_reported(void **state)
          "it applies to z, rx and ry"},
         {{"structure.free=z", "structure.mass=1", "structure.hydrostatic=mesh"}, "[water] is expected"},
         {{"structure.free=x", "structure.mass=1", "structure.coupling=1 0 0"}, "it applies to z, rx and ry"},
+        {{"structure.free=x", "structure.mass=1", "structure.waves=mesh"},
+         "waves: there are no waves: water.wave is expected"},
+        {{"structure.free=z", "structure.mass=1", "structure.added_mass=0 0 1"},
+         "added_mass: it belongs to waves = mesh"},
     };
     (void)state;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
@@ -193,6 +230,7 @@ int main(void)
                                        cmocka_unit_test(columns_hold_rotation_and_acceleration),
                                        cmocka_unit_test(mass_and_springs_limit_the_step),
                                        cmocka_unit_test(added_mass_counts_in_critical_damping),
-                                       cmocka_unit_test(invalid_motions_are_reported)};
+                                       cmocka_unit_test(invalid_motions_are_reported),
+                                       cmocka_unit_test(invalid_waves_are_reported)};
     return cmocka_run_group_tests_name("moving_structure", tests, NULL, NULL);
 }

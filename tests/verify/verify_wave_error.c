@@ -407,23 +407,34 @@ static void long_motion(void)
     verify_below("WV7", "  residual of the ledger over that of each step", some.ledger / all.ledger, 1.1);
 }
 
-/* A floe that each wave washes over. Its way is sensitive: runs of e = 0.001 and 0.0001 part by 7 % in two
- * minutes. The evaluation in each step resolves edges under water by panels of some metres, and is 1.3 % off
- * after 20 s. */
+/* The way of a floe whose rims stay dry, over two minutes, and of one that each wave washes over, over 20 s.
+ * That is sensitive: runs of e = 0.003 and 0.0003 part by 8 % in 100 s at Hs 1, by 0.5 % at Hs 0.4. There the
+ * evaluation in each step resolves edges under water by panels of some metres: at Hs 0.4 it is 4 % off after
+ * two minutes, at Hs 1 1.3 % after 20 s. */
 static void drift(void)
 {
     static record all, some, fine;
-    const voyage v = {14, 1, 6, 20, 0.005, 100};
+    voyage v = {14, 0.2, 6, verify_quick() ? 20 : 120, 0.005, 100};
+    char what[80];
     sail(&v, "none", 0.8, &all);
     sail(&v, "0.003", 0.8, &some);
     sail(&v, "0.0003", 0.8, &fine);
-    const double x = some.x[some.n - 1];
+    double x = some.x[some.n - 1];
+    snprintf(what, sizeof what, "14 m, Hs 0.2: drift in %g s over that of each step", v.duration);
+    verify_row("WV8", what, x / all.x[all.n - 1], 1.0, 5e-3, VERIFY_REL);
+    verify_row("WV8", "  over that of e = 0.0003", x / fine.x[fine.n - 1], 1.0, 5e-3, VERIFY_REL);
+    v.Hs = 1, v.duration = 20;
+    sail(&v, "none", 0.8, &all);
+    sail(&v, "0.003", 0.8, &some);
+    sail(&v, "0.0003", 0.8, &fine);
+    x = some.x[some.n - 1];
     verify_row("WV8", "14 m, Hs 1, washed over: drift in 20 s over that of e = 0.0003",
                x / fine.x[fine.n - 1], 1.0, 5e-3, VERIFY_REL);
     verify_row("WV8", "  over that of each step", x / all.x[all.n - 1], 1.0, 0.02, VERIFY_REL);
 }
 
-/* Bodies thrown, capsized, under water and dry: force against the evaluation at the same pose. */
+/* Bodies thrown, capsized, under water and dry: force against the evaluation at the same pose, on panels that
+ * are several times smaller than its own. */
 static void rough_poses(void)
 {
     enum { N = 5, STEPS = 400 };
@@ -444,23 +455,30 @@ static void rough_poses(void)
         lab_box(l, v3(240, 0, 40), v3(5, 4, 0.4), 0.1, q_one(), v3(0, 0, 0), v3(0, 0, 0));
         lab_make(l, 5e-3);
     }
+    const int each = verify_quick() ? 50 : 5;
+    fl_waves shorter = b.w.sea.wave;
+    shorter.k95 *= verify_quick() ? 4 : 12;
+    for (int32_t k = 0; k < N; k++) {
+        fl_err err = {0};
+        if (fl_hull_panels_make(&b.w.sea.panels[k], &b.w.sea.hull[k], &shorter, &err)) exit(1);
+    }
     for (int s = 0; s < STEPS; s++) {
         if (lab_run(&a, 1)) exit(1);
         b.w.sea.time = a.w.sea.time;
-        for (int32_t k = 0; k < N && s % 5 == 0; k++) {
+        for (int32_t k = 0; k < N && s % each == 0; k++) {
             b.w.b.x[k] = a.w.b.x[k], b.w.b.q[k] = a.w.b.q[k];
             b.w.b.f[k] = b.w.b.t[k] = v3(0, 0, 0);
             fl_environment_force(&b.w.sea, &b.w.b, k);
             const double e =
                 v3_norm(v3_sub(a.w.sea.water_force[k], b.w.sea.water_force[k])) / (WATER * G * 80 * 0.75);
-            off[k] += e * e / (STEPS / 5.0);
+            off[k] += e * e * each / STEPS;
         }
     }
     for (int k = 0; k < N; k++) {
         char what[80];
         snprintf(what, sizeof what, "%s: rms error of the force over rho g A Hs/4", WHAT[k]);
-        /* the capsized floe is under water but for a corner, which both evaluations resolve to 1 or 2 % */
-        verify_below("WV10", what, sqrt(off[k]), k == N - 1 ? 0.0 : k == 1 ? 0.025 : 0.01);
+        /* the capsized floe is under water but for a corner, which its columns resolve to 1.2 % */
+        verify_below("WV10", what, sqrt(off[k]), k == N - 1 ? 0.0 : k == 1 ? 0.015 : 0.01);
     }
     lab_free(&a);
     lab_free(&b);

@@ -103,7 +103,9 @@ static void print_stages(const fl_world *w, FILE *f, const struct bodies *n, cha
     print_stage(f, "contacts", 1, "");
     print_stage(f, "structure", w->pieces > 0, "");
     print_stage(f, "motion", fl_structure_moves(w),
-                fl_structure_moves_freely(w) ? "of the structure, with free directions" : "");
+                w->moving.movers.hulls.n       ? "of the structure, with free directions, by waves"
+                : fl_structure_moves_freely(w) ? "of the structure, with free directions"
+                                               : "");
     print_stage(f, "panels", w->panel_load.panels > 0, "");
     print_stage(f, "walls", w->walls > 0, "");
     print_stage(f, "cell", w->cell.periodic, "periodic");

@@ -237,9 +237,9 @@ static void warn_hulls(const struct run *r, FILE *f)
                 "point: at rest it would lean\n",
                 name, fabs(h->buoyancy_centre.x) > 1e-9 * size ? h->buoyancy_centre.x : 0.0,
                 fabs(h->buoyancy_centre.y) > 1e-9 * size ? h->buoyancy_centre.y : 0.0);
-        if ((m->free_dof & FL_DOF_RX && m->K[3][3] <= 0.0) || (m->free_dof & FL_DOF_RY && m->K[4][4] <= 0.0))
-            fprintf(f, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name,
-                    m->K[3][3], m->K[4][4]);
+        const double C44 = m->K[3][3] + m->water_K[3][3], C55 = m->K[4][4] + m->water_K[4][4];
+        if ((m->free_dof & FL_DOF_RX && C44 <= 0.0) || (m->free_dof & FL_DOF_RY && C55 <= 0.0))
+            fprintf(f, "dem-solve: warning: %s capsizes: C44 is %.3g N.m and C55 %.3g N.m\n", name, C44, C55);
     }
 }
 
