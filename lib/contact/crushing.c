@@ -64,16 +64,15 @@ int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_rela
 }
 
 /* S.n of the contact in the pose r; n: direction of its force, in the frame of B. */
-static double area_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, fl_vec3 centre,
-                      fl_vec3 n)
+static double area_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, fl_vec3 n)
 {
     const fl_bodies *b = &w->b;
     const fl_mat3 one = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     fl_half_spaces a, other;
     fl_half_spaces_of(&a, &b->core[p->i], b->radius[p->i], &r->M, r->o);
-    if (p->j >= w->n) return fl_area_facing(&a, fl_world_piece(w, p->j), centre, n);
+    if (p->j >= w->n) return v3_dot(n, fl_area_vector_of_piece(&a, fl_world_piece(w, p->j), n));
     fl_half_spaces_of(&other, &b->core[p->j], b->radius[p->j], &one, v3(0, 0, 0));
-    return fabs(v3_dot(n, fl_area_vector_of_body(&a, &other).S));
+    return fabs(v3_dot(n, fl_area_vector_of_body(&a, &other)));
 }
 
 /* c of the law, without g. */
@@ -99,7 +98,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     }
     if (c && c->stiffening > 1.0 && A > 0.0 && 4.0 * W * law_stiffness(w, p) * sqrt(A) < SOFTER * F * F) {
         /* a flat that has turned to a face of the floe is no stiffer than that */
-        p->nominal_area = A = fmax(A, area_of(w, p, r, centre, way));
+        p->nominal_area = A = fmax(A, area_of(w, p, r, way));
         const double base = law_stiffness(w, p), part = 4.0 * W * base * sqrt(A) / (F * F),
                      g = fmax(c->stiffening * part, 1.0), less = g / c->stiffening;
         if (less < 1.0) {
@@ -112,7 +111,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     }
     if (y > 0.0) *limit = y;
     if (!(F > y) && y > 0.0 && !(F > p->crush_checked)) return 0;
-    A = area_of(w, p, r, centre, way);
+    A = area_of(w, p, r, way);
     if (!(A > 0.0)) return 0;
     *limit = y = A * fl_crushing_pressure(&s->law, A);
     p->nominal_area = A;
