@@ -52,6 +52,8 @@ static int clip_polygon(const fl_half_spaces *a, int but, fl_vec3 *v, int n)
     return n;
 }
 
+/* Faces of a body that are along a direction up to this sine do not face it. */
+#define ASIDE 1e-9
 /* S and all that is closed are told apart at this share of the area. */
 #define CLOSED 1e-6
 
@@ -136,12 +138,13 @@ int fl_area_is_closed(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 ac
     return q.area > 0.0 && v3_norm(v3_madd(q.S, -v3_dot(q.S, across), across)) <= CLOSED * q.area;
 }
 
-fl_vec3 fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b)
+fl_vec3 fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b, fl_vec3 facing)
 {
     const double size = v3_norm(v3_sub(b->box.hi, b->box.lo));
     const fl_vec3 middle = v3_scale(0.5, v3_add(b->box.lo, b->box.hi));
     area_sum q = {.S = {0, 0, 0}};
     for (int f = 0; f < b->n; f++) {
+        if (!(v3_dot(b->normal[f], facing) > ASIDE)) continue;
         /* a square in the plane of the face, clipped by the other planes of B: a face of the sharp shape */
         const fl_vec3 n = b->normal[f], x = v3_unit(fabs(n.x) < 0.7 ? v3(0, n.z, -n.y) : v3(-n.z, 0, n.x)),
                       y = v3_cross(n, x), m = v3_madd(middle, b->c[f] - v3_dot(n, middle), n);

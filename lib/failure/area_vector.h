@@ -36,7 +36,7 @@ fl_vec3 fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, 
  * one place and ends in it at another is not found. */
 int fl_area_is_closed(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 across);
 
-/* S of another convex body, in one frame. */
-fl_vec3 fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b);
+/* S of what faces `facing`, a unit vector, of another convex body, in one frame. */
+fl_vec3 fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b, fl_vec3 facing);
 
 #endif

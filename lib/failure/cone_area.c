@@ -10,8 +10,6 @@
 #define OUTSIDE 1e-9
 /* Narrower parts are joined to the next one [rad]. */
 #define NARROW 1e-13
-/* Share of the height of the body. */
-#define BEYOND 0.01
 /* The radius at a plane may vary by this factor from the middle of a part to its ends. */
 #define VARIES 1.6
 
@@ -28,10 +26,11 @@ typedef struct {
 } direction;
 
 typedef struct {
-    double r0, dr, h, lo, hi; /* of the cone; range of t */
-    double outside;           /* [m] */
-    double ex, ey;            /* axis of the angles, in the frame of the cone */
-    double least_cos;         /* sector: cos >= this */
+    double r0, dr, h;  /* of the cone */
+    double outside;    /* [m] */
+    double ex, ey;     /* axis of the angles, in the frame of the cone */
+    double least_cos;  /* sector: cos >= this */
+    int end_counts[2]; /* whether some of the ends, t = 0 and 1, may be inside */
     int n, breaks;
     cut_plane plane[FL_HALF_SPACES];
     direction at[BREAKS];
@@ -47,13 +46,16 @@ typedef struct {
 /* Keeps the planes that cut the cone.  0 if one has all of it outside. */
 static int keep_planes(section *q, const fl_half_spaces *a)
 {
-    const double r_lo = q->r0 + q->lo * q->dr, r_hi = q->r0 + q->hi * q->dr, z_lo = q->lo * q->h,
-                 z_hi = q->hi * q->h;
+    q->end_counts[0] = q->end_counts[1] = 1;
     for (int k = 0; k < a->n; k++) {
         const fl_vec3 n = a->normal[k];
-        const double across = sqrt(n.x * n.x + n.y * n.y), c = a->c[k], lo = n.z * z_lo, hi = n.z * z_hi;
-        if (fmin(lo - across * r_lo, hi - across * r_hi) >= c) return 0;
-        if (fmax(lo + across * r_lo, hi + across * r_hi) <= c) continue;
+        const double across = sqrt(n.x * n.x + n.y * n.y), c = a->c[k], lo = across * q->r0,
+                     hi = across * (q->r0 + q->dr), up = n.z * q->h;
+        const int low_outside = -lo >= c, high_outside = up - hi >= c;
+        if (low_outside) q->end_counts[0] = 0;
+        if (high_outside) q->end_counts[1] = 0;
+        if (low_outside && high_outside) return 0;
+        if (lo <= c && up + hi <= c) continue;
         q->plane[q->n++] = (cut_plane){n.x * q->ex + n.y * q->ey, n.y * q->ex - n.x * q->ey, n.z, c,
                                        c * q->dr + q->r0 * q->h * n.z};
     }
@@ -70,7 +72,7 @@ static void add_break(section *q, double c, double s)
 static int is_vertex(const section *q, double c, double s, double t, int i, int j)
 {
     const double r = q->r0 + t * q->dr, z = t * q->h, reach = q->outside;
-    if (c < q->least_cos || (t - q->lo) * q->h < -reach || (t - q->hi) * q->h > reach) return 0;
+    if (c < q->least_cos || t * q->h < -reach || (t - 1.0) * q->h > reach) return 0;
     for (int k = 0; k < q->n; k++) {
         const cut_plane *e = &q->plane[k];
         if (k != i && k != j && r * (e->nx * c + e->ny * s) + e->nz * z > e->c + reach) return 0;
@@ -127,8 +129,8 @@ static void find_breaks(section *q)
     q->at[q->breaks++] = (direction){c, s, p};
     if (c < 0.0) add_break(q, 1.0, 0.0);
     for (int i = 0; i < q->n; i++) {
-        if (q->lo <= 0.0) add_vertices_of_end(q, i, 0.0);
-        if (q->hi >= 1.0) add_vertices_of_end(q, i, 1.0);
+        if (q->end_counts[0]) add_vertices_of_end(q, i, 0.0);
+        if (q->end_counts[1]) add_vertices_of_end(q, i, 1.0);
         for (int j = 0; j < i; j++) add_vertices_of_planes(q, i, j);
     }
     for (int k = 1; k < q->breaks; k++) {
@@ -142,7 +144,7 @@ static void find_breaks(section *q)
 /* The part of a generator inside; 0 if there is none. */
 static int bounds_at(const section *q, double c, double s, bounds *b)
 {
-    *b = (bounds){q->lo, q->hi, -1, -1};
+    *b = (bounds){0.0, 1.0, -1, -1};
     for (int k = 0; k < q->n; k++) {
         const cut_plane *e = &q->plane[k];
         const double u = e->nx * c + e->ny * s, h = e->c - q->r0 * u, g = q->dr * u + q->h * e->nz;
@@ -220,7 +222,7 @@ static void add_points(section *q, const sector *m, const bounds *b)
         fl_cos_sin(X[k] * m->half, &turn_c, &turn_s);
         for (int side = -1; side <= 1; side += 2) {
             const double c = m->c * turn_c - side * m->s * turn_s, s = m->s * turn_c + side * m->c * turn_s,
-                         from = bound_at(q, b->lower, q->lo, c, s), to = bound_at(q, b->upper, q->hi, c, s),
+                         from = bound_at(q, b->lower, 0.0, c, s), to = bound_at(q, b->upper, 1.0, c, s),
                          r = q->r0 + 0.5 * (from + to) * q->dr,
                          dA = m->half * W[k] * r * fmax(to - from, 0.0) * q->h;
             q->S[0] += dA * c, q->S[1] += dA * s, q->S[2] -= dA * slope;
@@ -271,14 +273,11 @@ fl_vec3 fl_cone_area_vector(const fl_half_spaces *a, const fl_piece *cone, fl_ve
 {
     section q;
     q.r0 = cone->r0, q.dr = cone->r1 - cone->r0, q.h = cone->h;
-    /* a little beyond the body, so that its planes bound it */
-    const double beyond = BEYOND * (a->box.hi.z - a->box.lo.z);
-    q.lo = fmax((a->box.lo.z - beyond) / q.h, 0.0), q.hi = fmin((a->box.hi.z + beyond) / q.h, 1.0);
     q.outside = OUTSIDE * fmax(cone->r0, cone->r1);
     q.n = q.breaks = 0;
     q.S[0] = q.S[1] = q.S[2] = q.area = 0.0;
     if (area) *area = 0.0;
-    if (!(q.lo < q.hi) || !find_sector(&q, facing) || !keep_planes(&q, a)) return v3(0, 0, 0);
+    if (!find_sector(&q, facing) || !keep_planes(&q, a)) return v3(0, 0, 0);
     find_breaks(&q);
     const direction *from = &q.at[0];
     for (int k = 1; k < q.breaks; k++) {
