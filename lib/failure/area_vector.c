@@ -56,6 +56,8 @@ static int clip_polygon(const fl_half_spaces *a, int but, fl_vec3 *v, int n)
 #define ASIDE 1e-9
 /* S and all that is closed are told apart at this share of the area. */
 #define CLOSED 1e-6
+/* What faces up or down by more than this share is a floor. */
+#define FLAT 0.99
 
 typedef struct {
     fl_vec3 S;
@@ -135,7 +137,9 @@ fl_vec3 fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, 
 int fl_area_is_closed(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 across)
 {
     const area_sum q = sum_of_piece(a, piece, v3(0, 0, 0));
-    return q.area > 0.0 && v3_norm(v3_madd(q.S, -v3_dot(q.S, across), across)) <= CLOSED * q.area;
+    const double along = v3_dot(q.S, across);
+    return q.area > 0.0 && fabs(along) < FLAT * q.area &&
+           v3_norm(v3_madd(q.S, -along, across)) <= CLOSED * q.area;
 }
 
 fl_vec3 fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b, fl_vec3 facing)

@@ -32,7 +32,7 @@ void fl_half_spaces_of(fl_half_spaces *q, const fl_poly *p, double r, const fl_m
 fl_vec3 fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 facing);
 
 /* 1 if the piece goes through a: its surface inside a is there and closed but for a part along `across`, the
- * direction of the thickness of a, so that no push of a sideways is resisted.  A mesh that goes through a at
+ * direction of the thickness of a, so that no push of a sideways is resisted; 0 on a floor.  A mesh that goes through a at
  * one place and ends in it at another is not found. */
 int fl_area_is_closed(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 across);
 

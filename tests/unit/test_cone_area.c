@@ -110,6 +110,27 @@ static void side_on_a_cone(void **state)
     }
 }
 
+/* A pile or a cone goes through a floe that stands around it, not through one at its side; a floor does not. */
+static void what_goes_through(void **state)
+{
+    (void)state;
+    const fl_vec3 up = v3(0, 0, 1);
+    const fl_piece pile = cone_of(1.0, 1.0, 10.0), cone = cone_of(3.0, 1.0, 3.0);
+    fl_piece floor = {.kind = FL_PIECE_SOLID};
+    fl_err err = {0};
+    if (fl_poly_box(&floor.core, v3(50, 50, 5), &err)) fail_msg("%s", err.text);
+    const fl_half_spaces around = box_at(v3(1, 1, 2), v3(6, 6, 0.5)),
+                         beside = box_at(v3(5, 0, 2), v3(4.5, 6, 0.5)),
+                         above = box_at(v3(1, 1, 5.4), v3(6, 6, 0.5));
+    assert_true(fl_area_is_closed(&around, &pile, up));
+    assert_true(fl_area_is_closed(&around, &cone, up));
+    assert_false(fl_area_is_closed(&beside, &pile, up));
+    assert_false(fl_area_is_closed(&beside, &cone, up));
+    assert_false(fl_area_is_closed(&above, &floor, up));
+    assert_near(fl_area_vector_of_piece(&above, &floor, v3(0, 0, 0)).z, 144.0, 1e-14);
+    fl_poly_free(&floor.core);
+}
+
 /* --- random poses --------------------------------------------------------------------------------- */
 
 static int clip(const fl_half_spaces *a, fl_vec3 *v, int n)
@@ -206,7 +227,7 @@ static void random_poses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(side_on_a_cylinder), cmocka_unit_test(whole_cone),
-                                       cmocka_unit_test(four_arcs), cmocka_unit_test(side_on_a_cone),
-                                       cmocka_unit_test(random_poses)};
+                                       cmocka_unit_test(four_arcs),          cmocka_unit_test(side_on_a_cone),
+                                       cmocka_unit_test(what_goes_through),  cmocka_unit_test(random_poses)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
