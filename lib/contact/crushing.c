@@ -259,7 +259,7 @@ int fl_crushing_book(fl_world *w, fl_err *err)
 int32_t fl_crushing_pierced_by(const fl_world *w, int32_t i)
 {
     const fl_bodies *b = &w->b;
-    if (w->crushing.of == FL_CRUSHING_NONE || b->core[i].nf == 0) return -1;
+    if (b->core[i].nf == 0) return -1;
     for (int32_t j = w->n; j < w->n + w->pieces; j++) {
         fl_pair p = {.i = i, .j = j};
         fl_half_spaces a;
