@@ -21,6 +21,8 @@
 #define GLANCING 0.2
 /* A of a worn contact is computed anew above this share of y. */
 #define RECHECKED 0.5
+/* Least area that crushes, over the square of the radius. */
+#define LEAST_AREA 0.01
 /* A dent counts for a contact whose normal is within 45 degrees of it. */
 #define SAME_SIDE 0.7
 
@@ -64,6 +66,12 @@ int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_vec3 centre, fl_vec3 gradient,
     return 1;
 }
 
+/* Area below which a contact does not crush [m2]: it would get the stiffness of an ever smaller flat. */
+static double least_area(const fl_bodies *b, const fl_pair *p)
+{
+    return LEAST_AREA * b->radius[p->i] * b->radius[p->i];
+}
+
 /* S of what faces the motion of A in the pose r, or n, the direction of the force, where A moves across it; in
  * the frame of B. */
 static fl_vec3 area_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, fl_vec3 centre,
@@ -83,7 +91,7 @@ static fl_vec3 area_of(const fl_world *w, const fl_pair *p, const fl_relative_po
     const double size = v3_norm(back);
     if (v3_dot(n, back) > GLANCING * size) {
         const fl_vec3 S = fl_area_vector_of_piece(&a, piece, v3_scale(1.0 / size, back));
-        if (v3_dot(n, S) > 0.0) return S;
+        if (v3_dot(n, S) > least_area(b, p)) return S;
     }
     return fl_area_vector_of_piece(&a, piece, n);
 }
@@ -128,7 +136,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec
     if (!grows && !(c && F > RECHECKED * y)) return 0;
     const fl_vec3 S = area_of(w, p, r, centre, way);
     A = v3_dot(way, S);
-    if (!(A > 0.0)) return 0;
+    if (!(A > least_area(&w->b, p))) return 0;
     *limit = y = A * fl_crushing_pressure(&s->law, v3_norm(S));
     p->nominal_area = A;
     if (!grows && !(F > y)) return 0;

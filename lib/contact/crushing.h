@@ -36,7 +36,7 @@
  * A floe keeps FL_DENTS dents; the shallowest is dropped first.
  *
  * Limits.  A contact that does not yield bears along n, so that floes that share the front of a pile bear up
- * to 5 % more than both should (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe that is
+ * to 10 % more than both should (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe that is
  * crushed at two places of one piece of the structure wears as a whole. A partner that slides along a face
  * finds it worn by D everywhere, so a dent does not resist sliding. The outline of the floe, and its mass,
  * stay. */

@@ -11,20 +11,8 @@
  * would be stronger by 2^e (pressure_area.h).  The end discs of a cone do not count. */
 #ifndef FL_FAILURE_AREA_VECTOR_H
 #define FL_FAILURE_AREA_VECTOR_H
+#include "failure/half_spaces.h"
 #include "structure/structure.h"
-
-/* A convex body as the half-spaces n.x <= c. */
-enum { FL_HALF_SPACES = 64 };
-typedef struct {
-    int n;
-    fl_vec3 normal[FL_HALF_SPACES];
-    double c[FL_HALF_SPACES];
-    fl_aabb box; /* encloses the body */
-} fl_half_spaces;
-
-/* Half-spaces of core p moved outward by r, in a frame where it stands at o with axes M.  Of more than
- * FL_HALF_SPACES faces the first ones count, which encloses the body.  */
-void fl_half_spaces_of(fl_half_spaces *q, const fl_poly *p, double r, const fl_mat3 *M, fl_vec3 o);
 
 /* S of a piece of the structure in its own frame: of the part of its surface that faces `facing`, of all of it
  * if that is 0.  When a moves along -facing, S.facing is what crushes: behind a pile is the channel that it

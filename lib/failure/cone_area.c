@@ -200,13 +200,14 @@ static void add_cylinder(section *q, const sector *m, const bounds *b)
     q->area += q->r0 * (2.0 * w * there - 2.0 * e * (w - m->sin_half));
 }
 
-/* t where plane k bounds the generator; k = -1: an end of the range. */
+/* t where plane k bounds the generator, on the cone; k = -1: an end of the range. */
 static double bound_at(const section *q, int k, double end, double c, double s)
 {
     if (k < 0) return end;
     const cut_plane *e = &q->plane[k];
     const double u = e->nx * c + e->ny * s;
-    return (e->c - q->r0 * u) / (q->dr * u + q->h * e->nz);
+    const double g = q->dr * u + q->h * e->nz, h = e->c - q->r0 * u;
+    return fabs(g) > PARALLEL * q->h ? fmin(fmax(h / g, 0.0), 1.0) : end;
 }
 
 /* Adds a part of the side of a cone by Gauss points. */

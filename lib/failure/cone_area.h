@@ -12,7 +12,8 @@
  * The end discs do not count. */
 #ifndef FL_FAILURE_CONE_AREA_H
 #define FL_FAILURE_CONE_AREA_H
-#include "failure/area_vector.h"
+#include "failure/half_spaces.h"
+#include "structure/structure.h"
 
 /* S of what faces `facing`, of all if that is 0, in the frame of the cone; *area [m2], if not NULL, its area. */
 fl_vec3 fl_cone_area_vector(const fl_half_spaces *a, const fl_piece *cone, fl_vec3 facing, double *area);

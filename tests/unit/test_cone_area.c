@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/pi.h"
+#include "failure/area_vector.h"
 #include "failure/cone_area.h"
 #include "support/near.h"
 #include "support/shapes.h"
@@ -110,7 +111,7 @@ static void side_on_a_cone(void **state)
     }
 }
 
-/* A pile or a cone goes through a floe that stands around it, not through one at its side; a floor does not. */
+/* A pile or a cone goes through a floe around it, not through one at its side; a floor does not. */
 static void what_goes_through(void **state)
 {
     (void)state;
