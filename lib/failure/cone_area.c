@@ -159,7 +159,7 @@ static int bounds_at(const section *q, double c, double s, bounds *b)
     return b->to > b->from;
 }
 
-/* A part of the section between two directions: its middle, half of its angle, and the sine and cosine of that. */
+/* A part of the section between two directions: its middle, half of its angle, sine and cosine of that. */
 typedef struct {
     double c, s, half, sin_half, cos_half;
 } sector;
