@@ -72,8 +72,8 @@ static double least_area(const fl_bodies *b, const fl_pair *p)
     return LEAST_AREA * b->radius[p->i] * b->radius[p->i];
 }
 
-/* S of what faces the motion of A in the pose r, or n, the direction of the force, where A moves across it; in
- * the frame of B. */
+/* S of what faces the motion of A in the pose r, or n, the direction of the force, where A moves across
+ * it; in the frame of B. */
 static fl_vec3 area_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, fl_vec3 centre,
                        fl_vec3 n)
 {

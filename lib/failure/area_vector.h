@@ -14,14 +14,14 @@
 #include "failure/half_spaces.h"
 #include "structure/structure.h"
 
-/* S of a piece of the structure in its own frame: of the part of its surface that faces `facing`, of all of it
- * if that is 0.  When a moves along -facing, S.facing is what crushes: behind a pile is the channel that it
+/* S of a piece of the structure in its own frame: of the part of its surface that faces `facing`, of
+ * all of it if that is 0.  When a moves along -facing, S.facing is what crushes: behind a pile is the channel that it
  * has left. */
 fl_vec3 fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 facing);
 
 /* 1 if the piece goes through a: its surface inside a is there and closed but for a part along `across`, the
- * direction of the thickness of a, so that no push of a sideways is resisted; 0 on a floor.  A mesh that goes through a at
- * one place and ends in it at another is not found. */
+ * direction of the thickness of a, so that no push of a sideways is resisted; 0 on a floor.
+ * A mesh that goes through a at one place and ends in it at another is not found. */
 int fl_area_is_closed(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 across);
 
 /* S of what faces `facing`, a unit vector, of another convex body, in one frame. */

@@ -15,7 +15,8 @@
 #include "failure/half_spaces.h"
 #include "structure/structure.h"
 
-/* S of what faces `facing`, of all if that is 0, in the frame of the cone; *area, if not NULL: its area [m2]. */
+/* S of what faces `facing`, of all if that is 0, in the frame of the cone.
+ *   area   out: its area; or NULL [m2] */
 fl_vec3 fl_cone_area_vector(const fl_half_spaces *a, const fl_piece *cone, fl_vec3 facing, double *area);
 
 #endif
