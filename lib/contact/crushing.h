@@ -23,7 +23,8 @@
  * With A = S.n, K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is
  * flat, and a sharp edge of the same force would store several times its energy. So W is multiplied by
  * g >= 1, which grows with A, until y^2/(2 K_A) is what an edge stores; it falls where the contact is
- * half as stiff again as K_A, as an edge that has turned to a face. The rebound of an impact of speed v is then
+ * half as stiff again as K_A, as an edge that has turned to a face. The rebound of an impact of speed
+ * v is then
  *     v_r = y/sqrt(K_A M).
  *
  * Work.  Crushing takes, in a step, the work of the elastic force by the trapezoid over the step less the
@@ -37,8 +38,8 @@
  *
  * Limits.  A contact that does not yield bears along n, so that floes that share the front of a pile bear up
  * to 10 % more than both should (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe
- * that is crushed at two places of one piece of the structure wears as a whole. A partner that slides along a face
- * finds it worn by D everywhere, so a dent does not resist sliding. The outline of the floe, and its mass,
+ * that is crushed at two places of one piece of the structure wears as a whole. A partner that slides along
+ * a face finds it worn by D everywhere, so a dent does not resist sliding. The outline of the floe, and its mass,
  * stay. */
 #ifndef FL_CONTACT_CRUSHING_H
 #define FL_CONTACT_CRUSHING_H

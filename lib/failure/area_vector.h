@@ -14,9 +14,9 @@
 #include "failure/half_spaces.h"
 #include "structure/structure.h"
 
-/* S of a piece of the structure in its own frame: of the part of its surface that faces `facing`, of
- * all of it if that is 0.  When a moves along -facing, S.facing is what crushes: behind a pile is the channel that it
- * has left. */
+/* S of a piece of the structure in its own frame: of the part of its surface that faces `facing`, of all of
+ * it if that is 0.  When a moves along -facing, S.facing is what crushes: behind a pile is the channel that
+ * it has left. */
 fl_vec3 fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 facing);
 
 /* 1 if the piece goes through a: its surface inside a is there and closed but for a part along `across`, the
