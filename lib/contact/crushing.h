@@ -39,8 +39,8 @@
  * Limits.  A contact that does not yield bears along n, so that floes that share the front of a pile bear up
  * to 10 % more than both should (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe
  * that is crushed at two places of one piece of the structure wears as a whole. A partner that slides along
- * a face finds it worn by D everywhere, so a dent does not resist sliding. The outline of the floe, and its mass,
- * stay. */
+ * a face finds it worn by D everywhere, so a dent does not resist sliding. The outline of the floe, and
+ * its mass, stay. */
 #ifndef FL_CONTACT_CRUSHING_H
 #define FL_CONTACT_CRUSHING_H
 #include "contact/pair_geometry.h"
