@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include "base/array.h"
 #include "base/fast_math.h"
+#include "contact/pair_kinematics.h"
 #include "contact/pair_law.h"
 #include "failure/area_vector.h"
 #include "world/access.h"
@@ -16,6 +17,12 @@
 #define SAME_ENERGY 0.01
 /* Share of the stiffness of a flat below which W/F^2 shows that the contact has become a face. */
 #define SOFTER 0.67
+/* Cosine of the angle of motion and force from which on the area that faces the motion counts. */
+#define GLANCING 0.2
+/* A of a worn contact is computed anew above this share of y. */
+#define RECHECKED 0.5
+/* Least area that crushes, over the square of the radius. */
+#define LEAST_AREA 0.01
 /* A dent counts for a contact whose normal is within 45 degrees of it. */
 #define SAME_SIDE 0.7
 
@@ -36,15 +43,11 @@ static fl_crush *record_of(fl_pair *p)
     return p->crush;
 }
 
-int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_relative_pose *r)
+int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_vec3 centre, fl_vec3 gradient, const fl_relative_pose *r)
 {
     const fl_floe_dents *d = w->crushing.dents[p->i];
-    fl_force_sum q;
     if (!d) return 0;
-    if (fl_force_sum_elastic(s, &q)) return -1;
-    if (!(q.pressure > 0.0)) return 0;
-    const fl_vec3 centre = v3_madd(s->point[0].p, 1.0 / q.pressure, q.pressure_moment),
-                  x = m3_tmul(r->M, v3_sub(centre, r->o)), n = v3_unit(m3_tmul(r->M, q.gradient.f));
+    const fl_vec3 x = m3_tmul(r->M, v3_sub(centre, r->o)), n = v3_unit(m3_tmul(r->M, gradient));
     const fl_dent *best = NULL;
     double deepest = 0.0;
     for (int32_t k = 0; k < d->n; k++) {
@@ -63,17 +66,34 @@ int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_rela
     return 1;
 }
 
-/* S.n of the contact in the pose r; n: direction of its force, in the frame of B. */
-static double area_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, fl_vec3 centre,
-                      fl_vec3 n)
+/* Area below which a contact does not crush [m2]: it would get the stiffness of an ever smaller flat. */
+static double least_area(const fl_bodies *b, const fl_pair *p)
+{
+    return LEAST_AREA * b->radius[p->i] * b->radius[p->i];
+}
+
+/* S of what faces the motion of A in the pose r, or n, the direction of the force, where A moves across
+ * it; in the frame of B. */
+static fl_vec3 area_of(const fl_world *w, const fl_pair *p, const fl_relative_pose *r, fl_vec3 centre,
+                       fl_vec3 n)
 {
     const fl_bodies *b = &w->b;
     const fl_mat3 one = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     fl_half_spaces a, other;
     fl_half_spaces_of(&a, &b->core[p->i], b->radius[p->i], &r->M, r->o);
-    if (p->j >= w->n) return fl_area_facing(&a, fl_world_piece(w, p->j), centre, n);
-    fl_half_spaces_of(&other, &b->core[p->j], b->radius[p->j], &one, v3(0, 0, 0));
-    return fabs(v3_dot(n, fl_area_vector_of_body(&a, &other).S));
+    if (p->j < w->n) {
+        fl_half_spaces_of(&other, &b->core[p->j], b->radius[p->j], &one, v3(0, 0, 0));
+        return v3_scale(fabs(v3_dot(n, fl_area_vector_of_body(&a, &other, n))), n);
+    }
+    const fl_piece *piece = fl_world_piece(w, p->j);
+    const fl_vec3 aj = m3_mul(r->R, centre), v = fl_pair_relative_velocity(b, p, v3_add(aj, r->off), aj),
+                  back = v3_neg(m3_tmul(r->R, v));
+    const double size = v3_norm(back);
+    if (v3_dot(n, back) > GLANCING * size) {
+        const fl_vec3 S = fl_area_vector_of_piece(&a, piece, v3_scale(1.0 / size, back));
+        if (v3_dot(n, S) > least_area(b, p)) return S;
+    }
+    return fl_area_vector_of_piece(&a, piece, n);
 }
 
 /* c of the law, without g. */
@@ -82,16 +102,17 @@ static double law_stiffness(const fl_world *w, const fl_pair *p)
     return fl_pair_stiffness(w, p->i, p->j).k;
 }
 
-int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const fl_force_sum *q,
-                      fl_vec3 centre, fl_exact_contact *exact, double *limit)
+int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec3 gradient, fl_vec3 centre,
+                      fl_exact_contact *exact, double *limit, fl_vec3 *aside)
 {
     const fl_crushing_state *const s = &w->crushing;
-    double F = exact->scale * v3_norm(q->gradient.f), W = exact->energy;
+    double F = exact->scale * v3_norm(gradient), W = exact->energy;
     fl_crush *c = p->crush;
-    const fl_vec3 way = v3_unit(q->gradient.f), n = m3_tmul(r->M, way);
+    const fl_vec3 way = v3_unit(gradient), n = m3_tmul(r->M, way);
     if (!p->touching) p->nominal_area = p->crush_checked = 0.0;
     double A = p->nominal_area, y = A > 0.0 ? A * fl_crushing_pressure(&s->law, A) : 0.0;
     *limit = INFINITY;
+    *aside = v3(0, 0, 0);
     if (c) {
         const double turned = v3_dot(c->offset, n);
         if (turned < 0.0) c->offset = v3_madd(c->offset, -turned, n);
@@ -99,7 +120,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     }
     if (c && c->stiffening > 1.0 && A > 0.0 && 4.0 * W * law_stiffness(w, p) * sqrt(A) < SOFTER * F * F) {
         /* a flat that has turned to a face of the floe is no stiffer than that */
-        p->nominal_area = A = fmax(A, area_of(w, p, r, centre, way));
+        p->nominal_area = A = fmax(A, v3_dot(way, area_of(w, p, r, centre, way)));
         const double base = law_stiffness(w, p), part = 4.0 * W * base * sqrt(A) / (F * F),
                      g = fmax(c->stiffening * part, 1.0), less = g / c->stiffening;
         if (less < 1.0) {
@@ -111,11 +132,14 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
         y = A * fl_crushing_pressure(&s->law, A);
     }
     if (y > 0.0) *limit = y;
-    if (!(F > y) && y > 0.0 && !(F > p->crush_checked)) return 0;
-    A = area_of(w, p, r, centre, way);
-    if (!(A > 0.0)) return 0;
-    *limit = y = A * fl_crushing_pressure(&s->law, A);
+    const int grows = !(y > 0.0) || F > y || F > p->crush_checked;
+    if (!grows && !(c && F > RECHECKED * y)) return 0;
+    const fl_vec3 S = area_of(w, p, r, centre, way);
+    A = v3_dot(way, S);
+    if (!(A > least_area(&w->b, p))) return 0;
+    *limit = y = A * fl_crushing_pressure(&s->law, v3_norm(S));
     p->nominal_area = A;
+    if (!grows && !(F > y)) return 0;
     if (!(F > FLATTENED * y)) {
         p->crush_checked = FLATTENED * y;
         return 0;
@@ -142,7 +166,10 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const 
     p->crush_checked = to;
     c->volume += A * deeper;
     c->unsaved = 1;
-    if (F > y) c->yielded_step = w->step, c->force = y;
+    if (F > y) {
+        c->yielded_step = w->step, c->force = y;
+        *aside = v3_scale(y / A, v3_madd(S, -A, way));
+    }
     exact->scale *= to / F;
     exact->energy = W1;
     exact->slope = (m - 1.0) / m * to * to / W1;
@@ -240,7 +267,7 @@ int fl_crushing_book(fl_world *w, fl_err *err)
 int32_t fl_crushing_pierced_by(const fl_world *w, int32_t i)
 {
     const fl_bodies *b = &w->b;
-    if (w->crushing.of == FL_CRUSHING_NONE || b->core[i].nf == 0) return -1;
+    if (b->core[i].nf == 0) return -1;
     for (int32_t j = w->n; j < w->n + w->pieces; j++) {
         fl_pair p = {.i = i, .j = j};
         fl_half_spaces a;

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* crushing.h -- contacts in which ice yields.
  *
- * Below y = p(A) A (failure/pressure_area.h) a contact is elastic.  A = S.n, with S of
- * failure/area_vector.h and the direction n of the force, is the part of the structure's surface in the floe
- * that faces n: a way dD along n crushes dV = A dD, and a pile that is deep in a floe has its width.  At y it
- * yields: the floe A is worn by the vector D, by which it stands away from its partner for the contact law,
+ * Below y = p(|S|) S.n (failure/pressure_area.h) a contact is elastic.  n is the direction of its force, and
+ * S, failure/area_vector.h, of what faces the motion of A: a way dD crushes dV = S.dD, and a pile that is
+ * deep in a floe has its width.  (Where A moves across the force, by more than 78 degrees, of what faces n;
+ * between floes S.n is of what faces n.)  At y it yields: the floe A is worn by the vector D, by which it
+ * stands away from its partner for the contact law,
  *     W = W_law(x_A + R_A D),      F = -dW/dx,  |F| <= y,
  * so W has the same derivatives as before: forces and torques act at the true place, action and reaction
- * balance, and D at rest costs no energy.
+ * balance, and D at rest costs no energy.  While it yields, the force is p S: that of the law, y n, has n of
+ * the unworn outline, and p (S - (S.n) n) is added to it, so that its power is p dV/dt.
  *
  * Return mapping, after each evaluation of the law, with F, W and m = 1/(1 - W F'/F^2), the local exponent of
  * W = c s^m:
@@ -18,10 +20,11 @@
  *
  * D never shrinks but where the contact has turned round (D.n < 0), which only takes energy out.
  *
- * K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is flat, and a
- * sharp edge of the same force would store several times its energy. So W is multiplied by g >= 1, which
- * grows with A, until y^2/(2 K_A) is what an edge stores; it falls where the contact is half as stiff again
- * as K_A, as an edge that has turned to a face. The rebound of an impact of speed v is then
+ * With A = S.n, K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is
+ * flat, and a sharp edge of the same force would store several times its energy. So W is multiplied by
+ * g >= 1, which grows with A, until y^2/(2 K_A) is what an edge stores; it falls where the contact is
+ * half as stiff again as K_A, as an edge that has turned to a face. The rebound of an impact of speed
+ * v is then
  *     v_r = y/sqrt(K_A M).
  *
  * Work.  Crushing takes, in a step, the work of the elastic force by the trapezoid over the step less the
@@ -33,18 +36,19 @@
  * a dent at that place; a contact that begins within its half width, from the same side, takes it up again.
  * A floe keeps FL_DENTS dents; the shallowest is dropped first.
  *
- * Limits.  Two floes that share the front of a pile bear up to 12 % more than both should, as n follows D and
- * not the pressure (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe that is crushed at
- * two places of one piece of the structure wears as a whole. A partner that slides along a face finds it worn
- * by D everywhere, so a dent does not resist sliding. The outline of the floe, and its mass, stay. */
+ * Limits.  A contact that does not yield bears along n, so that floes that share the front of a pile bear up
+ * to 10 % more than both should (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe
+ * that is crushed at two places of one piece of the structure wears as a whole. A partner that slides along
+ * a face finds it worn by D everywhere, so a dent does not resist sliding. The outline of the floe, and
+ * its mass, stay. */
 #ifndef FL_CONTACT_CRUSHING_H
 #define FL_CONTACT_CRUSHING_H
 #include "contact/pair_geometry.h"
 #include "contact/pair_surrogate.h"
 #include "world/world.h"
 
-/* True if the ice of pair p may crush: a polyhedron under the law `patch` against the structure, or, with
- * crushing = all, against another. */
+/* True if the ice of pair p may crush: a polyhedron under the laws `patch` and `quick` against the
+ * structure, or, with crushing = all, against another. */
 static inline int fl_pair_crushes(const fl_world *w, const fl_pair *p)
 {
     return w->crushing.of != FL_CRUSHING_NONE && p->points == FL_POINTS_PATCH && w->b.core[p->i].nf > 0 &&
@@ -55,16 +59,19 @@ static inline int fl_pair_crushes(const fl_world *w, const fl_pair *p)
 /* The pose with A moved by D. */
 fl_relative_pose fl_crushing_pose(const fl_pair *p, const fl_relative_pose *r);
 
-/* If floe A has dents: gives p its record, with the dent that its points in s lie in.  1 if there is one, -1
- * when memory runs out. */
-int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_patch_points *s, const fl_relative_pose *r);
+/* If floe A has dents: gives p its record, with the dent that the contact lies in.  1 if there is one, -1
+ * when memory runs out.
+ *   centre     of pressure, in the frame of B [m]
+ *   gradient   along the force on A, in that frame */
+int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_vec3 centre, fl_vec3 gradient, const fl_relative_pose *r);
 
 /* Applies the return mapping to energy, scale and slope of an evaluation.
- *   centre   of pressure, in the frame of B [m]
- *   limit    out: y, INFINITY where there is none [N]
+ *   gradient, centre   as above; the force is the gradient by exact->scale
+ *   limit              out: y, INFINITY where there is none [N]
+ *   aside              out: p (S - A n) of a contact that yields, else 0, in the frame of B [N]
  * 1 if the contact yields, 0 if not, -1 when memory runs out. */
-int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, const fl_force_sum *q,
-                      fl_vec3 centre, fl_exact_contact *exact, double *limit);
+int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec3 gradient, fl_vec3 centre,
+                      fl_exact_contact *exact, double *limit, fl_vec3 *aside);
 
 /* Elastic wrench and energy of a pair. */
 typedef struct {

@@ -155,10 +155,29 @@ static int find_worn_points(fl_world *w, fl_pair *p, int32_t thread, const fl_re
     fl_relative_pose worn = p->crush ? fl_crushing_pose(p, r) : *r;
     if (fl_pair_find_points(w, p, thread, &worn, distance)) return -1;
     if (p->crush || !fl_pair_crushes(w, p) || w->scratch[thread].n == 0) return 0;
-    const int worn_here = fl_crushing_adopt(w, p, &w->scratch[thread], r);
+    fl_force_sum q;
+    if (!w->crushing.dents[p->i]) return 0;
+    if (fl_force_sum_elastic(&w->scratch[thread], &q)) return -1;
+    if (!(q.pressure > 0.0)) return 0;
+    const fl_vec3 centre = v3_madd(w->scratch[thread].point[0].p, 1.0 / q.pressure, q.pressure_moment);
+    const int worn_here = fl_crushing_adopt(w, p, centre, q.gradient.f, r);
     if (worn_here <= 0) return worn_here;
     worn = fl_crushing_pose(p, r);
     return fl_pair_find_points(w, p, thread, &worn, distance);
+}
+
+/* The terms of the law `quick` with what is crushed taken off. */
+static int find_worn_quick(fl_world *w, fl_pair *p, int32_t thread, const fl_relative_pose *r,
+                           double *distance, fl_quick_sums *sums)
+{
+    fl_relative_pose worn = p->crush ? fl_crushing_pose(p, r) : *r;
+    if (fl_pair_find_quick(w, p, thread, &worn, distance, sums)) return -1;
+    if (p->crush || !fl_pair_crushes(w, p) || !(sums->pressure > 0.0)) return 0;
+    const int worn_here =
+        fl_crushing_adopt(w, p, v3_scale(1.0 / sums->pressure, sums->moment), sums->gradient.f, r);
+    if (worn_here <= 0) return worn_here;
+    worn = fl_crushing_pose(p, r);
+    return fl_pair_find_quick(w, p, thread, &worn, distance, sums);
 }
 
 /* A pair with a record of crushing does not touch: releases the record once the whole floes are apart.  Until
@@ -212,9 +231,9 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
     } else if (p->points == FL_POINTS_FEATURES) {
         if (fl_pair_evaluate_features(w, p, thread, &r, &a, survey, &distance)) goto failed;
         if (p->touching) goto touches;
-    } else if (fl_pair_is_quick(w, p) && !crushes) {
+    } else if (fl_pair_is_quick(w, p)) {
         fl_quick_sums sums;
-        if (fl_pair_find_quick(w, p, thread, &r, &distance, &sums)) goto failed;
+        if (find_worn_quick(w, p, thread, &r, &distance, &sums)) goto failed;
         const int touch = fl_pair_evaluate_quick(w, p, thread, &sums, t, &r, &a, survey);
         if (touch < 0) goto failed;
         if (touch) goto touches;

@@ -62,11 +62,12 @@ int fl_pair_evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_sur
     fl_exact_contact exact;
     fl_exact_contact_find(w, p, s, r, &q, &exact);
     double limit = INFINITY, stiffer = 1.0;
+    fl_vec3 aside = v3(0, 0, 0);
     int yields = 0;
     if (crushes) {
         const double scale = exact.scale, slope = exact.slope;
-        yields =
-            fl_crushing_yield(w, p, r, &q, v3_madd(at, 1.0 / q.pressure, q.pressure_moment), &exact, &limit);
+        yields = fl_crushing_yield(w, p, r, q.gradient.f, v3_madd(at, 1.0 / q.pressure, q.pressure_moment),
+                                   &exact, &limit, &aside);
         if (yields < 0) return -1;
         stiffer = exact.slope != slope ? fmax((exact.slope / slope) * (scale / exact.scale), 1.0) : 1.0;
     }
@@ -92,9 +93,9 @@ int fl_pair_evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_sur
     if (fl_force_sum_motion(s, v, turn, &q)) return -1;
     const double damping = fl_pair_damping_factor(p, q.du > 0.0 ? q.du_approach / q.du : 0.0, mass),
                  coming = q.pressure_rate / q.pressure, room = limit / v3_norm(elastic) - 1.0,
-                 chi = yields                    ? 0.0
-                       : coming * damping > room ? fmax(room, 0.0) / coming
-                                                 : damping;
+                 chi = yields                                    ? 0.0
+                       : coming > 0.0 && coming * damping > room ? fmax(room, 0.0) / coming
+                                                                 : damping;
     const double sustained = fl_pair_is_on_facets(w, p)
                                  ? sustained_share_of_patch(w, p, s, &q, &exact, elastic, r, a, spin, mass)
                                  : 0.0;
@@ -114,6 +115,11 @@ int fl_pair_evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_sur
         fl_tangent_rescale(&p->springs, exact.slope / t->slope, exact.slope < p->surrogate->slope);
     const fl_patch_result all =
         add_damping_and_friction(w, p, &q, exact.scale, exact.slope, chi, &at_contact, r, aj, a);
+    if (yields) {
+        const fl_vec3 middle = m3_mul(R, v3_scale(1.0 / q.pressure, q.pressure_moment));
+        fl_add_wrench(&p->force, &p->torque_i, &p->torque_j, m3_mul(R, aside), v3_add(ai, middle),
+                      v3_add(aj, middle));
+    }
     if (survey) fl_pair_bound_stiffness(w, p, &all, r, &si, &sj);
     if (has_surrogate) {
         const double speed = v3_dot(v3_unit(elastic), fl_pair_relative_velocity(b, p, ai, aj));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/simd.h"
+#include "contact/crushing.h"
 #include "contact/pair_damping.h"
 #include "contact/pair_friction.h"
 #include "contact/pair_stiffness.h"
@@ -90,17 +91,28 @@ FL_SIMD_VERSIONS int fl_pair_evaluate_quick(fl_world *w, fl_pair *p, int32_t thr
                                             const fl_surrogate_value *t, const fl_relative_pose *r,
                                             const fl_pair_prediction *a, int survey)
 {
-    const int has_surrogate = p->law->surrogate_tolerance > 0.0 && !fl_panels_need_points(w, p);
+    const int crushes = fl_pair_crushes(w, p),
+              has_surrogate = p->law->surrogate_tolerance > 0.0 && !fl_panels_need_points(w, p) && !crushes;
     const fl_bodies *b = &w->b;
     const fl_mat3 R = r->R;
     const fl_vec3 none = v3(0, 0, 0);
     if (!(q->u > 0.0 && q->overlap > FL_OVERLAP_ROUNDING * (v3_norm(r->o) + b->bounding_radius[p->i])))
         return 0;
-    const double energy = p->k * sqrt(q->u), scale = 0.5 * energy / q->u, each = 1.0 / q->pressure,
-                 slope = scale * (q->ddu - 0.5 * q->pressure * q->pressure / q->u);
+    double energy = p->k * sqrt(q->u), scale = 0.5 * energy / q->u,
+           slope = scale * (q->ddu - 0.5 * q->pressure * q->pressure / q->u), limit = INFINITY, stiffer = 1.0;
+    const double each = 1.0 / q->pressure;
+    int yields = 0;
     const fl_vec3 centre = v3_scale(each, q->moment), aj = m3_mul(R, centre), ai = v3_add(aj, r->off);
     const fl_sym3 second = fl_quick_second_moments(q);
     const double spread = second.xx + second.yy + second.zz, arm = spread > 0.0 ? sqrt(spread) : 0.0;
+    if (crushes) {
+        fl_exact_contact exact = {.scale = scale, .energy = energy, .slope = slope};
+        fl_vec3 aside; /* none between floes */
+        yields = fl_crushing_yield(w, p, r, q->gradient.f, centre, &exact, &limit, &aside);
+        if (yields < 0) return -1;
+        if (exact.slope != slope) stiffer = fmax((exact.slope / slope) * (scale / exact.scale), 1.0);
+        energy = exact.energy, scale = exact.scale, slope = exact.slope;
+    }
     p->overlap = q->overlap;
     p->energy = energy;
     fl_add_scaled_wrench(&p->force, &p->torque_i, &p->torque_j, &q->gradient, scale, &R, r->off, none);
@@ -110,7 +122,11 @@ FL_SIMD_VERSIONS int fl_pair_evaluate_quick(fl_world *w, fl_pair *p, int32_t thr
                  mass = fl_pair_mass(w, p, &ease, elastic, p->torque_i, p->torque_j),
                  compliance = fl_pair_compliance(&ease, elastic, p->torque_i, p->torque_j, pressed),
                  predicted = -v3_dot(n, fl_pair_end_velocity(b, p, a, ai, aj)),
-                 chi = fl_pair_damping_factor(p, predicted > 0.0 ? predicted : 0.0, mass);
+                 damping = fl_pair_damping_factor(p, predicted > 0.0 ? predicted : 0.0, mass),
+                 room = limit / size - 1.0,
+                 chi = yields                                          ? 0.0
+                       : predicted > 0.0 && predicted * damping > room ? fmax(room, 0.0) / predicted
+                                                                       : damping;
     fl_contact_compliance at_contact = {.turn = 0.0};
     double damped = 1.0;
     if (chi > 0.0) {
@@ -155,7 +171,7 @@ FL_SIMD_VERSIONS int fl_pair_evaluate_quick(fl_world *w, fl_pair *p, int32_t thr
         p->force = elastic;
         p->torque_i = v3_sub(v3_sub(ti, p->torque_i_damping), p->torque_i_friction);
         p->torque_j = v3_sub(v3_sub(tj, p->torque_j_damping), p->torque_j_friction);
-        fl_pair_add_patch_stiffness(w, p, &at, R, ai, aj, scale, q->u, &si, &sj);
+        fl_pair_add_patch_stiffness(w, p, &at, R, ai, aj, stiffer * scale, q->u, &si, &sj);
         p->force = force, p->torque_i = ti, p->torque_j = tj;
         fl_pair_bound_stiffness(w, p, &all, r, &si, &sj);
     }

@@ -5,47 +5,26 @@
  *
  * V being the volume of the overlap, dV = S.dx for a displacement dx of A, so int p dV is the work of a
  * pressure p on it, and S depends neither on how B is divided into faces nor on what A looks like elsewhere.
- * The faces of B are clipped by the half-spaces of A (Sutherland, Hodgman 1974). On a cone, generators
- * are clipped exactly, at Gauss points of the arc that is inside about the contact.
+ * The faces of B are clipped by the half-spaces of A (Sutherland, Hodgman 1974); cones: cone_area.h.
  *
  * Limits.  All faces of B count, also where they form several separate contacts with A, of which each alone
  * would be stronger by 2^e (pressure_area.h).  The end discs of a cone do not count. */
 #ifndef FL_FAILURE_AREA_VECTOR_H
 #define FL_FAILURE_AREA_VECTOR_H
+#include "failure/half_spaces.h"
 #include "structure/structure.h"
 
-/* A convex body as the half-spaces n.x <= c. */
-enum { FL_HALF_SPACES = 64 };
-typedef struct {
-    int n;
-    fl_vec3 normal[FL_HALF_SPACES];
-    double c[FL_HALF_SPACES];
-    fl_aabb box; /* encloses the body */
-} fl_half_spaces;
-
-typedef struct {
-    fl_vec3 S;      /* area vector, points out of B [m2] */
-    fl_vec3 centre; /* of the area inside, weighted by n.S/|S| [m] */
-} fl_area_vector;
-
-/* Half-spaces of core p moved outward by r, in a frame where it stands at o with axes M.  Of more than
- * FL_HALF_SPACES faces the first ones count, which encloses the body.  */
-void fl_half_spaces_of(fl_half_spaces *q, const fl_poly *p, double r, const fl_mat3 *M, fl_vec3 o);
-
-/* S of a piece of the structure in its own frame.
- *   about   a point of the contact: on a cone, the arc inside a is looked for from there on */
-fl_area_vector fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about);
-
-/* S.n of the part of that surface that faces n, a unit vector: what crushes when a moves along -n. Behind a
- * pile is the channel that it has left. */
-double fl_area_facing(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 about, fl_vec3 n);
+/* S of a piece of the structure in its own frame: of the part of its surface that faces `facing`, of all of
+ * it if that is 0.  When a moves along -facing, S.facing is what crushes: behind a pile is the channel that
+ * it has left. */
+fl_vec3 fl_area_vector_of_piece(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 facing);
 
 /* 1 if the piece goes through a: its surface inside a is there and closed but for a part along `across`, the
- * direction of the thickness of a, so that no push of a sideways is resisted.  A mesh that goes through a at
- * one place and ends in it at another is not found. */
+ * direction of the thickness of a, so that no push of a sideways is resisted; 0 on a floor.
+ * A mesh that goes through a at one place and ends in it at another is not found. */
 int fl_area_is_closed(const fl_half_spaces *a, const fl_piece *piece, fl_vec3 across);
 
-/* S of another convex body, in one frame. */
-fl_area_vector fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b);
+/* S of what faces `facing`, a unit vector, of another convex body, in one frame. */
+fl_vec3 fl_area_vector_of_body(const fl_half_spaces *a, const fl_half_spaces *b, fl_vec3 facing);
 
 #endif

@@ -215,12 +215,13 @@ static void split_area(const fl_world *w, const floe_loads *q, const fl_pair *p,
     const fl_vec3 n = m3_tmul(r.R, m3_tmul(q->to_plan, v3(ex, ey, 0.0)));
     if (a.n == FL_HALF_SPACES) a.n--;
     const int last = a.n++;
-    const fl_vec3 about = m3_tmul(r.R, v3_sub(p->load_point, r.off));
+    /* what faces the force on the floe */
+    const fl_vec3 facing = m3_tmul(r.R, p->force);
     for (int s = 0; s < 2; s++) {
         a.normal[last] = s ? v3_neg(n) : n;
         a.c[last] = (s ? -1.0 : 1.0) * (c + v3_dot(n, r.o));
         side[s] =
-            m3_mul(q->to_plan, m3_mul(r.R, fl_area_vector_of_piece(&a, fl_world_piece(w, p->j), about).S));
+            m3_mul(q->to_plan, m3_mul(r.R, fl_area_vector_of_piece(&a, fl_world_piece(w, p->j), facing)));
     }
 }
 

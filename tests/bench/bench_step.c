@@ -14,6 +14,9 @@
  *                                      added mass besides, in waves, which are evaluated every 20th step
  *                                      (held), in still water with drag on each facet; prints the number of
  *                                      body-steps
+ *     bench_step whole|strong STEPS    steps of two hundred floes in a current among ten piles; strong: with
+ *                                      crushing, bending and splitting, none of which happens; prints the
+ *                                      number of body-steps
  *     bench_step bonds STEPS           steps of bonded boxes and spheres; prints the number of bond-steps */
 #include <omp.h>
 #include <stdlib.h>
@@ -208,6 +211,36 @@ static double print_cost(int32_t side, int spheres, double pitch, enum sea water
     return bad ? INFINITY : each;
 }
 
+/* Floes of 1 m among piles that drift at 0.3 m/s; 1 if one of them failed. */
+static int run_among_piles(int strong, int64_t steps)
+{
+    enum { ROWS = 14, COLUMNS = 15, PILES = 10, FLOES = ROWS * COLUMNS - PILES };
+    lab l;
+    lab_start(&l);
+    lab_set(&l, "run.gravity=9.81");
+    lab_set(&l, "water.current=0.3 0 0");
+    lab_set(&l, "contact.friction=0.1"), lab_set(&l, "contact.restitution=0.3");
+    lab_set(&l, "contact.stiffness_factor=0.01");
+    if (strong) {
+        lab_set(&l, "failure.crushing=structure"), lab_set(&l, "failure.pressure=20 MPa");
+        lab_set(&l, "failure.flexural_strength=100 MPa");
+        lab_set(&l, "failure.fracture_toughness=1e6 kPa.m^0.5");
+    }
+    for (int32_t k = 0; k < ROWS * COLUMNS; k++) {
+        const fl_vec3 x = v3(1.004 * (k % COLUMNS), 1.004 * (k / COLUMNS), 0);
+        if (k % 21 == 10) lab_cone(&l, (fl_cone){v3(x.x, x.y, -2), v3(x.x, x.y, 2), 0.5, 0.5});
+        else lab_box(&l, v3(x.x, x.y, -0.075), v3(0.5, 0.5, 0.1), 0.02, q_one(), v3(0.3, 0, 0), v3(0, 0, 0));
+    }
+    lab_make(&l, 0);
+    const int bad = lab_run(&l, steps);
+    printf("%lld\n", (long long)(steps * FLOES));
+    const int fails = l.w.crushing.contact_steps || l.w.breaking.bent || l.w.breaking.split;
+    if (fails || !l.w.contact_steps)
+        fprintf(stderr, "bench_step: floes that touch and do not fail are expected\n");
+    lab_free(&l);
+    return bad || fails;
+}
+
 /* Body-steps of floes without contacts, for instruction counts. */
 static int run_without_contacts(const char *where, int64_t steps)
 {
@@ -329,6 +362,8 @@ int main(int argc, char **argv)
     static const double SAFETY[] = {0.4, 0.2, 0.1, 0.05};
     static const char *const LAW[] = {"patch", "core", "manual-si", "manual"};
     if (argc == 3 && strcmp(argv[1], "order") == 0) return !compare_sum_orders(atoi(argv[2]));
+    if (argc == 3 && (strcmp(argv[1], "whole") == 0 || strcmp(argv[1], "strong") == 0))
+        return run_among_piles(argv[1][0] == 's', atoi(argv[2]));
     if (argc == 3) return run_without_contacts(argv[1], atoi(argv[2]));
     setvbuf(stdout, NULL, _IOLBF, 0);
     printf("gas of 196 floes, elastic, no friction, 4 s, one thread\n");

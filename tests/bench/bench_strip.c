@@ -7,9 +7,10 @@
  * throughput.
  *
  *     bench_strip               the table
- *     bench_strip CASE STEPS    steps of apart, plain, plain-pile, hard-pile (its ice does not crush), wall-N
- *                               of N elements, pile-N with N on its front; prints their number, for counts
- *                               of instructions */
+ *     bench_strip CASE STEPS    steps of apart, plain, plain-S and hard-S (its ice does not crush), S one of
+ *                               wall, pile, cone, mesh, ice (under the law quick: quick-plain-S), wall-N of N
+ *                               elements, pile-N with N on its front; prints their number, for counts of
+ *                               instructions */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,15 +33,39 @@ static double thread_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* A pile of `radius` about 0, upright; a cone of that radius at the floe; or a mesh, its rear hollow. */
+static void add_pile(lab *l, const char *name, double radius)
+{
+    enum { SIDES = 24 };
+    const double lean = strstr(name, "cone") ? 0.4 : 0.0;
+    if (!strstr(name, "mesh")) {
+        lab_cone(l, (fl_cone){v3(0, 0, -2), v3(0, 0, 2), radius + 2.0 * lean, radius - 2.0 * lean});
+        return;
+    }
+    fl_vec3 xy[SIDES + 2];
+    for (int k = 0; k <= SIDES; k++) {
+        const double a = PI * (0.5 + (double)k / SIDES);
+        xy[k] = v3(radius * cos(a), radius * sin(a), 0);
+    }
+    xy[SIDES + 1] = v3(-0.3 * radius, 0, 0);
+    lab_prism(l, SIDES + 2, xy, -2, 2);
+}
+
 /* 0 with a message for an unknown case. */
 static int make_case(lab *l, const char *name)
 {
-    const int hard = strcmp(name, "hard-pile") == 0, apart = strcmp(name, "apart") == 0,
-              plain = hard || strncmp(name, "plain", 5) == 0, pile = strstr(name, "pile") != NULL,
+    const int quick = strncmp(name, "quick-", 6) == 0;
+    if (quick) name += 6;
+    const int ice = strstr(name, "ice") != NULL, hard = strncmp(name, "hard-", 5) == 0,
+              apart = strcmp(name, "apart") == 0, plain = hard || strncmp(name, "plain", 5) == 0,
+              wall = !strstr(name, "pile") && !strstr(name, "cone") && !strstr(name, "mesh"),
               elements = apart || plain ? FEW : atoi(name + 5);
     if (!apart && !plain && (elements < 1 || (strncmp(name, "wall-", 5) && strncmp(name, "pile-", 5)))) {
-        fprintf(stderr,
-                "bench_strip: %s: apart, plain, plain-pile, hard-pile, wall-N or pile-N is expected\n", name);
+        fprintf(
+            stderr,
+            "bench_strip: %s: apart, plain, hard-S or plain-S, S of wall, pile, cone and mesh, with quick- "
+            "before it, wall-N or pile-N is expected\n",
+            name);
         return 0;
     }
     lab_start(l);
@@ -48,6 +73,7 @@ static int make_case(lab *l, const char *name)
     lab_set(l, "boundary.drive_width=2000");
     lab_set(l, "boundary.drive_edge=-x");
     lab_set(l, "boundary.drive_fixed=x y z rx ry rz");
+    if (quick) lab_set(l, "contact.law=quick");
     const double speed = hard ? 1e-3 * SPEED : SPEED;
     lab_setf(l, "boundary.drive=%g", speed);
     if (!hard) {
@@ -57,13 +83,19 @@ static int make_case(lab *l, const char *name)
     if (!plain) lab_set(l, "failure.crushing_law=rate");
     if (!plain) lab_setf(l, "failure.element_width=%.17g", WIDTH * (1.0 + 1e-9));
     const double half = 0.5 * WIDTH * elements, radius = WIDTH * elements / PI;
-    if (pile) lab_cone(l, (fl_cone){v3(0, 0, -2), v3(0, 0, 2), radius, radius});
-    else lab_wall(l, v3(0, -half, -2), v3(1, half, 2), 1);
+    if (ice) lab_set(l, "boundary.drive_width=500");
+    else if (wall) lab_wall(l, v3(0, -half, -2), v3(1, half, 2), 1);
+    else add_pile(l, name, radius);
     /* the law `rate` has the pile in the ice; `plain` its front edge */
-    const double front = apart ? -2.0 * radius : !pile ? DEPTH : plain ? -radius + DEPTH : 100.0;
+    const double front = apart ? -2.0 * radius : wall ? DEPTH : plain ? -radius + DEPTH : 100.0;
     lab_box(l, v3(front - 200.0, 0, 0), v3(200, 100, 0.25), 0.05, (fl_quat){1, 0, 0, 0}, v3(speed, 0, 0),
             v3(0, 0, 0));
+    if (ice) { /* a floe that is held, in the place of the wall */
+        if (!hard) lab_set(l, "failure.crushing=all");
+        lab_box(l, v3(200, 0, 0), v3(200, half, 0.25), 0.05, (fl_quat){1, 0, 0, 0}, v3(0, 0, 0), v3(0, 0, 0));
+    }
     lab_make(l, 1e-3);
+    if (ice) l->w.b.fixed_dof[1] = FL_DOF_X | FL_DOF_Y | FL_DOF_Z | FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ;
     return 1;
 }
 

@@ -13,7 +13,9 @@
 #                       a body and step of floes without contacts
 #   members             a contact and step of a dome of members, its share of the balls included
 #   bonds               a bond and step, its share of the bodies included
-#   hard-pile, plain-pile  a step of a floe on a cylinder, elastic, and with crushing_law = plain
+#   hard-S, plain-S     a step of a floe on S, a wall, pile, cone, mesh or floe (ice), elastic, and with
+#                       crushing_law = plain; quick-hard-ice, quick-plain-ice: under the law quick
+#   whole, strong       a body and step of 200 floes among piles; with failures, of which none happens
 #   strip-31, strip-248 a step of a pile in ice that crushes by its speed, with 31 and 248 elements on its front
 #   sums-one, sums-any  a body and step of floes with contacts: ordered sums, and sums in the order of threads,
 #                       which lock every sum
@@ -67,7 +69,11 @@ all() {
     each facets bench_step facets 20 120
     each bonds bench_step bonds 20 120
     each members bench_members count 20 120
-    for k in hard plain; do each $k-pile bench_strip $k-pile $FEW $MANY; done
+    for k in wall-hard wall-plain pile-hard pile-plain cone-hard cone-plain mesh-hard mesh-plain ice-hard ice-plain; do
+        each ${k#*-}-${k%-*} bench_strip ${k#*-}-${k%-*} $FEW $MANY
+    done
+    for k in hard plain; do each quick-$k-ice bench_strip quick-$k-ice $FEW $MANY; done
+    for k in whole strong; do each $k bench_step $k 200 600; done
     for k in 31 248; do each strip-$k bench_strip pile-$k $FEW $MANY; done
 }
 all > "$fresh"

@@ -418,9 +418,7 @@ enum { ROWS = 4, LANES = 2 };
 #define CELL 6.0
 
 typedef struct {
-    double one, half, all,
-        mean; /* largest force of one floe, along the drive of all until the pile is half in and after that,
-                                  * mean of all [N] */
+    double one, two, mean; /* largest force of one floe, and of all along the drive; mean of all [N] */
 } field_load;
 
 /* A Voronoi cell of the channel, moved inward by r and half of the gap. */
@@ -490,8 +488,7 @@ static field_load field_on_pile(double factor, uint64_t seed)
             if (w->pair_touches[c] && w->pair[c].j == w->n)
                 one = fmax(one, v3_norm(w->pair[c].contact->force));
         q.one = fmax(q.one, one);
-        double *const largest = fl_world_time(w) < 1.0 ? &q.half : &q.all;
-        *largest = fmax(*largest, fabs(w->part_force[0].x));
+        q.two = fmax(q.two, fabs(w->part_force[0].x));
         if (fl_world_time(w) > from) impulse += fabs(w->part_force[0].x) * w->dt, time += w->dt;
     }
     q.mean = impulse / time;
@@ -505,12 +502,12 @@ static void fields(void)
     static const double FACTOR[3] = {1.0, 0.1, 0.02};
     enum { SEEDS = 12 };
     const int seeds = verify_quick() ? 1 : SEEDS, from = verify_quick() ? 2 : 0;
-    double one = 0.0, half = 0.0, all = 0.0, mean[3] = {0}, square[3] = {0}, hardest = 0.0;
+    double one = 0.0, two[3] = {0}, mean[3] = {0}, square[3] = {0}, hardest = 0.0;
     for (int s = 0; s < seeds; s++) {
         double hard = 0.0;
         for (int k = from; k < 3; k++) {
             const field_load q = field_on_pile(FACTOR[k], (uint64_t)s + 1);
-            one = fmax(one, q.one), half = fmax(half, q.half), all = fmax(all, q.all);
+            one = fmax(one, q.one), two[k] = fmax(two[k], q.two);
             if (k == from) hard = q.mean;
             const double ratio = q.mean / hard;
             mean[k] += ratio / seeds, square[k] += ratio * ratio / seeds;
@@ -518,9 +515,12 @@ static void fields(void)
         hardest += hard / seeds;
     }
     verify_below("FF10", "field on a pile: largest force by one floe [kN]", 1e-3 * one, 2000.0 * 1.02);
-    /* 1 with the direction of the pressure; a floe that wears along one vector keeps to that */
-    verify_below("FF10", "the same along the drive by two, over 2144", fmax(half, all) / 2144e3, 1.15);
-    verify_note("of which until the pile is half in %.0f kN, and later %.0f", 1e-3 * half, 1e-3 * all);
+    for (int k = from; k < 3; k++) {
+        char what[100];
+        snprintf(what, sizeof what, "by two along the drive, factor %g, over 2144", FACTOR[k]);
+        /* soft floes overlap each other in front of the pile */
+        verify_below("FF10", what, two[k] / 2144e3, k < 2 ? 1.02 : 1.06);
+    }
     verify_note("mean of %d fields %.0f kN", seeds, 1e-3 * hardest);
     for (int k = from + 1; k < 3; k++) {
         char what[100];

@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <string.h>
 #include "base/pi.h"
+#include "contact/crushing.h"
 #include "ice_scene.h"
 #include "scene/scene.h"
 #include "sim/energy_balance.h"
@@ -164,6 +165,25 @@ static int32_t find_inside(const struct run *r, char text[START_FAULT])
     return found;
 }
 
+/* Floes that a part of the structure goes through: no side of them bears a load.  Their number, and a
+ * sentence. */
+static int32_t find_around(const struct run *r, char text[START_FAULT])
+{
+    const fl_world *w = r->w;
+    int32_t found = 0, body = -1, piece = -1;
+    for (int32_t i = 0; i < w->n; i++) {
+        const int32_t k = fl_body_absent(w, i) ? -1 : fl_crushing_pierced_by(w, i);
+        if (k < 0 || found++) continue;
+        body = i, piece = k;
+    }
+    if (!found) return 0;
+    snprintf(text, START_FAULT,
+             "part %s of the structure goes through %d %s, first body %d; no side of %s would bear a load",
+             r->surface->part[w->structure.piece[piece].part].name, found, found == 1 ? "floe" : "floes",
+             w->id[body], found == 1 ? "it" : "them");
+    return found;
+}
+
 int check_start(const struct run *r, fl_err *err)
 {
     static const char WAY_OUT[] = "--force runs it as it is";
@@ -176,7 +196,8 @@ int check_start(const struct run *r, fl_err *err)
         return fl_fail(err, FL_INPUT,
                        "%s: is the structure in mm? Metres are expected (struct-import --unit mm); %s", text,
                        WAY_OUT);
-    if (overlaps || inside)
+    const int32_t around = overlaps || inside ? 0 : find_around(r, text);
+    if (overlaps || inside || around)
         return fl_fail(err, FL_INPUT,
                        "%s: a field with gaps there is expected (voronoi-ice --keep-out, --probe 0); %s",
                        text, WAY_OUT);
@@ -189,6 +210,7 @@ static void warn_faults(const struct run *r, FILE *f)
     int32_t with_structure;
     if (find_overlaps(r, &with_structure, text)) fprintf(f, "dem-solve: warning: %s\n", text);
     if (find_inside(r, text)) fprintf(f, "dem-solve: warning: %s\n", text);
+    if (find_around(r, text)) fprintf(f, "dem-solve: warning: %s\n", text);
 }
 
 /* A flat sheet with an outline that is not convex is a surface with an inside, like a hull. */
