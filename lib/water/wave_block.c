@@ -310,8 +310,8 @@ FL_SIMD4_VERSIONS static void add_faces(body_sample *b)
     }
 }
 
-/* Second derivative of P along the line of propagation, times the difference of the spreads along it and
- * upright, summed over the lines; on taps of one line or anew. */
+/* Twice what the mean of P over a part of the spread S has more than its middle: each line of propagation adds
+ * (S_ss - S_zz) P_ss + 2 S_sz P_sz, as P is harmonic. On taps of one line or anew. */
 FL_SIMD_INLINE double spread_head(const body_sample *b, const fl_wave_node_sample *node, fl_vec3 r,
                                   const fl_mat3 *S, double zeta)
 {
@@ -321,6 +321,9 @@ FL_SIMD_INLINE double spread_head(const body_sample *b, const fl_wave_node_sampl
     fl_wave_depth_at(g, zeta, &deep);
     for (int32_t c = 0; c < g->lines; c++) {
         const fl_wave_line *d = &g->line[c];
+        const double D = d->x * d->x * S->m[0][0] + 2.0 * d->x * d->y * S->m[0][1] +
+                         d->y * d->y * S->m[1][1] - S->m[2][2],
+                     slant = d->x * S->m[0][2] + d->y * S->m[1][2];
         fl_wave_taps own = {0};
         const fl_wave_taps *p = &node->taps;
         fl_simd value, dz;
@@ -329,8 +332,7 @@ FL_SIMD_INLINE double spread_head(const body_sample *b, const fl_wave_node_sampl
             p = &own;
         }
         fl_wave_between(p, &deep, 0, &value, &dz);
-        sum += fl_wave_dot(&value, &p->ddw) * (d->x * d->x * S->m[0][0] + 2.0 * d->x * d->y * S->m[0][1] +
-                                               d->y * d->y * S->m[1][1] - S->m[2][2]);
+        sum += D * fl_wave_dot(&value, &p->ddw) + 2.0 * slant * fl_wave_dot(&dz, &p->dw);
     }
     return sum;
 }
@@ -348,25 +350,27 @@ FL_SIMD_INLINE fl_mat3 turned(fl_mat3 R, const fl_mat3 *S)
     return B;
 }
 
-/* The wet part of a part of half the height d, whose middle is p deep: its share, and the way from the middle
- * down to that of the wet part. */
-FL_SIMD_INLINE double wet_share(double p, double d, double *down)
-{
-    *down = 0.0;
-    if (p >= d) return 1.0;
-    if (p <= -d) return 0.0;
-    *down = 0.5 * (d - p);
-    return 0.5 * (p + d) / d;
-}
+/* The wet share of a part of a mesh, the way from the middle of the part to that of the share, and its spread.
+ * The depth p + g.x is spread evenly over the part. */
+typedef struct {
+    double share;
+    fl_vec3 way;
+    fl_mat3 spread;
+} wet_share;
 
-/* Spread of the wet share of a part: along the height it shrinks as that share. */
-FL_SIMD_INLINE fl_mat3 wet_spread(const fl_mat3 *S, double share)
+FL_SIMD_INLINE wet_share share_under(double p, fl_vec3 g, const fl_mat3 *S)
 {
-    const double less = S->m[2][2] > 0.0 ? (1.0 - share * share) / S->m[2][2] : 0.0;
-    fl_mat3 W;
+    const fl_vec3 Sg = m3_mul(*S, g);
+    const double gSg = v3_dot(g, Sg), d = gSg > 0.0 ? sqrt(3.0 * gSg) : 0.0;
+    wet_share w = {.share = 1.0, .way = {0.0, 0.0, 0.0}, .spread = *S};
+    if (p >= d) return w;
+    w.share = p > -d ? 0.5 * (p + d) / d : 0.0;
+    if (!(w.share > 0.0)) return w;
+    w.way = v3_scale(0.5 * (d - p) / gSg, Sg);
+    const double less = (1.0 - w.share * w.share) / gSg, v[3] = {Sg.x, Sg.y, Sg.z};
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) W.m[i][j] = S->m[i][j] - less * S->m[i][2] * S->m[j][2];
-    return W;
+        for (int j = 0; j < 3; j++) w.spread.m[i][j] -= less * v[i] * v[j];
+    return w;
 }
 
 /* What the waves add to the plane on part k of a mesh. */
@@ -378,35 +382,33 @@ FL_SIMD_INLINE void add_mesh_part(body_sample *b, int32_t k)
     const water_plane *q = &b->plane;
     const fl_vec3 r = m3_mul(b->R, a->x[k]), A = m3_mul(b->R, a->area[k]);
     const fl_mat3 S = turned(b->R, &a->spread[k]);
-    const double z = b->z + r.z, deep = at->eta - z, flat = q->z + q->x * r.x + q->y * r.y - z,
-                 half = sqrt(3.0 * S.m[2][2]), slant = S.m[2][2] > 0.0 ? 1.0 / S.m[2][2] : 0.0;
-    double down, still_down;
-    const double wet = wet_share(deep, half, &down), still = wet_share(flat, half, &still_down);
-    if (wet == 0.0 && still == 0.0) return;
-    /* down a slope, the middle of the wet part */
-    const fl_vec3 fall = v3(-slant * S.m[0][2], -slant * S.m[1][2], -1.0);
+    const double z = b->z + r.z, flat = q->z + q->x * r.x + q->y * r.y - z;
+    const fl_vec3 wave_g = v3(at->x, at->y, -1.0), flat_g = v3(q->x, q->y, -1.0);
+    const wet_share wet = share_under(at->eta - z, wave_g, &S), still = share_under(flat, flat_g, &S);
     fl_vec3 arm = v3(0, 0, 0), g = arm; /* int (x - r) p dA / dA, and the change of p */
     double p = 0.0;
-    if (wet > 0.0) {
+    if (wet.share > 0.0) {
+        const fl_wave_grid *grid = b->sea->grid;
+        const fl_vec3 x = v3_add(r, wet.way);
+        const double over = at->eta + at->x * wet.way.x + at->y * wet.way.y,
+                     along = grid->line[0].x * wet.way.x + grid->line[0].y * wet.way.y;
         point_pressure here = {0};
         double rate;
-        const double zeta = fl_wave_grid_stretch(b->sea->grid, z - down, at->eta, &rate);
-        const fl_mat3 W = wet < 1.0 ? wet_spread(&S, wet) : S;
-        if (b->sea->grid->lines == 1 && !node->taps.outside)
-            pressure_near(b, 0.0, z - down, at->eta, &node->taps, at, &here);
-        else pressure_at(b, b->x.x + r.x, b->x.y + r.y, z - down, at->eta, at, &here);
-        p = wet * (here.p + 0.5 * spread_head(b, node, r, &W, zeta));
-        g = v3_scale(wet, here.g);
-        arm = v3_madd(v3_scale(p * down, fall), wet, m3_mul(W, here.g));
+        if (grid->lines == 1 && !node->taps.outside && fabs(along) < NEAR * grid->h)
+            pressure_near(b, along, z + wet.way.z, over, &node->taps, at, &here);
+        else pressure_at(b, b->x.x + x.x, b->x.y + x.y, z + wet.way.z, over, at, &here);
+        const double zeta = fl_wave_grid_stretch(grid, z + wet.way.z, over, &rate);
+        p = wet.share * (here.p + 0.5 * spread_head(b, node, r, &wet.spread, zeta));
+        g = v3_scale(wet.share, here.g);
+        arm = v3_madd(v3_scale(p, wet.way), wet.share, m3_mul(wet.spread, here.g));
     }
-    if (still > 0.0) {
-        const fl_vec3 flat_g = v3(q->x, q->y, -1.0);
-        const double rest = still * (flat + still_down);
-        const fl_mat3 W = still < 1.0 ? wet_spread(&S, still) : S;
+    if (still.share > 0.0) {
+        const double rest = still.share * (flat + v3_dot(flat_g, still.way));
         p -= rest;
-        g = v3_madd(g, -still, flat_g);
-        arm = v3_sub(arm, v3_madd(v3_scale(rest * still_down, fall), still, m3_mul(W, flat_g)));
+        g = v3_madd(g, -still.share, flat_g);
+        arm = v3_sub(arm, v3_madd(v3_scale(rest, still.way), still.share, m3_mul(still.spread, flat_g)));
     }
+    if (wet.share == 0.0 && still.share == 0.0) return;
     const fl_vec3 f = v3_scale(-p, A);
     b->force = v3_add(b->force, f);
     b->moment = v3_add(b->moment, v3_sub(v3_cross(r, f), v3_cross(arm, A)));

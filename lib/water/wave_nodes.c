@@ -417,6 +417,11 @@ typedef struct {
 #define NORMAL_STEP 0.17
 #define MESH_NORMAL_STEP 0.35
 
+/* Distance from a plane between cells, over their width, that is rounding. */
+#define ON_PLANE 1e-9
+/* The same for the normal of a part, over its step: that of a narrow piece has lost digits. */
+#define SAME_NORMAL 1e-5
+
 /* Adds w times (x - y)(x - y)^T. */
 static void add_square(fl_mat3 *s, double w, fl_vec3 x, fl_vec3 y)
 {
@@ -433,18 +438,14 @@ static fl_mat3 triangle_spread(const fl_vec3 v[3], fl_vec3 x)
     return s;
 }
 
-static int add_part(face_list *l, const fl_vec3 v[3], fl_err *err)
+/* Of a mesh, what lies on the limit between two but for rounding is in the upper one. */
+static int32_t cell_of(const face_list *l, double x, double width, double rounding)
 {
-    double most = 0.0;
-    int at = 0;
-    for (int k = 0; k < 3; k++) {
-        const double len = v3_norm(v3_sub(v[(k + 1) % 3], v[k]));
-        if (len > most) most = len, at = k;
-    }
-    if (most > l->longest) {
-        const fl_vec3 x = v[at], y = v[(at + 1) % 3], z = v[(at + 2) % 3], m = v3_lerp(x, y, 0.5);
-        return add_part(l, (fl_vec3[3]){x, m, z}, err) || add_part(l, (fl_vec3[3]){m, y, z}, err) ? -1 : 0;
-    }
+    return (int32_t)floor(x / width + (l->spread ? rounding : 0.0));
+}
+
+static int store_part(face_list *l, const fl_vec3 v[3], fl_err *err)
+{
     if (l->n == MAX_POINTS)
         return fl_fail(err, FL_INPUT,
                        "water.period: the waves are so short that a body would need more than %d points",
@@ -458,13 +459,57 @@ static int add_part(face_list *l, const fl_vec3 v[3], fl_err *err)
     int axis = 0;
     for (int k = 1; k < 3; k++)
         if (fabs(n[k]) > fabs(n[axis])) axis = k;
-    p->key[0] = (int32_t)floor(p->x.x / l->cell), p->key[1] = (int32_t)floor(p->x.y / l->cell);
-    p->key[2] = (int32_t)floor(p->x.z / l->cell);
+    const double in[3] = {p->x.x, p->x.y, p->x.z};
+    for (int k = 0; k < 3; k++) p->key[k] = cell_of(l, in[k], l->cell, ON_PLANE);
     p->key[3] = axis + (n[axis] < 0.0 ? 3 : 0);
     const double step = l->spread ? MESH_NORMAL_STEP : NORMAL_STEP;
-    p->key[4] = size > 0.0 ? 64 * (int32_t)floor(n[(axis + 1) % 3] / size / step) +
-                                 (int32_t)floor(n[(axis + 2) % 3] / size / step)
+    p->key[4] = size > 0.0 ? 64 * cell_of(l, n[(axis + 1) % 3] / size, step, SAME_NORMAL) +
+                                 cell_of(l, n[(axis + 2) % 3] / size, step, SAME_NORMAL)
                            : 0;
+    return 0;
+}
+
+/* Halves the longest side until none is too long. */
+static int add_part(face_list *l, const fl_vec3 v[3], fl_err *err)
+{
+    double most = 0.0;
+    int at = 0;
+    for (int k = 0; k < 3; k++) {
+        const double len = v3_norm(v3_sub(v[(k + 1) % 3], v[k]));
+        if (len > most) most = len, at = k;
+    }
+    if (most > l->longest) {
+        const fl_vec3 x = v[at], y = v[(at + 1) % 3], z = v[(at + 2) % 3], m = v3_lerp(x, y, 0.5);
+        return add_part(l, (fl_vec3[3]){x, m, z}, err) || add_part(l, (fl_vec3[3]){m, y, z}, err) ? -1 : 0;
+    }
+    return store_part(l, v, err);
+}
+
+/* Cuts a triangle at the planes between cells across `axis` and those after it: then a part of an upright face
+ * has the same width at each height, which its wet share supposes. */
+static int add_cut_part(face_list *l, const fl_vec3 v[3], int axis, fl_err *err)
+{
+    double d[3], lo = INFINITY, hi = -INFINITY;
+    if (axis == 3) return store_part(l, v, err);
+    for (int k = 0; k < 3; k++) {
+        d[k] = v3_at(v[k], axis) / l->cell;
+        lo = fmin(lo, d[k]), hi = fmax(hi, d[k]);
+    }
+    const double first = floor(lo + ON_PLANE), last = ceil(hi - ON_PLANE),
+                 plane = first + floor(0.5 * (last - first));
+    if (last - first < 2.0) return add_cut_part(l, v, axis + 1, err);
+    for (int k = 0; k < 3; k++) d[k] = fabs(d[k] - plane) > ON_PLANE ? d[k] - plane : 0.0;
+    for (double side = -1.0; side < 2.0; side += 2.0) {
+        fl_vec3 w[4];
+        int m = 0;
+        for (int k = 0; k < 3; k++) {
+            const int j = (k + 1) % 3;
+            if (side * d[k] >= 0.0) w[m++] = v[k];
+            if (d[k] * d[j] < 0.0) w[m++] = v3_lerp(v[k], v[j], d[k] / (d[k] - d[j]));
+        }
+        for (int k = 1; k + 1 < m; k++)
+            if (add_cut_part(l, (fl_vec3[3]){w[0], w[k], w[k + 1]}, axis, err)) return -1;
+    }
     return 0;
 }
 
@@ -547,11 +592,12 @@ static int make_faces(fl_wave_nodes *a, const fl_poly *p, const fl_waves *w, fl_
     return rc;
 }
 
-/* Parts of a mesh: of the wavelength of k95 at the standard error, and bounds of their size over that. */
+/* Parts of a mesh: of the wavelength of k95 at the standard error, and bounds of their size over that. Larger
+ * ones at a larger error miss the moment of waves of k95, in which a hull of 60 m pitches. */
 #define MESH_ERROR 0.003
 #define MESH_PARTS 4.0
 #define MESH_FINEST 0.4
-#define MESH_COARSEST 1.5
+#define MESH_COARSEST 1.0
 
 int fl_wave_nodes_make_mesh(fl_wave_nodes *a, const fl_vec3 *v, int32_t n, double size, const fl_waves *w,
                             double error, fl_err *err)
@@ -562,7 +608,7 @@ int fl_wave_nodes_make_mesh(fl_wave_nodes *a, const fl_vec3 *v, int32_t n, doubl
     int rc = 0;
     fl_wave_nodes_free(a);
     a->kind = FL_WAVE_MESH;
-    for (int32_t k = 0; k < n && rc == 0; k++) rc = add_part(&l, v + 3 * (int64_t)k, err);
+    for (int32_t k = 0; k < n && rc == 0; k++) rc = add_cut_part(&l, v + 3 * (int64_t)k, 0, err);
     if (rc == 0) rc = merge_parts(a, &l, err);
     free(l.part);
     return rc;

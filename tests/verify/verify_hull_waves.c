@@ -116,6 +116,67 @@ static void excitation(void)
         }
 }
 
+/* In a sea. */
+static void set_sea(lab *l)
+{
+    lab_set(l, "water.wave=jonswap");
+    lab_set(l, "water.height=2");
+    lab_set(l, "water.period=8");
+    lab_set(l, "water.components=100");
+    lab_set(l, "structure.stiffness=2e5 2e5 0");
+    lab_set(l, "structure.turn_stiffness=0 0 2e8");
+    lab_setf(l, "structure.added_mass=%g %g %g", 2e5, 1e6, 3e6);
+}
+
+/* The panels of the evaluation in each step, `times` shorter. Its own are 0.03 off in the moment on a tilted
+ * box, and 0.002 in the pitch of WV13, undamped, whose natural period is that of waves of 25 m. */
+static void refine_panels(lab *l, double times)
+{
+    fl_err err = {0};
+    fl_floating_hull *h = &l->w.moving.movers.hulls.hull[0];
+    fl_waves shorter = l->w.sea.wave;
+    shorter.k95 *= times;
+    if (fl_hull_panels_make(&h->panels, &h->hull, &shorter, &err)) exit(1);
+}
+
+/* Load of a sea on a box that is tilted, too heavy to move, so that its bottom and deck come out of the water. */
+static void tilted_box(void)
+{
+    enum { N = 100 };
+    const barge b = {60, 15, 4, 8, 0.5, 6};
+    static const char *const ERROR[3] = {"none", "0.003", "0.001"}, *const WHAT[3] = {"surge", "heave",
+                                                                                      "pitch"};
+    static double y[3][3][N];
+    const double angle = 0.3;
+    for (int e = 0; e < 3; e++) {
+        lab l;
+        if (verify_quick() && e == 2) continue;
+        start_barge(&l, &b, ERROR[e], 1e9);
+        set_sea(&l);
+        lab_make(&l, 0.2);
+        if (e == 0) refine_panels(&l, 3);
+        fl_bodies *const mb = &l.w.moving.movers.b;
+        mb->q[0] = (fl_quat){cos(0.5 * angle), 0, sin(0.5 * angle), 0};
+        l.w.moving.movers.hulls.hull[0].block.level = FL_WAVE_NO_BLOCK;
+        fl_moving_structure_second_half(&l.w, 0.0, 0.0);
+        for (int s = 0; s < N; s++) {
+            if (lab_run(&l, 1)) exit(1);
+            const fl_floating_hull *h = &l.w.moving.movers.hulls.hull[0];
+            y[e][0][s] = h->force.x, y[e][1][s] = h->force.z, y[e][2][s] = h->moment.y;
+        }
+        lab_free(&l);
+        for (int m = 0; m < 3 && e; m++) {
+            double mean = 0, off = 0, all = 0;
+            char what[96];
+            for (int s = 0; s < N; s++) mean += y[0][m][s] / N;
+            for (int s = 0; s < N; s++)
+                off += pow(y[e][m][s] - y[0][m][s], 2), all += pow(y[0][m][s] - mean, 2);
+            snprintf(what, sizeof what, "tilted box, error %s: %s off that of each step", ERROR[e], WHAT[m]);
+            verify_below("WV15", what, sqrt(off / all), e == 1 ? 0.012 : 0.004);
+        }
+    }
+}
+
 /* A free box in a regular wave, begun on its steady motion. */
 static void free_motion(void)
 {
@@ -165,18 +226,6 @@ static void free_motion(void)
         }
 }
 
-/* In a sea. */
-static void set_sea(lab *l)
-{
-    lab_set(l, "water.wave=jonswap");
-    lab_set(l, "water.height=2");
-    lab_set(l, "water.period=8");
-    lab_set(l, "water.components=100");
-    lab_set(l, "structure.stiffness=2e5 2e5 0");
-    lab_set(l, "structure.turn_stiffness=0 0 2e8");
-    lab_setf(l, "structure.added_mass=%g %g %g", 2e5, 1e6, 3e6);
-}
-
 static int hull_run(lab *l, double seconds, double dt, int stride, double (*y)[3])
 {
     const int64_t steps = (int64_t)(seconds / dt + 0.5);
@@ -194,7 +243,7 @@ static void sea_motion(void)
     enum { MOST = 1000 };
     static const char *const ERROR[4] = {"none", "0.01", "0.003", "0.001"};
     static const char *const WHAT[3] = {"surge", "heave", "pitch"};
-    static const double SURGE[4] = {0, 0.04, 0.03, 0.03}, PITCH[4] = {0, 0.015, 0.006, 0.004};
+    static const double SURGE[4] = {0, 0.012, 0.005, 0.003}; /* its springs are soft */
     static double y[4][MOST][3];
     const barge b = {60, 15, 4, 8, 0.5, 6};
     const double seconds = verify_quick() ? 10 : 100, dt = 0.02;
@@ -205,6 +254,7 @@ static void sea_motion(void)
         start_barge(&l, &b, ERROR[e], 1);
         set_sea(&l);
         lab_make(&l, dt);
+        if (e == 0) refine_panels(&l, verify_quick() ? 1 : 3);
         n = hull_run(&l, seconds, dt, 10, y[e]);
         fl_energy_update(&l.w);
         const double ledger = fabs(l.w.ledger.residual) / l.w.ledger.throughput;
@@ -222,7 +272,7 @@ static void sea_motion(void)
             }
             snprintf(what, sizeof what, "error %s: %s off that of an evaluation in each step", ERROR[e],
                      WHAT[m]);
-            verify_below("WV13", what, sqrt(off / all), m == 0 ? SURGE[e] : m == 1 ? 4e-3 : PITCH[e]);
+            verify_below("WV13", what, sqrt(off / all), m == 0 ? SURGE[e] : 5e-3);
         }
         lab_free(&l);
     }
@@ -297,6 +347,7 @@ int main(void)
 {
     verify_begin("waves on a floating structure");
     excitation();
+    tilted_box();
     free_motion();
     sea_motion();
     same_bits();
