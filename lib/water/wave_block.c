@@ -310,8 +310,8 @@ FL_SIMD4_VERSIONS static void add_faces(body_sample *b)
     }
 }
 
-/* Twice what the mean of P over a part of the spread S has more than its middle: each line of propagation adds
- * (S_ss - S_zz) P_ss + 2 S_sz P_sz, as P is harmonic. On taps of one line or anew. */
+/* Twice what the mean of P over a part of the spread S has more than its middle: each line of propagation
+ * adds (S_ss - S_zz) P_ss + 2 S_sz P_sz, as P is harmonic. On taps of one line or anew. */
 FL_SIMD_INLINE double spread_head(const body_sample *b, const fl_wave_node_sample *node, fl_vec3 r,
                                   const fl_mat3 *S, double zeta)
 {
@@ -350,8 +350,8 @@ FL_SIMD_INLINE fl_mat3 turned(fl_mat3 R, const fl_mat3 *S)
     return B;
 }
 
-/* The wet share of a part of a mesh, the way from the middle of the part to that of the share, and its spread.
- * The depth p + g.x is spread evenly over the part. */
+/* The wet share of a part of a mesh, the way from the middle of the part to that of the share, and its
+ * spread. The depth p + g.x is spread evenly over the part. */
 typedef struct {
     double share;
     fl_vec3 way;

@@ -485,8 +485,8 @@ static int add_part(face_list *l, const fl_vec3 v[3], fl_err *err)
     return store_part(l, v, err);
 }
 
-/* Cuts a triangle at the planes between cells across `axis` and those after it: then a part of an upright face
- * has the same width at each height, which its wet share supposes. */
+/* Cuts a triangle at the planes between cells across `axis` and those after it: then a part of an upright
+ * face has the same width at each height, which its wet share supposes. */
 static int add_cut_part(face_list *l, const fl_vec3 v[3], int axis, fl_err *err)
 {
     double d[3], lo = INFINITY, hi = -INFINITY;

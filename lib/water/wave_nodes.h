@@ -39,9 +39,9 @@ typedef struct {
 int fl_wave_nodes_make(fl_wave_nodes *a, const fl_hull *hull, const fl_waves *w, double error, fl_err *err);
 
 /* Makes the nodes of a closed mesh of n triangles v[3 n], its largest side being `size` [m]. Its parts are
- * pieces of its triangles within cells of lambda/4, in axes of the body, and 20 degrees of their normals. They
- * are cut at the limits of the cells: what is wet of a part is taken from its spread. A part carries the mean
- * pressure over it to second order,
+ * pieces of its triangles within cells of lambda/4, in axes of the body, and 20 degrees of their normals.
+ * They are cut at the limits of the cells: what is wet of a part is taken from its spread. A part carries the
+ * mean pressure over it to second order,
  *     p + 1/2 (S_ss - S_zz) d2p/ds2 + S_sz d2p/ds dz,   S = spread,
  * P being harmonic, and the moment of its gradient. What is left is (k l)^4/1920 of a wave, l being the size
  * of the part. Below an error of 0.003 the size falls as the square root of the error, since waves shorter

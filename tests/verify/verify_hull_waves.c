@@ -139,7 +139,7 @@ static void refine_panels(lab *l, double times)
     if (fl_hull_panels_make(&h->panels, &h->hull, &shorter, &err)) exit(1);
 }
 
-/* Load of a sea on a box that is tilted, too heavy to move, so that its bottom and deck come out of the water. */
+/* Load of a sea on a tilted box, too heavy to move, whose bottom and deck cross the water. */
 static void tilted_box(void)
 {
     enum { N = 100 };
