@@ -15,9 +15,9 @@ static double factor_of(const char *unit, char text[64])
     return force ? 1e-3 : 1.0;
 }
 
-/* Below this part of the largest magnitude of a signal a value of it is rounding, as a smallest force of
- * -1e-4 N beside a largest of 100 kN, and printed as 0. */
-static const double ROUNDING = 1e-9;
+/* Below this part of the largest magnitude of a signal, its sixth digit, a value is printed as 0: a smallest
+ * force of -4 mN beside a largest of 165 kN is no side on which the load acts. */
+static const double ROUNDING = 1e-6;
 
 static double without_rounding(double x, double largest) { return fabs(x) < ROUNDING * largest ? 0.0 : x; }
 
