@@ -159,6 +159,19 @@ static int warn_moving_mean(const struct record_views *r, fl_err *err)
     return 0;
 }
 
+/* Repeat what the run says of a jam, whose loads are those of its bounds, also where they look stationary. */
+static void warn_jam(const fl_series *s)
+{
+    static const char *const JAM[] = {"#report warning: the field is too narrow",
+                                      "#report warning: a jam has met the inflow"};
+    for (size_t k = 0; s->run_lines && k < sizeof JAM / sizeof *JAM; k++) {
+        const char *at = strstr(s->run_lines, JAM[k]);
+        if (!at) continue;
+        at += strlen("#report warning: ");
+        fprintf(stderr, "loadstats: warning: the run says: %.*s\n", (int)strcspn(at, ";\n"), at);
+    }
+}
+
 /* --- table, pictures, report ---------------------------------------------------------------------------- */
 
 /* Which scene of ice-scenes(7) the run is, as its report says, and the length of that line; NULL: it does not
@@ -296,6 +309,7 @@ int analyse_record(const struct options *o, fl_err *err)
     const struct record_views r = {&s, views, each, o->step > 0.0 ? loss : NULL, dropped, start};
     if (!o->quiet) {
         warn_side(&r, o);
+        warn_jam(&s);
         if (warn_moving_mean(&r, err)) goto done;
     }
     if (fl_out_open(&out, o->out, o->gzip, err) || write_table(out.f, &r, o, err) || fl_out_close(&out, err))

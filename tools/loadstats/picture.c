@@ -18,7 +18,7 @@ static const char *title_of(const char *signal)
         {"fx", "Force in x"},         {"fy", "Force in y"},     {"fz", "Force in z"},
         {"fh", "Horizontal force"},   {"f", "Force"},           {"mx", "Moment about x"},
         {"mh", "Overturning moment"}, {"my", "Moment about y"}, {"mz", "Moment about z"},
-        {"fpeak", "Largest force"},   {"contacts", "Contacts"}};
+        {"fpeak", "Largest force"},   {"contacts", "Contacts"}, {"resistance", "Resistance"}};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
         if (strcmp(signal, known[k][0]) == 0) return known[k][1];
     return signal;

@@ -67,9 +67,18 @@ static int part_exists(const struct record_views *r, int32_t part)
     return 0;
 }
 
+/* Of a part beside its own sum the sum is drawn, unless it lacks a signal of the part, as the resistance. */
+static int sum_is_enough(const struct record_views *r)
+{
+    for (int32_t s = 0; s < r->series->signals; s++)
+        if (find_view(r, 0, s, 0) && !find_view(r, 1, s, 0)) return 0;
+    return 1;
+}
+
 int plot_record(const struct record_views *r, const struct options *o, const fl_history_line *by, fl_err *err)
 {
     const int32_t parts = r->series->parts, alone = parts == 2 && strcmp(r->series->part[1], "total") == 0;
+    const int32_t first = alone && sum_is_enough(r), end = alone ? first + 1 : parts;
     picture p = {.r = r, .o = o, .by = by};
     int made = 0;
     if (parts > PARTS_MAX)
@@ -77,7 +86,7 @@ int plot_record(const struct record_views *r, const struct options *o, const fl_
                        PARTS_MAX, parts);
     if (mkdir(o->plot, 0777) != 0 && errno != EEXIST)
         return fl_fail(err, FL_SYSTEM, "%s: %s", o->plot, strerror(errno));
-    for (p.part = alone; p.part < parts; p.part++)
+    for (p.part = first; p.part < end; p.part++)
         if (part_exists(r, p.part) && draw_part(&p, &made, err)) return -1;
     for (int k = 0; k < table_count(); k++) {
         const struct picture_kind *kind = table_at(k)->picture;

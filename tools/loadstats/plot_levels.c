@@ -88,7 +88,8 @@ static double unit_of_period(double period, const char **name)
     return 1.0;
 }
 
-/* The axis ends with the interval: a distribution of heavier tail would compress the rest. */
+/* The axis ends with the interval: a distribution of heavier tail would compress the rest.  Of values that
+ * are not negative it starts at 0, though a distribution or its interval may go below. */
 static int write_panel(picture *p, int k, int32_t s, const panel *q, fl_err *err)
 {
     const plot_scale c = plot_scale_of_signal(p, s);
@@ -103,9 +104,10 @@ static int write_panel(picture *p, int k, int32_t s, const panel *q, fl_err *err
     plot_signal_label(p, s, text, sizeof text);
     plot_left_title(p, text, 0.022);
     fprintf(f,
-            "set logscale x\nset xrange [%.6g:%.6g]\nset yrange [*:%.6g]\nset xlabel 'Return period  [%s]'\n"
+            "set logscale x\nset xrange [%.6g:%.6g]\nset yrange [%s:%.6g]\nset xlabel 'Return period  [%s]'\n"
             "set key outside right top vertical Left reverse\nset ytics autofreq\n",
-            second * q->from, second * q->to, 1.05 * c.factor * top, unit);
+            second * q->from, second * q->to, q->s.x[q->s.n - 1] < 0.0 ? "*" : "0", 1.05 * c.factor * top,
+            unit);
     plot_curve(p);
     fprintf(f, "using (%g*$4):(%g*$5):(%g*$6) with filledcurves fc rgb '#dbe9f6' title '95 %% of %s'", second,
             c.factor, c.factor, fl_dist_name(q->best));

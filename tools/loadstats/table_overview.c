@@ -15,6 +15,12 @@ static double factor_of(const char *unit, char text[64])
     return force ? 1e-3 : 1.0;
 }
 
+/* Below this part of the largest magnitude of a signal, its sixth digit, a value is printed as 0: a smallest
+ * force of -4 mN beside a largest of 165 kN is no side on which the load acts. */
+static const double ROUNDING = 1e-6;
+
+static double without_rounding(double x, double largest) { return fabs(x) < ROUNDING * largest ? 0.0 : x; }
+
 static void write_six(FILE *f, double x)
 {
     if (isfinite(x)) fprintf(f, "\t%.6g", x == 0.0 ? 0.0 : x);
@@ -57,7 +63,9 @@ int overview_rows(FILE *f, const struct record_views *r, const struct options *o
     const fl_signal_view *v = find_view(r, part, signal, w);
     const fl_descriptive_stats *d = &v->stats;
     const double span = v->edge[v->n] - v->edge[0], period = o->returns ? o->period[0] : span;
-    const int one_sign = d->min >= 0.0 || d->max <= 0.0, negative = -d->min > d->max;
+    const double largest = fmax(-d->min, d->max);
+    const double min = without_rounding(d->min, largest), max = without_rounding(d->max, largest);
+    const int one_sign = min >= 0.0 || max <= 0.0, negative = -min > max;
     char unit[64];
     const double k = factor_of(r->series->unit[signal], unit), p = negative ? 0.05 : 0.95;
     double q;
@@ -73,8 +81,8 @@ int overview_rows(FILE *f, const struct record_views *r, const struct options *o
     free(weight);
     if (bad) return -1;
     fprintf(f, "%s\t%s\t%s\t%s", r->series->part[part], r->series->signal[signal], unit, view_name(w));
-    const double x[] = {d->mean, m.low, m.high, d->std, d->min, d->max, fmax(-d->min, d->max), q};
-    for (size_t i = 0; i < sizeof x / sizeof *x; i++) write_six(f, k * x[i]);
+    const double x[] = {d->mean, m.low, m.high, d->std, min, max, largest, q};
+    for (size_t i = 0; i < sizeof x / sizeof *x; i++) write_six(f, k * without_rounding(x[i], largest));
     fprintf(f, "\t%d", b.n);
     write_six(f, period);
     fprintf(f, "\t%s", b.law ? b.law : "-");

@@ -3,7 +3,7 @@
 #     awk -v from=13 -v filter=2 -f steps.awk 0.025-0.5.report 0.025-0.5.stats 0.025-0.5.loads ...
 #
 # The impulse is that of the whole record, the sum of force times interval; mean and largest load are those of
-# the table stats, from [s] on, the latter below filter [Hz]. The hit is the largest load from 1.9 to 2.1 s.
+# the table stats, from [s] on, the latter below filter [Hz]. The first hit is the largest load until 1.6 s.
 FNR == 1 {
     stem = what = FILENAME
     sub(/.*\//, "", stem)
@@ -29,7 +29,7 @@ what == "stats" {
 what == "loads" {
     f = $column["fx[N]"]
     impulse[cases] += f * ($1 - before)
-    if ($1 > 1.9 && $1 < 2.1 && f > hit[cases]) hit[cases] = f
+    if ($1 < 1.6 && f > hit[cases]) hit[cases] = f
     before = $1
 }
 function kilo(x, format) { return sprintf(format, x / 1000) }
@@ -37,7 +37,7 @@ END {
     if (!cases) { print "steps.awk: reports, stats and loads are expected" >"/dev/stderr"; exit 3 }
     row = "| %9s | %7s | %7s | %7s | %8s | %14s | %18s | %13s | %8s |\n"
     printf row, "s_k", "step", "steps", "overlap", "impulse", "mean from " from " s",
-        "largest below " filter " Hz", "hit at 1.95 s", "residual"
+        "largest below " filter " Hz", "first hit", "residual"
     print "|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
     for (c = 1; c <= cases; c++) {
         split(name[c], of, "-")
