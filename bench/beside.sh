@@ -36,10 +36,10 @@ begin()
 version()
 {
     case $1 in
-    dem-solve*) "$build/bin/dem-solve" --version | sed -n '1s/^[^ ]* //' ;;
+    dem-solve*) "$build/bin/dem-solve" --version | sed -n '1s/^[^ ]* //p' ;;
     lmp) lmp -h | sed -n 's/^Large-scale.*Simulator - //p' ;;
     liggghts) liggghts -h | sed -n 's/.*LIGGGHTS-PUBLIC \([^,]*\),.*/\1/p' ;;
-    yade) yade --version 2>&1 | sed -n 's/^Yade version: *\([^,]*\).*/\1/p' ;;
+    yade) yade --version 2>&1 | sed -n 's/^Yade version: *\([^, ]*\).*/\1/p' ;;
     *) echo - ;;
     esac 2>/dev/null | head -n 1
 }
