@@ -23,6 +23,8 @@
 #define RECHECKED 0.5
 /* Least area that crushes, over the square of the radius. */
 #define LEAST_AREA 0.01
+/* Largest t of a contact that does not yield: it makes the contact stiffer by 1 + t^2. */
+#define MOST_LEAN 1.0
 /* A dent counts for a contact whose normal is within 45 degrees of it. */
 #define SAME_SIDE 0.7
 
@@ -102,6 +104,24 @@ static double law_stiffness(const fl_world *w, const fl_pair *p)
     return fl_pair_stiffness(w, p->i, p->j).k;
 }
 
+/* t of a contact that has yielded, bounded; in the frame of A. */
+static fl_vec3 lean_of(const fl_relative_pose *r, fl_vec3 S, double A, fl_vec3 way)
+{
+    const fl_vec3 t = v3_scale(1.0 / A, v3_madd(S, -A, way));
+    const double size = v3_norm(t);
+    return m3_tmul(r->M, size > MOST_LEAN ? v3_scale(MOST_LEAN / size, t) : t);
+}
+
+void fl_crushing_slide(const fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt)
+{
+    fl_crush *const c = p->crush;
+    if (!p->touching) c->lean = v3(0, 0, 0);
+    if (!(dt > 0.0 && v3_norm2(c->lean) > 0.0)) return;
+    const fl_mat3 R = fl_body_axes(&w->b, p->i);
+    const fl_vec3 ai = m3_mul(R, c->centre), v = fl_pair_relative_velocity(&w->b, p, ai, v3_sub(ai, r->off));
+    c->offset = v3_madd(c->offset, dt * v3_dot(m3_mul(R, c->lean), v), c->normal);
+}
+
 int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec3 gradient, fl_vec3 centre,
                       fl_exact_contact *exact, double *limit, fl_vec3 *aside)
 {
@@ -117,6 +137,8 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec
         const double turned = v3_dot(c->offset, n);
         if (turned < 0.0) c->offset = v3_madd(c->offset, -turned, n);
         c->centre = m3_tmul(r->M, v3_sub(centre, r->o));
+        c->normal = n;
+        *aside = v3_scale(F, m3_mul(r->M, c->lean));
     }
     if (c && c->stiffening > 1.0 && A > 0.0 && 4.0 * W * law_stiffness(w, p) * sqrt(A) < SOFTER * F * F) {
         /* a flat that has turned to a face of the floe is no stiffer than that */
@@ -127,6 +149,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec
             c->stiffening = g;
             p->k = g * base;
             F *= less, W *= less;
+            *aside = v3_scale(less, *aside);
             exact->scale *= less, exact->energy = W, exact->slope *= less;
         }
         y = A * fl_crushing_pressure(&s->law, A);
@@ -139,6 +162,12 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec
     if (!(A > least_area(&w->b, p))) return 0;
     *limit = y = A * fl_crushing_pressure(&s->law, v3_norm(S));
     p->nominal_area = A;
+    if (c) {
+        /* F (n + t) is not above p |S| */
+        const double most = v3_norm(v3_scale(1.0 / A, v3_madd(S, -A, way))), size = v3_norm(c->lean);
+        if (size > most) c->lean = v3_scale(most / size, c->lean);
+        *aside = v3_scale(F, m3_mul(r->M, c->lean));
+    }
     if (!grows && !(F > y)) return 0;
     if (!(F > FLATTENED * y)) {
         p->crush_checked = FLATTENED * y;
@@ -169,6 +198,7 @@ int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec
     if (F > y) {
         c->yielded_step = w->step, c->force = y;
         *aside = v3_scale(y / A, v3_madd(S, -A, way));
+        c->lean = lean_of(r, S, A, way), c->normal = n;
     }
     exact->scale *= to / F;
     exact->energy = W1;

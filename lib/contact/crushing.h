@@ -11,6 +11,11 @@
  * balance, and D at rest costs no energy.  While it yields, the force is p S: that of the law, y n, has n of
  * the unworn outline, and p (S - (S.n) n) is added to it, so that its power is p dV/dt.
  *
+ * Below y the worn floe lies on the same surface: the force keeps the direction of the last yield of the
+ * contact, F (n + t), t = S/(S.n) - n, and motion dx along t presses as much as along n:
+ *     D += (t.dx) n,      dW = -F (n + t).dx
+ * so nothing is gained by going back.  |t| <= 1, and F (n + t) is at most p |S| of the present S.
+ *
  * Return mapping, after each evaluation of the law, with F, W and m = 1/(1 - W F'/F^2), the local exponent of
  * W = c s^m:
  *     if F > y:   s = m W/F,  W1 = min(W (y/F)^(m/(m-1)), y^2/(2 K_A)),  s1 = m W1/y,
@@ -18,7 +23,7 @@
  * and from F > y/10 on, while F grows, the same at F itself (y replaced by F): what touches first is an edge,
  * which is crushed flat before the contact as a whole yields.
  *
- * D never shrinks but where the contact has turned round (D.n < 0), which only takes energy out.
+ * Else D shrinks only where the contact has turned round (D.n < 0), which takes energy out.
  *
  * With A = S.n, K_A = 2 c sqrt(A) is the stiffness of the law on a flat face of area A: what is crushed is
  * flat, and a sharp edge of the same force would store several times its energy. So W is multiplied by
@@ -36,11 +41,9 @@
  * a dent at that place; a contact that begins within its half width, from the same side, takes it up again.
  * A floe keeps FL_DENTS dents; the shallowest is dropped first.
  *
- * Limits.  A contact that does not yield bears along n, so that floes that share the front of a pile bear up
- * to 10 % more than both should (FF10 of verify_crushing).  D is one vector of a pair of bodies: a floe
- * that is crushed at two places of one piece of the structure wears as a whole. A partner that slides along
- * a face finds it worn by D everywhere, so a dent does not resist sliding. The outline of the floe, and
- * its mass, stay. */
+ * Limits.  D is one vector of a pair of bodies: a floe that is crushed at two places of one piece of the
+ * structure wears as a whole. A partner that slides along a face finds it worn by D everywhere: a dent
+ * resists sliding by t alone. The outline of the floe, and its mass, stay. */
 #ifndef FL_CONTACT_CRUSHING_H
 #define FL_CONTACT_CRUSHING_H
 #include "contact/pair_geometry.h"
@@ -68,10 +71,13 @@ int fl_crushing_adopt(fl_world *w, fl_pair *p, fl_vec3 centre, fl_vec3 gradient,
 /* Applies the return mapping to energy, scale and slope of an evaluation.
  *   gradient, centre   as above; the force is the gradient by exact->scale
  *   limit              out: y, INFINITY where there is none [N]
- *   aside              out: p (S - A n) of a contact that yields, else 0, in the frame of B [N]
+ *   aside              out: p (S - A n) of a contact that yields, else F t, in the frame of B [N]
  * 1 if the contact yields, 0 if not, -1 when memory runs out. */
 int fl_crushing_yield(fl_world *w, fl_pair *p, const fl_relative_pose *r, fl_vec3 gradient, fl_vec3 centre,
                       fl_exact_contact *exact, double *limit, fl_vec3 *aside);
+
+/* Before an evaluation: D of a record follows what moved along t in the step of dt. */
+void fl_crushing_slide(const fl_world *w, fl_pair *p, const fl_relative_pose *r, double dt);
 
 /* Elastic wrench and energy of a pair. */
 typedef struct {

@@ -213,6 +213,7 @@ void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_su
         crushes && p->touching ? fl_elastic_wrench_of(p) : (fl_elastic_wrench){.energy = 0.0};
     const fl_relative_pose r = fl_relative_pose_of(w, p);
     const fl_pair_prediction a = fl_pair_prediction_of(w, p, &r, dt);
+    if (p->crush) fl_crushing_slide(w, p, &r, dt);
     fl_patch_points *s = &w->scratch[thread];
     double distance = 0.0;
     p->force = p->torque_i = p->torque_j = p->force_damping = p->torque_i_damping = p->torque_j_damping =

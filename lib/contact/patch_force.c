@@ -70,6 +70,7 @@ int fl_pair_evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_sur
                                    &exact, &limit, &aside);
         if (yields < 0) return -1;
         stiffer = exact.slope != slope ? fmax((exact.slope / slope) * (scale / exact.scale), 1.0) : 1.0;
+        if (p->crush) stiffer *= 1.0 + v3_norm2(p->crush->lean);
     }
     p->overlap = q.overlap;
     p->energy = exact.energy;
@@ -115,7 +116,7 @@ int fl_pair_evaluate_patch(fl_world *w, fl_pair *p, int32_t thread, const fl_sur
         fl_tangent_rescale(&p->springs, exact.slope / t->slope, exact.slope < p->surrogate->slope);
     const fl_patch_result all =
         add_damping_and_friction(w, p, &q, exact.scale, exact.slope, chi, &at_contact, r, aj, a);
-    if (yields) {
+    if (v3_norm2(aside) > 0.0) {
         const fl_vec3 middle = m3_mul(R, v3_scale(1.0 / q.pressure, q.pressure_moment));
         fl_add_wrench(&p->force, &p->torque_i, &p->torque_j, m3_mul(R, aside), v3_add(ai, middle),
                       v3_add(aj, middle));

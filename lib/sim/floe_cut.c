@@ -214,6 +214,8 @@ static int compare_keys(const void *a, const void *b)
 static void turn_crush(fl_crush *c, const to_half *t)
 {
     c->offset = q_rotate(t->turn, c->offset);
+    c->normal = q_rotate(t->turn, c->normal);
+    c->lean = q_rotate(t->turn, c->lean);
     c->centre = point_in_half(t, c->centre);
 }
 

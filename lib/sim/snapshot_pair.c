@@ -82,6 +82,8 @@ static void exchange_crush(fl_state_io *t, const fl_world *w, fl_pair *p)
     fl_crush *const c = p->crush;
     fl_state_io_vec3(t, &c->offset);
     fl_state_io_vec3(t, &c->centre);
+    fl_state_io_vec3(t, &c->normal);
+    fl_state_io_vec3(t, &c->lean);
     fl_state_io_real(t, &c->stiffening);
     fl_state_io_int(t, 0, 1, &c->unsaved);
     if (t->f || t->err->code) return;

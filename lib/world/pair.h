@@ -39,6 +39,8 @@ typedef struct {
 typedef struct {
     fl_vec3 offset;    /* D: what is crushed [m] */
     fl_vec3 centre;    /* of the contact when it last touched [m] */
+    fl_vec3 normal;    /* n of its last evaluation */
+    fl_vec3 lean;      /* t = S/A - n of the last yield of this contact */
     double stiffening; /* g */
     double work;       /* Q of the step work_step [J] */
     double volume;     /* crushed since it was last booked [m3] */
