@@ -3,6 +3,7 @@
 #include <string.h>
 #include "base/pi.h"
 #include "scene/scene_unit.h"
+#include "scene/unit_product.h"
 
 static const struct unit {
     enum fl_unit_kind kind;
@@ -89,10 +90,13 @@ static const struct unit {
     {FL_UNIT_ROTATIONAL_STIFFNESS, "kN.m/rad", 1e3, 1},
     {FL_UNIT_ROTATIONAL_STIFFNESS, "MN.m/rad", 1e6, 1},
     {FL_UNIT_ROTATIONAL_STIFFNESS, "GN.m/rad", 1e9, 1},
+    {FL_UNIT_ROTATIONAL_STIFFNESS, "kN.m", 1e3, 1},
+    {FL_UNIT_ROTATIONAL_STIFFNESS, "MN.m", 1e6, 1},
     {FL_UNIT_ROTATIONAL_DAMPING, "N.m.s", 1, 1},
     {FL_UNIT_ROTATIONAL_DAMPING, "kN.m.s", 1e3, 1},
     {FL_UNIT_ROTATIONAL_DAMPING, "MN.m.s", 1e6, 1},
     {FL_UNIT_ROTATIONAL_DAMPING, "GN.m.s", 1e9, 1},
+    {FL_UNIT_ROTATIONAL_DAMPING, "N.m.s/rad", 1, 1},
     {FL_UNIT_SURFACE_ENERGY, "J/m2", 1, 1},
     {FL_UNIT_SURFACE_ENERGY, "J/m^2", 1, 1},
     {FL_UNIT_SURFACE_ENERGY, "kJ/m2", 1e3, 1},
@@ -106,6 +110,20 @@ static const struct unit {
 };
 enum { N_UNIT = sizeof units / sizeof units[0] };
 
+/* Of a product with the dimensions of a unit of the table, by the size of that one. */
+static int convert_product(enum fl_unit_kind kind, const char *word, double *x)
+{
+    fl_unit_product from, to;
+    if (fl_unit_product_read(word, &from)) return -1;
+    for (int k = 0; k < N_UNIT; k++)
+        if (units[k].kind == kind && !fl_unit_product_read(units[k].word, &to) &&
+            fl_unit_product_same_dimensions(&from, &to)) {
+            *x = fl_unit_product_convert(&from, &to, *x) * units[k].mul / units[k].div;
+            return 0;
+        }
+    return -1;
+}
+
 int fl_unit_convert(enum fl_unit_kind kind, const char *word, double *x)
 {
     for (int k = 0; k < N_UNIT; k++)
@@ -113,7 +131,7 @@ int fl_unit_convert(enum fl_unit_kind kind, const char *word, double *x)
             *x = *x * units[k].mul / units[k].div;
             return 0;
         }
-    return -1;
+    return convert_product(kind, word, x);
 }
 
 const char *fl_unit_si(enum fl_unit_kind kind)

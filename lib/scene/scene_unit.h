@@ -22,16 +22,17 @@ enum fl_unit_kind {
     FL_UNIT_INERTIA,              /* kg.m2 t.m2, also with ^2 */
     FL_UNIT_STIFFNESS,            /* N/m kN/m MN/m GN/m */
     FL_UNIT_DAMPING,              /* N.s/m kN.s/m MN.s/m, or kg/s */
-    FL_UNIT_ROTATIONAL_STIFFNESS, /* N.m/rad kN.m/rad MN.m/rad GN.m/rad, or N.m */
-    FL_UNIT_ROTATIONAL_DAMPING,   /* N.m.s kN.m.s MN.m.s GN.m.s */
+    FL_UNIT_ROTATIONAL_STIFFNESS, /* N.m/rad kN.m/rad MN.m/rad GN.m/rad, or N.m kN.m MN.m */
+    FL_UNIT_ROTATIONAL_DAMPING,   /* N.m.s kN.m.s MN.m.s GN.m.s, or N.m.s/rad */
     FL_UNIT_SURFACE_ENERGY,       /* J/m2 J/m^2 kJ/m2 kJ/m^2 N/m */
     FL_UNIT_FREQUENCY,            /* Hz mHz */
     FL_UNIT_TOUGHNESS             /* Pa.m^0.5 kPa.m^0.5 MPa.m^0.5 */
 };
 
 /* Convert *x from the unit `word` to the first unit of the kind: *x * mul / div, where mul or div is 1 in
- * most rows, so that "50 mm" is the double 0.05 after one rounding.  Returns 0, or -1 if the kind has no
- * such unit. */
+ * most rows, so that "50 mm" is the double 0.05 after one rounding.  A product that is not in the table, as
+ * "kNm/deg" or "kN/mm", is converted if it has the dimensions of one that is, unit_product.h.  Returns 0, or
+ * -1 if the kind has no such unit. */
 int fl_unit_convert(enum fl_unit_kind kind, const char *word, double *x);
 
 /* The first unit of the kind, "" for a pure number. */
