@@ -18,6 +18,19 @@
 
 enum { START_FAULT = 400 };
 
+enum { NAME_OF_ID = 80 };
+
+/* What an id of fl_world_id stands for: a body, a part of the structure by its name, or a wall. */
+static const char *name_of_id(const struct run *r, int32_t id, char name[NAME_OF_ID])
+{
+    const int32_t part = -1 - id, wall = part - r->w->parts;
+    if (id < 0 && wall >= 0 && wall < r->w->walls) fl_wall_name(r->w, wall, name);
+    else if (id < 0 && r->surface && part < r->surface->n)
+        snprintf(name, NAME_OF_ID, "part %.60s", r->surface->part[part].name);
+    else snprintf(name, NAME_OF_ID, "%d", id);
+    return name;
+}
+
 /* Bodies that overlap at the start are pushed apart, with loads that belong to no case.  A run may take
  * hours, so this is said before it.  Rounded edges cannot overlap by more than the sum of the radii.  The
  * number of pairs, of those with the structure, and a sentence about them. */
@@ -26,7 +39,7 @@ static int32_t find_overlaps(const struct run *r, int32_t *with_structure, char 
     const fl_world *w = r->w;
     int32_t found = 0, i = -1, j = -1;
     *with_structure = 0;
-    char other[64];
+    char other[NAME_OF_ID];
     fl_pair_iterator at = {.w = w};
     for (const fl_pair *p; (p = fl_pair_next(&at)) != NULL;) {
         if (!p->touching ||
@@ -36,12 +49,10 @@ static int32_t find_overlaps(const struct run *r, int32_t *with_structure, char 
         *with_structure += p->j >= w->n && p->j < w->n + w->pieces;
     }
     if (!found) return 0;
-    if (j < w->n + w->pieces) snprintf(other, sizeof other, "%d", fl_world_id(w, j));
-    else fl_wall_name(w, j - w->n - w->pieces, other);
     snprintf(text, START_FAULT, "%d %s at the start, first body %d and %s; they will be pushed apart", found,
              found == 1 ? "pair overlaps by more than half its radii"
                         : "pairs overlap by more than half their radii",
-             w->id[i], other);
+             w->id[i], name_of_id(r, fl_world_id(w, j), other));
     return found;
 }
 
@@ -418,14 +429,16 @@ static void advise_stiffness(const fl_world *w, FILE *f)
             f);
 }
 
-static void warn_overlapped(const fl_world *w, FILE *f)
+static void warn_overlapped(const struct run *r, FILE *f)
 {
+    const fl_world *w = r->w;
+    char other[NAME_OF_ID];
     if (!w->deep_overlap_steps) return;
     fprintf(f,
             "dem-solve: warning: overlaps past half the radii in %" PRId64
-            " step%s, up to %.3g of them, first of body %d and %d at t = %.6g s: ",
+            " step%s, up to %.3g of them, first of body %d and %s at t = %.6g s: ",
             w->deep_overlap_steps, w->deep_overlap_steps == 1 ? "" : "s", w->max_overlap, w->deep_overlap_i,
-            w->deep_overlap_j, w->deep_overlap_time);
+            name_of_id(r, w->deep_overlap_j, other), w->deep_overlap_time);
     switch (cause_of_overlap(w)) {
     case OF_START: fputs("they overlapped at the start; move them apart, see --probe 0", f); break;
     case OF_SUDDEN_CONTACT:
@@ -512,7 +525,7 @@ void warn_at_end(const struct run *r, int failed, FILE *f)
     if (!failed) warn_fallen(r->w, f);
     ice_scene_warn_inflow(r, f);
     warn_sudden(r->w, f);
-    warn_overlapped(r->w, f);
+    warn_overlapped(r, f);
     if (!failed && r->budget) warn_budget(r, f);
     if (!failed) warn_energy(r->w, f); /* else the failure is reported */
 }
