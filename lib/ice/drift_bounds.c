@@ -48,3 +48,11 @@ double fl_floe_impulse(double restitution, double mass, double speed, double arm
 {
     return (1.0 + restitution) * mass * speed / (1.0 + arm * arm / (gyration * gyration));
 }
+
+double fl_brash_load(double thickness, double breadth, double cm, double cp, double parallel, double q,
+                     double bow_area_over_length)
+{
+    const double front = 0.26 + sqrt(thickness * breadth), layer = front + thickness;
+    return 845.0 * cm * layer * layer * (breadth + cp * front) + 42.0 * parallel * front * front +
+           825.0 * q * bow_area_over_length;
+}

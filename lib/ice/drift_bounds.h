@@ -14,6 +14,11 @@
  * the sea:                                      F = (1 + e) s v^2 (D + L).
  * One floe of mass m that meets a narrow structure at an arm b, radius of gyration r about the vertical:
  *                                               I = (1 + e) m v / (1 + b^2 / r^2).
+ * Brash of thickness H_M in a channel, a hull of length L, breadth B and draught T at 5 knots, by the
+ * Finnish-Swedish ice class rules, in N and metres:
+ *     R = 845 C_m (H_F + H_M)^2 (B + C_p H_F) + 42 L_p H_F^2 + 825 q A_wf / L,  H_F = 0.26 + sqrt(H_M B),
+ * with C_m of at least 0.45, C_p = max(0, 0.047 psi - 2.115), q = (L T / B^2)^3 in 5 .. 20, L_p the length of
+ * the parallel midbody, A_wf the water plane of the bow.
  * A load above the momentum of passing ice comes from ice that is held up: a jam, an arch between legs.
  *
  * Source: balances of momentum; 0.85 and the gaps that hold floes up are those of this product's runs and of
@@ -45,6 +50,11 @@ double fl_width_needed(double concentration, double structure_width);
 /* The loads above [N]; mass_per_area: s [kg/m2]. */
 double fl_drag_of_held_ice(double water_density, double coef, double speed, double area);
 double fl_momentum_load(double restitution, double mass_per_area, double speed, double width);
+
+/* R [N]; C_m, C_p, q and L_p, A_wf / L [m] as above.  C_m = 0.45 and the others 0 give the least that any
+ * hull of this breadth has. */
+double fl_brash_load(double thickness, double breadth, double cm, double cp, double parallel, double q,
+                     double bow_area_over_length);
 
 /* I [N s]. */
 double fl_floe_impulse(double restitution, double mass, double speed, double arm, double gyration);

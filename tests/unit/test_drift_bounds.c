@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "support/near.h"
 #include <math.h>
+#include "base/pi.h"
 #include "ice/drift_bounds.h"
 
 static void joins_what_overlaps_or_is_near(void **state)
@@ -45,12 +46,30 @@ static void loads_of_the_page(void **state)
     assert_near(fl_floe_impulse(0.3, 356.4e3, 0.5, 5.0, sqrt(200.0 / 3.0)), 231.66e3 / 1.375, 1e-4);
 }
 
+/* Ice-scenes(7): L 120, B 20, T 7.5, L_p 55, A_wf 500, bow angles 40 and 25 degrees. */
+static void brash_of_the_ice_class_rules(void **state)
+{
+    static const double thickness[] = {0.6, 0.8, 1.0}, load[] = {252e3, 333e3, 420e3};
+    const double rad = PI / 180.0, psi = atan(tan(40.0 * rad) / sin(25.0 * rad)) / rad,
+                 q = fmin(20.0, fmax(5.0, pow(120.0 * 7.5 / 400.0, 3.0)));
+    const double cm = fmax(0.45, 0.15 * cos(40.0 * rad) + sin(psi * rad) * sin(25.0 * rad)),
+                 cp = fmax(0.0, 0.047 * psi - 2.115);
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        assert_near(fl_brash_load(thickness[k], 20.0, cm, cp, 55.0, q, 500.0 / 120.0), load[k], 2e-3);
+        assert_true(fl_brash_load(thickness[k], 20.0, 0.45, 0.0, 0.0, 0.0, 0.0) < load[k]);
+    }
+    assert_near(fl_brash_load(0.74 * 0.74, 1.0, 0.5, 2.0, 3.0, 5.0, 0.1),
+                845.0 * 0.5 * 1.5476 * 1.5476 * 3.0 + 126.0 + 412.5, 1e-12); /* H_F = 1 */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(joins_what_overlaps_or_is_near),
         cmocka_unit_test(width_and_jam_agree),
         cmocka_unit_test(loads_of_the_page),
+        cmocka_unit_test(brash_of_the_ice_class_rules),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,6 +18,11 @@
 #define STANDS 0.5
 #define SIZES_BEHIND 3.0
 
+/* Brash: pieces below 2 m (WMO) that fill their channel; they pass below a hull and do not jam beside it. */
+#define BRASH_SIZE 2.0
+#define BRASH_CONCENTRATION 0.7
+#define LEAST_CM 0.45 /* of the ice class rules */
+
 /* Share of the floes that come in of those that had to wait, from which the inflow is met. */
 #define WAITED 0.05
 
@@ -64,8 +69,8 @@ static struct ice_sums sum_ice(const fl_world *w)
         s.momentum = v3_add(s.momentum, v3_scale(w->b.m[i], w->b.v[i]));
         for (int32_t v = 0; v < p->nv; v++) {
             const fl_vec3 x = v3_add(w->b.x[i], q_rotate(*fl_body_attitude(&w->b, i), p->v[v]));
-            s.box = aabb_add(s.box, v3_sub(x, v3(r, r, 0.0)));
-            s.box = aabb_add(s.box, v3_add(x, v3(r, r, 0.0)));
+            s.box = aabb_add(s.box, v3_sub(x, v3(r, r, r)));
+            s.box = aabb_add(s.box, v3_add(x, v3(r, r, r)));
         }
     }
     return s;
@@ -165,6 +170,13 @@ static double width_across(const fl_world *w, fl_vec3 along)
     return axis ? b->max.y - b->min.y : b->max.x - b->min.x;
 }
 
+/* A channel has walls at both sides of the structure. */
+static int is_channel(const fl_world *w, const struct ice_scene *s, fl_vec3 along)
+{
+    const int across = fabs(along.x) > ALONG_AXIS;
+    return isfinite(s->field_width) && w->scene->boundary.type[across] != FL_BOUNDARY_PERIODIC;
+}
+
 int ice_scene_make(struct ice_scene *s, const struct run *r, fl_err *err)
 {
     const fl_world *w = r->w;
@@ -182,6 +194,7 @@ int ice_scene_make(struct ice_scene *s, const struct run *r, fl_err *err)
     s->concentration = fmin(1.0, ice.area / (x * y));
     s->mass_per_area = ice.mass / (x * y);
     s->thickness = ice.volume / ice.area;
+    s->layer = ice.box.hi.z - ice.box.lo.z;
     s->floe_size = sqrt(ice.area / ice.n);
     if (!(s->speed > 0.0)) {
         s->kind = SCENE_OTHER;
@@ -189,6 +202,9 @@ int ice_scene_make(struct ice_scene *s, const struct run *r, fl_err *err)
     }
     const fl_vec3 along = v3_scale(1.0 / s->speed, v), across = v3(-along.y, along.x, 0.0);
     s->field_width = width_across(w, along);
+    if (s->kind == SCENE_TOWED && s->floe_size < BRASH_SIZE && s->concentration > BRASH_CONCENTRATION &&
+        is_channel(w, s, along))
+        s->kind = SCENE_BRASH;
     return measure_structure(s, r->surface, w->scene->water.level, across, FL_ARCH_SIZES * s->floe_size, err);
 }
 
@@ -285,6 +301,16 @@ void ice_scene_report(const struct ice_scene *s, const struct run *r, FILE *f)
                 "%.3g kN",
                 s->speed, momentum_of(s, w));
         break;
+    case SCENE_BRASH:
+        fprintf(
+            f,
+            "dem-solve: scene: a structure under way at %.3g m/s in a channel of brash, %.3g m of pieces of "
+            "%.3g m, bound by weight and rubbing of the layer: at 5 knots above %.3g kN by the ice class "
+            "rules, with their least for a breadth of %.3g m in %.3g m\n",
+            s->speed, s->layer, s->floe_size,
+            1e-3 * fl_brash_load(s->layer, s->structure_width, LEAST_CM, 0.0, 0.0, 0.0, 0.0),
+            s->structure_width, s->field_width);
+        return;
     }
     report_width(s, f);
 }
@@ -294,7 +320,8 @@ void ice_scene_warn_width(const struct ice_scene *s, FILE *f)
     const double beside = fl_concentration_beside(s->concentration, s->field_width, s->structure_width),
                  needed = fl_width_needed(s->concentration, s->structure_width);
     if (s->kind == SCENE_OTHER || s->kind == SCENE_ONE_FLOE || s->kind == SCENE_SHEET ||
-        !isfinite(s->field_width) || !(s->structure_width > 0.0) || beside < FL_JAM_CONCENTRATION)
+        s->kind == SCENE_BRASH || !isfinite(s->field_width) || !(s->structure_width > 0.0) ||
+        beside < FL_JAM_CONCENTRATION)
         return;
     fprintf(
         f,

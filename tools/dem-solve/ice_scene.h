@@ -14,7 +14,8 @@ enum ice_scene_kind {
     SCENE_DRIFT,  /* with inflow */
     SCENE_DRIVEN, /* floes that are moved */
     SCENE_SHEET,  /* bonded */
-    SCENE_TOWED   /* a structure that moves through ice */
+    SCENE_TOWED,  /* a structure that moves through ice */
+    SCENE_BRASH   /* ... through a channel of brash between walls */
 };
 
 struct ice_scene {
@@ -23,7 +24,8 @@ struct ice_scene {
     double concentration;   /* of the field */
     double ice_area;        /* [m2] */
     double mass_per_area;   /* of ice, over the area of the sea [kg/m2] */
-    double thickness;       /* mean [m] */
+    double thickness;       /* mean of the floes [m] */
+    double layer;           /* from the lowest to the highest point of the ice [m] */
     double floe_size;       /* root of the mean area [m] */
     double field_width;     /* across the drift [m]; infinite where the sides are free */
     double structure_width; /* across the drift at the water line, narrow gaps closed [m] */
