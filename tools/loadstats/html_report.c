@@ -33,7 +33,7 @@ static const char STYLE[] =
     "tr:nth-child(even) td { background: #f4f7fa; }\n"
     "tr.best td { font-weight: 600; }\n"
     "pre { background: #f4f7fa; padding: .8rem 1rem; white-space: pre-wrap; font-size: .82rem; }\n"
-    "svg { width: 100%; height: auto; margin: .4rem 0 1.2rem; }\n";
+    "svg { width: 100%; height: auto; margin: .4rem 0 1.2rem; font: 14px sans-serif; }\n";
 
 /* --- text ----------------------------------------------------------------------------------------------- */
 
@@ -407,14 +407,27 @@ static void join_path(char path[PATH_LEN], const char *dir, const char *name)
     snprintf(path, PATH_LEN, "%.*s/%.*s", DIR_LEN, dir, PATH_LEN - DIR_LEN - 2, name);
 }
 
-/* Copy the text of a picture without groups that hold nothing and attributes that SVG has anyway, and with
- * one decimal of a pixel in its paths: half of its size. */
+/* Length of a colour as "rgb( 33, 113, 181)", which is written as #2171b5; 0: none is there. */
+static size_t write_short_colour(FILE *f, const char *text)
+{
+    int red, green, blue, len = 0;
+    if (strncmp(text, "rgb(", 4) != 0 || sscanf(text, "rgb(%d,%d,%d)%n", &red, &green, &blue, &len) != 3 ||
+        !len)
+        return 0;
+    fprintf(f, "#%02x%02x%02x", (unsigned)red & 255u, (unsigned)green & 255u, (unsigned)blue & 255u);
+    return (size_t)len;
+}
+
+/* Copy the text of a picture without groups that hold nothing, attributes that SVG or the page has anyway and
+ * indents, with one decimal of a pixel in its paths and short colours: half of its size. */
 static void write_small_svg(FILE *f, const char *text)
 {
     static const char *const POINTS[] = {" d='", " points = '"}, *const USUAL[] = {
                                                                      " stroke-linecap=\"butt\"",
                                                                      " stroke-linejoin=\"miter\"",
-                                                                     " stroke-width=\"1.00\""};
+                                                                     " stroke-width=\"1.00\"",
+                                                                     " font-family=\"sans-serif\"",
+                                                                     " font-size=\"14.00\""};
     int in_path = 0;
     while (*text) {
         for (size_t k = 0; k < sizeof USUAL / sizeof *USUAL; k++)
@@ -427,6 +440,11 @@ static void write_small_svg(FILE *f, const char *text)
             in_path = 1;
         }
         if (!*text) break;
+        const size_t colour = write_short_colour(f, text);
+        if (colour || *text == '\t') {
+            text += colour ? colour : 1;
+            continue;
+        }
         if (strncmp(text, "<g ", 3) == 0) {
             const char *end = strchr(text, '>'), *inside = end ? end + 1 : text + strlen(text);
             inside += strspn(inside, "\n ");
