@@ -18,6 +18,9 @@
 #define STANDS 0.5
 #define SIZES_BEHIND 3.0
 
+/* Concentration from which drifting floes mostly touch, and lean on those that are held up (WMO). */
+#define FLOES_TOUCH 0.6
+
 /* Brash: pieces below 2 m (WMO) that fill their channel; they pass below a hull and do not jam beside it. */
 #define BRASH_SIZE 2.0
 #define BRASH_CONCENTRATION 0.7
@@ -281,11 +284,13 @@ void ice_scene_report(const struct ice_scene *s, const struct run *r, FILE *f)
                 s->speed, momentum_of(s, w), drag_of(s, w));
         break;
     case SCENE_DRIFT:
-        fprintf(
-            f,
-            "dem-solve: scene: drift without end at %.3g m/s, mean about %.3g kN while floes pass; once they "
-            "jam, ",
-            s->speed, momentum_of(s, w));
+        fprintf(f,
+                "dem-solve: scene: drift without end at %.3g m/s, mean about %.3g kN while floes pass%s; "
+                "once they "
+                "jam, ",
+                s->speed, momentum_of(s, w),
+                s->concentration > FLOES_TOUCH ? ", several times as much above C 0.6, where they touch"
+                                               : "");
         report_push_bound(s, w, f);
         break;
     case SCENE_DRIVEN:
