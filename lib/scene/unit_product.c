@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene/unit_product.h"
+#include <stdlib.h>
 #include <string.h>
 #include "base/pi.h"
 
@@ -19,7 +20,9 @@ static const struct symbol {
     {"Hz", "mk", {0, 0, -1, 0}, 0, 1, 1},    {"rad", "m", {0, 0, 0, 1}, 0, 1, 1},
     {"deg", "", {0, 0, 0, 1}, 0, PI, 180.0},
 };
-enum { N_SYMBOL = sizeof symbols / sizeof symbols[0] };
+/* Beyond these a word is no unit in use, and its size could overflow. */
+#define MOST_SIZE 1e15
+enum { MOST_DECIMAL = 30, N_SYMBOL = sizeof symbols / sizeof symbols[0] };
 
 static const struct prefix {
     char letter;
@@ -89,6 +92,7 @@ int fl_unit_product_read(const char *word, fl_unit_product *u)
     *u = (fl_unit_product){.mul = 1.0, .div = 1.0};
     for (const char *at = word;;) {
         if (read_factor(&at, sign, u)) return -1;
+        if (!(u->mul <= MOST_SIZE && u->div <= MOST_SIZE && abs(u->decimal) <= MOST_DECIMAL)) return -1;
         if (!*at) return 0;
         if (*at == '/') sign = -1, at++;
         else if (sign < 0) return -1;

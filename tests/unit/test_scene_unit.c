@@ -97,6 +97,8 @@ static void what_has_two_meanings_or_other_dimensions_is_refused(void **state)
         {FL_UNIT_ONE, "m/m"},
         {FL_UNIT_TOUGHNESS, "MPa.mm^0.5"},
         {FL_UNIT_LENGTH, "Mm"},
+        {FL_UNIT_LENGTH, "m.h9.h9/h9/h9"},
+        {FL_UNIT_LENGTH, "m.km9.km9/km9/km9"},
     };
     (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
