@@ -178,9 +178,10 @@ if wants IS11; then
 fi
 if wants IS12; then
     long=${KULLUK:-300}
+    to=$(calc "$long < 200 ? $long : 200")
     kulluk 0.9 "$long"
-    beside IS12 "the same, C 0.9, 50 to 200, then to $long s: mean [kN]" \
-        "$(mean_of "$dir/wide.tsv" 50 200), $(mean_of "$dir/wide.tsv" 200); Colbourne blunt $(blunt 0.9)"
+    beside IS12 "the same, C 0.9, 50 to $to s: mean [kN]" "$(mean_of "$dir/wide.tsv" 50 "$to"); Colbourne blunt $(blunt 0.9)"
+    [ "$long" -le 200 ] || beside IS12 "  200 to $long s: mean [kN]" "$(mean_of "$dir/wide.tsv" 200)"
     row IS12 "  warned that it jams" "$(says 'warning: the field is too narrow')" 1 0
 fi
 echo "$good passed, $bad failed"
