@@ -100,10 +100,23 @@ void fl_gpu_world_forget(fl_gpu_world *g) { g->uploaded = 0; }
 
 /* --- up ---------------------------------------------------------------------------------------------- */
 
+/* Relative margin of the path until the next search. */
+#define PATH_MARGIN 1e-6
+
+/* 1 if a pair of body k may touch before the next search: no two bodies move by more than the skin. */
+static int has_pair_in_reach(const fl_world *w, int32_t k)
+{
+    const double *const from = w->odometer_at_search;
+    for (int32_t at = w->first_pair_of_body[k]; at < w->first_pair_of_body[k + 1]; at++) {
+        const fl_next_check q = w->next_check[w->pairs_of_body[at]];
+        if (!((from[q.i] + from[q.j] + w->skin) * (1.0 + PATH_MARGIN) < q.free_travel)) return 1;
+    }
+    return 0;
+}
+
 static int is_guest(const fl_world *w, int32_t k)
 {
-    return !w->b.is_isotropic[k] || w->b.fixed_dof[k] || fl_body_absent(w, k) ||
-           w->first_pair_of_body[k] < w->first_pair_of_body[k + 1] ||
+    return !w->b.is_isotropic[k] || w->b.fixed_dof[k] || fl_body_absent(w, k) || has_pair_in_reach(w, k) ||
            (k < w->driven_floes.n && w->driven_floes.is_driven[k]) || w->contact_sums.slot[k] != 0 ||
            w->previous_sums.slot[k] != 0;
 }
