@@ -80,30 +80,54 @@ static fl_point_contact point_contact(const fl_world *w, const fl_pair *p, const
     };
 }
 
-static fl_point_memory memory_of(const fl_pair *p)
+fl_point_memory fl_pair_memory(const fl_pair *p)
 {
     return (fl_point_memory){p->springs,           p->sustained_spin,      p->sustained_spin_rate,
                              p->max_approach_speed, p->sustained_load,      p->sustained_load_rate,
                              p->sustained_step};
 }
 
-static void set_memory(fl_pair *p, const fl_point_memory *m)
+fl_point_forces fl_pair_forces(const fl_pair *p)
+{
+    return (fl_point_forces){p->force,
+                             p->torque_i,
+                             p->torque_j,
+                             p->force_damping,
+                             p->torque_i_damping,
+                             p->torque_j_damping,
+                             p->force_friction,
+                             p->torque_i_friction,
+                             p->torque_j_friction,
+                             p->energy,
+                             p->spring_energy,
+                             p->overlap};
+}
+
+void fl_pair_set_point(fl_pair *p, const fl_point_memory *m, const fl_point_forces *f)
 {
     p->springs = m->springs;
     p->sustained_spin = m->sustained_spin, p->sustained_spin_rate = m->sustained_spin_rate;
     p->max_approach_speed = m->max_approach_speed;
     p->sustained_load = m->sustained_load, p->sustained_load_rate = m->sustained_load_rate;
     p->sustained_step = m->sustained_step;
-}
-
-static void set_forces(fl_pair *p, const fl_point_forces *f)
-{
     p->force = f->force, p->torque_i = f->torque_i, p->torque_j = f->torque_j;
     p->force_damping = f->force_damping;
     p->torque_i_damping = f->torque_i_damping, p->torque_j_damping = f->torque_j_damping;
     p->force_friction = f->force_friction;
     p->torque_i_friction = f->torque_i_friction, p->torque_j_friction = f->torque_j_friction;
     p->energy = f->energy, p->spring_energy = f->spring_energy, p->overlap = f->overlap;
+}
+
+void fl_pair_bound_single_point(const fl_world *w, fl_pair *p, fl_vec3 n, fl_vec3 aj, fl_vec3 off,
+                                double normal)
+{
+    fl_stiffness si = {0}, sj = {0};
+    const fl_patch_result all = {.direction = v3_madd(v3(0, 0, 0), normal, n), .centre = aj};
+    const fl_relative_pose r = {.off = off};
+    const double slope = p->k * fl_normal_slope(p->overlap, p->exponent);
+    fl_stiffness_add_force(&si, &w->b, p->i, slope, n, v3_cross(v3_add(aj, off), n));
+    fl_stiffness_add_force(&sj, &w->b, p->j, slope, n, v3_cross(aj, n));
+    fl_pair_bound_stiffness(w, p, &all, &r, &si, &sj);
 }
 
 /* A single point, damped by the speed predicted for the end of the step. */
@@ -113,10 +137,10 @@ static int evaluate_one_point(fl_world *w, fl_pair *p, const fl_patch_points *s,
     const fl_point_contact c = point_contact(w, p, &s->point[0], r, by);
     const fl_point_before before = {by->before.elastic.f, by->before.damping.f, by->before.friction_damping,
                                     by->before.friction_damping_moment};
-    fl_point_memory m = memory_of(p);
+    fl_point_memory m = fl_pair_memory(p);
     fl_point_forces f;
     const fl_point_normal q = fl_point_evaluate(&c, p->touching, before, &m, &f);
-    set_memory(p, &m), set_forces(p, &f);
+    fl_pair_set_point(p, &m, &f);
     const fl_patch_result all = {.elastic = q.elastic,
                                  .normal = q.normal,
                                  .direction = q.direction,
@@ -125,7 +149,7 @@ static int evaluate_one_point(fl_world *w, fl_pair *p, const fl_patch_points *s,
                                  .centre = c.aj};
     if (w->breaking.on) p->load_point = c.ai;
     if (fl_pair_add_rolling(w, p, &all, q.chi, by)) return -1;
-    if (survey) bound_stiffness_of_points(w, p, s, &all, r);
+    if (survey) fl_pair_bound_single_point(w, p, c.n, c.aj, r->off, q.normal);
     p->energy += p->spring_energy;
     if (fl_panels_need_points(w, p)) fl_panels_record_points(w, p, s, p->k, q.chi);
     return p->touching = 1;

@@ -33,6 +33,13 @@ struct fl_gpu_world {
     double *moves;
     uint8_t *leaves; /* [blocks] */
     int leaving;     /* some body of the device leaves */
+    /* bodies near the structure, held or driven */
+    int32_t *near_of;
+    fl_gpu_near *near;
+    fl_gpu_pair *pair, *told_pair;
+    fl_gpu_piece *piece;
+    int32_t nears, pairs, near_cap, pair_cap;
+    int pairs_known; /* the CPU has evaluated them in this step, before a list was made */
 };
 
 /* Fails with the reason of the engine. */

@@ -66,7 +66,7 @@ int fl_gpu_world_first_half(fl_gpu_world *g, fl_world *w, fl_err *err);
 /* The two largest paths of own bodies since the last search, after the first half. */
 int fl_gpu_world_moves(fl_gpu_world *g, double largest[2], fl_err *err);
 int fl_gpu_world_contacts(fl_gpu_world *g, fl_world *w, fl_err *err);
-int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, fl_err *err);
+int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err);
 int fl_gpu_world_second_half(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err);
 /* work[n]: of each guest. */
 int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *work, int stiffness,

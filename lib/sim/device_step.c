@@ -138,7 +138,10 @@ int fl_device_take_lists(fl_world *w, fl_err *err) { return fl_gpu_world_upload(
 
 int fl_device_contacts(fl_world *w, fl_err *err) { return fl_gpu_world_contacts(w->device.gpu, w, err); }
 
-int fl_device_sums(fl_world *w, fl_err *err) { return fl_gpu_world_sums(w->device.gpu, w, err); }
+int fl_device_sums(fl_world *w, int stiffness, fl_err *err)
+{
+    return fl_gpu_world_sums(w->device.gpu, w, stiffness, err);
+}
 
 /* First guest of block b or of a later one. */
 static int32_t first_guest(const int32_t *guest, int32_t n, int32_t b)

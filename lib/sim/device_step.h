@@ -36,7 +36,7 @@ int fl_device_has_listed_none(const fl_world *w);
 int fl_device_before_search(fl_world *w, fl_err *err);
 int fl_device_take_lists(fl_world *w, fl_err *err);
 int fl_device_contacts(fl_world *w, fl_err *err);
-int fl_device_sums(fl_world *w, fl_err *err);
+int fl_device_sums(fl_world *w, int stiffness, fl_err *err);
 /* Forces, kick and drag; the books of blocks, chunks and bonds. */
 int fl_device_second_half(fl_world *w, double h, int stiffness, fl_err *err);
 

@@ -238,7 +238,7 @@ static int run_device_step(step_context *q)
     }
     if (fl_device_contacts(w, q->err)) return -1;
     if (q->first_half) evaluate_guests_pairs(w, q->dt, q->update_stiffness);
-    if (fl_device_sums(w, q->err)) return -1;
+    if (fl_device_sums(w, q->update_stiffness, q->err)) return -1;
     after_contacts(q);
     if (q->failed || fl_device_second_half(w, h, q->update_stiffness, q->err)) return -1;
     for (int32_t k = w->n; k < w->b.total; k++) fl_body_sum_forces(w, k);

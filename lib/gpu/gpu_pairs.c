@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "gpu/gpu_pairs.h"
+#include <math.h>
+#include <string.h>
+#include "base/array.h"
+#include "contact/pair_force.h"
+#include "contact/pair_law.h"
+#include "contact/pair_store.h"
+#include "contact/point_force.h"
+#include "contact/strip_contact.h"
+#include "world/access.h"
+
+#define PUT FL_GPU_PUT
+#define ROOM FL_GPU_ROOM
+#define GET FL_GPU_GET
+
+/* --- which bodies -------------------------------------------------------------------------------- */
+
+/* Relative margin of the path until the next search. */
+#define PATH_MARGIN 1e-6
+
+/* 1 if near pair c may touch before the next search: no two bodies move by more than the skin. */
+static int is_in_reach(const fl_world *w, int32_t c)
+{
+    const double *const from = w->odometer_at_search;
+    const fl_next_check q = w->next_check[c];
+    return !((from[q.i] + from[q.j] + w->skin) * (1.0 + PATH_MARGIN) < w->pair[c].free_travel) ||
+           w->pair[c].touching;
+}
+
+/* 1 if a device evaluates pairs of a sphere with piece or wall j: a cone or a convex solid at rest or moving
+ * as prescribed, by springs at the closest point. */
+static int has_kernel(const fl_world *w, int32_t i, int32_t j)
+{
+    const fl_piece *piece = fl_world_piece(w, j);
+    if (!piece || (piece->kind != FL_PIECE_CONE && piece->kind != FL_PIECE_SOLID)) return 0;
+    const fl_pair_law *law = fl_pair_law_of(w, i, j);
+    return !piece->elastic && !piece->several_parts && !fl_piece_is_free(w, j) && !w->cell.periodic &&
+           law->law->end_speed && law->law->points != FL_POINTS_FEATURES && !(law->rolling > 0.0) &&
+           !w->panel_load.panels && !fl_pair_has_strip(w, j);
+}
+
+int fl_gpu_body_kind(const fl_world *w, int32_t k)
+{
+    if (fl_body_absent(w, k)) return FL_GPU_EMPTY;
+    if (!w->b.is_isotropic[k] || w->contact_sums.one_each || w->previous_sums.one_each || w->relax.kind ||
+        (w->inflow.absent && w->inflow.guided[k]) || (w->driven_floes.track.n && fl_floe_is_driven(w, k)))
+        return FL_GPU_GUEST;
+    for (int32_t at = w->first_pair_of_body[k]; at < w->first_pair_of_body[k + 1]; at++) {
+        const int32_t c = w->pairs_of_body[at];
+        if (is_in_reach(w, c) && !has_kernel(w, k, w->pair[c].j)) return FL_GPU_GUEST;
+    }
+    return FL_GPU_OWN;
+}
+
+/* 1 if a wet sphere whose constraints have done work is in no batch of the CPU: its losses are rounded with
+ * that work. */
+static int is_always_single(const fl_world *w, int32_t k)
+{
+    return w->sea.water && w->b.work_of_constraints[k] != 0.0;
+}
+
+/* Number of pairs of own body k in reach; -1: it needs nothing of this file. */
+static int32_t pairs_in_reach(const fl_world *w, int32_t k)
+{
+    int32_t n = 0;
+    for (int32_t at = w->first_pair_of_body[k]; at < w->first_pair_of_body[k + 1]; at++)
+        n += is_in_reach(w, w->pairs_of_body[at]);
+    return n || w->b.fixed_dof[k] || w->contact_sums.slot[k] || w->previous_sums.slot[k] ||
+                   fl_floe_is_driven(w, k) || is_always_single(w, k)
+               ? n
+               : -1;
+}
+
+/* --- up ------------------------------------------------------------------------------------------ */
+
+static fl_gpu_pair_sum sum_of(const fl_contact_sum *s)
+{
+    return (fl_gpu_pair_sum){s->damping, s->damping_torque, s->friction, s->friction_torque, s->contacts};
+}
+
+static fl_gpu_near near_of(const fl_world *w, int32_t k, int32_t first)
+{
+    fl_gpu_near b = {.body = k,
+                     .first = first,
+                     .end = first,
+                     .hold = w->b.fixed_dof[k],
+                     .is_driven = fl_floe_is_driven(w, k),
+                     .is_always_single = is_always_single(w, k) && !w->discs.n,
+                     .work_of_constraints = w->b.work_of_constraints[k]};
+    b.before = b.now = sum_of(fl_sums_before(w, k));
+    if (w->previous_sums.slot[k]) {
+        const fl_velocity_change *const kick = fl_kick_change(w, k), *const change = fl_predicted_change(w, k);
+        b.kick_v = kick->v, b.kick_w = kick->w, b.change_v = change->v, b.change_w = change->w;
+    }
+    if (b.is_driven) b.spring = w->driven_floes.k[k], b.rest_height = w->driven_floes.rest_height[k];
+    return b;
+}
+
+static fl_gpu_pair row_of(const fl_world *w, int32_t c)
+{
+    const fl_neighbour_pair *q = &w->pair[c];
+    fl_pair made;
+    const fl_pair *p = q->contact;
+    if (!p) fl_neighbour_pair_expand(w, q, &made), p = &made;
+    return (fl_gpu_pair){.memory = fl_pair_memory(p),
+                         .forces = fl_pair_forces(p),
+                         .law = {p->k, p->exponent, p->law->friction, p->law->tangential_ratio,
+                                 p->law->impact_damping, p->law->slow_damping_factor},
+                         .mass = p->mass,
+                         .free_travel = q->free_travel,
+                         .body = q->i,
+                         .piece = q->j - w->n,
+                         .pair = c,
+                         .touching = q->touching};
+}
+
+/* Lists them; the pairs of a body follow each other, in their order. */
+static int list_near(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
+{
+    g->nears = g->pairs = 0;
+    for (int32_t k = 0; k < w->n; k++) {
+        const int32_t n = g->host[k] == FL_GPU_OWN ? pairs_in_reach(w, k) : -1;
+        g->near_of[k] = 0;
+        if (n < 0) continue;
+        if (fl_grow(&g->near, &g->near_cap, (int64_t)g->nears + 1, sizeof *g->near, err) ||
+            fl_grow(&g->pair, &g->pair_cap, (int64_t)g->pairs + n, sizeof *g->pair, err))
+            return -1;
+        fl_gpu_near *const b = &g->near[g->nears++];
+        *b = near_of(w, k, g->pairs);
+        for (int32_t at = w->first_pair_of_body[k]; at < w->first_pair_of_body[k + 1]; at++)
+            if (is_in_reach(w, w->pairs_of_body[at])) g->pair[g->pairs++] = row_of(w, w->pairs_of_body[at]);
+        b->end = g->pairs;
+        g->near_of[k] = g->nears;
+    }
+    return 0;
+}
+
+/* Offsets of the arrays of a solid piece in those of all. */
+typedef struct {
+    int64_t v, f, loop;
+} piece_offsets;
+
+static piece_offsets after(piece_offsets at, const fl_piece *p)
+{
+    if (p->kind != FL_PIECE_SOLID) return at;
+    const int32_t nf = p->core.nf;
+    return (piece_offsets){at.v + p->core.nv, at.f + nf, at.loop + (nf ? p->core.first[nf] : 0)};
+}
+
+/* Copies the shapes of the solid pieces, once. */
+static int put_shapes(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
+{
+    piece_offsets all = {0, 0, 0}, at = {0, 0, 0};
+    for (int32_t k = 0; k < w->pieces; k++) all = after(all, &w->structure.piece[k]);
+    if (ROOM(piece_v, all.v) || ROOM(piece_n, all.f) || ROOM(piece_c, all.f) || ROOM(piece_loop, all.loop) ||
+        ROOM(piece_first, all.f + w->pieces))
+        return -1;
+    for (int32_t k = 0; k < w->pieces; k++) {
+        const fl_piece *p = &w->structure.piece[k];
+        const fl_poly *s = &p->core;
+        const piece_offsets next = after(at, p);
+        fl_gpu_piece *const to = &g->piece[k];
+        *to = (fl_gpu_piece){.is_cone = p->kind == FL_PIECE_CONE,
+                             .r0 = p->r0,
+                             .r1 = p->r1,
+                             .h = p->h,
+                             .radius = w->b.radius[w->n + k]};
+        if (p->kind != FL_PIECE_SOLID) continue;
+        to->core = (fl_poly){.nv = s->nv,
+                             .nf = s->nf,
+                             .v = g->v.piece_v + at.v,
+                             .n = g->v.piece_n + at.f,
+                             .c = g->v.piece_c + at.f,
+                             .first = g->v.piece_first + at.f + k,
+                             .loop = g->v.piece_loop + at.loop,
+                             .size = s->size};
+        const size_t f = (size_t)s->nf;
+        if (g->e->upload(to->core.v, s->v, (size_t)s->nv * sizeof *s->v) ||
+            (f && (g->e->upload(to->core.n, s->n, f * sizeof *s->n) ||
+                   g->e->upload(to->core.c, s->c, f * sizeof *s->c) ||
+                   g->e->upload(to->core.first, s->first, (f + 1) * sizeof *s->first) ||
+                   g->e->upload(to->core.loop, s->loop, (size_t)s->first[f] * sizeof *s->loop))))
+            return fl_gpu_fail(g, err);
+        at = next;
+    }
+    return 0;
+}
+
+/* Copies the poses of the pieces. */
+static int put_poses(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
+{
+    const fl_bodies *b = &w->b;
+    for (int32_t k = 0; k < w->pieces; k++) {
+        const int32_t j = w->n + k;
+        fl_gpu_piece *const p = &g->piece[k];
+        p->R = fl_body_axes(b, j), p->x = b->x[j], p->v = b->v[j], p->w = b->w[j];
+        p->change_v = p->change_w = v3(0, 0, 0);
+        if (fl_sums_before(w, j)->contacts)
+            p->change_v = fl_predicted_change(w, j)->v, p->change_w = fl_predicted_change(w, j)->w;
+        p->odometer = b->odometer[j];
+    }
+    return PUT(piece, g->piece, w->pieces);
+}
+
+int fl_gpu_put_near(struct fl_gpu_world *g, fl_world *w, fl_err *err)
+{
+    if (!g->near_of) {
+        g->near_of = fl_alloc(w->n, sizeof *g->near_of, err);
+        g->piece = fl_alloc(w->pieces, sizeof *g->piece, err);
+        if (!g->near_of || (w->pieces && !g->piece) || put_shapes(g, w, err)) return -1;
+    }
+    if (list_near(g, w, err)) return -1;
+    free(g->told_pair);
+    g->told_pair = fl_alloc(g->pairs, sizeof *g->told_pair, err);
+    g->v.nears = g->nears, g->v.pairs = g->pairs;
+    return (g->pairs && !g->told_pair) || PUT(near_of, g->near_of, w->n) ||
+                   PUT(near_body, g->near, g->nears) || PUT(pair, g->pair, g->pairs) ||
+                   ROOM(pair_count, (int64_t)g->pairs + 1) || ROOM(told_pair, g->pairs) ||
+                   put_poses(g, w, err)
+               ? -1
+               : 0;
+}
+
+int fl_gpu_begin_pairs(struct fl_gpu_world *g, fl_world *w, fl_err *err)
+{
+    for (int32_t r = 0; r < g->pairs; r++) w->next_check[g->pair[r].pair].free_travel = INFINITY;
+    if (!g->pairs || g->pairs_known) return 0;
+    if (fl_structure_moves(w) && put_poses(g, w, err)) return -1;
+    if (FL_GPU_LAUNCH(PAIRS, g->pairs)) return -1;
+    if (g->e->offsets(g->v.pair_count, g->pairs + 1)) return fl_gpu_fail(g, err);
+    return FL_GPU_LAUNCH(TELL_PAIRS, g->pairs);
+}
+
+/* --- down ---------------------------------------------------------------------------------------- */
+
+/* Puts row r into its pair; it touches or not. */
+static int set_pair(fl_world *w, const fl_gpu_pair *r)
+{
+    fl_neighbour_pair *const q = &w->pair[r->pair];
+    fl_pair made, *p = q->contact;
+    if (!p) fl_neighbour_pair_expand(w, q, p = &made);
+    fl_pair_set_point(p, &r->memory, &r->forces);
+    p->touching = r->touching;
+    p->index = r->pair;
+    if (!r->touching) p->free_travel = r->free_travel, p->omega2_i = p->omega2_j = 0.0;
+    if (fl_neighbour_pair_put_back(w, q, p)) return -1;
+    w->pair_touches[r->pair] = (uint8_t)(r->touching != 0);
+    return 0;
+}
+
+/* A pair that touches, after its evaluation in a step. */
+static int take_pair(fl_world *w, const fl_gpu_pair *r, int survey)
+{
+    const int begins = !w->pair[r->pair].touching;
+    if (set_pair(w, r)) return -1;
+    fl_pair *const p = w->pair[r->pair].contact;
+    p->omega2_i = p->omega2_j = 0.0;
+    if (survey) fl_pair_bound_single_point(w, p, r->n, r->aj, r->off, r->normal);
+    if (begins) fl_pair_note_beginning(w, p, r->moved);
+    w->body_touches[p->i] = w->body_touches[p->j] = 1;
+    return 0;
+}
+
+int fl_gpu_take_pairs(struct fl_gpu_world *g, fl_world *w, int32_t touching, int survey, fl_err *err)
+{
+    if (!g->pairs || g->pairs_known) return 0;
+    if (GET(told_pair, g->told_pair, touching)) return -1;
+    for (int32_t r = 0; r < g->pairs; r++) w->pair_touches[g->pair[r].pair] = 0;
+    for (int32_t r = 0; r < touching; r++)
+        if (take_pair(w, &g->told_pair[r], survey)) return fl_fail(err, FL_SYSTEM, "out of memory");
+    for (int32_t r = 0; r < g->pairs; r++) {
+        fl_neighbour_pair *const q = &w->pair[g->pair[r].pair];
+        if (q->touching && !w->pair_touches[g->pair[r].pair]) q->touching = 0, q->contact->touching = 0;
+    }
+    return 0;
+}
+
+static void set_sums(fl_world *w, const fl_gpu_near *b)
+{
+    const int32_t k = b->body, now = w->contact_sums.slot[k], before = w->previous_sums.slot[k];
+    const fl_gpu_pair_sum *const s[2] = {&b->now, &b->before};
+    fl_contact_sum *const to[2] = {now ? &w->contact_sums.sum[now] : NULL,
+                                   before ? &w->previous_sums.sum[before] : NULL};
+    for (int e = 0; e < 2; e++)
+        if (to[e])
+            *to[e] = (fl_contact_sum){s[e]->damping, s[e]->damping_torque, s[e]->friction,
+                                      s[e]->friction_torque, (int32_t)s[e]->contacts};
+    w->b.work_of_constraints[k] = b->work_of_constraints;
+    if (!before) return;
+    w->kick_change[before] = (fl_velocity_change){b->kick_v, b->kick_w};
+    w->predicted_change[before] = (fl_velocity_change){b->change_v, b->change_w};
+}
+
+int fl_gpu_get_near(struct fl_gpu_world *g, fl_world *w, fl_err *err)
+{
+    if (GET(near_body, g->near, g->nears) || GET(pair, g->pair, g->pairs)) return -1;
+    for (int32_t m = 0; m < g->nears; m++) set_sums(w, &g->near[m]);
+    for (int32_t r = 0; r < g->pairs; r++) {
+        if (set_pair(w, &g->pair[r])) return fl_fail(err, FL_SYSTEM, "out of memory");
+        fl_set_next_check(w, g->pair[r].pair);
+    }
+    return 0;
+}
+
+void fl_gpu_near_free(struct fl_gpu_world *g)
+{
+    free(g->near_of), free(g->near), free(g->pair), free(g->told_pair), free(g->piece);
+}
