@@ -91,6 +91,13 @@ int fl_device_moves(const fl_world *w, int32_t i)
 
 int fl_device_leaves(const fl_world *w) { return w->device.gpu && fl_gpu_world_leaves(w->device.gpu); }
 
+int32_t fl_device_guests(const fl_world *w)
+{
+    int32_t n = -1;
+    if (w->device.gpu) fl_gpu_world_guests(w->device.gpu, &n);
+    return n;
+}
+
 /* --- the step ------------------------------------------------------------------------------------ */
 
 static void note_moves(fl_world *w, int32_t k)

@@ -26,6 +26,9 @@ int fl_device_hand_over(fl_world *w, fl_err *err);
 int fl_device_moves(const fl_world *w, int32_t i);
 int fl_device_leaves(const fl_world *w);
 
+/* Number of bodies that the CPU moves beside the device, since the last search; -1 without a device. */
+int32_t fl_device_guests(const fl_world *w);
+
 /* Drag, kick and drift; sets the largest paths of w->blocks. */
 int fl_device_first_half(fl_world *w, double h, fl_err *err);
 /* Before the neighbour list is made anew, and after.  fl_device_makes_lists(): the device lists pairs of
