@@ -93,11 +93,13 @@ static int download_bytes(void *to, const void *from, size_t bytes)
                : 0;
 }
 
-/* Threads of a block, and blocks that shall fit a multiprocessor at a time: registers are the limit. */
-enum { THREADS = 128, BLOCKS_AT_ONCE = 3 };
+/* Threads of a block, and blocks that shall fit a multiprocessor at a time: registers are the limit.  Pairs with
+ * pieces are few and take more registers than three blocks leave. */
+enum { THREADS = 128, BLOCKS_AT_ONCE = 3, PAIRS_AT_ONCE = 2 };
+#define AT_ONCE(name) (FL_GPU_##name == FL_GPU_PAIRS ? PAIRS_AT_ONCE : BLOCKS_AT_ONCE)
 
 #define KERNEL(name, function)                                                                               \
-    static __global__ void __launch_bounds__(THREADS, BLOCKS_AT_ONCE)                                        \
+    static __global__ void __launch_bounds__(THREADS, AT_ONCE(name))                                         \
         run_##name(const __grid_constant__ fl_gpu_view v, int32_t n)                                         \
     {                                                                                                        \
         const int32_t k = (int32_t)(blockIdx.x * THREADS + threadIdx.x);                                     \

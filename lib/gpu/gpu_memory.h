@@ -39,6 +39,8 @@ struct fl_gpu_world {
     fl_gpu_pair *pair, *told_pair;
     fl_gpu_piece *piece;
     int32_t nears, pairs, near_cap, pair_cap;
+    int32_t *guided_body; /* [guided] own bodies that come in */
+    int32_t guided, guided_cap;
     int pairs_known; /* the CPU has evaluated them in this step, before a list was made */
 };
 

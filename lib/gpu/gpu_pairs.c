@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/array.h"
+#include "body/integrate.h"
 #include "contact/pair_force.h"
 #include "contact/pair_law.h"
 #include "contact/pair_store.h"
@@ -40,11 +41,14 @@ static int has_kernel(const fl_world *w, int32_t i, int32_t j)
            !w->panel_load.panels && !fl_pair_has_strip(w, j);
 }
 
+static int is_guided(const fl_world *w, int32_t k) { return w->inflow.absent && w->inflow.guided[k]; }
+
 int fl_gpu_body_kind(const fl_world *w, int32_t k)
 {
     if (fl_body_absent(w, k)) return FL_GPU_EMPTY;
     if (!w->b.is_isotropic[k] || w->contact_sums.one_each || w->previous_sums.one_each || w->relax.kind ||
-        (w->inflow.absent && w->inflow.guided[k]) || (w->driven_floes.track.n && fl_floe_is_driven(w, k)))
+        (is_guided(w, k) && w->sea.water && !w->discs.n) ||
+        (w->driven_floes.track.n && fl_floe_is_driven(w, k)))
         return FL_GPU_GUEST;
     for (int32_t at = w->first_pair_of_body[k]; at < w->first_pair_of_body[k + 1]; at++) {
         const int32_t c = w->pairs_of_body[at];
@@ -118,7 +122,7 @@ static fl_gpu_pair row_of(const fl_world *w, int32_t c)
 /* Lists them; the pairs of a body follow each other, in their order. */
 static int list_near(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
 {
-    g->nears = g->pairs = 0;
+    g->nears = g->pairs = g->guided = 0;
     for (int32_t k = 0; k < w->n; k++) {
         const int32_t n = g->host[k] == FL_GPU_OWN ? pairs_in_reach(w, k) : -1;
         g->near_of[k] = 0;
@@ -128,6 +132,11 @@ static int list_near(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
             return -1;
         fl_gpu_near *const b = &g->near[g->nears++];
         *b = near_of(w, k, g->pairs);
+        if (is_guided(w, k)) {
+            if (fl_grow(&g->guided_body, &g->guided_cap, (int64_t)g->guided + 1, sizeof *g->guided_body, err))
+                return -1;
+            g->guided_body[g->guided++] = k;
+        }
         for (int32_t at = w->first_pair_of_body[k]; at < w->first_pair_of_body[k + 1]; at++)
             if (is_in_reach(w, w->pairs_of_body[at])) g->pair[g->pairs++] = row_of(w, w->pairs_of_body[at]);
         b->end = g->pairs;
@@ -222,6 +231,28 @@ int fl_gpu_put_near(struct fl_gpu_world *g, fl_world *w, fl_err *err)
                : 0;
 }
 
+void fl_gpu_drift_guided(const struct fl_gpu_world *g, fl_world *w)
+{
+    for (int32_t m = 0; m < g->guided; m++) {
+        const int32_t k = g->guided_body[m];
+        if (w->inflow.guided[k]) w->b.x[k] = v3_madd(w->b.x[k], w->dt, w->b.v[k]);
+    }
+}
+
+int fl_gpu_set_hold(struct fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *err)
+{
+    const int32_t m = g->near_of[k] - 1;
+    const fl_sym3 e = fl_body_mobility(&w->b, k).linear;
+    const fl_vec3 yields = v3(e.xx, e.yy, e.zz);
+    const double inverse = fl_body_inverse_mass(&w->b, k);
+    const uint32_t hold = g->near[m].hold = w->b.fixed_dof[k];
+    return g->e->upload(&g->v.near_body[m].hold, &hold, sizeof hold) ||
+                   g->e->upload(&g->v.yields[k], &yields, sizeof yields) ||
+                   g->e->upload(&g->v.inverse[k], &inverse, sizeof inverse)
+               ? fl_gpu_fail(g, err)
+               : 0;
+}
+
 int fl_gpu_begin_pairs(struct fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     for (int32_t r = 0; r < g->pairs; r++) w->next_check[g->pair[r].pair].free_travel = INFINITY;
@@ -306,4 +337,5 @@ int fl_gpu_get_near(struct fl_gpu_world *g, fl_world *w, fl_err *err)
 void fl_gpu_near_free(struct fl_gpu_world *g)
 {
     free(g->near_of), free(g->near), free(g->pair), free(g->told_pair), free(g->piece);
+    free(g->guided_body);
 }

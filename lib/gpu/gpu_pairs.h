@@ -13,6 +13,11 @@ int fl_gpu_body_kind(const fl_world *w, int32_t k);
 /* Lists own bodies that are near the structure, held or driven, and their pairs; copies them up. */
 int fl_gpu_put_near(struct fl_gpu_world *g, fl_world *w, fl_err *err);
 
+/* The drift of guided bodies of the device, whose velocity along the sheet is constant, so that the CPU knows
+ * when they are let go; and what is fixed of body k now. */
+void fl_gpu_drift_guided(const struct fl_gpu_world *g, fl_world *w);
+int fl_gpu_set_hold(struct fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *err);
+
 /* Before each evaluation: the pairs of the device are none of the CPU's; pieces that move are copied. */
 int fl_gpu_begin_pairs(struct fl_gpu_world *g, fl_world *w, fl_err *err);
 

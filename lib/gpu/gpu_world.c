@@ -87,6 +87,11 @@ const int32_t *fl_gpu_world_guests(const fl_gpu_world *g, int32_t *n)
 
 int fl_gpu_world_owns(const fl_gpu_world *g, int32_t k) { return g->uploaded && !g->host[k]; }
 
+int fl_gpu_world_release(fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *err)
+{
+    return fl_gpu_world_owns(g, k) ? fl_gpu_set_hold(g, w, k, err) : 0;
+}
+
 int fl_gpu_world_leaves(const fl_gpu_world *g) { return g->leaving; }
 
 void fl_gpu_world_forget(fl_gpu_world *g) { g->uploaded = 0; }
@@ -482,6 +487,7 @@ int fl_gpu_world_first_half(fl_gpu_world *g, fl_world *w, fl_err *err)
         FL_GPU_EXCHANGE(sum, previous_sum); /* as fl_ledger_begin_step() */
     }
     g->v.dt = w->dt;
+    fl_gpu_drift_guided(g, w);
     return LAUNCH(FIRST_HALF, w->n) || LAUNCH(BLOCK_MOVES, g->v.blocks) ? -1 : 0;
 }
 

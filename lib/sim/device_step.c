@@ -89,6 +89,11 @@ int fl_device_moves(const fl_world *w, int32_t i)
     return w->device.gpu && fl_gpu_world_owns(w->device.gpu, i);
 }
 
+int fl_device_release(const fl_world *w, int32_t i, fl_err *err)
+{
+    return w->device.gpu ? fl_gpu_world_release(w->device.gpu, w, i, err) : 0;
+}
+
 int fl_device_leaves(const fl_world *w) { return w->device.gpu && fl_gpu_world_leaves(w->device.gpu); }
 
 int32_t fl_device_guests(const fl_world *w)

@@ -26,6 +26,9 @@ int fl_device_hand_over(fl_world *w, fl_err *err);
 int fl_device_moves(const fl_world *w, int32_t i);
 int fl_device_leaves(const fl_world *w);
 
+/* Body i, which came in, is guided no more. */
+int fl_device_release(const fl_world *w, int32_t i, fl_err *err);
+
 /* Number of bodies that the CPU moves beside the device, since the last search; -1 without a device. */
 int32_t fl_device_guests(const fl_world *w);
 
