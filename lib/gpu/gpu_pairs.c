@@ -274,7 +274,8 @@ static int set_pair(fl_world *w, const fl_gpu_pair *r)
     fl_pair_set_point(p, &r->memory, &r->forces);
     p->touching = r->touching;
     p->index = r->pair;
-    if (!r->touching) p->free_travel = r->free_travel, p->omega2_i = p->omega2_j = 0.0;
+    p->free_travel = r->free_travel;
+    if (!r->touching) p->omega2_i = p->omega2_j = 0.0;
     if (fl_neighbour_pair_put_back(w, q, p)) return -1;
     w->pair_touches[r->pair] = (uint8_t)(r->touching != 0);
     return 0;
