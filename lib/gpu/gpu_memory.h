@@ -15,6 +15,11 @@ typedef struct {
 
 enum { FL_GPU_BUFFERS = sizeof(fl_gpu_view) / sizeof(void *) };
 
+/* The faces of a mesh for a near pair. */
+typedef struct {
+    int32_t pair, first, n;
+} fl_gpu_tiles;
+
 struct fl_gpu_world {
     const fl_gpu_engine *e;
     fl_gpu_view v;
@@ -39,6 +44,9 @@ struct fl_gpu_world {
     fl_gpu_pair *pair, *told_pair;
     fl_gpu_piece *piece;
     int32_t nears, pairs, near_cap, pair_cap;
+    int32_t *tile; /* [tiles] of pairs on meshes */
+    fl_gpu_tiles *tiles_of; /* [listed] of each of these pairs, ascending */
+    int32_t tiles, tile_cap, listed, listed_cap;
     int32_t *guided_body; /* [guided] own bodies that come in */
     int32_t guided, guided_cap;
     int pairs_known; /* the CPU has evaluated them in this step, before a list was made */

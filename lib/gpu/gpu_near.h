@@ -6,15 +6,20 @@
 #include <stdint.h>
 #include "contact/point_kernel.h"
 #include "geom/poly.h"
+#include "structure/structure.h"
 
-/* A piece of the structure: a cone, or a convex solid whose arrays are on the device. */
+/* A piece of the structure: a cone, or a convex solid or a mesh whose arrays are on the device. */
 typedef struct {
     fl_poly core;
     fl_mat3 R; /* its axes */
     fl_vec3 x, v, w, change_v, change_w;
     double r0, r1, h; /* of a cone [m] */
     double radius, odometer;
-    int32_t is_cone, pad;
+    const int32_t *cone_of_face;  /* of a mesh with cones, else NULL */
+    const fl_free_cone *free_cone;
+    double facet_error;
+    int32_t kind; /* fl_piece_kind */
+    int32_t pad;
 } fl_gpu_piece;
 
 /* A sphere and a piece that are near each other; in the order of fl_world.pair. */
@@ -26,7 +31,10 @@ typedef struct {
     double moved;             /* way of the two in this step [m] */
     fl_vec3 n, aj, off; /* from the centre of the piece to the point; from the sphere to the piece */
     double normal;      /* [N] */
+    double known; /* on a mesh: fl_mesh_contact_known_distance() [m] */
     int32_t body, piece, pair, touching;
+    int32_t first_tile, tiles; /* faces of a mesh that may be the nearest */
+    int32_t row, undecided;    /* its index here; 1: the CPU evaluates it in this step */
 } fl_gpu_pair;
 
 /* Damping and friction of the pairs of a body, as fl_contact_sum. */

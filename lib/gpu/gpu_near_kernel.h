@@ -7,6 +7,7 @@
 #include "body/held_sphere_kernel.h"
 #include "gpu/gpu_body_kernel.h"
 #include "narrow/closest_kernel.h"
+#include "structure/mesh_sphere_kernel.h"
 
 /* --- contacts with pieces -------------------------------------------------------------------------- */
 
@@ -56,6 +57,26 @@ static inline double fl_gpu_free_travel(double odometers, double distance, doubl
     return odometers + (distance > R ? (distance - R) * (1.0 - 1e-9) : 0.0);
 }
 
+/* Nearest point of a mesh to x in front of it, and its distance for the free travel, as
+ * fl_mesh_contact_sphere(); 0 if x may be behind, which the CPU finds out. */
+static inline int fl_gpu_nearest_on_mesh(const fl_gpu_view *a, const fl_gpu_pair *p, const fl_gpu_piece *b,
+                                         fl_vec3 x, double ra, fl_closest_point *at, double *distance)
+{
+    const int32_t *const tile = &a->tile[p->first_tile];
+    fl_nearest_search best = fl_nearest_of_none(&b->core, 0);
+    for (int32_t c = 0; c < p->tiles; c++) fl_nearest_try(&best, &b->core, tile[c], x);
+    *at = best.at, *distance = best.least;
+    if (best.least > p->known) {
+        *distance = best.least - b->facet_error;
+        return 1;
+    }
+    if (!fl_nearest_is_in_front(&best, &b->core, tile, p->tiles, x)) return 0;
+    if (b->cone_of_face && b->cone_of_face[best.of] >= 0 &&
+        fl_blend_with_cone(at, &b->free_cone[b->cone_of_face[best.of]], x, ra))
+        *distance = fabs(at->d);
+    return 1;
+}
+
 static inline void fl_gpu_near_pair(const fl_gpu_view *a, int32_t c)
 {
     fl_gpu_pair *const p = &a->pair[c];
@@ -67,15 +88,25 @@ static inline void fl_gpu_near_pair(const fl_gpu_view *a, int32_t c)
     if (!p->touching && odometers < p->free_travel) return;
     const fl_sphere_state s = a->state[i];
     const fl_vec3 off = v3_sub(piece->x, s.x), x = v3_neg(m3_tmul(piece->R, off));
-    const fl_closest_point at = piece->is_cone    ? fl_point_on_cone(piece->r0, piece->r1, piece->h, x)
-                                : piece->core.nv == 1 ? fl_closest_of_point(piece->core.v[0], x)
-                                                      : fl_point_on_poly(&piece->core, x);
-    /* the piece may be dilated as well */
-    const double ra = s.r, R = ra + piece->radius;
-    if (!(at.d < R)) {
+    const double ra = s.r, R = ra + piece->radius; /* the piece may be dilated as well */
+    fl_closest_point at;
+    double distance;
+    if (piece->kind == FL_PIECE_MESH) {
+        p->undecided = !fl_gpu_nearest_on_mesh(a, p, piece, x, ra, &at, &distance);
+        if (p->undecided) {
+            a->pair_count[c] = 1;
+            return;
+        }
+    } else {
+        at = piece->kind == FL_PIECE_CONE ? fl_point_on_cone(piece->r0, piece->r1, piece->h, x)
+             : piece->core.nv == 1        ? fl_closest_of_point(piece->core.v[0], x)
+                                          : fl_point_on_poly(&piece->core, x);
+        distance = at.d;
+    }
+    if (!(distance < R)) {
         p->memory = fl_gpu_no_memory(), p->forces = fl_gpu_no_forces();
         p->touching = 0;
-        p->free_travel = fl_gpu_free_travel(odometers, at.d, R);
+        p->free_travel = fl_gpu_free_travel(odometers, distance, R);
         return;
     }
     fl_point_contact q;
@@ -108,12 +139,13 @@ static inline void fl_gpu_near_pair(const fl_gpu_view *a, int32_t c)
     a->pair_count[c] = 1;
 }
 
-/* Copies a touching pair to its place among those. */
+/* Copies a pair that touches, or is left to the CPU, to its place among those. */
 static inline void fl_gpu_tell_pair(const fl_gpu_view *a, int32_t c)
 {
     const int32_t at = a->pair_count[c];
-    if (a->pair[c].touching) a->told_pair[at] = a->pair[c];
-    if (c == a->pairs - 1) a->control->touching = at + a->pair[c].touching;
+    const int told = a->pair[c].touching || a->pair[c].undecided;
+    if (told) a->told_pair[at] = a->pair[c];
+    if (c == a->pairs - 1) a->control->touching = at + told;
 }
 
 /* Adds the pairs of a body in their order, as fl_body_contact_force(). */

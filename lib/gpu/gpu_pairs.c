@@ -4,6 +4,7 @@
 #include <string.h>
 #include "base/array.h"
 #include "body/integrate.h"
+#include "contact/active_pairs.h"
 #include "contact/pair_force.h"
 #include "contact/pair_law.h"
 #include "contact/pair_store.h"
@@ -29,12 +30,13 @@ static int is_in_reach(const fl_world *w, int32_t c)
            w->pair[c].touching;
 }
 
-/* 1 if a device evaluates pairs of a sphere with piece or wall j: a cone or a convex solid at rest or moving
- * as prescribed, by springs at the closest point. */
+/* 1 if a device evaluates pairs of a sphere with piece or wall j: a cone, a convex solid or a closed mesh at
+ * rest or moving as prescribed, by springs at the closest point. */
 static int has_kernel(const fl_world *w, int32_t i, int32_t j)
 {
     const fl_piece *piece = fl_world_piece(w, j);
-    if (!piece || (piece->kind != FL_PIECE_CONE && piece->kind != FL_PIECE_SOLID)) return 0;
+    if (!piece || piece->kind == FL_PIECE_PLANE) return 0;
+    if (piece->kind == FL_PIECE_MESH && (!piece->mesh.closed || piece->mesh.thin || piece->one_sided)) return 0;
     const fl_pair_law *law = fl_pair_law_of(w, i, j);
     return !piece->elastic && !piece->several_parts && !fl_piece_is_free(w, j) && !w->cell.periodic &&
            law->law->end_speed && law->law->points != FL_POINTS_FEATURES && !(law->rolling > 0.0) &&
@@ -43,7 +45,31 @@ static int has_kernel(const fl_world *w, int32_t i, int32_t j)
 
 static int is_guided(const fl_world *w, int32_t k) { return w->inflow.absent && w->inflow.guided[k]; }
 
-int fl_gpu_body_kind(const fl_world *w, int32_t k)
+/* Lists the faces of a mesh for near pair c.  1 if the sphere can touch a single wall until the next search,
+ * 0 if not, -1 when memory runs out. */
+static int list_tiles(struct fl_gpu_world *g, fl_world *w, int32_t c, fl_err *err)
+{
+    const fl_neighbour_pair *q = &w->pair[c];
+    const fl_vec3 off = fl_separation(w, q->i, q->j, q->image);
+    fl_feature_pairs l = {.candidates = 0};
+    const int single = fl_mesh_contact_single_wall(
+        &w->mesh_near[0], fl_world_piece(w, q->j), v3_neg(m3_tmul(fl_body_axes(&w->b, q->j), off)),
+        w->b.radius[q->i], w->skin * (1.0 + PATH_MARGIN), &l);
+    int rc = single;
+    if (single > 0 &&
+        (fl_grow(&g->tile, &g->tile_cap, (int64_t)g->tiles + l.candidates, sizeof *g->tile, err) ||
+         fl_grow(&g->tiles_of, &g->listed_cap, (int64_t)g->listed + 1, sizeof *g->tiles_of, err)))
+        rc = -1;
+    if (rc > 0) {
+        memcpy(g->tile + g->tiles, l.candidate, (size_t)l.candidates * sizeof *l.candidate);
+        g->tiles_of[g->listed++] = (fl_gpu_tiles){c, g->tiles, l.candidates};
+        g->tiles += l.candidates;
+    }
+    free(l.candidate);
+    return rc;
+}
+
+int fl_gpu_body_kind(struct fl_gpu_world *g, fl_world *w, int32_t k, fl_err *err)
 {
     if (fl_body_absent(w, k)) return FL_GPU_EMPTY;
     if (!w->b.is_isotropic[k] || w->contact_sums.one_each || w->previous_sums.one_each || w->relax.kind ||
@@ -51,8 +77,13 @@ int fl_gpu_body_kind(const fl_world *w, int32_t k)
         (w->driven_floes.track.n && fl_floe_is_driven(w, k)))
         return FL_GPU_GUEST;
     for (int32_t at = w->first_pair_of_body[k]; at < w->first_pair_of_body[k + 1]; at++) {
-        const int32_t c = w->pairs_of_body[at];
-        if (is_in_reach(w, c) && !has_kernel(w, k, w->pair[c].j)) return FL_GPU_GUEST;
+        const int32_t c = w->pairs_of_body[at], j = w->pair[c].j;
+        if (!is_in_reach(w, c)) continue;
+        if (!has_kernel(w, k, j)) return FL_GPU_GUEST;
+        if (fl_world_piece(w, j)->kind != FL_PIECE_MESH) continue;
+        const int single = list_tiles(g, w, c, err);
+        if (single < 0) return -1;
+        if (!single) return FL_GPU_GUEST;
     }
     return FL_GPU_OWN;
 }
@@ -103,6 +134,7 @@ static fl_gpu_near near_of(const fl_world *w, int32_t k, int32_t first)
 
 static fl_gpu_pair row_of(const fl_world *w, int32_t c)
 {
+    const fl_piece *const piece = fl_world_piece(w, w->pair[c].j);
     const fl_neighbour_pair *q = &w->pair[c];
     fl_pair made;
     const fl_pair *p = q->contact;
@@ -113,15 +145,30 @@ static fl_gpu_pair row_of(const fl_world *w, int32_t c)
                                  p->law->impact_damping, p->law->slow_damping_factor},
                          .mass = p->mass,
                          .free_travel = q->free_travel,
+                         .known = piece->kind == FL_PIECE_MESH
+                                      ? fl_mesh_contact_known_distance(piece, w->b.radius[q->i])
+                                      : 0.0,
                          .body = q->i,
                          .piece = q->j - w->n,
                          .pair = c,
                          .touching = q->touching};
 }
 
+/* Adds near pair c, with its faces. */
+static void add_row(struct fl_gpu_world *g, const fl_world *w, int32_t c, int32_t *next)
+{
+    fl_gpu_pair *const r = &g->pair[g->pairs];
+    *r = row_of(w, c);
+    r->row = g->pairs++;
+    while (*next < g->listed && g->tiles_of[*next].pair < c) ++*next;
+    if (*next < g->listed && g->tiles_of[*next].pair == c)
+        r->first_tile = g->tiles_of[*next].first, r->tiles = g->tiles_of[*next].n;
+}
+
 /* Lists them; the pairs of a body follow each other, in their order. */
 static int list_near(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
 {
+    int32_t next = 0; /* list of faces */
     g->nears = g->pairs = g->guided = 0;
     for (int32_t k = 0; k < w->n; k++) {
         const int32_t n = g->host[k] == FL_GPU_OWN ? pairs_in_reach(w, k) : -1;
@@ -138,60 +185,90 @@ static int list_near(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
             g->guided_body[g->guided++] = k;
         }
         for (int32_t at = w->first_pair_of_body[k]; at < w->first_pair_of_body[k + 1]; at++)
-            if (is_in_reach(w, w->pairs_of_body[at])) g->pair[g->pairs++] = row_of(w, w->pairs_of_body[at]);
+            if (is_in_reach(w, w->pairs_of_body[at])) add_row(g, w, w->pairs_of_body[at], &next);
         b->end = g->pairs;
         g->near_of[k] = g->nears;
     }
     return 0;
 }
 
-/* Offsets of the arrays of a solid piece in those of all. */
+/* Offsets of the arrays of a solid piece or a mesh in those of all. */
 typedef struct {
-    int64_t v, f, loop;
+    int64_t v, f, loop, cone, interval;
 } piece_offsets;
+
+static int has_faces(const fl_piece *p) { return p->kind == FL_PIECE_SOLID || p->kind == FL_PIECE_MESH; }
 
 static piece_offsets after(piece_offsets at, const fl_piece *p)
 {
-    if (p->kind != FL_PIECE_SOLID) return at;
     const int32_t nf = p->core.nf;
-    return (piece_offsets){at.v + p->core.nv, at.f + nf, at.loop + (nf ? p->core.first[nf] : 0)};
+    if (!has_faces(p)) return at;
+    at.v += p->core.nv, at.f += nf, at.loop += nf ? p->core.first[nf] : 0;
+    for (int32_t c = 0; c < p->cones; c++) at.cone++, at.interval += p->free_cone[c].n;
+    return at;
 }
 
-/* Copies the shapes of the solid pieces, once. */
+static int up(struct fl_gpu_world *g, void *to, const void *from, int64_t n, size_t size, fl_err *err)
+{
+    return n > 0 && g->e->upload(to, from, (size_t)n * size) ? fl_gpu_fail(g, err) : 0;
+}
+#define UP(to, from, n) up(g, to, from, n, sizeof *(from), err)
+
+/* The cones of a mesh. */
+static int put_cones(struct fl_gpu_world *g, const fl_piece *p, piece_offsets at, fl_gpu_piece *to, fl_err *err)
+{
+    int32_t *const cone_of_face = g->v.piece_cone + at.f;
+    to->free_cone = g->v.free_cone + at.cone;
+    for (int32_t c = 0; c < p->cones; c++) {
+        fl_free_cone one = p->free_cone[c];
+        if (UP(g->v.free_interval + at.interval, one.free, one.n)) return -1;
+        one.free = g->v.free_interval + at.interval;
+        at.interval += one.n;
+        if (UP(g->v.free_cone + at.cone + c, &one, 1)) return -1;
+    }
+    if (!p->mesh.cone_of_face) return 0;
+    to->cone_of_face = cone_of_face;
+    return UP(cone_of_face, p->mesh.cone_of_face, p->core.nf);
+}
+
+static int put_shape(struct fl_gpu_world *g, const fl_piece *p, piece_offsets at, int32_t k, fl_gpu_piece *to,
+                     fl_err *err)
+{
+    const fl_poly *s = &p->core;
+    to->core = (fl_poly){.nv = s->nv,
+                         .nf = s->nf,
+                         .v = g->v.piece_v + at.v,
+                         .n = g->v.piece_n + at.f,
+                         .c = g->v.piece_c + at.f,
+                         .first = g->v.piece_first + at.f + k,
+                         .loop = g->v.piece_loop + at.loop,
+                         .size = s->size};
+    if (UP(to->core.v, s->v, s->nv)) return -1;
+    if (s->nf && (UP(to->core.n, s->n, s->nf) || UP(to->core.c, s->c, s->nf) ||
+                  UP(to->core.first, s->first, s->nf + 1) || UP(to->core.loop, s->loop, s->first[s->nf])))
+        return -1;
+    return p->kind == FL_PIECE_MESH ? put_cones(g, p, at, to, err) : 0;
+}
+
+/* Copies the shapes of the pieces, once. */
 static int put_shapes(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
 {
-    piece_offsets all = {0, 0, 0}, at = {0, 0, 0};
+    piece_offsets all = {0}, at = {0};
     for (int32_t k = 0; k < w->pieces; k++) all = after(all, &w->structure.piece[k]);
     if (ROOM(piece_v, all.v) || ROOM(piece_n, all.f) || ROOM(piece_c, all.f) || ROOM(piece_loop, all.loop) ||
-        ROOM(piece_first, all.f + w->pieces))
+        ROOM(piece_first, all.f + w->pieces) || ROOM(piece_cone, all.f) || ROOM(free_cone, all.cone) ||
+        ROOM(free_interval, all.interval))
         return -1;
     for (int32_t k = 0; k < w->pieces; k++) {
         const fl_piece *p = &w->structure.piece[k];
-        const fl_poly *s = &p->core;
-        const piece_offsets next = after(at, p);
-        fl_gpu_piece *const to = &g->piece[k];
-        *to = (fl_gpu_piece){.is_cone = p->kind == FL_PIECE_CONE,
-                             .r0 = p->r0,
-                             .r1 = p->r1,
-                             .h = p->h,
-                             .radius = w->b.radius[w->n + k]};
-        if (p->kind != FL_PIECE_SOLID) continue;
-        to->core = (fl_poly){.nv = s->nv,
-                             .nf = s->nf,
-                             .v = g->v.piece_v + at.v,
-                             .n = g->v.piece_n + at.f,
-                             .c = g->v.piece_c + at.f,
-                             .first = g->v.piece_first + at.f + k,
-                             .loop = g->v.piece_loop + at.loop,
-                             .size = s->size};
-        const size_t f = (size_t)s->nf;
-        if (g->e->upload(to->core.v, s->v, (size_t)s->nv * sizeof *s->v) ||
-            (f && (g->e->upload(to->core.n, s->n, f * sizeof *s->n) ||
-                   g->e->upload(to->core.c, s->c, f * sizeof *s->c) ||
-                   g->e->upload(to->core.first, s->first, (f + 1) * sizeof *s->first) ||
-                   g->e->upload(to->core.loop, s->loop, (size_t)s->first[f] * sizeof *s->loop))))
-            return fl_gpu_fail(g, err);
-        at = next;
+        g->piece[k] = (fl_gpu_piece){.kind = (int32_t)p->kind,
+                                     .r0 = p->r0,
+                                     .r1 = p->r1,
+                                     .h = p->h,
+                                     .facet_error = p->facet_error,
+                                     .radius = w->b.radius[w->n + k]};
+        if (has_faces(p) && put_shape(g, p, at, k, &g->piece[k], err)) return -1;
+        at = after(at, p);
     }
     return 0;
 }
@@ -224,7 +301,7 @@ int fl_gpu_put_near(struct fl_gpu_world *g, fl_world *w, fl_err *err)
     g->told_pair = fl_alloc(g->pairs, sizeof *g->told_pair, err);
     g->v.nears = g->nears, g->v.pairs = g->pairs;
     return (g->pairs && !g->told_pair) || PUT(near_of, g->near_of, w->n) ||
-                   PUT(near_body, g->near, g->nears) || PUT(pair, g->pair, g->pairs) ||
+                   PUT(near_body, g->near, g->nears) || PUT(tile, g->tile, g->tiles) || PUT(pair, g->pair, g->pairs) ||
                    ROOM(pair_count, (int64_t)g->pairs + 1) || ROOM(told_pair, g->pairs) ||
                    put_poses(g, w, err)
                ? -1
@@ -294,20 +371,6 @@ static int take_pair(fl_world *w, const fl_gpu_pair *r, int survey)
     return 0;
 }
 
-int fl_gpu_take_pairs(struct fl_gpu_world *g, fl_world *w, int32_t touching, int survey, fl_err *err)
-{
-    if (!g->pairs || g->pairs_known) return 0;
-    if (GET(told_pair, g->told_pair, touching)) return -1;
-    for (int32_t r = 0; r < g->pairs; r++) w->pair_touches[g->pair[r].pair] = 0;
-    for (int32_t r = 0; r < touching; r++)
-        if (take_pair(w, &g->told_pair[r], survey)) return fl_fail(err, FL_SYSTEM, "out of memory");
-    for (int32_t r = 0; r < g->pairs; r++) {
-        fl_neighbour_pair *const q = &w->pair[g->pair[r].pair];
-        if (q->touching && !w->pair_touches[g->pair[r].pair]) q->touching = 0, q->contact->touching = 0;
-    }
-    return 0;
-}
-
 static void set_sums(fl_world *w, const fl_gpu_near *b)
 {
     const int32_t k = b->body, now = w->contact_sums.slot[k], before = w->previous_sums.slot[k];
@@ -324,6 +387,51 @@ static void set_sums(fl_world *w, const fl_gpu_near *b)
     w->predicted_change[before] = (fl_velocity_change){b->change_v, b->change_w};
 }
 
+/* Evaluates row r here, with the numbers of its sphere now, and gives it back. */
+static int evaluate_here(struct fl_gpu_world *g, fl_world *w, const fl_gpu_pair *r, int survey, fl_err *err)
+{
+    const int32_t i = r->body, c = r->pair;
+    fl_gpu_near near;
+    fl_sphere_state s;
+    if (fl_gpu_get_bytes(g, &near, &g->v.near_body[g->near_of[i] - 1], sizeof near, err) ||
+        fl_gpu_get_bytes(g, &s, &g->v.state[i], sizeof s, err) ||
+        fl_gpu_get_bytes(g, &w->b.odometer[i], &g->v.odometer[i], sizeof *w->b.odometer, err) ||
+        fl_gpu_get_bytes(g, &w->spheres.previous_contact_count[i], &g->v.contact_count[i],
+                         sizeof *w->spheres.contact_count, err))
+        return -1;
+    w->b.x[i] = s.x, w->b.v[i] = s.v, w->b.w[i] = s.w;
+    if (w->b.heave_mass &&
+        fl_gpu_get_bytes(g, &w->b.heave_mass[i], &g->v.heave_mass[i], sizeof *w->b.heave_mass, err))
+        return -1;
+    set_sums(w, &near);
+    if (set_pair(w, r)) return fl_fail(err, FL_SYSTEM, "out of memory");
+    fl_evaluate_neighbour_pair(w, c, 0, NULL, w->dt, survey);
+    const fl_neighbour_pair *q = &w->pair[c];
+    w->pair_touches[c] = q->touching;
+    if (q->touching) w->body_touches[q->i] = w->body_touches[q->j] = 1;
+    fl_gpu_pair row = row_of(w, c);
+    row.row = r->row, row.first_tile = r->first_tile, row.tiles = r->tiles;
+    return UP(&g->v.pair[r->row], &row, 1);
+}
+
+int fl_gpu_take_pairs(struct fl_gpu_world *g, fl_world *w, int32_t touching, int survey, fl_err *err)
+{
+    if (!g->pairs || g->pairs_known) return 0;
+    if (GET(told_pair, g->told_pair, touching)) return -1;
+    for (int32_t r = 0; r < g->pairs; r++) w->pair_touches[g->pair[r].pair] = 0;
+    for (int32_t r = 0; r < touching; r++)
+        if (g->told_pair[r].undecided) {
+            if (evaluate_here(g, w, &g->told_pair[r], survey, err)) return -1;
+        } else if (take_pair(w, &g->told_pair[r], survey)) {
+            return fl_fail(err, FL_SYSTEM, "out of memory");
+        }
+    for (int32_t r = 0; r < g->pairs; r++) {
+        fl_neighbour_pair *const q = &w->pair[g->pair[r].pair];
+        if (q->touching && !w->pair_touches[g->pair[r].pair]) q->touching = 0, q->contact->touching = 0;
+    }
+    return 0;
+}
+
 int fl_gpu_get_near(struct fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     if (GET(near_body, g->near, g->nears) || GET(pair, g->pair, g->pairs)) return -1;
@@ -338,5 +446,5 @@ int fl_gpu_get_near(struct fl_gpu_world *g, fl_world *w, fl_err *err)
 void fl_gpu_near_free(struct fl_gpu_world *g)
 {
     free(g->near_of), free(g->near), free(g->pair), free(g->told_pair), free(g->piece);
-    free(g->guided_body);
+    free(g->guided_body), free(g->tile), free(g->tiles_of);
 }

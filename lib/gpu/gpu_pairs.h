@@ -7,8 +7,9 @@
 #include "world/world.h"
 
 /* FL_GPU_OWN if the device moves body k until the next search, FL_GPU_GUEST if the CPU does, FL_GPU_EMPTY if
- * there is none; all pairs have been evaluated. */
-int fl_gpu_body_kind(const fl_world *w, int32_t k);
+ * there is none; all pairs have been evaluated.  Bodies are asked for in their order, and faces of meshes are
+ * listed on the way; g->tiles and g->listed are 0 before.  -1 when memory runs out. */
+int fl_gpu_body_kind(struct fl_gpu_world *g, fl_world *w, int32_t k, fl_err *err);
 
 /* Lists own bodies that are near the structure, held or driven, and their pairs; copies them up. */
 int fl_gpu_put_near(struct fl_gpu_world *g, fl_world *w, fl_err *err);

@@ -145,10 +145,13 @@ typedef struct {
     fl_gpu_pair *pair;      /* [pairs] */
     int32_t *pair_count;    /* [pairs + 1] 1: touches; then the number of those before */
     fl_gpu_pair *told_pair; /* [pairs] those that touch, in front */
-    /* vertices, normals, plane offsets and loops of all solid pieces */
+    /* vertices, normals, plane offsets and loops of all solid pieces and meshes; cones of the faces */
     fl_vec3 *piece_v, *piece_n;
     double *piece_c;
-    int32_t *piece_first, *piece_loop;
+    int32_t *piece_first, *piece_loop, *piece_cone;
+    fl_free_cone *free_cone;
+    fl_interval *free_interval;
+    const int32_t *tile; /* of rows on meshes */
 
     /* guests */
     const int32_t *guest; /* [guests] */

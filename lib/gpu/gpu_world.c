@@ -126,7 +126,7 @@ static int is_guest(const fl_gpu_world *g, int32_t k)
     return g->host[k] == FL_GPU_GUEST || g->host[k] == FL_GPU_NEW_GUEST;
 }
 
-static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
+static int choose_guests(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     const fl_disc_list *s = &w->discs;
     if (!g->host) {
@@ -139,10 +139,11 @@ static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
         g->leaves = fl_alloc((int64_t)w->n / FL_BODY_BLOCK + 1, sizeof *g->leaves, err);
         if (!g->leaves || !g->host || !g->guest || !g->guest_state || !g->guest_sum || !g->moves) return -1;
     }
-    g->guests = g->guest_discs = 0;
+    g->guests = g->guest_discs = g->tiles = g->listed = 0;
     const int all = fl_gpu_world_has_other_water(w);
     for (int32_t k = 0; k < w->n; k++) {
-        int kind = fl_gpu_body_kind(w, k);
+        int kind = fl_gpu_body_kind(g, w, k, err);
+        if (kind < 0) return -1;
         if (all && kind == FL_GPU_OWN) kind = FL_GPU_GUEST;
         if (kind == FL_GPU_OWN && g->host[k] && g->uploaded && release_guest(g, w, k, err)) return -1;
         if (kind == FL_GPU_GUEST) {
