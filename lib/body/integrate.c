@@ -409,10 +409,9 @@ void fl_body_apply_fixed_dof(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_
         return;
     }
     if (b->is_isotropic[i]) {
-        const fl_sphere_motion a =
-            fl_held_motion((fl_sphere_motion){v, L, b->w[i]}, hold, v_held, w_held, b->m[i],
-                           b->heave_mass ? b->heave_mass[i] : 0.0, b->invI[i].x, b->I[i].x,
-                           &b->work_of_constraints[i]);
+        const fl_sphere_motion a = fl_held_motion((fl_sphere_motion){v, L, b->w[i]}, hold, v_held, w_held,
+                                                  b->m[i], b->heave_mass ? b->heave_mass[i] : 0.0,
+                                                  b->invI[i].x, b->I[i].x, &b->work_of_constraints[i]);
         b->v[i] = a.v, b->L[i] = a.L, b->w[i] = a.w;
         return;
     }

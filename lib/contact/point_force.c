@@ -82,25 +82,17 @@ static fl_point_contact point_contact(const fl_world *w, const fl_pair *p, const
 
 fl_point_memory fl_pair_memory(const fl_pair *p)
 {
-    return (fl_point_memory){p->springs,           p->sustained_spin,      p->sustained_spin_rate,
-                             p->max_approach_speed, p->sustained_load,      p->sustained_load_rate,
-                             p->sustained_step};
+    return (fl_point_memory){
+        p->springs,        p->sustained_spin,      p->sustained_spin_rate, p->max_approach_speed,
+        p->sustained_load, p->sustained_load_rate, p->sustained_step};
 }
 
 fl_point_forces fl_pair_forces(const fl_pair *p)
 {
-    return (fl_point_forces){p->force,
-                             p->torque_i,
-                             p->torque_j,
-                             p->force_damping,
-                             p->torque_i_damping,
-                             p->torque_j_damping,
-                             p->force_friction,
-                             p->torque_i_friction,
-                             p->torque_j_friction,
-                             p->energy,
-                             p->spring_energy,
-                             p->overlap};
+    return (fl_point_forces){p->force,          p->torque_i,          p->torque_j,
+                             p->force_damping,  p->torque_i_damping,  p->torque_j_damping,
+                             p->force_friction, p->torque_i_friction, p->torque_j_friction,
+                             p->energy,         p->spring_energy,     p->overlap};
 }
 
 void fl_pair_set_point(fl_pair *p, const fl_point_memory *m, const fl_point_forces *f)
@@ -160,8 +152,9 @@ int fl_pair_evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, c
 {
     const fl_bodies *b = &w->b;
     if (s->n == 1 && p->law->law->end_speed) return evaluate_one_point(w, p, s, r, by, survey);
-    const fl_pair_prediction unpredicted = {
-                                 .step = by->step, .lag = by->lag, .change = {.contact_count = 1.0}},
+    const fl_pair_prediction unpredicted = {.step = by->step,
+                                            .lag = by->lag,
+                                            .change = {.contact_count = 1.0}},
                              *const a = &unpredicted;
     const double k = p->k;
     const world_point first = world_point_of(p, &s->point[0], r);

@@ -40,12 +40,12 @@ typedef struct {
     fl_vec3 n, ai, aj;
     double overlap;
     fl_point_body i, j;
-    fl_vec3 lag;           /* correction of the relative velocity, fl_rotation_lag() [m/s] */
-    double reduced_mass;   /* [kg] */
-    double contact_count;  /* contacts that damp the two */
-    double dt, half_step, at_start;  /* of the evaluation, fl_predictor_step */
-    double step, step_size;          /* number and size of the step */
-    int is_reduced, sustains;        /* M is the reduced mass; the other is a piece of several faces */
+    fl_vec3 lag;                    /* correction of the relative velocity, fl_rotation_lag() [m/s] */
+    double reduced_mass;            /* [kg] */
+    double contact_count;           /* contacts that damp the two */
+    double dt, half_step, at_start; /* of the evaluation, fl_predictor_step */
+    double step, step_size;         /* number and size of the step */
+    int is_reduced, sustains;       /* M is the reduced mass; the other is a piece of several faces */
     fl_point_law law;
 } fl_point_contact;
 
@@ -106,9 +106,9 @@ static inline void fl_point_sustain(fl_point_memory *m, const fl_point_contact *
     const fl_low_pass pass = fl_damping_low_pass(dt, omega2);
     const fl_vec3 w0 = m->sustained_spin, g0 = m->sustained_spin_rate;
     const double load_now = fl_low_pass_after(&pass, m->sustained_load, m->sustained_load_rate, load, dt);
-    const fl_vec3 spin = v3(fl_low_pass_after(&pass, w0.x, g0.x, 0.0, dt),
-                            fl_low_pass_after(&pass, w0.y, g0.y, 0.0, dt),
-                            fl_low_pass_after(&pass, w0.z, g0.z, 0.0, dt));
+    const fl_vec3 spin =
+        v3(fl_low_pass_after(&pass, w0.x, g0.x, 0.0, dt), fl_low_pass_after(&pass, w0.y, g0.y, 0.0, dt),
+           fl_low_pass_after(&pass, w0.z, g0.z, 0.0, dt));
     m->sustained_load = load_now;
     m->sustained_load_rate = pass.rate * (load - load_now);
     m->sustained_spin = spin;
@@ -179,8 +179,9 @@ static inline fl_point_before fl_point_before_of(const fl_point_forces *p, const
 
 /* Evaluates the contact; touched: it touched in the step before.  spring_energy is not yet in energy, since
  * rolling resistance may follow. */
-static inline fl_point_normal fl_point_evaluate(const fl_point_contact *c, int touched, fl_point_before before,
-                                                fl_point_memory *m, fl_point_forces *p)
+static inline fl_point_normal fl_point_evaluate(const fl_point_contact *c, int touched,
+                                                fl_point_before before, fl_point_memory *m,
+                                                fl_point_forces *p)
 {
     const fl_vec3 none = v3(0, 0, 0), n = c->n;
     const double k = c->law.k;
@@ -206,10 +207,10 @@ static inline fl_point_normal fl_point_evaluate(const fl_point_contact *c, int t
                  all = f2 > 0.25 ? f2 : 0.25,
                  compliance =
                      (fl_point_mobility_along(&c->i, n, ti) + fl_point_mobility_along(&c->j, n, tj)) / all;
-    const double more = fl_damping_end_speed(comes, q.chi * q.elastic, c->half_step * compliance,
-                                             c->contact_count, known * (q.elastic - size), known * damped,
-                                             c->at_start) -
-                        comes;
+    const double more =
+        fl_damping_end_speed(comes, q.chi * q.elastic, c->half_step * compliance, c->contact_count,
+                             known * (q.elastic - size), known * damped, c->at_start) -
+        comes;
     q.normal = fl_normal_damped_force(q.elastic, q.chi, comes + more);
     q.direction = v3_madd(none, q.normal, n);
     q.load = v3_norm(q.direction);

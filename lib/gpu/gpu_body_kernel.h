@@ -109,9 +109,8 @@ static inline int fl_gpu_is_finite(fl_vec3 a)
 /* Buoyancy of body k, with its wetted area; updates the added mass and its work, up: velocity upwards. */
 static inline fl_vec3 fl_gpu_float(const fl_gpu_view *a, int32_t k, double up)
 {
-    const fl_sphere_float wet =
-        fl_sphere_floats(a->state[k].x.z, a->drag_radius[k], a->fill[k], a->volume[k], a->surface[k],
-                         a->level, a->specific_weight);
+    const fl_sphere_float wet = fl_sphere_floats(a->state[k].x.z, a->drag_radius[k], a->fill[k], a->volume[k],
+                                                 a->surface[k], a->level, a->specific_weight);
     a->wetted_area[k] = wet.area, a->buoyancy[k] = wet.buoyancy;
     if (a->heave_mass) {
         const double heave = a->heave_factor * (wet.buoyancy / a->gravity_size),

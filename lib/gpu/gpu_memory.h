@@ -44,7 +44,7 @@ struct fl_gpu_world {
     fl_gpu_pair *pair, *told_pair;
     fl_gpu_piece *piece;
     int32_t nears, pairs, near_cap, pair_cap;
-    int32_t *tile; /* [tiles] of pairs on meshes */
+    int32_t *tile;          /* [tiles] of pairs on meshes */
     fl_gpu_tiles *tiles_of; /* [listed] of each of these pairs, ascending */
     int32_t tiles, tile_cap, listed, listed_cap;
     int32_t *guided_body; /* [guided] own bodies that come in */

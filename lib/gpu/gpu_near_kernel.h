@@ -190,8 +190,8 @@ static inline void fl_gpu_acceleration(const fl_gpu_view *a, int32_t k, uint32_t
 {
     const fl_vec3 none = v3(0, 0, 0), f = a->f[k];
     const double invm = a->invm[k];
-    const fl_vec3 free_v = a->heave_mass ? v3(invm * f.x, invm * f.y, f.z / fl_gpu_mass_up(a, k))
-                                         : v3_scale(invm, f);
+    const fl_vec3 free_v =
+        a->heave_mass ? v3(invm * f.x, invm * f.y, f.z / fl_gpu_mass_up(a, k)) : v3_scale(invm, f);
     *dv = v3_scale(h, fl_held_components(hold, none, free_v));
     *dw = v3_scale(h, fl_held_spin(hold, none, a->t[k], a->turn[k]));
 }
@@ -214,7 +214,8 @@ static inline fl_sphere_motion fl_gpu_near_drag(const fl_gpu_view *a, int32_t k,
     fl_sphere_drag d = a->drag;
     if (!a->floats || !(a->wetted_area[k] > 0.0)) return now;
     d.h = h;
-    fl_sphere_motion end = fl_sphere_decay(now, a->m[k], up, a->wetted_area[k], a->drag_radius[k], d, heavy, &lost);
+    fl_sphere_motion end =
+        fl_sphere_decay(now, a->m[k], up, a->wetted_area[k], a->drag_radius[k], d, heavy, &lost);
     const double from =
         fl_sphere_kinetic(a->m[k], up, now.v, v3_dot(now.w, now.L), heavy) - b->work_of_constraints;
     end = fl_gpu_hold(a, k, b, end, now);
@@ -229,10 +230,9 @@ static inline fl_sphere_motion fl_gpu_near_kick(const fl_gpu_view *a, int32_t k,
 {
     const int heavy = a->heave_mass != NULL;
     fl_gpu_kick_change(a, k, fl_gpu_is_single(a, b), h, dv, dw);
-    const fl_sphere_motion end =
-        fl_gpu_hold(a, k, b,
-                    fl_sphere_kick(now, a->f[k], a->t[k], h, a->invm[k], a->turn[k], fl_gpu_mass_up(a, k), heavy),
-                    now);
+    const fl_sphere_motion end = fl_gpu_hold(
+        a, k, b,
+        fl_sphere_kick(now, a->f[k], a->t[k], h, a->invm[k], a->turn[k], fl_gpu_mass_up(a, k), heavy), now);
     if (b->hold) *dv = v3_sub(end.v, now.v);
     if (b->hold & FL_DOF_TURNS) *dw = v3_sub(end.w, now.w);
     return end;
@@ -251,7 +251,8 @@ static inline void fl_gpu_near_first_half(const fl_gpu_view *a, int32_t k, fl_gp
     if (now.L.x == 0.0 && now.L.y == 0.0 && now.L.z == 0.0) {
         if (!(b->hold & FL_DOF_TURNS)) now.w = v3(0, 0, 0);
     } else if (b->hold & FL_DOF_TURNS) {
-        a->q[k] = fl_held_turned(a->q[k], &now, b->hold, a->turn[k], a->inertia[k], dt, &b->work_of_constraints);
+        a->q[k] =
+            fl_held_turned(a->q[k], &now, b->hold, a->turn[k], a->inertia[k], dt, &b->work_of_constraints);
     } else {
         a->q[k] = fl_sphere_turned(a->q[k], now.L, a->turn[k], dt);
     }
@@ -310,7 +311,8 @@ static inline int fl_gpu_near_begins(const fl_gpu_near *b)
 
 static inline int fl_gpu_near_ends(const fl_gpu_view *a, const fl_gpu_near *b)
 {
-    return b->hold || b->is_driven || b->is_always_single || b->before.contacts > 0 || fl_gpu_touches_pieces(a, b);
+    return b->hold || b->is_driven || b->is_always_single || b->before.contacts > 0 ||
+           fl_gpu_touches_pieces(a, b);
 }
 
 static inline void fl_gpu_near_second_half(const fl_gpu_view *a, int32_t k, fl_gpu_near *b)

@@ -36,7 +36,8 @@ static int has_kernel(const fl_world *w, int32_t i, int32_t j)
 {
     const fl_piece *piece = fl_world_piece(w, j);
     if (!piece || piece->kind == FL_PIECE_PLANE) return 0;
-    if (piece->kind == FL_PIECE_MESH && (!piece->mesh.closed || piece->mesh.thin || piece->one_sided)) return 0;
+    if (piece->kind == FL_PIECE_MESH && (!piece->mesh.closed || piece->mesh.thin || piece->one_sided))
+        return 0;
     const fl_pair_law *law = fl_pair_law_of(w, i, j);
     return !piece->elastic && !piece->several_parts && !fl_piece_is_free(w, j) && !w->cell.periodic &&
            law->law->end_speed && law->law->points != FL_POINTS_FEATURES && !(law->rolling > 0.0) &&
@@ -52,9 +53,9 @@ static int list_tiles(struct fl_gpu_world *g, fl_world *w, int32_t c, fl_err *er
     const fl_neighbour_pair *q = &w->pair[c];
     const fl_vec3 off = fl_separation(w, q->i, q->j, q->image);
     fl_feature_pairs l = {.candidates = 0};
-    const int single = fl_mesh_contact_single_wall(
-        &w->mesh_near[0], fl_world_piece(w, q->j), v3_neg(m3_tmul(fl_body_axes(&w->b, q->j), off)),
-        w->b.radius[q->i], w->skin * (1.0 + PATH_MARGIN), &l);
+    const int single = fl_mesh_contact_single_wall(&w->mesh_near[0], fl_world_piece(w, q->j),
+                                                   v3_neg(m3_tmul(fl_body_axes(&w->b, q->j), off)),
+                                                   w->b.radius[q->i], w->skin * (1.0 + PATH_MARGIN), &l);
     int rc = single;
     if (single > 0 &&
         (fl_grow(&g->tile, &g->tile_cap, (int64_t)g->tiles + l.candidates, sizeof *g->tile, err) ||
@@ -125,7 +126,8 @@ static fl_gpu_near near_of(const fl_world *w, int32_t k, int32_t first)
                      .work_of_constraints = w->b.work_of_constraints[k]};
     b.before = b.now = sum_of(fl_sums_before(w, k));
     if (w->previous_sums.slot[k]) {
-        const fl_velocity_change *const kick = fl_kick_change(w, k), *const change = fl_predicted_change(w, k);
+        const fl_velocity_change *const kick = fl_kick_change(w, k), *const change =
+                                                                         fl_predicted_change(w, k);
         b.kick_v = kick->v, b.kick_w = kick->w, b.change_v = change->v, b.change_w = change->w;
     }
     if (b.is_driven) b.spring = w->driven_floes.k[k], b.rest_height = w->driven_floes.rest_height[k];
@@ -208,14 +210,15 @@ static piece_offsets after(piece_offsets at, const fl_piece *p)
     return at;
 }
 
-static int up(struct fl_gpu_world *g, void *to, const void *from, int64_t n, size_t size, fl_err *err)
+static int upload(struct fl_gpu_world *g, void *to, const void *from, int64_t n, size_t size, fl_err *err)
 {
     return n > 0 && g->e->upload(to, from, (size_t)n * size) ? fl_gpu_fail(g, err) : 0;
 }
-#define UP(to, from, n) up(g, to, from, n, sizeof *(from), err)
+#define UP(to, from, n) upload(g, to, from, n, sizeof *(from), err)
 
 /* The cones of a mesh. */
-static int put_cones(struct fl_gpu_world *g, const fl_piece *p, piece_offsets at, fl_gpu_piece *to, fl_err *err)
+static int put_cones(struct fl_gpu_world *g, const fl_piece *p, piece_offsets at, fl_gpu_piece *to,
+                     fl_err *err)
 {
     int32_t *const cone_of_face = g->v.piece_cone + at.f;
     to->free_cone = g->v.free_cone + at.cone;
@@ -301,9 +304,9 @@ int fl_gpu_put_near(struct fl_gpu_world *g, fl_world *w, fl_err *err)
     g->told_pair = fl_alloc(g->pairs, sizeof *g->told_pair, err);
     g->v.nears = g->nears, g->v.pairs = g->pairs;
     return (g->pairs && !g->told_pair) || PUT(near_of, g->near_of, w->n) ||
-                   PUT(near_body, g->near, g->nears) || PUT(tile, g->tile, g->tiles) || PUT(pair, g->pair, g->pairs) ||
-                   ROOM(pair_count, (int64_t)g->pairs + 1) || ROOM(told_pair, g->pairs) ||
-                   put_poses(g, w, err)
+                   PUT(near_body, g->near, g->nears) || PUT(tile, g->tile, g->tiles) ||
+                   PUT(pair, g->pair, g->pairs) || ROOM(pair_count, (int64_t)g->pairs + 1) ||
+                   ROOM(told_pair, g->pairs) || put_poses(g, w, err)
                ? -1
                : 0;
 }

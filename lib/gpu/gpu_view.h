@@ -53,8 +53,8 @@ typedef struct {
     int64_t contacts;
 } fl_gpu_guest_sum;
 
-/* Who moves a body: the device; the CPU; nobody, a place of no body.  A new guest is one since a search within
- * this step, whose first half the device has done. */
+/* Who moves a body: the device; the CPU; nobody, a place of no body.  A new guest is one since a search
+ * within this step, whose first half the device has done. */
 enum { FL_GPU_OWN, FL_GPU_GUEST, FL_GPU_NEW_GUEST, FL_GPU_EMPTY };
 
 /* Numbers that change in a step. */

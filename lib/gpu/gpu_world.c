@@ -504,9 +504,9 @@ int fl_gpu_world_contacts(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     const fl_gpu_control none = {0};
     g->v.step = (double)w->step;
-    return give_guests(g, w, err) || PUT(control, &none, 1) || fl_gpu_begin_pairs(g, w, err) || LAUNCH(ROWS, g->v.rows) ||
-                   LAUNCH(WALLS, g->v.walls) || LAUNCH(DISCS, g->v.discs) || LAUNCH(TELL_GUESTS, g->guests) ||
-                   LAUNCH(TELL_DISCS, g->guest_discs)
+    return give_guests(g, w, err) || PUT(control, &none, 1) || fl_gpu_begin_pairs(g, w, err) ||
+                   LAUNCH(ROWS, g->v.rows) || LAUNCH(WALLS, g->v.walls) || LAUNCH(DISCS, g->v.discs) ||
+                   LAUNCH(TELL_GUESTS, g->guests) || LAUNCH(TELL_DISCS, g->guest_discs)
                ? -1
                : 0;
 }
@@ -514,8 +514,8 @@ int fl_gpu_world_contacts(fl_gpu_world *g, fl_world *w, fl_err *err)
 int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err)
 {
     fl_gpu_control c;
-    if (GET(control, &c, 1) || fl_gpu_take_pairs(g, w, c.touching, stiffness, err) || GET(guest_sum, g->guest_sum, g->guests) ||
-        GET(guest_wrench, g->guest_wrench, g->guest_discs))
+    if (GET(control, &c, 1) || fl_gpu_take_pairs(g, w, c.touching, stiffness, err) ||
+        GET(guest_sum, g->guest_sum, g->guests) || GET(guest_wrench, g->guest_wrench, g->guest_discs))
         return -1;
     for (int32_t k = 0; k < g->guests; k++) {
         w->spheres.sum[g->guest[k]] = g->guest_sum[k].sum;

@@ -1,8 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* closest_kernel.h -- the functions of closest_point.h by value, for the CPU and devices.  No call but sqrt. */
+/* closest_kernel.h -- the functions of closest_point.h by value, for the CPU and devices.  No call but
+ * sqrt. */
 #ifndef FL_NARROW_CLOSEST_KERNEL_H
 #define FL_NARROW_CLOSEST_KERNEL_H
-#include "narrow/closest_point.h"
+#include "geom/poly.h"
+
+typedef struct {
+    double d;  /* distance, negative inside                                             [m] */
+    fl_vec3 p; /* closest point of the shape                                            [m] */
+    fl_vec3 n; /* unit vector from p to x, or against it when d < 0: always outward */
+} fl_closest_point;
+
+/* Points x and p. */
+static inline fl_closest_point fl_closest_of_point(fl_vec3 p, fl_vec3 x)
+{
+    const fl_vec3 r = v3_sub(x, p);
+    const double d = v3_norm(r);
+    return (fl_closest_point){d, p, d > 0.0 ? v3_scale(1.0 / d, r) : v3(0, 0, 1)};
+}
 
 /* Fraction of the size below which two points coincide and have no direction between them: coordinates have
  * rounding errors of about 2^-53 of it. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "narrow/closest_kernel.h"
+#include "narrow/closest_point.h"
 
 fl_closest_point fl_closest_on_segment(fl_vec3 a, fl_vec3 b, fl_vec3 x)
 {

@@ -30,7 +30,8 @@ static int is_on_rim(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 /* Height of x in front of the surface: the largest among the faces that meet in the nearest point, seen from
  * that point, since the plane of a face may miss its corners. If more than two planes meet there and x is in
  * front of one and behind another, the corner as a whole decides the side. */
-static double height_in_front(const fl_nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+static double height_in_front(const fl_nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh,
+                              fl_vec3 x)
 {
     const fl_vec3 r = v3_sub(x, b->at.p);
     const double same = FL_MESH_EDGE * p->size;

@@ -52,9 +52,9 @@ void fl_mesh_contact_bound(const fl_patch_points *w, const fl_poly *a, const fl_
 int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
                            fl_feature_pairs *l, double *distance);
 
-/* Lists in l->candidate the faces that may be the nearest of a sphere about x, in the frame of b, until it has
- * moved by `way` [m].  Returns 1 if it can touch a single wall until then, 0 if not, or if it is out of reach;
- * -1 when memory runs out. */
+/* Lists in l->candidate the faces that may be the nearest of a sphere about x, in the frame of b, until it
+ * has moved by `way` [m].  Returns 1 if it can touch a single wall until then, 0 if not, or if it is out of
+ * reach; -1 when memory runs out. */
 int fl_mesh_contact_single_wall(fl_mesh_contact_work *near, const fl_piece *b, fl_vec3 x, double ra,
                                 double way, fl_feature_pairs *l);
 

@@ -64,7 +64,8 @@ static void scene_of_pieces(lab *l, int32_t side, const char *law)
 /* The same on a mesh with an inner corner, and on two cones that are one piece. */
 static void scene_of_meshes(lab *l, int32_t side, const char *law)
 {
-    static const fl_vec3 L[] = {{0.4, 3, 0}, {1.6, 3, 0}, {1.6, 3.6, 0}, {1, 3.6, 0}, {1, 4.6, 0}, {0.4, 4.6, 0}};
+    static const fl_vec3 L[] = {{0.4, 3, 0}, {1.6, 3, 0}, {1.6, 3.6, 0},
+                                {1, 3.6, 0}, {1, 4.6, 0}, {0.4, 4.6, 0}};
     scene_of_pieces(l, side, law);
     lab_prism(l, 6, L, 0.1, 0.8);
     lab_cone(l, (fl_cone){.p0 = v3(3.8, 3.8, 0), .p1 = v3(3.8, 3.8, 0.6), .r0 = 0.7, .r1 = 0.4});
