@@ -99,6 +99,7 @@ void fl_gpu_world_forget(fl_gpu_world *g) { g->uploaded = 0; }
 #define PUT FL_GPU_PUT
 #define ROOM FL_GPU_ROOM
 #define GET FL_GPU_GET
+#define GET_LATER FL_GPU_GET_LATER
 #define LAUNCH FL_GPU_LAUNCH
 
 /* --- up ---------------------------------------------------------------------------------------------- */
@@ -514,8 +515,9 @@ int fl_gpu_world_contacts(fl_gpu_world *g, fl_world *w, fl_err *err)
 int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err)
 {
     fl_gpu_control c;
-    if (GET(control, &c, 1) || fl_gpu_take_pairs(g, w, c.touching, stiffness, err) ||
-        GET(guest_sum, g->guest_sum, g->guests) || GET(guest_wrench, g->guest_wrench, g->guest_discs))
+    if (GET_LATER(guest_sum, g->guest_sum, g->guests) ||
+        GET_LATER(guest_wrench, g->guest_wrench, g->guest_discs) || GET(control, &c, 1) ||
+        fl_gpu_take_pairs(g, w, c.touching, stiffness, err))
         return -1;
     for (int32_t k = 0; k < g->guests; k++) {
         w->spheres.sum[g->guest[k]] = g->guest_sum[k].sum;
@@ -543,14 +545,13 @@ int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *w
     const int32_t runs = w->discs.n / FL_DISC_RUN + (w->discs.n % FL_DISC_RUN != 0);
     g->leaving = 0;
     if (PUT(guest_work, work, g->guests) || LAUNCH(TAKE_WORKS, g->guests) || LAUNCH(BLOCKS, g->v.blocks) ||
-        (w->inflow.leaves && GET(leaves, g->leaves, g->v.blocks)))
+        (w->inflow.leaves && GET_LATER(leaves, g->leaves, g->v.blocks)) ||
+        GET_LATER(totals, w->spheres.totals, g->v.chunks) ||
+        GET_LATER(wall_load, w->spheres.wall_load, (int64_t)g->v.chunks * w->walls) ||
+        GET_LATER(block, w->blocks, g->v.blocks) ||
+        (runs && GET_LATER(disc_force_sum, w->discs.force_sum, runs)) ||
+        (stiffness && GET_LATER(omega2, w->spheres.omega2, w->n)) || fl_gpu_wait(g, err))
         return -1;
     for (int32_t k = 0; k < g->v.blocks && w->inflow.leaves; k++) g->leaving |= g->leaves[k];
-    return GET(totals, w->spheres.totals, g->v.chunks) ||
-                   GET(wall_load, w->spheres.wall_load, (int64_t)g->v.chunks * w->walls) ||
-                   GET(block, w->blocks, g->v.blocks) ||
-                   (runs && GET(disc_force_sum, w->discs.force_sum, runs)) ||
-                   (stiffness && GET(omega2, w->spheres.omega2, w->n))
-               ? -1
-               : 0;
+    return 0;
 }
