@@ -8,6 +8,7 @@
 #define FL_BODY_HELD_SPHERE_KERNEL_H
 #include "body/fixed_dof.h"
 #include "body/sphere_motion_kernel.h"
+#include "geom/sym3.h"
 
 enum { FL_DOF_TURNS = FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ };
 
@@ -63,6 +64,17 @@ static inline fl_quat fl_held_turned(fl_quat q, fl_sphere_motion *a, unsigned ho
     a->w = fl_held_spin(hold, w, L, turn), a->L = fl_held_momentum(a->w, I);
     *work += fl_held_turning_work(hold, v3_sub(a->L, L), w);
     return to;
+}
+
+/* Inverse inertia along the free axes, 0 along the fixed ones: the bits of the factorisation that integrate.c
+ * makes for other bodies. */
+static inline fl_sym3 fl_held_inverse_inertia(unsigned hold, double I)
+{
+    const double root = sqrt(I), each = 1.0 / root / root;
+    fl_sym3 e;
+    e.xx = hold & FL_DOF_RX ? 0.0 : each, e.yy = hold & FL_DOF_RY ? 0.0 : each;
+    e.zz = hold & FL_DOF_RZ ? 0.0 : each, e.xy = e.xz = e.yz = 0.0;
+    return e;
 }
 
 #endif

@@ -381,7 +381,9 @@ fl_mobility fl_body_mobility(const fl_bodies *b, int32_t i)
     if (i >= b->n) return e;
     const unsigned stands = fl_body_fixed_translations(b, i), turns = b->fixed_dof[i] / FL_DOF_RX;
     const fl_mat3 R = fl_body_axes(b, i);
-    e.angular = turns ? free_inverse(&R, b->I[i], turns) : s3_from_principal(&R, b->invI[i]);
+    e.angular = !turns               ? s3_from_principal(&R, b->invI[i])
+                : b->is_isotropic[i] ? fl_held_inverse_inertia(b->fixed_dof[i], b->I[i].x)
+                                     : free_inverse(&R, b->I[i], turns);
     if (b->added_mass) {
         const fl_vec3 m = v3_add(v3(b->m[i], b->m[i], b->m[i]), b->added_mass[i]);
         e.linear =

@@ -39,7 +39,8 @@ static inline void fl_gpu_mobility(const fl_gpu_view *a, int32_t k, uint32_t hol
                  turn = a->turn[k];
     b->linear.xx = hold & FL_DOF_X ? 0.0 : invm, b->linear.yy = hold & FL_DOF_Y ? 0.0 : invm;
     b->linear.zz = hold & FL_DOF_Z ? 0.0 : up, b->linear.xy = b->linear.xz = b->linear.yz = 0.0;
-    b->angular = s3_from_principal(&R, v3(turn, turn, turn));
+    b->angular = hold & FL_DOF_TURNS ? fl_held_inverse_inertia(hold, a->inertia[k])
+                                     : s3_from_principal(&R, v3(turn, turn, turn));
 }
 
 static inline fl_point_body fl_gpu_moving_piece(const fl_gpu_piece *p)
