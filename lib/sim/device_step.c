@@ -32,7 +32,7 @@ static int take_engine(fl_world *w, const fl_gpu_engine *e, char note[FL_DEVICE_
     char why[200];
     if (need > room) {
         snprintf(why, sizeof why,
-                 "%.60s has %.0f MiB free and %.0f are needed: about %.0f of the %d bodies fit", e->device(),
+                 "%.60s has %.3g MiB free and %.3g are needed: about %.0f of the %d bodies fit", e->device(),
                  room / 1048576.0, need / 1048576.0, w->n * (room / need), w->n);
         e->close();
         return take_cpu(w, FL_SYSTEM, note, why, err);
