@@ -3,7 +3,8 @@
 # gpu.sh check|bench [BUILD [OUT]] -- spheres on a card against the processor, with the programs of BUILD/bin.
 #   check   state hashes and checkpoints: a free pack, a heap with rolling, a periodic shear, spheres that fall onto a
 #           cone, a solid and a mesh that move, a sheet that breaks on a cone, on a leg of joined cones, in waves, a sheet
-#           without end; then a run that goes from the processor to the card and back.  Status 1 if one differs
+#           without end, the reduced jz20-2 and jack-up of share/examples; then a run that goes from the processor to the
+#           card and back.  Status 1 if one differs
 #   bench   steps a second, and ns a body and a contact or bond, from 10 000 to 10 million spheres, with searches and
 #           tables; sizes that would not end in time are left out
 #   OUT/gpu.tsv   rows of either are put in the place of its last ones; its head names card and processor.  OUT is
@@ -117,6 +118,22 @@ checkpoints()
         "$(cksum <goes.state | cut -d ' ' -f 1)" $same | tee -a gpu.tsv
 }
 
+# example NAME TIME: a reduced case of share/examples, on the processor and on the card.
+example()
+{
+    same=no
+    for d in cpu "$device"; do
+        make -s -C "$bench/../share/examples/$1" BIN="$build/bin" OUT="$here/$1-$d" TIME="$2" SET="--set run.device=$d" \
+            "$here/$1-$d/loads.tsv" >"$1.err" 2>&1 || { cat "$1.err" >&2; fail "$1 did not end"; }
+        grep -v '^#' "$here/$1-$d/loads.tsv" >"$1-$d.loads.n"
+    done
+    a=$(awk '/^state hash/ { print $3 }' "$here/$1-cpu/report.txt") b=$(awk '/^state hash/ { print $3 }' "$here/$1-$device/report.txt")
+    [ "$a" = "$b" ] && cmp -s "$1-cpu.loads.n" "$1-$device.loads.n" && same=yes
+    [ $same = yes ] || wrong=1
+    printf 'check\t%s\t%s\t%s\t%s\t%s\t%s\t\t\t\n' "$1" "$(grep -c '^poly' "$here/$1-cpu/ice.dat")" \
+        "$(awk '/^steps / { print $2; exit }' "$here/$1-cpu/report.txt")" "$a" "$b" $same | tee -a gpu.tsv
+}
+
 if [ "$what" = check ]; then
     begin_table
     n=10000 t=0.5 long=1
@@ -155,6 +172,8 @@ if [ "$what" = check ]; then
     compare waves "$(awk -v t=$long 'BEGIN { print t * 10000 }')" sheet.dat
     compare inflow "$(awk -v t=$long 'BEGIN { print t * 10000 }')" inflow.dat
     third=$(awk -v t=$long 'BEGIN { print t / 3 }') two=$(awk -v t=$long 'BEGIN { print 2 * t / 3 }')
+    example jz20-2 "$([ "$quick" = 0 ] && echo 2 s || echo 0.11 s)"
+    example jack-up "$([ "$quick" = 0 ] && echo 0.3 s || echo 0.03 s)"
     checkpoints sheet $long "$third" "$two" sheet.dat
 else
     begin_table
