@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # gpu.sh check|bench [BUILD [OUT]] -- spheres on a card against the processor, with the programs of BUILD/bin.
-#   check   state hashes and checkpoints: a free pack, a heap with rolling, a periodic shear, a sheet that breaks on a
-#           cone, the same in waves, a sheet without end; then a run that goes from the processor to the card and back.
-#           Status 1 if one differs
+#   check   state hashes and checkpoints: a free pack, a heap with rolling, a periodic shear, spheres that fall onto a
+#           cone, a solid and a mesh that move, a sheet that breaks on a cone, on a leg of joined cones, in waves, a sheet
+#           without end, the reduced jz20-2 and jack-up of share/examples; then a run that goes from the processor to the
+#           card and back.  Status 1 if one differs
 #   bench   steps a second, and ns a body and a contact or bond, from 10 000 to 10 million spheres, with searches and
 #           tables; sizes that would not end in time are left out
 #   OUT/gpu.tsv   rows of either are put in the place of its last ones; its head names card and processor.  OUT is
@@ -47,6 +48,18 @@ sheet()
     printf 'include = %s-keys.scene\n[ice]\nfile = %s.dat\n[structure]\nfile = cone.dat\nfriction = 0.15\n' "$1" "$1"
     printf '[water]\ncurrent = 1 0 0\nadded_mass = 0 0 3\n[boundary]\ntype = free\ndrive = 1 0 0\ndrive_group = edge\n'
     printf 'drive_fixed = x y rx rz\ndrive_foundation = 10 kN/m3\n[output]\nloads_every = 50 ms\n'
+}
+
+# prism ID Z0 Z1 X Y X Y ...: a part of a structure file, over a polygon that its first corner sees all of.
+prism()
+{
+    echo "part $1 prism$1"
+    echo "$@" | awk '{
+        n = (NF - 3)/2
+        for (top = 0; top < 2; top++) for (k = 0; k < n; k++) print "v", $(4 + 2*k), $(5 + 2*k), $(2 + top)
+        for (k = 1; k + 1 < n; k++) { print "t", 0, k + 1, k; print "t", n, n + k, n + k + 1 }
+        for (k = 0; k < n; k++) { l = (k + 1)%n; print "t", k, l, n + l; print "t", k, n + l, n + k }
+    }'
 }
 
 # solve DEVICE NAME ARGUMENTS: a run; its report is NAME.report.
@@ -105,6 +118,22 @@ checkpoints()
         "$(cksum <goes.state | cut -d ' ' -f 1)" $same | tee -a gpu.tsv
 }
 
+# example NAME TIME: a reduced case of share/examples, on the processor and on the card.
+example()
+{
+    same=no
+    for d in cpu "$device"; do
+        make -s -C "$bench/../share/examples/$1" BIN="$build/bin" OUT="$here/$1-$d" TIME="$2" SET="--set run.device=$d" \
+            "$here/$1-$d/loads.tsv" >"$1.err" 2>&1 || { cat "$1.err" >&2; fail "$1 did not end"; }
+        grep -v '^#' "$here/$1-$d/loads.tsv" >"$1-$d.loads.n"
+    done
+    a=$(awk '/^state hash/ { print $3 }' "$here/$1-cpu/report.txt") b=$(awk '/^state hash/ { print $3 }' "$here/$1-$device/report.txt")
+    [ "$a" = "$b" ] && cmp -s "$1-cpu.loads.n" "$1-$device.loads.n" && same=yes
+    [ $same = yes ] || wrong=1
+    printf 'check\t%s\t%s\t%s\t%s\t%s\t%s\t\t\t\n' "$1" "$(grep -c '^poly' "$here/$1-cpu/ice.dat")" \
+        "$(awk '/^steps / { print $2; exit }' "$here/$1-cpu/report.txt")" "$a" "$b" $same | tee -a gpu.tsv
+}
+
 if [ "$what" = check ]; then
     begin_table
     n=10000 t=0.5 long=1
@@ -115,12 +144,23 @@ if [ "$what" = check ]; then
     base pack.dat rigid '0 0 0' '2 2 2.5' '' '1 0.5 -9.81' '0.05 ms' "$t s" >free.scene
     base pack.dat rigid '-1 -1 0' '3 3 2.5' 'rolling = 0.2' 9.81 '0.05 ms' "$t s" >heap.scene
     base cell.dat 'periodic periodic rigid' '0 0 0' '2 2 2.5' '' '4 1 -9.81' '0.05 ms' "$t s" >shear.scene
+    pack --in box:0,0,0.9,2,2,2.5 --grading uniform:0.14,0.2 --porosity 0.5 --seed 4 --density 900 -q -o fall.dat || fail "no packing"
+    {
+        printf '#g_struct 1\npart 0 cone\ncone 1.5 1.5 0 0.4  1.5 1.5 0.8 0.1\n'
+        prism 1 0 0.7 0.1 0.1 0.8 0.1 0.8 0.8 0.1 0.8
+        prism 2 0 0.8 1.1 0.1 1.9 0.1 1.9 0.4 1.4 0.4 1.4 0.8 1.1 0.8
+    } >pieces.dat
+    base fall.dat rigid '0 0 0' '2 2 3' '' '1 0.5 -9.81' '0.05 ms' "$t s" >pieces.scene
+    printf '[structure]\nfile = pieces.dat\nvelocity = 0.05 0 0.02\n' >>pieces.scene
     sheet sheet 3x3 -3.95,-1.5 0.3 2 60kPa >sheet.scene
     printf '[run]\ndt = 0.1 ms\nduration = %s s\n' $long >>sheet.scene
     compare free $n pack.dat
     compare heap $n pack.dat
     compare shear $n cell.dat
-    # the same in waves and wind; a sheet without end
+    compare pieces $n fall.dat
+    # on a joined leg; the same in waves and wind; a sheet without end
+    printf '#g_struct 1\npart 0 leg\ncone 0 0 -0.5 1.0  0 0 0.5 0.5\ncone 0 0 0.5 0.5  0 0 1.5 0.5\ncone 0 0 0.2 0.1  1 0 1.2 0.1\n' >leg.dat
+    sed -e 's/^file = cone.dat/file = leg.dat/' sheet.scene >leg.scene
     sed -e 's/^added_mass = .*/added_mass = 0\nwave = airy\nheight = 0.2 m\nperiod = 2 s/' sheet.scene >waves.scene
     printf '[ice]\nslab = none\n[wind]\nvelocity = 10 0 0\n' >>waves.scene
     voronoi-ice --lattice hcp --layers 2 --thickness 0.3 --size 3x3 --origin=-3.95,-1.5 --rows across --edges 1 --endless --bonded \
@@ -128,9 +168,12 @@ if [ "$what" = check ]; then
     sed -e 's/sheet-keys.scene/inflow-keys.scene/; s/sheet.dat/inflow.dat/; /^type = free/d' sheet.scene >inflow.scene
     printf '[boundary]\nmax = 0.2 none none\n' >>inflow.scene
     compare sheet "$(awk -v t=$long 'BEGIN { print t * 10000 }')" sheet.dat
+    compare leg "$(awk -v t=$long 'BEGIN { print t * 10000 }')" sheet.dat
     compare waves "$(awk -v t=$long 'BEGIN { print t * 10000 }')" sheet.dat
     compare inflow "$(awk -v t=$long 'BEGIN { print t * 10000 }')" inflow.dat
     third=$(awk -v t=$long 'BEGIN { print t / 3 }') two=$(awk -v t=$long 'BEGIN { print 2 * t / 3 }')
+    example jz20-2 "$([ "$quick" = 0 ] && echo 2 s || echo 0.11 s)"
+    example jack-up "$([ "$quick" = 0 ] && echo 0.3 s || echo 0.03 s)"
     checkpoints sheet $long "$third" "$two" sheet.dat
 else
     begin_table

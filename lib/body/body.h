@@ -8,13 +8,11 @@
 #define FL_BODY_BODY_H
 #include <stdint.h>
 #include "base/err.h"
+#include "body/fixed_dof.h"
 #include "geom/mat3.h"
 #include "geom/poly.h"
 #include "geom/quat.h"
 #include "geom/vec3.h"
-
-/* Bits of the degrees of freedom that are fixed, in the order of FL_FIX_X, ... of a scene. */
-enum { FL_DOF_X = 1, FL_DOF_Y = 2, FL_DOF_Z = 4, FL_DOF_RX = 8, FL_DOF_RY = 16, FL_DOF_RZ = 32 };
 
 typedef struct {
     int32_t n, total;

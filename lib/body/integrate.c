@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/simd.h"
+#include "body/held_sphere_kernel.h"
 #include "body/integrate.h"
 #include "body/sphere_motion_kernel.h"
 
@@ -83,11 +84,7 @@ static fl_vec3 solve_free_dof(const fl_mat3 *R, fl_vec3 diag, unsigned hold, fl_
  * The axes of a sphere do not count. */
 static fl_vec3 spin_with_fixed_dof(const fl_bodies *b, int32_t i, unsigned hold, fl_vec3 w_held, fl_vec3 L)
 {
-    if (b->is_isotropic[i]) {
-        const fl_vec3 own = v3_scale(b->invI[i].x, L);
-        return v3(hold & FL_DOF_RX ? w_held.x : own.x, hold & FL_DOF_RY ? w_held.y : own.y,
-                  hold & FL_DOF_RZ ? w_held.z : own.z);
-    }
+    if (b->is_isotropic[i]) return fl_held_spin(hold, w_held, L, b->invI[i].x);
     const fl_mat3 R = fl_body_axes(b, i);
     return solve_free_dof(&R, b->I[i], hold / FL_DOF_RX, w_held, L);
 }
@@ -115,13 +112,6 @@ static double linear_constraint_work(unsigned hold, fl_vec3 impulse, fl_vec3 v)
            (hold & FL_DOF_Z ? impulse.z * v.z : 0.0);
 }
 
-/* Work of an angular constraint impulse. It acts about fixed axes only; other components are rounding. */
-static double angular_constraint_work(unsigned hold, fl_vec3 impulse, fl_vec3 w)
-{
-    return (hold & FL_DOF_RX ? impulse.x * w.x : 0.0) + (hold & FL_DOF_RY ? impulse.y * w.y : 0.0) +
-           (hold & FL_DOF_RZ ? impulse.z * w.z : 0.0);
-}
-
 /* A constraint of rotation acts between kicks too: with products of inertia, rotation about one axis needs a
  * torque about the others. It has no component about the free axes, so L keeps its free components and w its
  * fixed ones. Midpoint rule, order 2. */
@@ -130,12 +120,18 @@ static void drift_fixed_rotation(fl_bodies *b, int32_t i, double dt)
     const unsigned hold = b->fixed_dof[i];
     const fl_quat q = b->q[i];
     const fl_vec3 w = b->w[i], L = b->L[i];
+    if (b->is_isotropic[i]) {
+        fl_sphere_motion a = {b->v[i], L, w};
+        b->q[i] = fl_held_turned(q, &a, hold, b->invI[i].x, b->I[i].x, dt, &b->work_of_constraints[i]);
+        b->L[i] = a.L, b->w[i] = a.w;
+        return;
+    }
     b->q[i] = q_mul(q_of_vector(v3_scale(0.5 * dt, w)), q);
     apply_fixed_rotation(b, i, hold, w);
     b->q[i] = fl_quat_renormalised(q_mul(q_of_vector(v3_scale(dt, b->w[i])), q));
     b->L[i] = L;
     apply_fixed_rotation(b, i, hold, w);
-    b->work_of_constraints[i] += angular_constraint_work(hold, v3_sub(b->L[i], L), w);
+    b->work_of_constraints[i] += fl_held_turning_work(hold, v3_sub(b->L[i], L), w);
 }
 
 /* Largest path of a point at distance 1 in the rotation from q to r: the chord 2 sin(angle/2). |w| dt is no
@@ -177,7 +173,7 @@ static void translate_with_water(fl_bodies *b, int32_t i, double h, fl_vec3 P)
     if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) {
         const fl_vec3 L = b->L[i];
         apply_fixed_rotation(b, i, hold, w);
-        b->work_of_constraints[i] += angular_constraint_work(hold, v3_sub(b->L[i], L), w);
+        b->work_of_constraints[i] += fl_held_turning_work(hold, v3_sub(b->L[i], L), w);
     }
 }
 
@@ -385,7 +381,9 @@ fl_mobility fl_body_mobility(const fl_bodies *b, int32_t i)
     if (i >= b->n) return e;
     const unsigned stands = fl_body_fixed_translations(b, i), turns = b->fixed_dof[i] / FL_DOF_RX;
     const fl_mat3 R = fl_body_axes(b, i);
-    e.angular = turns ? free_inverse(&R, b->I[i], turns) : s3_from_principal(&R, b->invI[i]);
+    e.angular = !turns               ? s3_from_principal(&R, b->invI[i])
+                : b->is_isotropic[i] ? fl_held_inverse_inertia(b->fixed_dof[i], b->I[i].x)
+                                     : free_inverse(&R, b->I[i], turns);
     if (b->added_mass) {
         const fl_vec3 m = v3_add(v3(b->m[i], b->m[i], b->m[i]), b->added_mass[i]);
         e.linear =
@@ -409,15 +407,20 @@ void fl_body_apply_fixed_dof(fl_bodies *b, int32_t i, fl_vec3 v_held, fl_vec3 w_
         if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) apply_fixed_rotation(b, i, hold, w_held);
         b->work_of_constraints[i] +=
             linear_constraint_work(hold, v3_sub(fl_body_momentum(b, i, b->v[i]), P), v_held) +
-            angular_constraint_work(hold, v3_sub(b->L[i], L), w_held);
+            fl_held_turning_work(hold, v3_sub(b->L[i], L), w_held);
         return;
     }
-    if (hold & FL_DOF_X) b->v[i].x = v_held.x;
-    if (hold & FL_DOF_Y) b->v[i].y = v_held.y;
-    if (hold & FL_DOF_Z) b->v[i].z = v_held.z;
-    if (hold & (FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ)) apply_fixed_rotation(b, i, hold, w_held);
+    if (b->is_isotropic[i]) {
+        const fl_sphere_motion a = fl_held_motion((fl_sphere_motion){v, L, b->w[i]}, hold, v_held, w_held,
+                                                  b->m[i], b->heave_mass ? b->heave_mass[i] : 0.0,
+                                                  b->invI[i].x, b->I[i].x, &b->work_of_constraints[i]);
+        b->v[i] = a.v, b->L[i] = a.L, b->w[i] = a.w;
+        return;
+    }
+    b->v[i] = fl_held_components(hold, v_held, v);
+    if (hold & FL_DOF_TURNS) apply_fixed_rotation(b, i, hold, w_held);
     const fl_vec3 change = v3_sub(b->v[i], v);
     const double rising = b->heave_mass ? b->heave_mass[i] * change.z * v_held.z : 0.0;
     b->work_of_constraints[i] +=
-        b->m[i] * v3_dot(change, v_held) + rising + angular_constraint_work(hold, v3_sub(b->L[i], L), w_held);
+        b->m[i] * v3_dot(change, v_held) + rising + fl_held_turning_work(hold, v3_sub(b->L[i], L), w_held);
 }

@@ -129,16 +129,10 @@ static double step_motion(const fl_bodies *b, int32_t k, double reach, double dt
     return dt * (v3_norm(b->v[k]) + v3_norm(b->w[k]) * reach);
 }
 
-/* Records a contact that begins deeper than the bodies moved in the step, but for the rim of faces, which may
- * be so much deeper, and for rounding. */
-static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pose *r, double dt)
+void fl_pair_note_beginning(fl_world *w, const fl_pair *p, double moved)
 {
-    const fl_bodies *b = &w->b;
-    const double rho = b->bounding_radius[p->i], apart = v3_norm(r->off) + rho,
-                 moved = step_motion(b, p->i, rho, dt) + step_motion(b, p->j, apart, dt),
-                 radii = b->radius[p->i] + b->radius[p->j];
-    if (w->step == 0 || dt == 0.0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii)
-        return;
+    const double radii = w->b.radius[p->i] + w->b.radius[p->j];
+    if (w->step == 0 || p->bond || p->overlap <= SUDDEN * moved + FL_PATCH_RIM_WIDTH * radii) return;
 #pragma omp critical(fl_sudden_contacts)
     {
         fl_sudden_contacts *const s = &w->sudden;
@@ -146,6 +140,14 @@ static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pos
             s->step = w->step, s->i = p->i, s->j = p->j, s->overlap = p->overlap, s->moved = moved,
             s->time = fl_world_time(w);
     }
+}
+
+static void check_beginning(fl_world *w, const fl_pair *p, const fl_relative_pose *r, double dt)
+{
+    const fl_bodies *b = &w->b;
+    const double rho = b->bounding_radius[p->i], apart = v3_norm(r->off) + rho,
+                 moved = step_motion(b, p->i, rho, dt) + step_motion(b, p->j, apart, dt);
+    if (dt != 0.0) fl_pair_note_beginning(w, p, moved);
 }
 
 /* Finds the contact points with what is crushed taken off. */

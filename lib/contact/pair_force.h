@@ -16,4 +16,8 @@ void fl_pair_evaluate(fl_world *w, fl_pair *p, int32_t thread, double dt, int su
 void fl_pair_evaluate_exact(fl_world *w, fl_pair *p, int32_t thread, const fl_surrogate_value *t, double dt,
                             int survey);
 
+/* Records contact p, which begins, if it is deeper than the bodies have moved in the step, `moved` [m], but
+ * for the rim of faces, which may be so much deeper, and for rounding. */
+void fl_pair_note_beginning(fl_world *w, const fl_pair *p, double moved);
+
 #endif

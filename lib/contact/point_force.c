@@ -4,6 +4,7 @@
 #include "contact/pair_stiffness.h"
 #include "contact/panel_load.h"
 #include "contact/point_force.h"
+#include "contact/point_kernel.h"
 #include "law/manual.h"
 #include "law/normal.h"
 
@@ -44,15 +45,117 @@ static double approach_speed_of(const fl_bodies *b, const fl_pair *p, const fl_p
     return -v3_dot(t->n, fl_pair_end_velocity(b, p, a, t->ai, t->aj));
 }
 
+/* A body of a pair, of which ease moves. */
+static fl_point_body point_body(const fl_bodies *b, int32_t k, fl_vec3 change_v, fl_vec3 change_w,
+                                const fl_mobility *ease)
+{
+    return (fl_point_body){b->v[k], b->w[k], change_v, change_w, ease->linear, ease->angular};
+}
+
+static fl_point_contact point_contact(const fl_world *w, const fl_pair *p, const fl_patch_point *q,
+                                      const fl_relative_pose *r, const fl_pair_prediction *by)
+{
+    const fl_bodies *b = &w->b;
+    const fl_pair_mobility ease = fl_pair_mobility_of(w, p);
+    const fl_vec3 n = m3_mul(r->R, q->n), aj = m3_mul(r->R, q->p);
+    return (fl_point_contact){
+        .n = n,
+        .ai = v3_add(aj, r->off),
+        .aj = aj,
+        .overlap = q->overlap,
+        .i = point_body(b, p->i, by->change.vi, by->change.wi, &ease.i),
+        .j = point_body(b, p->j, by->change.vj, by->change.wj, &ease.j),
+        .lag = by->lag,
+        .reduced_mass = p->mass,
+        .contact_count = by->change.contact_count,
+        .dt = by->step.dt,
+        .half_step = by->step.half_step,
+        .at_start = by->step.at_start,
+        .step = (double)w->step,
+        .step_size = w->dt,
+        .is_reduced = fl_pair_has_reduced_mass(w, p),
+        .sustains = fl_pair_is_on_facets(w, p),
+        .law = {p->k, p->exponent, p->law->friction, p->law->tangential_ratio, p->law->impact_damping,
+                p->law->slow_damping_factor},
+    };
+}
+
+fl_point_memory fl_pair_memory(const fl_pair *p)
+{
+    return (fl_point_memory){
+        p->springs,        p->sustained_spin,      p->sustained_spin_rate, p->max_approach_speed,
+        p->sustained_load, p->sustained_load_rate, p->sustained_step};
+}
+
+fl_point_forces fl_pair_forces(const fl_pair *p)
+{
+    return (fl_point_forces){p->force,          p->torque_i,          p->torque_j,
+                             p->force_damping,  p->torque_i_damping,  p->torque_j_damping,
+                             p->force_friction, p->torque_i_friction, p->torque_j_friction,
+                             p->energy,         p->spring_energy,     p->overlap};
+}
+
+void fl_pair_set_point(fl_pair *p, const fl_point_memory *m, const fl_point_forces *f)
+{
+    p->springs = m->springs;
+    p->sustained_spin = m->sustained_spin, p->sustained_spin_rate = m->sustained_spin_rate;
+    p->max_approach_speed = m->max_approach_speed;
+    p->sustained_load = m->sustained_load, p->sustained_load_rate = m->sustained_load_rate;
+    p->sustained_step = m->sustained_step;
+    p->force = f->force, p->torque_i = f->torque_i, p->torque_j = f->torque_j;
+    p->force_damping = f->force_damping;
+    p->torque_i_damping = f->torque_i_damping, p->torque_j_damping = f->torque_j_damping;
+    p->force_friction = f->force_friction;
+    p->torque_i_friction = f->torque_i_friction, p->torque_j_friction = f->torque_j_friction;
+    p->energy = f->energy, p->spring_energy = f->spring_energy, p->overlap = f->overlap;
+}
+
+void fl_pair_bound_single_point(const fl_world *w, fl_pair *p, fl_vec3 n, fl_vec3 aj, fl_vec3 off,
+                                double normal)
+{
+    fl_stiffness si = {0}, sj = {0};
+    const fl_patch_result all = {.direction = v3_madd(v3(0, 0, 0), normal, n), .centre = aj};
+    const fl_relative_pose r = {.off = off};
+    const double slope = p->k * fl_normal_slope(p->overlap, p->exponent);
+    fl_stiffness_add_force(&si, &w->b, p->i, slope, n, v3_cross(v3_add(aj, off), n));
+    fl_stiffness_add_force(&sj, &w->b, p->j, slope, n, v3_cross(aj, n));
+    fl_pair_bound_stiffness(w, p, &all, &r, &si, &sj);
+}
+
+/* A single point, damped by the speed predicted for the end of the step. */
+static int evaluate_one_point(fl_world *w, fl_pair *p, const fl_patch_points *s, const fl_relative_pose *r,
+                              const fl_pair_prediction *by, int survey)
+{
+    const fl_point_contact c = point_contact(w, p, &s->point[0], r, by);
+    const fl_point_before before = {by->before.elastic.f, by->before.damping.f, by->before.friction_damping,
+                                    by->before.friction_damping_moment};
+    fl_point_memory m = fl_pair_memory(p);
+    fl_point_forces f;
+    const fl_point_normal q = fl_point_evaluate(&c, p->touching, before, &m, &f);
+    fl_pair_set_point(p, &m, &f);
+    const fl_patch_result all = {.elastic = q.elastic,
+                                 .normal = q.normal,
+                                 .direction = q.direction,
+                                 .load = q.load,
+                                 .slope = q.slope,
+                                 .centre = c.aj};
+    if (w->breaking.on) p->load_point = c.ai;
+    if (fl_pair_add_rolling(w, p, &all, q.chi, by)) return -1;
+    if (survey) fl_pair_bound_single_point(w, p, c.n, c.aj, r->off, q.normal);
+    p->energy += p->spring_energy;
+    if (fl_panels_need_points(w, p)) fl_panels_record_points(w, p, s, p->k, q.chi);
+    return p->touching = 1;
+}
+
 int fl_pair_evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, const fl_relative_pose *r,
                             const fl_pair_prediction *by, int survey)
 {
     const fl_bodies *b = &w->b;
-    const int one = s->n == 1 && p->law->law->end_speed;
+    if (s->n == 1 && p->law->law->end_speed) return evaluate_one_point(w, p, s, r, by, survey);
     const fl_pair_prediction unpredicted = {.step = by->step,
                                             .lag = by->lag,
                                             .change = {.contact_count = 1.0}},
-                             *const a = one ? by : &unpredicted;
+                             *const a = &unpredicted;
     const double k = p->k;
     const world_point first = world_point_of(p, &s->point[0], r);
     fl_vec3 way = first.n, turn_i = v3_cross(first.ai, first.n), turn_j = v3_cross(first.aj, first.n);
@@ -74,7 +177,7 @@ int fl_pair_evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, c
         less = v3_norm2(way) / (sum * sum);
     }
     fl_pair_mobility ease;
-    if (one || !fl_pair_has_reduced_mass(w, p)) ease = fl_pair_mobility_of(w, p);
+    if (!fl_pair_has_reduced_mass(w, p)) ease = fl_pair_mobility_of(w, p);
     const double mass = less > 0.0 ? fl_pair_mass(w, p, &ease, way, turn_i, turn_j) / less : INFINITY;
     const double first_approach = approach_speed_of(b, p, a, &first);
     double approach = first_approach, mean = 0.0, sustained = 0.0;
@@ -97,11 +200,7 @@ int fl_pair_evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, c
         const world_point t = world_point_of(p, &s->point[c], r);
         if (s->point[c].du > 0.0) approach = fmax(approach, approach_speed_of(b, p, a, &t));
     }
-    const double chi = fl_pair_damping_factor(p, approach > 0.0 ? approach : 0.0, mass),
-                 push = k * first.weight,
-                 more = one ? fl_pair_approach_correction(a, first_approach, push, chi * push,
-                                                          fl_pair_compliance(&ease, way, turn_i, turn_j, 1.0))
-                            : 0.0;
+    const double chi = fl_pair_damping_factor(p, approach > 0.0 ? approach : 0.0, mass);
     fl_point_sum sums = {.result.centre = first.aj};
     for (int32_t c = 0; c < s->n; c++) {
         const fl_patch_point *q = &s->point[c];
@@ -109,7 +208,7 @@ int fl_pair_evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, c
         const double elastic = k * t.weight, slope = k * q->du * fl_normal_slope(q->overlap, p->exponent),
                      own = c ? approach_speed_of(b, p, a, &t) : first_approach,
                      comes = s->n > 1 ? own + sustained * (mean - own) : own,
-                     normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes + more);
+                     normal = q->du * fl_normal_damped_force(fabs(elastic), chi, comes);
         fl_add_wrench(&p->force, &p->torque_i, &p->torque_j, v3_scale(normal, t.n), t.ai, t.aj);
         fl_add_wrench(&p->force_damping, &p->torque_i_damping, &p->torque_j_damping,
                       v3_scale(normal - elastic, t.n), t.ai, t.aj);
@@ -117,10 +216,7 @@ int fl_pair_evaluate_points(fl_world *w, fl_pair *p, const fl_patch_points *s, c
         sums.result.slope += slope;
     }
     const fl_patch_result all = fl_point_sum_result(&sums, s->n);
-    fl_contact_compliance at_contact = {.turn = 0.0};
-    if (one && chi > 0.0 && p->law->friction > 0.0)
-        at_contact.matrix = fl_pair_compliance_matrix(&ease, first.ai, first.aj);
-    fl_pair_add_friction(w, p, &all, chi, &at_contact, r, a);
+    fl_pair_add_friction(w, p, &all, chi, &(fl_contact_compliance){.turn = 0.0}, r, a);
     if (fl_pair_add_rolling(w, p, &all, chi, a)) return -1;
     if (survey) bound_stiffness_of_points(w, p, s, &all, r);
     p->energy += p->spring_energy;

@@ -26,6 +26,7 @@
 typedef struct {
     fl_vec3 v;            /* dv - lag of A's centre against B's [m/s] */
     fl_vec3 wi, wj;       /* changes of the angular velocities of A and B [rad/s] */
+    fl_vec3 vi, vj;       /* dv of each */
     double contact_count; /* contacts that damp the two bodies, fl_effective_contact_count() */
 } fl_predicted_change_of_pair;
 
@@ -150,7 +151,7 @@ static inline fl_predicted_change_of_pair fl_predict_change_of_pair(const fl_wor
     const fl_velocity_change none = {{0, 0, 0}, {0, 0, 0}};
     const fl_velocity_change i = ni ? *fl_predicted_change(w, p->i) : none,
                              j = nj ? *fl_predicted_change(w, p->j) : none;
-    return (fl_predicted_change_of_pair){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, n};
+    return (fl_predicted_change_of_pair){v3_sub(v3_sub(i.v, j.v), lag), i.w, j.w, i.v, j.v, n};
 }
 
 /* Predicted change of A's velocity against B at the arms ai and aj [m/s]. */

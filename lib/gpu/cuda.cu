@@ -53,12 +53,6 @@ static int open_engine(void)
     return check(cudaSetDevice(0), "the card") || check(cudaStreamCreate(&stream), "the card") ? -1 : 0;
 }
 
-static void close_engine(void)
-{
-    if (stream) cudaStreamDestroy(stream);
-    stream = NULL;
-}
-
 static const char *device_name(void) { return card; }
 static const char *last_failure(void) { return failure; }
 
@@ -85,19 +79,73 @@ static int upload_bytes(void *to, const void *from, size_t bytes)
     return check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream), "copying to the card");
 }
 
-static int download_bytes(void *to, const void *from, size_t bytes)
+/* What comes down is collected in memory that the card reaches, so that a step waits once for all of it. */
+enum { LATER_MOST = 32, STAGED_MOST = 1 << 22 };
+static struct {
+    void *to;
+    size_t at, bytes;
+} later[LATER_MOST];
+static int later_count;
+static char *staging;
+static size_t staging_bytes, staging_used;
+
+static int wait_engine(void)
 {
-    return check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream), "copying from the card") ||
-                   check(cudaStreamSynchronize(stream), "a kernel")
-               ? -1
-               : 0;
+    if (check(cudaStreamSynchronize(stream), "a kernel")) return -1;
+    for (int k = 0; k < later_count; k++) memcpy(later[k].to, staging + later[k].at, later[k].bytes);
+    later_count = 0, staging_used = 0;
+    return 0;
 }
 
-/* Threads of a block, and blocks that shall fit a multiprocessor at a time: registers are the limit. */
-enum { THREADS = 128, BLOCKS_AT_ONCE = 3 };
+static int fit_staging(size_t bytes)
+{
+    if (staging_used + bytes <= staging_bytes && later_count < LATER_MOST) return 0;
+    if (wait_engine()) return -1;
+    if (bytes <= staging_bytes) return 0;
+    if (staging) cudaFreeHost(staging);
+    staging = NULL, staging_bytes = 0;
+    if (check(cudaMallocHost((void **)&staging, 4 * bytes), "memory for copies")) return -1;
+    staging_bytes = 4 * bytes;
+    return 0;
+}
+
+static int download_later(void *to, const void *from, size_t bytes)
+{
+    if (!bytes) return 0;
+    if (bytes > STAGED_MOST)
+        return check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream),
+                     "copying from the card");
+    if (fit_staging(bytes) ||
+        check(cudaMemcpyAsync(staging + staging_used, from, bytes, cudaMemcpyDeviceToHost, stream),
+              "copying from the card"))
+        return -1;
+    later[later_count].to = to, later[later_count].at = staging_used, later[later_count].bytes = bytes;
+    later_count++;
+    staging_used += (bytes + 255) / 256 * 256;
+    if (staging_used > staging_bytes) staging_used = staging_bytes;
+    return 0;
+}
+
+static int download_bytes(void *to, const void *from, size_t bytes)
+{
+    return download_later(to, from, bytes) || wait_engine() ? -1 : 0;
+}
+
+static void close_engine(void)
+{
+    if (stream) cudaStreamDestroy(stream);
+    if (staging) cudaFreeHost(staging);
+    stream = NULL, staging = NULL;
+    staging_bytes = staging_used = 0, later_count = 0;
+}
+
+/* Threads of a block, and blocks that shall fit a multiprocessor at a time: registers are the limit.  Pairs with
+ * pieces are few and take more registers than three blocks leave. */
+enum { THREADS = 128, BLOCKS_AT_ONCE = 3, PAIRS_AT_ONCE = 2 };
+#define AT_ONCE(name) (FL_GPU_##name == FL_GPU_PAIRS ? PAIRS_AT_ONCE : BLOCKS_AT_ONCE)
 
 #define KERNEL(name, function)                                                                               \
-    static __global__ void __launch_bounds__(THREADS, BLOCKS_AT_ONCE)                                        \
+    static __global__ void __launch_bounds__(THREADS, AT_ONCE(name))                                         \
         run_##name(const __grid_constant__ fl_gpu_view v, int32_t n)                                         \
     {                                                                                                        \
         const int32_t k = (int32_t)(blockIdx.x * THREADS + threadIdx.x);                                     \
@@ -117,8 +165,6 @@ static int launch_kernel(int kernel, int32_t n, const fl_gpu_view *v)
     }
     return check(cudaGetLastError(), "a kernel");
 }
-
-static int wait_engine(void) { return check(cudaStreamSynchronize(stream), "a kernel"); }
 
 /* Memory of the two below, kept. */
 static void *scratch;
@@ -171,7 +217,8 @@ static const fl_gpu_engine CUDA = {FL_GPU_VERSION, (int32_t)sizeof(fl_gpu_view),
                                    last_failure,   free_bytes,
                                    alloc_bytes,    release_bytes,
                                    upload_bytes,   download_bytes,
-                                   launch_kernel,  wait_engine,
-                                   sort_keys,      make_offsets};
+                                   download_later, launch_kernel,
+                                   wait_engine,    sort_keys,
+                                   make_offsets};
 
 extern "C" const fl_gpu_engine *fl_gpu_engine_cuda(void) { return &CUDA; }

@@ -13,7 +13,7 @@
 #include "gpu/gpu_view.h"
 
 /* Raised when fl_gpu_view, the kernels or this table change: a plug-in of another version is refused. */
-#define FL_GPU_VERSION 2
+#define FL_GPU_VERSION 5
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,6 +32,8 @@ typedef struct {
     void (*release)(void *p);
     int (*upload)(void *to, const void *from, size_t bytes);
     int (*download)(void *to, const void *from, size_t bytes); /* after all that was launched before */
+    int (*download_later)(void *to, const void *from,
+                          size_t bytes); /* it is there after wait() or download() */
     int (*launch)(int kernel, int32_t n,
                   const fl_gpu_view *v);                   /* k = 0 .. n - 1; may return before the end */
     int (*wait)(void);                                     /* for all that was launched */

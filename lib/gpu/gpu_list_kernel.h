@@ -60,7 +60,7 @@ static inline void fl_gpu_make_key(const fl_gpu_view *a, int32_t k)
 {
     int32_t c[3];
     fl_gpu_cell_of(a, a->state[k].x, c);
-    a->key[k] = fl_gpu_key_of(c);
+    a->key[k] = a->host[k] == FL_GPU_EMPTY ? UINT64_MAX : fl_gpu_key_of(c); /* of no cell */
     a->order[k] = k;
 }
 
@@ -147,6 +147,7 @@ static inline fl_gpu_partners fl_gpu_find_partners(const fl_gpu_view *a, int32_t
     fl_gpu_partners n;
     int32_t own[3];
     n.upper = n.lower = 0;
+    if (a->host[k] == FL_GPU_EMPTY) return n;
     fl_gpu_cell_of(a, a->state[k].x, own);
     for (int32_t way = 0; way < 27; way++) {
         const int32_t step[3] = {way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1};

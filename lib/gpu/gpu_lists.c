@@ -27,7 +27,6 @@ int fl_gpu_lists_apply(const fl_world *w)
 {
     const double width = width_of_cells(w);
     const double L[3] = {w->cell.length.x, w->cell.length.y, w->cell.length.z};
-    if (w->inflow.absent) return 0;
     for (int32_t k = 0; k < w->n; k++)
         if (!w->b.is_isotropic[k]) return 0;
     for (int32_t a = 0; a < w->materials; a++)

@@ -34,6 +34,13 @@ int fl_gpu_get_bytes(struct fl_gpu_world *g, void *to, const void *from, size_t 
     return bytes && g->e->download(to, from, bytes) ? fl_gpu_fail(g, err) : 0;
 }
 
+int fl_gpu_get_later(struct fl_gpu_world *g, void *to, const void *from, size_t bytes, fl_err *err)
+{
+    return bytes && g->e->download_later(to, from, bytes) ? fl_gpu_fail(g, err) : 0;
+}
+
+int fl_gpu_wait(struct fl_gpu_world *g, fl_err *err) { return g->e->wait() ? fl_gpu_fail(g, err) : 0; }
+
 int fl_gpu_launch(struct fl_gpu_world *g, int kernel, int32_t n, fl_err *err)
 {
     return n > 0 && g->e->launch(kernel, n, &g->v) ? fl_gpu_fail(g, err) : 0;

@@ -15,6 +15,11 @@ typedef struct {
 
 enum { FL_GPU_BUFFERS = sizeof(fl_gpu_view) / sizeof(void *) };
 
+/* The faces of a mesh for a near pair. */
+typedef struct {
+    int32_t pair, first, n;
+} fl_gpu_tiles;
+
 struct fl_gpu_world {
     const fl_gpu_engine *e;
     fl_gpu_view v;
@@ -33,6 +38,18 @@ struct fl_gpu_world {
     double *moves;
     uint8_t *leaves; /* [blocks] */
     int leaving;     /* some body of the device leaves */
+    /* bodies near the structure, held or driven */
+    int32_t *near_of;
+    fl_gpu_near *near;
+    fl_gpu_pair *pair, *told_pair;
+    fl_gpu_piece *piece;
+    int32_t nears, pairs, near_cap, pair_cap;
+    int32_t *tile;          /* [tiles] of pairs on meshes */
+    fl_gpu_tiles *tiles_of; /* [listed] of each of these pairs, ascending */
+    int32_t tiles, tile_cap, listed, listed_cap;
+    int32_t *guided_body; /* [guided] own bodies that come in */
+    int32_t guided, guided_cap;
+    int pairs_known; /* the CPU has evaluated them in this step, before a list was made */
 };
 
 /* Fails with the reason of the engine. */
@@ -42,6 +59,9 @@ int fl_gpu_fail(const struct fl_gpu_world *g, fl_err *err);
  * What was there is lost when it grows. */
 int fl_gpu_put_bytes(struct fl_gpu_world *g, size_t offset, const void *from, size_t bytes, fl_err *err);
 int fl_gpu_get_bytes(struct fl_gpu_world *g, void *to, const void *from, size_t bytes, fl_err *err);
+/* The same, there after fl_gpu_wait() or the next fl_gpu_get_bytes(). */
+int fl_gpu_get_later(struct fl_gpu_world *g, void *to, const void *from, size_t bytes, fl_err *err);
+int fl_gpu_wait(struct fl_gpu_world *g, fl_err *err);
 int fl_gpu_launch(struct fl_gpu_world *g, int kernel, int32_t n, fl_err *err);
 
 /* Exchanges the pointers at two offsets of the view, and their memory. */
@@ -53,6 +73,8 @@ void fl_gpu_exchange(struct fl_gpu_world *g, size_t a, size_t b);
     fl_gpu_put_bytes(g, offsetof(fl_gpu_view, member), from, FL_GPU_SIZE(member, count), err)
 #define FL_GPU_ROOM(member, count) FL_GPU_PUT(member, NULL, count)
 #define FL_GPU_GET(member, to, count) fl_gpu_get_bytes(g, to, g->v.member, FL_GPU_SIZE(member, count), err)
+#define FL_GPU_GET_LATER(member, to, count)                                                                  \
+    fl_gpu_get_later(g, to, g->v.member, FL_GPU_SIZE(member, count), err)
 #define FL_GPU_LAUNCH(kernel, count) fl_gpu_launch(g, FL_GPU_##kernel, count, err)
 #define FL_GPU_EXCHANGE(a, b) fl_gpu_exchange(g, offsetof(fl_gpu_view, a), offsetof(fl_gpu_view, b))
 

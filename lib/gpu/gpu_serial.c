@@ -90,6 +90,7 @@ static const fl_gpu_engine SERIAL = {
     .release = free,
     .upload = copy_bytes,
     .download = copy_bytes,
+    .download_later = copy_bytes,
     .launch = launch_kernel,
     .wait = wait_engine,
     .sort = sort_keys,

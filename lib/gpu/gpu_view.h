@@ -11,6 +11,7 @@
 #include <stdint.h>
 #include "bond/disc_types.h"
 #include "geom/quat.h"
+#include "gpu/gpu_near.h"
 #include "water/sphere_water_kernel.h"
 #include "world/body_block.h"
 #include "world/sphere_contacts.h"
@@ -52,10 +53,14 @@ typedef struct {
     int64_t contacts;
 } fl_gpu_guest_sum;
 
+/* Who moves a body: the device; the CPU; nobody, a place of no body.  A new guest is one since a search
+ * within this step, whose first half the device has done. */
+enum { FL_GPU_OWN, FL_GPU_GUEST, FL_GPU_NEW_GUEST, FL_GPU_EMPTY };
+
 /* Numbers that change in a step. */
 typedef struct {
-    int32_t ended; /* bonds that ended in this step */
-    int32_t pad;
+    int32_t ended;    /* bonds that ended in this step */
+    int32_t touching; /* pairs that touch */
 } fl_gpu_control;
 
 typedef struct {
@@ -64,7 +69,7 @@ typedef struct {
     int32_t
         floats; /* 0: dry; 1: drag and buoyancy; 2: the same where bonds make the sheet (floating_batch.h) */
     int32_t linear, has_rolling, damped_discs;
-    double dt;
+    double dt, step; /* step: its number */
     fl_vec3 gravity;
     fl_vec3 cell_lo, cell_length; /* periodic cell [m] */
     fl_vec3 domain_lo, domain_hi; /* bounds where bodies leave, infinite for others [m] */
@@ -132,6 +137,22 @@ typedef struct {
     const int32_t *disc_of;
     double *disc_force_sum; /* [discs / FL_DISC_RUN + 1] */
 
+    /* bodies near the structure, held or driven; their pairs with pieces */
+    int32_t pairs, nears;
+    const int32_t *near_of; /* [n] 1 + index into near_body, 0: none; NULL: of no body */
+    fl_gpu_near *near_body; /* [nears] */
+    const fl_gpu_piece *piece;
+    fl_gpu_pair *pair;      /* [pairs] */
+    int32_t *pair_count;    /* [pairs + 1] 1: touches; then the number of those before */
+    fl_gpu_pair *told_pair; /* [pairs] those that touch, in front */
+    /* vertices, normals, plane offsets and loops of all solid pieces and meshes; cones of the faces */
+    fl_vec3 *piece_v, *piece_n;
+    double *piece_c;
+    int32_t *piece_first, *piece_loop, *piece_cone;
+    fl_free_cone *free_cone;
+    fl_interval *free_interval;
+    const int32_t *tile; /* of rows on meshes */
+
     /* guests */
     const int32_t *guest; /* [guests] */
     fl_gpu_guest_state *guest_state;
@@ -172,6 +193,8 @@ typedef struct {
     X(ROWS, fl_gpu_row)                   /* a row: the contact of two spheres */                            \
     X(WALLS, fl_gpu_wall_row)             /* a contact with a wall */                                        \
     X(DISCS, fl_gpu_disc)                 /* a bond */                                                       \
+    X(PAIRS, fl_gpu_near_pair)            /* a pair of a sphere and a piece */                               \
+    X(TELL_PAIRS, fl_gpu_tell_pair)       /* a pair that touches */                                          \
     X(TELL_GUESTS, fl_gpu_tell_guest)     /* a guest: its sums */                                            \
     X(TELL_DISCS, fl_gpu_tell_guest_disc) /* a bond of a guest */                                            \
     X(SECOND_HALF, fl_gpu_second_half)    /* a body: sums, water, kick, drag, works */                       \

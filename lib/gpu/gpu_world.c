@@ -7,14 +7,11 @@
 #include "contact/pair_law.h"
 #include "gpu/gpu_lists.h"
 #include "gpu/gpu_memory.h"
+#include "gpu/gpu_pairs.h"
 #include "sphere/contact_list.h"
 #include "sphere/floating_batch.h"
 #include "sphere/sphere_pair.h"
 #include "world/access.h"
-
-/* Who moves a body.  A new guest is one since a search within this step, whose first half the device has
- * done. */
-enum { OWN, GUEST, NEW_GUEST };
 
 /* --- what runs there ----------------------------------------------------------------------------- */
 
@@ -74,6 +71,7 @@ void fl_gpu_world_free(fl_gpu_world *g)
     for (int k = 0; k < FL_GPU_BUFFERS; k++)
         if (g->memory[k].at) g->e->release(g->memory[k].at);
     g->e->close();
+    fl_gpu_near_free(g);
     free(g->host), free(g->guest), free(g->guest_disc), free(g->guest_state), free(g->guest_sum),
         free(g->guest_wrench), free(g->moves), free(g->leaves);
     free(g);
@@ -89,6 +87,11 @@ const int32_t *fl_gpu_world_guests(const fl_gpu_world *g, int32_t *n)
 
 int fl_gpu_world_owns(const fl_gpu_world *g, int32_t k) { return g->uploaded && !g->host[k]; }
 
+int fl_gpu_world_release(fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *err)
+{
+    return fl_gpu_world_owns(g, k) ? fl_gpu_set_hold(g, w, k, err) : 0;
+}
+
 int fl_gpu_world_leaves(const fl_gpu_world *g) { return g->leaving; }
 
 void fl_gpu_world_forget(fl_gpu_world *g) { g->uploaded = 0; }
@@ -96,17 +99,10 @@ void fl_gpu_world_forget(fl_gpu_world *g) { g->uploaded = 0; }
 #define PUT FL_GPU_PUT
 #define ROOM FL_GPU_ROOM
 #define GET FL_GPU_GET
+#define GET_LATER FL_GPU_GET_LATER
 #define LAUNCH FL_GPU_LAUNCH
 
 /* --- up ---------------------------------------------------------------------------------------------- */
-
-static int is_guest(const fl_world *w, int32_t k)
-{
-    return !w->b.is_isotropic[k] || w->b.fixed_dof[k] || fl_body_absent(w, k) ||
-           w->first_pair_of_body[k] < w->first_pair_of_body[k + 1] ||
-           (k < w->driven_floes.n && w->driven_floes.is_driven[k]) || w->contact_sums.slot[k] != 0 ||
-           w->previous_sums.slot[k] != 0;
-}
 
 static fl_vec3 yields_of(const fl_world *w, int32_t k)
 {
@@ -118,13 +114,20 @@ static fl_vec3 yields_of(const fl_world *w, int32_t k)
 static int release_guest(fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *err)
 {
     const fl_vec3 yields = yields_of(w, k);
+    const double inverse = fl_body_inverse_mass(&w->b, k);
     return g->e->upload(&g->v.state[k], &w->spheres.state[k], sizeof *g->v.state) ||
-                   g->e->upload(&g->v.yields[k], &yields, sizeof yields)
+                   g->e->upload(&g->v.yields[k], &yields, sizeof yields) ||
+                   g->e->upload(&g->v.inverse[k], &inverse, sizeof inverse)
                ? fl_gpu_fail(g, err)
                : 0;
 }
 
-static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
+static int is_guest(const fl_gpu_world *g, int32_t k)
+{
+    return g->host[k] == FL_GPU_GUEST || g->host[k] == FL_GPU_NEW_GUEST;
+}
+
+static int choose_guests(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     const fl_disc_list *s = &w->discs;
     if (!g->host) {
@@ -137,17 +140,21 @@ static int choose_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
         g->leaves = fl_alloc((int64_t)w->n / FL_BODY_BLOCK + 1, sizeof *g->leaves, err);
         if (!g->leaves || !g->host || !g->guest || !g->guest_state || !g->guest_sum || !g->moves) return -1;
     }
-    g->guests = g->guest_discs = 0;
+    g->guests = g->guest_discs = g->tiles = g->listed = 0;
     const int all = fl_gpu_world_has_other_water(w);
     for (int32_t k = 0; k < w->n; k++) {
-        const int guest = all || is_guest(w, k);
-        if (!guest && g->host[k] && g->uploaded && release_guest(g, w, k, err)) return -1;
-        const int stays = !guest || g->host[k] || !g->uploaded;
-        g->host[k] = guest ? (stays ? GUEST : NEW_GUEST) : OWN;
-        if (guest) g->guest[g->guests++] = k;
+        int kind = fl_gpu_body_kind(g, w, k, err);
+        if (kind < 0) return -1;
+        if (all && kind == FL_GPU_OWN) kind = FL_GPU_GUEST;
+        if (kind == FL_GPU_OWN && g->host[k] && g->uploaded && release_guest(g, w, k, err)) return -1;
+        if (kind == FL_GPU_GUEST) {
+            g->guest[g->guests++] = k;
+            if (g->uploaded && g->host[k] == FL_GPU_OWN) kind = FL_GPU_NEW_GUEST;
+        }
+        g->host[k] = (uint8_t)kind;
     }
     for (int32_t k = 0; k < s->n; k++) {
-        if (!g->host[s->at.i[k]] && !g->host[s->at.j[k]]) continue;
+        if (!is_guest(g, s->at.i[k]) && !is_guest(g, s->at.j[k])) continue;
         if (fl_grow(&g->guest_disc, &g->guest_disc_cap, (int64_t)g->guest_discs + 1, sizeof *g->guest_disc,
                     err))
             return -1;
@@ -349,7 +356,9 @@ static int give_guests(fl_gpu_world *g, const fl_world *w, fl_err *err)
         const int32_t i = g->guest[k];
         g->guest_state[k] =
             (fl_gpu_guest_state){w->spheres.state[i], yields_of(w, i), fl_body_inverse_mass(&w->b, i)};
-        if (g->host[i] == NEW_GUEST) g->guest_state[k].state.r = 0.0, g->host[i] = GUEST;
+        if (g->host[i] != FL_GPU_NEW_GUEST) continue;
+        g->guest_state[k].state.r = 0.0;
+        g->host[i] = FL_GPU_GUEST;
     }
     return PUT(guest_state, g->guest_state, g->guests) || LAUNCH(TAKE_GUESTS, g->guests) ? -1 : 0;
 }
@@ -362,7 +371,9 @@ int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err)
     if (choose_guests(g, w, err)) return -1;
     set_parameters(g, w);
     if (!g->uploaded && (put_constants(g, w, err) || put_states(g, w, err))) return -1;
-    if (put_guests(g, err) || put_bodies(g, w, err) || put_walls(g, w, err)) return -1;
+    if (put_guests(g, err) || put_bodies(g, w, err) || put_walls(g, w, err) || fl_gpu_put_near(g, w, err))
+        return -1;
+    g->pairs_known = g->uploaded;
     if (g->uploaded && g->makes_lists) return give_guests(g, w, err) || fl_gpu_lists_make(g, w, err) ? -1 : 0;
     if (put_rows(g, w, err) || put_links(g, w, err) || put_discs(g, w, err)) return -1;
     g->makes_lists = fl_gpu_lists_apply(w);
@@ -446,7 +457,7 @@ int fl_gpu_world_download_bodies(fl_gpu_world *g, fl_world *w, fl_err *err)
         GET(previous_sum, s->previous_sum, w->n) || GET(wall, s->wall, s->walls) ||
         (s->wall_rolling && GET(wall_rolling, s->wall_rolling, s->walls)))
         return -1;
-    if (GET(contact_count, s->contact_count, w->n)) return -1;
+    if (GET(contact_count, s->contact_count, w->n) || fl_gpu_get_near(g, w, err)) return -1;
     for (int32_t k = 0; k < w->n; k++) /* works of a body that comes to the CPU need them */
         if (!g->host[k]) s->previous_contact_count[k] = s->contact_count[k];
     if (sea->water && (GET_OWN(wetted_area, sea->wetted_area) || GET_OWN(buoyancy, sea->buoyancy) ||
@@ -478,6 +489,7 @@ int fl_gpu_world_first_half(fl_gpu_world *g, fl_world *w, fl_err *err)
         FL_GPU_EXCHANGE(sum, previous_sum); /* as fl_ledger_begin_step() */
     }
     g->v.dt = w->dt;
+    fl_gpu_drift_guided(g, w);
     return LAUNCH(FIRST_HALF, w->n) || LAUNCH(BLOCK_MOVES, g->v.blocks) ? -1 : 0;
 }
 
@@ -492,24 +504,27 @@ int fl_gpu_world_moves(fl_gpu_world *g, double largest[2], fl_err *err)
 int fl_gpu_world_contacts(fl_gpu_world *g, fl_world *w, fl_err *err)
 {
     const fl_gpu_control none = {0};
-    return give_guests(g, w, err) || PUT(control, &none, 1) || LAUNCH(ROWS, g->v.rows) ||
-                   LAUNCH(WALLS, g->v.walls) || LAUNCH(DISCS, g->v.discs) || LAUNCH(TELL_GUESTS, g->guests) ||
-                   LAUNCH(TELL_DISCS, g->guest_discs)
+    g->v.step = (double)w->step;
+    return give_guests(g, w, err) || PUT(control, &none, 1) || fl_gpu_begin_pairs(g, w, err) ||
+                   LAUNCH(ROWS, g->v.rows) || LAUNCH(WALLS, g->v.walls) || LAUNCH(DISCS, g->v.discs) ||
+                   LAUNCH(TELL_GUESTS, g->guests) || LAUNCH(TELL_DISCS, g->guest_discs)
                ? -1
                : 0;
 }
 
-int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, fl_err *err)
+int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err)
 {
     fl_gpu_control c;
-    if (GET(control, &c, 1) || GET(guest_sum, g->guest_sum, g->guests) ||
-        GET(guest_wrench, g->guest_wrench, g->guest_discs))
+    if (GET_LATER(guest_sum, g->guest_sum, g->guests) ||
+        GET_LATER(guest_wrench, g->guest_wrench, g->guest_discs) || GET(control, &c, 1) ||
+        fl_gpu_take_pairs(g, w, c.touching, stiffness, err))
         return -1;
     for (int32_t k = 0; k < g->guests; k++) {
         w->spheres.sum[g->guest[k]] = g->guest_sum[k].sum;
         w->spheres.contact_count[g->guest[k]] = (int32_t)g->guest_sum[k].contacts;
     }
     for (int32_t k = 0; k < g->guest_discs; k++) w->discs.at.out[g->guest_disc[k]] = g->guest_wrench[k];
+    g->pairs_known = 0;
     w->discs.ended += c.ended;
     return c.ended ? GET(disc_ended, w->discs.has_ended, w->discs.n) : 0;
 }
@@ -530,14 +545,13 @@ int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *w
     const int32_t runs = w->discs.n / FL_DISC_RUN + (w->discs.n % FL_DISC_RUN != 0);
     g->leaving = 0;
     if (PUT(guest_work, work, g->guests) || LAUNCH(TAKE_WORKS, g->guests) || LAUNCH(BLOCKS, g->v.blocks) ||
-        (w->inflow.leaves && GET(leaves, g->leaves, g->v.blocks)))
+        (w->inflow.leaves && GET_LATER(leaves, g->leaves, g->v.blocks)) ||
+        GET_LATER(totals, w->spheres.totals, g->v.chunks) ||
+        GET_LATER(wall_load, w->spheres.wall_load, (int64_t)g->v.chunks * w->walls) ||
+        GET_LATER(block, w->blocks, g->v.blocks) ||
+        (runs && GET_LATER(disc_force_sum, w->discs.force_sum, runs)) ||
+        (stiffness && GET_LATER(omega2, w->spheres.omega2, w->n)) || fl_gpu_wait(g, err))
         return -1;
     for (int32_t k = 0; k < g->v.blocks && w->inflow.leaves; k++) g->leaving |= g->leaves[k];
-    return GET(totals, w->spheres.totals, g->v.chunks) ||
-                   GET(wall_load, w->spheres.wall_load, (int64_t)g->v.chunks * w->walls) ||
-                   GET(block, w->blocks, g->v.blocks) ||
-                   (runs && GET(disc_force_sum, w->discs.force_sum, runs)) ||
-                   (stiffness && GET(omega2, w->spheres.omega2, w->n))
-               ? -1
-               : 0;
+    return 0;
 }

@@ -50,6 +50,9 @@ int fl_gpu_world_download_bodies(fl_gpu_world *g, fl_world *w, fl_err *err);
 int fl_gpu_world_owns(const fl_gpu_world *g, int32_t k);
 int fl_gpu_world_leaves(const fl_gpu_world *g);
 
+/* Body k is guided no more. */
+int fl_gpu_world_release(fl_gpu_world *g, const fl_world *w, int32_t k, fl_err *err);
+
 /* The world has been changed between two steps, after a download: all of it goes up before the next. */
 void fl_gpu_world_forget(fl_gpu_world *g);
 
@@ -66,7 +69,7 @@ int fl_gpu_world_first_half(fl_gpu_world *g, fl_world *w, fl_err *err);
 /* The two largest paths of own bodies since the last search, after the first half. */
 int fl_gpu_world_moves(fl_gpu_world *g, double largest[2], fl_err *err);
 int fl_gpu_world_contacts(fl_gpu_world *g, fl_world *w, fl_err *err);
-int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, fl_err *err);
+int fl_gpu_world_sums(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err);
 int fl_gpu_world_second_half(fl_gpu_world *g, fl_world *w, int stiffness, fl_err *err);
 /* work[n]: of each guest. */
 int fl_gpu_world_finish(fl_gpu_world *g, fl_world *w, const fl_gpu_guest_work *work, int stiffness,

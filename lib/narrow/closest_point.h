@@ -3,21 +3,7 @@
  * cone.  The distance is signed where the shape has an inside. */
 #ifndef FL_NARROW_CLOSEST_POINT_H
 #define FL_NARROW_CLOSEST_POINT_H
-#include "geom/poly.h"
-
-typedef struct {
-    double d;  /* distance, negative inside                                             [m] */
-    fl_vec3 p; /* closest point of the shape                                            [m] */
-    fl_vec3 n; /* unit vector from p to x, or against it when d < 0: always outward */
-} fl_closest_point;
-
-/* Points x and p. */
-static inline fl_closest_point fl_closest_of_point(fl_vec3 p, fl_vec3 x)
-{
-    const fl_vec3 r = v3_sub(x, p);
-    const double d = v3_norm(r);
-    return (fl_closest_point){d, p, d > 0.0 ? v3_scale(1.0 / d, r) : v3(0, 0, 1)};
-}
+#include "narrow/closest_kernel.h"
 
 /* Point x and a convex polyhedron: the Euclidean distance outside, the largest n_f.x - c_f (<= 0) inside,
  * which is continuous through zero.  Points, segments and flat polygons have no inside: d >= 0. */

@@ -32,7 +32,7 @@ static int take_engine(fl_world *w, const fl_gpu_engine *e, char note[FL_DEVICE_
     char why[200];
     if (need > room) {
         snprintf(why, sizeof why,
-                 "%.60s has %.0f MiB free and %.0f are needed: about %.0f of the %d bodies fit", e->device(),
+                 "%.60s has %.3g MiB free and %.3g are needed: about %.0f of the %d bodies fit", e->device(),
                  room / 1048576.0, need / 1048576.0, w->n * (room / need), w->n);
         e->close();
         return take_cpu(w, FL_SYSTEM, note, why, err);
@@ -89,7 +89,19 @@ int fl_device_moves(const fl_world *w, int32_t i)
     return w->device.gpu && fl_gpu_world_owns(w->device.gpu, i);
 }
 
+int fl_device_release(const fl_world *w, int32_t i, fl_err *err)
+{
+    return w->device.gpu ? fl_gpu_world_release(w->device.gpu, w, i, err) : 0;
+}
+
 int fl_device_leaves(const fl_world *w) { return w->device.gpu && fl_gpu_world_leaves(w->device.gpu); }
+
+int32_t fl_device_guests(const fl_world *w)
+{
+    int32_t n = -1;
+    if (w->device.gpu) fl_gpu_world_guests(w->device.gpu, &n);
+    return n;
+}
 
 /* --- the step ------------------------------------------------------------------------------------ */
 
@@ -138,7 +150,10 @@ int fl_device_take_lists(fl_world *w, fl_err *err) { return fl_gpu_world_upload(
 
 int fl_device_contacts(fl_world *w, fl_err *err) { return fl_gpu_world_contacts(w->device.gpu, w, err); }
 
-int fl_device_sums(fl_world *w, fl_err *err) { return fl_gpu_world_sums(w->device.gpu, w, err); }
+int fl_device_sums(fl_world *w, int stiffness, fl_err *err)
+{
+    return fl_gpu_world_sums(w->device.gpu, w, stiffness, err);
+}
 
 /* First guest of block b or of a later one. */
 static int32_t first_guest(const int32_t *guest, int32_t n, int32_t b)

@@ -26,6 +26,12 @@ int fl_device_hand_over(fl_world *w, fl_err *err);
 int fl_device_moves(const fl_world *w, int32_t i);
 int fl_device_leaves(const fl_world *w);
 
+/* Body i, which came in, is guided no more. */
+int fl_device_release(const fl_world *w, int32_t i, fl_err *err);
+
+/* Number of bodies that the CPU moves beside the device, since the last search; -1 without a device. */
+int32_t fl_device_guests(const fl_world *w);
+
 /* Drag, kick and drift; sets the largest paths of w->blocks. */
 int fl_device_first_half(fl_world *w, double h, fl_err *err);
 /* Before the neighbour list is made anew, and after.  fl_device_makes_lists(): the device lists pairs of
@@ -36,7 +42,7 @@ int fl_device_has_listed_none(const fl_world *w);
 int fl_device_before_search(fl_world *w, fl_err *err);
 int fl_device_take_lists(fl_world *w, fl_err *err);
 int fl_device_contacts(fl_world *w, fl_err *err);
-int fl_device_sums(fl_world *w, fl_err *err);
+int fl_device_sums(fl_world *w, int stiffness, fl_err *err);
 /* Forces, kick and drag; the books of blocks, chunks and bonds. */
 int fl_device_second_half(fl_world *w, double h, int stiffness, fl_err *err);
 

@@ -409,7 +409,7 @@ static int place_due(fl_world *w, int32_t k, int32_t *place, int *came, fl_err *
 }
 
 /* Release the guided floes whose last point has passed the bound. */
-static void release_guided(fl_world *w)
+static int release_guided(fl_world *w, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
     const fl_bodies *b = &w->b;
@@ -421,7 +421,9 @@ static void release_guided(fl_world *w)
             last = fmin(last, coordinate_along(t, v3_add(b->x[i], m3_mul(R, b->core[i].v[v]))));
         if (last - b->radius[i] < t->entry) continue;
         fl_inflow_set_guided(w, i, 0);
+        if (fl_device_release(w, i, err)) return -1;
     }
+    return 0;
 }
 
 /* --- between two steps -------------------------------------------------------------------------- */
@@ -474,7 +476,7 @@ int fl_inflow_step(fl_world *w, fl_err *err)
     fl_ledger *g = &w->ledger;
     int leaving = t->leaves && fl_device_leaves(w), came = 0;
     int32_t place = 0;
-    if (t->feed) release_guided(w);
+    if (t->feed && release_guided(w, err)) return -1;
     if (!leaving) leaving = some_leaves(w);
     if (!leaving && !is_due(w)) return 0;
     if (fl_device_hand_over(w, err)) return -1;

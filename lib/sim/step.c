@@ -232,12 +232,13 @@ static int run_device_step(step_context *q)
         advance_time(w);
         q->needs_search = fl_neighbour_list_due(w);
         if (q->needs_search) return fl_device_before_search(w, q->err);
-    } else if (fl_device_take_lists(w, q->err)) {
-        return -1;
+    } else { /* the CPU has all bodies: which of them are near the structure follows from their pairs */
+        evaluate_guests_pairs(w, q->dt, q->update_stiffness);
+        if (fl_device_take_lists(w, q->err)) return -1;
     }
     if (fl_device_contacts(w, q->err)) return -1;
-    evaluate_guests_pairs(w, q->dt, q->update_stiffness);
-    if (fl_device_sums(w, q->err)) return -1;
+    if (q->first_half) evaluate_guests_pairs(w, q->dt, q->update_stiffness);
+    if (fl_device_sums(w, q->update_stiffness, q->err)) return -1;
     after_contacts(q);
     if (q->failed || fl_device_second_half(w, h, q->update_stiffness, q->err)) return -1;
     for (int32_t k = w->n; k < w->b.total; k++) fl_body_sum_forces(w, k);

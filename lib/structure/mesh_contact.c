@@ -2,21 +2,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/array.h"
-#include "structure/free_cone.h"
 #include "structure/mesh_contact.h"
+#include "structure/mesh_sphere_kernel.h"
 #include "structure/mesh_side.h"
 #include "narrow/closest_point.h"
 #include "patch/patch_law.h"
 #include "patch/plane_distances.h"
-
-/* Distances within this fraction of the size are equal: rounding of the coordinates. */
-#define ROUNDING_TOL 1e-12
-/* A point lies on an edge or face if it is within this fraction of the size: straight runs of edges are
- * straight, and corners of faces lie in their planes, to that (coplanar_regions.c). */
-#define EDGE_TOL 2e-6
-/* Cosine between the way to a face and its normal above which that face decides the side: another face of the
- * same point could be more in front by 1e-9 of the distance at most. */
-#define NORMAL_COSINE (1.0 - 1e-9)
 
 /* A wall that overlaps a core by this part of the largest overlap counts as loaded. */
 #define KNOWN_SHARE 0.8
@@ -24,7 +15,7 @@
 /* True if the point lies on the rim of the surface. */
 static int is_on_rim(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
-    const double same = EDGE_TOL * p->size;
+    const double same = FL_MESH_EDGE * p->size;
     fl_bvh_walk at = fl_bvh_walk_from(&sh->edge_tree, sh->edge_box, x);
     for (int32_t k; (k = fl_bvh_walk_next(&at, same)) >= 0;) {
         const fl_edge e = p->edge[k];
@@ -36,69 +27,35 @@ static int is_on_rim(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
     return 0;
 }
 
-/* Search for the nearest point of some faces, tried one by one; the result does not depend on their order but
- * for rounding. */
-typedef struct {
-    fl_closest_point at;
-    double least; /* distance, whatever the order */
-    double front; /* height of x in front of the face */
-    double same;
-    int32_t of; /* face */
-    int thin;   /* the mesh has sheets with two sides */
-} nearest_search;
-
-/* True if a face at height s decides the side rather than one at height `most`.  Of the two sides of a sheet,
- * at equal heights, it is the one that x is in front of. */
-static inline int is_decisive(double s, double most, int thin)
-{
-    if (thin && fabs(s + most) <= 1e-9 * fabs(s)) return s > most;
-    return fabs(s) > fabs(most);
-}
-
-/* Among faces whose nearest points agree within rounding (a shared edge or corner), the one that x is most in
- * front of decides the side: its plane passes between x and the others. */
-static inline void try_face(nearest_search *b, const fl_poly *p, int32_t f, fl_vec3 x)
-{
-    const double s = v3_dot(p->n[f], x) - p->c[f], most = b->at.d + b->same;
-    if (fabs(s) > most) return;
-    const fl_closest_point q = fl_closest_on_face(p, f, x);
-    if (q.d > most) return;
-    if (q.d < b->least) b->least = q.d;
-    if (q.d < b->at.d - b->same || is_decisive(s, b->front, b->thin)) b->at = q, b->front = s, b->of = f;
-}
-
-/* Normals that differ by less are of one plane: the tolerance of the planes over the smallest side of a tile
- * that matters. More planes than there are only take the longer way. */
-#define SAME_NORMAL 1e-9
-
 /* Height of x in front of the surface: the largest among the faces that meet in the nearest point, seen from
  * that point, since the plane of a face may miss its corners. If more than two planes meet there and x is in
  * front of one and behind another, the corner as a whole decides the side. */
-static double height_in_front(const nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+static double height_in_front(const fl_nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh,
+                              fl_vec3 x)
 {
     const fl_vec3 r = v3_sub(x, b->at.p);
-    const double same = EDGE_TOL * p->size;
+    const double same = FL_MESH_EDGE * p->size;
     const fl_vec3 first = p->n[b->of];
     fl_vec3 second = first;
     double most = v3_dot(first, r), low = most, high = most;
     int planes = 1;
-    if (fabs(most) > NORMAL_COSINE * b->at.d) return most;
+    if (fabs(most) > FL_MESH_NORMAL_COSINE * b->at.d) return most;
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, b->at.p);
     for (int32_t f; (f = fl_bvh_walk_next(&at, same)) >= 0;) {
         const double s = v3_dot(p->n[f], r);
         if (fl_closest_on_face(p, f, b->at.p).d > same) continue;
-        if (is_decisive(s, most, b->thin)) most = s;
+        if (fl_nearest_is_decisive(s, most, b->thin)) most = s;
         low = fmin(low, s), high = fmax(high, s);
-        if (v3_norm2(v3_sub(p->n[f], first)) <= SAME_NORMAL * SAME_NORMAL) continue;
+        if (v3_norm2(v3_sub(p->n[f], first)) <= FL_MESH_SAME_NORMAL * FL_MESH_SAME_NORMAL) continue;
         if (planes == 1) second = p->n[f], planes = 2;
-        else if (v3_norm2(v3_sub(p->n[f], second)) > SAME_NORMAL * SAME_NORMAL) planes = 3;
+        else if (v3_norm2(v3_sub(p->n[f], second)) > FL_MESH_SAME_NORMAL * FL_MESH_SAME_NORMAL) planes = 3;
     }
     if (planes < 3 || low * high >= 0.0) return most;
     return fl_mesh_side(p, sh, x, b->at.p, same) < 0.0 ? -fabs(most) : fabs(most);
 }
 
 /* Signs the distance: a point nearest to a rim is beside the surface, not behind it. */
-static fl_closest_point with_sign(const nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh,
+static fl_closest_point with_sign(const fl_nearest_search *b, const fl_poly *p, const fl_piece_mesh *sh,
                                   fl_vec3 x)
 {
     fl_closest_point q = b->at;
@@ -109,27 +66,23 @@ static fl_closest_point with_sign(const nearest_search *b, const fl_poly *p, con
     return q;
 }
 
-static nearest_search empty_search(const fl_poly *p, const fl_piece_mesh *sh)
+static fl_nearest_search empty_search(const fl_poly *p, const fl_piece_mesh *sh)
 {
-    return (nearest_search){.at.d = INFINITY,
-                            .least = INFINITY,
-                            .same = ROUNDING_TOL * p->size,
-                            .of = -1,
-                            .thin = sh->thin != NULL};
+    return fl_nearest_of_none(p, sh->thin != NULL);
 }
 
-static nearest_search find_nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
+static fl_nearest_search find_nearest(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x)
 {
-    nearest_search b = empty_search(p, sh);
+    fl_nearest_search b = empty_search(p, sh);
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, x);
-    for (int32_t f; (f = fl_bvh_walk_next(&at, b.at.d + b.same)) >= 0;) try_face(&b, p, f, x);
+    for (int32_t f; (f = fl_bvh_walk_next(&at, b.at.d + b.same)) >= 0;) fl_nearest_try(&b, p, f, x);
     return b;
 }
 
 /* Signed distance of x from the surface, and the face it is of. */
 static fl_closest_point signed_nearest_face(const fl_poly *p, const fl_piece_mesh *sh, fl_vec3 x, int32_t *of)
 {
-    const nearest_search b = find_nearest(p, sh, x);
+    const fl_nearest_search b = find_nearest(p, sh, x);
     *of = b.of;
     return with_sign(&b, p, sh, x);
 }
@@ -273,7 +226,7 @@ static int leads_through(fl_feature_set *r, const fl_poly *p, const fl_piece_mes
         const int32_t f = r->face[k];
         const double ha = v3_dot(p->n[f], a) - p->c[f], hb = v3_dot(p->n[f], b) - p->c[f];
         if (ha <= 0.0 || hb > 0.0) continue;
-        if (fl_closest_on_face(p, f, v3_madd(a, ha / (ha - hb), v3_sub(b, a))).d <= EDGE_TOL * p->size)
+        if (fl_closest_on_face(p, f, v3_madd(a, ha / (ha - hb), v3_sub(b, a))).d <= FL_MESH_EDGE * p->size)
             return 1;
     }
     return r->faces < 0 ? -1 : 0;
@@ -363,8 +316,8 @@ static int list_feature_pairs(fl_patch_points *w, fl_mesh_contact_work *near, co
                               const mesh_selection *of, int facing, fl_feature_pairs *l)
 {
     const fl_piece_mesh *const mesh = &piece->mesh;
-    const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * (A->p->size + B->p->size),
-                 margin_behind = margin + EDGE_TOL * B->p->size;
+    const double margin = fl_feature_pairs_margin(l, ra), same = FL_MESH_ROUNDING * (A->p->size + B->p->size),
+                 margin_behind = margin + FL_MESH_EDGE * B->p->size;
     fl_feature_set *walls = &near->of_mesh, *all = &near->of_core;
     fl_aabb box = aabb_empty();
     for (int32_t v = 0; v < A->p->nv; v++) box = aabb_add(box, w->va[v]);
@@ -411,7 +364,7 @@ static int add_listed_points(fl_patch_points *w, fl_mesh_contact_work *near, con
 static int has_core_contact(const fl_patch_points *w, int32_t from, double ra)
 {
     for (int32_t k = from; k < w->n; k++)
-        if (w->point[k].overlap >= ra * (1.0 - ROUNDING_TOL)) return 1;
+        if (w->point[k].overlap >= ra * (1.0 - FL_MESH_ROUNDING)) return 1;
     return 0;
 }
 
@@ -516,15 +469,13 @@ void fl_mesh_contact_bound(const fl_patch_points *w, const fl_poly *a, const fl_
     if (far > 0.0) *distance = reach;
 }
 
-/* Lists the faces that the point may meet until it has moved by the margin: those that can be the nearest if
+/* Lists the faces that point x may meet until it has moved by the margin: those that can be the nearest if
  * it can touch one wall only, else all in reach. None if nothing is near enough; then *distance is set. */
-static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
-                             fl_feature_pairs *l, double *distance)
+static int list_tiles(fl_mesh_contact_work *near, const fl_piece *b, fl_vec3 x, double ra, double margin,
+                      fl_feature_pairs *l, double *distance)
 {
-    const double margin = fl_feature_pairs_margin(l, ra), same = ROUNDING_TOL * b->core.size,
-                 far = ra + margin + same + b->facet_error;
+    const double same = FL_MESH_ROUNDING * b->core.size, far = ra + margin + same + b->facet_error;
     const fl_piece_mesh *sh = &b->mesh;
-    const fl_vec3 x = w->va[0];
     fl_feature_set *walls = &near->of_mesh;
     int32_t n = 0;
     l->candidates = 0;
@@ -547,23 +498,33 @@ static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, con
     for (int32_t c = 0; c < n; c++)
         if (fl_closest_on_face(&b->core, walls->face[c], x).d <= (l->single_wall ? next : fmax(far, next)))
             l->candidate[l->candidates++] = walls->face[c];
+    return 0;
+}
+
+static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
+                             fl_feature_pairs *l, double *distance)
+{
+    const double margin = fl_feature_pairs_margin(l, ra);
+    if (list_tiles(near, b, w->va[0], ra, margin, l, distance)) return -1;
+    if (l->candidates == 0) return 0;
     l->M = w->M, l->o = w->o;
     l->max_shift2 = margin * margin, l->max_turn2 = 1.0;
     l->margin = margin, l->uses = 1;
     return 0;
 }
 
-/* Takes the distance of the exact cone with its weight, and that of its facet with the rest.  Returns 0 if it
- * has none. */
-static int blend_with_cone(fl_closest_point *q, const fl_free_cone *c, fl_vec3 x, double ra)
+int fl_mesh_contact_single_wall(fl_mesh_contact_work *near, const fl_piece *b, fl_vec3 x, double ra,
+                                double way, fl_feature_pairs *l)
 {
-    const fl_vec3 at = q_rotate(q_conj(c->q), v3_sub(x, c->x));
-    const double weight = fl_free_cone_weight(c, at.z, ra).weight;
-    if (weight == 0.0) return 0;
-    const fl_closest_point exact = fl_closest_on_cone(c->r0, c->r1, c->h, at);
-    q->d = (1.0 - weight) * q->d + weight * exact.d;
-    q->n = v3_unit(v3_madd(v3_scale(1.0 - weight, q->n), weight, q_rotate(c->q, exact.n)));
-    return 1;
+    double distance;
+    if (list_tiles(near, b, x, ra, way + FL_MESH_EDGE * b->core.size, l, &distance)) return -1;
+    return l->candidates > 0 && l->single_wall;
+}
+
+double fl_mesh_contact_known_distance(const fl_piece *b, double ra)
+{
+    const fl_feature_pairs none = {.margin = 0.0};
+    return ra + fl_feature_pairs_margin(&none, ra) + FL_MESH_ROUNDING * b->core.size + b->facet_error;
 }
 
 int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
@@ -572,15 +533,15 @@ int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const
     const fl_poly *core = &b->core;
     const fl_piece_mesh *sh = &b->mesh;
     const fl_vec3 x = w->va[0];
-    nearest_search best = empty_search(core, sh);
+    fl_nearest_search best = empty_search(core, sh);
     w->n = w->features = 0;
     w->couple = v3(0, 0, 0);
     if (!fl_feature_pairs_valid(l, &w->M, w->o) && list_sphere_tiles(w, near, b, ra, l, distance)) return -1;
     if (l->candidates == 0) return 0;
-    for (int32_t c = 0; c < l->candidates; c++) try_face(&best, core, l->candidate[c], x);
+    for (int32_t c = 0; c < l->candidates; c++) fl_nearest_try(&best, core, l->candidate[c], x);
     fl_closest_point q = with_sign(&best, core, sh, x);
     if (sh->cone_of_face && sh->cone_of_face[best.of] >= 0 &&
-        blend_with_cone(&q, &b->free_cone[sh->cone_of_face[best.of]], x, ra))
+        fl_blend_with_cone(&q, &b->free_cone[sh->cone_of_face[best.of]], x, ra))
         best.least = fabs(q.d);
     *distance = best.least;
     if (best.least >= ra) return 0; /* from behind as well */

@@ -52,6 +52,16 @@ void fl_mesh_contact_bound(const fl_patch_points *w, const fl_poly *a, const fl_
 int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const fl_piece *b, double ra,
                            fl_feature_pairs *l, double *distance);
 
+/* Lists in l->candidate the faces that may be the nearest of a sphere about x, in the frame of b, until it
+ * has moved by `way` [m].  Returns 1 if it can touch a single wall until then, 0 if not, or if it is out of
+ * reach; -1 when memory runs out. */
+int fl_mesh_contact_single_wall(fl_mesh_contact_work *near, const fl_piece *b, fl_vec3 x, double ra,
+                                double way, fl_feature_pairs *l);
+
+/* The largest distance of facets that fl_mesh_contact_sphere() gives as it is for a sphere that has no list
+ * yet; of a larger one it takes off what facets may be off [m]. */
+double fl_mesh_contact_known_distance(const fl_piece *b, double ra);
+
 /* True if the point, in the frame of b, lies behind a surface without a rim. */
 int fl_mesh_contact_contains(const fl_piece *b, fl_vec3 x);
 

@@ -40,6 +40,38 @@ static void scene_of_weak_sheet(lab *l, int32_t side, const char *law)
     lab_set(l, "bond.normal_strength=4 kPa");
 }
 
+/* Spheres that fall onto a cone, a convex solid and a plate that turn, and roll off between walls. */
+static void scene_of_pieces(lab *l, int32_t side, const char *law)
+{
+    static const fl_vec3 ROOF[] = {{0, 0, 0}, {1.3, 0, 0}, {1.3, 1.3, 0}, {0, 1.3, 0}};
+    lab_start(l);
+    lab_set(l, "material.ice.young=10 MPa");
+    lab_set(l, "contact.friction=0.4");
+    lab_set(l, "contact.restitution=0.5");
+    lab_set(l, "run.gravity=0.5 0.3 -9.81");
+    lab_setf(l, "boundary.max=%d %d none", side, side);
+    lab_set(l, "boundary.min=0 0 0");
+    if (law) lab_set(l, law);
+    lab_cone(l, (fl_cone){.p0 = v3(2.5, 2.5, 0), .p1 = v3(2.6, 2.4, 0.9), .r0 = 0.8, .r1 = 0.2});
+    lab_prism(l, 4, ROOF, 0.1, 0.7);
+    lab_wall(l, v3(3.2, 0.2, 0.5), v3(4.2, 1.4, 0.5), 2);
+    for (int32_t k = 0; k < side * side * 2; k++)
+        lab_sphere(l, v3(k % side + 0.5, k / side % side + 0.5, 1.2 + 0.75 * (k / (side * side))),
+                   0.3 + 0.04 * (k % 3), v3(0.3 * (k % 5) - 0.6, 0.2 * (k % 4) - 0.3, -1.0),
+                   v3(0, 0.2 * (k % 7), 0));
+}
+
+/* The same on a mesh with an inner corner, and on two cones that are one piece. */
+static void scene_of_meshes(lab *l, int32_t side, const char *law)
+{
+    static const fl_vec3 L[] = {{0.4, 3, 0}, {1.6, 3, 0}, {1.6, 3.6, 0},
+                                {1, 3.6, 0}, {1, 4.6, 0}, {0.4, 4.6, 0}};
+    scene_of_pieces(l, side, law);
+    lab_prism(l, 6, L, 0.1, 0.8);
+    lab_cone(l, (fl_cone){.p0 = v3(3.8, 3.8, 0), .p1 = v3(3.8, 3.8, 0.6), .r0 = 0.7, .r1 = 0.4});
+    lab_cone(l, (fl_cone){.p0 = v3(3.8, 3.8, 0.6), .p1 = v3(3.8, 3.8, 1.4), .r0 = 0.4, .r1 = 0.4});
+}
+
 static char *text_of(fl_world *w)
 {
     size_t n = 0;
@@ -142,6 +174,53 @@ static void a_sheet_that_breaks_on_a_cone_has_the_bits_of_the_cpu(void **state)
     (void)state;
     runs_alike(scene_of_sheet, 4, NULL, fl_gpu_serial(), 2000, 0);
     runs_alike(scene_of_weak_sheet, 4, NULL, fl_gpu_serial_backwards(), 2000, 0);
+}
+
+/* Spheres on pieces at rest, and on ones that turn as prescribed: none is left to the CPU. */
+static void spheres_on_pieces_have_the_bits_of_the_cpu(void **state)
+{
+    lab l;
+    (void)state;
+    runs_alike(scene_of_pieces, 5, NULL, fl_gpu_serial(), 1500, 0);
+    runs_alike(scene_of_pieces, 5, "structure.velocity=0.3 0 0.1", fl_gpu_serial_backwards(), 1000, 0);
+    runs_alike(scene_of_pieces, 5, "structure.spin=0 0 0.5", fl_gpu_serial(), 1000, 1);
+    scene_of_pieces(&l, 5, NULL);
+    lab_make(&l, 0.0);
+    take_device(&l.w, fl_gpu_serial());
+    lab_run(&l, 800);
+    assert_true(l.w.n_touching > 0);
+    assert_int_equal(fl_device_guests(&l.w), 0);
+    lab_free(&l);
+}
+
+/* Spheres that touch one wall of a mesh are the device's, those in inner corners the CPU's. */
+static void spheres_on_meshes_have_the_bits_of_the_cpu(void **state)
+{
+    lab l;
+    (void)state;
+    runs_alike(scene_of_meshes, 5, NULL, fl_gpu_serial(), 1500, 0);
+    runs_alike(scene_of_meshes, 5, "structure.velocity=0.2 0 0.1", fl_gpu_serial_backwards(), 1000, 1);
+    scene_of_meshes(&l, 5, NULL);
+    lab_make(&l, 0.0);
+    take_device(&l.w, fl_gpu_serial());
+    lab_run(&l, 800);
+    assert_true(l.w.n_touching > 0);
+    assert_true(fl_device_guests(&l.w) < l.w.n_touching);
+    lab_free(&l);
+}
+
+/* A card cannot tell on which side of a mesh a sphere is that begins inside of it: the CPU does. */
+static void scene_inside_of_a_mesh(lab *l, int32_t side, const char *law)
+{
+    scene_of_meshes(l, side, law);
+    lab_sphere(l, v3(3.8, 3.45, 0.9), 0.2, v3(0, -0.1, 0), v3(0, 0, 0));
+    lab_sphere(l, v3(1.3, 3.3, 0.75), 0.2, v3(0, 0, 0.1), v3(0, 0, 0));
+}
+
+static void spheres_inside_of_a_mesh_have_the_bits_of_the_cpu(void **state)
+{
+    (void)state;
+    runs_alike(scene_inside_of_a_mesh, 5, NULL, fl_gpu_serial(), 400, 0);
 }
 
 static void a_run_may_change_its_device(void **state)
@@ -271,6 +350,9 @@ int main(void)
         cmocka_unit_test(rolling_has_the_bits_of_the_cpu),
         cmocka_unit_test(a_periodic_cell_with_boxes_has_the_bits_of_the_cpu),
         cmocka_unit_test(a_sheet_that_breaks_on_a_cone_has_the_bits_of_the_cpu),
+        cmocka_unit_test(spheres_on_pieces_have_the_bits_of_the_cpu),
+        cmocka_unit_test(spheres_on_meshes_have_the_bits_of_the_cpu),
+        cmocka_unit_test(spheres_inside_of_a_mesh_have_the_bits_of_the_cpu),
         cmocka_unit_test(a_run_may_change_its_device),
         cmocka_unit_test(other_waters_have_the_bits_of_the_cpu),
         cmocka_unit_test(inflow_and_outflow_have_the_bits_of_the_cpu),

@@ -184,6 +184,9 @@ static void report_speed(const struct run *r, FILE *f)
             "%" PRId64 " neighbour searches)\n",
             1e9 * r->step_wall / (double)r->body_steps, contacts > 0.0 ? 1e9 * r->step_wall / contacts : 0.0,
             contacts / steps, w->searches);
+    if (w->device.gpu)
+        fprintf(f, "device             %s; the processor moves %d of %d bodies\n", r->device,
+                fl_device_guests(w), fl_floes_in_domain(w));
     fprintf(f, "processor          %.4g s of all threads, with searches, checkpoints and tables\n",
             r->cpu_time);
 }
