@@ -6,7 +6,7 @@
  * 15 %:
  *     flexural     sigma_f/c: largest load of a beam on two rollers with a third in its middle, span 10 h,
  *                  sigma_f = 3 P L/(2 b h^2) with the nominal h = layers x spacing of layers
- *     compressive  sigma_c/c: largest mean stress of a block of 10 x 10 x 12 spheres pressed in the plane of the
+ *     compressive  sigma_c/c: largest mean stress of 10 x 10 x 12 spheres pressed in the plane of the
  *                  sheet, whatever its layers; 0 for a cubic lattice, whose bonds are pressed alone: it does
  *                  not fail
  *     young        E/E_b in bending
