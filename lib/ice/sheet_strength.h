@@ -6,25 +6,25 @@
  * 15 %:
  *     flexural     sigma_f/c: largest load of a beam on two rollers with a third in its middle, span 10 h,
  *                  sigma_f = 3 P L/(2 b h^2) with the nominal h = layers x spacing of layers
- *     compressive  sigma_c/c: largest mean stress of a block pressed in the plane of the sheet; 0 where it
- *                  was not measured
+ *     compressive  sigma_c/c: largest mean stress of 10 x 10 x 12 spheres pressed in the plane of the
+ *                  sheet, whatever its layers; 0 for a cubic lattice, whose bonds are pressed alone: it does
+ *                  not fail
  *     young        E/E_b in bending
  * Rows along the stress carry like columns and are stronger; so the direction of the rows counts.  The
  * example calibrate makes the numbers again. */
 #ifndef FL_ICE_SHEET_STRENGTH_H
 #define FL_ICE_SHEET_STRENGTH_H
-#include "base/err.h"
+#include <stdint.h>
 #include "ice/sphere_packing.h"
 
 typedef struct {
     double flexural, compressive, young;
-    double flexural_spread; /* standard deviation over mean of samples with other scatter */
+    double flexural_spread, compressive_spread; /* deviation over mean of samples with other scatter */
 } fl_sheet_strength;
 
-/* The ratios for stress along x.  across: rows of the lattice are across x.  -1 with FL_USAGE for a packing
- * or a number of layers that was not measured. */
-int fl_sheet_strength_of(enum fl_packing_kind kind, int32_t layers, int across, fl_sheet_strength *out,
-                         fl_err *err);
+/* The ratios for stress along x.  across: rows of the lattice are across x; a square lattice has the same
+ * both ways.  layers >= 1; more than measured have the ratios of the thickest sample. */
+fl_sheet_strength fl_sheet_strength_of(enum fl_packing_kind kind, int32_t layers, int across);
 
 /* Ratio k_s/k_n and scatter that these hold for. */
 #define FL_SHEET_POISSON 0.3

@@ -23,11 +23,13 @@ int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_
             err, FL_USAGE,
             "--flexural, --compressive and --young set the bonds of --scene FILE, which is expected "
             "with --bonded");
-    if (fl_sheet_strength_of(kind, o->layers, o->rows_across, &out->ratio, err)) return -1;
+    out->ratio = fl_sheet_strength_of(kind, o->layers, o->rows_across);
+    out->turned = fl_sheet_strength_of(kind, o->layers, !o->rows_across);
     if (o->flexural > 0.0) out->strength = o->flexural / out->ratio.flexural;
     if (o->compressive > 0.0 && out->ratio.compressive == 0.0)
         return fl_fail(err, FL_USAGE,
-                       "--compressive is calibrated for --lattice hcp alone: --flexural is expected");
+                       "--compressive: a cubic lattice that is pressed along its rows does not fail, "
+                       "--flexural or another --lattice is expected");
     if (o->compressive > 0.0) out->strength = o->compressive / out->ratio.compressive;
     if (o->young > 0.0) out->young = o->young / out->ratio.young;
     /* The modulus that is expected is printed with three digits, so 0.5 % more of it is enough. */

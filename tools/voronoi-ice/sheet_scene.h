@@ -7,8 +7,8 @@
 #include "recipe.h"
 
 struct sheet_bonds {
-    double strength, young;  /* of the bonds [Pa]; 0: nothing asked for */
-    fl_sheet_strength ratio; /* of the sheet over them */
+    double strength, young;          /* of the bonds [Pa]; 0: nothing asked for */
+    fl_sheet_strength ratio, turned; /* of the sheet over them: for stress along x and along y */
 };
 
 /* The inflow of an endless sheet. */

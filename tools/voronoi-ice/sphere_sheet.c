@@ -216,18 +216,20 @@ static void add_sheet_rows(const struct recipe *o, enum fl_packing_kind kind, do
         certificate_add(t, "solid part of that slab", none, phi, NO_DISTANCE, 6, NULL);
     }
     if (b->strength > 0.0) {
-        const double f = b->strength * b->ratio.flexural, c = b->strength * b->ratio.compressive;
-        certificate_add(t, "strength of the bonds [Pa]", none, b->strength, NO_DISTANCE, 6, NULL);
-        certificate_add(t, "flexural strength [Pa]", o->flexural > 0.0 ? o->flexural : none, f, NO_DISTANCE,
-                        6, "+- %.0f %% of it", 100.0 * b->ratio.flexural_spread);
-        if (c > 0.0)
-            certificate_add(t, "compressive strength [Pa]", o->compressive > 0.0 ? o->compressive : none, c,
-                            NO_DISTANCE, 6, NULL);
+        const double c = b->strength;
+        certificate_add(t, "strength of the bonds [Pa]", none, c, NO_DISTANCE, 6, NULL);
+        certificate_add(t, "flexural strength [Pa]", o->flexural > 0.0 ? o->flexural : none,
+                        c * b->ratio.flexural, NO_DISTANCE, 6, "+- %.0f %%, along y %.3g",
+                        100.0 * b->ratio.flexural_spread, c * b->turned.flexural);
+        if (b->ratio.compressive > 0.0)
+            certificate_add(t, "compressive strength [Pa]", o->compressive > 0.0 ? o->compressive : none,
+                            c * b->ratio.compressive, NO_DISTANCE, 6, "+- %.0f %%, along y %.3g",
+                            100.0 * b->ratio.compressive_spread, c * b->turned.compressive);
     }
     if (b->young > 0.0) {
         certificate_add(t, "modulus of the bonds [Pa]", none, b->young, NO_DISTANCE, 6, NULL);
         certificate_add(t, "modulus in bending [Pa]", o->young, b->young * b->ratio.young, NO_DISTANCE, 6,
-                        NULL);
+                        "along y %.3g", b->young * b->turned.young);
     }
 }
 

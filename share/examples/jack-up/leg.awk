@@ -3,6 +3,7 @@
 # s, one of them upstream, horizontals at the nodes of each bay and one diagonal a face and bay; nothing inside chords,
 # so that parts of one leg do not overlap by more than their own walls.
 #   awk -v s=5 -v X=0 -v Y=0 -v id=0 -v turn=0 -f leg.awk
+# s = 0: a single column of the radius of a chord.
 # s: side [m]; X, Y: middle of the leg; turn: of the leg about its axis [deg]; chord, level, brace: radii [m]; bay [m]
 BEGIN {
     if (!chord) chord = 0.4
@@ -17,6 +18,7 @@ BEGIN {
         x[k] = X + s/sqrt(3)*cos(a); y[k] = Y + s/sqrt(3)*sin(a)
     }
     print "part " id " leg" id + 1
+    if (!s) { printf "cone %.6g %.6g %.6g %.6g  %.6g %.6g %.6g %.6g\n", X, Y, -top, chord, X, Y, top, chord; exit }
     for (k = 0; k < 3; k++) printf "cone %.6g %.6g %.6g %.6g  %.6g %.6g %.6g %.6g\n", x[k], y[k], -top - 2, chord, x[k], y[k], top + 2, chord
     for (k = 0; k < 3; k++) {
         j = (k + 1) % 3
