@@ -2,7 +2,6 @@
 #include "contact/disc_list.h"
 #include <assert.h>
 #include <string.h>
-#include "base/array.h"
 #include "contact/pair_law.h"
 #include "law/normal.h"
 #include "world/access.h"
@@ -124,61 +123,6 @@ void fl_disc_list_evaluate(fl_world *w, int32_t from, int32_t to, double dt)
         }
     }
     s->force_sum[from / FL_DISC_RUN] = sum;
-}
-
-void fl_disc_list_evaluate_chunk(fl_world *w, int32_t a, double dt)
-{
-    const fl_disc_list *s = &w->discs;
-    const int32_t begin = a * FL_SPHERE_CHUNK,
-                  end = begin + FL_SPHERE_CHUNK < w->n ? begin + FL_SPHERE_CHUNK : w->n;
-    const int64_t runs = FL_DISC_RUN, first = (s->first_i[begin] + runs - 1) / runs * runs;
-    for (int64_t k = first; k < s->first_i[end]; k += runs)
-        fl_disc_list_evaluate(w, (int32_t)k, (int32_t)(k + runs < s->n ? k + runs : s->n), dt);
-}
-
-/* Work of chunk a [instructions]: its bonds, and the second half of the step of its bodies if it can follow at
- * once in a thread whose first chunk is `from`. */
-static int64_t chunk_work(const fl_world *w, int32_t a, int32_t from)
-{
-    enum { BOND = 170, BODY = 430 };
-    const fl_disc_list *s = &w->discs;
-    const int32_t begin = a * FL_SPHERE_CHUNK,
-                  end = begin + FL_SPHERE_CHUNK < w->n ? begin + FL_SPHERE_CHUNK : w->n;
-    const int64_t bonds = s->first_i[end] - s->first_i[begin] + s->first_j[end] - s->first_j[begin];
-    return BOND * (s->first_i[end] - s->first_i[begin]) +
-           (bonds && s->first_source[a] >= from ? BODY * (int64_t)(end - begin) : 0);
-}
-
-/* Gives each thread chunks until it has the work `most`; returns 1 if all of them find a thread. */
-static int share_chunks(const fl_world *w, int32_t threads, int64_t most, int32_t *share)
-{
-    const int32_t chunks = fl_disc_chunks(w);
-    int32_t a = 0;
-    for (int32_t t = 0; t < threads; t++) {
-        int64_t sum = 0;
-        share[t] = a;
-        for (; a < chunks; a++) {
-            sum += chunk_work(w, a, share[t]);
-            if (sum > most) break;
-        }
-    }
-    share[threads] = chunks;
-    return a == chunks;
-}
-
-int fl_disc_list_share(fl_world *w, int32_t threads, fl_err *err)
-{
-    fl_disc_list *s = &w->discs;
-    int64_t lo = 0, hi = 0; /* hi: enough, lo: too little */
-    if (fl_grow(&s->share, &s->share_cap, threads + 1, sizeof *s->share, err)) return -1;
-    for (int32_t a = 0; a < fl_disc_chunks(w); a++) hi += chunk_work(w, a, 0);
-    while (threads > 1 && hi - lo > 1 + hi / 64) {
-        const int64_t middle = lo + (hi - lo) / 2;
-        if (share_chunks(w, threads, middle, s->share)) hi = middle;
-        else lo = middle;
-    }
-    share_chunks(w, threads, hi, s->share);
-    return 0;
 }
 
 /* A wrench has F, T_i and T_j, one behind another: loads of four numbers from 0 and 4 on add F and T_i to a

@@ -24,21 +24,6 @@ static inline int fl_body_has_discs(const fl_world *w, int32_t k)
  */
 void fl_disc_list_evaluate(fl_world *w, int32_t from, int32_t to, double dt);
 
-/* The same by chunks of bodies (world/sphere_contacts.h): the runs of bonds that begin with a body i of chunk a.
- * They refer to bodies of chunk a and of later ones.  Once the chunks up to a are evaluated the forces on the
- * bodies of a are complete; they may move on if no thread but this one had a chunk from first_source[a] on. */
-void fl_disc_list_evaluate_chunk(fl_world *w, int32_t a, double dt);
-
-/* Chunks of bodies. */
-static inline int32_t fl_disc_chunks(const fl_world *w)
-{
-    return (w->n + FL_SPHERE_CHUNK - 1) / FL_SPHERE_CHUNK;
-}
-
-/* Computes share[0 .. threads]: consecutive chunks for each thread, about as much work for all of them until
- * they wait for each other.  Returns -1 with FL_SYSTEM. */
-int fl_disc_list_share(fl_world *w, int32_t threads, fl_err *err);
-
 /* Adds the forces of the bonds of bodies [from, to), each in their order, to f[0], t[0] and on; of body k. */
 void fl_disc_list_add_forces_of(const fl_world *w, int32_t from, int32_t to, fl_vec3 *f, fl_vec3 *t);
 void fl_disc_list_add_forces(const fl_world *w, int32_t k, fl_vec3 *f, fl_vec3 *t);

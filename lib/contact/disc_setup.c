@@ -157,23 +157,6 @@ static int add_disc(fl_world *w, const fl_ice_field_bond *d, fl_err *err)
     return 0;
 }
 
-/* The chunks that refer to each chunk. */
-static int index_sources(fl_world *w, fl_err *err)
-{
-    fl_disc_list *s = &w->discs;
-    const int32_t chunks = fl_disc_chunks(w);
-    free(s->first_source);
-    if (!(s->first_source = fl_alloc(chunks, sizeof *s->first_source, err))) return -1;
-    for (int32_t a = 0; a < chunks; a++) s->first_source[a] = a;
-    for (int32_t k = 0; k < s->n; k++) {
-        const int32_t of = s->at.i[k / FL_DISC_RUN * FL_DISC_RUN] / FL_SPHERE_CHUNK,
-                      to[2] = {s->at.i[k] / FL_SPHERE_CHUNK, s->at.j[k] / FL_SPHERE_CHUNK};
-        for (int e = 0; e < 2; e++)
-            if (of < s->first_source[to[e]]) s->first_source[to[e]] = of;
-    }
-    return 0;
-}
-
 /* The bonds of each body. */
 static int index_discs(fl_world *w, fl_err *err)
 {
@@ -189,7 +172,7 @@ static int index_discs(fl_world *w, fl_err *err)
     for (int32_t k = 0; k < s->n; k++) s->of[s->first_j[s->at.j[k]]++] = k;
     for (int32_t i = w->n; i > 0; i--) s->first_j[i] = s->first_j[i - 1];
     s->first_j[0] = 0;
-    return index_sources(w, err);
+    return 0;
 }
 
 /* Springs of bond k, none for a fixed body: bond_stiffness.h. */
@@ -243,7 +226,6 @@ void fl_disc_list_free(fl_disc_list *s)
     free(a->i), free(a->j), free(a->is_whole), free(a->which), free(a->out);
     free(s->classes), free(s->shift), free(s->image), free(s->has_ended), free(s->pending), free(s->omega2);
     free(s->max_omega2), free(s->first_i), free(s->first_j), free(s->of), free(s->force_sum);
-    free(s->first_source), free(s->share);
     *s = (fl_disc_list){0};
 }
 

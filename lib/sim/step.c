@@ -13,7 +13,6 @@
 #include "contact/active_pairs.h"
 #include "contact/bond_list.h"
 #include "contact/crushing.h"
-#include "contact/disc_list.h"
 #include "contact/joint_list.h"
 #include "contact/panel_load.h"
 #include "sim/body_step.h"
@@ -52,8 +51,6 @@ typedef struct {
     double dt;
     int update_stiffness;
     int first_half;   /* run the first half kick and the drift before the contacts */
-    int by_chunks;    /* spheres go chunk by chunk, sphere_chunks() */
-    int discs;        /* and the bonds between them */
     int needs_search; /* the team stopped after the drift: the neighbour list must be updated first */
     int failed;
     fl_err *err;
@@ -83,7 +80,6 @@ static void after_contacts(void *arg)
     step_context *const q = arg;
     fl_world *const w = q->w;
     fl_work_share_split(w->block_share, w->team.n, fl_block_count(w));
-    if (q->discs && fl_disc_list_share(w, omp_get_num_threads(), q->err)) q->failed = 1;
     fl_collect_touching(w);
     fl_contact_sums_assign(w);
     if (w->bonds.ended) { /* the neighbour list must take up the pair of an ended bond */
@@ -122,10 +118,10 @@ static void wake_bodies(fl_world *w, int thread, int threads)
     fl_barrier_wait(&w->barrier, threads, NULL, NULL);
 }
 
-/* Bonds, the first `discs` of those of spheres, then all other near pairs.  Contacts are independent: each
- * writes only its own record. */
-static void evaluate_pairs(fl_world *w, double dt, int update_stiffness, int32_t discs)
+/* Bonds, then all other near pairs.  Contacts are independent: each writes only its own record. */
+static void evaluate_pairs(fl_world *w, double dt, int update_stiffness)
 {
+    const int32_t discs = w->device.gpu && dt > 0.0 ? 0 : w->discs.n; /* else the device has them */
 #pragma omp for schedule(static) nowait
     for (int32_t k = 0; k < w->bonds.n; k += FL_BOND_LIST_RUN)
         fl_bond_list_evaluate(w, k, k + FL_BOND_LIST_RUN < w->bonds.n ? k + FL_BOND_LIST_RUN : w->bonds.n);
@@ -144,51 +140,24 @@ static void finish_chunk(fl_world *w, int32_t a, double h)
     if (from < all) fl_blocks_second_half(w, from, from + each < all ? from + each : all, h);
 }
 
-/* True if no chunk of an earlier thread, whose first chunks are before `from`, refers to chunk a. */
-static int chunk_is_complete(const step_context *q, int32_t a, int32_t from)
-{
-    const fl_world *const w = q->w;
-    return (!w->spheres.bodies || w->spheres.first_source[a] >= from) &&
-           (!q->discs || w->discs.first_source[a] >= from);
-}
-
-/* First chunk of thread t. */
-static int32_t first_chunk(const step_context *q, int t, int threads)
-{
-    return q->discs ? q->w->discs.share[t] : fl_sphere_chunk_share(q->w, t, threads);
-}
-
-/* Ends the step of the chunks that had to wait for others; all threads take part. */
-static void finish_waiting(step_context *q, int thread, int threads)
-{
-    int32_t waiting = 0;
-    for (int t = 0; t < threads; t++) {
-        const int32_t from = first_chunk(q, t, threads), to = first_chunk(q, t + 1, threads);
-        for (int32_t a = from; a < to; a++) {
-            if (chunk_is_complete(q, a, from)) continue;
-            if (waiting++ % threads == thread) finish_chunk(q->w, a, 0.5 * q->dt);
-        }
-    }
-}
-
-/* Sphere contacts and bonds of chunk a refer to bodies of chunk a or of later chunks.  A thread works on
- * consecutive chunks.  If no earlier thread refers to a, the forces on a are complete, and its second half kick
- * can run at once, while its data are in the cache.  The other chunks follow after a barrier.  Contacts read
- * copies of the bodies (fl_sphere_state), and bonds those of chunks that have not moved on. */
+/* Sphere contacts of chunk a refer to bodies of chunk a or of later chunks.  A thread works on consecutive
+ * chunks.  If no earlier chunk refers to a, the forces on a are complete, and its second half kick can run at
+ * once, while its data are in the cache.  The other chunks follow after a barrier.  Contacts read copies of
+ * the bodies (fl_sphere_state), so a chunk that has moved on does not disturb them. */
 static void sphere_chunks(step_context *q, int thread, int threads)
 {
     fl_world *const w = q->w;
-    fl_sphere_contacts *s = &w->spheres;
-    const int32_t from = first_chunk(q, thread, threads), to = first_chunk(q, thread + 1, threads);
+    const fl_sphere_contacts *s = &w->spheres;
+    const int32_t from = fl_sphere_chunk_share(w, thread, threads),
+                  to = fl_sphere_chunk_share(w, thread + 1, threads);
     for (int32_t a = from; a < to; a++) {
-        const int complete = chunk_is_complete(q, a, from);
-        if (q->discs) fl_disc_list_evaluate_chunk(w, a, q->dt);
-        if (s->bodies) fl_sphere_chunk_evaluate(w, a, q->dt, q->update_stiffness);
-        if (s->bodies) s->finished[a] = (uint8_t)complete;
-        if (complete) finish_chunk(w, a, 0.5 * q->dt);
+        fl_sphere_chunk_evaluate(w, a, q->dt, q->update_stiffness);
+        s->finished[a] = s->first_source[a] >= from;
+        if (s->finished[a]) finish_chunk(w, a, 0.5 * q->dt);
     }
     fl_barrier_wait(&w->barrier, threads, NULL, NULL);
-    finish_waiting(q, thread, threads);
+    for (int32_t a = from; a < to; a++)
+        if (!s->finished[a]) finish_chunk(w, a, 0.5 * q->dt);
 }
 
 /* The part of a step that every thread of the team runs, with a barrier after each stage. */
@@ -196,6 +165,7 @@ static void run_step_in_team(step_context *q)
 {
     fl_world *const w = q->w;
     const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
+    const int by_chunks = w->spheres.bodies && !w->sleep.state && !w->panel_load.panels;
 
     /* bodies: drag h, kick h, drift dt */
     if (q->first_half) {
@@ -211,18 +181,18 @@ static void run_step_in_team(step_context *q)
     if (w->sleep.state) wake_bodies(w, thread, threads);
 
     /* contacts: spheres, unless they run by chunks below; bonds; all other pairs */
-    if (!q->by_chunks && w->spheres.chunks) {
+    if (!by_chunks && w->spheres.chunks) {
 #pragma omp for schedule(dynamic) nowait
         for (int32_t a = 0; a < w->spheres.chunks; a++)
             fl_sphere_chunk_evaluate(w, a, q->dt, q->update_stiffness);
     }
-    evaluate_pairs(w, q->dt, q->update_stiffness, q->discs ? 0 : w->discs.n);
+    evaluate_pairs(w, q->dt, q->update_stiffness);
     if (w->zones.set.blocks) fl_zones_stress(w);
     fl_barrier_wait(&w->barrier, threads, after_contacts, q);
     if (q->failed) return;
 
     /* bodies: external and contact forces, kick h, drag h */
-    if (q->by_chunks) sphere_chunks(q, thread, threads);
+    if (by_chunks) sphere_chunks(q, thread, threads);
     else move_blocks(q, thread, 1);
 
         /* pieces and walls: contact forces */
@@ -245,10 +215,10 @@ static void evaluate_guests_pairs(fl_world *w, double dt, int update_stiffness)
 {
     fl_share_active_pairs(w);
     if (w->team.n == 1) {
-        evaluate_pairs(w, dt, update_stiffness, 0);
+        evaluate_pairs(w, dt, update_stiffness);
     } else {
 #pragma omp parallel num_threads(w->team.n)
-        evaluate_pairs(w, dt, update_stiffness, 0);
+        evaluate_pairs(w, dt, update_stiffness);
     }
 }
 
@@ -281,8 +251,6 @@ static int run_step(step_context *q)
     if (q->w->device.gpu && q->dt > 0.0) return run_device_step(q);
     fl_work_share_split(q->w->block_share, team, fl_block_count(q->w));
     q->w->zones.dt = q->dt;
-    q->by_chunks = (q->w->spheres.bodies || q->w->discs.n) && !q->w->sleep.state && !q->w->panel_load.panels;
-    q->discs = q->by_chunks && q->w->discs.n;
     if (!q->first_half) fl_share_active_pairs(q->w);
     if (team == 1) {
         run_step_in_team(q);

@@ -42,10 +42,7 @@ typedef struct {
     fl_disc_past past;
     int is_renewed; /* the list is not that of the ice field any more */
     int64_t *first_i, *first_j;
-    int32_t *of;           /* [n] bonds of each body j, ascending */
-    int32_t *first_source; /* [chunks of bodies] first chunk with a run of bonds that refers to this chunk */
-    int32_t *share;        /* [threads + 1] chunks of each thread */
-    int32_t share_cap;
+    int32_t *of;       /* [n] bonds of each body j, ascending */
     double *force_sum; /* [n / FL_DISC_RUN + 1] sum of |F| */
     int32_t ended;     /* bonds that ended since the neighbour list was made */
 } fl_disc_list;
