@@ -16,14 +16,14 @@ enum { OUTPUT = 9 };
 static_assert(sizeof(fl_disc_wrench) == OUTPUT * sizeof(double), "consecutive doubles");
 
 /* Numbers of the discs of a batch, a row for each: position and velocity of j from i, spins, what the class
- * has, forces, 1 for those that are done, and |F|. */
+ * has, forces, the memory after the step, 1 for those that are done, and |F|. */
 typedef struct {
     double a[FL_DISC_BATCH];
 } disc_row;
 typedef struct {
     _Alignas(64) disc_row d[3], v[3], wi[3], wj[3];
     disc_row class[FL_DISC_CLASS_NUMBERS], scatter, whole;
-    disc_row out[OUTPUT];
+    disc_row out[OUTPUT], S[3], M[3], force[3], couple[3], damped;
     disc_row done, size;
 } disc_rows;
 
@@ -69,10 +69,6 @@ typedef struct {
     double *S[3], *M[3], *force[3], *couple[3], *damped;
 } memory_rows;
 
-/* Sets the memory of a disc that is done. */
-#define KEEP(to, value) ((to)[k] = on > 0.0 ? (value) : (to)[k])
-#define KEEP3(a0, a1, a2, value) (KEEP(a0, (value).x), KEEP(a1, (value).y), KEEP(a2, (value).z))
-
 FL_SIMD_INLINE fl_vec3 row3(const disc_row *a, int64_t k) { return v3(a[0].a[k], a[1].a[k], a[2].a[k]); }
 FL_SIMD_INLINE fl_vec3 memory3(const double *x, const double *y, const double *z, int64_t k)
 {
@@ -95,10 +91,10 @@ FL_SIMD_INLINE int evaluate_rows(disc_rows *restrict t, const memory_rows *restr
                  per_area = one ? 1.0 / (PI * all.radius * all.radius * all.weakening) : 0.0,
                  all_lever = one ? beta / all.radius : 0.0, all_pull = per_area / law->tension,
                  all_cut = per_area / law->cohesion;
-    double *const S0 = m->S[0], *const S1 = m->S[1], *const S2 = m->S[2], *const M0 = m->M[0],
-                  *const M1 = m->M[1], *const M2 = m->M[2], *const f0 = m->force[0], *const f1 = m->force[1],
-                  *const f2 = m->force[2], *const c0 = m->couple[0], *const c1 = m->couple[1],
-                  *const c2 = m->couple[2], *const used_up = m->damped;
+    const double *const S0 = m->S[0], *const S1 = m->S[1], *const S2 = m->S[2], *const M0 = m->M[0],
+                        *const M1 = m->M[1], *const M2 = m->M[2], *const f0 = m->force[0],
+                        *const f1 = m->force[1], *const f2 = m->force[2], *const c0 = m->couple[0],
+                        *const c1 = m->couple[1], *const c2 = m->couple[2], *const used_up = m->damped;
     double left = 0.0;
 #pragma omp simd reduction(+ : left)
     for (int64_t k = 0; k < (n & -FL_LANE_COUNT); k++) {
@@ -119,14 +115,14 @@ FL_SIMD_INLINE int evaluate_rows(disc_rows *restrict t, const memory_rows *restr
             const double more =
                 0.5 * dt *
                 fl_disc_power(q, v3_add(memory3(f0, f1, f2, k), drag), v3_add(memory3(c0, c1, c2, k), brake));
-            KEEP(used_up, used_up[k] + more);
-            KEEP3(f0, f1, f2, drag);
-            KEEP3(c0, c1, c2, brake);
+            t->damped.a[k] = used_up[k] + more;
+            set_row3(t->force, k, drag);
+            set_row3(t->couple, k, brake);
             F = v3_add(F, drag);
             M = v3_add(brake, M);
         }
-        KEEP3(S0, S1, S2, q.S);
-        KEEP3(M0, M1, M2, q.M);
+        set_row3(t->S, k, q.S);
+        set_row3(t->M, k, q.M);
         const fl_vec3 arm = v3_cross(q.e, F);
         set_row3(t->out, k, F);
         set_row3(t->out + 3, k, v3_madd(M, share * q.r, arm));
@@ -171,6 +167,27 @@ FL_SIMD4_VERSIONS static void store_forces(const disc_rows *restrict t, fl_disc_
         FL_SIMD_UNROLL
         for (int l = 0; l < FL_SIMD_WIDTH; l++) to[OUTPUT * l + OUTPUT - 1] = t->out[OUTPUT - 1].a[k + l];
     }
+}
+
+/* Copies the new memory of discs that are done. */
+static void keep_row(double *restrict to, const disc_row *restrict from, const disc_row *restrict done, int n,
+                     int all)
+{
+    if (all) memcpy(to, from->a, (size_t)n * sizeof *to);
+    for (int k = 0; k < n && !all; k++)
+        if (done->a[k] > 0.0) to[k] = from->a[k];
+}
+
+static void keep_memory(const disc_rows *restrict t, const memory_rows *restrict m, int n, int all)
+{
+    for (int e = 0; e < 3; e++) {
+        keep_row(m->S[e], &t->S[e], &t->done, n, all);
+        keep_row(m->M[e], &t->M[e], &t->done, n, all);
+        if (!m->damped) continue;
+        keep_row(m->force[e], &t->force[e], &t->done, n, all);
+        keep_row(m->couple[e], &t->couple[e], &t->done, n, all);
+    }
+    if (m->damped) keep_row(m->damped, &t->damped, &t->done, n, all);
 }
 
 /* Rows of n numbers, a multiple of FL_LANE_COUNT; returns 1 if classes differ. */
@@ -224,6 +241,7 @@ int fl_disc_batch_force(const fl_disc_arrays *a, int32_t from, int n, const fl_d
     const int left =
         a->damped ? evaluate_damped(&t, &m, law, all, dt, n) : evaluate_elastic(&t, &m, law, all, dt, n);
     store_forces(&t, a->out + from, n);
+    keep_memory(&t, &m, n, left == 0);
     memcpy(out->size, t.size.a, (size_t)n * sizeof *out->size);
     for (int k = 0; k < n && left; k++) out->done[k] = t.done.a[k] > 0.0;
     return left;
