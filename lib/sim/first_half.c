@@ -164,8 +164,7 @@ void fl_blocks_first_half(fl_world *w, int32_t g, int32_t last, double h)
     begin_batch(w, &c, h);
     for (int32_t k = g; k < last; k++) {
         const int32_t from = k * FL_BODY_BLOCK, to = fl_block_end(w, k);
-        if (w->spheres.bodies && w->spheres.is_listed[k]) fl_sphere_states_update(w, from, to, h);
-        else if (w->spheres.bodies) fl_sphere_counts_update(w, from, to);
+        if (w->spheres.bodies) fl_sphere_block_update(w, from, to, h);
         find_largest_moves(to - from, w->b.odometer + from, w->odometer_at_search + from,
                            w->blocks[k].largest_moves);
     }

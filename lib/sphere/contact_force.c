@@ -104,10 +104,12 @@ void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h)
     }
 }
 
-void fl_sphere_counts_update(fl_world *w, int32_t from, int32_t to)
+void fl_sphere_block_update(fl_world *w, int32_t from, int32_t to, double h)
 {
-    memcpy(&w->spheres.previous_contact_count[from], &w->spheres.contact_count[from],
-           (size_t)(to - from) * sizeof *w->spheres.contact_count);
+    if (w->spheres.is_listed[from / FL_BODY_BLOCK]) fl_sphere_states_update(w, from, to, h);
+    else
+        memcpy(&w->spheres.previous_contact_count[from], &w->spheres.contact_count[from],
+               (size_t)(to - from) * sizeof *w->spheres.contact_count);
 }
 
 /* The difference a - b of two vectors, and the sum of the numbers after them. */

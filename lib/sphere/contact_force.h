@@ -14,8 +14,8 @@
  * half, while the bodies have the forces of its start. */
 void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h);
 
-/* What it does beside that, for bodies that are in no contact of the list. */
-void fl_sphere_counts_update(fl_world *w, int32_t from, int32_t to);
+/* The same for a block of FL_BODY_BLOCK bodies; without the copies where no contact of the list needs them. */
+void fl_sphere_block_update(fl_world *w, int32_t from, int32_t to, double h);
 
 /* Evaluates the contacts of chunk a over a step of dt [s]; survey: also bounds of omega^2.  dt < 0:
  * recomputes the sums from the stored forces.  Any thread may take any chunk. */

@@ -231,7 +231,8 @@ static int replace_contacts(fl_world *w, const fl_sphere_contacts *fresh, fl_err
 {
     take_contacts(&w->spheres, fresh);
     if (index_contacts(w, err)) return -1;
-    fl_sphere_states_update(w, 0, w->n, 0.5 * w->dt);
+    for (int32_t k = 0; k < w->n; k += FL_BODY_BLOCK)
+        fl_sphere_block_update(w, k, k + FL_BODY_BLOCK < w->n ? k + FL_BODY_BLOCK : w->n, 0.5 * w->dt);
     return 0;
 }
 

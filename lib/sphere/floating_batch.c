@@ -31,25 +31,23 @@ static int eight_slots_are(const int32_t *a, int32_t k, int32_t value)
     return other == 0;
 }
 
-/* True if the eight floes from k on are known not to be driven; false tells nothing. */
-static int eight_are_free(const fl_world *w, int32_t k)
+/* True if sphere i touches spheres, now or before: works of its contacts need the changes by both kicks. */
+static int needs_changes(const fl_world *w, int32_t i)
 {
-    const fl_driven_floes *d = &w->driven_floes;
-    if (w->inflow.absent &&
-        (!eight_are(w->inflow.absent, k, 0) || !eight_slots_are(w->inflow.source_floe, k, -1)))
-        return 0;
-    return k >= d->n || (k + 8 <= d->n && eight_are(d->is_driven, k, 0));
+    return w->spheres.bodies && (w->spheres.contact_count[i] | w->spheres.previous_contact_count[i]);
 }
 
 int32_t fl_floating_run_end(const fl_world *w, int32_t k, int32_t to, int second)
 {
     const int32_t *now = w->contact_sums.slot, *before = w->previous_sums.slot;
+    const uint8_t *absent = w->inflow.absent, *fixed = w->b.fixed_dof;
     const uint64_t all = 0x0101010101010101;
-    while (k + 8 <= to && eight_are(w->b.is_isotropic, k, all) && eight_are(w->b.fixed_dof, k, 0) &&
-           eight_slots_are(before, k, 0) && !(second && !eight_slots_are(now, k, 0)) && eight_are_free(w, k))
+    while (k + 8 <= to && eight_are(w->b.is_isotropic, k, all) && (!second || eight_are(fixed, k, 0)) &&
+           eight_slots_are(before, k, 0) && !(second && !eight_slots_are(now, k, 0)) &&
+           (!absent || eight_are(absent, k, 0)))
         k += 8;
-    while (k < to && w->b.is_isotropic[k] && !w->b.fixed_dof[k] && before[k] == 0 &&
-           !(second && now[k] != 0) && !fl_body_absent(w, k) && !fl_floe_is_driven(w, k))
+    while (k < to && w->b.is_isotropic[k] && before[k] == 0 && !(second && now[k] != 0) &&
+           !(second && fixed[k] && needs_changes(w, k)) && !fl_body_absent(w, k))
         k++;
     return k;
 }
@@ -62,6 +60,9 @@ typedef struct {
     double m[N], invm[N], turn[N], up[N]; /* turn: 1/I; up: mass along the vertical */
     double area[N], loss[N];
     double z[N], r[N], volume[N], surface[N], fill[N], buoyancy[N], heave[N], work[N];
+    double hold[6][N], turns_held[N], I[N], held_work[N]; /* of blocks with fixed degrees of freedom: 1 for a
+                                                           * fixed one, 1 if a rotation is; work of them,
+                                                           * 0 for a free sphere */
 } sphere_rows;
 
 /* Vectors of n bodies as three rows, and back. */
@@ -120,6 +121,29 @@ static void load_motion(const fl_world *w, int32_t from, int32_t n, sphere_rows 
     }
 }
 
+/* Loads the fixed degrees of freedom; returns 0 if there are none, and loads nothing. */
+static int load_fixed(const fl_bodies *b, int32_t from, int32_t n, sphere_rows *q)
+{
+    const uint8_t *fixed = b->fixed_dof + from;
+    unsigned any = 0;
+    for (int32_t k = 0; k < n; k++) any |= fixed[k];
+    if (!any) return 0;
+    for (int e = 0; e < 6; e++)
+        for (int32_t k = 0; k < N; k++) q->hold[e][k] = k < n && fixed[k] >> e & 1 ? 1.0 : 0.0;
+    for (int32_t k = 0; k < N; k++) {
+        q->turns_held[k] = q->hold[3][k] + q->hold[4][k] + q->hold[5][k];
+        q->I[k] = k < n ? b->I[from + k].x : 1.0;
+        q->held_work[k] = k < n && fixed[k] ? b->work_of_constraints[from + k] : 0.0;
+    }
+    return 1;
+}
+
+static void store_held_work(fl_bodies *b, int32_t from, int32_t n, const sphere_rows *q)
+{
+    for (int32_t k = 0; k < n; k++)
+        if (b->fixed_dof[from + k]) b->work_of_constraints[from + k] = q->held_work[k];
+}
+
 static void store_motion(fl_bodies *b, int32_t from, int32_t n, sphere_rows *q)
 {
     store_rows(b->v + from, q->v, n);
@@ -156,6 +180,81 @@ FL_SIMD_INLINE void kick_lane(sphere_rows *restrict q, int k, double h, int heav
     set_motion_of_lane(
         q, k,
         fl_sphere_kick(motion_of_lane(q, k), ROW(f), ROW(t), h, q->invm[k], q->turn[k], q->up[k], heavy));
+}
+
+/* The product of the unit matrix with a: its sums turn -0 into 0. */
+FL_SIMD_INLINE fl_vec3 level_axes_times(fl_vec3 a)
+{
+    return m3_mul((fl_mat3){{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}}, a);
+}
+
+FL_SIMD_INLINE double held_power(const sphere_rows *q, int k, int from, fl_vec3 impulse, fl_vec3 u)
+{
+    return (q->hold[from][k] > 0.0 ? impulse.x * u.x : 0.0) +
+           (q->hold[from + 1][k] > 0.0 ? impulse.y * u.y : 0.0) +
+           (q->hold[from + 2][k] > 0.0 ? impulse.z * u.z : 0.0);
+}
+
+#define HELD(e, held, own) (q->hold[e][k] > 0.0 ? (held) : (own))
+
+/* fl_body_apply_fixed_dof() of a sphere where `on`; `was`: its motion before the kick or the drag. */
+FL_SIMD_INLINE void hold_lane(sphere_rows *restrict q, int k, fl_sphere_motion was, int on)
+{
+    const fl_sphere_motion a = motion_of_lane(q, k);
+    const fl_vec3 v = v3(HELD(0, was.v.x, a.v.x), HELD(1, was.v.y, a.v.y), HELD(2, was.v.z, a.v.z)),
+                  own = v3_scale(q->turn[k], a.L),
+                  w = v3(HELD(3, was.w.x, own.x), HELD(4, was.w.y, own.y), HELD(5, was.w.z, own.z)),
+                  s = level_axes_times(w),
+                  L = level_axes_times(v3(q->I[k] * s.x, q->I[k] * s.y, q->I[k] * s.z));
+    const int turns = on & (q->turns_held[k] > 0.0);
+    const fl_sphere_motion c = {v3(on ? v.x : a.v.x, on ? v.y : a.v.y, on ? v.z : a.v.z),
+                                v3(turns ? L.x : a.L.x, turns ? L.y : a.L.y, turns ? L.z : a.L.z),
+                                v3(turns ? w.x : a.w.x, turns ? w.y : a.w.y, turns ? w.z : a.w.z)};
+    const fl_vec3 change = v3_sub(c.v, a.v);
+    const double rising = q->heave[k] * change.z * was.v.z,
+                 work =
+                     q->m[k] * v3_dot(change, was.v) + rising + held_power(q, k, 3, v3_sub(c.L, a.L), was.w);
+    q->held_work[k] += on ? work : 0.0;
+    set_motion_of_lane(q, k, c);
+}
+
+/* A sphere in a block with fixed degrees of freedom. */
+FL_SIMD_INLINE int lane_is_held(const sphere_rows *q, int k)
+{
+    return (q->hold[0][k] + q->hold[1][k] + q->hold[2][k] + q->turns_held[k]) > 0.0;
+}
+
+FL_SIMD_INLINE double lane_energy(const sphere_rows *q, int k, int heavy)
+{
+    return fl_sphere_kinetic(q->m[k], q->up[k], ROW(v), v3_dot(ROW(w), ROW(L)), heavy) - q->held_work[k];
+}
+
+FL_SIMD_INLINE void decay_held_lane(sphere_rows *restrict q, int k, fl_sphere_drag d, int heavy)
+{
+    double lost;
+    const int wet = q->area[k] > 0.0;
+    const fl_sphere_motion was = motion_of_lane(q, k);
+    const double before = lane_energy(q, k, heavy);
+    set_motion_of_lane(q, k, fl_sphere_decay(was, q->m[k], q->up[k], q->area[k], q->r[k], d, heavy, &lost));
+    hold_lane(q, k, was, wet & lane_is_held(q, k));
+    lost = lane_energy(q, k, heavy) - before;
+    q->loss[k] = q->loss[k] - (wet ? lost : 0.0);
+}
+
+FL_SIMD_VERSIONS static void decay_held_rows(sphere_rows *restrict q, int n, fl_sphere_drag d, int heavy)
+{
+#pragma omp simd
+    for (int k = 0; k < n; k++) decay_held_lane(q, k, d, heavy);
+}
+
+FL_SIMD_VERSIONS static void kick_held_rows(sphere_rows *restrict q, int n, double h, int heavy)
+{
+#pragma omp simd
+    for (int k = 0; k < n; k++) {
+        const fl_sphere_motion was = motion_of_lane(q, k);
+        kick_lane(q, k, h, heavy);
+        hold_lane(q, k, was, lane_is_held(q, k));
+    }
 }
 
 FL_SIMD_VERSIONS static void decay_rows(sphere_rows *restrict q, int n, fl_sphere_drag d, int heavy)
@@ -199,6 +298,18 @@ FL_SIMD_VERSIONS static void float_rows(sphere_rows *restrict q, int n, double l
     }
 }
 
+/* Drift; a sphere with a fixed rotation turns alone. */
+static void drift(fl_bodies *b, int32_t from, int32_t to, double dt, int held)
+{
+    const int turns = FL_DOF_RX | FL_DOF_RY | FL_DOF_RZ;
+    for (int32_t k = from, end; k < to; k = end) {
+        end = held ? k : to;
+        while (end < to && !(b->fixed_dof[end] & turns)) end++;
+        if (end > k) fl_drift_isotropic(b, k, end, dt);
+        else fl_drift(b, end++, dt);
+    }
+}
+
 void fl_floating_batch_begin(fl_world *w, int32_t from, int32_t to, double h)
 {
     fl_bodies *b = &w->b;
@@ -207,16 +318,19 @@ void fl_floating_batch_begin(fl_world *w, int32_t from, int32_t to, double h)
     const int full = (n + 7) / 8 * 8, heavy = b->heave_mass != NULL;
     const fl_sphere_drag d = drag_law_of(w, h);
     load_motion(w, from, n, q);
+    const int held = load_fixed(b, from, n, q);
     load_rows(q->f, b->f + from, n);
     load_rows(q->t, b->t + from, n);
-    decay_rows(q, full, d, heavy);
+    if (held) decay_held_rows(q, full, d, heavy);
+    else decay_rows(q, full, d, heavy);
     copy_row(w->sea.drag_loss + from, q->loss, n);
     for (int32_t k = 0; k < n && w->drag_change; k++)
         w->drag_change[from + k] =
             (fl_velocity_change){v3_sub(ROW(v), b->v[from + k]), v3_sub(ROW(w), b->w[from + k])};
-    kick_rows(q, full, h, heavy);
+    if (held) kick_held_rows(q, full, h, heavy), store_held_work(b, from, n, q);
+    else kick_rows(q, full, h, heavy);
     store_motion(b, from, n, q);
-    fl_drift_isotropic(b, from, to, 2.0 * h);
+    drift(b, from, to, 2.0 * h, held);
 }
 
 /* Change of velocity by a kick of the force f. */
@@ -224,12 +338,6 @@ static fl_vec3 change_by(const sphere_rows *q, int32_t k, fl_vec3 f, double h, i
 {
     return heavy ? v3_scale(h, v3(q->invm[k] * f.x, q->invm[k] * f.y, f.z / q->up[k]))
                  : v3_scale(h * q->invm[k], f);
-}
-
-/* True if sphere i touches spheres, now or before: works of its contacts need the changes by both kicks. */
-static int needs_changes(const fl_world *w, int32_t i)
-{
-    return w->spheres.bodies && (w->spheres.contact_count[i] | w->spheres.previous_contact_count[i]);
 }
 
 /* Volume and surface of the spheres, and what they stand for; equal radii have equal ones. */
@@ -245,13 +353,22 @@ static void load_hulls(const fl_environment *s, int32_t from, int32_t n, sphere_
     }
 }
 
-/* Weight, buoyancy, contacts and bonds, into f and t. */
+/* Downward force of the heave spring of driven floe i [N]. */
+static double spring_force(const fl_world *w, int32_t i)
+{
+    double drawn = 0.0;
+    const double k = fl_driven_floe_spring(w, i, &drawn);
+    return k * drawn;
+}
+
+/* Weight, buoyancy, springs of driven floes, contacts and bonds, into f and t. */
 static void sum_forces(const fl_world *w, int32_t from, int32_t n, const sphere_rows *q, fl_vec3 *f,
                        fl_vec3 *t)
 {
     const fl_vec3 none = v3(0, 0, 0);
     for (int32_t k = 0; k < n; k++) {
         f[k] = v3_add(v3_scale(q->m[k], w->gravity), v3(0, 0, q->buoyancy[k])), t[k] = none;
+        if (w->driven_floes.n) f[k].z -= spring_force(w, from + k);
         if (needs_changes(w, from + k)) fl_sphere_add_forces(w, from + k, &f[k], &t[k]);
     }
     fl_disc_list_add_forces_of(w, from, from + n, f, t);
@@ -266,6 +383,7 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
     const int full = (n + 7) / 8 * 8, heavy = b->heave_mass != NULL;
     const fl_sphere_drag d = drag_law_of(w, h);
     load_motion(w, from, n, q);
+    const int held = load_fixed(b, from, n, q);
     for (int32_t k = 0; k < n; k++) {
         const int32_t i = from + k;
         q->z[k] = b->x[i].z;
@@ -281,7 +399,9 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
     load_rows(q->t, b->t + from, n);
     for (int32_t k = 0; k < n; k++) {
         const int32_t i = from + k;
-        out->contact_force[k] = v3_sub(v3_madd(ROW(f), -q->m[k], w->gravity), v3(0, 0, q->buoyancy[k]));
+        fl_vec3 f = ROW(f);
+        if (w->driven_floes.n) f.z += spring_force(w, i);
+        out->contact_force[k] = v3_sub(v3_madd(f, -q->m[k], w->gravity), v3(0, 0, q->buoyancy[k]));
         if (!needs_changes(w, i)) continue;
         out->second_dv[k] = change_by(q, k, b->f[i], h, heavy);
         out->second_dw[k] = v3_scale(h * q->turn[k], b->t[i]);
@@ -289,8 +409,14 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
     copy_row(s->wetted_area + from, q->area, n);
     copy_row(s->buoyancy + from, q->buoyancy, n);
     if (heavy) copy_row(b->heave_mass + from, q->heave, n), copy_row(b->heave_work + from, q->work, n);
-    kick_rows(q, full, h, heavy);
-    decay_rows(q, full, d, heavy);
+    if (held) {
+        kick_held_rows(q, full, h, heavy);
+        decay_held_rows(q, full, d, heavy);
+        store_held_work(b, from, n, q);
+    } else {
+        kick_rows(q, full, h, heavy);
+        decay_rows(q, full, d, heavy);
+    }
     copy_row(s->drag_loss + from, q->loss, n);
     store_motion(b, from, n, q);
 }
