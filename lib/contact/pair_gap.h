@@ -8,9 +8,8 @@
  *   n    the axis, from j to i, world axes;  k  in the axes of i
  *   y    from the centre of i to that of j
  *   rho  bounding radius of i: its lowest vertex along k cannot sink by more
- * Left out are pairs with a piece of the structure, which may change its shape; of floes that may sleep, whose
- * positions need not be those of now; and contacts that have just opened, which are evaluated until they can be
- * forgotten. */
+ * Pairs with a piece of the structure, which may change its shape, are left out, and those of floes that may
+ * sleep, whose positions need not be those of now. */
 #ifndef FL_CONTACT_PAIR_GAP_H
 #define FL_CONTACT_PAIR_GAP_H
 #include "world/world.h"
