@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* pair_gap.h -- two floes with a known gap cannot touch before it is used up.
  *
- * fl_pair.free_travel bounds that by the paths of both, so it ends soon where floes drift or slide side by side.
- * Here it is bounded by their poses.  Planes across the axis of the pair, which is fixed in j, leave a gap between
- * the cores: D0 at first and then at least
+ * fl_pair.free_travel bounds that by the paths of both, so it ends soon where floes drift or slide side by
+ * side.  Here it is bounded by their poses.  Planes across the axis of the pair, which is fixed in j, leave a
+ * gap between the cores: D0 at first and then at least
  *     D0 + n0.y0 - n.y - rho |k - k0|
  *   n    the axis, from j to i, world axes;  k  in the axes of i
  *   y    from the centre of i to that of j
@@ -22,8 +22,8 @@ static inline int fl_gap_is_known(const fl_known_gap *g)
     return g->k[0] != 0.0f || g->k[1] != 0.0f || g->k[2] != 0.0f;
 }
 
-/* True if near pair c, whose gap is known, cannot touch in its present pose.  Its free travel is then that of the
- * gap from now on. */
+/* True if near pair c, whose gap is known, cannot touch in its present pose.  Its free travel is then that of
+ * the gap from now on. */
 int fl_pair_keeps_gap(fl_world *w, int32_t c);
 
 #endif

@@ -111,8 +111,8 @@ static void sleeping_pairs_are_not_evaluated(void **state)
 /* From -1 to 1. */
 static double either(fl_rng *g) { return fl_rng_in(g, -1.0, 1.0); }
 
-/* Two boxes slide along each other, rotate and come nearer, at random.  While the gap of the last evaluation is
- * said to last, they do not touch, and it lasts over ways that are longer. */
+/* Two boxes slide along each other, rotate and come nearer, at random.  While the gap of the last evaluation
+ * lasts, they do not touch, and it lasts over ways that are longer. */
 static void a_gap_lasts_until_it_is_used_up(void **state)
 {
     (void)state;
