@@ -1,10 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# late.sh [BUILD [OUT]] -- time per contact late in a jam, without surrogates and with 1e-3: one more second
-# after 41 s of share/examples/cylinder, in steps of 0.1 ms, with the programs of BUILD/bin.  One thread.
-#   OUT/late.tsv   a row for each start and tolerance; its head names the machine.  OUT is bench/results
+# late.sh [BUILD [OUT]] -- time per contact late in a jam, by both laws, without surrogates and with 1e-3: one more
+# second after 41 s of share/examples/cylinder, in steps of 0.1 ms, with the programs of BUILD/bin.  One thread.
+#   OUT/late.tsv   a row for each start, law and tolerance; its head names the machine.  OUT is bench/results
 # bench/README.md explains the two starts and the columns.
-#   TURNS=3        number of runs of each tolerance, in turn; the least time of each is kept
+#   WAYS='patch:0 patch:1e-3 quick:0 quick:1e-3'   laws and tolerances; the first is that of the later state
+#   TURNS=3        number of runs of each way, in turn; the least time of each is kept
 #   FLOE_QUICK=1   0.1 s after 8 s, once
 set -u
 LC_ALL=C
@@ -22,6 +23,7 @@ if [ "${FLOE_QUICK:-0}" = 0 ]; then
 else
     after=8 more=0.1 turns=${TURNS:-1}
 fi
+ways=${WAYS:-patch:0 patch:1e-3 quick:0 quick:1e-3}
 until=$(awk -v a=$after -v b=$more 'BEGIN { print a + b }')
 here=$build/late/$$
 mkdir -p "$here" && cd "$here" || exit 4
@@ -36,16 +38,16 @@ solve()
     dem-solve -q -j 1 --report "$name.report" "$@" 2>err || fail "$name: $(cat err)"
 }
 
-# begin NAME ICE TOLERANCE OPTION...: a run from the start; leaves NAME.loads and NAME.energy as well.
+# begin NAME ICE LAW:TOLERANCE OPTION...: a run from the start; leaves NAME.loads and NAME.energy as well.
 begin()
 {
-    name=$1 ice=$2 tol=$3
+    name=$1 ice=$2 way=$3
     shift 3
-    solve "$name" --ice "$ice" --structure g_struct.dat --set contact.surrogate="$tol" \
+    solve "$name" --ice "$ice" --structure g_struct.dat --set contact.law="${way%:*}" --set contact.surrogate="${way#*:}" \
         --set output.frames=none --set output.energy="$name.energy" -o "$name.loads" "$@" scene
 }
 
-# second START TOLERANCE: the measured second.
+# second START LAW:TOLERANCE: the measured second.
 second()
 {
     case $1 in
@@ -62,13 +64,13 @@ second()
 # Wall time per contact-step [ns].
 cost() { awk '/ns per contact-step/ { print $5 }' "$1"; }
 
-# row START TOLERANCE: time of the fastest run, and its results in the measured second.  The report of a resumed run
+# row START LAW:TOLERANCE: time of the fastest run, and its results in the measured second.  The report of a resumed run
 # covers the whole run, so the part before the checkpoint is subtracted.
 row()
 {
     before=/dev/null since=0
     [ "$1" = checkpoint ] && before=before-$2.report since=$after
-    awk -v first="$1 $2" -v since="$since" '
+    awk -v first="$1 ${2%:*} ${2#*:}" -v since="$since" '
         /^steps/ { done = steps; steps = $2 }
         /ns per contact-step/ { ns = $5; contacts = substr($9, 2); all += (steps - done) * contacts }
         /^surrogate share/ { earlier = hits; hits = $3 * all }
@@ -96,23 +98,23 @@ example=$bench/../share/examples/cylinder
 make -s -C "$example" BIN="$build/bin" OUT="$here" "$here/g-polys.dat" "$here/g_struct.dat" >made 2>&1 ||
     fail "$(cat made)"
 cp "$example/cylinder.scene" scene || exit 4
-for tol in 0 1e-3; do
-    echo "tolerance $tol: the first $after s" >&2
-    begin "checkpoint-$tol" g-polys.dat $tol --set run.duration=$after --set output.state="$tol.state" \
-        --set output.state_every=$after --set output.checkpoint="$tol.checkpoint" \
+for way in $ways; do
+    echo "$way: the first $after s" >&2
+    begin "checkpoint-$way" g-polys.dat "$way" --set run.duration=$after --set output.state="$way.state" \
+        --set output.state_every=$after --set output.checkpoint="$way.checkpoint" \
         --set output.checkpoint_every=$after
-    mv "checkpoint-$tol.report" "before-$tol.report"
+    mv "checkpoint-$way.report" "before-$way.report"
 done
-awk -f "$bench/later.awk" 0.state g-polys.dat >later.dat || exit 4
+awk -f "$bench/later.awk" "${ways%% *}.state" g-polys.dat >later.dat || exit 4
 
 turn=0
 while [ $turn -lt "$turns" ]; do
     turn=$((turn + 1))
-    echo "turn $turn: $more s, four times" >&2
+    echo "turn $turn: $more s of each" >&2
     for start in checkpoint state; do
-        for tol in 0 1e-3; do
-            run=$start-$tol
-            second $start $tol
+        for way in $ways; do
+            run=$start-$way
+            second $start "$way"
             if [ ! -f "$run.best" ] || [ "$(cost "$run.report")" -lt "$(cost "$run.best")" ]; then
                 mv "$run.report" "$run.best"
             fi
@@ -120,7 +122,7 @@ while [ $turn -lt "$turns" ]; do
     done
 done
 for start in checkpoint state; do
-    for tol in 0 1e-3; do row $start $tol; done
+    for way in $ways; do row $start "$way"; done
 done >rows
 {
     echo '#late 1'
@@ -129,13 +131,14 @@ done >rows
     load=$(uptime | sed 's/.*: //')
     echo "#load $load over 1, 5 and 15 minutes, the runs themselves being 1; least of $turns turns"
     echo "#seconds $more after $after"
-    printf 'start\ttolerance\tcontacts\tsurrogate_share\timpulse[kN.s]\town_impulse\tenergy\t'
+    printf 'start\tlaw\ttolerance\tcontacts\tsurrogate_share\timpulse[kN.s]\town_impulse\tenergy\t'
     printf 'contact_step[us]\tprocessor[us]\tratio\thash\n'
     awk 'BEGIN { FS = OFS = "\t" }
         { own = "-" }
-        $2 == 0 { base = $7; J = $5 }
-        $2 > 0 && $1 == "state" && J { own = sprintf("%.2g", ($5 > J ? $5 - J : J - $5) / J) }
-        { print $1, $2, $3, $4, $5, own, $6, $7, $8, sprintf("%.2f", $7 / base), $9 }' rows
+        !($1 in base) { base[$1] = $9 }
+        $3 == 0 { J = $6 }
+        $3 > 0 && $1 == "state" && J { own = sprintf("%.2g", ($6 > J ? $6 - J : J - $6) / J) }
+        { print $1, $2, $3, $4, $5, $6, own, $7, $8, $9, sprintf("%.2f", $9 / base[$1]), $10 }' rows
 } >late.tsv
 cp late.tsv "$out" || exit 4
-cut -f 1-10 late.tsv | grep -v '^#'
+cut -f 1-11 late.tsv | grep -v '^#'

@@ -5,6 +5,7 @@
 # bench/README.md explains scenes and columns.  One thread.
 #   FLOE_QUICK=1        shorter runs, once each
 #   SCENES='field-200'  patterns of the scenes to run
+#   LAW=patch           contact law
 #   TURNS=5             number of runs of each setting, in turn; the least time of each is kept
 set -u
 LC_ALL=C
@@ -32,7 +33,7 @@ settings='0,none 0,1e-6 0,1e-5 0,1e-4 1e-3,none 1e-3,1e-5 1e-2,none 1e-2,1e-5'
 # solve SCENE NAME DT TOLERANCE SLEEP: one run.
 solve()
 {
-    run "$1" "$2" dem-solve -j 1 --set contact.law=patch --set contact.surrogate="$4" --set run.sleep="$5" --set run.dt="$3"
+    run "$1" "$2" dem-solve -j 1 --set contact.law="${LAW:-patch}" --set contact.surrogate="$4" --set run.sleep="$5" --set run.dt="$3"
     [ "$(cat "$1/$2.status")" = 0 ] || fail "$1: $2: $(cat "$1/$2.err")"
 }
 

@@ -4,6 +4,7 @@
 #include "base/array.h"
 #include "contact/active_pairs.h"
 #include "contact/pair_force.h"
+#include "contact/pair_gap.h"
 #include "contact/pair_geometry.h"
 #include "contact/pair_store.h"
 #include "contact/surrogate_batch.h"
@@ -58,6 +59,7 @@ void fl_evaluate_neighbour_pair(fl_world *w, int32_t c, int32_t thread, const fl
     fl_pair made, *p = q->contact;
     if (fl_pair_still_apart(w, q)) {
         if (p) fl_neighbour_pair_put_back(w, q, p);
+        fl_pair_store_gap(w, q);
         return;
     }
     if (!p) fl_neighbour_pair_expand(w, q, p = &made);
@@ -67,6 +69,7 @@ void fl_evaluate_neighbour_pair(fl_world *w, int32_t c, int32_t thread, const fl
 #pragma omp atomic write
         w->failed = 1;
     }
+    fl_pair_store_gap(w, q);
 }
 
 /* Evaluates pair c exactly and sets its flags. */
@@ -115,7 +118,8 @@ static void process_pair(fl_world *w, thread_work *work, int32_t c)
 static void process_range(fl_world *w, thread_work *work, int32_t from, int32_t to)
 {
     for (int32_t c = from; c < to; c++)
-        if (fl_pair_may_touch(w, c)) process_pair(w, work, c);
+        if (fl_pair_may_touch(w, c) && !(fl_gap_is_known(&w->pair[c].gap) && fl_pair_keeps_gap(w, c)))
+            process_pair(w, work, c);
 }
 
 /* With sleep: pair_due marks the due pairs; eight unmarked ones are skipped at a time. */

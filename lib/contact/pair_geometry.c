@@ -386,6 +386,16 @@ void fl_pair_set_free_travel(const fl_world *w, fl_pair *p, double distance, dou
     if (distance > FAR * R) fl_pair_free(p);
 }
 
+void fl_neighbour_pair_set_distance(const fl_world *w, fl_neighbour_pair *q, double distance)
+{
+    const double R = w->b.radius[q->i] + w->b.radius[q->j];
+    q->cores_overlap = 0;
+    q->free_travel = free_travel_of(w, q->i, q->j, distance, R);
+    if (!q->contact) return;
+    q->contact->cores_overlap = 0;
+    fl_pair_set_free_travel(w, q->contact, distance, R);
+}
+
 /* The smallest n.v over the core of body i, from its centre, world axes. */
 static double min_extent_of(const fl_world *w, int32_t i, fl_vec3 n)
 {
@@ -417,11 +427,7 @@ int fl_pair_still_apart(const fl_world *w, fl_neighbour_pair *q)
                             (wall ? 0.0 : min_projection(B->v, B->nv, v3_neg(axis)));
     if (!(distance > (wall ? 1.0 : bound_factor(w, i, j)) * R))
         return 0; /* of a wall the distance is exact */
-    q->cores_overlap = 0;
-    q->free_travel = free_travel_of(w, i, j, distance, R);
-    if (!p) return 1;
-    p->cores_overlap = 0;
-    fl_pair_set_free_travel(w, p, distance, R);
+    fl_neighbour_pair_set_distance(w, q, distance);
     return 1;
 }
 

@@ -39,6 +39,9 @@ int fl_pair_find_contact(fl_world *w, fl_pair *p, int32_t thread, const fl_relat
  * cores, R the sum of the radii [m].  A pair that is far enough apart releases its feature pairs. */
 void fl_pair_set_free_travel(const fl_world *w, fl_pair *p, double distance, double R);
 
+/* The same for near pair q, and for its contact if that has just opened. */
+void fl_neighbour_pair_set_distance(const fl_world *w, fl_neighbour_pair *q, double distance);
+
 /* True if the separating direction of the last evaluation, or the normal of a rigid wall, still separates
  * two bodies that do not touch, as it mostly does.  Then no evaluation is needed and q->free_travel is
  * updated, also for a contact that has just opened; that releases its feature pairs if it is far enough

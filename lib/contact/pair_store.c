@@ -97,8 +97,6 @@ static void release_record(fl_world *w, fl_neighbour_pair *q)
     }
 }
 
-_Static_assert(sizeof(fl_neighbour_pair) <= 64, "a near pair fits into a cache line");
-
 /* Rounds x to single precision towards 0: the axis gets no longer, and a second rounding changes nothing.  It
  * works on the bits, since a compiler may drop a conversion to float and back. */
 static double round_to_float(double x)

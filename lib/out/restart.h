@@ -8,7 +8,7 @@
 
 /* Raise the version, here alone, with every change of the content of the parts: a row or member added or
  * removed, another order, another meaning.  test_snapshot.c has the layout that belongs to it. */
-enum { FL_RESTART_VERSION = 18, FL_RESTART_PARTS = 12 };
+enum { FL_RESTART_VERSION = 19, FL_RESTART_PARTS = 12 };
 
 typedef struct {
     char name[16];

@@ -11,10 +11,10 @@
 enum { OWN_SIDE = -1, CUT = -2, PAD = FL_SIMD_WIDTH };
 
 /* P in the plane of the other face: plane coordinates and overlap of its corners, and the side of the
- * other face that begins there.  [n + PAD]; the first is repeated behind the last. */
+ * other face that begins there.  [n + 2 PAD]; once closed, the first is repeated behind the last. */
+enum { X, Y, OVERLAP, SIDE, COLUMNS };
 typedef struct {
-    double *x, *y, *s;
-    int32_t *side;
+    double *a[COLUMNS];
 } outline;
 
 /* A face of the own core over the plane of one of the other. */
@@ -22,64 +22,121 @@ typedef struct {
     const fl_quick_direction *d;
     const fl_quick_face *f; /* of the other core */
     const fl_quick_side *side;
-    fl_vec3 n;           /* normal of the own face, in the frame of other */
-    double C, m, dm;     /* C = -n.n_f, m and dm/dC */
-    double s0, sx, sy;   /* s = s0 + sx x + sy y */
-    fl_simd *at, *spare; /* x, y, s, side of each corner, [corners + PAD] */
-    outline p;           /* the same by numbers, after close_polygon() */
-    double *g;           /* scratch */
+    fl_vec3 n;         /* normal of the own face, in the frame of other */
+    double C, m, dm;   /* C = -n.n_f, m and dm/dC */
+    double s0, sx, sy; /* s = s0 + sx x + sy y */
+    outline p, spare;
+    double *g; /* scratch */
     int32_t corners;
 } face_pair;
 
-/* Keeps the part of the polygon with g >= 0, given at its corners. */
-FL_SIMD_INLINE void clip_polygon(face_pair *q, int32_t side)
+/* The end of the part with g >= 0 between corner k and the next. */
+FL_SIMD_INLINE void cut_side(const face_pair *q, int32_t k, int32_t next, double to[COLUMNS])
 {
-    const fl_simd *p = q->at;
-    fl_simd *const to = q->spare;
+    const double part = q->g[k] / (q->g[k] - q->g[next]);
+    FL_SIMD_UNROLL
+    for (int c = 0; c < COLUMNS; c++) to[c] = q->p.a[c][k] + part * (q->p.a[c][next] - q->p.a[c][k]);
+}
+
+/* Moves n corners; those behind them may be overwritten. */
+FL_SIMD_INLINE void move_corners(face_pair *q, int32_t from, int32_t to, int32_t n)
+{
+    const int32_t last = (n - 1) / FL_SIMD_WIDTH * FL_SIMD_WIDTH;
+    if (from == to) return;
+    for (int c = 0; c < COLUMNS; c++) {
+        double *const a = q->p.a[c];
+        if (from > to)
+            for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH)
+                FL_SIMD_STORE(a + to + k) = FL_SIMD_LOAD(a + from + k);
+        else
+            for (int32_t k = last; k >= 0; k -= FL_SIMD_WIDTH)
+                FL_SIMD_STORE(a + to + k) = FL_SIMD_LOAD(a + from + k);
+    }
+}
+
+FL_SIMD_INLINE void set_corner(face_pair *q, int32_t k, const double from[COLUMNS])
+{
+    FL_SIMD_UNROLL
+    for (int c = 0; c < COLUMNS; c++) q->p.a[c][k] = from[c];
+}
+
+/* Keeps the part of the polygon with g >= 0, given at its corners; those with g < 0 follow one another.
+ *   outside, corners   the first that is outside and their number, over the last corner to the first */
+FL_SIMD_INLINE void clip_convex(face_pair *q, uint64_t outside, int32_t side)
+{
+    const int32_t n = q->corners, out = __builtin_popcountll(outside);
+    double leaves[COLUMNS], enters[COLUMNS];
+    if (outside & 1) { /* those inside move to the front, behind the corner where the polygon enters */
+        const int32_t first = __builtin_ctzll(~outside), end = first + n - out;
+        cut_side(q, first - 1, first, enters), enters[SIDE] = q->p.a[SIDE][first - 1];
+        cut_side(q, end - 1, end < n ? end : 0, leaves), leaves[SIDE] = (double)side;
+        move_corners(q, first, 1, n - out);
+        set_corner(q, 0, enters), set_corner(q, n - out + 1, leaves);
+    } else {
+        const int32_t first = __builtin_ctzll(outside), end = first + out;
+        cut_side(q, first - 1, first, leaves), leaves[SIDE] = (double)side;
+        cut_side(q, end - 1, end < n ? end : 0, enters), enters[SIDE] = q->p.a[SIDE][end - 1];
+        if (end < n) move_corners(q, end, first + 2, n - end);
+        set_corner(q, first, leaves), set_corner(q, first + 1, enters);
+    }
+    q->corners = n - out + 2;
+}
+
+/* The same wherever corners are outside. */
+static void clip_any(face_pair *q, int32_t side)
+{
+    const outline to = q->spare;
     const double *g = q->g;
     int32_t m = 0;
     for (int32_t k = 0; k < q->corners; k++) {
         const int32_t next = k + 1 < q->corners ? k + 1 : 0;
         const int in = g[k] >= 0.0, then = g[next] >= 0.0;
-        if (in) to[m++] = p[k];
+        double cut[COLUMNS];
+        for (int c = 0; in && c < COLUMNS; c++) to.a[c][m] = q->p.a[c][k];
+        m += in;
         if (in == then) continue;
-        const fl_simd step = p[next] - p[k], cut = p[k] + g[k] / (g[k] - g[next]) * step;
-        to[m] = cut;
-        to[m++][3] = in ? (double)side : p[k][3];
+        cut_side(q, k, next, cut), cut[SIDE] = in ? (double)side : q->p.a[SIDE][k];
+        for (int c = 0; c < COLUMNS; c++) to.a[c][m] = cut[c];
+        m++;
     }
-    q->spare = q->at, q->at = to, q->corners = m;
+    q->spare = q->p, q->p = to, q->corners = m;
 }
 
 /* Clips to c - qx x - qy y >= 0.  Returns 0 when nothing is left. */
 FL_SIMD_INLINE int clip_side(face_pair *q, double c, double qx, double qy, int32_t side)
 {
+    enum { BITS = 64 };
+    const int32_t n = q->corners;
     const fl_simd zero = {0};
-    fl_simd_mask out = zero != 0.0, in = out;
-    for (int32_t k = 0; k < q->corners; k += FL_SIMD_WIDTH) {
-        fl_simd r[FL_SIMD_WIDTH] = {q->at[k], q->at[k + 1], q->at[k + 2], q->at[k + 3]};
-        fl_simd_transpose(r);
-        const fl_simd g = c - qx * r[0] - qy * r[1];
-        const fl_simd_mask some = FL_SIMD_MASK_BELOW(q->corners - k);
+    const fl_simd_mask bit = {1, 2, 4, 8};
+    fl_simd_mask any = zero != 0.0;
+    for (int32_t k = 0; k < n; k += FL_SIMD_WIDTH) {
+        const fl_simd g = c - qx * FL_SIMD_LOAD(q->p.a[X] + k) - qy * FL_SIMD_LOAD(q->p.a[Y] + k);
         FL_SIMD_STORE(q->g + k) = g;
-        out |= (g < 0.0) & some, in |= (g >= 0.0) & some;
+        any |= (g < 0.0) & FL_SIMD_MASK_BELOW(n - k);
     }
-    if (!fl_simd_any(&out)) return 1;
-    if (!fl_simd_any(&in)) return 0;
-    clip_polygon(q, side);
+    if (!fl_simd_any(&any)) return 1;
+    uint64_t outside = 0; /* a bit of each corner, if there are so few */
+    for (int32_t k = 0; k < n && n < BITS; k += FL_SIMD_WIDTH) {
+        const fl_simd_mask m = (FL_SIMD_LOAD(q->g + k) < 0.0) & FL_SIMD_MASK_BELOW(n - k) & bit;
+        outside |= (uint64_t)(m[0] | m[1] | m[2] | m[3]) << k;
+    }
+    /* and of each that is unlike the next */
+    const uint64_t next = outside >> 1 | (outside & 1) << (n < BITS ? n - 1 : 0);
+    if (n < BITS && outside == (UINT64_C(1) << n) - 1) return 0;
+    if (n < BITS && __builtin_popcountll(outside ^ next) == 2) clip_convex(q, outside, side);
+    else clip_any(q, side);
     return q->corners >= 3;
 }
 
-/* Repeats the first corner behind the last, for registers that begin at any corner, and sorts the corners by
- * numbers. */
+/* Repeats the first corner behind the last, for registers that begin at any corner. */
 FL_SIMD_INLINE void close_polygon(face_pair *q)
 {
-    const int32_t n = q->corners;
-    for (int32_t k = n; k < n + 2 * FL_SIMD_WIDTH - 1; k++) q->at[k] = q->at[0];
-    for (int32_t k = 0; k < n + FL_SIMD_WIDTH; k += FL_SIMD_WIDTH) {
-        fl_simd r[FL_SIMD_WIDTH] = {q->at[k], q->at[k + 1], q->at[k + 2], q->at[k + 3]};
-        fl_simd_transpose(r);
-        FL_SIMD_STORE(q->p.x + k) = r[0], FL_SIMD_STORE(q->p.y + k) = r[1], FL_SIMD_STORE(q->p.s + k) = r[2];
-        for (int i = 0; i < FL_SIMD_WIDTH; i++) q->p.side[k + i] = (int32_t)r[3][i];
+    FL_SIMD_UNROLL
+    for (int c = 0; c < COLUMNS; c++) {
+        double *const end = q->p.a[c] + q->corners;
+        const fl_simd first = FL_SIMD_SPLAT(q->p.a[c][0]);
+        FL_SIMD_STORE(end) = first, FL_SIMD_STORE(end + FL_SIMD_WIDTH) = first;
     }
 }
 
@@ -100,7 +157,7 @@ typedef struct {
 
 static corner corner_of(const face_pair *q, int32_t k)
 {
-    return (corner){q->p.x[k], q->p.y[k], q->p.s[k], q->p.side[k]};
+    return (corner){q->p.a[X][k], q->p.a[Y][k], q->p.a[OVERLAP][k], (int32_t)q->p.a[SIDE][k]};
 }
 
 /* How near the own face comes, D = int z^4/int z^3 over the polygon with z = s + R > 0, and its gradient:
@@ -150,12 +207,10 @@ static double find_nearness(const face_pair *q, fl_wrench *rise)
 /* Area of the polygon on the own face. */
 FL_SIMD_INLINE double find_area(const face_pair *q)
 {
-    const fl_simd *p = q->at;
+    const double *x = q->p.a[X], *y = q->p.a[Y];
     double area = 0.0;
-    for (int32_t k = 1; k + 1 < q->corners; k++) {
-        const fl_simd a = p[k] - p[0], b = p[k + 1] - p[0];
-        area += a[0] * b[1] - b[0] * a[1];
-    }
+    for (int32_t k = 1; k + 1 < q->corners; k++)
+        area += (x[k] - x[0]) * (y[k + 1] - y[0]) - (x[k + 1] - x[0]) * (y[k] - y[0]);
     return 0.5 * area / q->C;
 }
 
@@ -218,7 +273,9 @@ typedef struct {
  *     int s^n x y = 2T n!/(n+4)! sum x_i y_j (1 + [i = j]) h_n(s, s_i, s_j). */
 FL_SIMD_INLINE void integrate_fan(const face_pair *q, area_sums *to)
 {
-    const outline p = q->p;
+    const struct {
+        const double *x, *y, *s, *side;
+    } p = {q->p.a[X], q->p.a[Y], q->p.a[OVERLAP], q->p.a[SIDE]};
     const double a = p.s[0], x0 = p.x[0], y0 = p.y[0];
     const fl_simd zero = {0};
     fl_simd i2 = zero, i3 = zero, i4 = zero, sx = zero, sy = zero, xx = zero, xy = zero, yy = zero;
@@ -251,7 +308,9 @@ FL_SIMD_INLINE void integrate_fan(const face_pair *q, area_sums *to)
 /* Sides of f on the border: -int s^4 q.u dl is the force q int s^4 dl. */
 FL_SIMD_INLINE void integrate_sides(const face_pair *q, area_sums *to)
 {
-    const outline p = q->p;
+    const struct {
+        const double *x, *y, *s, *side;
+    } p = {q->p.a[X], q->p.a[Y], q->p.a[OVERLAP], q->p.a[SIDE]};
     const fl_simd zero = {0};
     const double top = q->f->height + q->d->reach;
     fl_simd f1 = zero, f2 = zero, m1 = zero, m2 = zero, m3 = zero;
@@ -259,8 +318,8 @@ FL_SIMD_INLINE void integrate_sides(const face_pair *q, area_sums *to)
         fl_simd qx = zero, qy = zero, l;
         int any = 0;
         for (int i = 0; i < FL_SIMD_WIDTH && k + i < q->corners; i++)
-            if (p.side[k + i] >= 0) {
-                const fl_quick_side *side = &q->side[p.side[k + i]];
+            if (p.side[k + i] >= 0.0) {
+                const fl_quick_side *side = &q->side[(int32_t)p.side[k + i]];
                 qx[i] = side->qx, qy[i] = side->qy, any = 1;
             }
         if (!any) continue;
@@ -295,8 +354,8 @@ FL_SIMD_INLINE void add_area(const face_pair *q, fl_quick_total *to)
     const double factor = 0.5 * q->m / q->C, e = 4.0 * factor * i.i3;
     if (!(e > 0.0)) return;
     integrate_sides(q, &i);
-    const double each = 1.0 / i.i3, rx = i.x * each, ry = i.y * each, cx = q->p.x[0] + rx,
-                 cy = q->p.y[0] + ry, s = q->s0 + q->sx * cx + q->sy * cy;
+    const double each = 1.0 / i.i3, rx = i.x * each, ry = i.y * each, cx = q->p.a[X][0] + rx,
+                 cy = q->p.a[Y][0] + ry, s = q->s0 + q->sx * cx + q->sy * cy;
     const double turned = 0.5 * (q->dm / q->C) * i.i4;
     const fl_vec3 force = from_axes(f, factor * i.f1, factor * i.f2, factor * 4.0 * i.i3),
                   moment =
@@ -341,15 +400,15 @@ FL_SIMD_INLINE int project_face(face_pair *q, const fl_quick_face *j)
                       z = FL_SIMD_LOAD(v[2] + j->first + k);
         const fl_simd s = oc - (c.x * x + c.y * y + c.z * z);
         const fl_simd_mask some = FL_SIMD_MASK_BELOW(j->sides - k) & (s > most);
-        fl_simd row[FL_SIMD_WIDTH] = {a.x * x + a.y * y + a.z * z + oa, b.x * x + b.y * y + b.z * z + ob, s,
-                                      FL_SIMD_SPLAT((double)OWN_SIDE)};
-        fl_simd_transpose(row);
+        FL_SIMD_STORE(q->p.a[X] + k) = a.x * x + a.y * y + a.z * z + oa;
+        FL_SIMD_STORE(q->p.a[Y] + k) = b.x * x + b.y * y + b.z * z + ob;
+        FL_SIMD_STORE(q->p.a[OVERLAP] + k) = s;
+        FL_SIMD_STORE(q->p.a[SIDE] + k) = FL_SIMD_SPLAT((double)OWN_SIDE);
         most = FL_SIMD_SELECT(some, s, most);
-        for (int i = 0; i < FL_SIMD_WIDTH; i++) q->at[k + i] = row[i];
     }
     q->corners = j->sides;
     q->sx = -per * v3_dot(q->n, f->t1), q->sy = -per * v3_dot(q->n, f->t2);
-    q->s0 = q->at[0][2] - q->sx * q->at[0][0] - q->sy * q->at[0][1];
+    q->s0 = q->p.a[OVERLAP][0] - q->sx * q->p.a[X][0] - q->sy * q->p.a[Y][0];
     const fl_simd_mask near = most > -d->R;
     return fl_simd_any(&near);
 }
@@ -370,7 +429,7 @@ FL_SIMD_INLINE int add_pair(face_pair *q, int32_t own, int32_t other, fl_quick_t
     const double most = d->reach + ON_PLANE_TOL * (d->own->bound + d->other->bound);
     double low = INFINITY, high = -INFINITY;
     for (int32_t k = 0; k < q->corners; k++) {
-        const double s = q->at[k][2];
+        const double s = q->p.a[OVERLAP][k];
         low = s < low ? s : low, high = s > high ? s : high;
     }
     if (high > most && !clip_side(q, most - q->s0, q->sx, q->sy, CUT)) return 0;
@@ -380,7 +439,8 @@ FL_SIMD_INLINE int add_pair(face_pair *q, int32_t own, int32_t other, fl_quick_t
     if (!(high > 0.0)) return bears;
     if (low < 0.0) {
         if (!clip_side(q, q->s0, -q->sx, -q->sy, CUT)) return bears;
-        for (int32_t k = 0; k < q->corners; k++) q->at[k][2] = q->at[k][2] > 0.0 ? q->at[k][2] : 0.0;
+        double *const s = q->p.a[OVERLAP];
+        for (int32_t k = 0; k < q->corners; k++) s[k] = s[k] > 0.0 ? s[k] : 0.0;
     }
     close_polygon(q);
     add_area(q, to);
@@ -410,13 +470,12 @@ int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_direction *d, fl_quic
         most = corners > most ? corners : most;
     }
     most = (most + FL_SIMD_WIDTH - 1) / FL_SIMD_WIDTH * FL_SIMD_WIDTH;
-    if (fl_reserve(&w->polygon, &w->polygon_cap, 13 * most, sizeof(double)) ||
+    if (fl_reserve(&w->polygon, &w->polygon_cap, (2 * COLUMNS + 1) * most, sizeof(double)) ||
         fl_reserve(&w->support, &w->support_cap, pairs / 2, sizeof(fl_quick_support)))
         return -1;
-    double *x = w->polygon;
-    face_pair q = {.d = d, .g = x + 3 * most, .at = (fl_simd *)(void *)(x + 4 * most)};
-    q.p = (outline){x, x + most, x + 2 * most, (int32_t *)(void *)(x + 12 * most)};
-    q.spare = q.at + most;
+    double *const x = w->polygon;
+    face_pair q = {.d = d, .g = x + 2 * COLUMNS * most};
+    for (int c = 0; c < COLUMNS; c++) q.p.a[c] = x + c * most, q.spare.a[c] = x + (COLUMNS + c) * most;
     *support = w->support;
     *n = add_pairs(&q, at, pairs, to, w->support, overlap);
     return 0;

@@ -270,6 +270,7 @@ static int find_pairs(fl_world *w, fl_err *err)
                 fl_neighbour_pair_free(w, &old[next++]);
             if (next < n_old && compare_pair(&old[next], i, j, image) == 0) {
                 list[to] = old[next++];
+                list[to].gap = (fl_known_gap){.level = 0.0f}; /* a floe may have been cut or replaced */
             } else {
                 fl_neighbour_pair_init(&list[to], i, j, image);
                 if (w->bonds.n && init_after_bond(w, &list[to])) w->failed = 1;

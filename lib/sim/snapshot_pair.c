@@ -4,6 +4,7 @@
 #include "base/array.h"
 #include "contact/bond_list.h"
 #include "contact/crushing.h"
+#include "contact/pair_gap.h"
 #include "contact/pair_surrogate.h"
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
@@ -53,6 +54,17 @@ static void exchange_memory(fl_state_io *t, fl_pair *p)
     fl_state_io_real(t, &p->springs.energy);
     fl_state_io_vec3(t, &p->springs.damping);
     fl_state_io_real(t, &p->springs.damping_moment);
+}
+
+/* The gap of a pair that does not touch. */
+static void exchange_gap(fl_state_io *t, fl_known_gap *g)
+{
+    float *const all[] = {&g->k[0], &g->k[1], &g->k[2], &g->level};
+    for (int k = 0; k < 4; k++) {
+        double x = (double)*all[k];
+        fl_state_io_real(t, &x);
+        *all[k] = (float)x;
+    }
 }
 
 static void exchange_rolling(fl_state_io *t, fl_rolling_spring *r)
@@ -251,6 +263,8 @@ void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
     fl_state_io_int(t, 0, 1, &p->touching);
     exchange_memory(t, p);
     if (p->touching) exchange_forces(t, p);
+    fl_known_gap gap = near->gap;
+    if (!p->touching) exchange_gap(t, &gap);
     if (p->touching && j >= w->n && w->structure.piece[j - w->n].several_parts)
         fl_state_io_int(t, FL_LOAD_SHARED, w->parts - 1, &p->load_part);
     exchange_pair_rolling(t, w, p);
@@ -262,6 +276,7 @@ void fl_snapshot_pair(fl_state_io *t, fl_world *w, int32_t c)
     fl_state_io_close(t);
     if (!t->in || t->err->code) return;
     fl_neighbour_pair_init(near, i, j, p->image);
+    near->gap = gap;
     if (fl_neighbour_pair_put_back(w, near, p))
         fl_fail(t->err, FL_SYSTEM, "out of memory for pair %d and %d", i, j);
     else if (surrogate.valid) rebuild_surrogate(w, near->contact, &surrogate, t->err);

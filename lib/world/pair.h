@@ -108,6 +108,12 @@ _Static_assert(offsetof(fl_pair, omega2_j) ==
                    offsetof(fl_pair, force) + (FL_PAIR_RESULTS - 1) * sizeof(double),
                "the results are consecutive");
 
+/* What is known of the gap between two floes across their axis, contact/pair_gap.h. */
+typedef struct {
+    float k[3];  /* the axis in the axes of i; all 0: nothing is known */
+    float level; /* D + n.(x_j - x_i) [m] */
+} fl_known_gap;
+
 /* An entry of the neighbour list.  It keeps what must last while the two bodies do not touch, which is most
  * of the time.  `contact` is set while they touch, shortly after, and where a bond was.  While set, read its
  * members, except touching, cores_overlap, free_travel: these are kept here too. */
@@ -120,6 +126,7 @@ typedef struct {
     float axis[3];                  /* length at most 1, so that gaps along it are lower bounds */
     uint8_t cache_a[4], cache_b[4]; /* vertices of the cache */
     fl_pair *contact;               /* or NULL */
+    fl_known_gap gap;
 } fl_neighbour_pair;
 
 /* The members of a near pair that every step reads, kept together. */
