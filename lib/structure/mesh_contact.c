@@ -470,9 +470,10 @@ void fl_mesh_contact_bound(const fl_patch_points *w, const fl_poly *a, const fl_
 }
 
 /* Lists the faces that point x may meet until it has moved by the margin: those that can be the nearest if
- * it can touch one wall only, else all in reach. None if nothing is near enough; then *distance is set. */
+ * it can touch one wall only, else all in reach. If nothing is near enough, *distance is set, and there are
+ * none unless `always`. */
 static int list_tiles(fl_mesh_contact_work *near, const fl_piece *b, fl_vec3 x, double ra, double margin,
-                      fl_feature_pairs *l, double *distance)
+                      int always, fl_feature_pairs *l, double *distance)
 {
     const double same = FL_MESH_ROUNDING * b->core.size, far = ra + margin + same + b->facet_error;
     const fl_piece_mesh *sh = &b->mesh;
@@ -481,8 +482,9 @@ static int list_tiles(fl_mesh_contact_work *near, const fl_piece *b, fl_vec3 x, 
     l->candidates = 0;
     l->max_shift2 = 0.0;
     *distance = find_nearest(&b->core, sh, x).least;
-    if (*distance > far) return 0;
+    if (*distance > far && !always) return 0;
     const double next = *distance + 2.0 * (margin + same);
+    const int touches = !(*distance > far);
     *distance -= b->facet_error;
     fl_bvh_walk at = fl_bvh_walk_from(&sh->tree, sh->box, x);
     for (int32_t f; (f = fl_bvh_walk_next(&at, fmax(far, next))) >= 0;) {
@@ -491,8 +493,10 @@ static int list_tiles(fl_mesh_contact_work *near, const fl_piece *b, fl_vec3 x, 
         walls->face[n++] = f;
     }
     if (n > 1) qsort(walls->face, (size_t)n, sizeof *walls->face, compare_int);
-    l->single_wall = fl_persistence_is_single(&sh->seams, &near->persistence, &b->core,
-                                              &(fl_near_tiles){walls->face, n}, x, far);
+    l->single_wall = 1;
+    if (touches)
+        l->single_wall = fl_persistence_is_single(&sh->seams, &near->persistence, &b->core,
+                                                  &(fl_near_tiles){walls->face, n}, x, far);
     if (l->single_wall < 0 || fl_reserve(&l->candidate, &l->candidate_cap, n, sizeof *l->candidate))
         return -1;
     for (int32_t c = 0; c < n; c++)
@@ -505,7 +509,7 @@ static int list_sphere_tiles(fl_patch_points *w, fl_mesh_contact_work *near, con
                              fl_feature_pairs *l, double *distance)
 {
     const double margin = fl_feature_pairs_margin(l, ra);
-    if (list_tiles(near, b, w->va[0], ra, margin, l, distance)) return -1;
+    if (list_tiles(near, b, w->va[0], ra, margin, 0, l, distance)) return -1;
     if (l->candidates == 0) return 0;
     l->M = w->M, l->o = w->o;
     l->max_shift2 = margin * margin, l->max_turn2 = 1.0;
@@ -517,7 +521,7 @@ int fl_mesh_contact_single_wall(fl_mesh_contact_work *near, const fl_piece *b, f
                                 double way, fl_feature_pairs *l)
 {
     double distance;
-    if (list_tiles(near, b, x, ra, way + FL_MESH_EDGE * b->core.size, l, &distance)) return -1;
+    if (list_tiles(near, b, x, ra, way + FL_MESH_EDGE * b->core.size, 1, l, &distance)) return -1;
     return l->candidates > 0 && l->single_wall;
 }
 

@@ -53,8 +53,8 @@ int fl_mesh_contact_sphere(fl_patch_points *w, fl_mesh_contact_work *near, const
                            fl_feature_pairs *l, double *distance);
 
 /* Lists in l->candidate the faces that may be the nearest of a sphere about x, in the frame of b, until it
- * has moved by `way` [m].  Returns 1 if it can touch a single wall until then, 0 if not, or if it is out of
- * reach; -1 when memory runs out. */
+ * has moved by `way` [m].  Returns 1 if it can touch a single wall until then, or nothing; 0 if not; -1 when
+ * memory runs out. */
 int fl_mesh_contact_single_wall(fl_mesh_contact_work *near, const fl_piece *b, fl_vec3 x, double ra,
                                 double way, fl_feature_pairs *l);
 
