@@ -14,7 +14,7 @@
  * half, while the bodies have the forces of its start. */
 void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h);
 
-/* The same for a block of FL_BODY_BLOCK bodies; without the copies where no contact of the list needs them. */
+/* The same for a block of FL_BODY_BLOCK bodies; without the copies where no listed contact needs them. */
 void fl_sphere_block_update(fl_world *w, int32_t from, int32_t to, double h);
 
 /* Evaluates the contacts of chunk a over a step of dt [s]; survey: also bounds of omega^2.  dt < 0:

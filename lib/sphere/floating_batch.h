@@ -10,8 +10,8 @@
  * whole body, no waves, wind or other forces of the table, no sleep, no outflow. */
 int fl_floating_batch_applies(const fl_world *w);
 
-/* Returns the end of the run of such spheres from k on: without contacts in w->pair in the step before, and in
- * this one if `second`, where those with fixed degrees of freedom touch no sphere either.  k if it is none. */
+/* Returns the end of the run of such spheres from k on, k if it is none: without contacts in w->pair in the
+ * step before, and in this one if `second`, where those with fixed degrees of freedom touch no sphere. */
 int32_t fl_floating_run_end(const fl_world *w, int32_t k, int32_t to, int second);
 
 /* First half of a step of 2 h for [from, to), at most FL_BODY_BLOCK. */

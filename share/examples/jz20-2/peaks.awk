@@ -1,6 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Statistics of the load along the drift, rows of 10 ms; the first 1.5 s, with the whole flat front at once, left
 # out of all but the first line.
+
+# Seconds for each of the maxima above half of the largest that none within `apart` seconds exceeds.
+function spacing(apart,    i, j, c, top) {
+    for (i = from + 1; i <= n; i++) {
+        if (f[i] < 0.5*max) continue
+        top = 1
+        for (j = i - 1; j > from && t[i] - t[j] < apart && top; j--) top = f[j] < f[i]
+        for (j = i + 1; j <= n && t[j] - t[i] < apart && top; j++) top = f[j] <= f[i]
+        c += top
+    }
+    return c ? (t[n] - t[from + 1])/c : 0
+}
+# The same for loads above half of the largest that follow on 0.1 s or more below a tenth of it.
+function break_time(    i, c, low) {
+    for (i = from + 1; i <= n; i++) {
+        if (f[i] < 0.1*max) low++
+        else if (f[i] > 0.5*max) { c += low >= 10; low = 0 }
+    }
+    return c ? (t[n] - t[from + 1])/c : 0
+}
 /^[0-9]/ { n++; t[n] = $1; f[n] = $3; z[n] = $5 }
 END {
     for (i = 1; i <= n; i++) {
@@ -28,4 +48,6 @@ END {
     printf "their mean                             %7.1f kN\n", (big ? total/big : 0)/1e3
     printf "their period                           %7.2f s\n", period
     printf "speed times period                     %7.2f m\n", v*period
+    printf "one in, peaks 0.2, 0.4, 0.6, 0.8 s apart %5.2f, %.2f, %.2f, %.2f s\n", spacing(0.2), spacing(0.4), spacing(0.6), spacing(0.8)
+    printf "one in, after 0.1 s below a tenth      %7.2f s\n", break_time()
 }
