@@ -411,7 +411,8 @@ static void the_position_on_a_floor_does_not_matter(void **state)
     for (int slides = 0; slides < 2; slides++) lab_free(&l[slides]);
 }
 
-/* Sums of two boxes that overlap, with the second derivative that rounding may leave where they barely touch. */
+/* Sums of two boxes that overlap, with the second derivative that rounding may leave where they barely
+ * touch. */
 static void rounding_leaves_no_negative_stiffness(void **state)
 {
     fl_force_sum of_patch;
