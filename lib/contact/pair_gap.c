@@ -7,7 +7,7 @@
 #include "contact/pair_store.h"
 #include "world/access.h"
 
-/* Of lengths: more than the rounding of all terms to single precision. */
+/* Of lengths: more than the rounding of all terms, and of the axis, to single precision. */
 #define ROUNDING 0x1p-22
 
 /* The axis of a pair, in world axes and in those of i. */
@@ -55,8 +55,8 @@ int fl_pair_keeps_gap(fl_world *w, int32_t c)
     const fl_vec3 y = fl_separation(w, i, j, q->image),
                   turn = v3_sub(a.k, v3((double)g->k[0], (double)g->k[1], (double)g->k[2]));
     const double rho = b->bounding_radius[i], level = (double)g->level, R = b->radius[i] + b->radius[j],
-                 slack = ROUNDING * (fabs(level) + fabs(y.x) + fabs(y.y) + fabs(y.z) + rho),
-                 distance = level - v3_dot(a.n, y) - rho * v3_norm(turn) - slack;
+                 sizes = fabs(level) + fabs(y.x) + fabs(y.y) + fabs(y.z) + rho + b->bounding_radius[j],
+                 slack = ROUNDING * sizes, distance = level - v3_dot(a.n, y) - rho * v3_norm(turn) - slack;
     if (!(distance > R)) return 0;
     fl_neighbour_pair_set_distance(w, q, distance);
     if (q->contact) fl_neighbour_pair_put_back(w, q, q->contact); /* forgotten where far enough apart */

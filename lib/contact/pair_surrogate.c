@@ -39,14 +39,6 @@ static void find_compliance(const fl_bodies *b, const fl_pair *p, const fl_force
     exact->compliance = add_rotation(turned, ej, v3_cross(aj, x), v3_cross(aj, y), v3_cross(aj, z));
 }
 
-/* dF/ds of W = c sqrt(U), scale = c/(2 sqrt(U)): positive but for rounding where the two barely touch, there
- * F/s in its place. */
-static double slope_of(double scale, double ddu, double du, double u, double overlap)
-{
-    const double slope = scale * (ddu - 0.5 * du * du / u);
-    return slope > 0.0 ? slope : scale * du / overlap;
-}
-
 void fl_exact_contact_find(const fl_world *w, const fl_pair *p, const fl_patch_points *s,
                            const fl_relative_pose *r, fl_force_sum *q, fl_exact_contact *exact)
 {
@@ -58,7 +50,7 @@ void fl_exact_contact_find(const fl_world *w, const fl_pair *p, const fl_patch_p
                                 .sums = q,
                                 .scale = scale,
                                 .energy = energy,
-                                .slope = slope_of(scale, q->ddu, q->pressure, q->u, q->overlap)};
+                                .slope = fl_patch_slope(scale, q->u, q->pressure, q->ddu, q->overlap)};
     find_compliance(&w->b, p, q, s->point[0].p, exact);
 }
 
@@ -110,7 +102,7 @@ void fl_exact_contact_of_quick(const fl_world *w, const fl_pair *p, const fl_rel
                                 .springs = &rest->springs,
                                 .scale = scale,
                                 .energy = energy,
-                                .slope = slope_of(scale, q->ddu, e, q->u, q->overlap)};
+                                .slope = fl_patch_slope(scale, q->u, e, q->ddu, q->overlap)};
     find_compliance(&w->b, p, &rest->sums, centre, exact);
 }
 

@@ -4,6 +4,14 @@
 #define FL_CONTACT_PAIR_SURROGATE_H
 #include "contact/pair_geometry.h"
 
+/* dF/ds of W = k sqrt(U), scale = k/(2 sqrt(U)), from U and its first two derivatives: positive, but for
+ * rounding where the two barely touch; there F/s in its place.  overlap: s > 0 [m]. */
+static inline double fl_patch_slope(double scale, double u, double du, double ddu, double overlap)
+{
+    const double slope = scale * (ddu - 0.5 * du * du / u);
+    return slope > 0.0 ? slope : scale * du / overlap;
+}
+
 /* The exact contact of a patch, W = k sqrt(U), from the sums q over its points s; the couple of the points
  * is added to q.  `pressing` and `springs` are left out: only surrogates need them. */
 void fl_exact_contact_find(const fl_world *w, const fl_pair *p, const fl_patch_points *s,

@@ -99,7 +99,8 @@ FL_SIMD_VERSIONS int fl_pair_evaluate_quick(fl_world *w, fl_pair *p, int32_t thr
     if (!(q->u > 0.0 && q->overlap > FL_OVERLAP_ROUNDING * (v3_norm(r->o) + b->bounding_radius[p->i])))
         return 0;
     double energy = p->k * sqrt(q->u), scale = 0.5 * energy / q->u,
-           slope = scale * (q->ddu - 0.5 * q->pressure * q->pressure / q->u), limit = INFINITY, stiffer = 1.0;
+           slope = fl_patch_slope(scale, q->u, q->pressure, q->ddu, q->overlap), limit = INFINITY,
+           stiffer = 1.0;
     const double each = 1.0 / q->pressure;
     int yields = 0;
     const fl_vec3 centre = v3_scale(each, q->moment), aj = m3_mul(R, centre), ai = v3_add(aj, r->off);

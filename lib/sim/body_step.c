@@ -8,14 +8,6 @@
 #include "sphere/wall_contact.h"
 #include "world/access.h"
 
-/* Downward force of the heave spring of driven floe i [N]. */
-static double spring_force(const fl_world *w, int32_t i)
-{
-    double drawn = 0.0;
-    const double k = fl_driven_floe_spring(w, i, &drawn);
-    return k * drawn;
-}
-
 void fl_body_kick(fl_world *w, int32_t k, double h)
 {
     const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
@@ -36,7 +28,7 @@ void fl_body_external_force(fl_world *w, int32_t k)
     b->f[k] = v3_scale(b->m[k], w->gravity);
     b->t[k] = v3(0, 0, 0);
     if (w->sea.water) fl_environment_force(&w->sea, b, k);
-    if (w->driven_floes.n) b->f[k].z -= spring_force(w, k);
+    if (w->driven_floes.n) b->f[k].z -= fl_driven_floe_force(w, k);
 }
 
 int fl_body_contact_force(fl_world *w, int32_t k)

@@ -11,6 +11,8 @@
 enum { FEWEST = 1000 };
 /* Guests that a thread takes at a time. */
 enum { GUESTS = 64 };
+/* Memory that is printed with two decimals of a MiB. */
+#define FEW_BYTES (100.0 * 1048576.0)
 
 /* --- which device -------------------------------------------------------------------------------- */
 
@@ -32,8 +34,9 @@ static int take_engine(fl_world *w, const fl_gpu_engine *e, char note[FL_DEVICE_
     char why[200];
     if (need > room) {
         snprintf(why, sizeof why,
-                 "%.60s has %.3g MiB free and %.3g are needed: about %.0f of the %d bodies fit", e->device(),
-                 room / 1048576.0, need / 1048576.0, w->n * (room / need), w->n);
+                 "%.60s has %.*f MiB free and %.*f are needed: about %.0f of the %d bodies fit", e->device(),
+                 room < FEW_BYTES ? 2 : 0, room / 1048576.0, need < FEW_BYTES ? 2 : 0, need / 1048576.0,
+                 w->n * (room / need), w->n);
         e->close();
         return take_cpu(w, FL_SYSTEM, note, why, err);
     }

@@ -21,10 +21,8 @@ static int has_contact(const fl_world *w, int32_t k)
 /* Contact force on floe i. */
 static fl_vec3 contact_force_on(const fl_world *w, int32_t i)
 {
-    double extension = 0.0;
     fl_vec3 f = w->b.f[i];
-    const double k = w->driven_floes.n ? fl_driven_floe_spring(w, i, &extension) : 0.0;
-    if (w->driven_floes.n) f.z += k * extension;
+    if (w->driven_floes.n) f.z += fl_driven_floe_force(w, i);
     f = v3_madd(f, -w->b.m[i], w->gravity);
     if (w->relax.kind) f = v3_sub(f, fl_sums_now(w, i)->damping); /* dashpots cancel in the sum over bodies */
     return w->sea.water ? v3_sub(f, fl_environment_water_force(&w->sea, i)) : f;

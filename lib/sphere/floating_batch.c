@@ -353,14 +353,6 @@ static void load_hulls(const fl_environment *s, int32_t from, int32_t n, sphere_
     }
 }
 
-/* Downward force of the heave spring of driven floe i [N]. */
-static double spring_force(const fl_world *w, int32_t i)
-{
-    double drawn = 0.0;
-    const double k = fl_driven_floe_spring(w, i, &drawn);
-    return k * drawn;
-}
-
 /* Weight, buoyancy, springs of driven floes, contacts and bonds, into f and t. */
 static void sum_forces(const fl_world *w, int32_t from, int32_t n, const sphere_rows *q, fl_vec3 *f,
                        fl_vec3 *t)
@@ -368,7 +360,7 @@ static void sum_forces(const fl_world *w, int32_t from, int32_t n, const sphere_
     const fl_vec3 none = v3(0, 0, 0);
     for (int32_t k = 0; k < n; k++) {
         f[k] = v3_add(v3_scale(q->m[k], w->gravity), v3(0, 0, q->buoyancy[k])), t[k] = none;
-        if (w->driven_floes.n) f[k].z -= spring_force(w, from + k);
+        if (w->driven_floes.n) f[k].z -= fl_driven_floe_force(w, from + k);
         if (needs_changes(w, from + k)) fl_sphere_add_forces(w, from + k, &f[k], &t[k]);
     }
     fl_disc_list_add_forces_of(w, from, from + n, f, t);
@@ -400,7 +392,7 @@ void fl_floating_batch_end(fl_world *w, int32_t from, int32_t to, double h, fl_f
     for (int32_t k = 0; k < n; k++) {
         const int32_t i = from + k;
         fl_vec3 f = ROW(f);
-        if (w->driven_floes.n) f.z += spring_force(w, i);
+        if (w->driven_floes.n) f.z += fl_driven_floe_force(w, i);
         out->contact_force[k] = v3_sub(v3_madd(f, -q->m[k], w->gravity), v3(0, 0, q->buoyancy[k]));
         if (!needs_changes(w, i)) continue;
         out->second_dv[k] = change_by(q, k, b->f[i], h, heavy);

@@ -34,6 +34,14 @@ static inline double fl_driven_floe_spring(const fl_world *w, int32_t i, double 
     return w->driven_floes.k[i];
 }
 
+/* Its force downwards [N]. */
+static inline double fl_driven_floe_force(const fl_world *w, int32_t i)
+{
+    double drawn = 0.0;
+    const double k = fl_driven_floe_spring(w, i, &drawn);
+    return k * drawn;
+}
+
 /* The piece or wall of thing j, NULL for a floe. */
 static inline const fl_piece *fl_world_piece(const fl_world *w, int32_t j)
 {

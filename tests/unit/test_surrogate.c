@@ -6,6 +6,8 @@
 #include "contact/pair_law.h"
 #include "contact/pair_response.h"
 #include "contact/pair_store.h"
+#include "contact/pair_surrogate.h"
+#include "contact/quick_force.h"
 #include "patch/no_tension.h"
 #include "support/small_world.h"
 #include "support/near.h"
@@ -409,6 +411,43 @@ static void the_position_on_a_floor_does_not_matter(void **state)
     for (int slides = 0; slides < 2; slides++) lab_free(&l[slides]);
 }
 
+/* Sums of two boxes that overlap, with the second derivative that rounding may leave where they barely
+ * touch. */
+static void rounding_leaves_no_negative_stiffness(void **state)
+{
+    fl_force_sum of_patch;
+    fl_quick_sums of_quick;
+    fl_quick_exact rest;
+    fl_exact_contact exact;
+    double distance;
+    lab l;
+    fl_pair p;
+    (void)state;
+    lab_start(&l);
+    lab_set(&l, "contact.law=quick");
+    lab_set(&l, "contact.friction=0.3");
+    lab_box(&l, ZERO, v3(0.5, 0.5, 0.5), 0.05, q_one(), ZERO, ZERO);
+    lab_box(&l, v3(0.1, 0.2, 0.999), v3(0.5, 0.5, 0.5), 0.05, q_one(), ZERO, ZERO);
+    lab_make(&l, 1e-9);
+    fl_world *w = &l.w;
+    fl_pair_init(w, &p, 0, 1);
+    const fl_relative_pose r = fl_relative_pose_of(w, &p);
+    const fl_pair_prediction a = fl_pair_prediction_of(w, &p, &r, w->dt);
+    assert_int_equal(fl_pair_find_points(w, &p, 0, &r, &distance), 0);
+    assert_int_equal(fl_force_sum_elastic(&w->scratch[0], &of_patch), 0);
+    of_patch.ddu = 0.4 * of_patch.pressure * of_patch.pressure / of_patch.u;
+    fl_exact_contact_find(w, &p, &w->scratch[0], &r, &of_patch, &exact);
+    assert_near(exact.slope, exact.scale * of_patch.pressure / of_patch.overlap, 1e-15);
+    assert_int_equal(fl_pair_find_quick(w, &p, 0, &r, &distance, &of_quick), 0);
+    of_quick.ddu = 0.4 * of_quick.pressure * of_quick.pressure / of_quick.u;
+    fl_exact_contact_of_quick(w, &p, &r, &of_quick, &rest, &exact);
+    assert_near(exact.slope, exact.scale * of_quick.pressure / of_quick.overlap, 1e-15);
+    assert_int_equal(fl_pair_evaluate_quick(w, &p, 0, &of_quick, NULL, &r, &a, 0), 1);
+    assert_near(p.springs.k, p.law->tangential_ratio * exact.slope, 1e-15);
+    fl_pair_free(&p);
+    lab_free(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_prediction_has_a_potential),
@@ -418,6 +457,7 @@ int main(void)
                                        cmocka_unit_test(evaluations_on_a_line_raise_the_order),
                                        cmocka_unit_test(the_error_estimate_stays_finite),
                                        cmocka_unit_test(the_position_on_a_floor_does_not_matter),
-                                       cmocka_unit_test(damping_is_predicted)};
+                                       cmocka_unit_test(damping_is_predicted),
+                                       cmocka_unit_test(rounding_leaves_no_negative_stiffness)};
     return cmocka_run_group_tests_name("surrogate", tests, NULL, NULL);
 }

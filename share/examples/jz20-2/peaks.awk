@@ -31,6 +31,7 @@ END {
         run += f[i]; if (k > 5) run -= f[i - 5]
         if (k >= 5 && run/5 > max5) max5 = run/5
     }
+    if (!k) { printf "largest load, with the first contact   %7.1f kN\nno row after 1.5 s\n", all/1e3; exit }
     # peaks above half of the maximum, 0.4 s apart
     for (i = from + 1; i <= n; i++) {
         if (f[i] < 0.5*max) continue
@@ -43,7 +44,7 @@ END {
     printf "largest load, means of 10 ms           %7.1f kN\n", max/1e3
     printf "largest load, means of 50 ms           %7.1f kN\n", max5/1e3
     printf "mean                                   %7.2f kN\n", sum/k/1e3
-    printf "upward over along, of the means        %7.2f\n", sumz/sum
+    printf "upward over along, of the means        %7.2f\n", sum ? sumz/sum : 0
     printf "peaks above half of the largest        %7d\n", big
     printf "their mean                             %7.1f kN\n", (big ? total/big : 0)/1e3
     printf "their period                           %7.2f s\n", period
