@@ -110,7 +110,7 @@ static void warn_sudden_bonds(const struct run *r, FILE *f)
 }
 
 /* Weight and buoyancy of a sheet, and its sides against the breaking length of a floating beam, pi/4
- * (E h^3/(3 rho g))^(1/4). */
+ * (E h^3/(3 rho g))^(1/4).  A sheet that comes in without end has sides across its drift alone. */
 static void warn_bonded_sheet(const struct run *r, FILE *f)
 {
     const fl_world *w = r->w;
@@ -133,7 +133,8 @@ static void warn_bonded_sheet(const struct run *r, FILE *f)
                 "sheet %s; the "
                 "densities it was made with, or ice.slab, are expected\n",
                 lift / weight, lift < weight ? "sinks" : "jumps up");
-    const double side = fmin(box.hi.x - box.lo.x, box.hi.y - box.lo.y),
+    const double lx = box.hi.x - box.lo.x, ly = box.hi.y - box.lo.y, across = w->inflow.axis == 1 ? lx : ly,
+                 side = w->inflow.feed ? across : fmin(lx, ly),
                  length = 0.25 * PI * pow(E * h * h * h / (3.0 * w->sea.specific_weight), 0.25);
     if (h > 0.0 && side < LENGTHS_OF_SHEET * length)
         fprintf(f,
