@@ -356,6 +356,16 @@ static int shape_of_row(void *to, int64_t line, int32_t id, fl_vec3 x, fl_quat q
     return 0;
 }
 
+/* A row of the last frame: bodies that came in during the run have no shape in the ice file. */
+static int count_missing(void *to, int64_t line, int32_t id, fl_vec3 x, fl_quat q, fl_vec3 v, fl_vec3 w,
+                         fl_err *err)
+{
+    struct shape_source *const s = to;
+    (void)line, (void)x, (void)q, (void)v, (void)w, (void)err;
+    s->missing += fl_frame_data_row(&s->index, id) < 0;
+    return 0;
+}
+
 static int read_bytes(fl_frame_file *f, const fl_frame_entry *e, fl_err *err)
 {
     if (fl_grow(&f->bytes, &f->bytes_cap, e->size + 1, 1, err) ||
@@ -378,6 +388,16 @@ static int read_shapes(fl_frame_file *f, const char *shapes, fl_err *err)
                         fl_frame_state_read(&f->d.frame[0], f->text.name, f->bytes, shape_of_row, &s, err)))
         goto done;
     if (s.missing) warn_of(f, shapes, "bodies of the state are not in this ice file and are not shown");
+    if (f->d.frames > 1) {
+        const fl_frame_entry *const last = &f->d.frame[f->d.frames - 1];
+        if (read_bytes(f, last, err) ||
+            fl_frame_state_read(last, f->text.name, f->bytes, count_missing, &s, err))
+            goto done;
+    }
+    if (s.missing)
+        warn_of(f, f->text.name,
+                "bodies that came in during the run have no shape in the ice file and are not shown; "
+                "frames of output.frames have them");
     rc = 0;
 done:
     fl_ice_field_free(&s.ice);

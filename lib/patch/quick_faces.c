@@ -27,7 +27,7 @@ typedef struct {
     double s0, sx, sy; /* s = s0 + sx x + sy y */
     outline p, spare;
     double *g; /* scratch */
-    int32_t corners;
+    int32_t corners, room;
 } face_pair;
 
 /* The end of the part with g >= 0 between corner k and the next. */
@@ -82,7 +82,8 @@ FL_SIMD_INLINE void clip_convex(face_pair *q, uint64_t outside, int32_t side)
     q->corners = n - out + 2;
 }
 
-/* The same wherever corners are outside. */
+/* The same wherever corners are outside.  A convex polygon gains one corner at most, one that rounding has bent
+ * may gain more: what has no room is left out. */
 static void clip_any(face_pair *q, int32_t side)
 {
     const outline to = q->spare;
@@ -92,9 +93,11 @@ static void clip_any(face_pair *q, int32_t side)
         const int32_t next = k + 1 < q->corners ? k + 1 : 0;
         const int in = g[k] >= 0.0, then = g[next] >= 0.0;
         double cut[COLUMNS];
-        for (int c = 0; in && c < COLUMNS; c++) to.a[c][m] = q->p.a[c][k];
-        m += in;
-        if (in == then) continue;
+        if (in && m < q->room) {
+            for (int c = 0; c < COLUMNS; c++) to.a[c][m] = q->p.a[c][k];
+            m++;
+        }
+        if (in == then || m == q->room) continue;
         cut_side(q, k, next, cut), cut[SIDE] = in ? (double)side : q->p.a[SIDE][k];
         for (int c = 0; c < COLUMNS; c++) to.a[c][m] = cut[c];
         m++;
@@ -124,7 +127,7 @@ FL_SIMD_INLINE int clip_side(face_pair *q, double c, double qx, double qy, int32
     /* and of each that is unlike the next */
     const uint64_t next = outside >> 1 | (outside & 1) << (n < BITS ? n - 1 : 0);
     if (n < BITS && outside == (UINT64_C(1) << n) - 1) return 0;
-    if (n < BITS && __builtin_popcountll(outside ^ next) == 2) clip_convex(q, outside, side);
+    if (n < BITS && n < q->room && __builtin_popcountll(outside ^ next) == 2) clip_convex(q, outside, side);
     else clip_any(q, side);
     return q->corners >= 3;
 }
@@ -474,7 +477,7 @@ int fl_quick_add_faces(fl_quick_scratch *w, const fl_quick_direction *d, fl_quic
         fl_reserve(&w->support, &w->support_cap, pairs / 2, sizeof(fl_quick_support)))
         return -1;
     double *const x = w->polygon;
-    face_pair q = {.d = d, .g = x + 2 * COLUMNS * most};
+    face_pair q = {.d = d, .g = x + 2 * COLUMNS * most, .room = most - 2 * PAD};
     for (int c = 0; c < COLUMNS; c++) q.p.a[c] = x + c * most, q.spare.a[c] = x + (COLUMNS + c) * most;
     *support = w->support;
     *n = add_pairs(&q, at, pairs, to, w->support, overlap);

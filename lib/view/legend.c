@@ -28,6 +28,12 @@ static int digits_of(double from, double to)
     return d < 0 ? 0 : d > 6 ? 6 : d;
 }
 
+static void tick_text(double value, int digits, char text[40])
+{
+    if (digits < 0) snprintf(text, 40, "%.2g", value);
+    else snprintf(text, 40, "%.*f", digits, value);
+}
+
 void fl_legend_bar(fl_picture *p, const char *title, int map, double from, double to, int bottom)
 {
     const float k = scale_of(p), cap = 11.5f * k, small = 0.85f * cap;
@@ -35,8 +41,10 @@ void fl_legend_bar(fl_picture *p, const char *title, int map, double from, doubl
               d = digits_of(from, to);
     const int x0 = p->w - wide - (int)(40 * k), y0 = p->h - bottom - (int)(62 * k);
     char text[40];
-    fl_picture_plate(p, x0 - (int)(22 * k), y0 - (int)(38 * k), x0 + wide + (int)(24 * k), y0 + (int)(46 * k),
-                     PAPER, PAPER_OPACITY);
+    tick_text(from, d, text);
+    const float first = 0.5f * fl_picture_text_width(text, small) + 8 * k;
+    fl_picture_plate(p, x0 - (int)fmaxf(22 * k, first), y0 - (int)(38 * k), x0 + wide + (int)(24 * k),
+                     y0 + (int)(46 * k), PAPER, PAPER_OPACITY);
     for (int i = 0; i < wide; i++)
         fl_picture_plate(p, x0 + i, y0, x0 + i + 1, y0 + high, fl_colour_map_at(map, (double)i / (wide - 1)),
                          1.0f);
@@ -44,8 +52,7 @@ void fl_legend_bar(fl_picture *p, const char *title, int map, double from, doubl
         const int x = x0 + i * (wide - 1) / TICKS;
         const double value = from + (to - from) * i / TICKS;
         fl_picture_plate(p, x, y0 + high, x + (k > 1.4f ? 2 : 1), y0 + high + (int)(5 * k), INK, 1.0f);
-        if (d < 0) snprintf(text, sizeof text, "%.2g", value);
-        else snprintf(text, sizeof text, "%.*f", d, value);
+        tick_text(value, d, text);
         fl_picture_text(p, (float)x - 0.5f * fl_picture_text_width(text, small), (float)(y0 + high) + 20 * k,
                         small, text, INK);
     }

@@ -30,7 +30,8 @@ static void explain_shows_every_key(void **state)
     assert_string_equal(
         text,
         "water.density: mass per volume of the water\n  value    a number in kg/m3 (units: kg/m3 kg/m^3 t/m3 "
-        "t/m^3 g/cm3 g/cm^3), above 0\n  default  1025 kg/m3\n  source   sea water 1005 to 1035\n");
+        "t/m^3 g/cm3 g/cm^3), above 0\n  default  1025 kg/m3\n"
+        "  source   fresh water 998, sea water 1005 to 1030\n");
     free(text);
     text = explain_key("material.friction", &err, &rc);
     assert_non_null(strstr(text, "  default  0.3 (steel: 0.15)\n  manual   mus\n"));

@@ -8,6 +8,7 @@
 #include "sim/inflow.h"
 #include "sim/sleep.h"
 #include "step_choice.h"
+#include "warnings.h"
 
 /* The rows of run.error: goal, error found, cost. */
 static void report_run_error(const fl_error_budget *g, FILE *f)
@@ -273,18 +274,20 @@ static void report_breaking(const fl_world *w, FILE *f)
     putc('\n', f);
 }
 
-static void report_overlaps(const fl_world *w, FILE *f)
+static void report_overlaps(const struct run *r, FILE *f)
 {
+    const fl_world *w = r->w;
+    char other[NAME_OF_ID];
     if (w->max_overlap_i >= 0)
-        fprintf(f, "largest overlap    %.3g of the radii (body %d and %d, t = %.6g s)\n", w->max_overlap,
-                w->max_overlap_i, w->max_overlap_j, w->max_overlap_time);
+        fprintf(f, "largest overlap    %.3g of the radii (body %d and %s, t = %.6g s)\n", w->max_overlap,
+                w->max_overlap_i, name_of_id(r, w->max_overlap_j, other), w->max_overlap_time);
     else fprintf(f, "largest overlap    0 of the radii\n");
     if (w->deep_overlap_steps)
         fprintf(f,
                 "deep overlaps      %" PRId64
-                " steps above %g of the radii, first body %d and %d at t = %.6g s\n",
-                w->deep_overlap_steps, FL_DEEP_OVERLAP, w->deep_overlap_i, w->deep_overlap_j,
-                w->deep_overlap_time);
+                " steps above %g of the radii, first body %d and %s at t = %.6g s\n",
+                w->deep_overlap_steps, FL_DEEP_OVERLAP, w->deep_overlap_i,
+                name_of_id(r, w->deep_overlap_j, other), w->deep_overlap_time);
     if (w->overlapping_cores)
         fprintf(f,
                 "core overlaps      %" PRId64
@@ -313,6 +316,6 @@ void write_report(const struct run *r, FILE *f, enum report_kind kind)
     if (w->breaking.on) report_breaking(w, f);
     if (w->inflow.absent) report_inflow(w, f);
     if (w->push.of) report_push(w, f);
-    report_overlaps(w, f);
+    report_overlaps(r, f);
     fprintf(f, "state hash         %016" PRIx64 "\n", fl_state_hash(w));
 }

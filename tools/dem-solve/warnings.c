@@ -18,10 +18,7 @@
 
 enum { START_FAULT = 400 };
 
-enum { NAME_OF_ID = 80 };
-
-/* What an id of fl_world_id stands for: a body, a part of the structure by its name, or a wall. */
-static const char *name_of_id(const struct run *r, int32_t id, char name[NAME_OF_ID])
+const char *name_of_id(const struct run *r, int32_t id, char name[NAME_OF_ID])
 {
     const int32_t part = -1 - id, wall = part - r->w->parts;
     if (id < 0 && wall >= 0 && wall < r->w->walls) fl_wall_name(r->w, wall, name);

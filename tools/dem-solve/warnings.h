@@ -12,6 +12,10 @@ void warn_at_end(const struct run *r, int failed, FILE *f);
  * structure, without --force. */
 int check_start(const struct run *r, fl_err *err);
 
+/* What an id of fl_world_id stands for: a body, a part of the structure by its name, or a wall. */
+enum { NAME_OF_ID = 80 };
+const char *name_of_id(const struct run *r, int32_t id, char name[NAME_OF_ID]);
+
 /* At a row of the loads, time t, to standard error. */
 void warn_at_row(struct run *r, double t);
 

@@ -42,12 +42,13 @@ static const struct table TABLES[] = {
      .report =
          {.position = 1,
           .heading = "Overview",
-          .note = "Forces in kN, moments in kN.m. Mean with its 95 % interval, by the integral time tau of "
-                  "the record; smallest and largest value; the value that is not "
-                  "passed for 95 % of the time, on the side of the largest magnitude; and the level that is "
-                  "exceeded once in T on average, of the distribution of the separate peaks that fits best, "
-                  "with its 95 % interval. There is none for fewer than 30 peaks: then the largest value is "
-                  "one event of one scene.",
+          .note =
+              "Forces in kN, moments in kN.m. Mean with its 95 % interval, by the integral time tau of "
+              "the record; smallest and largest value; the value that is not "
+              "passed for 95 % of the time, on the side of the largest magnitude; and the level that is "
+              "exceeded once in T on average, of the distribution of the separate peaks that fits best, "
+              "with its 95 % interval. There is none for fewer than 30 peaks: then the largest value is "
+              "one event of one scene. Nor is there one where no interval ends below ten times its level.",
           .layout = LAYOUT_OVERVIEW}},
     {.name = "peaks", .columns = LABELS "\tt[s]\tpeak", .view_rows = peaks_rows},
     {.name = "histogram",

@@ -9,6 +9,17 @@
 /* Strain at which bonds may break at most: the tables are of small strains, 1e-3 in their samples. */
 #define MOST_STRAIN 0.01
 
+/* Least strength and modulus of any ice, that of models included; below, a unit was forgotten [Pa]. */
+#define LEAST_STRENGTH 1e3
+#define LEAST_YOUNG 1e5
+
+static int check_stress(const char *option, double x, double least, const char *example, fl_err *err)
+{
+    if (x == 0.0 || x >= least) return 0;
+    return fl_fail(err, FL_USAGE, "--%s is %g Pa, which no ice has: at least %g Pa, as %s, is expected",
+                   option, x, least, example);
+}
+
 int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_packing_kind kind,
                        fl_err *err)
 {
@@ -16,13 +27,17 @@ int sheet_bonds_choose(struct sheet_bonds *out, const struct recipe *o, enum fl_
     if (o->flexural > 0.0 && o->compressive > 0.0)
         return fl_fail(
             err, FL_USAGE,
-            "--flexural and --compressive both set the strength of the bonds, one of them expected");
+            "--flexural and --compressive both set the strength of the bonds, one of them is expected");
     if (o->flexural == 0.0 && o->compressive == 0.0 && o->young == 0.0) return 0;
     if (!o->bonded || !o->scene)
         return fl_fail(
             err, FL_USAGE,
-            "--flexural, --compressive and --young set the bonds of --scene FILE, which is expected "
-            "with --bonded");
+            "--flexural, --compressive and --young set the bonds of --scene FILE: --bonded and --scene are "
+            "expected");
+    if (check_stress("flexural", o->flexural, LEAST_STRENGTH, "0.5MPa", err) ||
+        check_stress("compressive", o->compressive, LEAST_STRENGTH, "2MPa", err) ||
+        check_stress("young", o->young, LEAST_YOUNG, "1GPa", err))
+        return -1;
     out->ratio = fl_sheet_strength_of(kind, o->layers, o->rows_across);
     out->turned = fl_sheet_strength_of(kind, o->layers, !o->rows_across);
     if (o->flexural > 0.0) out->strength = o->flexural / out->ratio.flexural;

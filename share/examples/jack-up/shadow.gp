@@ -7,6 +7,7 @@ set tics out nomirror
 set grid lc rgb '#e0e0e0'
 set xrange [-5:185]; set xtics 30
 set yrange [0:*]
+set lmargin 11
 set multiplot layout 2, 1
 set title 'load along the drift after the sheet has reached the leg'
 set ylabel 'mean [kN]'

@@ -21,7 +21,10 @@ voronoi-ice --gaps even -q --size 60x48 --origin -45,-24 --floes 110 --periodic 
 
 # shellcheck disable=SC2086 # RUN is a list of options
 dem-solve -q -j 1 --ice "$work/ice.dat" --structure "$work/legs.dat" --direction "${angle}deg" \
-    --set "water.current=$speed 0 0" ${RUN:-} -o "$work/loads.tsv" "$here/sweep.scene" 2>"$work/said"
+    --set "water.current=$speed 0 0" ${RUN:-} -o "$work/loads.tsv" "$here/sweep.scene" 2>"$work/said" || {
+    cat "$work/said" >&2
+    exit 1
+}
 awk -v angle="$angle" -v speed="$speed" -v thickness="$thickness" -v seed="$seed" -f "$here/row.awk" \
     "$work/loads.tsv" >"$work/row"
 mv "$work/row" "$out/$case.row"

@@ -12,6 +12,8 @@ rows = "< awk -F'\\t' '$4 == \"all\" { a[$1]; y[$2 \" m/s, \" $3 \" m\"] = 1; v[
     if (!($1 in i)) i[$1] = na++; k = $2 \" m/s, \" $3 \" m\"; if (!(k in j)) { j[k] = nb++ } \
     print i[$1] \"\\t\" j[k] \"\\t\" $7 \"\\t\" $1 \"\\t\" k }' ".table
 set tics out nomirror
-set style fill solid
-plot rows using 1:2:3:xtic(4):ytic(5) with image, \
+set style fill solid noborder
+set autoscale fix
+# Boxes, as an image of one row or column is not drawn.
+plot rows using 1:2:($1 - 0.5):($1 + 0.5):($2 - 0.5):($2 + 0.5):3:xtic(4):ytic(5) with boxxyerror fillcolor palette, \
      rows using 1:2:(sprintf("%.3g", $3)) with labels font "Sans Bold,11" textcolor rgb "#d94801"
