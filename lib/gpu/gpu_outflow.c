@@ -19,7 +19,8 @@ static int put_one(fl_gpu_world *g, const void *to, const void *from, size_t byt
 /* Adds the bodies of a block that are outside. */
 static int find_in_block(fl_gpu_world *g, const fl_world *w, int32_t block, fl_leaving *l, fl_err *err)
 {
-    const int32_t from = block * FL_BODY_BLOCK, to = from + FL_BODY_BLOCK < w->n ? from + FL_BODY_BLOCK : w->n;
+    const int32_t from = block * FL_BODY_BLOCK,
+                  to = from + FL_BODY_BLOCK < w->n ? from + FL_BODY_BLOCK : w->n;
     fl_sphere_state s[FL_BODY_BLOCK];
     if (fl_gpu_get_bytes(g, s, g->v.state + from, (size_t)(to - from) * sizeof *s, err)) return -1;
     for (int32_t k = from; k < to; k++) {
@@ -32,7 +33,10 @@ static int find_in_block(fl_gpu_world *g, const fl_world *w, int32_t block, fl_l
 }
 
 /* 1 if body k is the device's, and away from the structure. */
-static int is_apart(const fl_gpu_world *g, int32_t k) { return !g->host[k] && !(g->near_of && g->near_of[k]); }
+static int is_apart(const fl_gpu_world *g, int32_t k)
+{
+    return !g->host[k] && !(g->near_of && g->near_of[k]);
+}
 
 static int has_wall(const fl_world *w, int32_t k)
 {
@@ -55,7 +59,8 @@ static int find_rows(fl_gpu_world *g, int32_t k, fl_leaving *l, fl_err *err)
     const int32_t n = end[1] - end[0];
     int32_t *const link = fl_alloc(n, sizeof *link, err);
     told_row *const told = fl_alloc(n, sizeof *told, err);
-    int bad = n && (!link || !told || fl_gpu_get_bytes(g, link, g->v.link + end[0], (size_t)n * sizeof *link, err));
+    int bad =
+        n && (!link || !told || fl_gpu_get_bytes(g, link, g->v.link + end[0], (size_t)n * sizeof *link, err));
     for (int32_t e = 0; e < n && !bad; e++) {
         const int32_t c = told[e].row.c = link[e] >> 1;
         bad = GET_ONE(row_i, c, &told[e].row.i) || GET_ONE(row_j, c, &told[e].row.j) ||
@@ -102,8 +107,8 @@ static int bring(fl_gpu_world *g, fl_world *w, int32_t k, fl_err *err)
     fl_bodies *b = &w->b;
     fl_environment *sea = &w->sea;
     fl_sphere_state *const s = &w->spheres.state[k];
-    if (GET_ONE(state, k, s) || GET_ONE(L, k, &b->L[k]) || GET_ONE(q, k, &b->q[k]) || GET_ONE(f, k, &b->f[k]) ||
-        GET_ONE(t, k, &b->t[k]) || GET_ONE(odometer, k, &b->odometer[k]) ||
+    if (GET_ONE(state, k, s) || GET_ONE(L, k, &b->L[k]) || GET_ONE(q, k, &b->q[k]) ||
+        GET_ONE(f, k, &b->f[k]) || GET_ONE(t, k, &b->t[k]) || GET_ONE(odometer, k, &b->odometer[k]) ||
         GET_ONE(sum, k, &w->spheres.sum[k]) ||
         (sea->water &&
          (GET_ONE(wetted_area, k, &sea->wetted_area[k]) || GET_ONE(buoyancy, k, &sea->buoyancy[k]) ||
@@ -155,8 +160,9 @@ static int drop_disc(fl_gpu_world *g, int32_t k, fl_err *err)
 {
     const uint8_t ended = FL_DISC_ENDED, whole = 0;
     const fl_disc_wrench none = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    return PUT_ONE(disc_ended, k, &ended) || PUT_ONE(disc_whole, k, &whole) || PUT_ONE(disc_out, k, &none) ? -1
-                                                                                                           : 0;
+    return PUT_ONE(disc_ended, k, &ended) || PUT_ONE(disc_whole, k, &whole) || PUT_ONE(disc_out, k, &none)
+               ? -1
+               : 0;
 }
 
 int fl_gpu_world_drop(fl_gpu_world *g, fl_world *w, const fl_leaving *l, fl_err *err)

@@ -200,7 +200,7 @@ typedef struct {
     X(TELL_GUESTS, fl_gpu_tell_guest)     /* a guest: its sums */                                            \
     X(TELL_DISCS, fl_gpu_tell_guest_disc) /* a bond of a guest */                                            \
     X(SECOND_HALF, fl_gpu_second_half)    /* a body: sums, water, kick, drag, works */                       \
-    X(SUM_AGAIN, fl_gpu_sum_again)        /* a body that a partner has left: sums and forces */          \
+    X(SUM_AGAIN, fl_gpu_sum_again)        /* a body that a partner has left: sums and forces */              \
     X(TAKE_WORKS, fl_gpu_take_guest_work) /* a guest: works */                                               \
     X(BLOCKS, fl_gpu_block)               /* a block: works and contact forces of its bodies */              \
     X(CHUNKS, fl_gpu_chunk)               /* a chunk: totals of its contacts, loads on walls */              \

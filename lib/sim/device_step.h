@@ -29,10 +29,10 @@ int64_t fl_device_hand_overs(const fl_world *w);
 int fl_device_moves(const fl_world *w, int32_t i);
 int fl_device_leaves(const fl_world *w);
 
-/* Finds the bodies of the device that have left the domain, and brings them and their partners down.  1; 0 if all
- * have to come down for that; -1 with FL_SYSTEM.  Then, after they have been taken out, the device goes on
- * without them. */
+/* Finds the bodies of the device that have left the domain, and brings them and their partners down.  1; 0 if
+ * all have to come down for that; -1 with FL_SYSTEM. */
 int fl_device_find_leaving(fl_world *w, fl_leaving *l, fl_err *err);
+/* After they have been taken out of the world: the device goes on without them. */
 int fl_device_drop(fl_world *w, const fl_leaving *l, fl_err *err);
 
 /* Body i, which came in, is guided no more. */

@@ -455,8 +455,7 @@ static int take_out(fl_world *w, const uint8_t *gone, fl_err *err)
     return 0;
 }
 
-/* Books what the bodies of l take with them, and what their contacts will not do any more; before: the works
- * ahead of those that they touch. */
+/* The works ahead of the bodies of l and of those that they touch. */
 static fl_work works_ahead(const fl_leaving *l, const fl_world *w)
 {
     fl_work sum = {0};
@@ -464,6 +463,8 @@ static fl_work works_ahead(const fl_leaving *l, const fl_world *w)
     return sum;
 }
 
+/* Books the energy that the bodies of l took with them, and what their contacts will not do any more; before:
+ * the works ahead with them. */
 static void book_leaving(fl_world *w, const fl_leaving *l, double energy, fl_work before)
 {
     const fl_work after = works_ahead(l, w);
@@ -491,14 +492,15 @@ static int leave_on_device(fl_world *w, fl_err *err)
     return rc;
 }
 
-/* Takes out the floes outside and books what they take with them, if that is known of each.  1; 0 if not: they
- * are there yet; -1. */
+/* Takes out the floes outside and books what they take with them, if that is known of each.  1; 0 if not:
+ * they are still there; -1. */
 static int leave_one_by_one(fl_world *w, fl_err *err)
 {
     fl_leaving l = {0};
     int rc = 1;
     for (int32_t i = 0; i < w->n && rc == 1; i++)
-        if (!w->inflow.absent[i] && !w->inflow.guided[i] && is_outside(w, i) && fl_leaving_add_body(&l, i, err))
+        if (!w->inflow.absent[i] && !w->inflow.guided[i] && is_outside(w, i) &&
+            fl_leaving_add_body(&l, i, err))
             rc = -1;
     if (rc == 1 && l.bodies) rc = fl_leaving_collect(&l, w, err);
     if (rc == 1 && l.bodies) {
@@ -535,7 +537,7 @@ int fl_inflow_step(fl_world *w, fl_err *err)
     int32_t place = 0;
     if (t->feed && release_guided(w, err)) return -1;
     const int due = is_due(w), of_cpu = some_leaves(w), of_device = t->leaves && fl_device_leaves(w);
-    if (of_device && !of_cpu && !due) {
+    if (of_device && !of_cpu && !due && fl_leaving_has_books(w)) {
         const int done = leave_on_device(w, err);
         if (done) return done < 0 ? -1 : 0;
     }

@@ -16,7 +16,7 @@ void fl_leaving_free(fl_leaving *l)
     *l = (fl_leaving){0};
 }
 
-static int add(int32_t **list, int32_t *cap, int32_t *n, int32_t k, fl_err *err)
+static int append_number(int32_t **list, int32_t *cap, int32_t *n, int32_t k, fl_err *err)
 {
     if (fl_grow(list, cap, (int64_t)*n + 1, sizeof **list, err)) return -1;
     (*list)[(*n)++] = k;
@@ -25,12 +25,12 @@ static int add(int32_t **list, int32_t *cap, int32_t *n, int32_t k, fl_err *err)
 
 static int touch(fl_leaving *l, int32_t k, fl_err *err)
 {
-    return add(&l->touched, &l->touched_cap, &l->n_touched, k, err);
+    return append_number(&l->touched, &l->touched_cap, &l->n_touched, k, err);
 }
 
 int fl_leaving_add_body(fl_leaving *l, int32_t k, fl_err *err)
 {
-    return add(&l->body, &l->body_cap, &l->bodies, k, err) || touch(l, k, err) ? -1 : 0;
+    return append_number(&l->body, &l->body_cap, &l->bodies, k, err) || touch(l, k, err) ? -1 : 0;
 }
 
 int fl_leaving_add_row(fl_leaving *l, const fl_leaving_row *row, fl_err *err)
@@ -42,7 +42,7 @@ int fl_leaving_add_row(fl_leaving *l, const fl_leaving_row *row, fl_err *err)
 
 int fl_leaving_add_disc(fl_leaving *l, const fl_world *w, int32_t k, fl_err *err)
 {
-    return add(&l->disc, &l->disc_cap, &l->discs, k, err) || touch(l, w->discs.at.i[k], err) ||
+    return append_number(&l->disc, &l->disc_cap, &l->discs, k, err) || touch(l, w->discs.at.i[k], err) ||
                    touch(l, w->discs.at.j[k], err)
                ? -1
                : 0;
@@ -82,8 +82,7 @@ void fl_leaving_sort(fl_leaving *l)
     l->rows = kept;
 }
 
-/* 1 if the ledger of the scene can book bodies one by one. */
-static int has_own_books(const fl_world *w)
+int fl_leaving_has_books(const fl_world *w)
 {
     return !w->sleep.state && !w->breaking.on && !w->bonds.n && !w->relax.kind && !w->zones.set.blocks &&
            !w->push.of && w->crushing.of == FL_CRUSHING_NONE && !w->panel_load.all;
@@ -118,7 +117,7 @@ static int collect(fl_leaving *l, const fl_world *w, const uint8_t *gone, fl_err
 
 int fl_leaving_collect(fl_leaving *l, const fl_world *w, fl_err *err)
 {
-    if (!has_own_books(w)) return 0;
+    if (!fl_leaving_has_books(w)) return 0;
     uint8_t *const gone = fl_alloc(w->n, sizeof *gone, err);
     int rc = gone ? 1 : -1;
     for (int32_t k = 0; k < l->bodies && rc == 1; k++) {

@@ -28,8 +28,11 @@ int fl_leaving_add_disc(fl_leaving *l, const fl_world *w, int32_t k, fl_err *err
 /* After the last has been added: sorts, and drops what is there twice. */
 void fl_leaving_sort(fl_leaving *l);
 
+/* 1 if the ledger of the scene can book bodies one by one. */
+int fl_leaving_has_books(const fl_world *w);
+
 /* Adds the contacts and bonds of its bodies.  1; 0 if a body is no sphere or touches other things than
- * spheres, or the scene has what the ledger books for all bodies at once; -1 with FL_SYSTEM. */
+ * spheres, or the ledger cannot book bodies one by one; -1 with FL_SYSTEM. */
 int fl_leaving_collect(fl_leaving *l, const fl_world *w, fl_err *err);
 
 /* Energy that goes with them [J]: kinetic, potential, of their contacts along the normal (friction keeps what

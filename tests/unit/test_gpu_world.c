@@ -274,8 +274,8 @@ static void inflow_and_outflow_have_the_bits_of_the_cpu(void **state)
     runs_alike(scene_of_inflow, 3, NULL, fl_gpu_serial(), 600, 0);
 }
 
-/* Spheres that leave one by one and touch others: of a stream that is pushed from behind; with `law` of a sheet
- * whose bonds hold. */
+/* Spheres that leave one by one and touch others: of a stream that is pushed from behind; with `law`, the
+ * strength of bonds, of a sheet that breaks. */
 static void scene_of_outflow(lab *l, int32_t side, const char *law)
 {
     if (law) {
