@@ -289,8 +289,8 @@ static void scene_of_outflow(lab *l, int32_t side, const char *law)
     }
     scene_of_pack(l, side, "0.1");
     lab_set(l, "material.ice.young=100 kPa"), lab_set(l, "run.gravity=0 0 0");
-    lab_set(l, "boundary.type=free"), lab_set(l, "boundary.min=none none none");
-    lab_setf(l, "boundary.max=%d none none", side);
+    lab_set(l, "boundary.type=free periodic free"), lab_set(l, "boundary.min=none 0 none");
+    lab_setf(l, "boundary.max=%d %d none", side, side);
     for (int32_t k = 0; k < l->field.n; k++) l->field.velocity[k].x += 2.0 * (side - l->field.core[k].v[0].x);
 }
 
