@@ -13,7 +13,7 @@
 #include "gpu/gpu_view.h"
 
 /* Raised when fl_gpu_view, the kernels or this table change: a plug-in of another version is refused. */
-#define FL_GPU_VERSION 5
+#define FL_GPU_VERSION 6
 
 #ifdef __cplusplus
 extern "C" {

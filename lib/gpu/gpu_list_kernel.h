@@ -59,9 +59,11 @@ static inline void fl_gpu_cell_of(const fl_gpu_view *a, fl_vec3 x, int32_t c[3])
 static inline void fl_gpu_make_key(const fl_gpu_view *a, int32_t k)
 {
     int32_t c[3];
-    fl_gpu_cell_of(a, a->state[k].x, c);
-    a->key[k] = a->host[k] == FL_GPU_EMPTY ? UINT64_MAX : fl_gpu_key_of(c); /* of no cell */
+    a->key[k] = UINT64_MAX; /* of no cell */
     a->order[k] = k;
+    if (a->host[k] == FL_GPU_EMPTY) return;
+    fl_gpu_cell_of(a, a->state[k].x, c);
+    a->key[k] = fl_gpu_key_of(c);
 }
 
 /* First place whose key is not below. */

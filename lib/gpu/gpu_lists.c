@@ -98,5 +98,6 @@ int fl_gpu_lists_make(struct fl_gpu_world *g, const fl_world *w, fl_err *err)
     g->v.rows = rows;
     g->has_listed |= rows > 0;
     g->rows_newer = 1;
+    g->rows_dead = 0;
     return ROOM(link, links) || LAUNCH(LINK_ROWS, w->n) || LAUNCH(FORGET_ENDED, w->discs.n) ? -1 : 0;
 }

@@ -28,6 +28,7 @@ struct fl_gpu_world {
     int makes_lists; /* the rows are listed on the device */
     int has_listed;  /* a row or a contact with a wall */
     int rows_newer;  /* the rows of the world are those of a list before */
+    int rows_dead;   /* the device has rows of bodies that have left */
     int32_t n;       /* bodies of the arrays below */
     uint8_t *host;
     int32_t *guest, *guest_disc;

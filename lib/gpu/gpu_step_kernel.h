@@ -424,6 +424,22 @@ static inline void fl_gpu_second_half(const fl_gpu_view *a, int32_t k)
     fl_gpu_note_finite(a, k, f, t, end);
 }
 
+/* After a partner has left, between two steps: sums and forces without it. */
+static inline void fl_gpu_sum_again(const fl_gpu_view *a, int32_t e)
+{
+    const int32_t k = a->again[e];
+    if (a->host[k]) return;
+    fl_sphere_sum s;
+    const int32_t touching = fl_gpu_sum(a, k, &s);
+    fl_vec3 f = v3_scale(a->m[k], a->gravity), t = v3(0, 0, 0);
+    if (a->floats) f = v3_add(f, v3(0, 0, a->buoyancy[k]));
+    f = v3_add(f, v3_add(v3_add(s.elastic, s.damping), s.friction));
+    t = v3_add(t, s.torque);
+    fl_gpu_add_discs(a, k, &f, &t);
+    a->f[k] = f, a->t[k] = t, a->sum[k] = s;
+    a->contact_count[k] = touching;
+}
+
 static inline void fl_gpu_take_guest_work(const fl_gpu_view *a, int32_t g)
 {
     const int32_t k = a->guest[g];

@@ -153,6 +153,8 @@ typedef struct {
     fl_interval *free_interval;
     const int32_t *tile; /* of rows on meshes */
 
+    const int32_t *again; /* bodies whose sums are computed again, after a partner has left */
+
     /* guests */
     const int32_t *guest; /* [guests] */
     fl_gpu_guest_state *guest_state;
@@ -198,6 +200,7 @@ typedef struct {
     X(TELL_GUESTS, fl_gpu_tell_guest)     /* a guest: its sums */                                            \
     X(TELL_DISCS, fl_gpu_tell_guest_disc) /* a bond of a guest */                                            \
     X(SECOND_HALF, fl_gpu_second_half)    /* a body: sums, water, kick, drag, works */                       \
+    X(SUM_AGAIN, fl_gpu_sum_again)        /* a body that a partner has left: sums and forces */              \
     X(TAKE_WORKS, fl_gpu_take_guest_work) /* a guest: works */                                               \
     X(BLOCKS, fl_gpu_block)               /* a block: works and contact forces of its bodies */              \
     X(CHUNKS, fl_gpu_chunk)               /* a chunk: totals of its contacts, loads on walls */              \

@@ -377,7 +377,7 @@ int fl_gpu_world_upload(fl_gpu_world *g, fl_world *w, fl_err *err)
     if (g->uploaded && g->makes_lists) return give_guests(g, w, err) || fl_gpu_lists_make(g, w, err) ? -1 : 0;
     if (put_rows(g, w, err) || put_links(g, w, err) || put_discs(g, w, err)) return -1;
     g->makes_lists = fl_gpu_lists_apply(w);
-    g->rows_newer = 0;
+    g->rows_newer = g->rows_dead = 0;
     g->uploaded = 1;
     return 0;
 }
@@ -443,7 +443,8 @@ static int get_rows(fl_gpu_world *g, fl_world *w, fl_err *err)
         (s->rolling && GET(rolling, s->rolling, s->n)))
         return -1;
     if (g->rows_newer && fl_contact_list_offsets(w, err)) return -1;
-    g->rows_newer = 0;
+    if (g->rows_dead && fl_contact_list_drop_absent(w) && fl_contact_list_offsets(w, err)) return -1;
+    g->rows_newer = g->rows_dead;
     return 0;
 }
 

@@ -2,6 +2,7 @@
 #include "sim/device_step.h"
 #include <stdio.h>
 #include "base/array.h"
+#include "gpu/gpu_outflow.h"
 #include "gpu/gpu_world.h"
 #include "sim/first_half.h"
 #include "sim/second_half.h"
@@ -84,8 +85,11 @@ int fl_device_hand_over(fl_world *w, fl_err *err)
     if (!w->device.gpu) return 0;
     if (fl_device_refresh(w, err)) return -1;
     fl_gpu_world_forget(w->device.gpu);
+    w->device.hand_overs++;
     return 0;
 }
+
+int64_t fl_device_hand_overs(const fl_world *w) { return w->device.hand_overs; }
 
 int fl_device_moves(const fl_world *w, int32_t i)
 {
@@ -98,6 +102,16 @@ int fl_device_release(const fl_world *w, int32_t i, fl_err *err)
 }
 
 int fl_device_leaves(const fl_world *w) { return w->device.gpu && fl_gpu_world_leaves(w->device.gpu); }
+
+int fl_device_find_leaving(fl_world *w, fl_leaving *l, fl_err *err)
+{
+    return w->device.gpu ? fl_gpu_world_find_leaving(w->device.gpu, w, l, err) : 0;
+}
+
+int fl_device_drop(fl_world *w, const fl_leaving *l, fl_err *err)
+{
+    return fl_gpu_world_drop(w->device.gpu, w, l, err);
+}
 
 int32_t fl_device_guests(const fl_world *w)
 {

@@ -6,6 +6,7 @@
  * and bonds of the world are old: fl_device_refresh() is due before anything but loads is read. */
 #ifndef FL_SIM_DEVICE_STEP_H
 #define FL_SIM_DEVICE_STEP_H
+#include "sphere/leaving.h"
 #include "world/world.h"
 
 enum { FL_DEVICE_NOTE = 400 };
@@ -21,10 +22,18 @@ int fl_device_refresh(fl_world *w, fl_err *err);
 
 /* Brings it up to date for changes between two steps, which the device takes over before the next. */
 int fl_device_hand_over(fl_world *w, fl_err *err);
+/* Number of times that has been done. */
+int64_t fl_device_hand_overs(const fl_world *w);
 
 /* 1 if the device moves body i, whose state in the world is old; and if one of those has left the domain. */
 int fl_device_moves(const fl_world *w, int32_t i);
 int fl_device_leaves(const fl_world *w);
+
+/* Finds the bodies of the device that have left the domain, and brings them and their partners down.  1; 0 if
+ * all have to come down for that; -1 with FL_SYSTEM. */
+int fl_device_find_leaving(fl_world *w, fl_leaving *l, fl_err *err);
+/* After they have been taken out of the world: the device goes on without them. */
+int fl_device_drop(fl_world *w, const fl_leaving *l, fl_err *err);
 
 /* Body i, which came in, is guided no more. */
 int fl_device_release(const fl_world *w, int32_t i, fl_err *err);

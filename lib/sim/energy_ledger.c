@@ -227,27 +227,30 @@ void fl_ledger_book_step(fl_world *w)
     g->drive += w->dt * drive_power(w);
 }
 
-fl_work fl_work_ahead(const fl_world *w)
+void fl_work_ahead_add(const fl_world *w, int32_t k, fl_work *sum)
 {
     const double h = 0.5 * w->dt, sixth = w->dt * w->dt / 6.0;
-    fl_work sum = {.drive = h * drive_power(w)};
-    for (int32_t k = 0; k < w->b.total; k++) {
-        const fl_contact_sum *s = fl_sums_now(w, k);
-        const int has_sphere_sum = w->spheres.bodies && k < w->n;
-        if (s->contacts == 0 && !has_sphere_sum) continue;
-        const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
-        const fl_velocity_change a = acceleration_of(w, k);
-        if (has_sphere_sum) {
-            const fl_sphere_sum *q = &w->spheres.sum[k];
-            sum.damping -= h * v3_dot(q->damping, v) + sixth * v3_dot(q->damping, a.v);
-            sum.friction -= h * power_of(q->friction, q->torque, v, spin) +
-                            sixth * power_of(q->friction, q->torque, a.v, a.w);
-        }
-        if (s->contacts == 0) continue;
-        sum.damping -= h * power_of(s->damping, s->damping_torque, v, spin) +
-                       sixth * power_of(s->damping, s->damping_torque, a.v, a.w);
-        sum.friction -= h * power_of(s->friction, s->friction_torque, v, spin) +
-                        sixth * power_of(s->friction, s->friction_torque, a.v, a.w);
+    const fl_contact_sum *s = fl_sums_now(w, k);
+    const int has_sphere_sum = w->spheres.bodies && k < w->n;
+    if (s->contacts == 0 && !has_sphere_sum) return;
+    const fl_vec3 v = w->b.v[k], spin = w->b.w[k];
+    const fl_velocity_change a = acceleration_of(w, k);
+    if (has_sphere_sum) {
+        const fl_sphere_sum *q = &w->spheres.sum[k];
+        sum->damping -= h * v3_dot(q->damping, v) + sixth * v3_dot(q->damping, a.v);
+        sum->friction -= h * power_of(q->friction, q->torque, v, spin) +
+                         sixth * power_of(q->friction, q->torque, a.v, a.w);
     }
+    if (s->contacts == 0) return;
+    sum->damping -= h * power_of(s->damping, s->damping_torque, v, spin) +
+                    sixth * power_of(s->damping, s->damping_torque, a.v, a.w);
+    sum->friction -= h * power_of(s->friction, s->friction_torque, v, spin) +
+                     sixth * power_of(s->friction, s->friction_torque, a.v, a.w);
+}
+
+fl_work fl_work_ahead(const fl_world *w)
+{
+    fl_work sum = {.drive = 0.5 * w->dt * drive_power(w)};
+    for (int32_t k = 0; k < w->b.total; k++) fl_work_ahead_add(w, k, &sum);
     return sum;
 }

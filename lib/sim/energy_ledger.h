@@ -47,4 +47,7 @@ void fl_ledger_book_step(fl_world *w);
  * these are the works done until now. */
 fl_work fl_work_ahead(const fl_world *w);
 
+/* Adds the part of thing k to it, but for the drive. */
+void fl_work_ahead_add(const fl_world *w, int32_t k, fl_work *sum);
+
 #endif

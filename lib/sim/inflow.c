@@ -455,6 +455,65 @@ static int take_out(fl_world *w, const uint8_t *gone, fl_err *err)
     return 0;
 }
 
+/* The works ahead of the bodies of l and of those that they touch. */
+static fl_work works_ahead(const fl_leaving *l, const fl_world *w)
+{
+    fl_work sum = {0};
+    for (int32_t k = 0; k < l->n_touched; k++) fl_work_ahead_add(w, l->touched[k], &sum);
+    return sum;
+}
+
+/* Books the energy that the bodies of l took with them, and what their contacts will not do any more; before:
+ * the works ahead with them. */
+static void book_leaving(fl_world *w, const fl_leaving *l, double energy, fl_work before)
+{
+    const fl_work after = works_ahead(l, w);
+    w->ledger.damping -= before.damping - after.damping;
+    w->ledger.friction -= before.friction - after.friction;
+    w->ledger.carried -= energy;
+}
+
+/* Takes out the bodies of the device that are outside, while the others stay there.  1; 0 if all have to come
+ * down; -1. */
+static int leave_on_device(fl_world *w, fl_err *err)
+{
+    fl_leaving l = {0};
+    int rc = fl_device_find_leaving(w, &l, err);
+    if (rc == 1 && l.bodies) {
+        const double energy = fl_leaving_energy(&l, w);
+        const fl_work before = works_ahead(&l, w);
+        for (int32_t k = 0; k < l.bodies; k++) remove_floe(w, l.body[k]);
+        fl_leaving_end_discs(&l, w);
+        for (int32_t k = 0; k < l.bodies; k++) w->spheres.sum[l.body[k]] = (fl_sphere_sum){0};
+        if (fl_device_drop(w, &l, err)) rc = -1;
+        else book_leaving(w, &l, energy, before);
+    }
+    fl_leaving_free(&l);
+    return rc;
+}
+
+/* Takes out the floes outside and books what they take with them, if that is known of each.  1; 0 if not:
+ * they are still there; -1. */
+static int leave_one_by_one(fl_world *w, fl_err *err)
+{
+    fl_leaving l = {0};
+    int rc = 1;
+    for (int32_t i = 0; i < w->n && rc == 1; i++)
+        if (!w->inflow.absent[i] && !w->inflow.guided[i] && is_outside(w, i) &&
+            fl_leaving_add_body(&l, i, err))
+            rc = -1;
+    if (rc == 1 && l.bodies) rc = fl_leaving_collect(&l, w, err);
+    if (rc == 1 && l.bodies) {
+        const double energy = fl_leaving_energy(&l, w);
+        const fl_work before = works_ahead(&l, w);
+        for (int32_t k = 0; k < l.bodies; k++) remove_floe(w, l.body[k]);
+        if (drop_pairs(w, err)) rc = -1;
+        else book_leaving(w, &l, energy, before);
+    }
+    fl_leaving_free(&l);
+    return rc;
+}
+
 int fl_inflow_remove(fl_world *w, const uint8_t *gone, fl_err *err)
 {
     fl_ledger *g = &w->ledger;
@@ -474,18 +533,27 @@ int fl_inflow_step(fl_world *w, fl_err *err)
 {
     fl_inflow_state *t = &w->inflow;
     fl_ledger *g = &w->ledger;
-    int leaving = t->leaves && fl_device_leaves(w), came = 0;
+    int came = 0;
     int32_t place = 0;
     if (t->feed && release_guided(w, err)) return -1;
-    if (!leaving) leaving = some_leaves(w);
-    if (!leaving && !is_due(w)) return 0;
+    const int due = is_due(w), of_cpu = some_leaves(w), of_device = t->leaves && fl_device_leaves(w);
+    if (of_device && !of_cpu && !due && fl_leaving_has_books(w)) {
+        const int done = leave_on_device(w, err);
+        if (done) return done < 0 ? -1 : 0;
+    }
+    int leaving = of_cpu || of_device;
+    if (!leaving && !due) return 0;
     if (fl_device_hand_over(w, err)) return -1;
+    if (leaving) {
+        const int done = leave_one_by_one(w, err);
+        if (done < 0) return -1;
+        leaving = !done;
+        if (done && !due) return 0;
+    }
     fl_sleep_advance_to_now(w);
     fl_energy_update(w);
     const double residual = g->residual, throughput = g->throughput;
-    if (leaving) {
-        if (take_out(w, NULL, err)) return -1;
-    }
+    if (leaving && take_out(w, NULL, err)) return -1;
     if (is_due(w) && fl_inflow_bonds_renew(w, err)) return -1;
     for (int32_t k = 0; t->feed && k < t->feed->n; k++)
         if (place_due(w, k, &place, &came, err)) return -1;

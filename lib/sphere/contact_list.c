@@ -349,7 +349,7 @@ int fl_contact_list_append(fl_world *w, int32_t i, int32_t j, const int32_t imag
     return 0;
 }
 
-int fl_contact_list_remove_absent(fl_world *w, fl_err *err)
+int fl_contact_list_drop_absent(fl_world *w)
 {
     fl_sphere_contacts *s = &w->spheres;
     int32_t kept = 0;
@@ -364,9 +364,15 @@ int fl_contact_list_remove_absent(fl_world *w, fl_err *err)
         if (s->image) memmove(&s->image[3 * kept], &s->image[3 * c], 3 * sizeof *s->image);
         kept++;
     }
-    if (!fl_wall_list_remove_absent(w) && kept == s->n) return 0;
+    const int dropped = kept < s->n;
     s->n = kept;
-    return fl_contact_list_index(w, err);
+    return dropped;
+}
+
+int fl_contact_list_remove_absent(fl_world *w, fl_err *err)
+{
+    const int walls = fl_wall_list_remove_absent(w), rows = fl_contact_list_drop_absent(w);
+    return walls || rows ? fl_contact_list_index(w, err) : 0;
 }
 
 int fl_contact_list_resize(fl_world *w, int32_t n, fl_err *err)

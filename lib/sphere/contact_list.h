@@ -27,6 +27,9 @@ int fl_contact_list_append(fl_world *w, int32_t i, int32_t j, const int32_t imag
 /* Removes the contacts of bodies that have left the domain, and recomputes the sums.  -1 with FL_SYSTEM. */
 int fl_contact_list_remove_absent(fl_world *w, fl_err *err);
 
+/* Removes those of two spheres; 1 if there were some: offsets and sums are old then. */
+int fl_contact_list_drop_absent(fl_world *w);
+
 /* Computes offsets and slots, and the sums from the stored forces.  -1 with FL_SYSTEM. */
 int fl_contact_list_index(fl_world *w, fl_err *err);
 

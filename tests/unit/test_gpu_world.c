@@ -274,6 +274,49 @@ static void inflow_and_outflow_have_the_bits_of_the_cpu(void **state)
     runs_alike(scene_of_inflow, 3, NULL, fl_gpu_serial(), 600, 0);
 }
 
+/* Spheres that leave one by one and touch others: of a stream that is pushed from behind; with `law`, the
+ * strength of bonds, of a sheet that breaks. */
+static void scene_of_outflow(lab *l, int32_t side, const char *law)
+{
+    if (law) {
+        scene_of_sheet(l, side, NULL);
+        lab_setf(l, "bond.normal_strength=%s", law), lab_setf(l, "bond.shear_strength=%s", law);
+        lab_set(l, "water.current=-4 0 0");
+        lab_set(l, "boundary.drive_width=none"), lab_set(l, "boundary.drive=0");
+        lab_set(l, "boundary.min=-1.55 none none");
+        for (int32_t k = 0; k < l->field.n; k++) l->field.velocity[k].x -= 5.0;
+        return;
+    }
+    scene_of_pack(l, side, "0.1");
+    lab_set(l, "material.ice.young=100 kPa"), lab_set(l, "run.gravity=0 0 0");
+    lab_set(l, "boundary.type=free periodic free"), lab_set(l, "boundary.min=none 0 none");
+    lab_setf(l, "boundary.max=%d %d none", side, side);
+    for (int32_t k = 0; k < l->field.n; k++) l->field.velocity[k].x += 2.0 * (side - l->field.core[k].v[0].x);
+}
+
+/* Bodies leave, each in a step of its own, and the others stay on the device. */
+static void leaves_one_by_one(const char *law, int32_t side, int64_t steps, const fl_gpu_engine *e)
+{
+    lab l;
+    runs_alike(scene_of_outflow, side, law, e, steps, 0);
+    scene_of_outflow(&l, side, law);
+    lab_make(&l, 0.0);
+    take_device(&l.w, e);
+    lab_run(&l, steps);
+    print_message("%lld left, %lld lists, %lld hand-overs\n", (long long)l.w.inflow.n_left,
+                  (long long)l.w.searches, (long long)fl_device_hand_overs(&l.w));
+    assert_true(l.w.inflow.n_left > 10);
+    assert_int_equal(fl_device_hand_overs(&l.w), 0); /* and so no more than lists */
+    lab_free(&l);
+}
+
+static void bodies_leave_one_by_one(void **state)
+{
+    (void)state;
+    leaves_one_by_one(NULL, 4, 400, fl_gpu_serial());
+    leaves_one_by_one("45 kPa", 4, 1800, fl_gpu_serial_backwards());
+}
+
 /* Names what does not run there. */
 static void what_is_not_there_is_refused(void **state)
 {
@@ -356,6 +399,7 @@ int main(void)
         cmocka_unit_test(a_run_may_change_its_device),
         cmocka_unit_test(other_waters_have_the_bits_of_the_cpu),
         cmocka_unit_test(inflow_and_outflow_have_the_bits_of_the_cpu),
+        cmocka_unit_test(bodies_leave_one_by_one),
         cmocka_unit_test(what_is_not_there_is_refused),
         cmocka_unit_test(a_lost_card_ends_the_run),
         cmocka_unit_test(too_little_memory_is_said),
