@@ -206,8 +206,12 @@ void fl_disc_list_end_absent(fl_world *w)
 {
     fl_disc_list *s = &w->discs;
     for (int32_t k = 0; k < s->n; k++) {
-        if (s->has_ended[k] || !(fl_body_absent(w, s->at.i[k]) || fl_body_absent(w, s->at.j[k]))) continue;
-        s->has_ended[k] = FL_DISC_ENDED; /* its stored energy leaves with the sphere */
+        if (s->has_ended[k] == FL_DISC_ENDED ||
+            !(fl_body_absent(w, s->at.i[k]) || fl_body_absent(w, s->at.j[k])))
+            continue;
+        if (s->has_ended[k] == FL_DISC_JUST_ENDED)
+            s->pending[k] = 0.0, s->ended--; /* no contact follows it */
+        s->has_ended[k] = FL_DISC_ENDED;     /* its stored energy leaves with the sphere */
         s->at.is_whole[k] = 0;
         s->at.out[k] = (fl_disc_wrench){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     }

@@ -107,10 +107,11 @@ static int collect(fl_leaving *l, const fl_world *w, const uint8_t *gone, fl_err
         if (s->image) memcpy(row.image, &s->image[3 * (int64_t)c], sizeof row.image);
         if (fl_leaving_add_row(l, &row, err)) return -1;
     }
-    for (int32_t k = 0; k < d->n; k++)
-        if (d->has_ended[k] == FL_DISC_STANDS && (gone[d->at.i[k]] || gone[d->at.j[k]]) &&
-            fl_leaving_add_disc(l, w, k, err))
-            return -1;
+    for (int32_t k = 0; k < d->n; k++) {
+        if (d->has_ended[k] == FL_DISC_ENDED || !(gone[d->at.i[k]] || gone[d->at.j[k]])) continue;
+        if (d->has_ended[k] == FL_DISC_JUST_ENDED) return 0; /* its contact is not listed yet */
+        if (fl_leaving_add_disc(l, w, k, err)) return -1;
+    }
     fl_leaving_sort(l);
     return 1;
 }

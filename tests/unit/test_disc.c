@@ -7,6 +7,7 @@
 #include "bond/disc_batch.h"
 #include "contact/bond_list.h"
 #include "sim/energy_balance.h"
+#include "sim/inflow.h"
 #include "sphere/contact_list.h"
 #include "support/near.h"
 #include "support/small_world.h"
@@ -289,22 +290,28 @@ static void a_breaking_cluster_keeps_its_books(void **state)
 }
 
 /* A sphere that leaves takes its bond and the energy in it. */
-static void a_sphere_that_leaves_loses_its_bond(void **state)
+/* A chain of three spheres that goes towards a free bound. */
+static void chain_at_free_bound(lab *l)
 {
     fl_err err = {0};
+    lab_start(l);
+    lab_set(l, "bond.on=true");
+    lab_set(l, "bond.normal_strength=none");
+    lab_set(l, "bond.shear_strength=none");
+    lab_set(l, "boundary.type=free rigid rigid");
+    lab_set(l, "boundary.min=-9 none none");
+    lab_set(l, "boundary.max=1.02 none none");
+    for (int k = 0; k < 3; k++) lab_sphere(l, v3(k - 1.1, 0, 0), 0.5, v3(4, 0.01 * k, 0), ZERO);
+    for (int k = 0; k < 2; k++)
+        assert_int_equal(fl_ice_field_add_bond(&l->field, k, k + 1, 0.7, 1.0, v3(k - 0.6, 0, 0), &err), 0);
+    lab_make(l, 0);
+}
+
+static void a_sphere_that_leaves_loses_its_bond(void **state)
+{
     lab l;
     (void)state;
-    lab_start(&l);
-    lab_set(&l, "bond.on=true");
-    lab_set(&l, "bond.normal_strength=none");
-    lab_set(&l, "bond.shear_strength=none");
-    lab_set(&l, "boundary.type=free rigid rigid");
-    lab_set(&l, "boundary.min=-9 none none");
-    lab_set(&l, "boundary.max=1.02 none none");
-    for (int k = 0; k < 3; k++) lab_sphere(&l, v3(k - 1.1, 0, 0), 0.5, v3(4, 0.01 * k, 0), ZERO);
-    for (int k = 0; k < 2; k++)
-        assert_int_equal(fl_ice_field_add_bond(&l.field, k, k + 1, 0.7, 1.0, v3(k - 0.6, 0, 0), &err), 0);
-    lab_make(&l, 0);
+    chain_at_free_bound(&l);
     for (int k = 0; k < 20000 && l.w.inflow.n_left == 0; k++) assert_int_equal(lab_run(&l, 1), 0);
     assert_int_equal(l.w.inflow.n_left, 1);
     assert_int_equal(l.w.discs.has_ended[1], FL_DISC_ENDED);
@@ -312,6 +319,27 @@ static void a_sphere_that_leaves_loses_its_bond(void **state)
     assert_int_equal(lab_run(&l, 50), 0);
     fl_energy_update(&l.w);
     assert_near_of(l.w.ledger.residual, 0, 1e-4, l.w.ledger.throughput);
+    lab_free(&l);
+}
+
+/* A bond whose sphere leaves in the step of its end has no contact after it. */
+static void a_bond_that_ends_as_its_sphere_leaves_gets_no_contact(void **state)
+{
+    fl_err err = {0};
+    lab l;
+    (void)state;
+    chain_at_free_bound(&l);
+    assert_int_equal(lab_run(&l, 3), 0);
+    fl_disc_list *const s = &l.w.discs;
+    s->has_ended[1] = FL_DISC_JUST_ENDED, s->at.is_whole[1] = 0, s->pending[1] = 7.0, s->ended++;
+    l.w.b.x[2].x = 9.0;
+    assert_int_equal(fl_inflow_step(&l.w, &err), 0);
+    assert_int_equal(l.w.inflow.n_left, 1);
+    assert_int_equal(s->ended, 0);
+    assert_int_equal(s->has_ended[1], FL_DISC_ENDED);
+    assert_true(s->pending[1] == 0.0);
+    assert_int_equal(lab_run(&l, 3), 0);
+    for (int32_t c = 0; c < l.w.spheres.n; c++) assert_true(l.w.spheres.i[c] != 2 && l.w.spheres.j[c] != 2);
     lab_free(&l);
 }
 
@@ -326,6 +354,7 @@ int main(void)
         cmocka_unit_test(lanes_have_the_bits_of_one),
         cmocka_unit_test(a_breaking_cluster_keeps_its_books),
         cmocka_unit_test(a_sphere_that_leaves_loses_its_bond),
+        cmocka_unit_test(a_bond_that_ends_as_its_sphere_leaves_gets_no_contact),
     };
     return cmocka_run_group_tests_name("disc", tests, NULL, NULL);
 }
