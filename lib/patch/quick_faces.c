@@ -82,8 +82,8 @@ FL_SIMD_INLINE void clip_convex(face_pair *q, uint64_t outside, int32_t side)
     q->corners = n - out + 2;
 }
 
-/* The same wherever corners are outside.  A convex polygon gains one corner at most, one that rounding has bent
- * may gain more: what has no room is left out. */
+/* The same wherever corners are outside.  A convex polygon gains one corner at most.  One that rounding has
+ * bent may gain more: what has no room is left out. */
 static void clip_any(face_pair *q, int32_t side)
 {
     const outline to = q->spare;
