@@ -188,11 +188,20 @@ static void add_contact(const fl_packing *p, body_sums *b, int32_t i, double del
     if (delta > b->sum->max_overlap * size) b->sum->max_overlap = delta / size;
 }
 
+/* Contacts of a ball of body i round x: its centre, or a corner, which one step can take outside by more
+ * than the radius of the ball. */
+static int wall_contacts(const fl_overlaps *o, int32_t i, fl_vec3 x, fl_region_contact c[FL_REGION_CONTACTS])
+{
+    const double s = o->p->s;
+    const int n = fl_region_contacts(o->region, x, s * o->p->radius[i], c);
+    return n ? n : fl_region_way_back(o->region, x, 2.0 * s * o->p->bound[i], c);
+}
+
 static void sphere_walls(const fl_overlaps *o, body_sums *b, int32_t i)
 {
     fl_region_contact c[FL_REGION_CONTACTS];
     const double r = o->p->s * o->p->radius[i];
-    const int n = fl_region_contacts(o->region, o->p->x[i], r, c);
+    const int n = wall_contacts(o, i, o->p->x[i], c);
     for (int k = 0; k < n; k++) {
         add_contact(o->p, b, i, r - c[k].gap, c[k].n, r, 1.0);
         b->wall[c[k].wall] += r - c[k].gap;
@@ -380,7 +389,7 @@ static void shape_walls(const fl_overlaps *o, body_sums *b, int32_t i)
     const double radius = p->s * p->radius[i];
     for (int32_t v = o->corner_first[i]; v < o->corner_first[i + 1]; v++) {
         fl_region_contact c[FL_REGION_CONTACTS];
-        const int n = fl_region_contacts(r, o->corner[v], radius, c);
+        const int n = wall_contacts(o, i, o->corner[v], c);
         for (int k = 0; k < n; k++) {
             if (c[k].feature >= 0 && c[k].gap > 0.0 && r->feature[c[k].feature].corners < r->dim) continue;
             const fl_vec3 arm = v3_madd(v3_sub(o->corner[v], p->x[i]), -radius, c[k].n);
@@ -588,7 +597,7 @@ void fl_overlaps_each(const fl_overlaps *o, fl_overlap_call *call, void *with)
         const int32_t from = p->q ? o->corner_first[i] : i, to = p->q ? o->corner_first[i + 1] : i + 1;
         for (int32_t v = from; v < to; v++) {
             const double r = s * p->radius[i];
-            const int n = fl_region_contacts(o->region, p->q ? o->corner[v] : p->x[i], r, c);
+            const int n = wall_contacts(o, i, p->q ? o->corner[v] : p->x[i], c);
             for (int k = 0; k < n; k++) call(with, i, -1 - c[k].wall, c[k].n, r - c[k].gap);
         }
     }

@@ -143,6 +143,11 @@ int fl_region_contacts(const fl_pack_region *r, fl_vec3 x, double reach,
     }
 }
 
+int fl_region_way_back(const fl_pack_region *r, fl_vec3 x, double depth, fl_region_contact *out)
+{
+    return r->kind == FL_REGION_FEATURES && nearest_feature(r, x, depth, out) && out->gap < 0.0;
+}
+
 double fl_region_distance(const fl_pack_region *r, fl_vec3 x, double reach)
 {
     fl_region_contact c[FL_REGION_CONTACTS];

@@ -91,6 +91,11 @@ double fl_region_distance(const fl_pack_region *r, fl_vec3 x, double reach);
 int fl_region_contacts(const fl_pack_region *r, fl_vec3 x, double reach,
                        fl_region_contact out[FL_REGION_CONTACTS]);
 
+/* Way back of a point that is outside by less than depth, and may be by more than the reach of the contacts
+ * that were sought: 1, with the nearest place of the boundary in *out, its gap being negative; 0 inside.
+ * Contacts with a box, a cylinder and a sphere have it at any depth: 0. */
+int fl_region_way_back(const fl_pack_region *r, fl_vec3 x, double depth, fl_region_contact *out);
+
 /* Shortest vector equal to d up to periods. */
 fl_vec3 fl_region_wrap(const fl_pack_region *r, fl_vec3 d);
 

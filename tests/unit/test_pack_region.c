@@ -55,6 +55,12 @@ static void a_reflex_corner_is_one_contact(void **state)
     assert_int_equal(fl_region_contacts(&r, v3(3, 2.1, 0), 0.5, c), 1);
     assert_near(c[0].gap, -0.1, 1e-13);
     assert_near(c[0].n.y, -1.0, 1e-14);
+    /* beyond it by more than the reach */
+    assert_int_equal(fl_region_contacts(&r, v3(3, 2.1, 0), 0.05, c), 0);
+    assert_int_equal(fl_region_way_back(&r, v3(3, 2.1, 0), 0.5, c), 1);
+    assert_near(c[0].gap, -0.1, 1e-13);
+    assert_int_equal(fl_region_way_back(&r, v3(3, 2.1, 0), 0.05, c), 0);
+    assert_int_equal(fl_region_way_back(&r, v3(3, 1.9, 0), 0.5, c), 0);
     /* beyond the reflex corner, in the solid */
     assert_near(fl_region_distance(&r, v3(2.3, 2.2, 0), INFINITY), -0.2, 1e-13);
     assert_near(fl_region_distance(&r, v3(-3, -4, 0), INFINITY), -5.0, 1e-13);
