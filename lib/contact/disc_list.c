@@ -202,19 +202,22 @@ double fl_disc_list_omega2(const fl_world *w, int32_t k)
     return sum < s->max_omega2[k] ? sum : s->max_omega2[k];
 }
 
-void fl_disc_list_end_absent(fl_world *w)
+void fl_disc_list_end_leaving(fl_world *w, int32_t k)
 {
     fl_disc_list *s = &w->discs;
-    for (int32_t k = 0; k < s->n; k++) {
-        if (s->has_ended[k] == FL_DISC_ENDED ||
-            !(fl_body_absent(w, s->at.i[k]) || fl_body_absent(w, s->at.j[k])))
-            continue;
-        if (s->has_ended[k] == FL_DISC_JUST_ENDED)
-            s->pending[k] = 0.0, s->ended--; /* no contact follows it */
-        s->has_ended[k] = FL_DISC_ENDED;     /* its stored energy leaves with the sphere */
-        s->at.is_whole[k] = 0;
-        s->at.out[k] = (fl_disc_wrench){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    }
+    if (s->has_ended[k] == FL_DISC_JUST_ENDED) s->pending[k] = 0.0, s->ended--; /* no contact follows it */
+    s->has_ended[k] = FL_DISC_ENDED;
+    s->at.is_whole[k] = 0;
+    s->at.out[k] = (fl_disc_wrench){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+}
+
+void fl_disc_list_end_absent(fl_world *w)
+{
+    const fl_disc_list *s = &w->discs;
+    for (int32_t k = 0; k < s->n; k++)
+        if (s->has_ended[k] != FL_DISC_ENDED &&
+            (fl_body_absent(w, s->at.i[k]) || fl_body_absent(w, s->at.j[k])))
+            fl_disc_list_end_leaving(w, k);
 }
 
 fl_disc_load fl_disc_list_load(const fl_world *w, int32_t k)

@@ -47,6 +47,9 @@ void fl_disc_list_forget_ended(fl_world *w);
 double fl_disc_list_max_omega2(const fl_world *w, int32_t k);
 double fl_disc_list_omega2(const fl_world *w, int32_t k);
 
+/* Ends bond k, one body of which leaves the domain: its stored energy leaves with it. */
+void fl_disc_list_end_leaving(fl_world *w, int32_t k);
+
 /* Ends the bonds of bodies that have left the domain. */
 void fl_disc_list_end_absent(fl_world *w);
 

@@ -10,9 +10,6 @@
 #include "law/normal.h"
 #include "law/sphere_kernel.h"
 
-/* Number of contacts in one line, as in sphere/contact_force.c. */
-static inline double fl_gpu_in_line(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
-
 static inline fl_sphere_motion fl_gpu_motion(const fl_gpu_view *a, int32_t k)
 {
     fl_sphere_motion q;

@@ -263,7 +263,7 @@ static inline void fl_gpu_near_first_half(const fl_gpu_view *a, int32_t k, fl_gp
     fl_gpu_acceleration(a, k, b->hold, h, &dv, &dw);
     if (a->floats) dv = v3_add(dv, v3_sub(dragged.v, before.v)), dw = v3_add(dw, v3_sub(dragged.w, before.w));
     const double invm = a->invm[k], r = a->state[k].r,
-                 n = fl_gpu_in_line(a->contact_count[k] + (int32_t)b->before.contacts);
+                 n = fl_sphere_contacts_in_line(a->contact_count[k] + (int32_t)b->before.contacts);
     const int stands = (b->hold & (FL_DOF_X | FL_DOF_Y | FL_DOF_Z)) != 0;
     fl_sphere_state s;
     s.x = x, s.r = r, s.v = now.v, s.inv_mass = a->heave_mass || stands ? NAN : invm;

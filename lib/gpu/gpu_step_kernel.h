@@ -26,7 +26,7 @@ static inline void fl_gpu_show(const fl_gpu_view *a, int32_t k, fl_vec3 x, fl_sp
         a->heave_mass ? v3(invm * f.x, invm * f.y, f.z / (a->m[k] + a->heave_mass[k])) : v3_scale(invm, f);
     fl_vec3 dv = v3_scale(h, acceleration), dw = v3_scale(h, v3_scale(turn, a->t[k]));
     if (a->floats) dv = v3_add(dv, v3_sub(dragged.v, before.v)), dw = v3_add(dw, v3_sub(dragged.w, before.w));
-    const double n = fl_gpu_in_line(a->contact_count[k]);
+    const double n = fl_sphere_contacts_in_line(a->contact_count[k]);
     fl_sphere_state s;
     s.x = x, s.r = r, s.v = now.v, s.inv_mass = a->heave_mass ? NAN : invm;
     s.w = now.w, s.r_copy = r, s.dv = dv, s.contact_inv_mass = n > 1.0 ? (n - 1.0) * invm : 0.0;

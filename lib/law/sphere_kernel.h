@@ -12,6 +12,10 @@
 #include "law/rolling.h"
 #include "law/tangent.h"
 
+/* Number of contacts in one line that damp a motion like n contacts around a sphere, of which two are in
+ * line: 3.4 for six, 5.5 for twelve, or less (see critical_step.c). */
+FL_SIMD_INLINE double fl_sphere_contacts_in_line(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
+
 /* Distance and elastic force. */
 typedef struct {
     fl_vec3 n;      /* (0, 0, 1) where the centres coincide */

@@ -11,6 +11,7 @@
 #include "contact/velocity_predictor.h"
 #include "law/damping.h"
 #include "law/sphere_batch.h"
+#include "law/sphere_kernel.h"
 #include "patch/stiffness_bound.h"
 #include "sphere/contact_force.h"
 #include "sphere/sphere_pair.h"
@@ -85,10 +86,6 @@ static double surface_compliance(const fl_bodies *b, int32_t k)
     return (b->fixed_dof[k] & held) == held ? 0.0 : b->radius[k] * b->radius[k] * b->invI[k].x;
 }
 
-/* Number of contacts in one line that damp a motion like n contacts around a sphere, of which two are in
- * line: 3.4 for six, 5.5 for twelve, or less (see critical_step.c). */
-static double contacts_in_line(int32_t n) { return n > 2 ? 2.0 + 0.35 * (n - 2) : n; }
-
 void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h)
 {
     const fl_bodies *b = &w->b;
@@ -96,7 +93,7 @@ void fl_sphere_states_update(fl_world *w, int32_t from, int32_t to, double h)
     for (int32_t k = from; k < to; k++) {
         const fl_velocity_change lead = predict_change(w, k, h);
         const int32_t rows = w->spheres.previous_contact_count[k] = w->spheres.contact_count[k];
-        const double n = contacts_in_line(rows + fl_sums_before(w, k)->contacts), r = b->radius[k],
+        const double n = fl_sphere_contacts_in_line(rows + fl_sums_before(w, k)->contacts), r = b->radius[k],
                      crowd = n > 1.0 ? (n - 1.0) * fl_body_inverse_mass(b, k) : 0.0;
         state[k] = (fl_sphere_state){
             b->x[k], r,      b->v[k], isotropic_inverse_mass(b, k), b->w[k],

@@ -161,10 +161,5 @@ double fl_leaving_energy(const fl_leaving *l, const fl_world *w)
 
 void fl_leaving_end_discs(const fl_leaving *l, fl_world *w)
 {
-    fl_disc_list *s = &w->discs;
-    for (int32_t k = 0; k < l->discs; k++) {
-        s->has_ended[l->disc[k]] = FL_DISC_ENDED;
-        s->at.is_whole[l->disc[k]] = 0;
-        s->at.out[l->disc[k]] = (fl_disc_wrench){{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    }
+    for (int32_t k = 0; k < l->discs; k++) fl_disc_list_end_leaving(w, l->disc[k]);
 }
